@@ -58,6 +58,7 @@ cut_quadric cut_local (const cut_surface *s, int dim, const double *centre, cons
 {
     cut_quadric q = {{{0}}, {0}, 0};
     double m[3] = {0, 0, 0}, g[3], size = 0;
+    /* m: centre of the cell relative to the surface's origin. */
     for (int i = 0; i < dim; i++) m[i] = centre[i] - s->origin[i];
     cut_gradient (&s->psi, m, g);
     q.c = cut_value (&s->psi, m);

@@ -160,6 +160,7 @@ static int in_ranges (const pg_marks *m, const double *x, const void *context)
     double dx = x[0] - m->centre[0], dy = x[1] - m->centre[1], turn = 2 * acos (-1), tolerance = 1e-9;
     if (!(hypot (dx, dy) > 1e-9 * m->size)) return 0;
     for (size_t i = 0; i < r->n; i++) {
+        /* Angle past the beginning of the range, in [0, 2 pi). */
         double past = fmod (angle_of (dy, dx) - r->range[2*i], turn);
         if (past < 0) past += turn;
         if (past <= r->range[2*i + 1] + tolerance || past >= turn - tolerance) return 1;
@@ -293,6 +294,7 @@ static void unknown_boundary (const builder *b, const char *at, const char *name
 {
     char names[800] = "";
     size_t used = 0;
+    /* Sides of the box, surfaces of shapes and side sets of their meshes, sets of the mesh. */
     for (int s = 0; s < 2 * b->marks.cloud->dim; s++)
         used += (size_t) snprintf (names + used, sizeof names - used, "%s|", pg_side_names[s]);
     used += (size_t) snprintf (names + used, sizeof names - used, "all");
@@ -365,6 +367,7 @@ static pg_status add_named (builder *b, const char *name)
     int boundary = pg_scene_given (s, "sets.%s.boundary", name),
         angle = pg_scene_given (s, "sets.%s.angle", name);
     int where = pg_scene_given (s, "sets.%s.where", name), known = 1;
+    /* Faults of the name or of an empty description; more than one reason is not reported. */
     const char *why = !boundary && !angle && !where ? "give boundary, angle or where" : NULL;
     snprintf (at, sizeof at, "sets.%.80s", name);
     if (strlen (name) > 56) why = "at most 56 letters in the name of a set";

@@ -34,6 +34,7 @@ static int may_meet (const pg_body *body, const double *a, const double *b, cons
         for (int k = 0; k < body->dim; k++) r[k] = corner[i][k] - m[k];
         radius = fmax (radius, length (body->dim, r));
     }
+    /* The ball about the middle m holds the piece. */
     if (!pg_body_inside (body, m, radius * (1 + 1e-9))) return 0;
     if (depth == DEEPEST || pg_body_inside (body, m, 0)) return 1;
     return may_meet (body, a, ab, ca, depth + 1) || may_meet (body, b, bc, ab, depth + 1)
@@ -165,6 +166,7 @@ static pg_status read_crack (pg_crack *c, int dim, const pg_scene *scene, size_t
     int segment = pg_scene_given (scene, "%s.from", at);
     c->kind = PG_CRACK_SEGMENT;
     if (dim == 1) pg_scene_fault (scene, at, "a crack needs dimension 2 or 3");
+    /* The kind of crack must fit the dimension. */
     else if (segment != (dim == 2))
         pg_scene_fault (scene, at, dim == 2 ? "in 2D give from and to" : "in 3D give a polygon or a disc");
     else if (!segment && pg_scene_given (scene, "%s.to", at))

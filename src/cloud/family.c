@@ -48,6 +48,8 @@ static void fit_grid (grid *g, size_t n, const double *x, double reach)
         cells *= fmax (1, c);
     }
     for (int k = 0; k < g->dim; k++) {
+        /* Where the reach is small against the distance of points, cells are wider: empty ones cost memory
+         * and time. */
         double length = high[k] - g->low[k], c = reach > 0 ? floor (length / reach) : most;
         if (cells > 4 * (double) n + 64) c = fmin (c, most);
         if (!(c >= 1) || !(length > 0)) c = 1;

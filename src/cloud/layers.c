@@ -58,6 +58,7 @@ static void read_thickness (pg_layer *layer, const double *low, const double *hi
                             size_t i, double *reach)
 {
     int k = layer->side / 2;
+    /* The step that pg_lattice_fit will choose. */
     double length = high[k] - low[k],
            step = length / fmax (1, floor (length / pg_scene_number (scene, "spacing") + 0.5));
     double thickness = pg_scene_length (scene, step, "layers[%zu].thickness", i),

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The body as a mesh: file, unit, blocks in use, and whether its elements can serve as cells. */
+ * The body as a mesh: file, unit, blocks in use, and whether its elements can serve as cells.
+ *
+ * An element can serve as a cell if its map is invertible: the Jacobian must be positive at all nodes and
+ * quadrature points. Its quality, the scaled Jacobian of the element with straight edges, is only reported.
+ */
 #include "place.h"
 #include "mesh_body.h"
 #include "perigal/mesh_files.h"
@@ -18,6 +22,7 @@ static pg_status read_file (pg_mesh_body *b, const pg_scene *scene, const char *
     snprintf (b->file, sizeof b->file, "%s", pg_scene_text (scene, "%s", key));
     PG_TRY (pg_scene_beside (&path, scene, pg_scene_text (scene, "%s", key)));
     status = pg_mesh_read (&b->mesh, path);
+    /* Lack of memory is no fault of the scene. */
     if (status == PG_E_MEMORY) goto done;
     if (status != PG_OK) {
         snprintf (why, sizeof why, "%s", pg_last_error ());
@@ -219,11 +224,13 @@ static double measure (const pg_mesh *m, size_t e, double *least)
     pg_element kind = (pg_element) m->kind[e];
     pg_mesh_body_nodes (m, e, x);
     int n = pg_element_rule (kind, PG_MESH_BODY_ORDER, xi, weight);
+    /* At the points of quadrature, */
     for (int q = 0; q < n; q++) {
         double J = pg_element_map (kind, m->dim, x, xi + q * m->dim, NULL, NULL);
         volume += weight[q] * J, reference += weight[q];
         low = fmin (low, J);
     }
+    /* and at the nodes, where the Jacobian of curved elements is often smallest. */
     for (int i = 0; i < pg_element_types[kind].nodes; i++) {
         double at[3];
         pg_element_node (kind, i, at);

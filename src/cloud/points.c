@@ -30,6 +30,7 @@ static void spread (sites *s, const pg_lattice *l, const int *cell, int first)
 {
     int i[3], low[3], high[3];
     for (int k = 0; k < 3; k++) {
+        /* Sites beyond the lattice are cut off. */
         low[k]  = k < l->dim ? cell[k] + first : 0;
         high[k] = k < l->dim ? cell[k] + 1 : 0;
         if (low[k] < 0) low[k] = 0;
@@ -51,6 +52,7 @@ static pg_status count_around (sites *s, const pg_lattice *l, int cells)
     for (int k = 0; k < 3; k++) {
         s->size[k] = (size_t) l->count[k] + (k < l->dim && !cells);
         s->n *= s->size[k];
+        /* A vertex inside has 2^dim cells around it; a centre, with its neighbours, 3^dim. */
         if (k < l->dim) s->whole *= cells ? 3 : 2;
     }
     PG_ALLOC (s->around, s->n);
@@ -59,6 +61,7 @@ static pg_status count_around (sites *s, const pg_lattice *l, int cells)
         for (int b = 0; b < l->count[1]; b++)
             for (int a = 0; a < l->count[0]; a++)
                 if (*in++) spread (s, l, (int[]) {a, b, c}, cells ? -1 : 0);
+    /* Centres of cells outside the body are no points, whatever lies around them. */
     for (size_t i = 0; cells && i < s->n; i++) if (!l->in[i]) s->around[i] = 0;
 done:
     return status;
@@ -96,6 +99,7 @@ static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s,
     for (size_t i = 0; i < s->n; i++) {
         size_t rest = i;
         if (!s->around[i]) continue;
+        /* Index along each axis from the number of the site. */
         for (size_t k = 0; k < dim; k++, rest /= s->size[k - 1]) {
             double *x = &c->x[p*dim + k];
             *x = pg_lattice_at (l, (int) k, (double) (rest % s->size[k]) + s->shift);

@@ -67,6 +67,7 @@ static pg_status load (reader *r)
     file = fopen (path, "rb");
     if (!file) PG_TRY (WRONG (r, "%s", strerror (errno)));
     do {
+        /* One byte more than is read, for the zero at the end. */
         PG_GROW (r->text, capacity, size + 65537);
         got = fread (r->text + size, 1, 65536, file);
         if (memchr (r->text + size, 0, got)) PG_TRY (WRONG (r, "is not a text file"));
@@ -88,12 +89,14 @@ static size_t split (char *line, char *field[MOST_FIELDS])
     int comma = strchr (line, ',') != NULL;
     size_t n = 0;
     for (char *s = line; ; ) {
+        /* Blanks around a field do not belong to it. */
         s += strspn (s, " \t");
         if (!*s && !comma) return n;
         char *end = s + strcspn (s, comma ? "," : " \t"), *tail = end;
         int last = !*end;
         while (tail > s && (tail[-1] == ' ' || tail[-1] == '\t')) tail--;
         *tail = '\0';
+        /* Quotes as spreadsheets write them. */
         if (tail > s + 1 && *s == '"' && tail[-1] == '"') s++, tail[-1] = '\0';
         if (n < MOST_FIELDS) field[n] = s;
         n++;
@@ -199,7 +202,8 @@ static pg_status add_point (reader *r, pg_cloud *c, const double *value)
     size_t dim = (size_t) c->dim, n = c->n + 1;
     if (n > INT_MAX / 4) PG_FAIL (PG_E_LIMIT, "%s has more than %d points", r->name, INT_MAX / 4);
     if (n > r->capacity) {
-        size_t cx = 0, cv = 0, cb = 0, cs = 0, cl = 0;     /* 0: grow now, all alike */
+        /* Capacities of zero make PG_GROW allocate all arrays for the same number of points. */
+        size_t cx = 0, cv = 0, cb = 0, cs = 0, cl = 0;
         if (r->column[SPACING]) PG_GROW (c->size, cs, n);
         PG_GROW (c->x, cx, n * dim);
         PG_GROW (c->volume, cv, n);
@@ -271,6 +275,7 @@ static pg_status read_line (reader *r, pg_cloud *c, char *line)
     line[strcspn (line, "#\r")] = '\0';
     if (!line[strspn (line, " \t")]) return PG_OK;
     size_t n = split (line, field);
+    /* Only the first line that is no comment can be a header. */
     if (c->n == 0 && r->columns == 0 && is_header (n, field)) return read_header (r, n, field, dim);
     if (r->columns && n != r->columns)
         return WRONG (r, "%zu columns, %s %zu", n,

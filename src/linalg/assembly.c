@@ -65,7 +65,8 @@ static size_t neighbours (const pg_assembly *K, size_t I, size_t *mark, int *nod
                 count++;
             }
         }
-    if (mark[I] != I + 1) {                            /* a node that no point sees keeps its diagonal */
+    /* A node that no point sees keeps its diagonal, so that the matrix has a full diagonal. */
+    if (mark[I] != I + 1) {
         if (node) node[count] = (int) I;
         count++;
     }
@@ -112,6 +113,7 @@ static pg_status pattern (pg_assembly *K)
     pg_status status = PG_OK;
     size_t nnz = 0, m = (size_t) K->block;
     PG_TRY (couple (K));
+    /* Blocks off the diagonal are full, those on it triangular. */
     nnz = (K->lower.start[K->n] - K->n) * m * m + K->n * m * (m + 1) / 2;
     PG_TRY (pg_sparse_create (&K->K, K->n * m, K->n * m, nnz, 1));
     long at = 0;

@@ -91,6 +91,7 @@ static pg_status order_nodes (chol *c, const pg_sparse *G, size_t unknowns, Suit
 {
     pg_status status = PG_OK;
     cholmod_sparse S = pattern_of (G);
+    /* METIS pays off beyond a few thousand unknowns. */
     int metis = unknowns > 3000, fine = 0;
     if (metis) fine = cholmod_l_metis (&S, NULL, 0, 1, node, &c->common);
     if (metis && !fine && c->common.status == CHOLMOD_TOO_LARGE) metis = 0;
@@ -190,6 +191,7 @@ static pg_status chol_factor (void *self, const pg_sparse *A)
     chol *c = self;
     cholmod_sparse S = view (A);
     cholmod_l_factorize (&S, c->L, &c->common);
+    /* minor: the first column that could not be factored, in the permuted numbering. */
     if (c->common.status == CHOLMOD_NOT_POSDEF || (c->common.status >= 0 && c->L->minor < A->ncol)) {
         SuiteSparse_long *perm = c->L->Perm;
         failed_row = (long) (c->L->minor < A->ncol ? perm[c->L->minor] : 0);

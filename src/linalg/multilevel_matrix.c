@@ -251,6 +251,7 @@ static pg_status add_node (summer *s, const level *f, size_t i, size_t m, const 
     size_t bb = (size_t) (f->block * f->block), corners = (size_t) f->corners;
     for (size_t e = 0; e < m; e++) {
         size_t j = (size_t) node[e];
+        /* Masked unknowns neither give nor take. */
         if (f->mask[i] | f->mask[j]) blank_masked (f, f->mask[i], f->mask[j], value + e * bb);
         for (size_t c = 0; c < corners; c++) {
             int p = f->function[j * corners + c];
@@ -287,6 +288,7 @@ static pg_status hand_over (const summer *s, const double *sums, level *c)
     for (size_t r = 0; r < s->nrow; r++) {
         size_t first = c->start[s->row[r]], m = c->start[s->row[r] + 1] - first;
         for (size_t q = 0; q < s->ncolumn; q++) {
+            /* A column outside the pattern may only hold zeros. */
             long at = find (c->node + first, m, s->column[q]);
             const double *sum = sums + (q * s->nrow + r) * bb;
             if (at >= 0) add_scaled (bb, 1, sum, c->value + (first + (size_t) at) * bb);
@@ -349,6 +351,7 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
         if (at[k] < far[k] || at[k] + far[k] >= f->cells[k]) return 0;
     }
     size_t sy = (size_t) f->cells[0], sz = sy * (f->dim > 1 ? (size_t) f->cells[1] : 1);
+    /* All cells that its couplings can reach. */
     for (int z = at[2] - far[2]; z <= at[2] + far[2]; z++)
         for (int y = at[1] - far[1]; y <= at[1] + far[1]; y++)
             for (int x = at[0] - far[0]; x <= at[0] + far[0]; x++)
@@ -361,6 +364,7 @@ static void offset_of (const level *f, const int *cell, int function, int *out)
 {
     size_t low = 0, high = f->nhat;
     while (high - low > 1) {                           /* the last hat that starts at or before it */
+        /* first[] ascends with the hats. */
         size_t middle = (low + high) / 2;
         if (f->first[middle] <= (size_t) function) low = middle;
         else high = middle;

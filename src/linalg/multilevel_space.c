@@ -143,9 +143,11 @@ static size_t find_parts (level *l, size_t h, walker *w, int thread)
     level_hat_place (l, h, hat);
     size_t count = gather (l, hat, w->under), reached = 0, parts = 0;
     for (size_t s = 0; s < count && reached < count; s++) {
+        /* The next node that has not been reached begins a new part. */
         size_t seed = (size_t) w->under[s], head = 0, tail = 0;
         if (w->seen[seed] == h + 1) continue;
         w->seen[seed] = h + 1, w->queue[tail++] = (int) seed;
+        /* Breadth-first search among the nodes under the hat. */
         while (head < tail && reached + tail < count) {
             size_t i = (size_t) w->queue[head++], m = level_row (l, i, thread, w->node, NULL);
             for (size_t e = 0; e < m; e++) {

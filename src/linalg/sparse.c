@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Sparse matrices by compressed columns: products y = A x and y = A' x, and the congruence B = T' A T that
- * eliminates constrained unknowns. */
+ * eliminates constrained unknowns: with u = T q + u0, the unknowns q have the stiffness T' A T. */
 #include "perigal/linalg.h"
 #include <string.h>
 
@@ -132,6 +132,7 @@ typedef struct {
 static void one_column (work *w, size_t k)
 {
     w->nc = w->nb = 0;
+    /* c = A T(:,k): only entries that T(:,k) reaches are touched. */
     for (long p = w->T->start[k]; p < w->T->start[k + 1]; p++) {
         long j = w->T->row[p];
         for (long q = w->A->start[j]; q < w->A->start[j + 1]; q++) {
@@ -140,6 +141,7 @@ static void one_column (work *w, size_t k)
             w->c[i] += w->A->value[q] * w->T->value[p];
         }
     }
+    /* b = T' c: rows of T ascend in their columns, and columns beyond k belong to the lower triangle. */
     for (long h = 0; h < w->nc; h++) {
         long i = w->hit_c[h];
         w->on_c[i] = 0;

@@ -74,6 +74,7 @@ pg_status pg_mesh_builder_element (pg_mesh_builder *m, long id, pg_element kind,
     m->element_id[m->n] = id, m->group[m->n] = group, m->line[m->n] = line,
     m->kind[m->n] = (unsigned char) kind;
     memcpy (m->list + first, node, nodes * sizeof *node);
+    /* The element counts only now, after all memory has been found. */
     m->start[++m->n] = m->nlist = first + nodes;
 done:
     return status;

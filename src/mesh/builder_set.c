@@ -141,11 +141,13 @@ static pg_status unite (builder *b)
     PG_ALLOC (b->final, b->n);
     if (b->n) qsort (b->set, b->n, sizeof *b->set, by_name);
     for (size_t k = 0; k < b->n; k++)
+        /* After sorting by name, equal ones are neighbours, the first to appear in front. */
         first[b->set[k].place] = k > 0 && !strcmp (b->set[k].name, b->set[k - 1].name)
                                      ? first[b->set[k - 1].place]
                                      : b->set[k].place;
     if (b->n) qsort (b->set, b->n, sizeof *b->set, by_place);
     for (size_t k = 0; k < b->n; k++) {
+        /* Numbers in the order of appearance. */
         b->final[k] = first[k] == k ? b->nfinal++ : b->final[first[k]];
         b->set[b->final[k]].sides |= b->set[k].sides;      /* final[k] <= k: nothing is lost */
         if (first[k] == k) b->set[b->final[k]] = b->set[k];
@@ -278,8 +280,10 @@ static pg_status list_lower (const builder *b, size_t *n, lower **list, unsigned
         const pg_element_type *type = &pg_element_types[m->kind[e]];
         lower l = { { -1, -1, -1, -1 }, 0, 0 };
         int usable = 1;
+        /* Only elements of one dimension less can be faces. */
         if (!names_a_set (m, e) || type->dim != m->dim - 1) continue;
         for (int k = 0; k < type->corners; k++) {
+            /* Insertion sort of the corners; one that no solid element uses makes it no face. */
             int v = m->kept[m->index[m->start[e] + (size_t) k]], at = k;
             for (; at > 0 && l.key[at - 1] > v; at--) l.key[at] = l.key[at - 1];
             l.key[at] = v, usable &= v >= 0;
@@ -360,6 +364,7 @@ static pg_status put_nodes (builder *b)
     pg_mesh *out = b->m->out;
     PG_ALLOC (out->nodes, b->nfinal);
     for (size_t s = 0, at = 0; s < b->nfinal; s++) {
+        /* Sorted pairs: members of one set follow one another, ascending. */
         size_t end = run_end (&b->nodes, at, s, 32);
         pg_mesh_nodes *set = &out->nodes[out->nnodes++];
         snprintf (set->name, sizeof set->name, "%s", b->set[s].name);

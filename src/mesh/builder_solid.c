@@ -33,6 +33,7 @@ static pg_status find_nodes (pg_mesh_builder *m)
     for (size_t e = 0; e < m->n; e++)
         for (size_t k = m->start[e]; k < m->start[e + 1]; k++) {
             m->index[k] = (int) pg_id_table_find (&m->nodes, m->list[k]);
+            /* Elements that only name a set must have their nodes in the file, too. */
             if (m->index[k] < 0) ELEMENT_FAIL (m, e, "node %ld is not in the file", m->list[k]);
             for (size_t l = m->start[e]; dimension (m, e) == m->dim && l < k; l++)
                 if (m->index[l] == m->index[k])
@@ -86,8 +87,10 @@ static pg_status number_solids (pg_mesh_builder *m)
     for (size_t e = 0; e < m->n; e++) {
         m->solid[e] = -1;
         if (dimension (m, e) < m->dim) continue;
+        /* The sum does not depend on the order of the nodes. */
         for (size_t k = m->start[e]; k < m->start[e + 1]; k++) hash[e] += mix ((uint64_t) m->index[k] + 1);
         size_t s = (size_t) mix (hash[e]) & (slots - 1);
+        /* Open addressing: equal hashes are compared node by node. */
         while (table[s] && !(hash[table[s] - 1] == hash[e] && same_nodes (m, e, (size_t) table[s] - 1)))
             s = (s + 1) & (slots - 1);
         m->solid[e] = table[s] ? -2 : n++;

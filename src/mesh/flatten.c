@@ -131,6 +131,7 @@ static int standing (const plate *p, size_t e, int side)
     int corner[4], n = element_face_corners (kind, side, corner), upper[9], above = face_on (p, e, 2);
     pg_element face = pg_element_face (kind, above, upper);
     int corners = pg_element_types[face].corners;
+    /* Side k of the plane element lies between corners k and k + 1 of the upper face. */
     for (int k = 0; k < corners; k++) {
         int found = 0;
         for (int j = 0; j < n; j++) found += corner[j] == upper[k] || corner[j] == upper[(k + 1) % corners];

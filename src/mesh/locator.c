@@ -126,6 +126,8 @@ static void halve (pg_mesh_locator *f, int first, int n, int k, int axis)
 {
     int *v = f->item + first, low = 0, high = n - 1;
     while (low < high) {
+        /* Items before the pivot go to the left, those behind it to the right; only the part with place k
+         * is continued. */
         int pivot = v[low + (high - low) / 2], i = low, j = high;
         while (i <= j) {
             while (before (f, v[i], pivot, axis)) i++;
@@ -313,6 +315,7 @@ static void consider (const pg_mesh_locator *f, const double *place, int k, near
     pg_element kind = nodes_of (f, e, x);
     double d = closest_in_element (kind, f->dim, x, place, xi);
     box_of (f, e, &size);
+    /* Too far away for this element, or farther than the best. */
     if ((d > size && !best->far) || d > best->d * (1 + 1e-9)) return;
     if (best->element >= 0 && d >= best->d * (1 - 1e-9) && (long) e > best->element) return;
     best->element = (long) e, best->d = d, best->away = d / size;
@@ -329,6 +332,7 @@ static void find_nearest (const pg_mesh_locator *f, const double *place, nearest
         if (!(distance (&t->box, place, f->dim) <= best->d * (1 + 1e-9))) continue;
         if (t->n == 0) {
             int left = (int) (t - f->tree) + 1, right = t->right;
+            /* The nearer child is pushed last, so that it is visited first. */
             int near_left = distance (&f->tree[left].box, place, f->dim)
                             <= distance (&f->tree[right].box, place, f->dim);
             todo[n++] = near_left ? right : left;

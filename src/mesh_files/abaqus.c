@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Input files of Abaqus and CalculiX: nodes, elements, sets, surfaces, and files by *INCLUDE; all other
  * keywords are skipped, unless they would generate nodes or elements, which is a fault. Keywords and names
- * are compared without regard to case and surrounding blanks. This file reads keyword lines; abaqus_data.c
- * reads the data lines behind them. */
+ * are compared without regard to case and surrounding blanks.
+ *
+ * A file consists of keyword lines, which begin with one asterisk, data lines behind them, and comments,
+ * which begin with two. This file reads keyword lines and decides what the data lines behind them mean
+ * (abaqus_mode); abaqus_data.c reads these. */
 #include "abaqus.h"
 #include <ctype.h>
 #include <stdarg.h>
@@ -84,6 +87,7 @@ static void read_keyword (reader *r)
     r->nparameter = 0;
     for (int first = 1; ; first = 0) {
         int quoted = 0, open = 0;
+        /* Parameters end at commas that are not in quotes. */
         for (end = s; end < f->end && (quoted || *end != ','); end++) quoted ^= *end == '"';
         if (first) copy_key (r->keyword, sizeof r->keyword, s, end);
         else add_parameter (r, s, end);
@@ -91,6 +95,7 @@ static void read_keyword (reader *r)
             s = end + 1;
             for (const char *p = s; p < f->end; p++) if (!isspace ((unsigned char) *p)) open = 1;
             if (open) continue;
+            /* Nothing behind the last comma: the next line continues, after comments. */
             do if (!next_line (f)) return; while (is_comment (f));
             s = f->line;
         }
@@ -176,6 +181,7 @@ static pg_status begin_set (reader *r, int nodes)
     PG_TRY (abaqus_set_get (nodes ? &r->data.nset : &r->data.elset, name, &r->set));
     r->mode = nodes ? ABAQUS_NODE_SET : ABAQUS_ELEMENT_SET;
     r->generate = value_of (r, "GENERATE") != NULL;
+    /* *NSET, ELSET=NAME: the nodes of an element set. */
     if (nodes && of) {
         int other = abaqus_set_find (&r->data.elset, of);
         if (other < 0) PG_TRY (ABAQUS_WRONG (r, "there is no element set '%.63s' before this line", of));
@@ -197,6 +203,7 @@ static pg_status begin_surface (reader *r)
         || (type && strcasecmp (type, "ELEMENT") != 0 && strcasecmp (type, "NODE") != 0))
         goto done;
     PG_TRY (name_of (r, "NAME", NULL, name));
+    /* A surface of nodes is a node set. */
     if (type && strcasecmp (type, "NODE") == 0) {
         PG_TRY (abaqus_set_get (&r->data.nset, name, &r->set));
         r->mode = ABAQUS_NODE_SURFACE;

@@ -84,6 +84,7 @@ static pg_status element_line (reader *r)
             PG_TRY (ABAQUS_WRONG (r, "'%.*s' is no number of a node or element",
                                   (int) (end - s > 20 ? 20 : end - s), s));
         s = skip_comma (s, end);
+        /* The first number is that of the element. */
         if (r->have < 0) r->element = id, r->element_line = now (r)->c.line, r->have = 0;
         else r->node[r->have++] = id;
         if (r->have == r->type.nodes) {
@@ -127,11 +128,13 @@ static pg_status set_line (reader *r, abaqus_sets *sets, const char *what)
     long id;
     while (next_word (r, &s, end, word)) {
         if (!word[0]) continue;
+        /* The line is kept, so that a missing number can be reported where it stands. */
         if (is_number (word, &id)) {
             PG_TRY (abaqus_set_add (&sets->set[r->set], (abaqus_range) { id, id, 1, now (r)->c.line }));
             continue;
         }
         word[ABAQUS_NAME - 1] = 0;
+        /* A name: the set must exist, but may still grow. */
         int other = abaqus_set_find (sets, word);
         if (other < 0) PG_TRY (ABAQUS_WRONG (r, "there is no %s set '%.63s' before this line", what, word));
         PG_TRY (abaqus_set_add (&sets->set[r->set], (abaqus_range) { other, other, ABAQUS_SET, 0 }));

@@ -126,10 +126,12 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
     size_t count = range->last < range->first
                        ? 0
                        : ((size_t) range->last - (size_t) range->first) / (size_t) range->step + 1;
-    if (count > g->all && range->line) {               /* more than there are: one is missing */
+    /* More numbers than there are: one is missing, the first of which is named. */
+    if (count > g->all && range->line) {
         for (long id = range->first;; id++)
             if (pg_id_table_find (&g->table, id) < 0) return fault (r, range->line, g->what, id, set);
     }
+    /* Ranges by GENERATE may have gaps: the list of all numbers is walked instead of the range. */
     if (count > g->all) {
         for (size_t k = 0; k < g->all; k++)
             if (g->id[k] >= range->first && g->id[k] <= range->last
@@ -173,6 +175,7 @@ static pg_status collect (resolver *r, gather *g, int set)
     forget (g);
     g->todo[todo++] = set;
     g->seen[set] = 1;
+    /* Breadth first: sets named on the way are appended. */
     while (done_with < todo) {
         const abaqus_set *s = &g->sets->set[g->todo[done_with++]];
         for (size_t k = 0; status == PG_OK && k < s->n; k++) {
@@ -203,6 +206,7 @@ static pg_status resolve_blocks (resolver *r)
         }
         if (used) a->elset.set[a->section[k]].named = 1;
     }
+    /* Names of blocks, for elements of any dimension. */
     for (size_t k = 0; k < a->elset.n; k++)
         for (int dim = 0; dim <= 3 && a->elset.set[k].named; dim++)
             PG_TRY (pg_mesh_builder_group (a->builder, dim, (long) k + 1, a->elset.set[k].name));

@@ -40,7 +40,8 @@ typedef struct {
     } while (0)
 
 /* ---- netCDF -------------------------------------------------------------------------------------------- */
-/* Length of a dimension; 0: there is none of that name. */
+/* Length of a dimension; 0: there is none of that name. Exodus stores most counts as lengths of
+ * dimensions. */
 static size_t length_of (int ncid, const char *name)
 {
     int dim;
@@ -67,6 +68,7 @@ static pg_status find (const reader *r, const char *name, size_t n, int *var)
         NC_TRY (r, nc_inq_dimlen (r->ncid, dims[k], &length));
         all *= length;
     }
+    /* A variable of another size would overrun the arrays that receive it. */
     if (all != n) PG_FAIL (PG_E_FILE, "%.400s: '%s' has %zu values, expected %zu", r->path, name, all, n);
 done:
     return status;
@@ -109,6 +111,7 @@ static void name_of (const reader *r, const char *table, size_t k, char name[NAM
         || nc_inq_dimlen (r->ncid, dims[0], &rows) != NC_NOERR)
         return;
     if (nc_inq_dimlen (r->ncid, dims[1], &width) != NC_NOERR || k >= rows) return;
+    /* Rows of the table have a fixed width and are padded by zeros or blanks. */
     if (width > NAME - 1) width = NAME - 1;
     if (nc_get_vara_text (r->ncid, var, (size_t[2]){ k, 0 }, (size_t[2]){ 1, width }, name) != NC_NOERR)
         name[0] = 0;
@@ -200,6 +203,8 @@ static pg_element kind_of (const char *type, size_t nodes, int *shell)
                   { "HEX", 0, { PG_HEX8, PG_HEX20, PG_HEX27 } },
                   { "WED", 0, { PG_WEDGE6, PG_WEDGE15 } } };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
+        /* Types are written as HEX, HEX8, hex27, SHELL4 and so on: the beginning and the number of nodes
+         * decide. */
         if (strncasecmp (type, table[k].begin, strlen (table[k].begin)) != 0) continue;
         *shell = table[k].shell;
         for (int j = 0; j < 4; j++)                        /* PG_POINT1 = 0 fills what the table leaves out */
@@ -223,6 +228,7 @@ static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_elemen
     *kind = PG_ELEMENTS;
     if (*count == 0) goto done;                            /* an empty block has no connect */
     snprintf (name, sizeof name, "connect%zu", k + 1);
+    /* The type is an attribute of the connectivity. */
     NC_TRY (r, nc_inq_varid (r->ncid, name, &var));
     if (nc_inq_attlen (r->ncid, var, "elem_type", &length) == NC_NOERR && length < NAME)
         NC_TRY (r, nc_get_att_text (r->ncid, var, "elem_type", type));
@@ -291,6 +297,7 @@ static pg_status read_node_sets (reader *r)
         size_t m = length_of (r->ncid, name);
         name_of (r, "ns_names", k, name);
         PG_TRY (pg_mesh_builder_nodeset (r->builder, name, id ? id[k] : (long) k + 1));
+        /* An empty set has a name and a number, but no variable. */
         if (m == 0) continue;
         snprintf (name, sizeof name, "node_ns%zu", k + 1);
         PG_TRY (must (r, name, m, &node));
@@ -371,6 +378,7 @@ static pg_status read_exodus (pg_mesh_builder *m, const mesh_file *file)
     if (first < r.n)
         PG_FAIL (PG_E_FILE, "%.400s: its blocks have %zu of the %zu elements of the file", r.path, first,
                  r.n);
+    /* Sets refer to nodes and elements by place; all get their numbers in the end. */
     PG_TRY (check_points (&r));
     PG_TRY (read_node_sets (&r));
     PG_TRY (read_side_sets (&r));
@@ -484,6 +492,7 @@ static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *
     for (size_t k = 0; k < n; k++) {
         pg_mesh_field *field;
         size_t j = 0;
+        /* Is there an earlier component of the same field? */
         while (j < k && !together (&v[j], &v[k])) j++;
         if (j < k) continue;                               /* read with the first of its components */
         PG_TRY (mesh_fields_add (out, mesh->nnode, v[k].base, components_of (&v[k]), &field));

@@ -85,7 +85,7 @@ static int is_key (const reader *r, const char *key)
     return (size_t) (r->last - r->first) >= n && memcmp (r->first, key, n) == 0;
 }
 
-/* Columns of a number of a node or element. */
+/* Columns of a number of a node or element: 5 in short blocks, 10 in long ones. */
 static size_t id_width (int format) { return format == SHORT ? 5 : 10; }
 
 /* Takes n bytes behind the line; NULL where the file is shorter. */
@@ -158,6 +158,7 @@ static pg_status read_nodes (reader *r)
         goto done;
     }
     size_t width = id_width (format);
+    /* Without a builder the lines are only counted. */
     for (; next (r) && !is_key (r, " -3"); count++) {
         if (!r->builder) continue;
         if (!is_key (r, " -1") || !whole (r, 3, width, &id)) MESH_FAIL (&r->c, "is no line of a node");
@@ -276,9 +277,11 @@ static pg_status read_block (reader *r)
     PG_TRY (block_head (r, "values", 24, 73, &b.nodes, &b.format));
     if (!real (r, 12, 12, &b.value)) MESH_FAIL (&r->c, "results without a time");
     whole (r, 58, 5, &b.number);
+    /* The line behind the head has the name and the number of components, */
     if (!next (r) || !is_key (r, " -4") || !whole (r, 13, 5, &n) || n < 1 || n > MOST_COMPONENTS)
         MESH_FAIL (&r->c, "a block of results begins with its name and 1 to %d components", MOST_COMPONENTS);
     word (r, 5, 8, b.name, sizeof b.name);
+    /* then there is a line for each component; those that the viewer computes are marked by a 1. */
     for (given = 0; given < n; given++) {
         if (!next (r) || !is_key (r, " -5"))
             MESH_FAIL (&r->c, "%s has %ld of %ld components", b.name, given, n);
@@ -360,6 +363,7 @@ static pg_status next_values (reader *r, const block *b, long *id, double *value
     if (!is_key (r, " -1") || !whole (r, 3, width, id))
         MESH_FAIL (&r->c, "is no line of %s at a node", b->name);
     for (size_t k = 0; k < n; k++) {
+        /* Six values per line. */
         if (k > 0 && k % 6 == 0 && (!next (r) || !is_key (r, " -2")))
             MESH_FAIL (&r->c, "%s at node %ld: %zu of %zu values", b->name, *id, k, n);
         if (!real (r, 3 + width + 12 * (k % 6), 12, &value[k]))
@@ -420,6 +424,7 @@ static pg_status fields_frd (mesh_fields *out, const pg_mesh *mesh, const mesh_f
     unsigned char *have = NULL;
     size_t steps = 0, chosen, twice, k = 0;
     PG_TRY (read_all (&r));
+    /* Numbers of steps count the changes of time or number from block to block. */
     for (size_t b = 0; b < r.nblock; b++) steps += b == 0 || !same_step (&r.block[b], &r.block[b - 1]);
     PG_TRY (mesh_fields_step (file->path, steps, step, &chosen));
     PG_TRY (pg_id_table_build (&nodes, mesh->nnode, mesh->node_id, &twice));

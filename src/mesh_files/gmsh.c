@@ -19,7 +19,7 @@ static int is (const char *first, const char *last, const char *word)
 }
 
 /* ---- header -------------------------------------------------------------------------------------------- */
-/* Finds $MeshFormat; comments may stand before it. */
+/* Finds $MeshFormat within the first lines; comments in a section of their own may stand before it. */
 static int find_header (mesh_cursor *c)
 {
     const char *first, *last;
@@ -64,7 +64,7 @@ done:
 }
 
 /* ---- sections ------------------------------------------------------------------------------------------ */
-/* Lines outside of sections are passed over. */
+/* Lines outside of sections are passed over. Names are cut at 63 bytes. */
 int gmsh_section (gmsh_reader *g, char name[64])
 {
     const char *first, *last;
@@ -159,6 +159,7 @@ pg_status gmsh_names (gmsh_reader *g)
         PG_TRY (gmsh_line (g, "a name of a group", &at, &last));
         if (!mesh_whole (&at, last, &dim) || !mesh_whole (&at, last, &group) || dim < 0 || dim > 3)
             GMSH_FAIL (g, "name %ld of %ld needs dimension (0 to 3), number and \"name\"", k + 1, n);
+        /* The name stands between the first and the last quotation mark of the line. */
         while (at < last && *at != '"') at++;
         for (stop = last; stop > at && stop[-1] != '"'; stop--) continue;
         if (stop - at < 2) GMSH_FAIL (g, "name %ld of %ld is not in quotes", k + 1, n);

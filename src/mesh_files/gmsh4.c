@@ -108,6 +108,7 @@ static pg_status read_entities (reader *r)
         PG_TRY (gmsh_has_left (g, "the numbers of entities", 4, 8));
         for (int k = 0; k < 4; k++) count[k] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, "the numbers of entities", 4, count));
+    /* Points, curves, surfaces, volumes. */
     for (int dim = 0; dim < 4; dim++)
         for (long k = 0; k < count[dim]; k++)
             PG_TRY (g->binary ? entity_of_bytes (r, dim) : entity_of_text (r, dim));
@@ -175,6 +176,7 @@ static pg_status nodes_of_bytes (gmsh_reader *g, long n, size_t parameters)
 {
     pg_status status = PG_OK;
     gmsh_reader number = *g;
+    /* All numbers and positions must fit, before any is read. */
     PG_TRY (gmsh_has_left (g, "nodes", (size_t) n, 8 + 8 * (3 + parameters)));
     g->c.at += 8 * (size_t) n;
     for (long k = 0; k < n; k++) {
@@ -196,6 +198,7 @@ static pg_status read_nodes (gmsh_reader *g)
     PG_TRY (section_head (g, "the number of nodes", &blocks, &left));
     for (long k = 0; k < blocks; k++) {
         PG_TRY (block_head (g, "a block of nodes", head, &left));
+        /* Parametric nodes have as many parameters as their entity has dimensions. */
         PG_TRY (g->binary ? nodes_of_bytes (g, head[3], head[2] ? (size_t) head[0] : 0)
                           : nodes_of_text (g, head[3]));
     }
@@ -269,6 +272,7 @@ static pg_status read_block (reader *r, long *left)
     gmsh_type t;
     long head[4];
     PG_TRY (block_head (g, "a block of elements", head, left));
+    /* An entity that is not listed belongs to no group. */
     entity key = { .dim = head[0], .tag = head[1] };
     const entity *e = r->nentity ? bsearch (&key, r->entities, r->nentity, sizeof key, by_entity) : NULL;
     if (head[3] == 0) return PG_OK;

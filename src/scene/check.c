@@ -91,6 +91,7 @@ static void check_missing (pg_scene *s, const pg_node *node, const char *pattern
         const char *name = pg_schema_below (row, pattern);
         if (!name || row->fallback || row->group || present (node, name) || !first_of_path (&s->schema, k))
             continue;
+        /* Keys of catalogue entries that are not chosen need not be there. */
         if (!pg_key_wanted (s, row, node, pattern)) continue;
         size_t n = write_path (path, ".", name);
         FAULT (node, 0, "is missing: %s", row->doc ? row->doc : "required");
@@ -162,6 +163,7 @@ static pg_status check_map (pg_scene *s, pg_node *node, char pattern[PG_PATTERN]
         const pg_node *twin = earlier (node, k);
         size_t end = strlen (pattern), n = write_path (path, ".", child->name);
         int found = pg_schema_enter (&s->schema, pattern, child->name, strlen (child->name));
+        /* The key is there twice, its name cannot be used, it is unknown, or its value is checked. */
         if (twin) FAULT (child, 1, "is given twice, first in line %d", twin->line);
         else if (!good_name (child->name))
             FAULT (child, 0, "a name has 1 to 63 characters without . = [ ] { }");
@@ -219,6 +221,7 @@ static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN
     node->key = row;
     if (node->shape == PG_MAPPING && is_map) return check_map (s, node, pattern, path);
     if (node->shape == PG_SEQUENCE && is_list) return check_list (s, node, pattern, path);
+    /* Values, and lists of numbers or names. */
     if (row) return pg_value_check (s, node, row, path);
     pg_schema_wanted (&s->schema, pattern, wanted, sizeof wanted);
     FAULT (node, 1, "must be %s, not %s", wanted, shape[node->shape]);
@@ -238,6 +241,7 @@ static pg_status check_defaults (pg_scene *s)
         int good = 1;
         if (!text || !*text) continue;
         pg_node *node = &s->fallback[k];
+        /* Lists and maps are written as YAML, other defaults are plain words. */
         if (*text == '[' || *text == '{')
             PG_TRY (pg_node_read (node, text, strlen (text), pg_default_origin, s->file, s->faults, &good));
         else PG_TRY (pg_node_word (node, text, pg_default_origin));

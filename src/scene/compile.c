@@ -22,6 +22,7 @@ static pg_status read_primary (pg_reader *p, pg_operand *o)
     pg_read_skip (p);
     size_t at = p->at;
     const char *s = p->text + at;
+    /* Bounds the recursion: a long row of parentheses must not exhaust the stack. */
     if (++p->deep > PG_DEEPEST_NESTING) PG_BAD (at, "nested too deeply");
     o->m = (pg_measure) { .factor = 1 };
     if (pg_read_take (p, "(")) {
@@ -53,6 +54,7 @@ static pg_status read_power (pg_reader *p, pg_operand *o)
     PG_TRY (pg_operand_number (p, &b, at));
     if (!pg_operand_plain (&b)) PG_BAD (at, "an exponent has no unit");
     if (!pg_operand_plain (o) && !b.fixed) PG_BAD (at, "a quantity with a unit needs a constant exponent");
+    /* The dimension is raised with the value. */
     if (!pg_operand_plain (o)) pg_operand_raise (o, b.value);
     PG_TRY (pg_operand_combine (p, PG_OP_POWER, o, &b));
 done:
@@ -87,6 +89,7 @@ static pg_status read_product (pg_reader *p, pg_operand *o)
         int times = pg_read_take (p, "*");
         if (!times && !pg_read_take (p, "/")) break;
         size_t at = p->at;
+        /* ** is the power of other languages. */
         if (times && p->text[at] == '*') PG_BAD (at - 1, "a power is written with ^");
         PG_TRY (pg_operand_number (p, o, start));
         PG_TRY (read_unary (p, &b));

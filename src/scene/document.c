@@ -80,6 +80,7 @@ static pg_status read_some (pg_scene **out, const char *text, size_t length, con
     PG_ALLOC (s, 1);
     PG_TRY (keep_texts (s, text, length, name, nset, set));
     PG_TRY (pg_schema_create (&s->schema, table, ntable));
+    /* Text, overrides, checks; then the verdict on all faults. */
     PG_TRY (read_tree (s, text, length));
     PG_TRY (pg_faults_verdict (s->faults));            /* without a tree there is nothing more to check */
     for (size_t k = 0; k < nset; k++) PG_TRY (pg_scene_override (s, set[k], s->set[k]));
@@ -119,7 +120,7 @@ static pg_status read_file (char **text, size_t *length, const char *path)
     size_t cap = 0, n = 0, more;
     struct stat s;
     FILE *f = NULL;
-    /* a pipe would be waited for, and is empty when it is read again */
+    /* Folders have their own message. */
     if (stat (path, &s) == 0 && !S_ISREG (s.st_mode))
         PG_FAIL (PG_E_FILE, "%s: cannot be read: %s", path,
                  S_ISDIR (s.st_mode) ? strerror (EISDIR) : "a scene is a regular file, no pipe or device");

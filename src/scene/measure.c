@@ -25,6 +25,7 @@ static void load (void)
     ut_set_error_message_handler (ut_ignore);
     units = ut_read_xml (NULL);
     if (units) {
+        /* udunits2 calls it arc_degree. */
         ut_unit *degree = ut_get_unit_by_name (units, "arc_degree");
         if (degree) ut_map_name_to_unit ("deg", UT_ASCII, degree);
         ut_free (degree);
@@ -277,6 +278,7 @@ void pg_measure_text (const pg_measure *m, char *out, size_t n)
         return;
     }
     size_t used = 0;
+    /* No name: as powers of base units. */
     for (int k = 0; k < PG_BASE_UNITS && used < n; k++) {
         if (fabs (m->power[k]) < 1e-9) continue;
         int more = snprintf (out + used, n - used, "%s%s", used ? " " : "", base_symbol[k]);

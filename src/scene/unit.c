@@ -49,6 +49,7 @@ const char *pg_number_read (const char *text, double *value)
     char copy[LONGEST_NUMBER + 16];
     const char *mark = localeconv ()->decimal_point;
     size_t n = 0, wide = strlen (mark);
+    /* A locale without a sensible decimal point. */
     if (wide == 0 || wide > 8) mark = ".", wide = 1;
     for (const char *s = text; s < end; s++) {
         if (*s != '.') copy[n++] = *s;
@@ -136,6 +137,7 @@ pg_status pg_quantity_read (double *out, int *spacing, const char *text, const c
         return pg_error (PG_E_SCENE, PG_HERE, "must be %s", words);
     }
     word = skip_space (word);
+    /* What follows the number, without trailing blanks, is the unit. */
     size_t n = strlen (word);
     while (n > 0 && strchr (" \t\n\r", word[n - 1])) n--;
     *out = value;
@@ -191,6 +193,8 @@ int pg_range_holds (const char *range, double value, int *fault)
     double low, high;
     *fault = 0;
     if (!range) return 1;
+    /* Both bounds, and nothing behind; a wrong range in a key table is a fault of the program, found by
+     * tests. */
     const char *s = *range == '[' || *range == '(' ? read_bound (range + 1, &low) : NULL;
     if (s) s = *(s = skip_space (s)) == ',' ? read_bound (s + 1, &high) : NULL;
     if (s) s = skip_space (s);

@@ -28,6 +28,7 @@ static void check_range (pg_scene *s, const pg_node *node, const pg_key *row, co
     int wrong, holds = pg_range_holds (row->range, node->value, &wrong);
     const char *unit = row->unit && !node->spacing && strcmp (row->unit, "1") != 0 ? row->unit : "";
     if (wrong) FAULT (node, "the range '%s' of its key table is wrong", row->range);
+    /* A number without a unit, where an angle is wanted. */
     int bare = strcmp (unit, "rad") == 0 && node->text
                && node->text[strspn (node->text, "+-.0123456789eE ")] == '\0';
     if (!holds)
@@ -120,6 +121,7 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
     size_t m = strcspn (choices, "."), at;
     snprintf (map, sizeof map, "%.*s", (int) m, choices);
     snprintf (base, sizeof base, "%.*s", (int) strcspn (node->text, "."), node->text);
+    /* Names that are always there, then those of the scene. */
     at = (size_t) snprintf (names, sizeof names, "%s", choices[m + 3] ? choices + m + 4 : "");
     at = add_children (pg_node_child (&s->root, map, m), names, at, sizeof names);
     int sets = strcmp (map, "sets") == 0;

@@ -40,6 +40,7 @@ static pg_status convert_scalar (reader *r, pg_node *node, const yaml_node_t *y)
     const char *text = (const char *) y->data.scalar.value;
     node->shape = PG_SCALAR;
     node->plain = y->data.scalar.style == YAML_PLAIN_SCALAR_STYLE;
+    /* Texts are C strings from here on. */
     if (strlen (text) != y->data.scalar.length) complain (r, node, "a text with a zero character");
     node->text = pg_strdup (text);
     return node->text ? PG_OK : pg_error (PG_E_MEMORY, PG_HERE, "no memory for a value of the scene");
