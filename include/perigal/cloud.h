@@ -191,7 +191,7 @@ pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, cons
 void      pg_family_clear (pg_family *family);
 
 /* ---- nearest point ------------------------------------------------------------------------------------- */
-/* A grid over points for nearest-point searches; x is borrowed. */
+/* A k-d tree over copies of the points, for nearest-point searches. */
 typedef struct pg_nearest pg_nearest;
 /* Says whether a point does not count: 1: it is passed over. */
 typedef int (*pg_refuse) (void *context, const double *place, size_t point);

@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A balanced tree without pointers: the item in the middle of a range divides it along one axis, and the
- * axes take turns (a k-d tree). */
+ * The k-d tree of tree.h: sorting by quickselect, O(n log n); searches that leave out the half of a range
+ * that the parting point puts out of reach. */
 #include "tree.h"
+#include <math.h>
 #include <string.h>
 
-/* Ranges of this length are not divided further. */
-enum { LEAF = 8 };
+/* ---- sorting ------------------------------------------------------------------------------------------- */
+typedef struct { size_t *item; const double *x; size_t dim; } sorter;
 
-/* Coordinate of the item at a place of the list. */
-static double along (const pg_tree *t, size_t place, int axis)
+static double along (const sorter *s, size_t place, size_t axis)
 {
-    return t->x[t->item[place] * (size_t) t->dim + (size_t) axis];
+    return s->x[s->item[place] * s->dim + axis];
 }
 
 static void swap (size_t *a, size_t *b)
@@ -19,17 +19,17 @@ static void swap (size_t *a, size_t *b)
     *a = *b, *b = c;
 }
 
-/* Quickselect: puts at `middle` the item that a sorted range first .. last - 1 would have there, smaller
- * ones before it, larger ones behind. */
-static void part (pg_tree *t, size_t first, size_t last, size_t middle, int axis)
+/* Puts the item at `middle` that a sorted range first..last - 1 would have there, smaller ones before it,
+ * larger ones behind. */
+static void part (sorter *s, size_t first, size_t last, size_t middle, size_t axis)
 {
     while (last - first > 1) {
-        double pivot = along (t, first + (last - first) / 2, axis);
+        double pivot = along (s, first + (last - first) / 2, axis);
         size_t less = first, more = last, i = first;
         while (i < more) {
-            double v = along (t, i, axis);
-            if (v < pivot) swap (&t->item[i++], &t->item[less++]);
-            else if (v > pivot) swap (&t->item[i], &t->item[--more]);
+            double v = along (s, i, axis);
+            if (v < pivot) swap (&s->item[i++], &s->item[less++]);
+            else if (v > pivot) swap (&s->item[i], &s->item[--more]);
             else i++;
         }
         if (middle < less) last = less;
@@ -38,53 +38,102 @@ static void part (pg_tree *t, size_t first, size_t last, size_t middle, int axis
     }
 }
 
-/* Divides a range and its two parts. */
-static void halve (pg_tree *t, size_t first, size_t last, int axis)
+static void halve (sorter *s, size_t first, size_t last, size_t axis)
 {
-    if (last - first <= LEAF) return;
-    size_t middle = first + (last - first) / 2;
-    part (t, first, last, middle, axis);
-    halve (t, first, middle, (axis + 1) % t->dim);
-    halve (t, middle + 1, last, (axis + 1) % t->dim);
+    if (last - first <= PG_TREE_LEAF) return;
+    size_t middle = first + (last - first) / 2, next = (axis + 1) % s->dim;
+    part (s, first, last, middle, axis);
+    halve (s, first, middle, next);
+    halve (s, middle + 1, last, next);
 }
 
-/* O(n log n) on average; equal coordinates do no harm. */
 pg_status pg_tree_build (pg_tree *out, int dim, size_t n, const double *x)
 {
     pg_status status = PG_OK;
-    *out = (pg_tree) { dim, n, NULL, x };
+    size_t d = (size_t) dim;
+    *out = (pg_tree) { .dim = dim, .n = n };
     PG_ALLOC (out->item, n);
+    PG_ALLOC (out->x, n * d);
     for (size_t i = 0; i < n; i++) out->item[i] = i;
-    halve (out, 0, n, 0);
+    halve (&(sorter) { out->item, x, d }, 0, n, 0);
+    for (size_t i = 0; i < n; i++) memcpy (out->x + i * d, x + out->item[i] * d, d * sizeof *x);
 done:
+    if (status != PG_OK) pg_tree_clear (out);
     return status;
 }
 
 void pg_tree_clear (pg_tree *tree)
 {
-    pg_free (tree->item);
+    pg_free (tree->item), pg_free (tree->x);
     memset (tree, 0, sizeof *tree);
 }
 
-typedef struct { const double *at; double reach; pg_tree_teller tell; void *context; } question;
+/* ---- all points near a place --------------------------------------------------------------------------- */
+typedef struct { const double *at; double reach; pg_tree_visit visit; void *context; } vicinity;
 
-/* Both parts of a range where the interval of the search reaches across the dividing item. */
-static void visit (const pg_tree *t, const question *q, size_t first, size_t last, int axis)
+static void visit_near (const pg_tree *t, const vicinity *v, size_t first, size_t last, int axis)
 {
-    if (last - first <= LEAF) {
-        for (size_t i = first; i < last; i++) q->tell (q->context, t->item[i]);
+    if (last - first <= PG_TREE_LEAF) {
+        v->visit (v->context, first, last);
         return;
     }
     size_t middle = first + (last - first) / 2;
-    double ahead = q->at[axis] - along (t, middle, axis);
-    if (ahead <= q->reach) visit (t, q, first, middle, (axis + 1) % t->dim);
-    if (ahead <= q->reach && ahead >= -q->reach) q->tell (q->context, t->item[middle]);
-    if (ahead >= -q->reach) visit (t, q, middle + 1, last, (axis + 1) % t->dim);
+    int next = axis + 1 == t->dim ? 0 : axis + 1;
+    double ahead = v->at[axis] - t->x[middle * (size_t) t->dim + (size_t) axis];
+    if (ahead <= v->reach) visit_near (t, v, first, middle, next);
+    if (ahead <= v->reach && ahead >= -v->reach) v->visit (v->context, middle, middle + 1);
+    if (ahead >= -v->reach) visit_near (t, v, middle + 1, last, next);
 }
 
-/* Only coordinates decide here: the caller tests the distance. */
-void pg_tree_near (const pg_tree *tree, const double *at, double reach, pg_tree_teller tell, void *context)
+void pg_tree_near (const pg_tree *tree, const double *at, double reach, pg_tree_visit visit, void *context)
 {
-    question q = { at, reach, tell, context };
-    visit (tree, &q, 0, tree->n, 0);
+    vicinity v = { at, reach, visit, context };
+    visit_near (tree, &v, 0, tree->n, 0);
+}
+
+/* ---- the nearest point --------------------------------------------------------------------------------- */
+typedef struct {
+    const double *at;
+    pg_tree_refuse refuse;  void *context;
+    long   found;                                      /* number of the nearest so far, -1: none */
+    double best;                                       /* square of its distance, m^2 */
+} query;
+
+static void consider (const pg_tree *t, query *q, size_t first, size_t last)
+{
+    for (size_t e = first; e < last; e++) {
+        const double *x = t->x + e * (size_t) t->dim;
+        long item = (long) t->item[e];
+        double d = 0;
+        for (int k = 0; k < t->dim; k++) d += (x[k] - q->at[k]) * (x[k] - q->at[k]);
+        if (!(d < q->best || (d == q->best && item < q->found))) continue;
+        if (q->refuse && q->refuse (q->context, q->at, (size_t) item)) continue;
+        q->best = d, q->found = item;
+    }
+}
+
+/* The half that holds the place comes first; the other one only where the plane between them is no
+ * farther than the nearest point so far. The margin keeps points that are equally near but for rounding. */
+static void visit_nearest (const pg_tree *t, query *q, size_t first, size_t last, int axis)
+{
+    if (last - first <= PG_TREE_LEAF) {
+        consider (t, q, first, last);
+        return;
+    }
+    size_t middle = first + (last - first) / 2;
+    int next = axis + 1 == t->dim ? 0 : axis + 1;
+    double ahead = q->at[axis] - t->x[middle * (size_t) t->dim + (size_t) axis];
+    if (ahead < 0) visit_nearest (t, q, first, middle, next);
+    else visit_nearest (t, q, middle + 1, last, next);
+    if (ahead * ahead > q->best * (1 + 1e-12)) return;
+    consider (t, q, middle, middle + 1);
+    if (ahead < 0) visit_nearest (t, q, middle + 1, last, next);
+    else visit_nearest (t, q, first, middle, next);
+}
+
+long pg_tree_nearest (const pg_tree *tree, const double *at, pg_tree_refuse refuse, void *context)
+{
+    query q = { at, refuse, context, -1, INFINITY };
+    visit_nearest (tree, &q, 0, tree->n, 0);
+    return q.found;
 }

@@ -1,14 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: positions sorted into halves along x, y, z, x, ..., for searches of very different reach. */
+ * tree.h: the search among points, a k-d tree: which points lie near a place (families, family.c), and
+ * which is the nearest (nearest.c). Elements of a mesh are found by their boxes instead (mesh/locator.c).
+ *
+ * The tree needs no pointers. The points are sorted so that the middle one of a range parts the range
+ * along one axis: smaller ones stand before it, larger ones behind, and both halves are parted in the
+ * same way along the next axis. A range of LEAF points or fewer is left as it is. */
 #ifndef PERIGAL_CLOUD_TREE_H
 #define PERIGAL_CLOUD_TREE_H
 #include "perigal/base.h"
 
-/* The items in the order of the tree; x is borrowed (n x dim), m. */
-typedef struct { int dim; size_t n, *item; const double *x; } pg_tree;
+enum { PG_TREE_LEAF = 8 };
+
+typedef struct {
+    int     dim;
+    size_t  n;
+    /* number of the point at each place of the order (n) */
+    size_t *item;
+    double *x;                                         /* the points in that order, m (n x dim) */
+} pg_tree;
+
+/* Sorts n points x (n x dim, m); equal points are allowed. PG_E_MEMORY. */
 pg_status pg_tree_build (pg_tree *out, int dim, size_t n, const double *x);
 void      pg_tree_clear (pg_tree *tree);
-/* Calls tell for all items in the cube of half width `reach` about `at`, and for some beyond. */
-typedef void (*pg_tree_teller) (void *context, size_t item);
-void pg_tree_near (const pg_tree *tree, const double *at, double reach, pg_tree_teller tell, void *context);
+
+/* Calls `visit` with ranges [first, last) of places in the order, which together hold every point within
+ * `reach` of `at` along each axis, and some beyond. No place is in two ranges. */
+typedef void (*pg_tree_visit) (void *context, size_t first, size_t last);
+void pg_tree_near (const pg_tree *tree, const double *at, double reach, pg_tree_visit visit, void *context);
+
+/* The point nearest to `at` that is not refused (refuse NULL: none is); of equally near ones that with
+ * the lowest number; -1: all are refused, or `at` is no finite place. */
+typedef int (*pg_tree_refuse) (void *context, const double *at, size_t item);
+long pg_tree_nearest (const pg_tree *tree, const double *at, pg_tree_refuse refuse, void *context);
 #endif
