@@ -12,14 +12,16 @@ VERSION := 0.1.0
 # One-way order of the folders: a file may include headers of its own folder and of folders to its left only.
 ORDER   := base scene kernel material criterion linalg mesh mesh_files cloud cells approx integration sums model force symbol solve output picture compare results study cli
 
-PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libmetis-dev libopenblas-pthread-dev \
+PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libcmocka-dev
 
 BUILD   := build/$(MODE)
 # the threaded parts are what the thread sanitizer is for
 THREADED := base sums force
 T       := $(or $(T),$(if $(filter tsan,$(MODE)),$(THREADED)))
-LIBS    := -lcholmod -lumfpack -lamd -lcamd -lsuitesparseconfig -lmetis -lopenblas -lgsl -lfftw3 -lyaml -ludunits2 -lnetcdf -lcairo -lm -lpthread
+LIBS    := -lcholmod -lumfpack -lopenblas -lfftw3 -lyaml -ludunits2 -lnetcdf -lcairo -lm -lpthread
+# of the tests alone: references by another library, the checks
+TESTLIBS := -lgsl -lcmocka
 STD     := -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DPG_VERSION='"$(VERSION)"'
 WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo
@@ -93,7 +95,7 @@ $(BUILD)/perigal-mesh: $(BUILD)/src/convert/perigal_mesh.o $(LIB)
 $(BUILD)/test/%: test/%.c $(BEHIND)
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  TEST $<")
-	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< $(LDFLAGS) $(LINKED) $(LIBS) -lcmocka -o $@
+	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< $(LDFLAGS) $(LINKED) $(LIBS) $(TESTLIBS) -o $@
 
 $(BUILD)/bench/%: bench/%.c $(LIB)
 	@mkdir -p $(@D)

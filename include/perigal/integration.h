@@ -43,6 +43,10 @@ const pg_integration_type *pg_integration_find (const char *name);
 const pg_integration_type *pg_integration_at_nodes (void);     /* the entry whose points are the nodes */
 const char *pg_integration_names (void);
 
+/* Gauss-Legendre points in every cell (order^dim in bars, quadrilaterals and hexahedra; in cut cells
+ * within the body); cell holds the number of the cell, and the weights of each cell sum to its volume.
+ * PG_E_MEMORY. */
+pg_status pg_cell_points (pg_quadrature *out, const pg_cells *cells, double thickness, int order);
 /* Gauss points on every facet (order^(dim - 1) on bars and quadrilaterals), with normals; cell holds the
  * number of the facet, and the weights of each facet sum to its area. PG_E_MEMORY. */
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *cells, int order);

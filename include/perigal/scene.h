@@ -34,6 +34,9 @@ typedef enum {
     PG_EXPRESSION  /* a number with unit, or an expression in x y z r angle t (text, compiled by its user) */
 } pg_kind;
 
+/* As a default: the first of the choices, so that the first line of a catalogue is its default entry. */
+#define PG_FIRST_CHOICE "(the first choice)"
+
 /* One key of a scene: a row of a key table. */
 typedef struct {
     /* Where it stands: "materials.{}.youngs_modulus". */
@@ -45,7 +48,8 @@ typedef struct {
     const char *unit;
     /* Allowed values: "[0, 0.5)", "(0, inf)"; NULL: any finite number. */
     const char *range;
-    /* Default as the user would write it; "": optional without a default; NULL: required. */
+    /* Default as the user would write it, or PG_FIRST_CHOICE; "": optional without a default; NULL:
+     * required. */
     const char *fallback;
     /* For PG_NAME: "static|newmark". "sets.{}|left|right": also any name of that map of the scene (or a
      * part of it, NAME.top). NULL: choices_of gives them. */

@@ -6,7 +6,7 @@
 static const pg_key keys[] = {
     { .path = "method.kernel",
       .kind = PG_NAME,
-      .fallback = "cubic_spline",
+      .fallback = PG_FIRST_CHOICE,
       .choices_of = pg_kernel_names,
       .doc = "Influence function of the distance divided by the horizon; of a force without shape "
              "functions that of its bonds, and constant unless given." },
@@ -32,7 +32,7 @@ const pg_key_table pg_keys_approx = { "approx", keys, sizeof keys / sizeof *keys
 static const pg_key shape_keys[] = {
     { .path = "method.approximation",
       .kind = PG_NAME,
-      .fallback = "rkpm",
+      .fallback = PG_FIRST_CHOICE,
       .choices_of = pg_approx_names,
       .doc = "How a field and its derivatives follow from nodal values." },
     { .path = "method.basis",

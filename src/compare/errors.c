@@ -15,9 +15,8 @@
 static pg_status quadrature (pg_quadrature *q, const pg_problem *p, int *order)
 {
     pg_status status = PG_OK;
-    const pg_integration_type *gauss = pg_integration_find ("gauss");
     memset (q, 0, sizeof *q);
-    if (p->cells.n) return gauss->points (q, &p->cells, p->cloud.thickness, *order);
+    if (p->cells.n) return pg_cell_points (q, &p->cells, p->cloud.thickness, *order);
     *order = 0;
     PG_ALLOC (q->x, p->cloud.n * (size_t) p->dim);
     PG_ALLOC (q->weight, p->cloud.n);

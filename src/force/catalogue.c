@@ -55,7 +55,7 @@ const pg_key_catalogue pg_entry_keys_force = { .selector = "method.force", .name
 static const pg_key keys[] = {
     { .path = "method.force",
       .kind = PG_NAME,
-      .fallback = "galerkin",
+      .fallback = PG_FIRST_CHOICE,
       .choices_of = pg_force_names,
       .doc = "How bonds make forces; `perigal list` says what each of these is." },
     { .path = "method.accept_inexact",

@@ -6,7 +6,7 @@
 #include <string.h>
 
 static const pg_key keys[] = {
-    { "method.integration", PG_NAME, NULL, NULL, "gauss", NULL, pg_integration_names, NULL,
+    { "method.integration", PG_NAME, NULL, NULL, PG_FIRST_CHOICE, NULL, pg_integration_names, NULL,
       "Where the weak form is evaluated." },
     { "method.gauss_points", PG_INTEGER, NULL, "[1, 5]", "", NULL, NULL, NULL,
       "Gauss points per direction of a background cell; default 2 for the linear basis, 3 for the quadratic "

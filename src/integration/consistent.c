@@ -339,7 +339,7 @@ done:
 /* The points are those of Gauss integration; only the derivatives differ. */
 static pg_status points (pg_quadrature *out, const pg_cells *cells, double thickness, int order)
 {
-    return pg_integration_find ("gauss")->points (out, cells, thickness, order);
+    return pg_cell_points (out, cells, thickness, order);
 }
 
 const pg_integration_type pg_integration_consistent = {

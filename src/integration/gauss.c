@@ -126,8 +126,7 @@ done:
     return status;
 }
 
-/* The points of an integration entry. */
-static pg_status gauss_points (pg_quadrature *out, const pg_cells *c, double thickness, int order)
+pg_status pg_cell_points (pg_quadrature *out, const pg_cells *c, double thickness, int order)
 {
     mesh m = {
         .cells = c, .dim = c->dim, .order = order, .n = c->n, .kind = c->kind, .start = c->start, .x = c->x
@@ -171,4 +170,4 @@ pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
 }
 
 const pg_integration_type pg_integration_gauss = { "gauss", "Gauss-Legendre points in background cells", 0, 0,
-                                                   gauss_points };
+                                                   pg_cell_points };

@@ -21,6 +21,13 @@ const pg_linear_type *pg_linear_find (const char *name)
     return NULL;
 }
 
+const pg_linear_type *pg_linear_direct (int symmetric)
+{
+    for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
+        if (entries[i]->factors && entries[i]->symmetric == symmetric) return entries[i];
+    return NULL;
+}
+
 /* "auto" is no entry: the solver of the scene chooses one. */
 const char *pg_linear_names (void)
 {

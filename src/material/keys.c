@@ -3,7 +3,8 @@
 #include "entries.h"
 
 static const pg_key keys[] = {
-    { .path = "materials.{}.model", .kind = PG_NAME, .fallback = "elastic", .choices_of = pg_material_names,
+    { .path = "materials.{}.model", .kind = PG_NAME, .fallback = PG_FIRST_CHOICE,
+      .choices_of = pg_material_names,
       .doc = "The law that gives stress from strain." },
     { .path = "materials.{}.density", .kind = PG_NUMBER, .unit = "kg/m3", .range = "(0, inf)", .fallback = "",
       .doc = "Mass density; needed by dynamic solvers and body forces such as weight." },

@@ -152,7 +152,7 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
             if (!role[fam->node[e]]) role[fam->node[e]] = 2;
     }
     for (size_t i = 0; i < p->cloud.n; i++) masters += role[i] == 2;
-    if (strcmp (p->approx.type->name, "nosb") == 0) masters = 0;
+    if (p->approx.type->interpolates) masters = 0;
     f->slaves += slaves;
     f->eliminated += (masters > 0 ? slaves * slaves : 0) + 3 * slaves * masters;
 }

@@ -236,7 +236,8 @@ static pg_status check_defaults (pg_scene *s)
     PG_ALLOC (s->fallback, s->schema.n);
     for (size_t k = 0; k < s->schema.n; k++) {
         const pg_key *row = s->schema.row[k];
-        const char *text = row->fallback;
+        char first[PG_LEVEL_NAMES];
+        const char *text = pg_key_default (row, first);
         char pattern[PG_PATTERN], path[PG_PATH_TEXT];
         int good = 1;
         if (!text || !*text) continue;

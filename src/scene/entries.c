@@ -52,7 +52,7 @@ const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char p
 /* What is written for the selector of a key, or its default: when selector and key stand in the same map,
  * `node` of the pattern; NULL: not known here. */
 static const char *chosen_entry (const pg_scene *s, const pg_node *node, const char *pattern,
-                                 const char *selector)
+                                 const char *selector, char first[PG_LEVEL_NAMES])
 {
     size_t n = strlen (pattern);
     if (strncmp (selector, pattern, n) != 0 || selector[n] != '.' || strchr (selector + n + 1, '.'))
@@ -60,7 +60,7 @@ static const char *chosen_entry (const pg_scene *s, const pg_node *node, const c
     const pg_node *child = pg_node_child (node, selector + n + 1, strlen (selector + n + 1));
     if (child) return child->shape == PG_SCALAR ? child->text : NULL;
     const pg_key *row = pg_schema_row (&s->schema, selector, PG_SCALAR);
-    return row ? row->fallback : NULL;
+    return row ? pg_key_default (row, first) : NULL;
 }
 
 /* Keys that belong to no entry are always wanted. */
@@ -68,6 +68,7 @@ int pg_key_wanted (const pg_scene *s, const pg_key *key, const pg_node *node, co
 {
     const char *selector, *entries = pg_key_entries (key, &selector);
     if (!entries) return 1;
-    const char *chosen = chosen_entry (s, node, pattern, selector);
+    char first[PG_LEVEL_NAMES];
+    const char *chosen = chosen_entry (s, node, pattern, selector, first);
     return chosen && pg_listed (entries, chosen);
 }

@@ -87,7 +87,7 @@ static void print_partners (FILE *to, const pg_schema *s, const pg_key *key)
 static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
 {
     const char *choices = pg_key_choices (key);
-    char example[PG_LEVEL_NAMES];
+    char example[PG_LEVEL_NAMES], first[PG_LEVEL_NAMES];
     fprintf (to, "%s\n  ", key->path);
     pg_help_meaning (to, key);
     fprintf (to, "\n  kind     %s\n", pg_key_kind (key));
@@ -98,7 +98,8 @@ static void print_key (FILE *to, const pg_schema *s, const pg_key *key)
     if (key->unit) print_names (to, "  unit     ", key->unit);
     if (key->range) fprintf (to, "  range    %s\n", key->range);
     if (choices) print_names (to, "  choices  ", choices);
-    if (key->fallback && *key->fallback) fprintf (to, "  default  %s\n", key->fallback);
+    const char *fallback = pg_key_default (key, first);
+    if (fallback && *fallback) fprintf (to, "  default  %s\n", fallback);
     else fprintf (to, "  default  none%s\n", key->fallback || key->group ? "" : ", required");
     if (key->group) print_partners (to, s, key);
 }

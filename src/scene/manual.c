@@ -69,13 +69,14 @@ static void write_list (FILE *to, const char *names)
 /* One key as a row of a table. */
 static void write_row (FILE *to, const pg_key *key)
 {
-    const char *choices = pg_key_choices (key);
+    char first[PG_LEVEL_NAMES];
+    const char *choices = pg_key_choices (key), *fallback = pg_key_default (key, first);
     fprintf (to, "| `%s` | %s%s", key->path, pg_key_kind (key), key->unit ? ", " : "");
     if (key->unit) write_list (to, key->unit);
     fprintf (to, " | %s%s%s", key->range ? "`" : "", key->range ? key->range : "", key->range ? "`" : "");
     if (choices && *choices) write_list (to, choices);
     fprintf (to, " | ");
-    if (key->fallback && *key->fallback) fprintf (to, "`%s`", key->fallback);
+    if (fallback && *fallback) fprintf (to, "`%s`", fallback);
     else if (!key->fallback && !key->group) fprintf (to, "**required**");
     fprintf (to, " | ");
     pg_help_meaning (to, key);

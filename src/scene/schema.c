@@ -135,6 +135,14 @@ void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEV
     }
 }
 
+const char *pg_key_default (const pg_key *key, char name[PG_LEVEL_NAMES])
+{
+    const char *choices = pg_key_choices (key);
+    if (!key->fallback || strcmp (key->fallback, PG_FIRST_CHOICE) != 0 || !choices) return key->fallback;
+    snprintf (name, PG_LEVEL_NAMES, "%.*s", (int) strcspn (choices, "|"), choices);
+    return name;
+}
+
 /* From the table or from a catalogue. */
 const char *pg_key_choices (const pg_key *key) { return key->choices_of ? key->choices_of () : key->choices; }
 

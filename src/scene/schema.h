@@ -30,4 +30,7 @@ const char *pg_schema_below (const pg_key *row, const char *pattern);
 void pg_schema_wanted (const pg_schema *s, const char *pattern, char *out, size_t n);
 /* Choices "a|b"; NULL: any. */
 const char *pg_key_choices (const pg_key *key);
+/* The default as the user would write it, with PG_FIRST_CHOICE looked up (written to `name`); NULL:
+ * required. */
+const char *pg_key_default (const pg_key *key, char name[PG_LEVEL_NAMES]);
 #endif

@@ -214,7 +214,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     s->mean_diagonal = number[0], s->shift = number[1], s->rent = number[2];
     if (k->reading && count[1] && !s->umfpack) {
         if (s->factor) s->linear->free (&s->factor);
-        s->linear = pg_linear_find ("umfpack");
+        s->linear = pg_linear_direct (0);
         s->umfpack = 1;
     }
     long made = s->multilevel != NULL || s->remake;

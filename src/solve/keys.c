@@ -5,7 +5,7 @@
 
 #define ROW PG_SOLVER_KEY
 static const pg_key keys[] = {
-    { "solver.kind", PG_NAME, NULL, NULL, "static", NULL, pg_solver_names, NULL,
+    { "solver.kind", PG_NAME, NULL, NULL, PG_FIRST_CHOICE, NULL, pg_solver_names, NULL,
       "The method that advances the state." },
     ROW ("solver.max_events", PG_INTEGER, NULL, "[1, 1000000000]", "1000000", NULL,
          "Event stepping ends after so many events; explicit dynamics after so many time steps in which "

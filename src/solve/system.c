@@ -65,8 +65,8 @@ pg_status system_create (pg_system *s)
     PG_ALLOC (s->diagonal0, s->ndof);
     PG_ALLOC (s->touched, s->problem->cloud.n);
     if (s->force->mass) PG_TRY (s->force->mass (s->self, s->mass));
-    const char *name = strcmp (s->options->linear, "auto") == 0 ? "cholmod" : s->options->linear;
-    s->linear = pg_linear_find (name);
+    const char *name = s->options->linear;
+    s->linear = strcmp (name, "auto") == 0 ? pg_linear_direct (1) : pg_linear_find (name);
     if (!s->linear) PG_FAIL (PG_E_USAGE, "there is no linear solver %s", name);
 done:
     return status;
@@ -230,7 +230,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
                             "method.nitsche_factor may help)",
                             s->report->steps);
         s->linear->free (&s->factor);
-        s->linear = pg_linear_find ("umfpack");
+        s->linear = pg_linear_direct (0);
         s->umfpack = 1;
     }
     s->stale = 0;
@@ -310,6 +310,7 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
     pg_status status = PG_OK;
     int can;
     const char *linear = s->options->linear;
+    const pg_linear_type *asked = pg_linear_find (linear);             /* NULL: auto */
     int automatic = strcmp (linear, "auto") == 0;
     PG_TRY (system_can_precondition (s, dyn, &can));
     if (!can && strcmp (s->options->preconditioner, "multilevel") == 0)
@@ -317,7 +318,7 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
                                        "tells the rows of K, with supports on points: the diagonal instead "
                                        "where there is no factor");
     s->mode = SYSTEM_FACTOR;
-    if (!system_has_matrix (s) || (strcmp (linear, "pcg") == 0 && operator_of (s)))
+    if (!system_has_matrix (s) || (asked && !asked->factors && operator_of (s)))
         s->mode = SYSTEM_NO_FACTOR;
     else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
     else if (automatic && operator_of (s) && by_sweeps (s, can)) {
