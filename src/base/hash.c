@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A fingerprint of bytes, FNV-1a of 64 bits: each byte is folded in by an exclusive or and a multiplication with a
- * prime that is odd, so that one changed byte always changes the result. Fast, and no protection against people:
- * for that there is SHA-256 (src/scene). http://www.isthe.com/chongo/tech/comp/fnv/ */
+ * A fingerprint of bytes, FNV-1a of 64 bits: each byte is folded in by an exclusive or and a
+ * multiplication with a prime that is odd, so that one changed byte always changes the result. Fast, and
+ * no protection against people: for that there is SHA-256 (src/scene).
+ * http://www.isthe.com/chongo/tech/comp/fnv/ */
 #include "perigal/base.h"
 
 uint64_t pg_fingerprint (uint64_t so_far, const void *data, size_t bytes)

@@ -9,26 +9,29 @@
 #include <sys/resource.h>
 
 /* Bytes in front of each block that hold its size; 64, so that the block keeps the alignment. */
-#define HEAD 64  /* bytes in front of each block: its size; keeps 64-byte alignment */
+#define HEAD 64
 
-/* Bytes held, their maximum, number of allocations, and how many allocations from now on until one fails
- * (0: none does). */
-static atomic_size_t used, peak, calls, fail_at;
+/* Counters of the whole process. */
+static struct {
+    atomic_size_t used, peak;                          /* bytes held now, and at most so far */
+    atomic_size_t calls;                               /* allocations so far */
+    atomic_size_t fail_at;                             /* the k-th from now fails; 0: none */
+} memory;
 
 /* Counts an allocation; 1 if it is the one that is to fail. */
 static int must_fail (void)
 {
-    atomic_fetch_add (&calls, 1);
-    size_t k = atomic_load (&fail_at);
+    atomic_fetch_add (&memory.calls, 1);
+    size_t k = atomic_load (&memory.fail_at);
     if (k == 0) return 0;
-    return atomic_fetch_sub (&fail_at, 1) == 1;
+    return atomic_fetch_sub (&memory.fail_at, 1) == 1;
 }
 
 /* Updates the bytes held and their maximum. */
 static void count (size_t add, size_t drop)
 {
-    size_t now = atomic_fetch_add (&used, add - drop) + add - drop, top = atomic_load (&peak);
-    while (now > top && !atomic_compare_exchange_weak (&peak, &top, now)) continue;
+    size_t now = atomic_fetch_add (&memory.used, add - drop) + add - drop, top = atomic_load (&memory.peak);
+    while (now > top && !atomic_compare_exchange_weak (&memory.peak, &top, now)) continue;
 }
 
 /* A block with its size written in front, not cleared; NULL: overflow or no memory. */
@@ -87,10 +90,10 @@ char *pg_strdup (const char *text)
     return copy;
 }
 
-size_t pg_memory_used (void)  { return atomic_load (&used); }
-size_t pg_memory_peak (void)  { return atomic_load (&peak); }
-size_t pg_memory_calls (void) { return atomic_load (&calls); }
-void pg_memory_fail_at (size_t k) { atomic_store (&fail_at, k); }
+size_t pg_memory_used (void)  { return atomic_load (&memory.used); }
+size_t pg_memory_peak (void)  { return atomic_load (&memory.peak); }
+size_t pg_memory_calls (void) { return atomic_load (&memory.calls); }
+void pg_memory_fail_at (size_t k) { atomic_store (&memory.fail_at, k); }
 
 size_t pg_memory_process_peak (void)
 {

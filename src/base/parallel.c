@@ -32,18 +32,21 @@ typedef struct {
     pthread_cond_t  wake;
 } helper;
 
-/* Helpers 1 .. started - 1; number 0 is the calling thread. */
-static helper helpers[MAX_THREADS];
-static int started = 1, looks = -1;
-/* gate: held during a loop that uses the helpers. end, end_lock: tell the calling thread that all parts are
- * done. */
-static pthread_mutex_t gate = PTHREAD_MUTEX_INITIALIZER, end_lock = PTHREAD_MUTEX_INITIALIZER;
-static pthread_cond_t end = PTHREAD_COND_INITIALIZER;
-/* Parts of the present loop that are given to helpers and not done. */
-static atomic_int unfinished;
-static pthread_once_t once = PTHREAD_ONCE_INIT;
-/* 1: this thread is running a part of a loop. */
-static _Thread_local int inside;
+/* The threads of this process, and the one loop at a time that they work at. One for all: threads are a
+ * resource of the process, and solvers that had threads of their own would get in each other's way. */
+static struct {
+    helper helper[MAX_THREADS];                        /* 1 .. started - 1 */
+    int    started;                                    /* threads there are, the caller's among them */
+    /* how often to look before going to sleep; 0: one core */
+    int    looks;
+    pthread_once_t  once;
+    pthread_mutex_t gate;                              /* held during a loop */
+    pthread_mutex_t end_lock;
+    pthread_cond_t  end;                               /* the last thread has done its part */
+    atomic_int      unfinished;                        /* parts of the loop that are under way elsewhere */
+} pool = { .started = 1, .looks = -1, .once = PTHREAD_ONCE_INIT, .gate = PTHREAD_MUTEX_INITIALIZER,
+           .end_lock = PTHREAD_MUTEX_INITIALIZER, .end = PTHREAD_COND_INITIALIZER };
+static _Thread_local int inside;                       /* this thread runs a part of a loop */
 
 double pg_seconds (void)
 {
@@ -86,7 +89,7 @@ static void *serve (void *p)
     helper *h = p;
     unsigned seen = 0;
     for (;;) {
-        for (int k = 0; k < looks && atomic_load_explicit (&h->turn, memory_order_acquire) == seen; k++)
+        for (int k = 0; k < pool.looks && atomic_load_explicit (&h->turn, memory_order_acquire) == seen; k++)
             pause_briefly ();
         pthread_mutex_lock (&h->lock);
         while (atomic_load (&h->turn) == seen) pthread_cond_wait (&h->wake, &h->lock);
@@ -96,10 +99,10 @@ static void *serve (void *p)
         if (quit) return NULL;
         if (!claim (h, seen)) continue;
         run (&h->job);
-        if (atomic_fetch_sub (&unfinished, 1) > 1) continue;
-        pthread_mutex_lock (&end_lock);
-        pthread_cond_signal (&end);
-        pthread_mutex_unlock (&end_lock);
+        if (atomic_fetch_sub (&pool.unfinished, 1) > 1) continue;
+        pthread_mutex_lock (&pool.end_lock);
+        pthread_cond_signal (&pool.end);
+        pthread_mutex_unlock (&pool.end_lock);
     }
 }
 
@@ -116,36 +119,36 @@ static void give_turn (helper *h, int quit)
 /* In a child of fork none of these threads exist: as at the start. */
 static void forget (void)
 {
-    started = 1;
+    pool.started = 1;
     inside = 0;
-    pthread_mutex_init (&gate, NULL);
-    pthread_mutex_init (&end_lock, NULL);
-    pthread_cond_init (&end, NULL);
+    pthread_mutex_init (&pool.gate, NULL);
+    pthread_mutex_init (&pool.end_lock, NULL);
+    pthread_cond_init (&pool.end, NULL);
 }
 
 /* Once per process. With one processor, waiting awake would only take time from the others. */
 static void prepare (void)
 {
     pthread_atfork (NULL, NULL, forget);
-    looks = sysconf (_SC_NPROCESSORS_ONLN) > 1 ? LOOKS : 0;
+    pool.looks = sysconf (_SC_NPROCESSORS_ONLN) > 1 ? LOOKS : 0;
 }
 
 /* At exit, and where the library is unloaded: no thread may be left in its code. */
 __attribute__ ((destructor)) static void dismiss (void)
 {
-    if (pthread_mutex_trylock (&gate) != 0) return;    /* exit from within a loop */
-    for (int k = 1; k < started; k++) give_turn (&helpers[k], 1);
-    for (int k = 1; k < started; k++) pthread_join (helpers[k].id, NULL);
-    started = 1;
-    pthread_mutex_unlock (&gate);
+    if (pthread_mutex_trylock (&pool.gate) != 0) return;    /* exit from within a loop */
+    for (int k = 1; k < pool.started; k++) give_turn (&pool.helper[k], 1);
+    for (int k = 1; k < pool.started; k++) pthread_join (pool.helper[k].id, NULL);
+    pool.started = 1;
+    pthread_mutex_unlock (&pool.gate);
 }
 
 /* Starts helpers until there are as many as wanted, or the system gives no more. */
 static void hire (int threads)
 {
-    pthread_once (&once, prepare);
-    for (; started < threads; started++) {
-        helper *h = &helpers[started];
+    pthread_once (&pool.once, prepare);
+    for (; pool.started < threads; pool.started++) {
+        helper *h = &pool.helper[pool.started];
         atomic_store (&h->turn, 0);
         atomic_store (&h->claimed, 0);
         h->quit = 0;
@@ -160,22 +163,22 @@ static void hire (int threads)
 static void run_with_helpers (int threads, job *jobs)
 {
     hire (threads);
-    int given = threads < started ? threads : started;
-    atomic_store (&unfinished, given - 1);
-    for (int k = 1; k < given; k++) helpers[k].job = jobs[k], give_turn (&helpers[k], 0);
+    int given = threads < pool.started ? threads : pool.started;
+    atomic_store (&pool.unfinished, given - 1);
+    for (int k = 1; k < given; k++) pool.helper[k].job = jobs[k], give_turn (&pool.helper[k], 0);
     run (&jobs[0]);
     for (int k = given; k < threads; k++) run (&jobs[k]);
     for (int k = 1; k < given; k++) {
-        if (!claim (&helpers[k], atomic_load (&helpers[k].turn))) continue;
+        if (!claim (&pool.helper[k], atomic_load (&pool.helper[k].turn))) continue;
         run (&jobs[k]);
-        atomic_fetch_sub (&unfinished, 1);
+        atomic_fetch_sub (&pool.unfinished, 1);
     }
-    for (int k = 0; k < looks && atomic_load_explicit (&unfinished, memory_order_acquire) > 0; k++)
+    for (int k = 0; k < pool.looks && atomic_load_explicit (&pool.unfinished, memory_order_acquire) > 0; k++)
         pause_briefly ();
-    if (atomic_load (&unfinished) == 0) return;
-    pthread_mutex_lock (&end_lock);
-    while (atomic_load (&unfinished) > 0) pthread_cond_wait (&end, &end_lock);
-    pthread_mutex_unlock (&end_lock);
+    if (atomic_load (&pool.unfinished) == 0) return;
+    pthread_mutex_lock (&pool.end_lock);
+    while (atomic_load (&pool.unfinished) > 0) pthread_cond_wait (&pool.end, &pool.end_lock);
+    pthread_mutex_unlock (&pool.end_lock);
 }
 
 /* ---- loops --------------------------------------------------------------------------------------------- */
@@ -210,8 +213,8 @@ void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context)
     if (threads == 1) work (context, 0, n, 0);         /* loops within may use threads */
     else if (inside) {
         for (int k = 0; k < threads; k++) run (&jobs[k]);
-    } else if (pthread_mutex_trylock (&gate) == 0) {
+    } else if (pthread_mutex_trylock (&pool.gate) == 0) {
         run_with_helpers (threads, jobs);
-        pthread_mutex_unlock (&gate);
+        pthread_mutex_unlock (&pool.gate);
     } else run_with_own (threads, jobs);
 }

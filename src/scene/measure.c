@@ -11,11 +11,14 @@
 /* Length of the text of a unit; number of units remembered. */
 enum { WORD = 40, REMEMBERED = 128 };
 
-/* udunits2 is not thread-safe: one lock for it and for the units met before, which are kept by hash. */
-static pthread_once_t once = PTHREAD_ONCE_INIT;
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
-static ut_system *units;
-static struct { char text[WORD]; pg_measure measure; } memory[REMEMBERED];   /* units met before, by hash */
+/* The database of udunits2, read once on first use, and the units met since, by hash: reading the
+ * database takes longer than a small run, and the library is not made for several threads. */
+static struct {
+    pthread_once_t  once;
+    pthread_mutex_t lock;
+    ut_system      *units;                             /* NULL: it could not be read */
+    struct { char text[WORD]; pg_measure measure; } met[REMEMBERED];
+} database = { .once = PTHREAD_ONCE_INIT, .lock = PTHREAD_MUTEX_INITIALIZER };
 
 /* Reads the database, in the C locale as it has decimal points, and adds deg. */
 static void load (void)
@@ -23,10 +26,10 @@ static void load (void)
     locale_t c = newlocale (LC_ALL_MASK, "C", (locale_t) 0), before = (locale_t) 0;
     if (c) before = uselocale (c);                     /* the database has decimal points */
     ut_set_error_message_handler (ut_ignore);
-    units = ut_read_xml (NULL);
-    if (units) {
+    database.units = ut_read_xml (NULL);
+    if (database.units) {
         /* udunits2 calls it arc_degree. */
-        ut_unit *degree = ut_get_unit_by_name (units, "arc_degree");
+        ut_unit *degree = ut_get_unit_by_name (database.units, "arc_degree");
         if (degree) ut_map_name_to_unit ("deg", UT_ASCII, degree);
         ut_free (degree);
     }
@@ -152,7 +155,7 @@ static int well_formed (const char *s)
 /* By udunits2; 0: no unit with a positive factor. */
 static int parse (const char *text, pg_measure *m)
 {
-    ut_unit *unit = ut_parse (units, text, UT_UTF8);
+    ut_unit *unit = ut_parse (database.units, text, UT_UTF8);
     if (!unit) return 0;
     *m = (pg_measure) { .factor = 1 };
     int good = ut_accept_visitor (unit, &visitor, m) == UT_SUCCESS && isfinite (m->factor) && m->factor > 0;
@@ -205,21 +208,21 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
     if (n >= WORD) return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s...'", word);
     /* Without the database, if possible. */
     if (is_common (m, word, n)) return PG_OK;
-    pthread_once (&once, load);
-    if (!units)
+    pthread_once (&database.once, load);
+    if (!database.units)
         return pg_error (PG_E_FILE, PG_HERE,
                          "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");
     int good = well_formed (word);
     if (good) {
         /* A unit that was met before, or udunits2. */
-        pthread_mutex_lock (&lock);
+        pthread_mutex_lock (&database.lock);
         size_t k = place_of (word);
-        if (strcmp (memory[k].text, word) == 0) *m = memory[k].measure;
+        if (strcmp (database.met[k].text, word) == 0) *m = database.met[k].measure;
         else if ((good = parse (word, m)) != 0) {
-            memcpy (memory[k].text, word, sizeof word);
-            memory[k].measure = *m;
+            memcpy (database.met[k].text, word, sizeof word);
+            database.met[k].measure = *m;
         }
-        pthread_mutex_unlock (&lock);
+        pthread_mutex_unlock (&database.lock);
     }
     if (good) return PG_OK;
     if (strcmp (word, "spacing") == 0) return pg_error (PG_E_SCENE, PG_HERE, "spacing is not a unit here");

@@ -1,40 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * SHA-256 after FIPS 180-4. The constants are computed as the standard defines them, from roots of primes,
- * instead of being copied. */
+ * SHA-256 after FIPS 180-4. */
 #include "sha256.h"
-#include <pthread.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Constants of the rounds and of the first state. */
-static uint32_t K[64], H0[8];
-static pthread_once_t once = PTHREAD_ONCE_INIT;
-
-/* First 32 bits of the fractional part of the square (order 2) or cube root (3) of p: the largest x / 2^32
- * with x^order <= p, in whole numbers. */
-static uint32_t root_bits (unsigned p, int order)
-{
-    uint64_t x = 0;
-    for (int bit = 35; bit >= 0; bit--) {
-        unsigned __int128 y = x | (uint64_t) 1 << bit,
-                          limit = (unsigned __int128) p << (order == 2 ? 64 : 96);
-        if (order == 2 ? y * y <= limit : y * y <= limit / y) x = (uint64_t) y;
-    }
-    return (uint32_t) x;
-}
-
-/* From the first 64 primes. */
-static void constants (void)
-{
-    unsigned n = 0;
-    for (unsigned p = 2; n < 64; p++) {
-        unsigned d = 2;
-        while (d < p && p % d) d++;
-        if (d < p) continue;
-        if (n < 8) H0[n] = root_bits (p, 2);
-        K[n++] = root_bits (p, 3);
-    }
-}
+/* First 32 bits of the fractional parts of the cube roots of the first 64 primes (FIPS 180-4, 4.2.2). */
+static const uint32_t K[64] = {
+    0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4, 0xab1c5ed5,
+    0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe, 0x9bdc06a7, 0xc19bf174,
+    0xe49b69c1, 0xefbe4786, 0x0fc19dc6, 0x240ca1cc, 0x2de92c6f, 0x4a7484aa, 0x5cb0a9dc, 0x76f988da,
+    0x983e5152, 0xa831c66d, 0xb00327c8, 0xbf597fc7, 0xc6e00bf3, 0xd5a79147, 0x06ca6351, 0x14292967,
+    0x27b70a85, 0x2e1b2138, 0x4d2c6dfc, 0x53380d13, 0x650a7354, 0x766a0abb, 0x81c2c92e, 0x92722c85,
+    0xa2bfe8a1, 0xa81a664b, 0xc24b8b70, 0xc76c51a3, 0xd192e819, 0xd6990624, 0xf40e3585, 0x106aa070,
+    0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
+    0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2,
+};
+/* The same of the square roots of the first 8 primes (5.3.3). */
+static const uint32_t H0[8] = {
+    0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19,
+};
 
 /* Rotation to the right. */
 static uint32_t turn (uint32_t x, int n) { return x >> n | x << (32 - n); }
@@ -67,7 +51,6 @@ static void mix (uint32_t h[8], const unsigned char *block)
 
 void pg_sha256_start (pg_sha256 *s)
 {
-    pthread_once (&once, constants);
     memset (s, 0, sizeof *s);
     memcpy (s->h, H0, sizeof H0);
 }

@@ -13,45 +13,50 @@
 
 enum { MOST_TABLES = 96, MOST_TWINS = 64, NAMES = 240, TWIN_PATH = 96, TWIN_DOC = 160 };
 
-static pg_key_table tables[MOST_TABLES];
-static size_t ntable;
-static pthread_once_t once = PTHREAD_ONCE_INIT;
-
 /* Whose the table of the same number is: the rows as their entry declares them, its catalogue, and the names
  * of all entries that share the table, "adr|relax". A table of a folder has none of these. */
-static struct {
+typedef struct {
     const pg_key *declared;
     const pg_key_catalogue *catalogue;
     char names[NAMES];
-} owner[MOST_TABLES];
+} table_owner;
 
-/* Rows once more for the second place at which a catalogue takes the keys of its entries
- * (pg_key_catalogue.also). */
-static pg_key twin[MOST_TWINS];
-static struct { char path[TWIN_PATH], doc[TWIN_DOC]; } twin_text[MOST_TWINS];
-static size_t ntwin;
+/* All tables: filled once, by the first who asks, and constant from then on. The twins are rows once
+ * more, for the second place at which a catalogue takes the keys of its entries (pg_key_catalogue.also). */
+static struct {
+    pthread_once_t once;
+    size_t       ntable;
+    pg_key_table table[MOST_TABLES];
+    table_owner  owner[MOST_TABLES];
+    size_t       ntwin;
+    pg_key       twin[MOST_TWINS];
+    struct { char path[TWIN_PATH], doc[TWIN_DOC]; } twin_text[MOST_TWINS];
+} all = { .once = PTHREAD_ONCE_INIT };
 
 /* Beyond MOST_TABLES tables are dropped. */
 static void add_table (const pg_key_table *table, const pg_key *declared, const pg_key_catalogue *catalogue,
                        const char *name)
 {
-    if (ntable == MOST_TABLES) return;
-    owner[ntable].declared = declared, owner[ntable].catalogue = catalogue;
-    snprintf (owner[ntable].names, NAMES, "%s", name);
-    tables[ntable++] = *table;
+    if (all.ntable == MOST_TABLES) return;
+    table_owner *owner = &all.owner[all.ntable];
+    owner->declared = declared, owner->catalogue = catalogue;
+    snprintf (owner->names, NAMES, "%s", name);
+    all.table[all.ntable++] = *table;
 }
 
 /* "failure.cohesion" becomes "materials.{}.failure.cohesion". */
 static pg_key_table twins_of (const pg_key_table *table, const pg_key_catalogue *catalogue)
 {
-    size_t first = ntwin;
-    for (size_t k = 0; k < table->n && ntwin < MOST_TWINS; k++, ntwin++) {
-        snprintf (twin_text[ntwin].path, TWIN_PATH, "%s%s", catalogue->also, table->key[k].path);
-        snprintf (twin_text[ntwin].doc, TWIN_DOC, "As %s, %s.", table->key[k].path, catalogue->also_doc);
-        twin[ntwin] = table->key[k];
-        twin[ntwin].path = twin_text[ntwin].path, twin[ntwin].doc = twin_text[ntwin].doc;
+    size_t first = all.ntwin;
+    for (size_t k = 0; k < table->n && all.ntwin < MOST_TWINS; k++, all.ntwin++) {
+        pg_key *twin = &all.twin[all.ntwin];
+        char *path = all.twin_text[all.ntwin].path, *doc = all.twin_text[all.ntwin].doc;
+        snprintf (path, TWIN_PATH, "%s%s", catalogue->also, table->key[k].path);
+        snprintf (doc, TWIN_DOC, "As %s, %s.", table->key[k].path, catalogue->also_doc);
+        *twin = table->key[k];
+        twin->path = path, twin->doc = doc;
     }
-    return (pg_key_table) { table->folder, twin + first, ntwin - first };
+    return (pg_key_table) { table->folder, all.twin + first, all.ntwin - first };
 }
 
 /* Adds the table of an entry, or the entry's name to a table that it shares with one before; 1: it was
@@ -59,10 +64,10 @@ static pg_key_table twins_of (const pg_key_table *table, const pg_key_catalogue 
 static int share_table (const pg_key_table *table, const char *name)
 {
     int shared = 0;
-    for (size_t t = 0; t < ntable; t++) {
-        if (owner[t].declared != table->key) continue;
-        size_t used = strlen (owner[t].names);
-        snprintf (owner[t].names + used, NAMES - used, "|%s", name);
+    for (size_t t = 0; t < all.ntable; t++) {
+        if (all.owner[t].declared != table->key) continue;
+        size_t used = strlen (all.owner[t].names);
+        snprintf (all.owner[t].names + used, NAMES - used, "|%s", name);
         shared = 1;
     }
     return shared;
@@ -101,9 +106,9 @@ static void gather (void)
 /* Gathered on the first call, whichever thread makes it. */
 const pg_key_table *pg_scene_tables (size_t *n)
 {
-    pthread_once (&once, gather);
-    *n = ntable;
-    return tables;
+    pthread_once (&all.once, gather);
+    *n = all.ntable;
+    return all.table;
 }
 
 /* By the address of the row: rows are unique. */
@@ -112,10 +117,10 @@ const char *pg_key_entries (const pg_key *key, const char **selector)
     size_t n;
     const pg_key_table *table = pg_scene_tables (&n);
     for (size_t t = 0; t < n; t++)
-        for (size_t k = 0; owner[t].catalogue && k < table[t].n; k++) {
+        for (size_t k = 0; all.owner[t].catalogue && k < table[t].n; k++) {
             if (key != &table[t].key[k]) continue;
-            if (selector) *selector = owner[t].catalogue->selector;
-            return owner[t].names;
+            if (selector) *selector = all.owner[t].catalogue->selector;
+            return all.owner[t].names;
         }
     return NULL;
 }
