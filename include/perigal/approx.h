@@ -1,9 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * approx.h: N and its derivatives at any point over live bonds. Catalogue: src/approx/<name>.c + one line in
- * list.h. nosb at a node expands about the node: N is 1 there, the own node is no neighbour (its alive bit
- * does not matter, its w is 0) and must be in the family; at any other point nosb equals pddo. On a point
- * without live bonds a node of nosb keeps N = 1 (PG_GRADE_SHEPARD). w in the rows is w V for every
- * approximation. Sources: Cui 2022 eqs (4)-(19); theory sections D1, E1, E2, F3; degenerate rule: F3. */
+ * approx.h: shape functions N and their derivatives at any place, from the points around it
+ * that are joined to it by live bonds. It is a catalogue: each approximation is
+ * src/approx/<name>.c and one line in list.h.
+ *
+ *   z_j = (x_j - x) / a,   p (z) = (1, z_k [, z_k z_l]),   A = sum_j w_j p_j p_j'
+ *   rkpm   N_j = p (0)' A^-1 p_j w_j,   dN_j its exact derivative
+ *   pddo   N_j the same,                dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j
+ *   nosb   at a node: basis without the 1, N = 1 at the node itself, dN_j from the shape tensor
+ *
+ * Sources: Cui 2022, equations (4) to (19); doc/method.md D1, E1, E2, F3. nosb at a node
+ * expands about the value of that node: the node itself is no neighbour (its alive bit does
+ * not matter and its w is 0) but must be in its own family. At any other place nosb equals
+ * pddo. In the rows w is the influence times the volume of the neighbour, w V, whatever
+ * weights the approximation uses. */
 #ifndef PERIGAL_APPROX_H
 #define PERIGAL_APPROX_H
 #include "perigal/cloud.h"
@@ -11,8 +20,16 @@
 
 PG_API_BEGIN
 
-/* What a point could still do with its live bonds. */
-enum { PG_GRADE_FULL,      /* the basis asked for */
+/* What a place can still do with its live bonds, from best to worst.
+ *
+ *   FULL       the basis that was asked for
+ *   LOWERED    quadratic was asked for, the linear basis is used
+ *   PROJECTED  (degenerate: projected) the linear basis in the directions in which the neighbours spread:
+ *              N belongs to the foot of the place on their line or plane, gradients lie in it
+ *   SHEPARD    fewer than dim + 1 neighbours, or the smallest eigenvalue of their centred second moment is
+ *              below 1e-3 h^2: N = w / sum w and no gradient, so there is a displacement but no stress
+ *   DEAD       no live neighbour: N = 0 */
+enum { PG_GRADE_FULL,
        PG_GRADE_LOWERED,   /* quadratic asked, linear used */
        /* `projected`, and of the linear basis only the directions in which the neighbours still spread: N is
         * that of the foot of the point on their line or plane, gradients are along it */
@@ -22,67 +39,92 @@ enum { PG_GRADE_FULL,      /* the basis asked for */
        PG_GRADE_SHEPARD,
        PG_GRADE_DEAD };    /* no live neighbour: N = 0 */
 
-typedef struct {                                       /* evaluation points and their shape functions */
+/* Evaluation points with their shape functions in compressed rows: entries family.start[i] to
+ * family.start[i + 1] - 1 belong to point i; nnz is their total number. */
+typedef struct {
     int     dim;
     size_t  n;
-    double *x;                                         /* m (n x dim) */
-    double *weight;                                    /* integration weight, m^3; 0 where none (n) */
-    int    *own;                                       /* the node that this point is, or -1 (n) */
-    int    *cell;                                      /* background cell or -1 (n) */
-    pg_family family;                                  /* nodes seen from each point (own node included) */
-    double *N;                                         /* shape functions, 0 on dead bonds (nnz) */
-    double *dN;                                        /* derivatives, 1/m (nnz x dim) */
-    double *w;                                         /* influence w V (m^3), 0 on dead bonds (nnz) */
-    unsigned char *grade;                              /* PG_GRADE_... (n) */
+    /* Places, m (n x dim). */
+    double *x;
+    /* Integration weight, m3; 0 where there is none (n). */
+    double *weight;
+    /* The node that this place is, or -1 (n). */
+    int    *own;
+    /* The background cell that it lies in, or -1 (n). */
+    int    *cell;
+    /* Nodes seen from each place, the own node included. */
+    pg_family family;
+    /* Shape functions, 0 on dead bonds (nnz). */
+    double *N;
+    /* Their derivatives, 1/m (nnz x dim). */
+    double *dN;
+    /* Influence times volume, m3, 0 on dead bonds (nnz). */
+    double *w;
+    /* PG_GRADE_... (n). */
+    unsigned char *grade;
 } pg_rows;
 
 typedef struct pg_approx_type pg_approx_type;
+/* An approximation with its choices. */
 typedef struct {
     const pg_approx_type *type;
     const pg_kernel *kernel;
-    int    order;                                      /* basis: 1 linear, 2 quadratic */
-    int    shape;                                      /* PG_RADIAL: w(|z|); PG_TENSOR: prod_k w(|z_k|) */
+    /* Order of the basis: 1 linear, 2 quadratic. */
+    int    order;
+    /* PG_RADIAL: the influence is w (|z|); PG_TENSOR: the product of w (|z_k|). */
+    int    shape;
     int    use_volume;  /* V_j in the weights (default: nosb, pddo yes; rkpm no: V_j = 1) */
-    double horizon;                                    /* support radius a, m */
-    int    projected;  /* 1: PG_GRADE_PROJECTED is allowed (linear basis); 0: never */
-    /* 1: a point that lost no bond keeps the basis however little its neighbours spread, as long as the
-     * moment matrix has a factor (consistent integration) */
+    /* Radius of the support, m. */
+    double horizon;
+    /* 1: PG_GRADE_PROJECTED is allowed (linear basis only); 0: never. */
+    int    projected;
+    /* 1: a place that has lost no bond keeps the basis however little its neighbours spread,
+     * as long as the moment matrix has a factor (used by consistent integration). */
     int    extrapolates;
 } pg_approx;
 
+/* The descriptor of an approximation. */
 struct pg_approx_type {
     const char *name, *summary;
-    int use_volume;                                    /* the default */
-    int exact;                                         /* 1: derivatives are those of the shape functions */
-    /* How far the tip of a crack may lie from where it is drawn, in spacings: the worst of eight places
-     * among the points, with evaluation at Gauss points by the basis, and at the points alone
-     * (src/model/tips.c). */
+    /* Default of pg_approx.use_volume. */
+    int use_volume;
+    /* 1: dN are the derivatives of the shape functions themselves (rkpm); 0: of a fit. */
+    int exact;
+    /* How far from where it is drawn the tip of a crack may lie, in spacings: the worst of
+     * eight places among the points, for Gauss points with the linear and the quadratic basis,
+     * and for nodal integration (src/model/tips.c). */
     struct { double linear, quadratic, nodal; } tip;
-    /* 1: N of a node is 1 at that node and 0 at the others, so that values are coefficients */
+    /* 1: N of a node is 1 at that node and 0 at the others, so that coefficients are
+     * displacements. */
     int interpolates;
-    /* Re-evaluates rows list[0..count) (list NULL: rows 0..count) from `alive` (nnz, 0/1; NULL: all alive),
-     * on `threads`. Of N, dN and w, those that are NULL are left out, the others and the grades are the same
-     * bits. */
+    /* Evaluates the rows list[0] to list[count - 1] (list NULL: the rows 0 to count - 1)
+     * again, with the live bonds of `alive` (nnz, 0 or 1; NULL: all), on `threads` threads. Of
+     * N, dN and w those that are NULL are left out; the others and the grades then have the
+     * same bits as if all were computed. A row depends on its own bonds only, so order and
+     * threads do not matter. */
     pg_status (*evaluate) (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
                            const unsigned char *alive, size_t count, const size_t *list, int threads);
 };
+/* The approximation of a name, NULL if there is none. */
 const pg_approx_type *pg_approx_find (const char *name);
+/* All names, separated by |. */
 const char *pg_approx_names (void);
-/* The approximation of `method` in the scene; spacing in m. */
+/* Reads the approximation of the section `method` of a scene for a force with shape functions;
+ * spacing in m. A horizon below one spacing is a fault of the scene. */
 pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing);
-/* The same for a force without shape functions, whose unknowns are displacements of points: kernel and
- * horizon of the scene, else those given (horizon: spacings); the expansion about a point serves to sample.
- */
+/* The same for a force without shape functions, whose unknowns are the values at the points:
+ * kernel and horizon (spacings) are the defaults of that force, which the scene may replace. */
 pg_status pg_approx_read_points (pg_approx *out, const pg_scene *scene, double spacing, const char *kernel,
                                  double horizon);
 /* Keys of forces with shape functions: approximation, basis, support, weights, degenerate. */
 extern const pg_key_table pg_keys_shape_functions;
 
-/* Rows at n points: copies x, searches families, allocates N, dN, w (zero until evaluated). own, cell, weight
- * may be NULL. */
+/* Makes rows at n places: copies x, searches the families and allocates N, dN and w, which are
+ * zero until they are evaluated. weight, own and cell may be NULL. */
 pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,
                           const double *weight, const int *own, const int *cell);
 void      pg_rows_clear  (pg_rows *rows);
+/* Number of places with that grade. */
 size_t    pg_rows_count  (const pg_rows *rows, int grade);
 PG_API_END
 #endif

@@ -89,22 +89,28 @@ pg_status pg_table_row    (pg_table *table, const double *values);
 /* Appends a row of n texts, quoted where necessary; NULL leaves its cell empty. */
 pg_status pg_table_line   (pg_table *table, const char *const *values);
 void      pg_table_close  (pg_table **table);
-/* A table read back, whole: names as the header has them, with their units, and the rows as numbers. */
+/* A CSV table that was read back whole. To be freed with pg_csv_clear. */
 typedef struct {
     size_t  ncolumn, nrow;
-    char  **name;                                      /* "force [N]" (ncolumn) */
-    double *value;                                     /* NAN: empty, or no number (nrow x ncolumn) */
-    char   *text;                                      /* holds the names */
+    /* Names as in the header, with their units, such as "force [N]" (ncolumn). */
+    char  **name;
+    /* The numbers (nrow x ncolumn); NAN for an empty cell or one that is no number. */
+    double *value;
+    /* The text of the file, which holds the names. */
+    char   *text;
 } pg_csv;
+/* Reads a table. PG_E_FILE: it cannot be read, or is empty. Rows that are too short are filled
+ * with NAN, and cells beyond the header are dropped. */
 pg_status pg_csv_read   (pg_csv *csv, const char *path);
 void      pg_csv_clear  (pg_csv *csv);
 /* Column of a name, given as in the header or without its unit; -1: there is none. */
 long      pg_csv_column (const pg_csv *csv, const char *wanted);
-size_t    pg_csv_name   (const char *column);          /* length of the name alone, without " [unit]" */
+/* Length of the name at the beginning of a header cell, without " [unit]". */
+size_t    pg_csv_name   (const char *column);
 
 /* ---- checkpoint.nc: what a run must remember, in classic netCDF ---------------------------------------- */
 /* A function that visits everything that a checkpoint holds, in a fixed order: it calls the
- * keeper (mesh.h) with a name, a length and an array for each piece. The same function serves
+ * keeper (base.h) with a name, a length and an array for each piece. The same function serves
  * to write and to read, so that the two cannot differ. */
 typedef pg_status (*pg_keep) (void *context, const pg_keeper *keeper);
 /* Writes a checkpoint. `walk` is called twice, with the same names and lengths: to define the

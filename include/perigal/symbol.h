@@ -1,101 +1,164 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * symbol.h: the infinite lattice of a scene's first material, and its plane waves. With u_j = U exp (i k.x_j)
- * the force on every point is
- * - S (k) U exp (i k.x_j), S (k) = sum_j K_0j exp (i k.(x_j - x_0)), the symbol: Hermitian, m x m, m the
- *   unknowns of a point (its displacement, then length times its rotation). K_0j is what the force of the
- *   scene answers in a box of the same material, spacing and method, no formula: it holds for every entry of
- *   src/force, approximation and integration. (The largest frequency of a body at hand is
- * pg_solver_fastest.) */
+ * symbol.h: plane waves of the infinite lattice that a scene would have inside its body. With
+ * displacements u_j = U exp (i k.x_j) the force on every point is - S (k) U exp (i k.x_j),
+ * where
+ *
+ *   S (k) = sum_j K_0j exp (i k.(x_j - x_0))
+ *
+ * is the symbol of the stiffness: a Hermitian m x m matrix, m being the number of unknowns of
+ * a point (its displacement, then for points with rotations the spacing h times the rotation).
+ * Its eigenvalues say which motions meet a resistance, and S U = omega^2 M U gives the
+ * dispersion of waves (doc/method.md, D4).
+ *
+ * K_0j is not taken from a formula. It is what the force model of the scene answers in a box
+ * with the scene's first material, spacing and method, when its middle point moves; so the
+ * analysis holds for every force, approximation and integration in the library. The largest
+ * frequency of a real body with its boundary is found by pg_solver_fastest instead. */
 #ifndef PERIGAL_SYMBOL_H
 #define PERIGAL_SYMBOL_H
 #include "perigal/force.h"
 
 PG_API_BEGIN
 
+/* Largest number of unknowns of a point: three displacements and three rotations. */
 enum { PG_UNKNOWNS = 6 };                              /* of a point at most */
+/* The measured blocks of an infinite lattice. */
 typedef struct {
-    int     dim, unknowns, threads;                    /* unknowns: m */
-    size_t  points;                                    /* of the box it was measured in */
-    double  step[3], h;  /* m: of the lattice; root of their product, by which rotations are multiplied */
-    pg_material material;  /* as the force has it; density 1 where the scene gives none */
-    int     dense;                                     /* 1: the scene gives a density */
-    size_t  n;  /* points that the middle one is coupled to, itself among them */
-    int    *offset;                                    /* x_j - x_0 in steps (n x 3) */
-    double *block;                                     /* K_0j, N/m (n x m x m) */
-    /* of shape functions: int N_0 N_j dV / V (n); NULL: displacements are the unknowns themselves */
+    /* Dimension; m, the unknowns of a point; threads to use. */
+    int     dim, unknowns, threads;
+    /* Points of the box in which the blocks were measured. */
+    size_t  points;
+    /* Steps of the lattice, and h, the dim-th root of their product, by which rotations are
+     * multiplied, m. */
+    double  step[3], h;
+    /* The material as the force has it; its density is 1 where the scene gives none. */
+    pg_material material;
+    /* 1 if the scene gives a density, so that frequencies have a meaning. */
+    int     dense;
+    /* Number of points that the middle one is coupled to, itself among them. */
+    size_t  n;
+    /* Their offsets x_j - x_0 in steps (n x 3). */
+    int    *offset;
+    /* K_0j, N/m (n x m x m). */
+    double *block;
+    /* int N_0 N_j dV / V of shape functions (n); NULL where displacements are the unknowns
+     * themselves. */
     double *spread;
-    unsigned char held[PG_UNKNOWNS];  /* 1: nothing resists this unknown at any k, so that it is held */
-    double  volume;                                    /* of a point, m^3 */
-    double  mass[PG_UNKNOWNS];                         /* lumped, kg */
-    double  size;                                      /* largest |K_0j|, N/m */
-    double  lopsided;  /* largest |K_0j - K_0,-j'| over the largest entry: rounding */
-    /* of the largest frequency, as explicit methods take it, rad/s; NAN: they measure it */
+    /* 1 if nothing resists this unknown at any k (for example rotations without bending); such
+     * unknowns are left out of the eigenvalue problems. */
+    unsigned char held[PG_UNKNOWNS];
+    /* Volume of a point, m3. */
+    double  volume;
+    /* Lumped mass of each unknown, kg. */
+    double  mass[PG_UNKNOWNS];
+    /* Largest entry of the blocks, N/m. */
+    double  size;
+    /* Largest |K_0j - K_0,-j'| over the largest entry; only rounding, else pg_symbol_create
+     * fails. */
+    double  lopsided;
+    /* Upper bound of the largest frequency that explicit solvers take for their time step,
+     * rad/s, and where it comes from, in words; NAN if they measure the frequency itself. */
     double  bound;  const char *from;
 } pg_symbol;
-/* problem: built from that scene. PG_E_USAGE where it is no lattice: a mesh, points of a file, points moved
- * at random; PG_E_LIMIT: a horizon of so many spacings that the box would be too large. */
+/* Measures the lattice of a scene, of which `problem` was built. PG_E_USAGE: there is no
+ * lattice (points of a mesh or of a file, points moved at random), the material is not
+ * isotropic, or nothing resists the points. PG_E_LIMIT: the horizon has so many spacings that
+ * the box would be too large. */
 pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_problem *problem);
 void      pg_symbol_free   (pg_symbol **symbol);
-/* S (k), k in rad/m (dim): its real part and its imaginary part, N/m (m x m each). */
+/* S (k) for k in rad/m (dim): real and imaginary part, N/m (m x m each). */
 void      pg_symbol_at     (const pg_symbol *symbol, const double *k, double *real, double *imaginary);
 
+/* The modes of one wave vector. */
 typedef struct {
-    int    n;                                          /* m less the unknowns that are held */
-    double value[PG_UNKNOWNS];                         /* ascending */
-    double turning[PG_UNKNOWNS];                       /* share of rotations in the motion, 0 to 1 */
-    double along[PG_UNKNOWNS];  /* share of its displacement along k; modes alike: their mean */
+    /* Number of modes: m less the unknowns that are held. */
+    int    n;
+    /* Eigenvalues or frequencies, ascending. */
+    double value[PG_UNKNOWNS];
+    /* Share of rotations in the motion, 0 to 1. */
+    double turning[PG_UNKNOWNS];
+    /* Share of the displacement that is along k (longitudinal), 0 to 1. Modes of equal value
+     * have their mean. */
+    double along[PG_UNKNOWNS];
 } pg_symbol_modes;
-/* Mean square of the displacement u (x) = sum N_j d_j whose coefficients d are a wave of size 1: 1 for long
- * waves. */
+/* Mean square of the displacement u (x) = sum N_j d_j if the coefficients d are a wave of unit
+ * size: 1 for long waves, and 1 always where displacements are the unknowns. */
 double    pg_symbol_amplitude (const pg_symbol *symbol, const double *k);
-/* Eigenvalues of S h^2 / (E V), no unit; weighted: frequencies of S U = omega^2 M U, rad/s, those of a
- * growing motion (omega^2 < 0) as - |omega|. What is rounding beside K_0j is 0. */
+/* Without `weighted`: eigenvalues of S h^2 / (E V), which have no unit. With it: frequencies
+ * of S U = omega^2 M U, rad/s, where a growing motion (omega^2 < 0) is given as - |omega|.
+ * Values that are only rounding of the blocks are 0. */
 void      pg_symbol_solve  (const pg_symbol *symbol, const double *k, int weighted, pg_symbol_modes *out);
-/* Tangent of long waves, Pa (Voigt, nv x nv): uniform strain, rotations in equilibrium. NAN where rotations
- * are not stable. */
+/* The tangent stiffness that long waves see, Pa (Voigt, nv x nv): uniform strain, with the
+ * rotations in equilibrium. NAN where rotations are not stable. */
 void      pg_symbol_tangent (const pg_symbol *symbol, double *D);
 
 /* ---- survey -------------------------------------------------------------------------------------------- */
+/* One remarkable motion. */
 typedef struct {
-    double k[3];                                       /* rad/m */
-    double value;                                      /* as told where it is used */
-    double turning, along;                             /* as in pg_symbol_modes */
-    int    alike;                                      /* modes of that value there */
+    /* Wave vector, rad/m. */
+    double k[3];
+    /* Its value; which one is said where it is used. */
+    double value;
+    /* As in pg_symbol_modes. */
+    double turning, along;
+    /* Number of modes with this value at this k. */
+    int    alike;
 } pg_motion;
+/* What a sampling of all wave vectors shows. "Eigenvalue" is that of S h^2 / (E V). */
 typedef struct {
-    int       grid;  /* wave vectors along an axis of the whole zone, 0 and pi / step among them */
-    size_t    vectors;                                 /* sampled: half of the zone, as - k is k */
-    pg_motion smallest;  /* least eigenvalue of S h^2 / (E V), rigid translation left out */
-    /* least eigenvalue over that of the continuum's softest wave of that k: by the mean square of u (x): 1
-     * for long ones; motions that are mostly displacement */
+    /* Wave vectors along an axis of the whole Brillouin zone, 0 and pi / step among them. */
+    int       grid;
+    /* Number of sampled wave vectors: half of the zone, as k and - k are one. */
+    size_t    vectors;
+    /* The least eigenvalue, rigid translation left out. */
+    pg_motion smallest;
+    /* The least ratio of an eigenvalue to that of the continuum's softest wave with the same k
+     * and the same mean square of u (x), among motions that are mostly displacement: 1 for
+     * long waves. */
     pg_motion softest;
-    double    largest;                                 /* eigenvalue */
-    /* least eigenvalue of motions that are mostly rotation: at k = 0, anywhere; NAN: there are none */
+    /* The largest eigenvalue in size. */
+    double    largest;
+    /* Least eigenvalue of motions that are mostly rotation: at k = 0, and anywhere; NAN if
+     * there are none. */
     double    turning[2];
-    double    shortest[2];  /* eigenvalues at the edges and corners of the zone, least and largest */
-    /* motions of a periodic box of grid^dim points that gain energy (by more than 1e-10 of the largest
-     * eigenvalue), have none beside rigid translation, are softer than 0.01 (the others among them not) */
+    /* Least and largest eigenvalue at the edges and corners of the zone, where waves are
+     * shortest. */
+    double    shortest[2];
+    /* Motions of a periodic box of grid^dim points that gain energy (by more than 1e-10 of the
+     * largest eigenvalue); that have none, rigid translation not counted; that are softer than
+     * 0.01 of a continuum's wave. */
     size_t    negative, zero, weak;
-    pg_motion first;                                   /* of those without energy, with the shortest wave */
-    pg_motion fastest;                                 /* largest frequency, rad/s */
-    struct {                                           /* waves of 20 h along x; xy; xyz */
-        const char *along;                             /* NULL: no more */
-        /* speed over that of the continuum; shear: slower, faster; NAN: none */
+    /* The shortest wave among the motions without energy. */
+    pg_motion first;
+    /* The largest frequency, rad/s. */
+    pg_motion fastest;
+    /* Waves of 20 spacings along x, xy and xyz. */
+    struct {
+        /* Direction in words; NULL: no more of them. */
+        const char *along;
+        /* Speeds over those of the continuum: longitudinal wave; slower and faster shear wave,
+         * NAN if there is none. */
         double longitudinal, shear[2];
     } wave[3];
-    double    tangent[36];  /* pg_symbol_tangent over the continuum's D entry by entry (0: both are zero) */
+    /* pg_symbol_tangent over the continuum's D, entry by entry; where that is zero, over
+     * Young's modulus. */
+    double    tangent[36];
 } pg_survey;
+/* Solves all wave vectors of the zone (with threads; the result does not depend on their
+ * number) and sums up. */
 pg_status   pg_symbol_survey (pg_survey *out, const pg_symbol *symbol);
-/* "stable: ...", "unstable: ..., try ...": one sentence. */
+/* One sentence for users: "stable: ..." or "unstable: ..., try ...". */
 void pg_survey_verdict (const pg_survey *survey, const pg_symbol *symbol, const pg_problem *problem,
                         char *text, size_t size);
-/* "displacement across k", "rotation", ...; where: "checkerboard", "waves of 3 spacings", ... */
+/* The kind of a motion in words: "transverse displacement", "rotation" and the like. */
 const char *pg_motion_kind  (const pg_motion *motion, const pg_symbol *symbol);
+/* Where in the zone it lies, in words: "checkerboard", "waves of 3 spacings" and the like. */
 void        pg_motion_where (const pg_motion *motion, const pg_symbol *symbol, char *text, size_t size);
 
-/* Wave vectors along the edges of the zone from Gamma (k = 0) to X (pi / step, 0, 0), M (both), in three
- * dimensions R (all), and back to Gamma, `leg` steps each. Vector i: k (rad/m), the length of the path up to
- * it (rad/m) and its name ("" between); returns how many there are. */
+/* Wave vectors along the edges of the Brillouin zone, for dispersion curves: from Gamma (k =
+ * 0) to X (pi / step, 0, 0), in 2D and 3D on to M (x and y), in 3D on to R (all three), and
+ * back to Gamma, with `leg` steps each. Vector i has k (rad/m), the length of the path up to
+ * it (rad/m) and its name ("" between the corners). Returns the number of vectors. */
 size_t pg_symbol_path (const pg_symbol *symbol, size_t leg, size_t i, double *k, double *length,
                        const char **name);
 PG_API_END

@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The table of approximations, and the approximation that the scene asks for. */
+ * The table of approximations, expanded from list.h, and the approximation that a scene asks
+ * for. Forces that act between pairs of points need no shape functions: for them the values at
+ * the points are the unknowns, and kernel and horizon are those that the force asks for unless
+ * the scene gives others. */
 #include "entries.h"
 #include <string.h>
 
@@ -15,6 +18,7 @@ static const char names[] =
 #undef PG_APPROX
     ;
 
+/* A table of a few entries needs no index. */
 const pg_approx_type *pg_approx_find (const char *name)
 {
     for (size_t i = 0; name && i < sizeof table / sizeof *table; i++)
@@ -24,13 +28,15 @@ const pg_approx_type *pg_approx_find (const char *name)
 
 const char *pg_approx_names (void) { return names + 1; }
 
+/* 1 if the key has that value. */
 static int is (const pg_scene *scene, const char *key, const char *value)
 {
     const char *text = pg_scene_text (scene, "%s", key);
     return text && strcmp (text, value) == 0;
 }
 
-/* Horizon and kernel are those that any force asks for. */
+/* A horizon below one spacing would leave every point without a neighbour; this is said before
+ * anything is built. */
 static pg_status check_horizon (const pg_approx *a, const pg_scene *scene, double spacing)
 {
     if (a->horizon >= spacing * (1 - 1e-9)) return PG_OK;
@@ -40,6 +46,7 @@ static pg_status check_horizon (const pg_approx *a, const pg_scene *scene, doubl
     return pg_scene_verdict (scene);
 }
 
+/* Weights: `auto` keeps what the approximation prefers. */
 pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing)
 {
     pg_status status = PG_OK;
@@ -61,6 +68,8 @@ done:
     return status;
 }
 
+/* The first approximation of the table whose N is 1 at its own node stands in: it only serves
+ * to sample fields between points. */
 pg_status pg_approx_read_points (pg_approx *out, const pg_scene *scene, double spacing, const char *kernel,
                                  double horizon)
 {

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of method that choose the neighbours of a point, for every force, and the shape functions, for
- * forces that have some. */
+ * The keys of the section `method` that choose the neighbours of a point, for every force, and
+ * the shape functions, for forces that have some. Each row is read by the parser, by the
+ * checks, by `perigal help` and by the documentation; nothing else names these keys except
+ * catalogue.c. */
 #include "perigal/approx.h"
 
 static const pg_key keys[] = {

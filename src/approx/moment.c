@@ -1,14 +1,24 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Basis p (z) = [1] z_k [z_k z_l], moment matrix A = sum w p p' = L L', and what is left of the basis where
- * too few bonds live. Theory E1, D1; degenerate rule: approx.h. */
+ * The moment matrix of a point and what follows from it, shared by all approximations. With
+ * z_j = (x_j - x) / a, the bond to the neighbour j in horizons,
+ *
+ *   p (z) = [1], z_k, [z_k z_l]        A = sum_j w_j p_j p_j' = L L'
+ *   N_j = e_0' A^-1 p_j w_j            dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j
+ *
+ * (doc/method.md E1; without the 1 it is the shape tensor of D1). Lengths in horizons and
+ * weights of sum 1 keep A well scaled in any unit. A is factored by Cholesky, which also tells
+ * whether the neighbours can carry the basis: a pivot below 1e-8 (quadratic: 1e-10) of the
+ * diagonal counts as zero. */
 #include "moment.h"
 #include <string.h>
 
+/* Number of functions: [1] + dim + dim (dim + 1) / 2. */
 static int basis_size (int dim, int order, int constant)
 {
     return constant + dim + (order == 2 ? dim * (dim + 1) / 2 : 0);
 }
 
+/* p (z), the constant first, then z_k, then the products z_k z_l with l >= k. */
 static void basis (const pg_neighbourhood *s, const double *z, double *p)
 {
     int m = 0;
@@ -29,7 +39,8 @@ void pg_basis_slope (const pg_neighbourhood *s, const double *z, const double *b
         }
 }
 
-/* A (size x size, all of it: whole rows make even steps) += w p p' */
+/* A (size x size, all of it) += w p p'. Both halves are filled, because loops of constant
+ * length over whole rows become vector instructions. */
 static inline void add_moment (int size, double w, const double *p, double *A)
 {
     for (int r = 0; r < size; r++) {
@@ -38,7 +49,7 @@ static inline void add_moment (int size, double w, const double *p, double *A)
     }
 }
 
-/* Fills p and L; 0 where A is singular to working accuracy. */
+/* Fills p of all neighbours and L; returns 0 where A is singular to working accuracy. */
 static int factor (pg_neighbourhood *s, double tiny)
 {
     int size = s->size;
@@ -74,8 +85,9 @@ void pg_neighbourhood_spread (const pg_neighbourhood *s, const double *centre, d
     }
 }
 
-/* Is the smallest eigenvalue of the centred second moment below 1e-3 h^2? It is not where M - 1e-3 h^2 I has
- * a factor. */
+/* 1 if the smallest eigenvalue of the centred second moment M is below 1e-3 h^2, h being the
+ * spacing: the neighbours then lie almost on a line or plane. No eigenvalue is computed: M -
+ * 1e-3 h^2 I has a Cholesky factor exactly if all eigenvalues are above. */
 static int flat (const pg_neighbourhood *s, double h)
 {
     int dim = s->dim;
@@ -86,7 +98,8 @@ static int flat (const pg_neighbourhood *s, double h)
     return pg_dense_cholesky (dim, M, 0) != 0;
 }
 
-/* Where the neighbours spread too little */
+/* What remains where the neighbours spread too little: a projected basis if that is allowed,
+ * else Shepard's. */
 static int left_over (pg_neighbourhood *s, int order, double h)
 {
     if (!s->project || order != 1) return PG_GRADE_SHEPARD;
@@ -96,6 +109,8 @@ static int left_over (pg_neighbourhood *s, int order, double h)
     return s->projected ? PG_GRADE_PROJECTED : PG_GRADE_SHEPARD;
 }
 
+/* Tries the basis that was asked for, then the next lower one. Rounding in the quadratic
+ * moments is larger, so its pivots may be smaller before they count as zero. */
 int pg_neighbourhood_grade (pg_neighbourhood *s, int order, double h)
 {
     s->projected = 0;
@@ -129,6 +144,7 @@ void pg_neighbourhood_solve (const pg_neighbourhood *s, int row, double *b)
     pg_neighbourhood_invert (s, b);
 }
 
+/* Scalar product of n numbers. */
 static double dot (int n, const double *a, const double *b)
 {
     double sum = 0;

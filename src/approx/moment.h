@@ -1,70 +1,105 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * moment.h: the live bonds of one point (its star), their basis and moment matrix; shared by all
- * approximations. Lengths are in horizons: z = (x_j - x) / a, a the support at the point (that of its nearest
- * node where spacings differ; w_j has its own a_j, and nothing but rounding depends on a). The weights of a
- * star sum to 1: no unit and no volume scale enters. */
+ * moment.h: the live bonds of one place, their basis and moment matrix, shared by all
+ * approximations. Lengths are in horizons: z = (x_j - x) / a with the support radius a at the
+ * place (that of its nearest node where spacings differ; each weight w_j has the radius a_j of
+ * its own node, and nothing but rounding depends on a). The weights of a place sum to 1, so
+ * that neither a unit nor a scale of volumes enters. */
 #ifndef PERIGAL_APPROX_MOMENT_H
 #define PERIGAL_APPROX_MOMENT_H
 #include "perigal/approx.h"
 
+/* Largest basis: 1 + 3 + 6 in three dimensions. */
 enum { PG_BASIS_MAX = 10 };
-#define PG_STEEPEST 12.0  /* a |dN| above it: the bonds left cannot bear the basis */
+/* Largest a |dN| for which the bonds that are left count as able to carry the basis (intact:
+ * up to 3). */
+#define PG_STEEPEST 12.0
 #define PG_STEEPEST_QUADRATIC 20.0
-#define PG_THINNEST 1e-3  /* a direction is lost where the second moment is below this h^2 */
+/* A direction counts as lost where the second moment along it is below this times h^2. */
+#define PG_THINNEST 1e-3
 
+/* The live bonds of one place. */
 typedef struct {
-    int     dim, order, size;  /* basis in use: 1 linear, 2 quadratic; number of functions */
-    int     constant;  /* 1: the basis starts with 1; 0: no 1 (nosb about a node) */
-    double  a, h;                                      /* support and spacing at the point, m */
-    double *ratio;                                     /* a / a_j; NULL: 1 (n) */
-    size_t  n;                                         /* live bonds with w > 0 */
-    size_t  own;  /* place of the own node in the row, where constant = 0 */
-    int     stray;                                     /* 1: a node that must be in its own family is not */
-    int     lost;                                      /* 1: a bond of the family is dead */
-    int     extrapolates;  /* 1: unless it has, its neighbours may spread as little as the factor bears */
-    size_t *entry;                                     /* place in the row (n) */
-    double *z;                                         /* bond in horizons (n x dim) */
-    double *w;                                         /* weight (n) */
-    double *slope;                                     /* a dw/dx (n x dim) */
-    double *p;                                         /* basis at z (n x size) */
-    double *q, *k, *dk;                                /* arguments and values of the kernel (n x dim) */
-    int     project;                                   /* 1: what is left of a linear basis may be used */
-    int     projected;                                 /* 1: it is: p about `centre`, G in place of L */
-    double  L[PG_BASIS_MAX * PG_BASIS_MAX];            /* Cholesky factor of A = sum w p p' */
-    double  G[16];                                     /* generalised inverse of A (size x size) */
-    double  centre[3];                                 /* sum w z (dim) */
+    /* Dimension; order of the basis in use (1 linear, 2 quadratic) and number of its
+     * functions. */
+    int     dim, order, size;
+    /* 1: the basis begins with 1; 0: it does not (nosb at a node). */
+    int     constant;
+    /* Support radius and spacing at the place, m. */
+    double  a, h;
+    /* a / a_j of each bond (n); NULL: all are 1. */
+    double *ratio;
+    /* Number of live bonds with a weight above zero. */
+    size_t  n;
+    /* Entry of the own node in the row, where constant = 0. */
+    size_t  own;
+    /* 1: a node that must be in its own family is not. */
+    int     stray;
+    /* 1: a bond of the family is dead. */
+    int     lost;
+    /* 1: as long as no bond is lost the neighbours may spread as little as the factor of A
+     * allows. */
+    int     extrapolates;
+    /* Entry of each bond in the row (n). */
+    size_t *entry;
+    /* Bonds in horizons (n x dim). */
+    double *z;
+    /* Weights (n). */
+    double *w;
+    /* a dw/dx at the place, in the scale of the weights (n x dim). */
+    double *slope;
+    /* Basis at each z (n x size). */
+    double *p;
+    /* Arguments, values and derivatives of the kernel (n, tensor support: n x dim). */
+    double *q, *k, *dk;
+    /* 1: what is left of a linear basis may be used. */
+    int     project;
+    /* 1: it is used: p is taken about `centre`, and G stands in for A^-1. */
+    int     projected;
+    /* Cholesky factor of A = sum w p p'. */
+    double  L[PG_BASIS_MAX * PG_BASIS_MAX];
+    /* Generalised inverse of A (size x size). */
+    double  G[16];
+    /* Weighted mean of z (dim). */
+    double  centre[3];
 } pg_neighbourhood;
 
-/* values (NULL: it has none): N alone, the same bits. What an approximation adds to the common loop: N (row)
- * and dN (row x dim, 1/m), zero on entry, of a point with a full, lowered or projected basis. about_node: a
- * point that is a node expands about its own value (basis without 1, own node no neighbour). */
+/* What an approximation adds to the common loop. about_node = 1: at a place that is a node it
+ * expands about the value of that node (basis without the 1, the own node is no neighbour).
+ * fill writes N (one row) and dN (row x dim, 1/m), both zero on entry, at a place with a full,
+ * lowered or projected basis. values (NULL: there is none) writes N alone, with the same bits. */
 typedef struct {
     int about_node;
     void (*fill) (const pg_neighbourhood *star, double *N, double *dN);
     void (*values) (const pg_neighbourhood *star, double *N);
 } pg_formula;
 
-/* The loop over points: live bonds, degenerate rule, formula. */
+/* The loop over places: gathers live bonds, applies the rule for too few of them, calls the
+ * formula. Arguments as those of pg_approx_type.evaluate. PG_E_USAGE: a bad order, dimension
+ * or horizon, or a node that is missing in its own family. */
 pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
                            pg_rows *rows, const unsigned char *alive, size_t count, const size_t *list,
                            int threads);
 
-/* Chooses the basis (`order` or less), fills p and L or G; spacing h in m. Returns a PG_GRADE_... */
+/* Chooses the richest basis of at most `order` that the bonds can carry, fills p and L (or G),
+ * and returns a PG_GRADE_...; h is the spacing, m. */
 int  pg_neighbourhood_grade   (pg_neighbourhood *star, int order, double h);
-/* Finds the directions of the linear basis that are left, fills p, G and centre; 0: none is. */
+/* Finds the directions of the linear basis that are left, fills p, G and centre; 0: none is
+ * left. */
 int  pg_neighbourhood_project (pg_neighbourhood *star, double h);
-/* M (dim x dim) = sum w (z - centre) (z - centre)', lower triangle */
+/* The second moment M (dim x dim, lower triangle) = sum w (z - centre) (z - centre)'. */
 void pg_neighbourhood_spread  (const pg_neighbourhood *star, const double *centre, double *M);
-/* centre (dim) = sum w z */
+/* centre (dim) = sum w z. */
 void pg_neighbourhood_centre  (const pg_neighbourhood *star, double *centre);
-/* b = A^-1 b */
+/* Replaces b by A^-1 b, or by G b for a projected basis. */
 void pg_neighbourhood_invert  (const pg_neighbourhood *star, double *b);
-/* b with A b = unit vector `row` of the basis, or p at the point itself for the row of the 1. */
+/* b = A^-1 e_row; for row 0 of a projected basis the right side is p at the place itself, (1,
+ * - centre). */
 void pg_neighbourhood_solve   (const pg_neighbourhood *star, int row, double *b);
-/* N_j = w_j p_j . b */
+/* N_j = w_j p_j . b, written to the entries of the bonds in the row. */
 void pg_neighbourhood_shape   (const pg_neighbourhood *star, const double *b, double *N);
-/* dN_j = (1/a) e_k' A^-1 p_j w_j, e_k the row of z_k: theory E1 (with the 1), D1 (without). */
+/* dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j, where e_k is the row of z_k: E1 with the constant, D1
+ * without it. */
 void pg_neighbourhood_differential (const pg_neighbourhood *star, double *dN);
-/* d (b . p) / dz at z (dim), for a basis with the 1 */
+/* The gradient of b . p with respect to z at z (dim), for a basis with the constant. */
 void pg_basis_slope  (const pg_neighbourhood *star, const double *z, const double *b, double *slope);
 #endif

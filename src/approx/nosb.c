@@ -1,11 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Non-ordinary state-based derivative at a node: dN_j = w_j V_j K xi_ij, K = (sum w V xi xi')^-1, own node
- * -sum; N is 1 at the own node (theory D1). Quadratic: the same with the basis z_k, z_k z_l. At a point that
- * is no node there is no own value to expand about: the basis gains the 1, which is the peridynamic
- * differential operator. */
+ * The derivative of non-ordinary state-based peridynamics at a node (Cui 2022, equations (4)
+ * and (5); doc/method.md D1):
+ *
+ *   dN_j = w_j V_j K xi_ij,   K = (sum_j w_j V_j xi_ij xi_ij')^-1,   own node: minus the sum of the others
+ *
+ * and N is 1 at the node itself. With the quadratic basis the same holds with z_k and z_k z_l
+ * in place of xi. A place that is no node has no value of its own to expand about: there the
+ * basis gains the constant, which makes it the peridynamic differential operator (pddo.c). */
 #include "entries.h"
 #include "moment.h"
 
+/* With the derivative of the own node as minus the sum of the others, a constant field has no
+ * gradient. */
 static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     size_t dim = (size_t) s->dim;

@@ -1,9 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Peridynamic differential operator: N_j = e_0' A^-1 p_j w_j V_j, dN_j/dx_k = (1/a) e_k' A^-1 p_j w_j V_j.
- * Cui 2022 eqs (11)-(12), theory E1. */
+ * The peridynamic differential operator (Madenci, Barut and Dorduncu 2019; Cui 2022, equations
+ * (11) and (12); doc/method.md E1):
+ *
+ *   N_j = e_0' A^-1 p_j w_j V_j,     dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j V_j.
+ *
+ * N is that of a moving least squares fit; dN differentiates the fitted polynomial, not the
+ * fit, so it is not the gradient of N (doc/method.md E4 has the consequences). */
 #include "entries.h"
 #include "moment.h"
 
+/* Row 0 of A^-1 gives N, the rows of the linear functions give the derivatives. */
 static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     double b[PG_BASIS_MAX];

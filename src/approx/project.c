@@ -1,16 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a linear basis still can do where the neighbours of a point lie on a line or a plane (theory F3 item
- * 3). About their centre c the basis is p = (1, z - c), A = diag (1, M), M = sum w (z - c)(z - c)', and with
- * M+ the inverse on the directions that are left G = diag (1, M+). With P the projector on these directions
- *     A G p (0) = (1, -P c) = p (foot of the point on the line or plane),     A G e_k = P e_k:
- * shape functions sum to 1 and their derivatives to 0 for any point. (The Moore-Penrose inverse of A about
- *     the point itself agrees
- * where the point is on the line or plane; beside it p (0) leaves the range of A, and both sums are lost.)
- * About a node of nosb c = 0: M is A itself, and the lines and planes pass through the node. */
+ * What a linear basis can still do where the neighbours of a place lie on a line or on a plane
+ * (doc/method.md F3, item 3). About their centre c the basis is p = (1, z - c), so that A =
+ * diag (1, M) with M = sum w (z - c)(z - c)'. With M+, the inverse on the directions that are
+ * left, G = diag (1, M+) stands in for A^-1. Let P project on these directions:
+ *
+ *   A G p (0) = (1, - P c) = p (foot of the place on the line or plane),     A G e_k = P e_k.
+ *
+ * So the shape functions sum to 1 and their derivatives to 0 for any place. The Moore-Penrose
+ * inverse of A about the place itself agrees where the place lies on the line or plane; beside
+ * it, p (0) leaves the range of A, and both sums are lost. At a node of nosb c = 0: M is A
+ * itself, and lines and planes pass through the node. */
 #include "moment.h"
 
-/* M+ of the symmetric M (lower triangle): eigenvalues below the limit are dropped. Returns the number of
- * those kept. */
+/* M+ (dim x dim) of the symmetric M (lower triangle given): directions with an eigenvalue
+ * below the limit are dropped. Returns the number of directions kept. */
 static int invert_spread (int dim, double *M, double limit, double *inverse)
 {
     int kept = 0;
@@ -28,8 +31,8 @@ static int invert_spread (int dim, double *M, double limit, double *inverse)
     return kept;
 }
 
-/* p = ([1] z - c); a second pass takes out the rounding of c, which M+ would enlarge where the weights are
- * very uneven. */
+/* p = ([1] z - c). A second pass removes the rounding of c, which M+ would enlarge where the
+ * weights are very uneven. */
 static void centred_basis (pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, one = (size_t) s->constant, size = dim + one;

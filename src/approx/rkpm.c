@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Reproducing kernel: N_j = b.p_j w_j, b = A^-1 p (0), with its exact derivative (theory E2, Cui 2022 eq
- * (19)):
- *     N_j,k = b,k.p_j w_j + b.p_j,k w_j + b.p_j w_j,k,     A b,k = -A,k b.
- * A,k b = sum_j p_j (w_j,k b.p_j + w_j b.p_j,k) + sum_j w_j (b.p_j) p_j,k, and the last sum is sum_j N_j
- *     p_j,k = -e_k / a:
- * the derivative of a basis function is itself reproduced. */
+ * The reproducing kernel particle method (Liu, Jun and Zhang 1995) with the exact derivative
+ * of its shape functions (Cui 2022, equation (19); doc/method.md E2):
+ *
+ *   N_j   = b.p_j w_j,   b = A^-1 p (0)
+ *   N_j,k = b,k.p_j w_j + b.p_j,k w_j + b.p_j w_j,k,     A b,k = - A,k b
+ *   A,k b = sum_j p_j (w_j,k b.p_j + w_j b.p_j,k) + sum_j w_j (b.p_j) p_j,k
+ *
+ * The last sum is sum_j N_j p_j,k = - e_k / a, since derivatives of basis functions are
+ * reproduced themselves. This saves the sum over all pairs of basis functions for each
+ * neighbour. */
 #include "entries.h"
 #include "moment.h"
 
-/* a A,k b for all k: r (dim x size) */
+/* r = a A,k b for all k (dim x size). */
 static void moment_rate (const pg_neighbourhood *s, const double *b, double r[3][PG_BASIS_MAX])
 {
     for (int k = 0; k < s->dim; k++) {
@@ -27,6 +31,7 @@ static void moment_rate (const pg_neighbourhood *s, const double *b, double r[3]
     }
 }
 
+/* N, then b,k, then the three terms of the derivative for each bond. */
 static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     double b[PG_BASIS_MAX], r[3][PG_BASIS_MAX];
@@ -48,6 +53,7 @@ static void fill (const pg_neighbourhood *s, double *N, double *dN)
     }
 }
 
+/* N alone, by the same operations in the same order, so with the same bits. */
 static void values (const pg_neighbourhood *s, double *N)
 {
     double b[PG_BASIS_MAX];

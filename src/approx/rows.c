@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Evaluation points with their families and workspace for their shape functions. */
+ * Evaluation points with their families, and the memory for their shape functions. Families
+ * are searched once; breaking bonds changes the live list, not the families. */
 #include "perigal/approx.h"
 #include <string.h>
 
+/* All places count as dead until they are evaluated. Families include the nodes at exactly the
+ * horizon if the kernel is not zero there (`closed`). */
 pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,
                           const double *weight, const int *own, const int *cell)
 {

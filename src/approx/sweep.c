@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The loop over evaluation points shared by all approximations: gather the live bonds, weigh them, apply the
- * degenerate rule, call the formula. A row depends on nothing but its own bonds: any list, order or number of
- * threads gives the same bits. */
+ * The loop over evaluation points that all approximations share: gather the live bonds of a
+ * place, weigh them, apply the rule for too few bonds, call the formula. A row depends on
+ * nothing but its own bonds, so any list, order or number of threads gives the same bits. */
 #include "moment.h"
 #include <math.h>
 
+/* The arguments of one call. */
 typedef struct {
     const pg_formula *formula;
     const pg_approx *a;
@@ -12,17 +13,19 @@ typedef struct {
     pg_rows *rows;
     const unsigned char *alive;
     const size_t *list;
-    pg_neighbourhood *star;                                     /* one per thread */
+    /* Scratch space, one for each thread. */
+    pg_neighbourhood *star;
 } sweep;
 
-/* Kernel at q (n), no further than 1: a closed family may hold bonds longer by rounding. */
+/* Kernel and its derivative at q (n). Arguments are limited to 1: a family that includes its
+ * edge may hold bonds that are longer by rounding. */
 static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, double *dk)
 {
     for (size_t i = 0; i < n; i++) if (q[i] > 1) q[i] = 1;
     kernel->value (n, q, k, dk);
 }
 
-/* w (|z|) and a dw/dx = -w' z / |z| */
+/* Weights w (|z_j| a / a_j) and slopes a dw/dx = - w' z / |z|. */
 static void radial (const pg_kernel *kernel, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim;
@@ -40,7 +43,7 @@ static void radial (const pg_kernel *kernel, pg_neighbourhood *s)
     }
 }
 
-/* prod_k w (|z_k|) and its slope */
+/* Weights prod_k w (|z_k|) and their slopes by the product rule. */
 static void tensor (const pg_kernel *kernel, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim;
@@ -60,7 +63,7 @@ static void tensor (const pg_kernel *kernel, pg_neighbourhood *s)
     }
 }
 
-/* The node that row i is, else the nearest one it sees; -1: it sees none. */
+/* The node that row i is, or else the nearest one that it sees; -1: it sees none. */
 static int nearest_node (const sweep *g, size_t i)
 {
     const pg_rows *rows = g->rows;
@@ -78,7 +81,7 @@ static int nearest_node (const sweep *g, size_t i)
     return nearest;
 }
 
-/* Support and spacing at row i. */
+/* Support radius and spacing at row i, those of its nearest node where spacings differ. */
 static void measure_place (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     int nearest = g->cloud->size ? nearest_node (g, i) : -1;
@@ -87,7 +90,8 @@ static void measure_place (const sweep *g, size_t i, pg_neighbourhood *s)
     s->h = g->cloud->h * ratio;
 }
 
-/* Live bonds of row i into the star; the own node is none where the point expands about it. */
+/* Collects the live bonds of row i. A node that expands about its own value is not its own
+ * neighbour. */
 static void gather (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;
@@ -109,7 +113,8 @@ static void gather (const sweep *g, size_t i, pg_neighbourhood *s)
     if (own >= 0 && !seen) s->stray = 1;
 }
 
-/* Influence of each bond into rows->w; keeps the bonds with a weight, scaled to the sum 1. */
+/* Writes the influence times volume of each bond into rows->w, drops bonds without a weight,
+ * and scales the others to the sum 1. */
 static void weigh (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, first = g->rows->family.start[i], kept = 0;
@@ -137,9 +142,10 @@ static void weigh (const sweep *g, size_t i, pg_neighbourhood *s)
     }
 }
 
-/* Has the point lost bonds, and do those left enter its derivatives by more than PG_STEEPEST / a (intact: up
- * to 3 / a)? They then hang on influences near zero, whose own derivatives outgrow them: such a point would
- * feed energy into the body instead of losing it. */
+/* 1 if the place has lost bonds and one of those left enters its derivatives by more than
+ * PG_STEEPEST / a (intact places: up to 3 / a). Such derivatives hang on influences near zero,
+ * whose own derivatives outgrow them: a place like that would feed energy into the body
+ * instead of taking it out. */
 static int wild (const pg_neighbourhood *s, const double *dN)
 {
     double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a;
@@ -152,6 +158,7 @@ static int wild (const pg_neighbourhood *s, const double *dN)
     return 0;
 }
 
+/* Sets the entries first to last - 1 of N and dN to zero. */
 static void clear (pg_rows *rows, size_t first, size_t last)
 {
     size_t dim = (size_t) rows->dim;
@@ -159,9 +166,9 @@ static void clear (pg_rows *rows, size_t first, size_t last)
     for (size_t e = first * dim; rows->dN && e < last * dim; e++) rows->dN[e] = 0;
 }
 
-/* Shape functions by the richest basis that the live bonds bear; returns its grade. What the rows have no
- * workspace for is left out: derivatives then only go to scratch where the rule for steep ones or the formula
- * needs them. */
+/* Shape functions by the richest basis that the live bonds can carry; returns its grade.
+ * Derivatives that the caller did not ask for go to scratch space, where the rule for steep
+ * ones or the formula needs them. */
 static int fill (const sweep *g, pg_neighbourhood *s, pg_rows *rows, size_t first, size_t last)
 {
     for (int order = g->a->order; order >= 1; order--) {
@@ -177,6 +184,7 @@ static int fill (const sweep *g, pg_neighbourhood *s, pg_rows *rows, size_t firs
     return PG_GRADE_SHEPARD;
 }
 
+/* Evaluates row i. */
 static void row (const sweep *g, size_t i, pg_neighbourhood *s)
 {
     pg_rows *rows = g->rows;
@@ -197,13 +205,15 @@ static void row (const sweep *g, size_t i, pg_neighbourhood *s)
     rows->grade[i] = (unsigned char) grade;
 }
 
+/* The rows of one thread. */
 static void work (void *context, size_t first, size_t last, int thread)
 {
     const sweep *g = context;
     for (size_t k = first; k < last; k++) row (g, g->list ? g->list[k] : k, &g->star[thread]);
 }
 
-/* Scratch for one thread: families of at most `most` nodes. */
+/* Scratch space for one thread, for families of at most `most` nodes; all vectors are parts of
+ * one block. */
 static pg_status star_create (pg_neighbourhood *s, const pg_approx *a, const pg_cloud *cloud, int dim,
                               size_t most)
 {
@@ -225,6 +235,7 @@ done:
     return status;
 }
 
+/* A stray node is noted by its thread and reported after the loop, since threads cannot fail. */
 pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
                            pg_rows *rows, const unsigned char *alive, size_t count, const size_t *list,
                            int threads)

@@ -15,12 +15,15 @@ struct pg_reference {
     /* A finite element result; mesh.sample is NULL if there is none. */
     pg_sampler mesh;
 };
-/* The whole of a text file; to be freed with pg_free. */
+/* Reads a whole text file, ended by a zero byte; to be freed with pg_free. PG_E_FILE: cannot
+ * be read, or contains zero bytes. */
 pg_status pg_compare_load_text (const char *path, char **text);
-/* Values of the last row of FOLDER/history.csv whose column `key` is at most stamp; what it lacks stays as it
- * is. */
+/* Finds the last row of FOLDER/history.csv whose column `key` is at most `stamp`, and reads
+ * load factor, time (s) and number of broken bonds from it. Values that the table lacks stay
+ * as they are. */
 pg_status pg_compare_history (const char *folder, const char *key, double stamp, double *load_factor,
                            double *time, double *broken);
-/* Material of every place: that of the nearest evaluation point. Stays NULL of one material. */
+/* The material index of every quadrature point, that of the nearest evaluation point of the
+ * problem (*which: q->n, to be freed with pg_free); stays NULL if there is one material only. */
 pg_status pg_compare_materials (const pg_problem *problem, const pg_quadrature *q, int **which);
 #endif

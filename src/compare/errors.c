@@ -79,6 +79,7 @@ done:
     return status;
 }
 
+/* Without a field to compare with (a reference of tables only) no norm is measured. */
 pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int order, const pg_expression *where,
                              const pg_sampler *value, const pg_sampler *reference)
 {

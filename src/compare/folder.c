@@ -13,6 +13,8 @@
 /* Largest number of --set options that are read back. */
 enum { MOST_SETTINGS = 64 };
 
+/* Read in pieces, because the length of a pipe is not known before. A zero byte would hide the
+ * rest of the text from the string functions, so it is refused. */
 pg_status pg_compare_load_text (const char *path, char **text)
 {
     pg_status status = PG_OK;

@@ -185,6 +185,8 @@ done:
     return status;
 }
 
+/* A displacement that is known only up to a rigid translation is compared after that of the
+ * datum is taken off on both sides; the table is relative already. */
 pg_status pg_line_sample (const pg_line *line, const pg_sampler *value, double *u, double *stress)
 {
     pg_status status = PG_OK;

@@ -29,6 +29,7 @@ typedef struct {
     size_t  outside;  double away;
 } fem;
 
+/* May be called with NULL. */
 static void free_fem (void *context)
 {
     fem *f = context;

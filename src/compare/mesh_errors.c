@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result measured against the reference of a scene, by the same norms as results of
- * points, but over its own elements: Gauss points of each element, stresses from the gradient of its
- * displacement. */
+ * A finite element result measured against the reference of a scene, by the same norms as our
+ * own results, but over its own elements: at Gauss points of each element, with stresses from
+ * the gradient of its displacement. */
 #include "compare.h"
 #include <math.h>
 #include <string.h>
 
+/* The rule of each element on its reference element times the size of its map at the point;
+ * fabs because some programs number the nodes of plane elements clockwise. */
 pg_status pg_mesh_quadrature (pg_quadrature *out, const pg_mesh *mesh, double thickness, int order)
 {
     pg_status status = PG_OK;
@@ -35,6 +37,8 @@ done:
     return status;
 }
 
+/* The closed forms are measured against the finite elements where these have their own points,
+ * so that no error of an interpolation between two discretizations enters. */
 pg_status pg_errors_mesh (pg_errors *out, const pg_reference *reference, const pg_problem *problem,
                           const char *path, int step, double unit, double t)
 {

@@ -164,6 +164,7 @@ static void add_chunk (measuring *m, const pg_quadrature *q, size_t first, size_
     }
 }
 
+/* Chunk by chunk: sample both sides, then add. */
 pg_status pg_norms_measure (pg_norms *out, const pg_quadrature *q, const pg_sampler *value,
                             const pg_sampler *reference, const pg_norm_options *options)
 {

@@ -36,6 +36,7 @@ static int falling (size_t n, const double *h)
     return 1;
 }
 
+/* After the bisection `high` is the order; the limit is v3 - (v2 - v3) / ((h2 / h3)^p - 1). */
 pg_observed pg_observed_of_values (size_t n, const double *h, const double *value)
 {
     if (n < 3) return none (NAN, NAN, "three sizes are needed");
@@ -59,6 +60,8 @@ pg_observed pg_observed_of_values (size_t n, const double *h, const double *valu
     return o;
 }
 
+/* Two errors suffice, since their limit is known to be zero. An error that is exactly zero has
+ * no logarithm. */
 pg_observed pg_observed_of_errors (size_t n, const double *h, const double *error)
 {
     if (n < 2) return none (0, NAN, "two sizes are needed");
@@ -71,6 +74,7 @@ pg_observed pg_observed_of_errors (size_t n, const double *h, const double *erro
     return o;
 }
 
+/* (at - a) (at - b) <= 0 says that `at` lies between a and b, in whichever order these come. */
 double pg_loglog_at (size_t n, const double *x, const double *y, double at)
 {
     for (size_t k = 0; k + 1 < n; k++) {

@@ -101,6 +101,7 @@ done:
     return status;
 }
 
+/* A run without the key integrates with one point more than the order of its basis. */
 int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
 {
     int own = pg_scene_given (scene, "method.gauss_points")
@@ -140,6 +141,8 @@ done:
     return status;
 }
 
+/* All faults of the section are collected before the scene gives its verdict, so that the user
+ * sees them at once. */
 pg_status pg_reference_read (pg_reference **out, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -211,6 +214,7 @@ static pg_status sample_forms (void *context, size_t n, const double *x, double 
     return PG_OK;
 }
 
+/* A finite element result is lent out: the caller may clear the copy, which frees nothing. */
 pg_status pg_reference_sampler (pg_sampler *out, const pg_reference *r, double t)
 {
     pg_status status = PG_OK;

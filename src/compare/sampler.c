@@ -126,7 +126,8 @@ static void fit_one (const points *s, const pg_rows *r, size_t at, double *u, do
     if (r->grade[at] > PG_GRADE_LOWERED) for (int k = 0; k < 6; k++) stress[k] = NAN;
 }
 
-/* Builds families and shape functions of the places, chunk by chunk. */
+/* Builds families and shape functions of the places, chunk by chunk. Whether a pre-crack
+ * separates a place from a neighbour is decided by the straight line between them. */
 static pg_status sample_points (void *context, size_t n, const double *x, double *u, double *stress)
 {
     pg_status status = PG_OK;
@@ -163,6 +164,7 @@ static void free_points (void *context)
     pg_free (s);
 }
 
+/* The displacements are copied, so that the caller may go on and change the state. */
 pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const double *u,
                              const unsigned char *torn)
 {
@@ -198,6 +200,7 @@ done:
 /* A field that is shifted and scaled. */
 typedef struct { pg_sampler field; double shift[3], factor; } moved;
 
+/* u_moved (x) = factor u (x - shift), and stress likewise. */
 static pg_status sample_moved (void *context, size_t n, const double *x, double *u, double *stress)
 {
     pg_status status = PG_OK;

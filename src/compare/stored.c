@@ -229,6 +229,8 @@ done:
     return status;
 }
 
+/* The path is tested against the size of the buffer with room for the names of the other files
+ * of the folder. `refresh` gives the force the bonds that the pre-cracks leave. */
 pg_status pg_stored_open (pg_stored **out, const char *folder, int step, int threads)
 {
     pg_status status = PG_OK;

@@ -50,6 +50,7 @@ done:
     return status;
 }
 
+/* One row per point. */
 pg_status pg_compare_points (const char *path, const pg_cloud *cloud, const pg_sampler *value,
                              const pg_sampler *reference)
 {
@@ -74,6 +75,7 @@ done:
     return status;
 }
 
+/* One row per row of the table; the reference columns are its own values in SI. */
 pg_status pg_compare_line (const char *path, const pg_line *line, const pg_sampler *value)
 {
     pg_status status = PG_OK;

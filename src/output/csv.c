@@ -8,7 +8,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* The whole file, with a zero byte at its end. */
+/* Reads the whole file in pieces, since the length of a pipe is not known before. */
 static pg_status read_text (const char *path, char **text)
 {
     pg_status status = PG_OK;
@@ -65,8 +65,8 @@ done:
     return status;
 }
 
-/* The rows below the header. A row that lacks cells lacks these values; cells beyond the header are
- * dropped. */
+/* The rows below the header; empty lines are skipped. Missing cells become NAN, and cells
+ * beyond the header are dropped. */
 static pg_status read_rows (pg_csv *csv, char *at)
 {
     pg_status status = PG_OK;
@@ -118,6 +118,7 @@ size_t pg_csv_name (const char *column)
     return n;
 }
 
+/* The full header cell is preferred over the name without its unit, column by column. */
 long pg_csv_column (const pg_csv *csv, const char *wanted)
 {
     size_t n = strlen (wanted);

@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The box in which a lattice is measured: a scene of its own with the first material, the steps and the
- * method of the one given, and nothing else. Along one axis it is a cell between two layers, so that its step
- * there may differ from the others, which the spacing sets. */
+ * The box in which a lattice is measured: a scene of its own with the first material, the
+ * steps and the method of the given scene and nothing else: no loads, no supports, no
+ * criterion. Making it a scene means that the box passes through the same reader and the same
+ * set-up as every other body.
+ *
+ * Steps of a lattice follow from the sizes of the body and may differ a little between the
+ * axes. In the box the spacing sets the steps along all axes but one; along the one that
+ * differs most it is built as one cell between two layers, whose thickness sets the step. */
 #include "symbol.h"
 #include <math.h>
 #include <stdarg.h>
@@ -9,9 +14,11 @@
 #include <string.h>
 
 /* ---- text ---------------------------------------------------------------------------------------------- */
+/* A text that grows. */
 typedef struct { char *text; size_t used, cap; } writing;
 
 static pg_status put (writing *w, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
+/* Appends formatted text, at most 1023 bytes at a time. */
 static pg_status put (writing *w, const char *format, ...)
 {
     pg_status status = PG_OK;
@@ -28,7 +35,8 @@ done:
     return status;
 }
 
-/* name: value, as the scene has it */
+/* Writes "name: value" with the value that the given scene has. Numbers have 17 digits, so
+ * that the box has the same bits; maps and lists are not copied. */
 static pg_status put_key (writing *w, const pg_scene *scene, const pg_key *key, const char *path,
                           const char *name)
 {
@@ -41,7 +49,8 @@ static pg_status put_key (writing *w, const pg_scene *scene, const pg_key *key, 
     }
 }
 
-/* Keys right below `root`, given there, as they are below `at`; lengths in spacings are the caller's. */
+/* Writes all keys right below `root` that the scene gives below `at`. Lengths that may be in
+ * spacings are left to the caller, since the spacing of the box may differ in its last digits. */
 static pg_status put_keys (writing *w, const pg_scene *scene, const char *root, const char *at)
 {
     pg_status status = PG_OK;
@@ -64,7 +73,8 @@ done:
     return status;
 }
 
-/* As many vertices, or cells, on both sides of the middle one. */
+/* Writes body and layers. There are as many points on both sides of the middle one, whether
+ * points are at the nodes (vertices) or at the centres of the lattice cells. */
 static pg_status put_body (writing *w, const box_size *size, int dim, int vertices)
 {
     static const char *const side[] = { "left", "right", "bottom", "top", "back", "front" };
@@ -86,6 +96,7 @@ done:
     return status;
 }
 
+/* Density 1 where the scene has none: the stiffness does not depend on it. */
 pg_status box_scene (pg_scene **out, const pg_scene *scene, const pg_problem *p, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -114,6 +125,7 @@ done:
 }
 
 /* ---- size ---------------------------------------------------------------------------------------------- */
+/* A typical step: the mean of up to two, the middle one of three. */
 static double middle_step (const double *step, int dim)
 {
     double low = step[0], high = step[0], sum = 0;
@@ -121,6 +133,8 @@ static double middle_step (const double *step, int dim)
     return dim < 3 ? sum / dim : sum - low - high;
 }
 
+/* The odd axis is the one whose step differs most from the typical one; `wanted` is the mean
+ * of the others. */
 pg_status box_steps (box_size *out, const pg_scene *scene, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -153,7 +167,8 @@ done:
     return status;
 }
 
-/* round (L / wanted) must be the number of cells along every axis. */
+/* The scene of the box rounds L / spacing to a number of cells; this must give the wanted one,
+ * with some margin (0.49 of a cell). */
 pg_status box_fits (const box_size *size, int dim)
 {
     pg_status status = PG_OK;

@@ -1,25 +1,39 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K_0j of a lattice: the answer of every point of a box to unit displacements and rotations of its middle
- * one. */
+ * Measures the blocks K_0j of a lattice: the middle point of a box moves by one unit of one
+ * unknown at a time, and the force model answers at all points. That answer is column c of
+ * K_j0; the block K_0j is its transpose.
+ *
+ * The box grows until the answers no longer touch its surface. Then the blocks are checked:
+ * opposite ones must be transposes of each other, and a rigid translation must meet no force,
+ * each to 1e-9. The middle of a box where this fails is not the inside of a lattice. */
 #include "symbol.h"
 #include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* The box grows at most so often. */
 enum { TRIES = 6 };
+/* Largest number of pairs of points that see each other, weighted by the memory that they
+ * take: about 1.4 GB. */
 static const double most_pairs = 2e8;  /* of points that see each other, counted by what they take: 1.4 GB */
-/* Of the largest answer: too little to enlarge the box for; rounding, of transforms also far away. */
+/* Relative to the largest answer: answers up to 1e-12 do not enlarge the box, and those up to
+ * 1e-14 are dropped as rounding (Fourier transforms leave such values far away, too). */
 static const double little = 1e-12, nothing = 1e-14;
 
+/* A box with its problem, state and force. */
 typedef struct {
     pg_scene *scene;  pg_problem *problem;  pg_state *state;
     const pg_force_type *force;  void *self;
-    size_t middle;                                     /* the point at the origin */
+    /* The point at the origin. */
+    size_t middle;
     int    m;
-    double *answer;  /* to unknown c of the middle: ndof x m, column by column */
+    /* Answers to unit values of the unknowns c of the middle point: ndof x m, column by
+     * column, N/m. */
+    double *answer;
 } box;
 
+/* May be called for a box that was never built. */
 static void clear (box *b)
 {
     if (b->self) b->force->free (&b->self);
@@ -30,6 +44,7 @@ static void clear (box *b)
     memset (b, 0, sizeof *b);
 }
 
+/* The point nearest to the origin. */
 static size_t middle_of (const pg_cloud *c)
 {
     size_t best = 0, dim = (size_t) c->dim;
@@ -42,7 +57,7 @@ static size_t middle_of (const pg_cloud *c)
     return best;
 }
 
-/* K x by the product of the force or by its matrix. */
+/* y = K x, by the operator of the force or, if it has none, by its assembled matrix. */
 static pg_status multiply (box *b, const double *x, double *y)
 {
     pg_status status = PG_OK;
@@ -57,6 +72,9 @@ done:
     return status;
 }
 
+/* Builds the box and measures the answers. The number of pairs is estimated before anything is
+ * allocated; integration by Gauss points takes about ten times as much memory for each pair
+ * and point. */
 static pg_status build (box *b, const pg_scene *scene, const pg_problem *p, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -95,11 +113,13 @@ done:
     return status;
 }
 
+/* Force on unknown r of point j for a unit of unknown c of the middle point. */
 static double answer_at (const box *b, size_t j, int r, int c)
 {
     return b->answer[((size_t) c * b->problem->cloud.n + j) * (size_t) b->m + (size_t) r];
 }
 
+/* Offset of point j from the middle in steps. */
 static void offset_of (const box *b, const box_size *size, size_t j, int *offset)
 {
     size_t dim = (size_t) b->problem->dim;
@@ -107,8 +127,9 @@ static void offset_of (const box *b, const box_size *size, size_t j, int *offset
         offset[k] = k < dim ? (int) lround (b->problem->cloud.x[j * dim + k] / size->step[k]) : 0;
 }
 
-/* Is K_0j whole? The points that answer must not see the surface of the box, nor may their families where
- * these weigh bonds. Sets how large the box must be. */
+/* 1 if the answers end at least two points inside the surface of the box. With a surface
+ * correction the weights of bonds depend on whether the family of their ends is whole, so one
+ * horizon more is needed. Otherwise sets `half` to what is needed. */
 static int large_enough (const box *b, box_size *size)
 {
     int reach[3] = { 0 }, offset[3], enough = 1, dim = b->problem->dim, m = b->m,
@@ -131,6 +152,8 @@ static int large_enough (const box *b, box_size *size)
 }
 
 /* ---- what is kept of it -------------------------------------------------------------------------------- */
+/* Keeps the blocks that are more than rounding, and for shape functions the row of the mass
+ * matrix of the middle point, divided by its mass: int N_0 N_j dV / V. */
 static pg_status collect (pg_symbol *s, const box *b, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -166,7 +189,9 @@ done:
     return status;
 }
 
-/* The blocks of opposite offsets are each other's transposes, and a rigid translation meets no force. */
+/* Checks symmetry and rigid translation as described above, and finds the unknowns that
+ * nothing resists. In the list of all places of the box the opposite of place p is all - 1 -
+ * p. */
 static pg_status verify (pg_symbol *s, const box_size *size)
 {
     pg_status status = PG_OK;
@@ -207,6 +232,8 @@ done:
     return status;
 }
 
+/* Lumped masses of the middle point, and the bound of the largest frequency as explicit
+ * solvers have it. */
 static pg_status weigh (pg_symbol *s, box *b)
 {
     pg_status status = PG_OK;
@@ -222,6 +249,8 @@ done:
     return status;
 }
 
+/* The first box has two horizons and two points more on each side, since shape functions
+ * couple points at twice the horizon. */
 pg_status pg_symbol_create (pg_symbol **out, const pg_scene *scene, const pg_problem *p)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * S (k), its eigenvalues and frequencies, its limit for long waves. */
+ * S (k), its eigenvalues and frequencies for one wave vector, and its limit for long waves. */
 #include "symbol.h"
 #include <math.h>
 #include <stdlib.h>
@@ -7,8 +7,8 @@
 
 enum { M = PG_UNKNOWNS };
 
-/* cos, sin of a = k step times n steps, exactly +-1 at the ends of the zone: there modes without energy have
- * none. */
+/* cos (a n) and sin (a n) for a = k step. At multiples of pi they are exactly +-1 and 0: at
+ * the ends of the zone modes without energy would otherwise get rounding instead of zero. */
 static void phase (double a, int n, double *c, double *s)
 {
     double half = a * n / (4 * atan (1)), whole = nearbyint (half);            /* in units of pi */
@@ -16,7 +16,8 @@ static void phase (double a, int n, double *c, double *s)
     if (fabs (half - whole) < 1e-13 * (1 + fabs (half))) *c = fmod (whole, 2) == 0 ? 1 : -1, *s = 0;
 }
 
-/* sum of the blocks (count numbers each) times exp (i k.(x_j - x_0)) */
+/* Sum of the blocks (`count` numbers each) times exp (i k.(x_j - x_0)). Successive offsets
+ * mostly differ along one axis only, so the phases of the last offset are kept. */
 static void transform (const pg_symbol *s, const double *k, size_t count, const double *block, double *real,
                        double *imaginary)
 {
@@ -48,7 +49,8 @@ double pg_symbol_amplitude (const pg_symbol *s, const double *k)
     return real;
 }
 
-/* Modes of nearly one value are any mixture of each other: what is told of them is their mean. */
+/* Modes of nearly equal value span a space in which any basis is as good as another: shares of
+ * single modes have no meaning there, so each gets their mean. */
 static void level (pg_symbol_modes *o, double scale)
 {
     for (int i = 0, j; i < o->n; i = j) {
@@ -59,7 +61,9 @@ static void level (pg_symbol_modes *o, double scale)
     }
 }
 
-/* The Hermitian A + iB as the symmetric [A, -B; B, A], which has every eigenvalue twice. */
+/* The Hermitian matrix A + iB is solved as the real symmetric [A, -B; B, A] of twice the size,
+ * which has each eigenvalue twice. Both copies are averaged. Eigenvalues below the rounding of
+ * the blocks (1e-14) are set to 0. */
 void pg_symbol_solve (const pg_symbol *s, const double *k, int weighted, pg_symbol_modes *o)
 {
     double A[M * M], B[M * M], scale[M], W[4 * M * M], value[2 * M], vector[4 * M * M],
@@ -103,8 +107,13 @@ void pg_symbol_solve (const pg_symbol *s, const double *k, int weighted, pg_symb
 }
 
 /* ---- long waves ---------------------------------------------------------------------------------------- */
-/* S = k^2 P + i k Q' + R for k = |k| e small: with the rotations in equilibrium the displacements have k^2 (P
- * - Q R^-1 Q'), P = - 1/2 sum K (e.x)^2, Q = sum K (e.x), R = sum K. Pa, dim x dim. */
+/* The limit of S for long waves along the unit vector e. For small |k|, S = k^2 P + i k Q' + R
+ * in displacements and rotations; with the rotations in equilibrium the displacements have
+ *
+ *   k^2 (P - Q R^-1 Q'),   P = - 1/2 sum K (e.x)^2,   Q = sum K (e.x),   R = sum K.
+ *
+ * T = (P - Q R^-1 Q') / V (dim x dim, Pa) is the acoustic tensor; NAN if R is not positive
+ * definite. */
 static void acoustic (const pg_symbol *s, const double *e, double *T)
 {
     int dim = s->dim, m = s->unknowns, live[3], n = 0;
@@ -133,6 +142,8 @@ static void acoustic (const pg_symbol *s, const double *e, double *T)
     }
 }
 
+/* D from acoustic tensors: T_aa along a is D_aa, T_bb along a is the shear modulus, and along
+ * the diagonal of a and b T_ab = (D_ab + G) / 2. */
 void pg_symbol_tangent (const pg_symbol *s, double *D)
 {
     int dim = s->dim, nv = pg_voigt_size (dim);

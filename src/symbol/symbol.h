@@ -1,14 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private to the symbol folder. */
+ * Private to the symbol folder: the box of (2 half + 1)^dim points around one at the origin,
+ * in which the lattice is measured (box.c). */
 #ifndef PG_SYMBOL_PRIVATE_H
 #define PG_SYMBOL_PRIVATE_H
 #include "perigal/symbol.h"
 
 /* ---- box.c: (2 half + 1)^dim points of the lattice about one at the origin ----------------------------- */
-/* wanted: its spacing; odd: the axis with a step of its own */
+/* The size of a box: steps of the lattice (m), the root of their product (m), the spacing that
+ * the box's scene asks for (m), points on each side of the middle along each axis, and the
+ * axis with a step of its own. */
 typedef struct { double step[3], h, wanted; int half[3], odd; } box_size;
-/* half is left alone */
+/* Fills all but `half` from the scene's lattice. PG_E_USAGE where there is no lattice. */
 pg_status box_steps (box_size *out, const pg_scene *scene, const pg_problem *problem);
+/* Makes the scene of the box. */
 pg_status box_scene (pg_scene **out, const pg_scene *scene, const pg_problem *problem, const box_size *size);
+/* PG_E_USAGE if no single spacing gives the number of cells wanted along every axis. */
 pg_status box_fits  (const box_size *size, int dim);
 #endif

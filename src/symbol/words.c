@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A survey in words. */
+ * A survey in words: what kind of motion, where in the Brillouin zone, and a verdict with a
+ * remedy that suits the method at hand. */
 #include "symbol.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Beyond a share of 0.9 a motion is called pure. If all directions have the same value, none
+ * is named. */
 const char *pg_motion_kind (const pg_motion *m, const pg_symbol *s)
 {
     double k = fabs (m->k[0]) + fabs (m->k[1]) + fabs (m->k[2]);
@@ -17,6 +20,7 @@ const char *pg_motion_kind (const pg_motion *m, const pg_symbol *s)
                             : "displacement along and across";
 }
 
+/* Components of k at the edge of the zone (|k| = pi / step) alternate from point to point. */
 void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t size)
 {
     int ends = 0, inside = 0, axis = 0;
@@ -35,6 +39,9 @@ void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t
     else snprintf (text, size, "alternating along two axes");
 }
 
+/* The remedy depends on what causes the weakness: nodal integration samples the gradient where
+ * it is blind to alternating motions; micropolar constants become negative at a large
+ * Poisson's ratio; a small horizon has few bonds. */
 void pg_survey_verdict (const pg_survey *v, const pg_symbol *s, const pg_problem *p, char *text, size_t size)
 {
     char where[64];
