@@ -1,15 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal-mesh: anything that Gmsh opens (.geo, .step, .iges, .brep, .stl, .msh, .unv, .med ...) to a .msh
- * file that Perigal reads. A program of its own, built where Gmsh's library is installed (Debian:
- * libgmsh-dev), because loading that library takes longer than many a run. */
+ * perigal-mesh: turns anything that Gmsh opens (.geo, .step, .iges, .brep, .stl, .msh, .unv,
+ * .med ...) into a .msh file that Perigal reads, and meshes it if it is a geometry. It is a
+ * program of its own, built only where the library of Gmsh is installed (Debian: libgmsh-dev),
+ * because loading that library takes longer than many a run. Exit codes: 0 done, 1 failed, 2
+ * wrong arguments. */
 #include "perigal/mesh_files.h"
 #include <gmshc.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* What the command line asks for; 0 or NULL: not given. */
 typedef struct { const char *input, *output; double size; int order, dim; } request;
-typedef struct { int *pair; size_t n; } entities;  /* n numbers: dimension, tag, dimension, tag ... */
+/* Entities of a Gmsh model: n numbers, dimension and tag of each in turn. */
+typedef struct { int *pair; size_t n; } entities;
 
 static const char usage[] =
     "usage: perigal-mesh INPUT OUTPUT.msh [--size H] [--order 1|2] [--dim 2|3]\n"
@@ -22,7 +26,7 @@ static const char usage[] =
     "  --dim N     dimension of the mesh (default: that of the body; 3 for a closed surface .stl)\n"
     "Physical groups become blocks and sets; a body without any gets part_N (blocks) and side_N (sets).\n";
 
-/* Says what Gmsh said; 1. */
+/* Prints the message with what Gmsh says about it, and returns 1. */
 static int failed (const char *what, const char *path)
 {
     char *text = NULL;
@@ -35,6 +39,7 @@ static int failed (const char *what, const char *path)
 }
 
 /* ---- arguments ----------------------------------------------------------------------------------------- */
+/* 1 if the whole text is a number from low to high. */
 static int number_of (const char *text, double low, double high, double *value)
 {
     char *end;
@@ -80,7 +85,7 @@ static int check_files (const request *w)
     return 2;
 }
 
-/* 0: good; else the exit code (help: -1). */
+/* Reads the command line: 0 if it is right, else the exit code; -1 for --help. */
 static int read_arguments (request *w, int argc, char **argv)
 {
     for (int k = 1; k < argc; k++) {
@@ -101,6 +106,7 @@ static int read_arguments (request *w, int argc, char **argv)
 }
 
 /* ---- meshing ------------------------------------------------------------------------------------------- */
+/* 1 if the model has elements of that dimension. */
 static int elements_of (int dim)
 {
     int *type = NULL, e;
@@ -110,6 +116,7 @@ static int elements_of (int dim)
     return n > 0;
 }
 
+/* The entities of a dimension; pair is to be freed with gmshFree. */
 static entities entities_of (int dim)
 {
     entities list = { NULL, 0 };
@@ -118,7 +125,8 @@ static entities entities_of (int dim)
     return list;
 }
 
-/* A closed surface of triangles (.stl) becomes a body: corners sharper than 40 degrees are edges. */
+/* A closed surface of triangles (.stl) becomes a body: its surface is divided into faces along
+ * edges sharper than 40 degrees (0.698 rad), then a volume is defined inside. */
 static int fill_surface (const request *w)
 {
     int e, bad = 0;
@@ -137,6 +145,7 @@ static int fill_surface (const request *w)
     return bad ? failed ("its surface does not enclose a body", w->input) : 0;
 }
 
+/* 1 for files whose name ends in .stl. */
 static int is_stl (const char *path)
 {
     size_t n = strlen (path);
@@ -161,8 +170,8 @@ static void set_size (const request *w, int meshed)
     if (meshed) fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
 }
 
-/* Meshes a geometry, fills a closed surface of triangles (.stl), or keeps the elements of a mesh file;
- * then changes the order of the elements where another one was asked for. 0: done. */
+/* Makes elements unless the file has some already, and sets their order. Returns the exit
+ * code. */
 static int make_mesh (const request *w)
 {
     int e, dim = gmshModelGetDimension (&e), stl = dim == 2 && elements_of (2) && is_stl (w->input);
@@ -187,6 +196,8 @@ static int make_mesh (const request *w)
 }
 
 /* ---- groups -------------------------------------------------------------------------------------------- */
+/* Gives each entity of a dimension a physical group of its own, named as in the file or
+ * STEM_TAG, so that scenes can refer to it as a block or a set. */
 static void name_entities (int dim, const char *stem)
 {
     entities list = entities_of (dim);
@@ -204,6 +215,8 @@ static void name_entities (int dim, const char *stem)
     gmshFree (list.pair);
 }
 
+/* Writes version 4.1, binary. Without any groups bodies and sides are named; with groups of
+ * sides only, the bodies are. Returns the exit code. */
 static int write_mesh (const request *w)
 {
     entities groups = { NULL, 0 }, top = { NULL, 0 };
@@ -219,7 +232,7 @@ static int write_mesh (const request *w)
     return e ? failed ("cannot be written", w->output) : 0;
 }
 
-/* Reads the file as Perigal will, and says what is in it. */
+/* Reads the file as Perigal will, and prints what is in it. */
 static int look_at (const request *w)
 {
     pg_mesh mesh;
@@ -241,6 +254,7 @@ static int look_at (const request *w)
     return 0;
 }
 
+/* Starts Gmsh quietly; gmshInitialize has one more argument in newer versions. */
 static void start (void)
 {
     int e;
@@ -254,6 +268,7 @@ static void start (void)
     gmshLoggerStart (&e);
 }
 
+/* Input and output are tried before Gmsh starts, so that a wrong path is noticed at once. */
 int main (int argc, char **argv)
 {
     request w = { .size = 0 };

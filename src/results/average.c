@@ -1,17 +1,19 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * output.averages: the mean of one component of a field over the points of a set, a column of history.csv
- * each. */
+ * output.averages: the mean of one component of a field over the points of a set, one column
+ * of history.csv each. The mean is over points, not weighted by their volumes. Also the check
+ * that all columns that the user names have different names. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Names of the columns that history.csv always has. */
 static const char *const fixed_columns =
     "step|time|load_factor|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|"
     "iterations|residual|utilisation|event|level";
 
-/* "damage|displacement.x|...|stress.xx|...": every component there is in this dimension; turns: rotations of
- * a point. */
+/* Writes "damage|displacement.x|...|stress.xx|...": every component that there is in this
+ * dimension; `turns` is the number of rotations of a point. */
 static void component_names (int dim, int turns, char *out, size_t size)
 {
     static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress",
@@ -26,7 +28,7 @@ static void component_names (int dim, int turns, char *out, size_t size)
     if (turns) snprintf (out + at, size - at, turns == 3 ? "|rotation.x|rotation.y|rotation.z" : "|rotation");
 }
 
-/* Place of a name in "a|b|c", -1 when it is not there. */
+/* Index of a name in "a|b|c"; -1 if it is not there. */
 static int place_in (const char *names, const char *name)
 {
     size_t n = strlen (name);
@@ -39,6 +41,8 @@ static int place_in (const char *names, const char *name)
 }
 
 /* ---- checks -------------------------------------------------------------------------------------------- */
+/* A fault of the scene with all possible names, and the nearest one, if the field is none of
+ * them. */
 static void check_field (const pg_scene *scene, const char *path, const char *field, int dim, int turns)
 {
     char names[400], listed[600];
@@ -57,8 +61,8 @@ static void check_field (const pg_scene *scene, const char *path, const char *fi
     else pg_scene_fault (scene, path, "must be one component of a field in %dD: %s", dim, listed);
 }
 
-/* Columns the user names, averages, gauges and tips, must differ from each other and from those that are
- * always there. */
+/* The columns that the user names (gauges, averages, tips) must differ from each other and
+ * from those that are always there. */
 static void check_names (const pg_scene *scene)
 {
     static const char *const list[] = { "output.gauges", "output.averages", "output.tips" };
@@ -93,6 +97,7 @@ void pg_result_averages_check (const pg_scene *scene, const pg_problem *problem)
 }
 
 /* ---- columns and rows ---------------------------------------------------------------------------------- */
+/* The text "stress.xx" is taken apart into field and component; units follow from the field. */
 pg_status pg_result_averages_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -124,6 +129,7 @@ void pg_result_average_column (const pg_result *r, size_t i, char *out, size_t s
     snprintf (out, size, "%s [%s]", r->average[i].name, r->average[i].unit);
 }
 
+/* Mean of the component over the points of the set. */
 static double mean_of (const result_average *a, const double *value, int components)
 {
     double sum = 0;
@@ -132,7 +138,8 @@ static double mean_of (const result_average *a, const double *value, int compone
     return sum / (double) a->set->npoint;
 }
 
-/* Each field is computed once, whatever the number of averages that ask for it. */
+/* Each field is computed once, whatever the number of averages that ask for it. Forces without
+ * fields give NAN. */
 pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row, double *work)
 {
     pg_status status = PG_OK;

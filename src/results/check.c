@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What of output a body of this dimension can show: names of pictures (a scalar, a vector's size, or a part),
- * views, names given once. */
+ * Checks the section `output` of a scene against what a body of its dimension can show: names
+ * of pictures (a scalar, the size of a vector, or one component), views, and names that are
+ * given twice. All faults are reported through the scene, with the line and what would be
+ * right. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* "damage|displacement|displacement.x|...|stress.xx|..." */
+/* Writes the names of all pictures in this dimension as
+ * "damage|displacement|displacement.x|...|stress.xx|...". */
 static void picture_names (int dim, int turns, char *out, size_t size)
 {
     static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress",
@@ -28,6 +31,7 @@ static void picture_names (int dim, int turns, char *out, size_t size)
     snprintf (out + at, size - at, "|error_estimate");
 }
 
+/* 1 if the name is in "a|b|c"; both are framed by | so that parts of names do not count. */
 static int among (const char *names, const char *name)
 {
     char framed_names[600], framed[128];
@@ -36,6 +40,7 @@ static int among (const char *names, const char *name)
     return !strchr (name, '|') && strstr (framed_names, framed) != NULL;
 }
 
+/* A fault for each name that a list holds twice. */
 static void given_once (const pg_scene *scene, const char *key)
 {
     const char *a, *b;
@@ -49,6 +54,7 @@ static void given_once (const pg_scene *scene, const char *key)
         }
 }
 
+/* A fault with the list of names and the nearest one. */
 static void fault_of_picture (const pg_scene *scene, const char *path, const char *name, const char *names)
 {
     char listed[800];
@@ -65,7 +71,7 @@ static void fault_of_picture (const pg_scene *scene, const char *path, const cha
 }
 
 /* ---- views --------------------------------------------------------------------------------------------- */
-/* Which plane of this body, and does it meet it? */
+/* A section must be readable and must meet the body, to within half a spacing. */
 static void check_section (const pg_scene *scene, const pg_problem *p, const char *path, const char *text)
 {
     pg_picture_style style = { 0 };
@@ -86,6 +92,7 @@ static void check_section (const pg_scene *scene, const pg_problem *p, const cha
         pg_scene_fault (scene, path, "misses the body, which lies between %.6g and %.6g m", low, high);
 }
 
+/* Keys of a view that have a meaning in three dimensions only. */
 static void check_3d (const pg_scene *scene, const pg_problem *p, size_t i)
 {
     static const char *const solid[] = { "view", "section", "direction", "above" };
@@ -126,7 +133,7 @@ static int is_taken (const pg_scene *scene, const pg_problem *p, size_t view, co
     return 0;
 }
 
-/* The name of a view must be a file name of its own. */
+/* A file name consists of a few safe characters, and no two pictures have the same one. */
 static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
 {
     char path[64];
@@ -139,6 +146,7 @@ static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
         pg_scene_fault (scene, path, "another picture is called %s.png; give another name", mine.name);
 }
 
+/* Everything about entry i of output.views. */
 static void check_view (const pg_scene *scene, const pg_problem *p, size_t i, const char *names)
 {
     char path[64];
@@ -155,7 +163,7 @@ static void check_view (const pg_scene *scene, const pg_problem *p, size_t i, co
     check_name (scene, p, i);
 }
 
-/* An error estimate smooths the stress of shape functions. */
+/* The error estimate smooths the stress of shape functions; forces without these have none. */
 static void check_estimate (const pg_scene *scene, const pg_problem *problem)
 {
     static const char *const keys[] = { "output.fields", "output.pictures" };
@@ -172,7 +180,7 @@ static void check_estimate (const pg_scene *scene, const pg_problem *problem)
         }
 }
 
-/* How many there are. */
+/* Checks the names of output.pictures and returns how many there are. */
 static size_t check_pictures (const pg_scene *scene, const char *names)
 {
     size_t count = 0;
@@ -186,6 +194,7 @@ static size_t check_pictures (const pg_scene *scene, const char *names)
     return count;
 }
 
+/* A scene whose dimension is at fault has been reported already. */
 void pg_result_check_names (const pg_scene *scene)
 {
     char names[512];
@@ -198,6 +207,8 @@ void pg_result_check_names (const pg_scene *scene)
     check_pictures (scene, names);
 }
 
+/* Missing memory is the only failure that is not a fault of the scene. The reference is read
+ * and thrown away: its faults are to come before the run begins. */
 pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
 {
     char names[512], path[64];

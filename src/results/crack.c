@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How much crack the broken bonds amount to. A plane that cuts all bonds across it cuts, per area, as many
- * bonds of the points around it as sum_j |xi_j . n| / V_i (V_i the volume of such a point, xi_j its bonds, n
- * the normal of the plane). So each broken bond of point i stands for the area V_i / sum_j |xi_j . n|, and
- * with a normal that may lie anywhere |xi . n| is |xi| times its mean: 1, 2/pi, 1/2 in 1, 2, 3 dimensions. An
- * estimate: exact for one plane cut on average over its directions; parallel or smeared cracks count for as
- * many as they are. */
+ * How much crack the broken bonds amount to. A plane with the normal n that cuts all bonds
+ * across it cuts, per area, as many bonds of the points around it as sum_j |xi_j . n| / V_i
+ * (V_i volume of such a point, xi_j its bonds). So each broken bond of point i stands for the
+ * area
+ *
+ *   V_i / sum_j |xi_j . n|,
+ *
+ * and with a normal of any direction |xi . n| is |xi| times its mean: 1, 2/pi, 1/2 in 1, 2, 3
+ * dimensions. This is an estimate: it is exact for one plane on average over its directions,
+ * and parallel or smeared cracks count as often as they are. */
 #include "results_private.h"
 #include <math.h>
 
-/* Area of what has broken at one point of a bond set; m2. */
+/* Area of what has broken at one point of a bond set since `before`, m2. */
 static double area_of (const pg_problem *p, int set, size_t i, double volume, const unsigned char *before,
                        const unsigned char *now)
 {
@@ -28,8 +32,9 @@ static double area_of (const pg_problem *p, int set, size_t i, double volume, co
     return sum > 0 ? volume * (double) broken / (mean[dim] * sum) : 0;
 }
 
-/* Points of evaluation where there are some, else the points themselves. A run does not fail for want of
- * memory for this. */
+/* Uses the bonds of evaluation points where there are some, else those of the points
+ * themselves. The state at the start, with the pre-cracks cut, is built anew. A run does not
+ * fail for want of memory for this estimate. */
 pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;

@@ -1,13 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * output.tips: how far a crack has come along a direction, a column of history.csv each; pictures of length
- * and speed, and their summary for report.json. */
+ * output.tips: how far a crack has come along a direction, one column of history.csv each;
+ * pictures of length and speed, and their summary.
+ *
+ * The tip is the farthest point, along the direction, of the damaged points that are connected
+ * with those nearest to the start of the crack. Connection matters: damage elsewhere in the
+ * body, such as at a support, must not count as a crack that has jumped there. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 /* ---- from the scene ------------------------------------------------------------------------------------ */
-/* The points in question, and how far along they lie; none behind `from`. */
+/* The points that count and their distance along the direction (tip->along, m); points behind
+ * `from`, or where the condition fails, have 0. */
 static pg_status find_points (result_tip *tip, const pg_problem *p, const pg_expression *where)
 {
     pg_status status = PG_OK;
@@ -24,6 +29,7 @@ done:
     return status;
 }
 
+/* Reads entry i of output.tips. */
 static pg_status read_tip (result_tip *tip, const pg_scene *scene, size_t i, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -43,7 +49,8 @@ done:
     return status;
 }
 
-/* What a length needs: a direction, and places of the body that do not change. */
+/* A length needs a direction that is not zero, a condition that does not change with time, and
+ * points in that direction. */
 static pg_status check_tip (const pg_scene *scene, size_t i, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -104,6 +111,7 @@ void pg_result_tips_free (pg_result *r)
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
+/* Distance of point i from x, m. */
 static double distance (const pg_problem *p, size_t i, const double *x)
 {
     double s = 0;
@@ -111,9 +119,10 @@ static double distance (const pg_problem *p, size_t i, const double *x)
     return s;
 }
 
-/* The damaged points of the crack: those nearest to `from` (all within a spacing more), and all that hang
- * together with them, each no further than REACH spacings from the next, so that no whole point lies between.
- * queue: their numbers (n); seen: n, zeroed. */
+/* Collects the damaged points of the crack: those nearest to `from` (all within one spacing of
+ * the nearest), and all that are connected with them by steps of at most REACH spacings, which
+ * leaves no undamaged point between. Breadth first; queue: their numbers (n), seen: n, zero on
+ * entry. Returns how many there are. */
 static size_t follow (const result_tip *tip, const pg_problem *p, const double *damage, int *queue,
                       unsigned char *seen)
 {
@@ -141,6 +150,7 @@ static size_t follow (const result_tip *tip, const pg_problem *p, const double *
     return n;
 }
 
+/* The length of the crack, m; 0 without damaged points. */
 static pg_status farthest (const result_tip *tip, const pg_problem *p, const double *damage, double *length)
 {
     pg_status status = PG_OK;
@@ -156,6 +166,7 @@ done:
     return status;
 }
 
+/* Lengths of a row. They are measured only when the number of broken bonds has changed. */
 pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
                            double *work)
 {
@@ -182,6 +193,7 @@ done:
     return status;
 }
 
+/* The first n rows, for a checkpoint. */
 pg_status pg_result_tips_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -208,8 +220,9 @@ double pg_result_tips_rayleigh (const pg_result *r)
     return speed;
 }
 
-/* Length is known in steps of the spacing: the slope of the straight line that fits it best within `half` s
- * to both sides, and within two rows. */
+/* Speed of the tip at row i, m/s. The length grows by whole spacings, so differences of
+ * neighbouring rows mean nothing: the slope of the straight line of best fit within `half` s
+ * to both sides, and at least two rows, is taken. */
 static double slope (const result_tip *tip, const double *time, size_t first, size_t n, size_t i, double half)
 {
     size_t a = i, b = i;
@@ -223,6 +236,7 @@ static double slope (const result_tip *tip, const double *time, size_t first, si
     return tt > 0 ? ts / tt : 0;
 }
 
+/* Speeds are fitted over the time in which a Rayleigh wave passes four horizons. */
 void pg_result_tips_run (const pg_result *r, size_t i, result_tip_run *out, double *speed)
 {
     const result_tip *tip = &r->tip[i];
@@ -245,6 +259,7 @@ void pg_result_tips_run (const pg_result *r, size_t i, result_tip_run *out, doub
 }
 
 /* ---- pictures, report ---------------------------------------------------------------------------------- */
+/* Draws one chart and adds it to the list of pictures. */
 static pg_status chart (pg_result *r, const char *name, size_t ncurve, const pg_curve *curve,
                         const char *ylabel)
 {
@@ -260,8 +275,8 @@ done:
     return status;
 }
 
-/* Tips that move alike to the last bit would hide each other: the first of them stands for all, under all
- * their names. */
+/* 1 if an earlier crack has exactly the same lengths: its curve would hide this one, so the
+ * first of them is drawn under all their names. */
 static int like_an_earlier (const pg_result *r, size_t i)
 {
     for (size_t k = 0; k < i; k++)
@@ -269,6 +284,7 @@ static int like_an_earlier (const pg_result *r, size_t i)
     return 0;
 }
 
+/* The names of all cracks with these lengths, "a = b". */
 static void write_names (const pg_result *r, size_t i, char *out, size_t size)
 {
     int used = snprintf (out, size, "%s", r->tip[i].name);
@@ -277,6 +293,8 @@ static void write_names (const pg_result *r, size_t i, char *out, size_t size)
             used += snprintf (out + used, size - (size_t) used, " = %s", r->tip[k].name);
 }
 
+/* tip.png shows all lengths; tip_speed.png the speeds of those that moved, with the speed of
+ * Rayleigh waves as a line. */
 pg_status pg_result_tips_pictures (pg_result *r)
 {
     enum { ROOM = 256 };
@@ -312,8 +330,8 @@ done:
     return status;
 }
 
-/* "crack right: 4.95 to 15.95 mm long; runs from 6.20 us to the end, at 1520 m/s = 0.55 c_R on average, 1870
- * m/s = 0.68 c_R at most (at 9.52 us, 9.35 mm)" */
+/* A sentence such as "right: 4.95 to 15.95 mm, from 6.20 us to the end, 1520 m/s on average,
+ * 1870 m/s at most (at 9.35 mm, 9.52 us): 0.55 and 0.68 of c_R". */
 int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
 {
     double rayleigh = pg_result_tips_rayleigh (r);
@@ -344,6 +362,7 @@ int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
     return 1;
 }
 
+/* The summary of each crack. */
 void pg_result_tips_json (pg_json *j, const pg_result *r)
 {
     double rayleigh = pg_result_tips_rayleigh (r);

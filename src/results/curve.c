@@ -1,15 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The load-displacement curve of a run: force with its sign over the mean displacement of what is loaded, its
- * picture, its peak, its stiffness. Event stepping: the envelope of pg_envelope is the line, the path of
- * events is pale behind it. */
+ * The load-displacement curve of a run: force with its sign over the mean displacement of what
+ * is loaded; its picture, its peak and its stiffness. With event stepping the line is the
+ * envelope (pg_envelope), and the path of events is drawn pale behind it. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* Columns of curve_more. */
 enum { STEP, TIME, FACTOR, FIRST_GAUGE };
 
-/* A pressure acts along the axis nearest to its first normal. */
+/* 1 if a load acts along the axis k. A pressure acts along the axis nearest to its first
+ * normal. */
 static int pushes_along (const pg_problem *p, const pg_load *load, int k)
 {
     if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE) return load->value[k] != NULL;
@@ -19,7 +21,9 @@ static int pushes_along (const pg_problem *p, const pg_load *load, int k)
     return 1;
 }
 
-/* The curve follows the prescribed component that moves most, else the first load with a force. */
+/* The curve follows the prescribed component that moves most, else the first load with a
+ * force. A velocity is compared by what it moves in 1e-9 s, so that any displacement is
+ * preferred to it. */
 void pg_result_curve_choose (pg_result *r)
 {
     const pg_problem *p = r->problem;
@@ -44,6 +48,7 @@ void pg_result_curve_choose (pg_result *r)
 
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
+/* Appends a point with displacement x (m) and force y (N). */
 pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -60,6 +65,7 @@ done:
     return status;
 }
 
+/* The first n points of the curve, for a checkpoint. */
 pg_status pg_result_curve_keep (pg_result *r, size_t n, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -76,8 +82,8 @@ done:
 }
 
 /* ---- what it says -------------------------------------------------------------------------------------- */
-/* Does nothing load the body at the start? Then the curve begins at the origin. (A velocity has moved nothing
- * yet.) */
+/* 1 if nothing loads the body at the start: then the curve begins at the origin. A velocity
+ * has not moved anything yet. */
 static int from_rest (const pg_problem *p)
 {
     for (size_t l = 0; l < p->nload; l++)
@@ -90,11 +96,13 @@ static int from_rest (const pg_problem *p)
     return 1;
 }
 
+/* 1 with event stepping. */
 static int by_events (const pg_result *r) { return pg_solver_settled (r->solver)->event; }
 
-/* Slope through the origin of the rows up to the peak that carry at most 40 % of it, by least squares; of the
- * first row where there are none, and under event stepping, whose first row is the unbroken body at any load
- * and whose later ones have lost bonds at every load. */
+/* Slope through the origin, by least squares, over the rows before the peak that carry at most
+ * 40 % of it: the straight part of usual curves. If there are none, and with event stepping,
+ * that of the first row: there the body is unbroken, whereas all later rows have lost bonds at
+ * every load. */
 static double initial_stiffness (const pg_result *r, size_t peak)
 {
     double xy = 0, xx = 0;
@@ -105,7 +113,7 @@ static double initial_stiffness (const pg_result *r, size_t peak)
     return r->curve_x[0] != 0 ? r->curve_y[0] / r->curve_x[0] : NAN;
 }
 
-/* The row of largest |force|; under event stepping among those that the envelope passes. */
+/* The peak is the row of largest |force|; with event stepping only rows on the envelope count. */
 pg_status pg_result_curve_read (pg_result *r)
 {
     pg_status status = PG_OK;
@@ -131,6 +139,7 @@ done:
     return status;
 }
 
+/* Writes the peak, the gauges at the peak and both stiffnesses. */
 void pg_result_curve_json (pg_json *j, const pg_result *r)
 {
     const result_peak *k = &r->peak;
@@ -154,6 +163,7 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     pg_json_shut (j);
 }
 
+/* The peak in words. */
 static void tell_peak (const pg_result *r, char *out, size_t size)
 {
     const result_peak *k = &r->peak;
@@ -173,6 +183,7 @@ static void tell_peak (const pg_result *r, char *out, size_t size)
     }
 }
 
+/* The new crack in words: its length in 2D, else its area. */
 static void tell_crack (const pg_result *r, char *out, size_t size)
 {
     const result_crack *c = &r->crack;
@@ -186,6 +197,7 @@ static void tell_crack (const pg_result *r, char *out, size_t size)
         r->problem->dim == 2 ? "length" : "area", length, spent);
 }
 
+/* Lines that do not apply are skipped, so k counts those that exist. */
 int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
 {
     const result_peak *p = &r->peak;
@@ -202,6 +214,7 @@ int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
 }
 
 /* ---- its picture --------------------------------------------------------------------------------------- */
+/* Draws the curve from the origin if the body starts unloaded, and marks the peak. */
 pg_status pg_result_curve_picture (pg_result *r)
 {
     pg_status status = PG_OK;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Who may write into a result folder: one run at a time, and none over what another one left for later or
- * over a scene that no run put there. */
+ * Who may write into a result folder: one run at a time, none over the results of an
+ * unfinished run, and none over a scene that no run put there. Also the copy of the scene,
+ * which makes a folder complete: a result can be opened again with nothing but its folder and
+ * the files that the scene names. */
 #include "results_private.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -13,10 +15,11 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* The line that marks a scene.yaml as the copy of a run. */
 static const char copied[] = "\n# copied by perigal run from ";
 
 /* ---- one run at a time --------------------------------------------------------------------------------- */
-/* The process and the host that are named in the lock; 0: none is. */
+/* The process that the lock names, and its host; 0 if it names none. */
 static long owner_of (int file, char host[128])
 {
     char text[200] = "";
@@ -38,9 +41,10 @@ static int is_still (int file, const char *path)
            && own.st_dev == present.st_dev;
 }
 
-/* The system's lock ends with its process, also a killed one. Where a file system has no locks, or another
- * host may hold it, what the file says counts. retry: the file has been removed in between, so that it
- * must be made again. */
+/* Takes the lock. The system's lock (flock) ends with its process, even a killed one. Where a
+ * file system has no such locks, or another host may hold it, what the file says counts: a
+ * process of this host is asked whether it lives. *retry = 1: the owner has removed the file
+ * in between, so that the lock is on a file that has no name any more. */
 static pg_status claim (int file, const char *path, const char *folder, int *retry)
 {
     pg_status status = PG_OK;
@@ -67,6 +71,7 @@ done:
     return status;
 }
 
+/* Repeats until the locked file is the one that the name refers to. */
 pg_status pg_result_lock (const char *folder, int *lock)
 {
     pg_status status = PG_OK;
@@ -86,6 +91,7 @@ done:
     return status;
 }
 
+/* The file is removed before the lock ends, see claim. */
 void pg_result_unlock (const char *folder, int *lock)
 {
     char path[4096];
@@ -97,6 +103,7 @@ void pg_result_unlock (const char *folder, int *lock)
 }
 
 /* ---- the copy of the scene ----------------------------------------------------------------------------- */
+/* Appends text of that length, with a zero byte behind it. */
 static pg_status append (char **text, size_t *n, size_t *cap, const char *more, size_t length)
 {
     pg_status status = PG_OK;
@@ -108,7 +115,7 @@ done:
     return status;
 }
 
-/* A comment in one line. */
+/* Appends a comment as one line: line ends in it become blanks. */
 static pg_status append_line (char **text, size_t *n, size_t *cap, const char *mark, const char *words)
 {
     pg_status status = PG_OK;
@@ -121,8 +128,8 @@ done:
     return status;
 }
 
-/* The scene as text, behind a line's end as comments where it comes from, the files it names and what --set
- * changed: pg_stored_scene takes them off again. */
+/* The text of the scene, followed by comment lines with its origin, the files that it names
+ * with their hashes, and the --set options. pg_stored_scene takes these lines off again. */
 static pg_status copy_text (char **text, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -147,6 +154,7 @@ done:
     return status;
 }
 
+/* Reads a whole file; *text stays NULL if there is none. */
 static pg_status read_text (const char *path, char **text)
 {
     pg_status status = PG_OK;
@@ -164,6 +172,7 @@ done:
     return status;
 }
 
+/* 1 if both paths lead to the same file. */
 static int same_file (const char *a, const char *b)
 {
     struct stat one, other;
@@ -192,6 +201,7 @@ done:
 }
 
 /* ---- what another run left ----------------------------------------------------------------------------- */
+/* 1 if the folder has an entry of that name. */
 static int there_is (const char *folder, const char *name)
 {
     char path[4096];
@@ -200,7 +210,7 @@ static int there_is (const char *folder, const char *name)
     return lstat (path, &s) == 0;
 }
 
-/* Lines behind the header of history.csv. */
+/* Rows of history.csv behind the header. */
 static pg_status count_rows (const char *folder, long *rows)
 {
     char path[4096], *text = NULL;
@@ -213,7 +223,8 @@ static pg_status count_rows (const char *folder, long *rows)
     return status;
 }
 
-/* scene.yaml of the folder: this run's own, put there by a run, or the user's. */
+/* scene.yaml of the folder may be the scene of this run or the copy of a run; any other one is
+ * the user's and must not be overwritten. */
 static pg_status must_not_be_the_users (const char *folder, const pg_scene *scene, const char *present)
 {
     pg_status status = PG_OK;
@@ -240,6 +251,8 @@ done:
     return status;
 }
 
+/* Rows without a report are those of a run that was killed before its first checkpoint: the
+ * same scene may begin anew there, another one may not. */
 pg_status pg_result_may_open (const char *folder, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -271,6 +284,8 @@ done:
     return status;
 }
 
+/* The report of a finished run is not touched: it does not keep another run from opening the
+ * folder. */
 pg_status pg_result_discard (const char *folder)
 {
     pg_status status = PG_OK;

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * history.csv: one row a step with reactions and mean displacements of every load, gauges, energies;
- * events.csv: one row a bond. */
+ * history.csv has one row per step with reactions and mean displacements of every load,
+ * gauges, averages, cracks, energies and the work of the solver; events.csv has one row per
+ * broken bond. doc/output.md explains all columns. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
+/* The columns that every table has, with their units. */
 static const char *const first_columns[] = { "step [1]", "time [s]", "load_factor [1]" };
 static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinetic [J]",
                                             "energy_external [J]", "energy_dissipated [J]",
@@ -13,8 +15,10 @@ static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinet
                                             "residual [1]",        "utilisation [1]",
                                             "event [1]",           "level [1]" };
 
+/* Columns of events.csv: numbers, then the names of bond set and kind. */
 enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
 
+/* The order of the columns here is that of the values in pg_result_history_row. */
 pg_status pg_result_history_create (pg_result *r, const result_marks *from)
 {
     pg_status status = PG_OK;
@@ -59,6 +63,7 @@ done:
     return status;
 }
 
+/* Mean of component k over the points of a set; 0 for a set without points. */
 static double mean_of (const pg_set *set, const double *u, int dim, int k)
 {
     double sum = 0;
@@ -66,6 +71,8 @@ static double mean_of (const pg_set *set, const double *u, int dim, int k)
     return set->npoint ? sum / (double) set->npoint : 0;
 }
 
+/* Opening of a gauge: the relative displacement b - a of its ends along the line between them,
+ * m. */
 static double opening (const pg_gauge *g, int dim, const double *a, const double *b)
 {
     double length = 0, sum = 0;
@@ -76,7 +83,9 @@ static double opening (const pg_gauge *g, int dim, const double *a, const double
     return length > 0 ? sum / sqrt (length) : 0;
 }
 
-/* Numbers first, so that a reader of numbers takes all of a row but its two names. */
+/* One row per bond that broke in the step. Numbers come first, so that readers of numbers can
+ * read all of a row but its last two names. In static runs with fixed steps the load factor at
+ * the break follows from its time within the step. */
 static pg_status event_rows (pg_result *r, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -112,6 +121,8 @@ done:
     return status;
 }
 
+/* Writes the row of a step and the rows of its bonds. Displacements are those of the body, u
+ * (x) = sum N_j d_j, not coefficients. Gauges without a field between points are empty. */
 pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;

@@ -1,11 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * report.json: what the run did, in fixed keys (doc/output.md). */
+ * report.json: what the run did, under fixed keys that doc/output.md explains. Numbers are in
+ * SI units. */
 #include "results_private.h"
 #include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* Where the time went, s. */
 static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics *r, double search,
                            double total)
 {
@@ -27,6 +29,7 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics
     pg_json_shut (j);
 }
 
+/* Sizes of the problem, the work of the solver, energies (J). */
 static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
 {
     const pg_problem *p = res->problem;
@@ -64,7 +67,7 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_shut (j);
 }
 
-/* Files that the scene names, as they were. */
+/* The files that the scene names, with their hashes. */
 static void files_block (pg_json *j, const pg_result *res)
 {
     char whole[PATH_MAX];
@@ -80,7 +83,8 @@ static void files_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
-/* lower_bound: integrated at the nodes, recovery sees roughness only. */
+/* The error estimate. With integration at the nodes stress recovery sees the roughness of the
+ * stress only, so the estimate is called a lower bound. */
 static void estimate_block (pg_json *j, const pg_result *res)
 {
     const pg_estimate *e = pg_result_estimate (res);
@@ -95,7 +99,7 @@ static void estimate_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
-/* Of the discretisation, before the first step */
+/* The patch test of the discretisation, made before the first step. */
 static void patch_block (pg_json *j, const pg_problem *p)
 {
     if (!p->patch.measured) return;
@@ -109,6 +113,7 @@ static void patch_block (pg_json *j, const pg_problem *p)
     pg_json_shut (j);
 }
 
+/* The new crack, if any bond has broken. */
 static void crack_block (pg_json *j, const pg_result *res)
 {
     if (!res->crack.found) return;
@@ -120,7 +125,7 @@ static void crack_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
-/* One line; of several materials one each. */
+/* The criterion in words; with several materials one text for each. */
 static void criteria (pg_json *j, const pg_problem *p)
 {
     char text[512] = "";
@@ -133,6 +138,7 @@ static void criteria (pg_json *j, const pg_problem *p)
     if (p->nmaterial > 1) pg_json_shut (j);
 }
 
+/* The file appears whole or not at all (pg_json_close). */
 pg_status pg_result_json (pg_result *res, const pg_state *state, const char *failure, double search,
                        double total)
 {

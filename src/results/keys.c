@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of what a run leaves behind. */
+ * The keys of the section `output` of a scene: path, kind, unit, range, default, choices and
+ * the text of the documentation. */
 #include "perigal/scene.h"
 
 static const pg_key keys[] = {

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pictures of the last state or of a stage. */
+ * Draws the pictures of the last state or of a stage: finds the field that a picture names,
+ * its component, its title and its view, and hands everything to picture.h. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>
@@ -13,7 +14,8 @@ const char *pg_result_voigt (int dim, int k)
     return part[dim][k];
 }
 
-/* "stress.xx" -> component; -1: magnitude of a vector, or the only one */
+/* The component that "stress.xx" names (dot: ".xx"); -1 for the size of a vector, -2 if there
+ * is no such component. */
 static int part_of (const char *dot, int dim, int components)
 {
     if (!dot) return components == 1 ? 0 : components == dim ? -1 : 0;
@@ -23,8 +25,8 @@ static int part_of (const char *dot, int dim, int components)
     return -2;
 }
 
-/* The part of a field that `name` means, n values to be freed with pg_free; work holds 6 a point. unit as the
- * force names it. */
+/* The values that a picture shows: n, to be freed with pg_free; work holds 6 values per point.
+ * *unit is a static text of the force. */
 static pg_status read_part (pg_result *r, const pg_state *state, const char *name, double *work, double **out,
                             const char **unit)
 {
@@ -50,7 +52,7 @@ done:
     return status;
 }
 
-/* "Disk: damage, back, load factor 0.5" */
+/* A title such as "Disk: damage, back, load factor 0.5". */
 static void write_title (const pg_result *r, const pg_state *state, const result_view *v, const char *unit,
                          char *title, size_t size)
 {
@@ -65,8 +67,8 @@ static void write_title (const pg_result *r, const pg_state *state, const result
     else snprintf (title + used, size - (size_t) used, "load factor %.4g", state->factor);
 }
 
-/* Where the body is: its plane elements, its shapes, or the whole cells that stand for it; of a file of
- * points nothing is known. */
+/* Where the body is: plane elements, its shapes, or the whole cells that stand for it. Nothing
+ * is known of points from a file. */
 static pg_outline result_outline (const pg_result *r)
 {
     const pg_problem *p = r->problem;
@@ -75,6 +77,9 @@ static pg_outline result_outline (const pg_result *r)
     return (pg_outline) { .body = &p->body, .lattice = r->stairs ? &p->lattice : NULL };
 }
 
+/* Draws one picture. Stress, and ranges that are symmetric about zero, have a diverging scale.
+ * As long as no point is damaged the body of a mesh is drawn on its elements; later these
+ * would hide the crack. u: scratch space, 6 values per point. */
 static pg_status one_picture (pg_result *r, const pg_state *state, const result_view *v, const char *path,
                               double *work, double *u)
 {
@@ -108,7 +113,8 @@ done:
     return status;
 }
 
-/* All pictures; suffix: what follows their names. listed: they belong to those the run names at its end. */
+/* Draws all pictures into FOLDER/within; `suffix` follows their names. listed: they belong to
+ * those that the run names at its end. */
 static pg_status draw_all (pg_result *r, const pg_state *state, const char *within, const char *suffix,
                            int listed)
 {
@@ -139,6 +145,7 @@ done:
     return status;
 }
 
+/* The distance from the reference at the points. */
 static pg_status error_picture (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -176,6 +183,7 @@ done:
     return status;
 }
 
+/* A curve needs two points at least. */
 pg_status pg_result_draw (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The result folder: opened before the first step, every row on disk when its step is over. */
+ * The result folder from its opening to its end. All rows of a step are in the files when the
+ * step is over; fields are written when they are due: with levels of the load (output.at),
+ * every so many events, when another share of the bonds has broken, and at the end. */
 #include "results_private.h"
 #include <errno.h>
 #include <stdio.h>
@@ -32,9 +34,9 @@ done:
     return status;
 }
 
-/* What the scene asks for: when fields are written, which, and the views. A file with displacements also
- * gets the coefficients of shape functions that do not interpolate, because these are the field between
- * points. */
+/* Reads the section `output`. If displacements are wanted and the shape functions do not
+ * interpolate, the coefficients are written as well: only with them can a comparison evaluate
+ * the field between the points exactly. */
 static pg_status read_requests (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -59,6 +61,7 @@ done:
     return status;
 }
 
+/* A file that is missing is no failure. */
 pg_status pg_result_remove (const pg_result *r, const char *name)
 {
     pg_status status = PG_OK;
@@ -70,7 +73,7 @@ done:
     return status;
 }
 
-/* What new and resumed results have in common; leaves the folder as it is. */
+/* What new and resumed results have in common. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver)
 {
@@ -93,7 +96,8 @@ done:
     return status;
 }
 
-/* Nothing of an earlier run may be taken for this one's: its report goes first. */
+/* The order matters: checks first, then the lock, and the report of an earlier run is removed
+ * before anything new is written, so that nothing of it is mistaken for the new run. */
 pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene,
                           const pg_problem *problem, pg_solver *solver)
 {
@@ -121,6 +125,7 @@ done:
     return status;
 }
 
+/* Read from the open files, so that marks and files cannot differ. */
 result_marks pg_result_marks_now (const pg_result *r)
 {
     result_marks m = {
@@ -131,7 +136,8 @@ result_marks pg_result_marks_now (const pg_result *r)
     return m;
 }
 
-/* Times in result.e ascend, whatever is written. */
+/* Appends a step to result.e. Times must ascend in Exodus, so a second writing at the same
+ * time moves on by one bit. */
 static pg_status write_fields (pg_result *r, const pg_state *state, double time)
 {
     pg_status status = PG_OK;
@@ -151,7 +157,7 @@ done:
     return status;
 }
 
-/* Has another share of the bonds broken? */
+/* 1 if another share of the bonds has broken; sets the next one. */
 static int share_has_broken (pg_result *r, const pg_state *state)
 {
     if (!(r->broken_share > 0)
@@ -161,13 +167,14 @@ static int share_has_broken (pg_result *r, const pg_state *state)
     return 1;
 }
 
-/* Within a step there is no time: its rounds stand for it, from the last step's towards the end of this
- * one's. */
+/* A time for a stage in the middle of a step, where there is none: rounds of breaking move it
+ * from the last step towards the end of this one without reaching it. */
 static double time_within (const pg_result *r)
 {
     return r->stamp + r->length * (double) r->rounds / ((double) r->rounds + 100);
 }
 
+/* If writing fails, the stage is due again after the next round. */
 pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *so_far)
 {
     pg_status status = PG_OK;
@@ -183,6 +190,8 @@ pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *s
     return status;
 }
 
+/* Stages of the refused step stay in result.e, which then does not end with the state of the
+ * last step. */
 void pg_result_refused (pg_result *r)
 {
     r->rounds = 0;
@@ -190,6 +199,8 @@ void pg_result_refused (pg_result *r)
     r->last_written = r->done.last_written || r->time > r->stamp;
 }
 
+/* `pending` keeps the step until all of it is written, so that a checkpoint after a full disk
+ * can write it later. */
 pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -211,7 +222,7 @@ done:
     return status;
 }
 
-/* A run does not fail for want of memory for this. */
+/* A run does not fail for want of memory for the estimate. */
 static pg_status estimate (pg_result *r, const pg_state *state)
 {
     void *self;
@@ -224,6 +235,8 @@ static pg_status estimate (pg_result *r, const pg_state *state)
 
 const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }
 
+/* report.json is written even if pictures fail. The checkpoint goes last: until then the run
+ * can be resumed. */
 pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search,
                             double total)
 {
@@ -245,6 +258,7 @@ done:
     return status;
 }
 
+/* The lock is given up after the files are closed. */
 void pg_result_free (pg_result **result)
 {
     pg_result *r = *result;
@@ -267,6 +281,7 @@ void pg_result_free (pg_result **result)
 const pg_errors *pg_result_errors (const pg_result *r) { return r->measured ? &r->errors : NULL; }
 const char *pg_result_folder (const pg_result *r) { return r->folder; }
 size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }
+/* NULL past the last one. */
 const char *pg_result_picture (const pg_result *r, size_t i)
 {
     return i < r->nwritten ? r->written[i] : NULL;

@@ -1,53 +1,76 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the open result folder. */
+ * Private: the open result folder and what its files share.
+ *
+ * Two sets of marks make a run resumable. `done` says how long the files were when the last
+ * step was complete, `now` how long they were after the last look at the middle of a step. A
+ * checkpoint stores the marks, and resuming cuts the files back to them. */
 #ifndef PG_RESULT_PRIVATE_H
 #define PG_RESULT_PRIVATE_H
 #include "perigal/picture.h"
 #include "perigal/results.h"
 
+/* Largest numbers of fields in result.e and of pictures. */
 enum { MOST_FIELDS = 16, MOST_PICTURES = 32 };
-/* How far the files are, and what they depend on, at the end of a step or in its middle. */
+/* How far the files are, at the end of a step or in its middle. */
 typedef struct {
-    long     history, events;                          /* rows */
-    long     steps, bytes;                             /* of result.e */
+    /* Rows of both tables. */
+    long     history, events;
+    /* Steps of result.e and its length in bytes. */
+    long     steps, bytes;
+    /* Number of the share of broken bonds at which fields are due next; points of the
+     * load-displacement curve; 1 if the state of the last step is in result.e. */
     long     next_broken, points, last_written;
-    double   stamp, time;                              /* of the last step; of the last fields in result.e */
+    /* Time of the last step, and of the last fields in result.e (s, or load factor). */
+    double   stamp, time;
 } result_marks;
+/* A mean over a set: column name, field, its unit, the set, and the component of the field. */
 typedef struct {
     char name[32], field[32];
     const char *unit;
     const pg_set *set;
     int component;
 } result_average;
-/* along: of every point from `from`, m; 0: does not count (n). length: of the crack at each row, m; 0: no
- * point is damaged so far. */
+/* A crack whose length is followed. The length of a point is its distance from `from` along
+ * the unit vector `direction`, m. */
 typedef struct {
     char name[32];
+    /* along: that distance of every point, 0 for points that do not count (n, m). damage:
+     * points with at least this damage belong to the crack. length: of the crack at each row
+     * (m), 0 as long as no point is damaged. */
     double from[3], direction[3], damage, *along, *length;
     size_t capacity;
 } result_tip;
-/* Rows: first with a length, first and last that grew, fastest; mean speed between start and stop, largest,
- * m/s (0 unless dynamic). */
+/* A summary of one crack. Rows: the first one with a length, the first and the last one at
+ * which it grew, the fastest. Speeds in m/s: mean between start and stop, and largest; 0
+ * unless the run is dynamic. moved: 1 if it grew. */
 typedef struct { double mean; size_t first, start, stop, fastest; double largest; int moved; } result_tip_run;
-/* A picture: NAME.png of field. limited: only points of the field above style.above; by_damage: of damage. */
+/* A picture of the last state: NAME.png shows a field or a component of one. look: its view in
+ * words. */
 typedef struct {
     char name[64], field[64], look[64];
     pg_picture_style style;
+    /* 1: only points are drawn whose field, or whose damage, is at least style.above. */
     int limited, by_damage;
 } result_view;
-/* What the curve comes to (pg_result_curve_read). found: 0: there is no curve. row: of the largest
- * |force|. */
+/* The peak of the load-displacement curve. found = 0: there is no curve. */
 typedef struct {
     int found;
+    /* Row of history.csv with the largest |force|. */
     size_t row;
+    /* N, m, number of the step, s, load factor there; initial and secant stiffness in N/m, NAN
+     * if unknown. */
     double force, displacement, step, time, factor, initial, secant;
 } result_peak;
-/* What broken bonds say of new crack faces (pg_result_crack_measure). m2; m (2D), else NAN; J/m2 or NAN. */
+/* What the broken bonds amount to: area of new crack in m2, in 2D its length in m (else NAN),
+ * and the dissipated energy per area in J/m2 (NAN if unknown). */
 typedef struct { int found; double area, length, dissipated; } result_crack;
+/* An open result folder. */
 struct pg_result {
     char     folder[3072];
-    pg_named_file *named;  size_t nnamed;              /* files of the scene */
-    int      lock;                                     /* 0: none */
+    /* Files that the scene names, with their hashes. */
+    pg_named_file *named;  size_t nnamed;
+    /* File descriptor of the lock plus one; 0: not locked. */
+    int      lock;
     const pg_problem *problem;
     pg_solver *solver;
     char     hash[80], scene[3072];
@@ -58,82 +81,126 @@ struct pg_result {
     double   *value[MOST_FIELDS];
     result_view picture[MOST_PICTURES];
     char      written[MOST_PICTURES + 3][4096];
-    /* pictures at every written stage; time instead of load factor; cells: staircase */
+    /* stages: 1: all pictures also with every step of result.e. dynamic: time instead of load
+     * factor. stairs: 1: whole lattice cells stand for the body (cells: staircase). */
     int       stages, dynamic, stairs;
+    /* Magnification of displacements in pictures; share of the bonds after which fields are
+     * due again, 0: never. */
     double    magnify, broken_share;
+    /* Events after which fields are due again (0: never); number of the next share of broken
+     * bonds. */
     long      every, next_broken;
+    /* Scratch space: one row of history.csv (ncolumn), and two fields at the points (n x 6). */
     double   *row, *u;
     result_average *average;  size_t naverage;
-    result_tip *tip;  size_t ntip, tips, tip_capacity;         /* tips: rows */
-    double   *tip_time;                                /* s, or load factor (tips) */
-    long      tip_broken;  /* bonds at the last row; -1: lengths are not those of it */
+    /* Cracks that are followed; tips is the number of rows with their lengths. */
+    result_tip *tip;  size_t ntip, tips, tip_capacity;
+    /* Time (s) or load factor of each of these rows. */
+    double   *tip_time;
+    /* Broken bonds when the lengths were measured last; -1: they must be measured. */
+    long      tip_broken;
+    /* Steps in result.e. */
     long      exodus_steps;
-    int       last_written;                            /* the state of the last step is in result.e */
-    /* load-displacement curve: a point a row of history.csv, with sign; more: of each row step, time, load
-     * factor, gauges */
+    /* 1: the state of the last step is in result.e. */
+    int       last_written;
+    /* The load-displacement curve, one point per row of history.csv; `more` holds step, time,
+     * load factor and gauges of each point. */
     size_t    npoint, cap_x, cap_y, cap_more;
-    double   *curve_x, *curve_y, *curve_more;          /* m; N */
+    /* Displacement (m), force (N), both with sign, and the rest. */
+    double   *curve_x, *curve_y, *curve_more;
     result_peak peak;
     result_crack crack;
+    /* The load and the component that the curve follows; curve_load -1: none. */
     int       curve_load, curve_component;
-    int       estimating, estimated;                   /* wanted; made */
+    /* An estimate of the error is wanted; it was made. */
+    int       estimating, estimated;
     pg_estimate estimate;
+    /* Time spent in writing, s. */
     double    seconds;
-    double    stamp;                                   /* of the last step */
-    double    time;                                    /* of the last fields in result.e */
-    double    length;  /* of a step whose middle can be seen: s, or load factor */
-    /* going on later */
-    result_marks done;  /* when the last step was made, and again when it was written */
-    result_marks now;  /* in the middle of a step: after its last round looked at */
-    long      rounds;  /* break rounds of the step at hand: its middle has been seen */
-    pg_step   pending;  int is_pending;                /* a step whose rows and fields are not all written */
-    pg_reference *reference;                           /* NULL: none */
+    /* Time of the last step. */
+    double    stamp;
+    /* Time of the last fields in result.e. */
+    double    time;
+    /* Length of a step, s or load factor, which places the stages within it. */
+    double    length;
+    /* The files when the last step was made, and again when it was written. */
+    result_marks done;
+    /* The files in the middle of a step, after its last round was looked at. */
+    result_marks now;
+    /* Rounds of breaking in the current step; above 0: its middle has been seen. */
+    long      rounds;
+    /* A step whose rows and fields are not all written. */
+    pg_step   pending;  int is_pending;
+    /* The reference of the scene; NULL: none. */
+    pg_reference *reference;
     pg_errors errors;  int measured;
-    double    opened, earlier;  /* pg_seconds at the opening; s in processes before this one */
-    double    interval, checkpoint_at, checkpoint_cost;        /* s */
+    /* pg_seconds when the folder was opened; seconds that earlier processes of this run took. */
+    double    opened, earlier;
+    /* Seconds between checkpoints; when the last one was written; how long that took. */
+    double    interval, checkpoint_at, checkpoint_cost;
 };
+/* Fills a new result from the scene without touching the folder. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver);
+/* The marks of the files as they are now. */
 result_marks pg_result_marks_now   (const pg_result *r);
+/* Removes a file of the folder; it may be missing. */
 pg_status pg_result_remove         (const pg_result *r, const char *name);
-/* New tables, or those of `from`, cut to its rows. */
+/* Creates history.csv and events.csv, or opens them and cuts them to the rows of `from`. */
 pg_status pg_result_history_create (pg_result *r, const result_marks *from);
+/* Writes the rows of a step to both. */
 pg_status pg_result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);
-/* PG_E_USAGE: another run has the folder. *lock: what pg_result_unlock takes. */
+/* Locks a folder; PG_E_USAGE if another run uses it. *lock is what pg_result_unlock takes. */
 pg_status pg_result_lock           (const char *folder, int *lock);
 void      pg_result_unlock         (const char *folder, int *lock);
+/* Writes scene.yaml: the scene as it was read, with its origin and the --set options as
+ * comments. */
 pg_status pg_result_copy_scene     (const char *folder, const pg_scene *scene);
+/* output.averages (average.c): faults, reading, header of column i, and the values of a row.
+ * work: 6 values per point. */
 void      pg_result_averages_check (const pg_scene *scene, const pg_problem *problem);
 pg_status pg_result_averages_read  (pg_result *r, const pg_scene *scene);
 void      pg_result_average_column (const pg_result *r, size_t i, char *out, size_t size);
 pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row,
                                double *work /* 6 a point */);
+/* output.tips (tips.c): faults, reading, freeing, a row, keeping the first `rows` rows. */
 pg_status pg_result_tips_check     (const pg_scene *scene, const pg_problem *problem);
 pg_status pg_result_tips_read      (pg_result *r, const pg_scene *scene);
 void      pg_result_tips_free      (pg_result *r);
 pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step *step, double *row,
                            double *work /* 6 a point */);
 pg_status pg_result_tips_keep      (pg_result *r, size_t rows, const pg_keeper *keeper);
-double    pg_result_tips_rayleigh  (const pg_result *r);  /* of the fastest material, m/s; 0: none */
-/* speed: m/s at every row (tips), or NULL. */
+/* Speed of Rayleigh waves in the fastest material, m/s; 0 if no material has a density. */
+double    pg_result_tips_rayleigh  (const pg_result *r);
+/* The summary of crack i; speed: m/s at every row (tips values), or NULL. */
 void      pg_result_tips_run       (const pg_result *r, size_t i, result_tip_run *out, double *speed);
-pg_status pg_result_tips_pictures  (pg_result *r);        /* tip.png, tip_speed.png */
+/* Writes tip.png and, in dynamic runs, tip_speed.png. */
+pg_status pg_result_tips_pictures  (pg_result *r);
 void      pg_result_tips_json      (pg_json *j, const pg_result *r);
-void      pg_result_curve_choose   (pg_result *r);        /* which load and component; curve_load -1: none */
+/* Chooses the load and the component of the curve; curve_load becomes -1 if there is none
+ * (curve.c). */
+void      pg_result_curve_choose   (pg_result *r);
 pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step);
 pg_status pg_result_curve_keep     (pg_result *r, size_t n, const pg_keeper *keeper);
-pg_status pg_result_curve_picture  (pg_result *r);        /* load_displacement.png */
-pg_status pg_result_curve_read     (pg_result *r);        /* fills peak */
+/* Writes load_displacement.png. */
+pg_status pg_result_curve_picture  (pg_result *r);
+/* Finds the peak. */
+pg_status pg_result_curve_read     (pg_result *r);
 void      pg_result_curve_json     (pg_json *j, const pg_result *r);
-pg_status pg_result_crack_measure  (pg_result *r, const pg_state *state);        /* fills crack */
-const char *pg_result_voigt        (int dim, int k);       /* "xx", "yy", ... of component k */
+/* Measures the new crack. */
+pg_status pg_result_crack_measure  (pg_result *r, const pg_state *state);
+/* Name of Voigt component k in a dimension: "xx", "yy" ... */
+const char *pg_result_voigt        (int dim, int k);
+/* Draws all pictures of the last state. */
 pg_status pg_result_draw       (pg_result *r, const pg_state *state);
-/* stages/NAME_0007.png of step 7 of result.e */
+/* Draws them as stages/NAME_0007.png for the step 7 of result.e. */
 pg_status pg_result_draw_stage          (pg_result *r, const pg_state *state);
+/* Reads entry i of output.views; all of output.pictures and output.views. */
 pg_status pg_result_view_read      (result_view *v, const pg_scene *scene, size_t i, int dim);
 pg_status pg_result_views_read     (pg_result *r, const pg_scene *scene);
-/* measured against the reference, error.png */
+/* Measures the last state against the reference and draws error.png. */
 pg_status pg_result_measure         (pg_result *r, const pg_state *state);
+/* Writes report.json. */
 pg_status pg_result_json (pg_result *r, const pg_state *state, const char *failure, double search,
                           double total);
 #endif

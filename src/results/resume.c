@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * checkpoint.nc of a result folder: the marks of its files, what the result remembers, a step that could not
- * be written, and all that the solver keeps. Reading it back cuts the files to their marks, so that what a
- * killed run has added since does not count. */
+ * checkpoint.nc of a result folder: the marks of its files, what the result remembers, a step
+ * that could not be written, and everything that the solver keeps. Reading it back cuts the
+ * files to their marks, so that what a killed run has added since does not count. A resumed
+ * run then gives the same bits as one that was never interrupted.
+ *
+ * Everything passes through keep_all, once for writing and once for reading. Values that are
+ * read are checked against the problem before they are used as sizes. */
 #include "results_private.h"
 #include <errno.h>
 #include <stdint.h>
@@ -10,19 +14,25 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* Bytes of a hash and of the version. */
 enum { WORD = 64 };
+/* A checkpoint that is being written or read. */
 typedef struct {
     pg_result *r;
     pg_state  *state;
     const char *path;
-    result_marks now;                                  /* where the files are to be cut */
+    /* Where the files are to be cut. */
+    result_marks now;
     long       rounds, is_pending, threads;
-    double     seconds;                                /* of the run so far */
+    /* Seconds that the run has taken so far. */
+    double     seconds;
     pg_step    pending;
-    pg_broken *broken;  double *reaction;              /* of the pending step, when read back */
+    /* Broken bonds and reactions of the pending step, when read back. */
+    pg_broken *broken;  double *reaction;
 } memory;
 
-/* Places, volumes and blocks: also of files that the scene does not name itself. */
+/* A hash of places, volumes and blocks: it also notices changes in files that the scene names
+ * only indirectly. */
 static long fingerprint (const pg_cloud *cloud)
 {
     uint64_t hash = pg_fingerprint (PG_FINGERPRINT, cloud->x,
@@ -31,7 +41,7 @@ static long fingerprint (const pg_cloud *cloud)
     return (long) (pg_fingerprint (hash, cloud->block, cloud->n * sizeof *cloud->block) >> 1);
 }
 
-/* Each file of the scene must hold what it held. */
+/* PG_E_USAGE if a file of the scene has another content than when the checkpoint was written. */
 static pg_status keep_files (memory *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -51,7 +61,8 @@ done:
     return status;
 }
 
-/* Version, scene and points must be those of this run; the number of threads may differ. */
+/* Version, scene, files and points must be those of this run; the number of threads may
+ * differ. */
 static pg_status keep_identity (memory *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -88,7 +99,8 @@ done:
     return status;
 }
 
-/* No more rows than history.csv has bytes. */
+/* Marks that are read must be possible: no more rows than history.csv has bytes, no more
+ * points of the curve than rows. */
 static pg_status check_marks (const memory *m, const char *name, const long *count)
 {
     pg_status status = PG_OK;
@@ -109,6 +121,7 @@ done:
     return status;
 }
 
+/* One set of marks under a name. */
 static pg_status keep_marks (const memory *of, result_marks *m, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -126,7 +139,7 @@ done:
     return status;
 }
 
-/* A step that was made and could not be written: its rows are made again. */
+/* A step that was made and could not be written: its rows are written after resuming. */
 static pg_status keep_pending (memory *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -162,6 +175,7 @@ done:
     return status;
 }
 
+/* All of a checkpoint, in a fixed order. */
 static pg_status keep_all (void *context, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -187,6 +201,8 @@ done:
 }
 
 /* ---- writing ------------------------------------------------------------------------------------------- */
+/* In the middle of a step the files are to be cut to the marks of the last round, otherwise to
+ * those of the last step. */
 static memory memory_of (pg_result *r, pg_state *state, const char *path)
 {
     return (memory){ .r = r,
@@ -200,12 +216,14 @@ static memory memory_of (pg_result *r, pg_state *state, const char *path)
                      .pending = r->pending };
 }
 
+/* The same bytes that a file would get, for comparisons of states. */
 pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper)
 {
     memory m = memory_of (r, state, "the checkpoint");
     return keeper->reading ? pg_error (PG_E_USAGE, PG_HERE, "pg_result_resume reads") : keep_all (&m, keeper);
 }
 
+/* The files are synced first: marks on the disk must not be ahead of the rows that they count. */
 pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -224,7 +242,7 @@ done:
     return status;
 }
 
-/* Never more than a tenth of the time goes into checkpoints. */
+/* At most a tenth of the time goes into checkpoints, however short the interval. */
 int pg_result_due (const pg_result *r)
 {
     double passed = pg_seconds () - r->checkpoint_at;
@@ -232,6 +250,7 @@ int pg_result_due (const pg_result *r)
 }
 
 /* ---- going on ------------------------------------------------------------------------------------------ */
+/* Opens tables and result.e and cuts them to the marks. */
 static pg_status open_files (pg_result *r, const result_marks *at)
 {
     pg_status status = PG_OK;
@@ -246,7 +265,7 @@ done:
     return status;
 }
 
-/* What was due when the checkpoint was written and could not be done. */
+/* Writes what was due when the checkpoint was written and could not be done. */
 static pg_status catch_up (memory *m)
 {
     pg_status status = PG_OK;
@@ -291,6 +310,8 @@ done:
     return status;
 }
 
+/* Reads the hash of the scene and the outcome from the beginning of report.json, where our own
+ * writer puts them. */
 int pg_result_finished (const char *folder, const pg_scene *scene)
 {
     char path[4096], text[16384] = "", hash[128];

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What pictures a scene wants: the words of output.pictures, then the maps of output.views, each with a file
- * name of its own. */
+ * Which pictures a scene asks for: the names of output.pictures, then the entries of
+ * output.views, each with a file name of its own. */
 #include "results_private.h"
 #include <stdio.h>
 #include <string.h>
 
+/* Index of a word in "a|b|c"; -1 if it is not there. */
 static int place_of (const char *word, const char *names)
 {
     int k = 0;
@@ -13,6 +14,7 @@ static int place_of (const char *word, const char *names)
     return -1;
 }
 
+/* Text of a key of entry i; NULL if it is not given. */
 static const char *text_of (const pg_scene *scene, size_t i, const char *key)
 {
     return pg_scene_has (scene, "output.views[%zu].%s", i, key)
@@ -20,7 +22,9 @@ static const char *text_of (const pg_scene *scene, size_t i, const char *key)
                : NULL;
 }
 
-/* What is given in SI units of the field. */
+/* Range of the colours and limit of the selection, in SI units of the field. Damage has the
+ * range 0 to 1 unless another is given; the view crack shows points above PG_CRACK_DAMAGE,
+ * coloured by depth if the field is damage itself. */
 static void read_limits (result_view *v, const pg_scene *scene, size_t i)
 {
     double range[2] = { 0 };
@@ -53,7 +57,8 @@ static void write_name (result_view *v, const char *name, const char *section)
     pg_picture_name (v->name, sizeof v->name, section ? section : v->look);
 }
 
-/* Direction and section must have been checked (or their faults are the status). */
+/* Direction and section should have been checked before; otherwise their faults are the
+ * returned status. Without a name the file is FIELD_VIEW. */
 pg_status pg_result_view_read (result_view *v, const pg_scene *scene, size_t i, int dim)
 {
     pg_status status = PG_OK;
@@ -74,6 +79,7 @@ done:
     return status;
 }
 
+/* Pictures beyond the largest number have been reported by pg_result_check. */
 pg_status pg_result_views_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
