@@ -1,9 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * study.h: many runs, compared with each other and with references: one trial in a process of its own,
- * benchmarks over methods and sizes, orders of convergence, one result beside another, the first bond to
- * break.
+ * study.h: many runs, compared with each other and with references: one trial in a process of
+ * its own, benchmarks over methods and sizes, orders of convergence, one result beside
+ * another, the first bond to break.
  *
- * Nothing here prints unasked: what a person should read goes to the stream `out` of a request, and a
+ * Each run of a study is a process of its own, because only then its CPU seconds and its
+ * largest memory are its own, and because a run that fails must not end the study. Nothing
+ * here prints unasked: what a person should read goes to the stream `out` of a request, and a
  * request without one is quiet. */
 #ifndef PERIGAL_STUDY_H
 #define PERIGAL_STUDY_H
@@ -16,18 +18,19 @@
  * SIGINT. */
 enum { PG_EXIT_DONE = 0, PG_EXIT_USAGE = 64, PG_EXIT_SCENE = 65, PG_EXIT_FAILED = 70,
        PG_EXIT_INTERRUPTED = 130 };
+/* The exit code that belongs to a status. */
 int pg_exit_code (pg_status status);
 
 /* ---- lists of words on a command line ----------------------------------------------------------------- */
 enum { PG_LIST_WORDS = 32, PG_LIST_TEXT = 128 };
-/* "1 mm,0.5 mm" cut at its commas. given: 0: the user named no list, and what it stands for may be filled
- * in. */
+/* "1 mm,0.5 mm" cut at its commas. given = 0: the user named no list, and defaults may be
+ * filled in. */
 typedef struct { int given; size_t n; char word[PG_LIST_WORDS][PG_LIST_TEXT]; } pg_word_list;
-/* 1: done; 0: too many words, or one that is empty or too long. */
+/* Cuts a text; returns 0 for too many words, or for one that is empty or too long. */
 int pg_word_list_split (pg_word_list *out, const char *text);
 
 /* ---- a trial: one run, measured ----------------------------------------------------------------------- */
-/* The numbers of a trial: name and unit, in the order of the columns of bench.csv. */
+/* The numbers of a trial: identifier, name and unit, in the order of the columns of bench.csv. */
 #define PG_TRIAL_LIST(X) \
     X (SPACING, "spacing", "m") X (HORIZON, "horizon", "m")   X (POINTS, "points", "1") \
     X (DOFS, "dofs", "1")       X (L2, "l2", "1")             X (ENERGY, "energy", "1") \
@@ -42,96 +45,141 @@ enum {
 #undef X
     PG_TRIAL_COUNT };
 extern const char *const pg_trial_name[PG_TRIAL_COUNT], *const pg_trial_unit[PG_TRIAL_COUNT];
-/* l2, energy, maximum: relative errors against the scene's reference over the body (pg_norms). lines: root
- * of the summed squares of the differences over that of its tables. NAN: the scene has no such reference,
- * or the number is not known. cpu, wall, peak: from the start of the process until the last fields are
- * written; measuring the error does not count. */
+/* What one run measured; NAN where a number is not known or the scene has no such reference.
+ *
+ *   l2, energy, maximum   relative errors against the reference of the scene over the body (pg_norms)
+ *   lines                 root of the summed squares of the differences over that of its tables
+ *   cpu, wall, peak       from the start of the process until the last fields are written; measuring the
+ *                         error does not count */
 typedef struct { double value[PG_TRIAL_COUNT]; } pg_trial;
 
 enum { PG_TRIAL_SETS = 64 };
+/* A trial to run. */
 typedef struct {
-    const char *scene, *folder;                        /* folder: takes the results of the run */
-    /* "key=value"; of two with the same key the later one counts */
+    /* The scene file, and the folder that takes the results. */
+    const char *scene, *folder;
+    /* Replaced values of the scene, "key=value"; of two with the same key the later one
+     * counts. */
     size_t      nset;  const char *set[PG_TRIAL_SETS];
     int         threads;
 } pg_trial_request;
-/* Runs the scene in a new process of this same program, which must answer `bench --row` with
- * pg_trial_measure and pg_trial_write, as the program perigal does. PG_E_SCENE: a combination of keys that
- * cannot be; pg_last_error says what went wrong. */
+/* Runs the scene in a new process of this same program, which must answer `bench --row` by
+ * pg_trial_measure and pg_trial_write, as the program perigal does. PG_E_SCENE: a combination
+ * of keys that is not possible; the message says what went wrong. */
 pg_status pg_trial_run  (pg_trial *out, const pg_trial_request *q);
-/* In that new process: builds, solves, leaves the results in `folder` and measures. start: pg_seconds when
- * the process began. */
+/* What that new process does: builds, solves, leaves the results in `folder` and measures.
+ * start: pg_seconds when the process began. */
 pg_status pg_trial_measure (pg_trial *out, const pg_scene *scene, const char *folder, int threads,
                             double start);
-/* The same numbers for a finite element result (a file that pg_mesh_result reads; unit: m in a length unit
- * of the file). */
+/* The same numbers for a finite element result, in a file that pg_mesh_result reads; unit:
+ * metres in a length unit of the file. */
 pg_status pg_trial_of_mesh (pg_trial *out, const pg_scene *scene, const char *path, double unit);
-/* Between the two processes: lines "name value"; what a text lacks becomes NAN, what is NAN is not
- * written. */
+/* The numbers as lines "name value", which pass from process to process. What a text lacks
+ * becomes NAN, and what is NAN is not written. */
 void      pg_trial_read  (pg_trial *out, const char *text);
 void      pg_trial_write (const pg_trial *t, FILE *to);
 
 /* ---- benchmarks: scenes x methods x sizes ------------------------------------------------------------- */
+/* A benchmark: every combination of scenes, methods and sizes. */
 typedef struct {
     const char  *scene[PG_LIST_WORDS];  size_t nscene;
+    /* Entries of the catalogues and values of keys to combine; a list that is not given holds
+     * all entries. */
     pg_word_list force, approximation, integration, basis, spacing, perturb, cells, horizon;
-    pg_word_list element, size, mesh;          /* elements and sizes of CalculiX; sizes of scenes on meshes */
-    const char  *set[PG_TRIAL_SETS];  size_t nset;     /* for every run */
-    const char  *folder;                               /* takes bench.csv and the pictures */
-    int          repeat, fem, threads;                 /* fem: the same bodies by CalculiX too */
+    /* Elements and sizes for CalculiX; sizes of scenes that take a mesh. */
+    pg_word_list element, size, mesh;
+    /* Replaced values for every run. */
+    const char  *set[PG_TRIAL_SETS];  size_t nset;
+    /* Takes bench.csv and the pictures. */
+    const char  *folder;
+    /* Repeats of each run, of which the one with the least CPU seconds counts; 1: the same
+     * bodies are computed by CalculiX too; threads of each run. */
+    int          repeat, fem, threads;
     FILE        *out;
 } pg_bench_request;
-/* Runs every combination, `repeat` times one after the other, and leaves bench.csv, time_error.png,
- * dofs_error.png. */
+/* Runs every combination `repeat` times and leaves bench.csv, time_error.png and
+ * dofs_error.png. Repeats come one after the other over all combinations, so that a busy
+ * minute of the machine does not fall on one of them. */
 pg_status pg_bench_run (const pg_bench_request *q);
 
 /* ---- orders of convergence ---------------------------------------------------------------------------- */
 enum { PG_CONVERGE_SIZES = 12, PG_CONVERGE_STUDIES = 12 };
+/* A study of convergence: one scene at falling spacings. */
 typedef struct {
     const char *scene, *folder, *set[PG_TRIAL_SETS / 2];
-    size_t      nset, sizes;                         /* sizes: how many spacings, the scene's own the first */
-    double      ratio;                                 /* of a spacing to the next */
-    double      horizon[PG_CONVERGE_STUDIES];          /* in spacings, a study for each; none: the scene's */
+    /* Number of replaced values, and of spacings, the scene's own being the first. */
+    size_t      nset, sizes;
+    /* Of a spacing to the next smaller one. */
+    double      ratio;
+    /* Horizons in spacings, a study for each; nhorizon = 0: that of the scene. */
+    double      horizon[PG_CONVERGE_STUDIES];
     size_t      nhorizon;
-    int         fixed, threads;            /* fixed: the horizon stays (m-convergence), else it shrinks too */
+    /* fixed = 1: the horizon keeps its length while the spacing falls (m-convergence); 0: both
+     * fall (delta-convergence). */
+    int         fixed, threads;
     FILE       *out;
 } pg_converge_request;
 /* Leaves convergence.csv and convergence.png in the folder, and the table on `out`. */
 pg_status pg_converge_run (pg_converge_request *q);
 
 /* ---- a result beside a reference ---------------------------------------------------------------------- */
+/* A result to compare with a reference. */
 typedef struct {
-    const char *folder, *reference;                    /* reference NULL: the scene's own */
-    const char *picture;                               /* NULL: compare.png in the folder */
-    int    step, other_step, threads;                  /* -1: the last one */
-    double unit, shift[3], scale;          /* of a reference: m in its length unit; m; factor of its values */
-    int    column;                         /* of the picture: 0 to 8, PG_COMPARE_U, PG_COMPARE_S; -1: usual */
-    FILE  *out;                                        /* names of the files written */
+    /* The result folder; the reference, NULL for the one that its scene names. */
+    const char *folder, *reference;
+    /* File of the picture; NULL: compare.png in the folder. */
+    const char *picture;
+    /* Steps of both sides; -1: the last one. */
+    int    step, other_step, threads;
+    /* Of the reference: metres in its length unit, a shift (m), a factor of its values. */
+    double unit, shift[3], scale;
+    /* What the picture shows: a column 0 to 8, PG_COMPARE_U or PG_COMPARE_S; -1: the usual
+     * one. */
+    int    column;
+    /* Takes the names of the files written; NULL: quiet. */
+    FILE  *out;
 } pg_comparison_request;
+/* Both sides of a comparison and what it found. */
 typedef struct {
-    pg_stored *own, *other;                            /* other: a result to compare with */
-    pg_sampler fem;                       /* borrowed view of a finite element reference; sample NULL: none */
-    pg_sampler reference;                              /* displacement and stress 0: tables only */
-    pg_line    line;                                   /* a table that was named */
-    pg_reference *scene;                               /* the scene's own reference */
+    /* The result, and another result if the reference is one. */
+    pg_stored *own, *other;
+    /* A finite element reference, lent out by `reference`; sample is NULL if there is none. */
+    pg_sampler fem;
+    /* The field to compare with; without known components there are tables only. */
+    pg_sampler reference;
+    /* A table that was named as the reference. */
+    pg_line    line;
+    /* The reference of the scene. */
+    pg_reference *scene;
     pg_errors  errors;
-    char       note[600];                              /* how the reference was sampled; "": nothing to say */
+    /* How the reference was sampled, in words; "": nothing to say. */
+    char       note[600];
 } pg_comparison;
-/* Opens both sides, tells by the name and content of the reference what it is, and measures. */
+/* Opens both sides, finds out from name and content what kind of reference it is, and
+ * measures. */
 pg_status pg_comparison_open  (pg_comparison *c, const pg_comparison_request *q);
 /* Writes compare.csv, compare.json and the picture into the folder of the result. */
 pg_status pg_comparison_write (const pg_comparison *c, const pg_comparison_request *q);
 void      pg_comparison_clear (pg_comparison *c);
 
 /* ---- the first bond to break -------------------------------------------------------------------------- */
-/* One solve at load factor 1 in which nothing may break, then the criterion on what it shows. */
+/* What one solve at load factor 1, in which nothing may break, and then the criterion say
+ * about the first break. */
 typedef struct {
-    int    asked, is_static, solved, proportional;     /* solved: the fields below hold */
-    double omega;                                 /* largest frequency, rad/s; 0: a material has no density */
-    double factor, utilisation;             /* load factor of the break (INFINITY: no bond can break); at 1 */
-    double place[3];                                   /* middle of the bond, m */
-    char   kind;  int set;                      /* of the bond: how it breaks ('t', 's', 'e'); its bond set */
-    double residual, displacement;                     /* relative residual; largest displacement, m */
+    /* solved = 1: the fields below hold, which needs a static scene. proportional: all loads
+     * grow with the load factor. */
+    int    asked, is_static, solved, proportional;
+    /* Largest frequency, rad/s; 0: a material has no density. */
+    double omega;
+    /* Load factor of the first break (INFINITY: no bond can break), and largest utilisation at
+     * load factor 1. */
+    double factor, utilisation;
+    /* Middle of that bond, m. */
+    double place[3];
+    /* How it breaks: 't' in tension, 's' in shear, 'e' by energy; and its bond set. */
+    char   kind;  int set;
+    /* Relative residual of the solve, and largest displacement, m. */
+    double residual, displacement;
 } pg_first_break;
 pg_status pg_first_break_find (pg_first_break *out, const pg_problem *p, const pg_solver_options *o);
 #endif

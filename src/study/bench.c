@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Benchmarks: scenes x methods x sizes, each run a process of its own, repeated, measured against the scene's
- * reference. */
+ * Benchmarks: scenes x methods x sizes, each run a process of its own, repeated, and measured
+ * against the reference of the scene. A benchmark compares error and cost; cost is CPU
+ * seconds, which depend less on what else the machine does than the time on the clock. */
 #include "bench.h"
 #include <math.h>
 #include <stdlib.h>
@@ -24,6 +25,7 @@ void pg_bench_spread (const pg_bench_case *c, double *least, double *median, dou
     *median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
 }
 
+/* All runs use one folder, one after the other: only the numbers are kept. */
 static pg_status make_folders (const pg_bench_request *q)
 {
     char path[4096];
@@ -31,6 +33,7 @@ static pg_status make_folders (const pg_bench_request *q)
     return pg_folder_make (path);
 }
 
+/* Runs a case; the values of the case come after those of the request and so count. */
 static pg_status run_once (pg_bench_case *c, const pg_bench_request *q, pg_trial *t)
 {
     pg_status status = PG_OK;
@@ -46,12 +49,14 @@ done:
     return status;
 }
 
+/* One error, or - if it is not known. */
 static void tell_error (FILE *out, const char *name, double error)
 {
     if (isnan (error)) fprintf (out, "  %s         -", name);
     else fprintf (out, "  %s %9.2e", name, error);
 }
 
+/* One line per case: what it is and what it gave, or why it did not run. */
 static void tell (FILE *out, const pg_bench_case *c)
 {
     const double *v = c->best.value;
@@ -81,8 +86,8 @@ static void count_run (pg_bench_case *c, const pg_trial *t)
     if (c->runs++ == 0 || t->value[PG_TRIAL_CPU] < c->best.value[PG_TRIAL_CPU]) c->best = *t;
 }
 
-/* All cases one after the other, and that as often as asked: what else the machine does at a time then
- * meets each case once and not one case in all its runs. */
+/* A combination that is not possible (PG_E_SCENE) is not possible at smaller sizes either, so
+ * the rest of its curve is skipped; other failures end one case only. */
 static pg_status run_all (pg_bench_cases *cases, const pg_bench_request *q)
 {
     pg_status status = PG_OK;
@@ -116,6 +121,7 @@ static void tell_spread (FILE *out, const pg_bench_cases *cases, int repeat)
     }
 }
 
+/* All cases are made before the first one runs, so that wrong names are noticed at once. */
 pg_status pg_bench_run (const pg_bench_request *q)
 {
     pg_status status = PG_OK;

@@ -1,50 +1,63 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * bench.h: the cases of a benchmark: how they follow from a request, how they run, what they leave. */
+ * bench.h: the cases of a benchmark: how they follow from a request (bench_cases.c), how they
+ * run (bench.c, bench_fem.c, bench_mesh.c), what they leave (bench_report.c). */
 #ifndef PG_STUDY_BENCH_H
 #define PG_STUDY_BENCH_H
 #include "perigal/study.h"
 
 enum { PG_BENCH_REPEATS = 100 };
-/* A point of a curve: one scene, one method, one size. best: the repeat with the least CPU seconds. */
+/* A point of a curve: one scene, one method, one size. */
 typedef struct {
+    /* Indices of the scene and of the curve; cases of one curve differ in size only. */
     size_t scene, curve;
-    int    fem, runs;                                  /* fem: CalculiX; runs: that came to an end */
+    /* 1: CalculiX; number of repeats that came to an end. */
+    int    fem, runs;
+    /* name of the scene; group: scenes of one body and one reference; method in words;
+     * replaced values; trouble: why it did not run, or "". */
     char name[64], group[64], method[PG_LIST_TEXT], perturb[16], cells[16], set[8][PG_LIST_TEXT + 32],
         trouble[512];
-    char   element[16];  long size;  /* fem, and scenes on meshes of make_mesh.py; else "" */
-    char   mesh[4300];                                 /* of the latter: "mesh.file=..." once it is made */
+    /* Element and size of a mesh, for CalculiX and for scenes that take one; else "". */
+    char   element[16];  long size;
+    /* "mesh.file=..." for such a scene, once the mesh is made. */
+    char   mesh[4300];
     size_t nset;
-    pg_trial best;                                     /* the run with the least CPU seconds */
+    /* The repeat with the least CPU seconds. */
+    pg_trial best;
     double cpu[PG_BENCH_REPEATS];                      /* s of every run, in the order of running (runs) */
 } pg_bench_case;
 typedef struct { size_t n, cap, ncurve; pg_bench_case *at; } pg_bench_cases;
 
-/* Of a scene: its spacing (m; 0: its points have none of their own choice), horizon in spacings, and name:
- * that of its folder, or of the file when that is not called scene.yaml. mesh: its body is a mesh. */
+/* What a scene says of itself: spacing (m; 0 if its points do not come from one), horizon in
+ * spacings and whether it is given, whether its basis is quadratic, whether its body is a
+ * mesh, and its name: that of its folder, or of the file if that is not called scene.yaml. */
 typedef struct { double spacing, horizon; int has_horizon, quadratic, mesh; char name[64]; } pg_bench_base;
+/* Reads this from a scene file. PG_E_SCENE: wrong, or not to be read. */
 pg_status pg_bench_look (pg_bench_base *out, const char *scene, size_t nset, const char *const *set);
 
-/* bench_cases.c: all combinations, those of one curve one after the other; sizes as given (large to small by
- * default). */
+/* All combinations, those of one curve one after the other, sizes in the order given (by
+ * default from large to small). */
 pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *q);
-/* bench_mesh.c: what make_mesh.py knows. scene: name; group: what it is compared under, scenes of one body
- * and reference share one; mesh: CASE of make_mesh.py; unit: of its lengths; own: the scene itself takes the
- * mesh. */
+/* A body that data/calculix/make_mesh.py can mesh: name of the scene; group under which it is
+ * compared; its name in the script; its length unit; its dimension; own = 1: the scene itself
+ * takes the mesh. */
 typedef struct { const char *scene, *group, *mesh, *unit; int dim, own; } pg_bench_body;
 const pg_bench_body *pg_bench_body_find (const char *scene);
-/* why no mesh can be made; NULL: it can */
+/* Why no mesh can be made, in words; NULL if it can. */
 const char *pg_bench_mesh_missing (const char *path, const char *scene);
-/* of the file in DIR/fem, without .inp */
+/* Name of the mesh file in DIR/fem, without .inp. */
 void        pg_bench_mesh_name (const pg_bench_case *c, char *name, size_t size);
-pg_status   pg_bench_mesh_make (const pg_bench_case *c, const pg_bench_request *q);     /* at the first run */
-pg_status   pg_bench_mesh_set  (pg_bench_case *c, const pg_bench_request *q); /* makes it and fills c->mesh */
-/* bench_fem.c: the same bodies for CalculiX, meshes in DIR/fem (needs ccx, python3 and
- * data/calculix/make_mesh.py). */
+/* Makes the mesh of a case unless it has been made. */
+pg_status   pg_bench_mesh_make (const pg_bench_case *c, const pg_bench_request *q);
+/* Makes it, and fills c->mesh. */
+pg_status   pg_bench_mesh_set  (pg_bench_case *c, const pg_bench_request *q);
+/* Adds the same bodies for CalculiX, with meshes in DIR/fem; this needs ccx, python3 and
+ * make_mesh.py. */
 pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size_t scene,
                             const char *name);
+/* Runs such a case once. */
 pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q);
 /* Least, median and largest CPU seconds of the runs of a case. */
 void      pg_bench_spread (const pg_bench_case *c, double *least, double *median, double *largest);
-/* bench_report.c: bench.csv, pictures, ratios of CPU seconds at equal error. */
+/* Writes bench.csv, pictures, and the ratios of CPU seconds at equal error. */
 pg_status pg_bench_report (const pg_bench_cases *cases, const pg_bench_request *q);
 #endif

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The cases of a benchmark: every combination of what the catalogues hold or the command line names. */
+ * The cases of a benchmark: every combination of what the command line names or, where it
+ * names nothing, of what the catalogues hold. */
 #include "bench.h"
 #include <stdlib.h>
 #include <string.h>
 
-/* FOLDER/scene.yaml: FOLDER; FOLDER/scene_X.yaml: FOLDER_X; else the file without .yaml. */
+/* The name of a scene: FOLDER for FOLDER/scene.yaml, FOLDER_X for FOLDER/scene_X.yaml, else
+ * the file without .yaml. */
 static void name_of (const char *path, char *name, size_t size)
 {
     const char *file = strrchr (path, '/'), *folder = path;
@@ -16,6 +18,8 @@ static void name_of (const char *path, char *name, size_t size)
     else snprintf (name, size, "%.*s%.*s", (int) (file - 1 - folder), folder, dot - 5, file + 5);
 }
 
+/* The scene is loaded with the values of the request, since these may change its spacing or
+ * its body. */
 pg_status pg_bench_look (pg_bench_base *b, const char *path, size_t nset, const char *const *set)
 {
     pg_status status = PG_OK;
@@ -32,6 +36,7 @@ done:
     return status == PG_E_FILE ? PG_E_SCENE : status;
 }
 
+/* Fills a list that was not given from "a|b|c". */
 static void fill (pg_word_list *w, const char *names)
 {
     if (w->given) return;
@@ -50,13 +55,14 @@ static void count_spacings (pg_word_list *w)
     }
 }
 
+/* Adds "key=value" to a case; nothing if there is no value. */
 static void put (pg_bench_case *c, const char *key, const char *value)
 {
     if (value) snprintf (c->set[c->nset++], sizeof *c->set, "%s=%s", key, value);
 }
 
-/* The horizon follows the basis where only the basis is asked to change: 2 spacings for the linear one, 2.5
- * for the quadratic one. */
+/* The horizon follows the basis where only the basis is asked to change: 2 spacings for the
+ * linear one, 2.5 for the quadratic one; NULL if the scene's own suits. */
 static const char *horizon_for (const pg_bench_base *b, const pg_bench_request *q, const char *basis)
 {
     for (size_t k = 0; k < q->nset; k++) if (strncmp (q->set[k], "method.horizon=", 15) == 0) return NULL;
@@ -72,7 +78,7 @@ static int has_shape_functions (const char *force)
     return !type || type->method.shape_functions;
 }
 
-/* One combination of the lists; NULL: the scene's own choice. */
+/* One combination; NULL: as the scene has it. */
 typedef struct { const char *force, *approximation, *integration, *basis, *cells, *perturb, *horizon; } mix;
 
 /* Appends a word to a name, with a blank before it unless the name is empty; "" and NULL append nothing. */
@@ -124,7 +130,8 @@ static size_t count_sizes (const pg_bench_request *q, const pg_bench_base *b, in
     return b->spacing > 0 ? 3 : 1;
 }
 
-/* All sizes of one combination. */
+/* Adds the sizes of one combination: those named, else twice, once and half the spacing of the
+ * scene; for scenes on meshes the sizes of the meshes. */
 static pg_status add_curve (pg_bench_cases *out, const pg_bench_request *q, size_t s, const pg_bench_base *b,
                             const mix *m)
 {
@@ -152,12 +159,15 @@ done:
     return status;
 }
 
+/* The word of a list in combination k; lists count like the digits of a number, `of` being the
+ * weight of this one. */
 static const char *word_of (const pg_word_list *w, size_t k, size_t of)
 {
     return w->n ? w->word[k / of % w->n] : NULL;
 }
 
-/* Scenes of one group share the runs of CalculiX. */
+/* 1 if the runs of CalculiX for this body are in the list already: scenes of one group share
+ * them. */
 static int has_fem (const pg_bench_cases *cases, const char *name)
 {
     const pg_bench_body *body = pg_bench_body_find (name);
@@ -207,6 +217,8 @@ done:
     return status;
 }
 
+/* A force without shape functions has none to choose among: it gets one combination instead of
+ * all of them. */
 pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *asked)
 {
     pg_status status = PG_OK;

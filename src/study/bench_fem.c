@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * CalculiX beside Perigal: ccx as a process on one thread, its .frd measured in another. */
+ * CalculiX beside Perigal: the program ccx in a process on one thread, and its result (.frd)
+ * measured in another one with the same norms. */
 #include "process.h"
 #include "bench.h"
 #include <math.h>
@@ -7,6 +8,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+/* What is missing in order to compute this scene by CalculiX, in words; NULL: nothing. */
 static const char *missing (const char *path, const char *scene)
 {
     return pg_bench_body_find (scene) && !pg_process_finds ("ccx")
@@ -14,6 +16,7 @@ static const char *missing (const char *path, const char *scene)
                : pg_bench_mesh_missing (path, scene);
 }
 
+/* If something is missing one case is added that says so. */
 pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size_t s, const char *name)
 {
     pg_status status = PG_OK;
@@ -42,7 +45,8 @@ done:
     return status;
 }
 
-/* l2, energy, maximum, points, dofs, spacing of a result. */
+/* The errors and sizes of a result. Elements with incompatible modes (C3D8I) have strains that
+ * their displacement lacks, so no energy error can be derived from the displacement. */
 static pg_status measure (pg_trial *t, const pg_bench_case *c, const pg_bench_request *q, const char *job)
 {
     pg_status status = PG_OK;
@@ -68,6 +72,7 @@ done:
     return status;
 }
 
+/* The result is measured once; repeats only look for the least CPU seconds. */
 pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q)
 {
     pg_status status = PG_OK;

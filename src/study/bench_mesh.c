@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Meshes of data/calculix/make_mesh.py: the body of CalculiX, and of scenes that take the same mesh. Made
- * once, before anything is timed. */
+ * Meshes of data/calculix/make_mesh.py, for CalculiX and for scenes that take the same mesh.
+ * They are made before anything is timed. */
 #include "process.h"
 #include "bench.h"
 #include <errno.h>
@@ -10,6 +10,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+/* The scenes that the script knows. */
 static const pg_bench_body known[] = {
     { "textbook_cantilever", "textbook_cantilever", "cantilever", "m", 2, 0 },
     { "kirsch", "kirsch", "kirsch", "m", 2, 0 },
@@ -31,7 +32,8 @@ const pg_bench_body *pg_bench_body_find (const char *scene)
     return NULL;
 }
 
-/* Beside the scenes, else below the folder one is in. */
+/* The path of the script: beside the scenes, or below the current folder; NULL if it is not
+ * there. */
 static const char *script_of (const char *path, char *script, size_t size)
 {
     const char *slash = strrchr (path, '/');
@@ -53,6 +55,7 @@ void pg_bench_mesh_name (const pg_bench_case *c, char *name, size_t size)
     snprintf (name, size, "%.24s_%.15s_%ld", pg_bench_body_find (c->name)->mesh, c->element, c->size);
 }
 
+/* PG_E_SCENE with the first line that the script wrote if it refuses. */
 pg_status pg_bench_mesh_make (const pg_bench_case *c, const pg_bench_request *q)
 {
     pg_status status = PG_OK;
@@ -81,7 +84,7 @@ done:
     return status;
 }
 
-/* A relative path would count from the folder of the scene. */
+/* The path must be absolute: a relative one in a scene counts from the folder of the scene. */
 pg_status pg_bench_mesh_set (pg_bench_case *c, const pg_bench_request *q)
 {
     pg_status status = PG_OK;

@@ -1,14 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a benchmark leaves: bench.csv, pictures of error over CPU seconds and over unknowns, ratios at equal
- * error. */
+ * What a benchmark leaves: bench.csv with all numbers, pictures of error over CPU seconds and
+ * over unknowns, and the CPU seconds at equal error, interpolated between the sizes of a curve
+ * in logarithms. */
 #include "perigal/picture.h"
 #include "bench.h"
 #include <math.h>
 #include <string.h>
 
+/* Columns of text before the numbers, all columns, and the largest number of curves in a
+ * picture. */
 enum { FIRST = 8, COLUMNS = FIRST + PG_TRIAL_COUNT + 4, CURVES = 10 };
 
-/* The error a case is judged by: over the body, else on the lines of its reference. */
+/* The error that a case is judged by: over the body, or else on the lines of its reference. */
 static double error_of (const pg_bench_case *c)
 {
     double l2 = c->best.value[PG_TRIAL_L2];
@@ -48,6 +51,7 @@ static void fill_numbers (const pg_bench_case *c, char number[NUMBERS][32])
     }
 }
 
+/* One row per case; texts of the method come from its replaced values. */
 static pg_status write_table (const pg_bench_cases *cases, const pg_bench_request *q)
 {
     pg_status status = PG_OK;
@@ -78,9 +82,11 @@ done:
 }
 
 /* ---- curves -------------------------------------------------------------------------------------------- */
+/* A curve of a picture: cost x and error y. */
 typedef struct { size_t n, cap; double *x, *y; const char *name; int fem; } curve;
 
-/* Cases of a curve that came to an end with an error > 0, over what; in their order. */
+/* The cases of a curve that came to an end with an error above zero, in their order; `over` is
+ * the number of the trial that counts as cost. */
 static pg_status curve_of (curve *out, const pg_bench_cases *cases, const char *group, size_t id, int over)
 {
     pg_status status = PG_OK;
@@ -100,12 +106,14 @@ done:
     return status;
 }
 
+/* Frees n curves. */
 static void curves_free (curve **list, size_t n)
 {
     for (size_t k = 0; *list && k < n; k++) pg_free ((*list)[k].x), pg_free ((*list)[k].y);
     pg_free (*list), *list = NULL;
 }
 
+/* All curves of a group. */
 static pg_status curves_of (curve **out, size_t *n, const pg_bench_cases *cases, const char *group, int over)
 {
     pg_status status = PG_OK;
@@ -119,8 +127,8 @@ done:
     return status;
 }
 
-/* Leaves the curves of CalculiX and those of the least error times seconds (or unknowns), so many as can be
- * told apart. */
+/* Keeps the curves of CalculiX and those with the least product of error and cost, as many as
+ * can be told apart. */
 static void thin_out (curve *list, size_t *n, size_t most)
 {
     while (*n > most) {
@@ -137,6 +145,7 @@ static void thin_out (curve *list, size_t *n, size_t most)
     }
 }
 
+/* One picture for a group; alone = 1: its file name needs no group. */
 static pg_status draw (const pg_bench_cases *cases, const pg_bench_request *q, const char *name, int alone,
                        int over)
 {
@@ -175,7 +184,8 @@ done:
     return status;
 }
 
-/* Least CPU seconds that reach the error, of a run or between two neighbours of a curve, and whose. */
+/* The least CPU seconds that reach the error, at a size or between two sizes of a curve, and
+ * the name of the curve; INFINITY if none does. */
 static double cheapest (const curve *list, size_t n, int fem, double error, const char **name)
 {
     double least = INFINITY;
@@ -189,6 +199,7 @@ static double cheapest (const curve *list, size_t n, int fem, double error, cons
     return least;
 }
 
+/* Seconds of both programs at three levels of error, and their ratio. */
 static pg_status print_ratios (const pg_bench_cases *cases, const pg_bench_request *q, const char *name)
 {
     pg_status status = PG_OK;
@@ -222,6 +233,7 @@ static const char *group_of (const pg_bench_cases *cases, size_t scene)
     return name;
 }
 
+/* One group needs no name in the files; several have one each. */
 pg_status pg_bench_report (const pg_bench_cases *cases, const pg_bench_request *q)
 {
     pg_status status = PG_OK;

@@ -1,11 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Orders of convergence: a scene at falling sizes, each run a process of its own, and the order of every
- * number it gives. */
+ * Orders of convergence: a scene at falling spacings, each run a process of its own, and the
+ * order of every number that it gives. Two limits are of interest in peridynamics (Bobaru et
+ * al. 2009): delta-convergence, where horizon and spacing fall together, goes to the local
+ * solution; m-convergence, where the horizon is kept, to the nonlocal one of that horizon. */
 #include "bench.h"
 #include "converge.h"
 #include <math.h>
 #include <string.h>
 
+/* Takes the errors of size k, as far as they are known. */
 static pg_status take_errors (pg_study *s, size_t k, const pg_trial *t)
 {
     pg_status status = PG_OK;
@@ -24,6 +27,8 @@ done:
     return status;
 }
 
+/* Runs all sizes for one horizon. A spacing that did not fall shows that the scene takes its
+ * points from elsewhere. */
 static pg_status run_study (pg_study *s, const pg_converge_request *q, const pg_bench_base *b)
 {
     pg_status status = PG_OK;
@@ -56,6 +61,7 @@ done:
     return status;
 }
 
+/* All horizons, then table and picture. */
 static pg_status study_all (pg_study *list, pg_converge_request *q)
 {
     pg_status status = PG_OK;

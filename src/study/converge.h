@@ -1,29 +1,37 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * converge.h: numbers of one scene at falling sizes. */
+ * converge.h: the numbers of one scene at falling sizes, and the orders that follow from them. */
 #ifndef PG_STUDY_CONVERGE_H
 #define PG_STUDY_CONVERGE_H
 #include "perigal/study.h"
 
 enum { PG_CONVERGE_NAME = 128 };
+/* One number of the runs at each size. */
 typedef struct {
     char   name[PG_CONVERGE_NAME], unit[32];
-    int    error;                                      /* 1: its limit is 0 */
-    double value[PG_CONVERGE_SIZES];                      /* NAN: not known at that size */
+    /* 1: it is an error, whose limit is 0. */
+    int    error;
+    /* NAN where it is not known at that size. */
+    double value[PG_CONVERGE_SIZES];
 } pg_quantity;
-typedef struct {                                       /* one horizon */
-    double horizon;  /* in spacings (of the first size with fixed horizon) */
-    size_t n;  double h[PG_CONVERGE_SIZES];               /* m, falling */
+/* A study with one horizon. */
+typedef struct {
+    /* In spacings (with a fixed horizon: of the first size). */
+    double horizon;
+    /* Number of sizes so far and their spacings, m, falling. */
+    size_t n;  double h[PG_CONVERGE_SIZES];
     size_t nquantity, cap;  pg_quantity *list;
 } pg_study;
-/* The quantity of that name, made if need be; NULL without memory. */
+/* The quantity of that name, made if there is none; NULL without memory. Pointers to other
+ * quantities become invalid. */
 pg_quantity *pg_study_quantity (pg_study *s, const char *name, const char *unit);
 /* Order from the first n sizes of a study. */
 pg_observed pg_study_order (const pg_study *s, const pg_quantity *q, size_t n);
 
-/* converge_history.c: takes the last row of DIR/history.csv as size k: forces, displacements, gauges,
- * averages, energies; and the largest magnitude of every force over the rows, where there are several. */
+/* Takes the last row of DIR/history.csv as size k: forces, displacements, gauges, averages,
+ * energies; and of every force with several rows its largest magnitude. */
 pg_status pg_converge_history (pg_study *s, size_t k, const char *folder);
-/* converge_table.c */
+/* Prints the table of a study, writes all studies as convergence.csv, draws them. *drawn: 0 if
+ * there was nothing to draw. */
 void      pg_converge_print   (const pg_study *s, int fixed, FILE *out);
 pg_status pg_converge_table   (const pg_study *list, size_t n, const char *folder);
 pg_status pg_converge_picture (const pg_study *list, size_t n, const char *folder, const char *title,

@@ -4,6 +4,7 @@
 #include <math.h>
 #include <string.h>
 
+/* A new quantity is unknown at all sizes. */
 pg_quantity *pg_study_quantity (pg_study *s, const char *name, const char *unit)
 {
     pg_status status = PG_OK;
@@ -29,6 +30,7 @@ static int wanted (const char *name)
     return 1;
 }
 
+/* Takes a value under the name of its column, with `what` before it, at size k. */
 static pg_status put (pg_study *s, size_t k, const char *what, const char *column, double value)
 {
     pg_status status = PG_OK;
@@ -46,6 +48,7 @@ done:
     return status;
 }
 
+/* Empty cells were not measured and are skipped. */
 pg_status pg_converge_history (pg_study *s, size_t k, const char *folder)
 {
     pg_status status = PG_OK;

@@ -1,18 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Orders of convergence as a table, as convergence.csv and as a picture. */
+ * Orders of convergence as a table for people, as convergence.csv and as a picture. Numbers
+ * that are zero but for rounding, such as a reaction across the load, are left out. */
 #include "perigal/picture.h"
 #include "converge.h"
 #include <math.h>
 #include <string.h>
 
 enum { CURVES = 12 };
-static const double noise = 1e-9;  /* of the largest of the same unit: nothing but rounding */
+/* Relative to the largest number of the same unit, a value this small is rounding. */
+static const double noise = 1e-9;
 
+/* Errors have the limit 0; of other values the limit is found as well (compare.h). */
 pg_observed pg_study_order (const pg_study *s, const pg_quantity *q, size_t n)
 {
     return q->error ? pg_observed_of_errors (n, s->h, q->value) : pg_observed_of_values (n, s->h, q->value);
 }
 
+/* Largest magnitude of a quantity over the sizes. */
 static double size_of (const pg_study *s, const pg_quantity *q)
 {
     double most = 0;
@@ -20,6 +24,7 @@ static double size_of (const pg_study *s, const pg_quantity *q)
     return most;
 }
 
+/* Largest magnitude of all quantities with that unit, errors excepted. */
 static double largest (const pg_study *s, const char *unit)
 {
     double most = 0;
@@ -29,8 +34,8 @@ static double largest (const pg_study *s, const char *unit)
     return most;
 }
 
-/* Zero but for rounding, such as a reaction across: beside those of its unit; forces also beside energy by
- * displacement. */
+/* 1 if a quantity is rounding beside those of its unit; forces also beside energy over
+ * displacement, for a run may have no other force. */
 static int is_noise (const pg_study *s, const pg_quantity *q)
 {
     double most = largest (s, q->unit), way = largest (s, "m");
@@ -61,12 +66,14 @@ void pg_converge_print (const pg_study *s, int fixed, FILE *out)
     }
 }
 
+/* A cell; empty for NAN. */
 static void number (char *cell, size_t size, double value)
 {
     if (isnan (value)) cell[0] = 0;
     else snprintf (cell, size, "%.12g", value);
 }
 
+/* The order in row k is that of the sizes up to k. */
 pg_status pg_converge_table (const pg_study *list, size_t n, const char *folder)
 {
     pg_status status = PG_OK;
@@ -103,6 +110,7 @@ done:
 }
 
 /* ---- picture ------------------------------------------------------------------------------------------- */
+/* The curves of the picture; order: that of the first one, which gets a slope triangle. */
 typedef struct {
     char name[CURVES][PG_CONVERGE_NAME + 32];
     double y[CURVES][PG_CONVERGE_SIZES];
@@ -111,7 +119,8 @@ typedef struct {
     double order;
 } chart;
 
-/* Errors; or of values with an order, the distance from Richardson's value in shares of it. */
+/* Adds an error, or of a value with an order its distance from Richardson's extrapolated
+ * value, relative to that. */
 static void add_curve (chart *c, const pg_study *s, const pg_quantity *q, int several)
 {
     pg_observed o = pg_study_order (s, q, s->n);
@@ -127,6 +136,7 @@ static void add_curve (chart *c, const pg_study *s, const pg_quantity *q, int se
     c->n++;
 }
 
+/* Errors if any were measured, else distances. The triangle shows the order rounded to halves. */
 pg_status pg_converge_picture (const pg_study *list, size_t n, const char *folder, const char *title,
                                int *drawn)
 {

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Why does no bond break? One static solve at load factor 1 in which nothing may break, then the criterion on
- * what it shows: the load factor and the place of the first break. Also the largest frequency, which bounds
- * explicit time steps. */
+ * Why does no bond break? One static solve at load factor 1 in which nothing may break, then
+ * the criterion on what it shows: the load factor and the place of the first break. Also the
+ * largest frequency, which bounds explicit time steps. */
 #include "perigal/study.h"
 #include <math.h>
 #include <string.h>
 
-/* The bond with the smallest load factor; without proportional loads that of the largest utilisation. */
+/* The bond with the smallest load factor; without proportional loads that of the largest
+ * utilisation. */
 static size_t worst_bond (const pg_first_break *b, size_t n, const double *factor, const double *utilisation)
 {
     size_t worst = 0;
@@ -15,6 +16,7 @@ static size_t worst_bond (const pg_first_break *b, size_t n, const double *facto
     return worst;
 }
 
+/* Bond set and middle of a bond. */
 static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
 {
     size_t point, dim = (size_t) p->dim;
@@ -24,6 +26,8 @@ static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
     for (size_t k = 0; k < dim; k++) b->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
+/* Asks the force for the utilisation of every bond. Without proportional loads the factor is
+ * an estimate: 1 over the utilisation. */
 static pg_status judge (pg_first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -46,12 +50,15 @@ done:
     return status;
 }
 
+/* 1 if every material has a density. */
 static int all_dense (const pg_problem *p)
 {
     for (size_t i = 0; i < p->nmaterial; i++) if (!(p->material[i].density > 0)) return 0;
     return 1;
 }
 
+/* The problem is copied without its criterion for the solve; the copy shares all arrays with
+ * the original and must not be freed. */
 pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
 {
     pg_status status = PG_OK;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Processes with their own seconds and memory. */
+ * Processes with their own seconds and memory, by fork, exec and wait4, whose resource usage
+ * is that of the child alone. */
 #define _DEFAULT_SOURCE                                /* wait4 */
 #include "process.h"
 #include <errno.h>
@@ -12,6 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+/* Numbers of threads for the libraries of the child. OMP_THREAD_LIMIT stays 1: OpenMP threads
+ * of CHOLMOD slow it down beside a threaded BLAS. */
 static void settle_environment (int threads)
 {
     static const char *const counts[] = { "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
@@ -24,7 +27,7 @@ static void settle_environment (int threads)
     setenv ("OMP_WAIT_POLICY", "passive", 1);
 }
 
-/* In the new process: never returns. */
+/* The new process becomes the program; never returns. 127: could not be started. */
 static void become (const char *program, char *const argv[], const char *folder, const char *log, int to,
                     int threads)
 {
@@ -39,6 +42,8 @@ static void become (const char *program, char *const argv[], const char *folder,
     _exit (127);
 }
 
+/* Reads until the other end closes; what exceeds the text is read and dropped, so that the
+ * child never waits. */
 static size_t drain (int from, char *text, size_t size)
 {
     char rest[4096];
@@ -54,8 +59,10 @@ static size_t drain (int from, char *text, size_t size)
     return n;
 }
 
+/* A time of the system in seconds. */
 static double seconds_of (const struct timeval *t) { return (double) t->tv_sec + 1e-6 * (double) t->tv_usec; }
 
+/* All streams are flushed before the fork: otherwise their buffers would be written twice. */
 pg_status pg_process_run (pg_process *out, const char *program, char *const argv[], const char *folder,
                      const char *log, int threads)
 {

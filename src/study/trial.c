@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * One run in a process of its own, seen from the process that starts it: its numbers come back as lines of
- * text. */
+ * One run in a process of its own, seen from the process that starts it. Its numbers come back
+ * as lines of text on stdout, its message, if it fails, as the first line of its log. */
 #include "perigal/study.h"
 #include "process.h"
 #include <math.h>
@@ -14,6 +14,7 @@ const char *const pg_trial_name[PG_TRIAL_COUNT] = { PG_TRIAL_LIST (X) };
 const char *const pg_trial_unit[PG_TRIAL_COUNT] = { PG_TRIAL_LIST (X) };
 #undef X
 
+/* Unknown names are ignored, so that versions may differ. */
 void pg_trial_read (pg_trial *out, const char *text)
 {
     for (size_t k = 0; k < PG_TRIAL_COUNT; k++) {
@@ -30,6 +31,7 @@ void pg_trial_write (const pg_trial *t, FILE *to)
         if (!isnan (t->value[k])) fprintf (to, "%s %.17g\n", pg_trial_name[k], t->value[k]);
 }
 
+/* The exit code of the child decides the status; the log stays if the run failed. */
 pg_status pg_trial_run (pg_trial *out, const pg_trial_request *q)
 {
     pg_status status = PG_OK;

@@ -4,9 +4,9 @@
 #define PG_STUDY_TRIAL_H
 #include "perigal/study.h"
 
-/* Takes l2, energy, maximum and lines from errors that are measured already. */
+/* Takes l2, energy, maximum and lines from errors that have been measured. */
 void      pg_trial_take   (pg_trial *t, const pg_errors *errors);
-/* Measures a state against the reference of its scene; a scene without one leaves the numbers unknown. */
+/* Measures a state against the reference of its scene; without one the numbers stay unknown. */
 pg_status pg_trial_errors (pg_trial *t, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
                            const pg_state *state, int dynamic);
 #endif

@@ -3,8 +3,8 @@
 #include "trial.h"
 #include <math.h>
 
-/* Of all tables together: root of the summed squares over that of the reference; displacements only, as they
- * have one unit. */
+/* The error of all tables together: root of the summed squares over that of the reference.
+ * Displacements only, since these have one unit. */
 static double of_lines (const pg_errors *e)
 {
     double difference = 0, reference = 0;
@@ -25,6 +25,7 @@ void pg_trial_take (pg_trial *t, const pg_errors *e)
     if (e->nline) t->value[PG_TRIAL_LINES] = of_lines (e);
 }
 
+/* dynamic = 1: expressions of the reference take the time, else the load factor. */
 pg_status pg_trial_errors (pg_trial *t, const pg_scene *scene, const pg_problem *problem, pg_solver *solver,
                         const pg_state *state, int dynamic)
 {

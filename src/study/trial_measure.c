@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the process of a trial does: build, solve, leave the results, count seconds and bytes, measure the
- * error. */
+ * What the process of a trial does: build, solve, leave the results, count seconds and bytes,
+ * measure the error. */
 #include "trial.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
 
-/* High water mark of this program alone; that of getrusage also counts what the process was before. */
+/* The largest resident memory of this program alone, bytes (VmHWM). That of getrusage would
+ * also count what the process was before it became this program. */
 static double peak_now (void)
 {
     char line[256];
@@ -20,6 +21,7 @@ static double peak_now (void)
     return isnan (kilobytes) ? (double) pg_memory_process_peak () : 1024 * kilobytes;
 }
 
+/* CPU seconds of all threads so far. */
 static double cpu_now (void)
 {
     struct rusage used;
@@ -28,6 +30,7 @@ static double cpu_now (void)
            + 1e-6 * (double) (used.ru_utime.tv_usec + used.ru_stime.tv_usec);
 }
 
+/* Sizes, and seconds of the solver by phase. */
 static void count (pg_trial *t, const pg_problem *p, const pg_state *state, const pg_statistics *r)
 {
     static const int phase[PG_SECONDS_COUNT] = {
@@ -39,6 +42,8 @@ static void count (pg_trial *t, const pg_problem *p, const pg_state *state, cons
     t->value[PG_TRIAL_POINTS] = (double) p->cloud.n, t->value[PG_TRIAL_DOFS] = (double) state->ndof;
 }
 
+/* Seconds and memory are taken before the error is measured. Pictures and report are not
+ * written: they would count as cost. */
 static pg_status solve_and_measure (pg_trial *t, const char *folder, const pg_scene *scene,
                                     const pg_problem *problem, double start)
 {

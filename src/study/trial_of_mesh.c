@@ -1,22 +1,26 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A finite element result measured against the reference of a scene, by the norms that Perigal's own results
- * are measured with: over its own elements (5 Gauss points a direction), stresses from the gradient of its
- * displacement; on the lines of the reference. */
+ * A finite element result measured against the reference of a scene by the same norms as our
+ * own results: over its own elements (5 Gauss points per direction) with stresses from the
+ * gradient of its displacement, and on the lines of the reference. */
 #include "trial.h"
 #include "perigal/mesh_files.h"
 #include <math.h>
 #include <string.h>
 
 enum { ORDER = 5 };
+/* A finite element result as a sampler. */
 typedef struct {
     const pg_mesh *mesh;
     pg_mesh_locator *locator;
-    const pg_mesh_field *u;                            /* displacement, units of the file */
+    /* Displacement, in units of the file. */
+    const pg_mesh_field *u;
     int    dim;
-    double unit;                                       /* m */
+    /* Metres in a length unit of the file. */
+    double unit;
     const pg_material *material;
 } solution;
 
+/* Samples the result; places more than half an element outside are unknown. */
 static pg_status sample (void *context, size_t n, const double *x, double *u, double *stress)
 {
     const solution *s = context;
@@ -33,6 +37,7 @@ static pg_status sample (void *context, size_t n, const double *x, double *u, do
     return PG_OK;
 }
 
+/* Gauss points of all elements with their weights, m and m3. */
 static pg_status places_of (pg_quadrature *q, const solution *s, double thickness)
 {
     pg_status status = PG_OK;
@@ -57,6 +62,7 @@ done:
     return status;
 }
 
+/* The norms over the cells of the scene are replaced by those over the result's own elements. */
 static pg_status measure (pg_trial *t, solution *s, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -86,6 +92,7 @@ done:
     return status;
 }
 
+/* Reads the last step; PG_E_FILE without a displacement or with another dimension. */
 static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_mesh_field **fields,
                                 const char *path, const pg_problem *p)
 {

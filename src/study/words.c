@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Small parts of every study: lists of words from a command line, exit codes of processes. */
+ * Small parts of every study: lists of words from a command line, and exit codes of processes. */
 #include "perigal/study.h"
 #include <string.h>
 
