@@ -1,5 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Before anything large is allocated: what will the run need, and is there that much? */
+ * Before anything large is allocated: how much memory will the run need, and is there that
+ * much? A run that the machine cannot hold would otherwise be killed by the system after an
+ * hour, without a word.
+ *
+ * The answer comes in two stages: from the scene alone (counts of points and neighbours), then
+ * from the built problem, with the exact size of the matrix factor by a symbolic analysis if
+ * memory may be short. */
 #include "cli.h"
 #include "perigal/linalg.h"
 #include <math.h>
@@ -9,6 +15,7 @@
 
 double afford_available (const command *c) { return c->memory > 0 ? c->memory : pg_available_memory (""); }
 
+/* 300 kB of mesh are some thousand elements. */
 int afford_tiny (const pg_scene *scene)
 {
     char *path = NULL;
@@ -20,7 +27,7 @@ int afford_tiny (const pg_scene *scene)
     return tiny;
 }
 
-/* A scene of its own: faults are told when the problem is built, once. */
+/* Uses a scene of its own: faults are reported when the problem is built, once. */
 pg_status afford_scene (const command *c, pg_forecast *f)
 {
     pg_status status = PG_OK;
@@ -46,7 +53,7 @@ done:
     return status;
 }
 
-/* Ordering and symbolic analysis of the node graph, as the solver will do it. */
+/* Ordering and symbolic analysis of the graph of nodes, as the linear solver will do it. */
 static pg_status analyse (pg_forecast *f, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -70,6 +77,7 @@ done:
     return status;
 }
 
+/* Beyond 3e5 points the analysis itself takes tens of seconds and is left out. */
 pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p, int thorough)
 {
     static const double most = 3e5;                    /* points whose graph is analysed: some ten seconds */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal bench: scenes x methods x sizes, each run a process of its own, repeated, measured against the
- * scene's reference. */
+ * perigal bench: the command line of benchmarks (study.h). Lists of catalogue entries are
+ * checked here, so that a misspelt name does not end a benchmark after an hour. */
 #include "cli.h"
 #include <math.h>
 #include <stdlib.h>
@@ -11,8 +11,10 @@ static const char basis_names[] = "linear|quadratic", cell_names[] = "cut|stairc
 static const char *bases (void) { return basis_names; }
 static const char *cell_kinds (void) { return cell_names; }
 
+/* A list option: where its words go, and the names that are allowed (NULL: any). */
 typedef struct { const char *option; pg_word_list *words; const char *(*names) (void); } list_option;
 
+/* 1 if the word is in "a|b|c". */
 static int is_one_of (const char *word, const char *names)
 {
     size_t n = strlen (word);
@@ -21,6 +23,7 @@ static int is_one_of (const char *word, const char *names)
     return 0;
 }
 
+/* Cuts the value of a list option and checks its words. */
 static pg_status read_list (const list_option *o, const char *value)
 {
     pg_status status = PG_OK;
@@ -38,6 +41,7 @@ done:
     return status;
 }
 
+/* Reads an integer from 1 to `most`. */
 static pg_status read_count (int *out, const char *name, const char *text, long most)
 {
     pg_status status = PG_OK;
@@ -50,6 +54,7 @@ done:
     return status;
 }
 
+/* Reads one option with its value. Options of CalculiX switch it on. */
 static pg_status read_option (pg_bench_request *q, const char *name, const char *value)
 {
     pg_status status = PG_OK;
@@ -86,6 +91,7 @@ done:
     return status;
 }
 
+/* Reads the command line; without a scene the cantilever of the textbook is taken. */
 static pg_status read_arguments (pg_bench_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -111,6 +117,7 @@ done:
     return status;
 }
 
+/* --row and --fem-row are what the processes of a benchmark are started with. */
 int pg_cli_bench (int argc, char **argv)
 {
     pg_status status = PG_OK;

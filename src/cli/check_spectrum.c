@@ -1,10 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal check --spectrum: the plane waves of the scene's lattice in words, as JSON, as a table and as a
- * picture. */
+ * perigal check --spectrum: the plane waves of the scene's lattice (symbol.h) in words, as
+ * JSON, as a table and as a picture of the dispersion curves along the edges of the Brillouin
+ * zone. Frequencies are given in c_p / h, the speed of longitudinal waves over the spacing,
+ * and time steps in h / c_p, so that they do not depend on the material. */
 #include "cli.h"
 #include <math.h>
 #include <string.h>
 
+/* Wave vectors on each edge of the zone. */
 enum { LEG = 40 };
 static const double pi = 3.14159265358979323846;
 
@@ -21,6 +24,7 @@ done:
 void spectrum_free (spectrum *s) { pg_symbol_free (&s->symbol); }
 
 /* ---- words --------------------------------------------------------------------------------------------- */
+/* A motion in words with its wave vector in units of pi / step. */
 static void print_motion (const pg_motion *m, const pg_symbol *s)
 {
     char where[64];
@@ -30,6 +34,8 @@ static void print_motion (const pg_motion *m, const pg_symbol *s)
     printf (") pi / step\n");
 }
 
+/* Tangent and speeds of long waves over those of the material. Directions with equal steps are
+ * alike, so one of them is shown. */
 static void print_tangent (const spectrum *x)
 {
     const double *T = x->survey.tangent;
@@ -50,6 +56,7 @@ static void print_tangent (const spectrum *x)
     }
 }
 
+/* Stable time step 2 / omega, s; NAN if the scene gives no density. */
 static double seconds (const spectrum *x, double omega) { return x->symbol->dense ? 2 / omega : NAN; }
 
 void spectrum_print (const spectrum *x, const pg_problem *p)
@@ -89,6 +96,7 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
 }
 
 /* ---- JSON ---------------------------------------------------------------------------------------------- */
+/* A motion as a JSON object. */
 static void put_motion (pg_json *j, const char *key, const pg_motion *m, const pg_symbol *s)
 {
     char where[64];
@@ -143,9 +151,11 @@ void spectrum_json (pg_json *j, const spectrum *x)
 }
 
 /* ---- table and picture --------------------------------------------------------------------------------- */
-/* branch: m x n; continuum: 2 x n */
+/* The course of the frequencies along the path: n places x (in pi / h) with wave vectors k (n
+ * x 3), the two waves of the continuum (2 x n) and m branches (m x n), all in c_p / h. */
 typedef struct { size_t n, m; double *x, *k, *continuum, *branch; } course;
 
+/* Solves all wave vectors of the path. */
 static pg_status follow (course *c, const pg_symbol *s)
 {
     pg_status status = PG_OK;
@@ -173,6 +183,7 @@ done:
     return status;
 }
 
+/* spectrum.csv: one row per wave vector. */
 static pg_status write_table (const course *c, const pg_symbol *s, const char *folder)
 {
     pg_status status = PG_OK;
@@ -196,6 +207,7 @@ done:
     return status;
 }
 
+/* spectrum.png: the branches, and the waves of the continuum up to the height of the branches. */
 static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, const char *folder)
 {
     pg_status status = PG_OK;

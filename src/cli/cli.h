@@ -1,5 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The commands of perigal; each returns the exit code. */
+ * The commands of the program perigal. Each gets its own words (argv[0] is its name), prints
+ * what a person should read, and returns the exit code: 0 done, 64 wrong use, 65 wrong scene,
+ * 70 failed, 130 interrupted. What commands compute belongs to the library; here are command
+ * lines, words and their order only. */
 #ifndef PERIGAL_CLI_H
 #define PERIGAL_CLI_H
 #include "perigal.h"
@@ -11,65 +14,85 @@ int pg_cli_list  (int argc, char **argv);
 int pg_cli_help  (int argc, char **argv);
 int pg_cli_bench (int argc, char **argv);
 int pg_cli_converge (int argc, char **argv);
-/* trial.c: what bench and converge start */
+/* What bench and converge start in a new process (trial.c). */
 int pg_cli_trial (int argc, char **argv);
 int pg_cli_trial_of_mesh (int argc, char **argv);
 
-/* progress.c: on a terminal one line that rewrites itself and fits; elsewhere a line every tenth, and now and
- * then between. */
+/* How far a run is, on stderr: on a terminal one line that is written again and again and fits
+ * its width; otherwise a line for every tenth of the run, and now and then one between
+ * (progress.c). */
 typedef struct {
-    double start, last;                                /* s; when a line was last written */
-    struct { double at, share, events; } mark[2];      /* the pace is that since mark[0] */
+    /* Start of the run, and when a line was last written, s. */
+    double start, last;
+    /* Two earlier moments; the pace is that since mark[0]. */
+    struct { double at, share, events; } mark[2];
+    /* tenths shown so far; stderr is a terminal; nothing is shown; explicit time steps; stages
+     * of relaxation; a first share is known. */
     int    tenth, tty, quiet, steps_in_time, staged, begun;
 } progress;
 void progress_start (progress *p, int quiet, const pg_solver_options *settled);
-/* within: between the rounds of a step that is not done yet, `step` so far. */
+/* Shows a line if it is time. within = 1: between two rounds of a step that is not done, whose
+ * numbers so far are in `step`. */
 void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *report,
                     int within);
 void progress_end   (progress *p);
 
-/* command.c: options shared by run and check */
+/* What the command line of run and check says (command.c). */
 typedef struct {
     const char *scene, *folder, *set[64];
     size_t nset;
+    /* Options as flags; threads is never 0. */
     int threads, quiet, resume, force, json, solve, spectrum;
+    /* Bytes of --memory; 0: not given. */
     double memory;
+    /* The text of --threads, to repeat it in messages; NULL: not given. */
     const char *given;
 } command;
-/* -1: go on; else the exit code (message printed) */
+/* Reads a command line; -1: go on, otherwise the exit code, the message being printed. */
 int       command_parse (command *c, int argc, char **argv);
-/* 1: what a value without its quotes left behind */
+/* 1 if words follow a --set that belong to its value but lost their quotes; `out` gets the
+ * message. */
 int       command_unquoted (char *out, size_t size, int argc, char **argv);
-int       command_usage (FILE *to, const char *name);          /* 0: there is no such command */
-/* a file that cannot be read counts as a wrong scene; may be partial */
+/* Prints the usage of a command; 0 if there is no such command. */
+int       command_usage (FILE *to, const char *name);
+/* Loads the scene with the --set options. A file that cannot be read counts as a wrong scene.
+ * The scene may be partial: it then has faults but can be looked at for more. */
 pg_status command_scene (const command *c, pg_scene **scene);
-/* with all faults at once */
+/* Builds the problem and reads the options of the solver; all faults of the scene are reported
+ * at once. */
 pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem,
                            pg_solver_options *o);
+/* Prints a message to stderr. */
 void      command_complain (pg_status status, const char *text);
-void      command_again (const command *c);                    /* how to go on with this run, on stderr */
+/* Prints to stderr the command that goes on with this run. */
+void      command_again (const command *c);
 
-/* afford.c: PG_E_LIMIT where the run would need more than is available (--memory, else what the machine
- * grants). */
+/* Bytes that the run may use: --memory, or what the machine grants (afford.c). */
 double    afford_available (const command *c);
-/* a mesh file so small that the run fits any machine: not worth reading twice */
+/* 1 for a mesh file so small that the run fits any machine: not worth reading twice. */
 int       afford_tiny      (const pg_scene *scene);
-pg_status afford_scene     (const command *c, pg_forecast *f); /* a wrong scene gives an empty forecast */
+/* PG_E_LIMIT if the run would need more memory than there is, judged from the scene before
+ * anything large is built; a wrong scene gives an empty forecast. */
+pg_status afford_scene     (const command *c, pg_forecast *f);
+/* The same from the built problem. thorough = 1: the matrix is analysed in any case, not only
+ * when memory may be short. */
 pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p,
                           int thorough /* analyse whatever is free */);
 
-/* check_spectrum.c: plane waves of the scene's lattice; symbol NULL: not asked for */
+/* Plane waves of the scene's lattice (check_spectrum.c); symbol is NULL if they were not asked
+ * for. */
 typedef struct { pg_symbol *symbol; pg_survey survey; char verdict[400]; } spectrum;
 pg_status spectrum_find  (spectrum *out, const pg_scene *scene, const pg_problem *p);
 void      spectrum_free  (spectrum *spectrum);
 void      spectrum_print (const spectrum *spectrum, const pg_problem *p);
 void      spectrum_json  (pg_json *j, const spectrum *spectrum);
-/* spectrum.csv, spectrum.png */
+/* Writes spectrum.csv and spectrum.png into a folder. */
 pg_status spectrum_write (const spectrum *spectrum, const pg_problem *p, const char *folder);
 
-/* plan.c */
+/* What a scene amounts to (plan.c): in short, before a run. */
 void plan_print      (const pg_problem *p, const pg_solver_options *o);
-/* stable: of an explicit method, s; else NAN */
+/* Everything that check has found out. stable: time step of an explicit method, s, and where
+ * it comes from; NAN for others. available: bytes. */
 typedef struct {
     const pg_problem *problem;
     const pg_solver_options *options;
@@ -80,15 +103,20 @@ typedef struct {
     double stable;
     const char *from;
 } plan;
-/* rad/s, s stable, c_p dt / h of newmark */
+/* Largest frequency (rad/s), stable time step (s), c_p dt / h of Newmark steps. measured: 0:
+ * an estimate, 1: by --solve, 2: by the solver itself. */
 typedef struct { double omega, dt, courant; int measured; } plan_times;
 plan_times plan_times_of (const plan *p);
-/* what the run will not do, as far as known */
+/* What the run will not do, as far as that is known before; returns how many entries were
+ * written. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most);
 void plan_print_long (const plan *p);
 pg_status plan_print_json (const plan *p);
-void plan_mesh       (const pg_problem *p);  /* plan_mesh.c: nothing without a mesh */
+/* The mesh of a body, if it has one (plan_mesh.c). */
+void plan_mesh       (const pg_problem *p);
 void plan_mesh_json  (pg_json *j, const pg_problem *p);
-void plan_settled     (const pg_solver *solver);  /* what the solver has settled: time steps, stages */
-void plan_doubts     (const pg_problem *p, const pg_solver_options *o);  /* warnings and notes of the scene */
+/* What the solver has settled: time steps, stages. */
+void plan_settled     (const pg_solver *solver);
+/* Warnings and notes of the scene. */
+void plan_doubts     (const pg_problem *p, const pg_solver_options *o);
 #endif

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Options that run and check share; what each command is told by. */
+ * Options that run and check share, the usage of all commands, and how a scene becomes a
+ * problem for them. Wrong options end with the usage and exit code 64; the nearest name is
+ * offered for misspelt ones. */
 #include "cli.h"
 #include <getopt.h>
 #include <math.h>
@@ -7,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+/* The usage of each command, as --help and wrong use print it. */
 static const struct { const char *name, *text;
 } usages[] = {
     { "run",
@@ -97,6 +100,7 @@ static const struct { const char *name, *text;
               "or all keys as markdown.\n" },
 };
 
+/* Usages are found by the name of the command. */
 int command_usage (FILE *to, const char *name)
 {
     for (size_t k = 0; k < sizeof usages / sizeof *usages; k++)
@@ -104,6 +108,7 @@ int command_usage (FILE *to, const char *name)
     return 0;
 }
 
+/* --threads N, 0 to 64; 0 means one for each processor. */
 static int read_threads (command *c, const char *text)
 {
     char *end;
@@ -116,7 +121,7 @@ static int read_threads (command *c, const char *text)
     return -1;
 }
 
-/* "8GB", "500 MB", "1.5 GiB", "1e9": bytes; NAN: none. */
+/* Bytes of "8GB", "500 MB", "1.5 GiB" or "1e9"; NAN for anything else. */
 static double size_of (const char *text)
 {
     static const struct { const char *unit; double size; } units[] = {
@@ -132,6 +137,7 @@ static double size_of (const char *text)
     return NAN;
 }
 
+/* --memory SIZE. */
 static int read_memory (command *c, const char *text)
 {
     c->memory = size_of (text);
@@ -140,6 +146,7 @@ static int read_memory (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
+/* --set KEY=VALUE; the key is checked when the scene is loaded. */
 static int read_set (command *c, const char *text)
 {
     if (c->nset >= sizeof c->set / sizeof *c->set || !strchr (text, '=')) {
@@ -151,6 +158,7 @@ static int read_set (command *c, const char *text)
     return -1;
 }
 
+/* An unknown option or one without its value. */
 static int refuse (const char *name, int option, const char *argument)
 {
     if (option == ':') fprintf (stderr, "perigal %s: %s needs a value\n", name, argument);
@@ -167,14 +175,15 @@ static int refuse (const char *name, int option, const char *argument)
     return PG_EXIT_USAGE;
 }
 
+/* 1 for a file that exists or is called like a scene. */
 static int is_scene (const char *word)
 {
     const char *dot = strrchr (word, '.');
     return access (word, F_OK) == 0 || (dot && (strcmp (dot, ".yaml") == 0 || strcmp (dot, ".yml") == 0));
 }
 
-/* Words that follow the value of a --set and are no options: a value with blanks that lost its quotes. 0:
- * there are none. */
+/* Shells split --set method.horizon=2.5 spacing at the blank. Words after the value of a --set
+ * that are neither options nor files are taken for the rest of such a value. */
 int command_unquoted (char *out, size_t size, int argc, char **argv)
 {
     for (int k = 1; k + 1 < argc; k++) {
@@ -215,6 +224,7 @@ static int read_option (command *c, const char *name, int option, const char *wo
     }
 }
 
+/* getopt_long changes the order of the words, so lost quotes are looked for before it. */
 int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {
@@ -252,13 +262,15 @@ int command_parse (command *c, int argc, char **argv)
     return -1;
 }
 
+/* A scene file that is missing counts as wrong, so that both have the exit code 65. */
 pg_status command_scene (const command *c, pg_scene **scene)
 {
     pg_status status = pg_scene_load_some (scene, c->scene, c->nset, c->set);
     return status == PG_E_FILE ? PG_E_SCENE : status;
 }
 
-/* Faults of one do not keep the others from being looked for. */
+/* Each part looks for its faults even if others have found some, and pg_scene_pass keeps them
+ * until the end. */
 pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem,
                            pg_solver_options *o)
 {
@@ -274,13 +286,13 @@ done:
     return status;
 }
 
-/* Faults of a scene begin with their place; all else names the program. */
+/* Faults of a scene begin with file and line; anything else with the name of the program. */
 void command_complain (pg_status status, const char *text)
 {
     fprintf (stderr, "%s%s\n", status == PG_E_SCENE ? "" : "perigal: ", text);
 }
 
-/* For the shell, in quotes where they are needed. */
+/* A word as the shell would take it, in quotes where these are needed. */
 static void put_word (const char *word)
 {
     if (!*word || word[strcspn (word, " \t\n\"'\\$`!*?[](){}<>|&;#~")]) {
@@ -293,6 +305,7 @@ static void put_word (const char *word)
     } else fputs (word, stderr);
 }
 
+/* All options that change the run are repeated, so that the line can be copied. */
 void command_again (const command *c)
 {
     fputs ("perigal: go on with: perigal run ", stderr);

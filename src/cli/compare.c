@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal compare DIR [REFERENCE]: a result against its scene's reference, a table, another result or a
- * finite element result. */
+ * perigal compare DIR [REFERENCE]: a result against the reference of its scene, a table,
+ * another result or a finite element result. The command line is read here; study.h compares. */
 #include "cli.h"
 #include <errno.h>
 #include <getopt.h>
@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Prints a message and returns the exit code for wrong use. */
 static int complain (const char *format, const char *text)
 {
     fputs ("perigal compare: ", stderr);
@@ -17,7 +18,7 @@ static int complain (const char *format, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* "1, -2 mm, 0": lengths */
+/* Up to three lengths "1, -2 mm, 0", in m. */
 static int read_shift (const char *text, double shift[3])
 {
     char part[64];
@@ -32,6 +33,7 @@ static int read_shift (const char *text, double shift[3])
     return 0;
 }
 
+/* A unit of length, in m. */
 static int read_unit (const char *text, double *unit)
 {
     char one[64];
@@ -39,7 +41,7 @@ static int read_unit (const char *text, double *unit)
     return pg_unit_parse (unit, one, "m") == PG_OK && *unit > 0;
 }
 
-/* "displacement", "displacement.x", "stress.xx" */
+/* "displacement", "displacement.x", "stress.xx" as a column of compare.h. */
 static int read_field (const char *text, int *column)
 {
     if (strcmp (text, "displacement") == 0) *column = PG_COMPARE_U;
@@ -53,6 +55,7 @@ static int read_field (const char *text, int *column)
     return *column >= 0;
 }
 
+/* A step, -1 for the last one. */
 static int read_step (const char *text, int *step)
 {
     char *end;
@@ -62,6 +65,7 @@ static int read_step (const char *text, int *step)
     return 1;
 }
 
+/* A finite number. */
 static int read_number (const char *text, double *out)
 {
     char *end;
@@ -78,7 +82,7 @@ static int read_threads (const char *text, int *out)
     return 1;
 }
 
-/* One option; -1: go on, else the exit code (message printed). */
+/* Reads one option; -1: go on, else the exit code. */
 static int read_option (pg_comparison_request *q, int *json, int option, const char *text)
 {
     static const char *const faults[] = {
@@ -106,6 +110,7 @@ static int read_option (pg_comparison_request *q, int *json, int option, const c
     return good ? -1 : complain (faults[option], text);
 }
 
+/* Reads the command line; -1: go on, else the exit code. */
 static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
 {
     static const struct option options[] = {
@@ -138,6 +143,7 @@ static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
     return -1;
 }
 
+/* The table for people. */
 static void print_rows (const pg_comparison *c, const pg_comparison_request *q)
 {
     char row[400];
@@ -148,6 +154,7 @@ static void print_rows (const pg_comparison *c, const pg_comparison_request *q)
     for (size_t k = 0; pg_errors_row (&c->errors, k, row, sizeof row); k++) printf ("  %s\n", row);
 }
 
+/* The same file that is left in the folder, on stdout. */
 static pg_status print_json (const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
@@ -162,6 +169,7 @@ done:
     return status;
 }
 
+/* The rows are printed before the files are written: they are there even if the disk is full. */
 int pg_cli_compare (int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal converge: a scene at falling sizes, each run a process of its own; orders of all that it gives. */
+ * perigal converge: the command line of a study of convergence (study.h). */
 #include "cli.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
+/* A number from low to high. */
 static pg_status read_number (double *out, const char *name, const char *text, double low, double high)
 {
     pg_status status = PG_OK;
@@ -16,6 +17,7 @@ done:
     return status;
 }
 
+/* --horizon LIST, in spacings. */
 static pg_status read_horizons (pg_converge_request *q, const char *value)
 {
     pg_status status = PG_OK;
@@ -31,6 +33,7 @@ done:
     return status;
 }
 
+/* Reads one option with its value. */
 static pg_status read_option (pg_converge_request *q, const char *name, const char *value)
 {
     pg_status status = PG_OK;
@@ -70,6 +73,8 @@ static const char *long_name (const char *word)
     return word;
 }
 
+/* Reads the command line; the defaults are four sizes, or three with a fixed horizon, whose
+ * neighbours become ever more. */
 static pg_status read_arguments (pg_converge_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -96,6 +101,8 @@ done:
     return status;
 }
 
+/* A wrong command line gets the usage as well; a wrong scene speaks for itself with file and
+ * line. */
 int pg_cli_converge (int argc, char **argv)
 {
     pg_status status = PG_OK;

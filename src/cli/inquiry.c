@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal list, help: what this build holds, what a key means. */
+ * perigal list and perigal help: what this build holds, and what a key of the scene means.
+ * Both read the catalogues and the tables of keys, so that they cannot differ from what the
+ * program does. */
 #include "cli.h"
 #include <string.h>
 
+/* The line of description of a catalogue entry; one function per catalogue follows. */
 typedef const char *(*summary_of) (const char *name);
 static const char *of_force (const char *n)
 {
@@ -76,6 +79,7 @@ int pg_cli_list (int argc, char **argv)
     return PG_EXIT_DONE;
 }
 
+/* All keys of the scene, one per line. */
 static void all_keys (void)
 {
     size_t n;
@@ -85,6 +89,7 @@ static void all_keys (void)
         for (size_t k = 0; k < table[t].n; k++) printf ("  %s\n", table[t].key[k].path);
 }
 
+/* A word is first looked for among the commands, then among the keys. */
 int pg_cli_help (int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal: the command line. Sets the thread environment of the libraries before they start (their limits are
- * read once). */
+ * perigal: finds the command and starts it. Numbers of threads of the libraries are set before
+ * these start, since they read their environment once. */
 #include "cli.h"
 #include "plot.h"
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+/* The commands, in the order of the usage. */
 static const struct { const char *name; int (*run) (int, char **); const char *summary;
 } commands[] = {
     { "run", pg_cli_run, "run SCENE.yaml [-o DIR] [--set KEY=VALUE]  solve, leave a folder of results" },
@@ -24,6 +25,7 @@ static const struct { const char *name; int (*run) (int, char **); const char *s
     { "help", pg_cli_help, "help [KEY | COMMAND | --manual]            the keys of the scene file" },
 };
 
+/* Commands and exit codes. */
 static void usage (FILE *to)
 {
     fprintf (to, "Perigal " PG_VERSION
@@ -34,8 +36,9 @@ static void usage (FILE *to)
                  "interrupted\n");
 }
 
-/* CHOLMOD's OpenMP threads only slow it down beside a threaded BLAS, and only the environment at process
- * start caps them. */
+/* Starts the program again with an environment that limits OpenMP to one thread: the OpenMP
+ * threads of CHOLMOD only slow it down beside a threaded BLAS, and only the environment at the
+ * start of the process limits them. */
 static void settle_threads (int argc, char **argv)
 {
     char count[16];
@@ -51,6 +54,7 @@ static void settle_threads (int argc, char **argv)
     execv ("/proc/self/exe", argv);                    /* goes on below where this fails */
 }
 
+/* Only run and check (the first two commands) factor matrices and need that environment. */
 int main (int argc, char **argv)
 {
     if (argc < 2) {

@@ -1,16 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a scene amounts to, in words: before a run, and at length for check. */
+ * What a scene amounts to, in words: in short before a run, and at length for check. Numbers
+ * come from the built problem, not from the scene, so that they say what the program has
+ * understood: a millimetre that was read as a metre shows in the box of the body. */
 #include "cli.h"
 #include <math.h>
 #include <string.h>
 
+/* How the solver goes on, in its own words; "" if it says nothing. */
 static const char *stepping (const pg_solver_options *o)
 {
     const pg_solver_type *type = pg_solver_find (o->kind);
     return type && type->manner ? type->manner (o) : "";
 }
 
-/* The criterion; of several materials one line each, with their points. */
+/* The criterion; with several materials one line for each, with its points. width: of the
+ * first column. */
 static void describe (const pg_problem *p, int width)
 {
     char text[512];
@@ -26,7 +30,7 @@ static void describe (const pg_problem *p, int width)
     }
 }
 
-/* The choices of the method, and what the force itself says of its constants. */
+/* The choices of the method, and what the force says of its constants. */
 static void print_method (const pg_problem *p)
 {
     const pg_force_type *force = pg_force_of (p);
@@ -40,7 +44,7 @@ static void print_method (const pg_problem *p)
     force->free (&self);
 }
 
-/* Where it lies tells a millimetre that was read as a metre */
+/* The box of the body, and thickness or cross section. */
 static void print_box (const pg_problem *q, int width)
 {
     double low[3], high[3];
@@ -54,6 +58,7 @@ static void print_box (const pg_problem *q, int width)
     printf ("\n");
 }
 
+/* Warnings that are known before the run; a run adds those that come up on the way. */
 void plan_doubts (const pg_problem *p, const pg_solver_options *o)
 {
     pg_statistics doubts = { 0 };
@@ -63,6 +68,7 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o)
     for (size_t k = 0; pg_solver_note (p, o, k, note, sizeof note); k++) printf ("  %s\n", note);
 }
 
+/* Flushed, because progress goes to the other stream. */
 void plan_print (const pg_problem *p, const pg_solver_options *o)
 {
     char text[400];
@@ -79,6 +85,7 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
     fflush (stdout);                                   /* progress goes to the other stream */
 }
 
+/* Static solvers have no time step and print nothing here. */
 void plan_settled (const pg_solver *solver)
 {
     const pg_solver_options *o = pg_solver_settled (solver);
@@ -93,8 +100,9 @@ void plan_settled (const pg_solver *solver)
 }
 
 /* ---- at length ----------------------------------------------------------------------------------------- */
-/* Unless measured: 2 c_p / h inside, and where supports of stiffness beta E / h stiffen boundary points omega^2 = 2
- * beta E / (rho h^2). */
+/* The largest frequency: measured by the solver or by --solve; else an estimate, 2 c_p / h
+ * inside the body, and where supports of the stiffness beta E / h stiffen boundary points
+ * omega^2 = 2 beta E / (rho h^2). Zero without densities. */
 plan_times plan_times_of (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -122,6 +130,7 @@ plan_times plan_times_of (const plan *p)
     return t;
 }
 
+/* Appends an entry unless the list is full. */
 static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, const char *why)
 {
     if (*n == most) return;
@@ -133,7 +142,8 @@ static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, c
 /* A reason for which a run leaves something out. */
 typedef struct { int applies; const char *what, *why; } reason;
 
-/* What the run will not do, as far as that is known before it starts. */
+/* The counterpart of what the solver reports after a run: only what follows from the options
+ * is said. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
 {
     const pg_solver_options *o = p->options;
@@ -164,7 +174,7 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     return n;
 }
 
-/* Cut cells, volume and surface beside the exact ones where they are known. */
+/* Volume and surface of cut cells beside the exact ones, where these are known. */
 static void print_cut (const pg_problem *q)
 {
     double volume = 0, area = 0, exact_volume, exact_area;
@@ -177,6 +187,7 @@ static void print_cut (const pg_problem *q)
     printf ("\n");
 }
 
+/* Layers of cells beyond the sides of the body. */
 static void print_layers (const pg_problem *q)
 {
     static const char *const sides[] = {"left", "right", "bottom", "top", "back", "front"};
@@ -189,6 +200,7 @@ static void print_layers (const pg_problem *q)
     }
 }
 
+/* Points, cells, bonds, unknowns. */
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -219,6 +231,7 @@ static void print_counts (const plan *p)
             q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
 }
 
+/* The constants of each material and its wave speeds. */
 static void print_materials (const pg_problem *p)
 {
     for (size_t k = 0; k < p->nmaterial; k++) {
@@ -238,6 +251,7 @@ static void print_materials (const pg_problem *p)
     }
 }
 
+/* Time steps, and what would be stable for explicit ones. */
 static void print_times (const plan *p)
 {
     plan_times t = plan_times_of (p);
@@ -258,6 +272,8 @@ static void print_times (const plan *p)
                                 : "estimate; measured by --solve");
 }
 
+/* The linear solver and the size of its factor; seconds at 20 GFLOP/s are a rough measure
+ * only. */
 static void print_factor (const pg_forecast *f)
 {
     printf ("  %-18s  %s", "linear solver",
@@ -273,6 +289,7 @@ static void print_factor (const pg_forecast *f)
             f->analysed ? "analysed: " : "estimate", f->analysed ? f->ordering : "");
 }
 
+/* Bytes with three digits and a unit. */
 static void print_bytes (double bytes)
 {
     if (bytes < 999.5e6) printf ("%.3g MB", bytes * 1e-6);
@@ -280,6 +297,7 @@ static void print_bytes (double bytes)
     else printf ("%.3g TB", bytes * 1e-12);
 }
 
+/* The forecast of memory by part, parts below 50 kB left out. */
 static void print_memory (const plan *p)
 {
     const pg_forecast *f = p->forecast;
@@ -293,6 +311,7 @@ static void print_memory (const plan *p)
     }
 }
 
+/* What --solve found. */
 static void print_first_break (const plan *p)
 {
     static const char *const sets[PG_BOND_SETS] = { "node-node", "point-node", "facet-node" };
@@ -325,6 +344,7 @@ static void print_first_break (const plan *p)
                 b->factor);
 }
 
+/* The error of the patch test. */
 static void print_patch (const pg_problem *p)
 {
     char words[240];
@@ -334,6 +354,8 @@ static void print_patch (const pg_problem *p)
             p->patch.held ? "the outermost points held" : "tractions on the whole surface");
 }
 
+/* All that check says, in the order geometry, method, materials, solver, memory, warnings,
+ * first break. */
 void plan_print_long (const plan *p)
 {
     const pg_problem *q = p->problem;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The plan of perigal check as JSON (doc/output.md). */
+ * The plan of perigal check as JSON (doc/output.md explains the keys): the same numbers as in
+ * plan.c, for programs. */
 #include "cli.h"
 #include <errno.h>
 #include <math.h>
@@ -7,6 +8,7 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Sizes of the problem. */
 static void counts (pg_json *j, const plan *p)
 {
     static const char *const sets[PG_BOND_SETS] = { "node_node", "point_node", "facet_node" };
@@ -37,6 +39,7 @@ static void counts (pg_json *j, const plan *p)
     plan_mesh_json (j, q);
 }
 
+/* Materials with their wave speeds and criteria. */
 static void constants (pg_json *j, const pg_problem *p)
 {
     char text[512];
@@ -65,6 +68,7 @@ static void constants (pg_json *j, const pg_problem *p)
     pg_json_shut (j);
 }
 
+/* Solver and time steps. */
 static void steps (pg_json *j, const plan *p)
 {
     plan_times t = plan_times_of (p);
@@ -88,6 +92,7 @@ static void steps (pg_json *j, const plan *p)
                               : "no density");
 }
 
+/* Linear solver and memory, bytes. */
 static void memory (pg_json *j, const plan *p)
 {
     const pg_forecast *f = p->forecast;
@@ -112,6 +117,7 @@ static void memory (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
+/* The first break, if it was asked for. */
 static void first (pg_json *j, const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -127,6 +133,7 @@ static void first (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
+/* Warnings and notes. */
 static void doubts (pg_json *j, const plan *p)
 {
     pg_statistics report = { 0 };
@@ -141,6 +148,7 @@ static void doubts (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
+/* Writes everything to a file. */
 static pg_status write_plan (const plan *p, const char *path)
 {
     pg_status status = PG_OK;
@@ -171,7 +179,7 @@ done:
     return status;
 }
 
-/* The writer replaces files as a whole; so through one. */
+/* The JSON writer replaces whole files, so the text passes through a temporary one. */
 pg_status plan_print_json (const plan *p)
 {
     pg_status status = PG_OK;

@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a body from a mesh amounts to: file, elements, blocks, sets, sizes. */
+ * What a body from a mesh amounts to: file, elements, blocks, sets, sizes and quality of
+ * elements. */
 #include "cli.h"
 #include <string.h>
 
 enum { MOST = 12 };                                    /* blocks and sets listed */
 
+/* Number of elements of a kind, and of a block. */
 static size_t of_kind (const pg_mesh *m, int kind)
 {
     size_t n = 0;
@@ -19,6 +21,7 @@ static size_t of_block (const pg_mesh *m, size_t block)
     return n;
 }
 
+/* File, unit, elements and blocks. */
 static void print_elements (const pg_mesh_body *b)
 {
     const pg_mesh *m = &b->mesh;
@@ -34,7 +37,8 @@ static void print_elements (const pg_mesh_body *b)
     if (m->nblock > MOST) printf ("  %-18s  and %zu more\n", "blocks", m->nblock - MOST);
 }
 
-/* Names that had to change */
+/* Names of sets that had to change, since keys of a scene allow fewer characters; a set of
+ * nodes that a set of sides has named already is left out. */
 static void print_renamed (const pg_mesh *m)
 {
     char clean[57];

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR|FILE: a mesh, one field of DIR/result.e, or with --curve columns of DIR/history.csv, as
- * PNG or SVG. */
+ * perigal plot DIR|FILE: a field of DIR/result.e, a mesh or a finite element result, or with
+ * --curve columns of DIR/history.csv, as PNG or SVG. Here is the command line; drawing is in
+ * the files plot_*.c. */
 #include "plot.h"
 #include "perigal/study.h"
 #include <math.h>
@@ -35,6 +36,7 @@ static const char usage[] =
     "  --unit        meshes: of the lengths in the file;  --sets: sets of sides and nodes in colours\n"
     "  --above       3D views: only points whose value is at least this, the body grey behind them\n";
 
+/* A finite number. */
 static int number_of (const char *text, double *value)
 {
     char *end;
@@ -42,6 +44,7 @@ static int number_of (const char *text, double *value)
     return end != text && *end == 0 && isfinite (*value);
 }
 
+/* Index of a word in "a|b|c"; -1 if it is not there. */
 static int place_of (const char *word, const char *names)
 {
     int k = 0;
@@ -51,6 +54,7 @@ static int place_of (const char *word, const char *names)
 }
 
 /* ---- options ------------------------------------------------------------------------------------------- */
+/* A number of at least `low`. */
 static pg_status read_number (const char *name, const char *text, double low, double *out)
 {
     pg_status status = PG_OK;
@@ -60,7 +64,7 @@ done:
     return status;
 }
 
-/* "3,5,8" */
+/* Up to `most` steps "3,5,8"; negative ones count from the end. */
 static pg_status read_steps (plot_request *q, const char *name, const char *text, int most)
 {
     pg_status status = PG_OK;
@@ -178,7 +182,7 @@ done:
 static pg_status read_sets (plot_request *q, const char *text) { (void) text, q->sets = 1; return PG_OK; }
 static pg_status read_list (plot_request *q, const char *text) { (void) text, q->list = 1; return PG_OK; }
 static pg_status read_log (plot_request *q, const char *text) { (void) text, q->style.log = 1; return PG_OK; }
-/* "stress" or, as in output.pictures, "stress.yy" */
+/* "stress", or as in output.pictures "stress.yy". */
 static pg_status read_field (plot_request *q, const char *text)
 {
     const char *dot = strrchr (text, '.');
@@ -193,6 +197,7 @@ static pg_status read_field (plot_request *q, const char *text)
 static pg_status read_component (plot_request *q, const char *text) { q->component = text; return PG_OK; }
 static pg_status read_out (plot_request *q, const char *text) { q->out = text; return PG_OK; }
 
+/* The options and their readers; three of them take no value. */
 static const struct { const char *name; pg_status (*read) (plot_request *q, const char *text);
 } options[] = {
     { "--field", read_field },     { "--component", read_component }, { "--step", read_step },
@@ -203,7 +208,7 @@ static const struct { const char *name; pg_status (*read) (plot_request *q, cons
     { "--list", read_list },
 };
 
-/* used: 1 when the value was. */
+/* Reads one option; *used = 1 if it took the value. */
 static pg_status read_option (plot_request *q, const char *name, const char *value, int *used)
 {
     pg_status status = PG_OK;
@@ -229,6 +234,7 @@ static void cut_result (char *path)
     if (n > 9 && strcmp (path + n - 9, "/result.e") == 0 && pg_plot_is_file (path)) path[n - 9] = 0;
 }
 
+/* Reads the command line and what excludes each other. */
 static pg_status read_arguments (plot_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -255,6 +261,7 @@ done:
     return status;
 }
 
+/* --curve is a command of its own with other options. */
 int pg_cli_plot (int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or of other tables,
- * as a chart. */
+ * perigal plot DIR... --curve X Y: two columns of the history.csv of one or several runs, or
+ * of other tables, as a chart. Of runs with event stepping the line is the envelope
+ * (pg_envelope) with the path of events pale behind it, where both columns grow with the load;
+ * the scene in the folder says whether they do. */
 #include "plot.h"
 #include "perigal/study.h"
 #include "perigal/compare.h"
@@ -11,29 +13,43 @@
 #include <string.h>
 #include <unistd.h>
 
+/* Longest cell, longest path or list of names, and the largest number of curves. */
 enum { CELL = 256, LIST = 4096, MOST = 24 };
 
+/* What the command line asks for. */
 typedef struct {
     const char *directory[MOST], *x, *y, *out;
-    char   *labels;                                    /* cut in place */
+    /* Text of --labels, cut in place. */
+    char   *labels;
     size_t  n;
-    int     markers, log[2];                           /* log: of x, of y */
-    enum { AS_IT_IS, NEGATED, ABSOLUTE } sign[2];      /* of x, of y */
+    /* 1: a marker on every row; logarithmic x, y. */
+    int     markers, log[2];
+    /* Sign of x and of y. */
+    enum { AS_IT_IS, NEGATED, ABSOLUTE } sign[2];
 } request;
 
 /* What the scene of a run says of two of its columns. */
 typedef struct {
-    int at_rest;                                       /* the run starts unloaded: both columns at 0 */
-    int events;  /* static, both proportional to the load: a path of events has an envelope */
-    int linear;                                        /* all loads grow in proportion */
+    /* 1: the run starts unloaded, so both columns are 0 there. */
+    int at_rest;
+    /* 1: static with event stepping, and both columns grow with the load: the path has an
+     * envelope. */
+    int events;
+    /* 1: all loads grow in proportion. */
+    int linear;
 } run_kind;
 
+/* The curve of one run. */
 typedef struct {
     size_t  n;
-    double *at[2], *factor;                                     /* x, y, load factor of each row */
-    char    column[2][CELL], name[CELL];               /* "name (unit)"; name in the legend */
+    /* x, y and load factor of each row (n). */
+    double *at[2], *factor;
+    /* Labels "name (unit)" of x and y; name in the legend. */
+    char    column[2][CELL], name[CELL];
     run_kind kind;
-    size_t  nline, peak;                               /* of the line drawn: the rows, or their envelope */
+    /* Number of places of the line that is drawn (the rows, or their envelope), and the one
+     * with the peak. */
+    size_t  nline, peak;
     double *line[2];
 } run_curve;
 
@@ -49,13 +65,14 @@ static const char usage[] =
     "legend shows --labels, else the names of the folders. --markers: a marker on every row, and no "
     "envelope.\n";
 
-static int is_table (const char *path)                 /* a file of its own, not a folder with history.csv */
+/* 1 for a table itself instead of a folder with history.csv. */
+static int is_table (const char *path)
 {
     size_t n = strlen (path);
     return n > 4 && strcmp (path + n - 4, ".csv") == 0;
 }
 
-/* Is `column`, as "name (unit)" or "name [unit]", the one of that name? */
+/* 1 if `column`, as "name (unit)" or "name [unit]", has that name. */
 static int is_column (const char *column, const char *wanted)
 {
     size_t n = strcspn (column, "[(");
@@ -63,8 +80,8 @@ static int is_column (const char *column, const char *wanted)
     return n == strlen (wanted) && strncmp (column, wanted, n) == 0;
 }
 
-/* A column of a table for an axis: its number, and its label "name (unit)", without a unit where that is
- * 1. */
+/* Finds a column of a table and makes its label for an axis, without a unit where that is 1.
+ * PG_E_USAGE with all names if there is none. */
 static pg_status find_column (const char *path, const pg_csv *csv, const char *wanted, long *column,
                               char *label)
 {
@@ -91,7 +108,7 @@ done:
 }
 
 /* ---- what the scene says ------------------------------------------------------------------------------- */
-/* Is the column one of a list, by its name? */
+/* 1 if the name of the column is in "a|b|c". */
 static int is_one_of (const char *column, const char *list)
 {
     char name[CELL];
@@ -99,7 +116,8 @@ static int is_one_of (const char *column, const char *list)
     return pg_plot_index (name, list) >= 0;
 }
 
-/* Damage of pre-cracks, and tips of them, are there before any load. */
+/* 1 for columns that need not be 0 without load: damage of pre-cracks and the length of their
+ * tips, and counts. */
 static int starts_elsewhere (const pg_scene *scene, const char *column)
 {
     for (size_t i = 0; i < pg_scene_count (scene, "output.tips"); i++)
@@ -111,6 +129,8 @@ static int starts_elsewhere (const pg_scene *scene, const char *column)
     return is_one_of (column, "iterations|residual|event|level");
 }
 
+/* Reads the scene of a run, if there is one; otherwise nothing is known and the rows are drawn
+ * as they are. */
 static void read_kind (run_kind *out, const char *directory, const char *const *wanted)
 {
     char path[LIST];
@@ -137,7 +157,7 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
 }
 
 /* ---- one run ------------------------------------------------------------------------------------------- */
-/* Both columns of a run, and its load factors where the table has them. */
+/* Reads both columns of a run, and its load factors where the table has them. */
 static pg_status read_rows (run_curve *c, const char *directory, const char *const *wanted)
 {
     pg_status status = PG_OK;
@@ -162,8 +182,8 @@ done:
     return status;
 }
 
-/* The line drawn: the rows, from the origin where the run starts unloaded; of a path of events, on which the
- * load falls and rises, its envelope. */
+/* The line that is drawn: the rows, from the origin on where the run starts unloaded; of a
+ * path of events on which the load falls and rises, its envelope. */
 static pg_status choose_line (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -183,7 +203,7 @@ done:
     return status;
 }
 
-/* Forces, couples and stresses have a peak. */
+/* 1 for forces, moments and stresses. */
 static int has_peak (const char *column)
 {
     size_t n = strlen (column);
@@ -192,7 +212,7 @@ static int has_peak (const char *column)
     return 0;
 }
 
-/* "-15.03 MN": a value of a column by its label's unit. */
+/* A value with the unit of its column, such as "-15.03 MN". */
 static void quantity_of (const char *column, double value, char *out, size_t size)
 {
     const char *open = strrchr (column, '(');
@@ -202,7 +222,7 @@ static void quantity_of (const char *column, double value, char *out, size_t siz
     else snprintf (out, size, "%.4g%s%s", value, *unit ? " " : "", unit);
 }
 
-/* The last part of a path, slashes at its end aside. */
+/* The last part of a path without slashes at its end. */
 static void name_of_folder (const char *path, char *out, size_t size)
 {
     size_t end = strlen (path);
@@ -212,8 +232,8 @@ static void name_of_folder (const char *path, char *out, size_t size)
     snprintf (out, size, "%.*s", (int) (end - start), path + start);
 }
 
-/* Names in the legend: the labels, one a folder, or the folders themselves (the whole path where two are
- * called alike). */
+/* Names in the legend: the labels, one per folder, or the folders (with the whole path where
+ * two have one name). */
 static pg_status name_curves (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -236,6 +256,8 @@ done:
     return status;
 }
 
+/* Applies --negate and --abs, and says so in the labels; step, time and load factor keep their
+ * sign. */
 static void change_signs (const request *q, run_curve *c)
 {
     for (int k = 0; k < 2; k++) {
@@ -258,7 +280,7 @@ static void change_signs (const request *q, run_curve *c)
 }
 
 /* ---- the picture --------------------------------------------------------------------------------------- */
-/* DIR/Y-X.png with what is no letter, digit, - or _ turned into _ */
+/* DIR/Y-X.png, with other characters than letters, digits, - and _ replaced by _. */
 static void name_picture (const request *q, char *path, size_t size)
 {
     char name[128];
@@ -270,7 +292,8 @@ static void name_picture (const request *q, char *path, size_t size)
     else snprintf (path, size, "%s/%s.png", q->directory[0], name);
 }
 
-/* Peaks: a ring on every curve; their values beside it, or in the legend where there are several. */
+/* A ring at the peak of every curve; the value stands beside it, or in the legend if there are
+ * several curves. */
 static void mark_peaks (const request *q, run_curve *c, pg_chart_mark *mark, char *note, size_t size)
 {
     char value[CELL / 4], place[CELL / 4];
@@ -285,6 +308,7 @@ static void mark_peaks (const request *q, run_curve *c, pg_chart_mark *mark, cha
     }
 }
 
+/* All runs; they must agree in the units of both columns. */
 static pg_status read_all (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -302,6 +326,7 @@ done:
     return status;
 }
 
+/* Reads, chooses the lines, draws. */
 static pg_status draw (const request *q, const char *path)
 {
     pg_status status = PG_OK;
@@ -347,12 +372,13 @@ done:
 }
 
 /* ---- command line -------------------------------------------------------------------------------------- */
+/* 1 for "x", "y" or "xy". */
 static int is_axes (const char *text)
 {
     return text && (strcmp (text, "x") == 0 || strcmp (text, "y") == 0 || strcmp (text, "xy") == 0);
 }
 
-/* --negate, --abs: of y, unless axes follow. */
+/* --negate and --abs: of y unless axes follow. */
 static pg_status read_sign (request *q, const char *name, const char *axes)
 {
     pg_status status = PG_OK;
@@ -368,7 +394,7 @@ done:
     return status;
 }
 
-/* One option and its values; used: how many words of the command line that takes. */
+/* Reads one option; *used counts it with its values. */
 static pg_status read_option (request *q, const char *name, char **value, int left, int *used)
 {
     static const char names[] = "--curve|--labels|--out|--log|--negate|--abs|--markers";
@@ -398,6 +424,7 @@ done:
     return status;
 }
 
+/* Words that are no options are folders or tables. */
 static pg_status read_arguments (request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -413,6 +440,7 @@ done:
     return status;
 }
 
+/* Prints the path of the picture, as all plot commands do, so that scripts can use it. */
 int pg_cli_plot_curve (int argc, char **argv)
 {
     pg_status status = PG_OK;

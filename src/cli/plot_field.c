@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields of a result as pictures: reads steps of DIR/result.e, chooses component and points, names files,
- * titles panels. */
+ * Fields of a result as pictures: reads steps of DIR/result.e, chooses the component and the
+ * points, finds out from the copied scene where body and pre-cracks are, names files and
+ * panels, and hands everything to picture.h. */
 #include "plot.h"
 #include "perigal/compare.h"
 #include <math.h>
@@ -9,23 +10,33 @@
 #include <string.h>
 #include <unistd.h>
 
+/* A result that is being drawn. */
 typedef struct {
     pg_cloud cloud;
-    pg_scene *scene;                                   /* the copy the run left, NULL when there is none */
+    /* The copy that the run left; NULL if there is none. */
+    pg_scene *scene;
     pg_cracks cracks;
-    pg_body  body;  /* its shapes, its lattice where the scene has cells: staircase */
+    /* The shapes of the body, and its lattice where the scene has cells: staircase. */
+    pg_body  body;
     pg_lattice lattice;
     pg_outline outline;
-    int      damaged;                                  /* the file has damage */
-    pg_mesh_body part;  /* the mesh whose nodes the points are, if it is still there */
-    int      whole;                                    /* nothing of it broke */
+    /* 1: the file has the field damage. */
+    int      damaged;
+    /* The mesh whose nodes the points are, if it is still there. */
+    pg_mesh_body part;
+    /* 1: nothing has broken, so that fields may be drawn on elements. */
+    int      whole;
     size_t   nstep;
     double  *time;
-    int      component, components, norm;              /* of the field; norm: its size */
-    char     name[128], unit[16];                      /* on the colour bar */
+    /* Component of the field that is drawn, number of its components; norm = 1: its magnitude. */
+    int      component, components, norm;
+    /* On the colour bar. */
+    char     name[128], unit[16];
 } source;
 
-typedef struct { double *value, *u, *select, *damage; char title[64]; } stage; /* n, n x dim, n, n */
+/* A step: values (n), displacements (n x dim), values that select points (n), damage (n);
+ * title. */
+typedef struct { double *value, *u, *select, *damage; char title[64]; } stage;
 
 /* ---- components ---------------------------------------------------------------------------------------- */
 int pg_plot_index (const char *word, const char *list)
@@ -36,7 +47,8 @@ int pg_plot_index (const char *word, const char *list)
     return -1;
 }
 
-/* "x|y|z", "xx|yy|xy" ...: names of the components of m values a point. */
+/* Names of the components of a field with m values per point as "x|y|z" or "xx|yy|xy"; "" if
+ * they have none. */
 static const char *component_names (int dim, int m)
 {
     static const char *const axes[] = { "", "x", "x|y", "x|y|z" };
@@ -45,7 +57,7 @@ static const char *component_names (int dim, int m)
     return dim == 3 && m == 6 ? "xx|yy|zz|xy|yz|zx" : "";
 }
 
-/* "2" -> 2; -1 for anything else */
+/* "2" becomes 2; -1 for anything else, or `most` and more. */
 static int number_of (const char *text, int most)
 {
     char *end;
@@ -60,7 +72,8 @@ static int component_of (const char *wanted, const char *names, int m)
     return k >= 0 ? k : number_of (wanted, m);
 }
 
-/* The component that --component names, or the usual one: the magnitude of vectors, xx of tensors. */
+/* The component that is asked for by name or number; by default the magnitude of a vector and
+ * xx of a tensor. */
 static pg_status choose_component (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -83,7 +96,8 @@ done:
     return status;
 }
 
-/* Length of a vector or norm of a symmetric tensor (engineering strains count half). */
+/* Length of a vector, or Frobenius norm of a symmetric tensor; shears count twice, engineering
+ * strains with half their value (shear = 0.5). */
 static double magnitude (const double *v, int dim, int m, double shear)
 {
     double sum = 0;
@@ -93,7 +107,7 @@ static double magnitude (const double *v, int dim, int m, double shear)
 }
 
 /* ---- reading ------------------------------------------------------------------------------------------- */
-/* Where the body is, by the scene: not where its points come from files. */
+/* Where the body is, from the scene; points that come from files have none. */
 static void read_outline (source *s)
 {
     pg_cloud cloud = { 0 };
@@ -106,7 +120,7 @@ static void read_outline (source *s)
     if (s->body.n) s->outline = (pg_outline) { .body = &s->body, .lattice = &s->lattice };
 }
 
-/* Was the name written to the file? */
+/* 1 if the file has that field. */
 static int is_stored (const plot_request *q, const char *name)
 {
     char (*names)[32] = NULL;
@@ -118,7 +132,7 @@ static int is_stored (const plot_request *q, const char *name)
     return found;
 }
 
-/* The cracks of the scene the run kept a copy of; a picture without them when there is none. */
+/* The scene that the run copied, with its pre-cracks; without one the picture has none. */
 static void read_scene (const plot_request *q, source *s)
 {
     char path[PLOT_PATH];
@@ -162,8 +176,8 @@ done:
     return status;
 }
 
-/* The mesh of the run says where the body is, unless it is gone or no longer that of the points. Fields
- * are drawn on its elements (whole) unless something broke, because elements would hide a crack. */
+/* The mesh of the run, unless it is gone or its nodes are not the points any more. Fields are
+ * drawn on its elements unless something broke, since these would hide the crack. */
 static pg_status read_part (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -178,6 +192,7 @@ done:
     return status;
 }
 
+/* Opens the result; keys for 3D views are refused for others. */
 static pg_status open_source (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -199,6 +214,7 @@ done:
     return status;
 }
 
+/* May be called for a result that was only half opened. */
 static void close_source (source *s)
 {
     pg_cracks_clear (&s->cracks);
@@ -209,7 +225,7 @@ static void close_source (source *s)
     pg_cloud_clear (&s->cloud);
 }
 
-/* "time 2 ms", "load factor 0.5"; by event stepping "event 12, load factor 0.5". */
+/* "time 2 ms", "load factor 0.5", or with event stepping "event 12, load factor 0.5". */
 static void name_stage (const plot_request *q, const source *s, int step, char *text, size_t size)
 {
     const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "",
@@ -228,6 +244,7 @@ static void name_stage (const plot_request *q, const source *s, int step, char *
     else snprintf (text, size, "load factor %.4g", factor);
 }
 
+/* Reads what a picture of one step needs. */
 static pg_status read_stage (const plot_request *q, const source *s, int step, stage *g)
 {
     pg_status status = PG_OK;
@@ -253,6 +270,7 @@ done:
     return status;
 }
 
+/* Frees a step. */
 static void drop_stage (stage *g)
 {
     pg_free (g->value), pg_free (g->u), pg_free (g->select), pg_free (g->damage);
@@ -260,7 +278,8 @@ static void drop_stage (stage *g)
 }
 
 /* ---- drawing ------------------------------------------------------------------------------------------- */
-/* DIR/FIELD.COMPONENT_VIEW_0007.png, as in output.pictures, or --out with the number before its ending. */
+/* DIR/FIELD.COMPONENT_VIEW_0007.png as in output.pictures, or --out with the number before its
+ * ending. */
 static void name_picture (const plot_request *q, int number, char *path, size_t size)
 {
     char name[160] = "", count[16] = "";
@@ -278,7 +297,7 @@ static void name_picture (const plot_request *q, int number, char *path, size_t 
     snprintf (path, size, "%.2100s/%s%s.png", q->directory, name, count);
 }
 
-/* One colour bar for all pictures of a series; blue to red where both signs occur. */
+/* Extends the range of the colours by one step: all pictures of a series share it. */
 static pg_status widen_range (const plot_request *q, const source *s, const stage *g, pg_picture_style *style,
                               int *any)
 {
@@ -295,6 +314,8 @@ done:
     return status;
 }
 
+/* The final range: blue to red where both signs occur to more than a trace, damage 0 to 1, or
+ * what was given. */
 static void settle_range (const plot_request *q, pg_picture_style *style)
 {
     /* not for a trace of the other sign */
@@ -329,8 +350,7 @@ static void write_label (const source *s, const pg_picture_style *style, char *l
     snprintf (label, size, "%s%s%s%s%s%s", bar, s->name, bar, unit[0] ? " (" : "", unit, unit[0] ? ")" : "");
 }
 
-/* One state, or several in panels, as one file, whose name is printed. number: of the step in a series, or
- * -1. */
+/* Draws n steps as one picture, with title and label, and prints its name. */
 static pg_status draw (const plot_request *q, const source *s, size_t n, const stage *g,
                        const pg_picture_style *given, int number)
 {
@@ -361,6 +381,8 @@ done:
     return status;
 }
 
+/* Every step as a picture of its own; steps are read twice, which keeps one of them in memory
+ * at a time. */
 static pg_status draw_each (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;
@@ -384,6 +406,7 @@ done:
     return status;
 }
 
+/* Several steps as panels of one picture. */
 static pg_status draw_together (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;
@@ -405,7 +428,8 @@ done:
     return status;
 }
 
-/* Steps from the end become steps from the start. */
+/* Turns steps that count from the end into steps from the start; PG_E_USAGE for those that do
+ * not exist. */
 static pg_status count_steps (plot_request *q, const source *s)
 {
     pg_status status = PG_OK;
@@ -423,6 +447,8 @@ done:
     return status;
 }
 
+/* The body is looked for after the steps are known, since the field damage of these steps
+ * decides how it is drawn. */
 pg_status pg_plot_field (plot_request *q)
 {
     pg_status status = PG_OK;
@@ -436,6 +462,7 @@ done:
     return status;
 }
 
+/* Steps are counted from 0, as --step takes them. */
 pg_status pg_plot_list (const plot_request *q)
 {
     pg_status status = PG_OK;

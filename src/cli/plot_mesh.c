@@ -7,28 +7,32 @@
 #include <string.h>
 #include <sys/stat.h>
 
+/* A mesh file that is being drawn. */
 typedef struct {
     pg_mesh mesh;
     size_t  nfield;
     pg_mesh_field *field;
     double  time;
-    double *value, *u;                                 /* nnode, nnode x dim */
+    /* Values at the nodes (nnode), displacements in units of the mesh (nnode x dim). */
+    double *value, *u;
     char    label[96];
 } fem;
 
-/* A file that is no result of this program. */
+/* A file is a mesh; a folder is a result of this program. */
 int pg_plot_is_file (const char *path)
 {
     struct stat about;
     return stat (path, &about) == 0 && S_ISREG (about.st_mode);
 }
 
+/* The field of that name, or NULL. */
 static const pg_mesh_field *find_field (const fem *f, const char *name)
 {
     for (size_t k = 0; k < f->nfield; k++) if (strcmp (f->field[k].name, name) == 0) return &f->field[k];
     return NULL;
 }
 
+/* The same, with a message that names all fields if there is none. */
 static pg_status need_field (const plot_request *q, const fem *f, const char *name, const pg_mesh_field **out)
 {
     pg_status status = PG_OK;
@@ -45,12 +49,14 @@ done:
 }
 
 /* ---- values -------------------------------------------------------------------------------------------- */
+/* Von Mises stress of xx yy zz xy yz zx. */
 static double mises (const double *s)
 {
     double d = (s[0] - s[1]) * (s[0] - s[1]) + (s[1] - s[2]) * (s[1] - s[2]) + (s[2] - s[0]) * (s[2] - s[0]);
     return sqrt (0.5 * d + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
+/* Length of a vector or Frobenius norm of a tensor. */
 static double size_of (const double *v, int m)
 {
     double sum = 0;
@@ -77,7 +83,7 @@ done:
     return status;
 }
 
-/* The values at the nodes, and the label of their colour bar. */
+/* The values to draw and their label. */
 static pg_status choose_value (const plot_request *q, fem *f)
 {
     pg_status status = PG_OK;
@@ -99,6 +105,7 @@ done:
     return status;
 }
 
+/* The displacements of the nodes. */
 static pg_status choose_displacement (const plot_request *q, fem *f)
 {
     pg_status status = PG_OK;
@@ -130,6 +137,7 @@ static void name_picture (const plot_request *q, char *path, size_t size)
                   q->component ? q->component : "", q->style.view ? "_" : "", q->style.view ? q->look : "");
 }
 
+/* Values with both signs get the diverging colours. */
 static pg_status draw (const plot_request *q, const fem *f)
 {
     pg_status status = PG_OK;
@@ -153,6 +161,7 @@ done:
     return status;
 }
 
+/* A plain mesh is read without results, which is faster and works for formats that have none. */
 pg_status pg_plot_mesh (const plot_request *q)
 {
     pg_status status = PG_OK;

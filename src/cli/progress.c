@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Progress: how far, what is going on, the pace, and the time left where it can be known. */
+ * Progress of a run: how far it is, what is going on, the pace, and the time left where it can
+ * be estimated. Everything goes to stderr, so that stdout can be used by programs. */
 #include "cli.h"
 #include <math.h>
 #include <string.h>
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+/* Longest line; width of terminal below which its size is not believed; number of details at
+ * most. */
 enum { LINE = 400, NARROW = 20, FULL = 3 };
 
+/* Both marks of the pace begin at the start of the run. */
 void progress_start (progress *p, int quiet, const pg_solver_options *o)
 {
     double now = pg_seconds ();
@@ -20,8 +24,8 @@ void progress_start (progress *p, int quiet, const pg_solver_options *o)
     p->mark[0].at = p->mark[1].at = now;
 }
 
-/* The pace is taken over the last third to two thirds of the time: what was easy at the start does not count
- * for ever. */
+/* The pace is that of the last third to two thirds of the time: what was easy at the start
+ * does not count for ever. */
 static void keep_pace (progress *p, double now, double share, double events)
 {
     if (!p->begun) {
@@ -33,6 +37,7 @@ static void keep_pace (progress *p, double now, double share, double events)
     p->mark[1].at = now, p->mark[1].share = share, p->mark[1].events = events;
 }
 
+/* Seconds in words. */
 static void put_time (char *out, size_t size, double seconds)
 {
     if (seconds < 100) snprintf (out, size, seconds < 10 ? "%.1f s" : "%.0f s", seconds);
@@ -41,13 +46,15 @@ static void put_time (char *out, size_t size, double seconds)
     else snprintf (out, size, "%.0f days", seconds / 86400);
 }
 
+/* Appends a part of the line, after a comma. */
 static void add (char *line, const char *text)
 {
     size_t n = strlen (line);
     snprintf (line + n, LINE - n, "%s%s", n ? ", " : "", text);
 }
 
-/* What step: time steps, events, or load steps with the rounds of the one at hand. */
+/* Which step: time steps, events with their pace, or load steps with the rounds of the current
+ * one. */
 static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step,
                       const pg_statistics *r, double now, int within)
 {
@@ -66,6 +73,9 @@ static void add_step (char *line, const progress *p, const pg_progress *at, cons
     add (line, text);
 }
 
+/* Time passed, and time left if shares of the run take even times. Nobody knows how many
+ * rounds of breaking will follow, so nothing is said during one; with event stepping it is an
+ * upper bound. */
 static void add_time (char *line, const progress *p, const pg_progress *at, double now, int breaking)
 {
     char word[32], text[64];
@@ -86,7 +96,7 @@ static void add_number (char *line, const char *format, double value)
     add (line, text);
 }
 
-/* One line of progress. full: 0 the least, FULL everything. */
+/* The line with `full` details: 0 the least, FULL everything. */
 static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step,
                      const pg_statistics *r, double now, int within)
 {
@@ -105,12 +115,14 @@ static void compose (char *line, int full, const progress *p, const pg_progress 
     add_time (line, p, at, now, within && step->nbroken && relaxes_or_solves);
 }
 
+/* Its columns; 80 if it does not say. */
 static size_t width_of_terminal (void)
 {
     struct winsize size;
     return ioctl (2, TIOCGWINSZ, &size) == 0 && size.ws_col >= NARROW ? size.ws_col : 80;
 }
 
+/* Takes details away until the line fits the terminal. */
 static void write_line (const progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *r,
                         double now, int within)
 {
@@ -124,6 +136,8 @@ static void write_line (const progress *p, const pg_progress *at, const pg_step 
     if (p->tty) fflush (stderr);
 }
 
+/* At most five lines per second on a terminal; elsewhere one for each tenth and one every ten
+ * seconds or 2 % of the time, whichever is longer. */
 void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *report,
                     int within)
 {
@@ -136,6 +150,7 @@ void progress_show (progress *p, const pg_progress *at, const pg_step *step, con
     write_line (p, at, step, report, now, within);
 }
 
+/* Removes the line from the terminal, so that the summary stands in its place. */
 void progress_end (progress *p)
 {
     if (p->tty && !p->quiet) fprintf (stderr, "\r\033[K");

@@ -1,14 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal run: scene -> problem -> solver -> steps -> result folder. */
+ * perigal run: scene -> problem -> solver -> steps -> result folder. An interrupted or failed
+ * run leaves a checkpoint, if it had done anything, and says how to go on. */
 #include "cli.h"
 #include <signal.h>
 #include <string.h>
 
+/* Number of the signal that asked the run to stop; 0: none. Signal handlers can reach nothing
+ * but a global. */
 static volatile sig_atomic_t asked_to_stop;
 static void on_signal (int number) { asked_to_stop = number; }
 
-/* The first signal asks for a checkpoint, the second of its kind ends the program; a full disk is an error,
- * no signal. */
+/* The first signal asks for a checkpoint, the second one of its kind ends the program
+ * (SA_RESETHAND). Signals that the caller ignores (nohup) stay ignored. A file that grows
+ * beyond its limit is an error of writing, not a signal. */
 static void settle_signals (void)
 {
     static const int asking[] = { SIGINT, SIGTERM, SIGHUP };
@@ -22,6 +26,7 @@ static void settle_signals (void)
     signal (SIGXFSZ, SIG_IGN);
 }
 
+/* What the solver did. */
 static void print_counts (const pg_statistics *r, const pg_solver_options *o)
 {
     if ((o->flags & PG_SOLVER_EXPLICIT))
@@ -48,7 +53,7 @@ static void print_counts (const pg_statistics *r, const pg_solver_options *o)
             r->energy_external, r->energy_strain, r->energy_kinetic, r->energy_damping, r->energy_dissipated);
 }
 
-/* Warnings that came on the way: the others stand above the progress. */
+/* Warnings that came during the run; those known before stand above the progress. */
 static void print_warnings (const pg_statistics *r, const pg_problem *problem, const pg_solver_options *o)
 {
     pg_statistics before = { 0 };
@@ -60,6 +65,7 @@ static void print_warnings (const pg_statistics *r, const pg_problem *problem, c
     }
 }
 
+/* The last lines of a run. */
 static void print_summary (const pg_result *result, const pg_statistics *r, const pg_solver_options *o,
                            const pg_problem *problem, double total)
 {
@@ -92,6 +98,7 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
         printf ("  picture %s\n", pg_result_picture (result, k));
 }
 
+/* What is followed during a run; within = 1: the run ended in the middle of a step. */
 typedef struct {
     pg_result *result;
     pg_state *state;
@@ -101,13 +108,14 @@ typedef struct {
     int within;
 } watched;
 
-/* An old checkpoint is better than no run: one that cannot be written ends nothing. */
+/* Writes a checkpoint; if that fails, the older one is better than no run at all. */
 static void keep_now (const watched *w)
 {
     if (pg_result_checkpoint (w->result, w->state) != PG_OK)
         fprintf (stderr, "perigal: no checkpoint: %s\n", pg_last_error ());
 }
 
+/* Shows the progress. */
 static void show (watched *w, const pg_step *step)
 {
     pg_progress at;
@@ -115,7 +123,7 @@ static void show (watched *w, const pg_step *step)
     progress_show (&w->shown, &at, step, pg_solver_report_now (w->solver), w->within);
 }
 
-/* Between the break rounds of a step */
+/* Called between the rounds of breaking in a step: stages, progress, interruption, checkpoint. */
 static pg_status look (void *context, const pg_state *state, const pg_step *so_far)
 {
     pg_status status = PG_OK;
@@ -132,6 +140,8 @@ done:
     return status;
 }
 
+/* All steps to the end. A step that failed outside of `look` was refused, so that the state is
+ * that of its start. */
 static pg_status advance (pg_solver *solver, watched *w, int quiet)
 {
     pg_status status = PG_OK;
@@ -156,14 +166,16 @@ done:
     return status;
 }
 
-/* The end of a run that did not come to its end: what it takes to go on is written first. 1: there is a
- * checkpoint to go on from. */
+/* Writes what it takes to go on with a run that did not come to its end; 1 if there is a
+ * checkpoint now. */
 static int keep_for_later (const watched *w)
 {
     if (w->state->step == 0 && !w->within) return 0;   /* nothing has been done yet */
     return pg_result_checkpoint (w->result, w->state) == PG_OK;
 }
 
+/* A new result, or a resumed one. Other numbers of threads may change the last digits of
+ * library calls. */
 static pg_status open_result (const command *c, const char *folder, const pg_scene *scene,
                               const pg_problem *problem, pg_solver *solver, watched *w)
 {
@@ -184,11 +196,11 @@ done:
     return status;
 }
 
-/* of OpenBLAS; its header is not everywhere in the same place */
+/* Declared here because the header of OpenBLAS is not everywhere in the same place. */
 void openblas_set_num_threads (int threads);
 
-/* Two BLAS threads gain 7 % of a factorization at 4 000 unknowns on an idle machine, and lose half the speed
- * on a busy one. */
+/* Two BLAS threads gain 7 % of a factorization with 4 000 unknowns on an idle machine, and
+ * lose half the speed on a busy one: small problems take one. */
 static void settle_blas (const pg_problem *p)
 {
     size_t unknowns = p->cloud.n * (size_t) pg_problem_unknowns (p), enough = p->dim == 3 ? 10000 : 50000;
@@ -207,8 +219,9 @@ static void tell_outcome (const command *c, pg_status outcome, const char *failu
     if (kept && (outcome == PG_OK || ended_early)) command_again (c);
 }
 
-/* Everything between an open result and the last message. search, start: seconds of building; when the run
- * began. */
+/* Everything between an open result and the last message. The checkpoint comes before the
+ * results are finished, since a full disk may stop these; both faults are reported, but not
+ * twice the same. */
 static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w, double search, double start)
 {
     char failure[4096] = "", fault[4096];
@@ -274,6 +287,8 @@ done:
     return status;
 }
 
+/* The order puts cheap refusals first: folder, memory, faults of the scene, patch test, then
+ * the solver. */
 int pg_cli_run (int argc, char **argv)
 {
     pg_status status = PG_OK;

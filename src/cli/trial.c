@@ -1,10 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a process does that perigal bench or perigal converge has started (study.h): one run, or one finite
- * element result, measured; the numbers go to stdout as lines "name value". Users have no need of these
- * two options. */
+ * What a process does that perigal bench or perigal converge has started (study.h): one run,
+ * or one finite element result, measured; the numbers go to stdout as lines "name value".
+ * Users have no need of these two options. */
 #include "cli.h"
 
-/* --row SCENE -o DIR ...: argv as of `perigal run`. Memory is forecast unless the scene fits any machine. */
+/* --row SCENE -o DIR ...: the words are those of `perigal run`. Memory is forecast unless the
+ * scene fits any machine. */
 int pg_cli_trial (int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -27,7 +28,8 @@ done:
     return pg_exit_code (status);
 }
 
-/* --fem-row SCENE FILE UNIT [--set KEY=VALUE]...: FILE against the reference of SCENE. */
+/* --fem-row SCENE FILE UNIT [--set KEY=VALUE]...: measures FILE against the reference of
+ * SCENE. */
 int pg_cli_trial_of_mesh (int argc, char **argv)
 {
     pg_status status = PG_OK;
