@@ -11,6 +11,7 @@
 enum { LEG = 40 };
 static const double pi = 3.14159265358979323846;
 
+/* Measures the lattice, samples its plane waves, and words the verdict. */
 pg_status spectrum_find (spectrum *out, const pg_scene *scene, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -59,6 +60,8 @@ static void print_tangent (const spectrum *x)
 /* Stable time step 2 / omega, s; NAN if the scene gives no density. */
 static double seconds (const spectrum *x, double omega) { return x->symbol->dense ? 2 / omega : NAN; }
 
+/* One line for each question: what was measured, the range of eigenvalues, remarkable motions,
+ * unstable motions, long waves, time steps, and the verdict. */
 void spectrum_print (const spectrum *x, const pg_problem *p)
 {
     const pg_symbol *s = x->symbol;
@@ -111,6 +114,7 @@ static void put_motion (pg_json *j, const char *key, const pg_motion *m, const p
     pg_json_shut (j);
 }
 
+/* The same numbers under fixed keys. */
 void spectrum_json (pg_json *j, const spectrum *x)
 {
     const pg_symbol *s = x->symbol;
@@ -242,6 +246,7 @@ done:
     return status;
 }
 
+/* The course is computed once for both files. */
 pg_status spectrum_write (const spectrum *x, const pg_problem *p, const char *folder)
 {
     pg_status status = PG_OK;

@@ -37,6 +37,7 @@ static const char *of_criterion (const char *n)
     const pg_criterion_type *t = pg_criterion_find (n);
     return t ? t->summary : "";
 }
+/* "auto" is a choice of solver.linear but no entry of the catalogue. */
 static const char *of_linear (const char *n)
 {
     const pg_linear_type *t = pg_linear_find (n);
@@ -60,6 +61,7 @@ static const struct { const char *key; const char *(*names) (void); summary_of s
     { "solver.linear", pg_linear_names, of_linear },
 };
 
+/* One block per catalogue, headed by the key of the scene that chooses from it. */
 int pg_cli_list (int argc, char **argv)
 {
     char name[64];

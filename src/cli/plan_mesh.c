@@ -6,7 +6,7 @@
 
 enum { MOST = 12 };                                    /* blocks and sets listed */
 
-/* Number of elements of a kind, and of a block. */
+/* Number of elements of a kind. */
 static size_t of_kind (const pg_mesh *m, int kind)
 {
     size_t n = 0;
@@ -14,6 +14,7 @@ static size_t of_kind (const pg_mesh *m, int kind)
     return n;
 }
 
+/* Number of elements in a block. */
 static size_t of_block (const pg_mesh *m, size_t block)
 {
     size_t n = 0;
@@ -52,6 +53,7 @@ static void print_renamed (const pg_mesh *m)
     }
 }
 
+/* Nothing is printed for bodies without a mesh. Volume and surface show a wrong length unit. */
 void plan_mesh (const pg_problem *p)
 {
     const pg_mesh_body *b = &p->part;
@@ -71,6 +73,7 @@ void plan_mesh (const pg_problem *p)
             b->smallest, b->largest, b->quality, b->mesh.element_id[b->worst]);
 }
 
+/* The same numbers under fixed keys. */
 void plan_mesh_json (pg_json *j, const pg_problem *p)
 {
     const pg_mesh_body *b = &p->part;

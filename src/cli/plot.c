@@ -84,18 +84,21 @@ done:
     return status;
 }
 
+/* --step N or all. */
 static pg_status read_step (plot_request *q, const char *text)
 {
     q->all = strcmp (text, "all") == 0;
     return q->all ? PG_OK : read_steps (q, "--step", text, 1);
 }
 
+/* --steps N,N,...: several steps in one picture. */
 static pg_status read_panels (plot_request *q, const char *text)
 {
     q->panels = 1;
     return read_steps (q, "--steps", text, PLOT_STEPS);
 }
 
+/* --view SIDE, iso or crack; a view and a section exclude each other. */
 static pg_status read_view (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -110,6 +113,7 @@ done:
     return status;
 }
 
+/* --section 'z = 5 mm' or a normal. */
 static pg_status read_section (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -124,6 +128,7 @@ done:
     return status;
 }
 
+/* --direction X,Y,Z, from the body to the eye. */
 static pg_status read_direction (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -133,12 +138,14 @@ done:
     return status;
 }
 
+/* --above VALUE, in the unit of the field. */
 static pg_status read_above (plot_request *q, const char *text)
 {
     q->limited = 1;
     return read_number ("--above", text, -INFINITY, &q->style.above);
 }
 
+/* --range LOW,HIGH: the ends of the colour bar. */
 static pg_status read_range (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -151,11 +158,13 @@ done:
     return status;
 }
 
+/* --magnify FACTOR of the displacements; negative ones are allowed. */
 static pg_status read_magnify (plot_request *q, const char *text)
 {
     return read_number ("--magnify", text, -INFINITY, &q->style.magnify);
 }
 
+/* --columns N: panels in a row. */
 static pg_status read_columns (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -168,6 +177,7 @@ done:
     return status;
 }
 
+/* --unit mm: of the lengths in a mesh file. */
 static pg_status read_unit (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;

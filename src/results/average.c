@@ -83,6 +83,7 @@ static void check_names (const pg_scene *scene)
         }
 }
 
+/* Names, fields and sets; an empty set has no mean. */
 void pg_result_averages_check (const pg_scene *scene, const pg_problem *problem)
 {
     char path[64];
@@ -124,6 +125,7 @@ done:
     return status;
 }
 
+/* "NAME [UNIT]". */
 void pg_result_average_column (const pg_result *r, size_t i, char *out, size_t size)
 {
     snprintf (out, size, "%s [%s]", r->average[i].name, r->average[i].unit);

@@ -82,6 +82,7 @@ done:
     return status;
 }
 
+/* Without a criterion no crack can grow. */
 pg_status pg_result_tips_check (const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -93,6 +94,7 @@ done:
     return status;
 }
 
+/* The lengths are measured at the first row in any case, since pre-cracks have a length. */
 pg_status pg_result_tips_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -104,6 +106,7 @@ done:
     return status;
 }
 
+/* Accepts a result that was only half prepared. */
 void pg_result_tips_free (pg_result *r)
 {
     for (size_t i = 0; r->tip && i < r->ntip; i++) pg_free (r->tip[i].along), pg_free (r->tip[i].length);

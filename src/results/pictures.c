@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The order of doc/notation.md. */
 const char *pg_result_voigt (int dim, int k)
 {
     static const char *const part[4][6] = {
@@ -133,6 +134,7 @@ done:
     return status;
 }
 
+/* The number in the name is that of the step that result.e has just got. */
 pg_status pg_result_draw_stage (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -166,6 +168,7 @@ done:
     return status;
 }
 
+/* Expressions of the reference take the time, in static runs the load factor. */
 pg_status pg_result_measure (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;

@@ -280,6 +280,9 @@ done:
     return status;
 }
 
+/* The folder is locked before the checkpoint is read, and its files are cut only after
+ * everything in the checkpoint has been accepted; a refused resume leaves the folder as it
+ * was. */
 pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene,
                             const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from)
 {

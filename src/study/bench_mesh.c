@@ -25,6 +25,7 @@ static const pg_bench_body known[] = {
     { "cantilever_3d", "cantilever_3d", "cantilever_3d", "m", 3, 0 },
 };
 
+/* NULL for scenes that the script does not know. */
 const pg_bench_body *pg_bench_body_find (const char *scene)
 {
     for (size_t k = 0; k < sizeof known / sizeof *known; k++)
@@ -42,6 +43,7 @@ static const char *script_of (const char *path, char *script, size_t size)
     return access (script, R_OK) == 0 ? script : NULL;
 }
 
+/* The first thing that is missing. */
 const char *pg_bench_mesh_missing (const char *path, const char *scene)
 {
     char script[4096];
@@ -50,6 +52,7 @@ const char *pg_bench_mesh_missing (const char *path, const char *scene)
     return script_of (path, script, sizeof script) ? NULL : "data/calculix/make_mesh.py is not there";
 }
 
+/* Scenes with the same body, element and size share a mesh. */
 void pg_bench_mesh_name (const pg_bench_case *c, char *name, size_t size)
 {
     snprintf (name, size, "%.24s_%.15s_%ld", pg_bench_body_find (c->name)->mesh, c->element, c->size);

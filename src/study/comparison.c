@@ -1,11 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal compare: opens both sides, tells the kind of the reference, measures. */
+ * perigal compare: opens the result, finds out what kind of reference it is compared with
+ * (that of its scene, another result folder, a table, a finite element result), opens that as
+ * a sampler, and measures the difference. The kind follows from the name and the content: a
+ * folder with scene.yaml and result.e is a result, .csv and .txt are tables, anything else is
+ * tried as a mesh file. */
 #include "perigal/study.h"
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
 #include <sys/stat.h>
 
+/* 1 if the folder has an entry of that name. */
 static int exists (const char *folder, const char *name)
 {
     char path[4096];
@@ -14,13 +19,14 @@ static int exists (const char *folder, const char *name)
     return stat (path, &s) == 0;
 }
 
+/* 1 if the text ends so, in capitals or not. */
 static int ends (const char *text, const char *tail)
 {
     size_t n = strlen (text), m = strlen (tail);
     return n > m && strcasecmp (text + n - m, tail) == 0;
 }
 
-/* A result folder, or its result.e; folder: 4096 */
+/* 1 for a result folder, or for its result.e; folder (4096 bytes) gets the path of the folder. */
 static int is_result (const char *reference, char *folder)
 {
     const char *slash = strrchr (reference, '/');
@@ -30,7 +36,9 @@ static int is_result (const char *reference, char *folder)
     return strcmp (slash ? slash + 1 : reference, "result.e") == 0 && exists (folder, "scene.yaml");
 }
 
-/* Norms over the finer of two results. */
+/* Against another result. Norms are taken over the cells of the finer one of both, where
+ * differences of the coarser one cannot hide between its points. PG_E_USAGE: the bodies have
+ * no place in common. */
 static pg_status against_result (pg_comparison *c, const pg_comparison_request *q, const char *folder)
 {
     pg_status status = PG_OK;
@@ -56,6 +64,8 @@ done:
     return status;
 }
 
+/* Against a table; the shift moves its places. PG_E_USAGE if none of them lies in the body: a
+ * wrong unit is the usual reason. */
 static pg_status against_table (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
@@ -75,6 +85,7 @@ done:
     return status;
 }
 
+/* Against the reference of the scene, at the time of the step. */
 static pg_status against_scene (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
@@ -88,7 +99,9 @@ done:
     return status;
 }
 
-/* Norms over the cells of the result. */
+/* Against a finite element result, over the cells of our own result. The view c->fem stays
+ * valid as long as c->reference, which owns the mesh. Places outside the elements are counted
+ * and said. */
 static pg_status against_mesh (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
@@ -120,6 +133,8 @@ done:
     return status;
 }
 
+/* The result is opened first, because the dimension of its body decides how the reference is
+ * read. */
 pg_status pg_comparison_open (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
@@ -135,6 +150,7 @@ done:
     return status;
 }
 
+/* Samplers go before the problems that they borrow. */
 void pg_comparison_clear (pg_comparison *c)
 {
     pg_errors_clear (&c->errors);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal compare: compare.csv, compare.json and the picture, in the result folder. */
+ * perigal compare: compare.csv with both sides at the points, compare.json with the norms, and
+ * a picture of the difference, all in the result folder. Tables of the reference follow as
+ * compare_2.csv and so on, each with a chart of both sides. */
 #include "perigal/picture.h"
 #include "perigal/study.h"
 #include <errno.h>
@@ -7,6 +9,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The problem with the smaller spacing, at whose points both sides are written. */
 static const pg_problem *finer (const pg_comparison *c)
 {
     return c->other && c->other->problem->cloud.h < c->own->problem->cloud.h ? c->other->problem
@@ -14,6 +17,7 @@ static const pg_problem *finer (const pg_comparison *c)
 }
 
 /* ---- pictures ------------------------------------------------------------------------------------------ */
+/* Label of the colour bar. */
 static void name_difference (int column, char *label, size_t size)
 {
     if (column >= PG_COMPARE_U)
@@ -21,6 +25,8 @@ static void name_difference (int column, char *label, size_t size)
     else snprintf (label, size, "%s - reference (%s)", pg_column_name (column), pg_column_unit (column));
 }
 
+/* The difference at the points; components have colours from blue to red, symmetric about
+ * zero. */
 static pg_status field_picture (const pg_comparison *c, const pg_comparison_request *q, const char *path)
 {
     pg_status status = PG_OK;
@@ -46,7 +52,8 @@ done:
     return status;
 }
 
-/* |u - u_ref| on the elements of a finite element reference. */
+/* The difference on the elements of a finite element reference. Its nodes are moved by the
+ * shift, where the reference has been moved to; the picture shows the mesh at its own place. */
 static pg_status mesh_picture (const pg_comparison *c, const pg_comparison_request *q, const pg_mesh *mesh,
                                const char *path)
 {
@@ -73,7 +80,7 @@ done:
     return status;
 }
 
-/* Coordinate along which the table extends most. */
+/* The coordinate along which the table extends most: the x axis of its chart. */
 static int main_axis (const pg_line *l)
 {
     int best = 0;
@@ -88,7 +95,8 @@ static int main_axis (const pg_line *l)
     return best;
 }
 
-/* Both sides of the columns of one kind: that of --field, else displacements if there are any. */
+/* Both sides of the columns of one kind: that of --field, or else displacements if there are
+ * any. Lines are the result, markers the reference. */
 static pg_status line_picture (const pg_comparison *c, const pg_comparison_request *q, const pg_line *l,
                                const char *path)
 {
@@ -130,6 +138,7 @@ done:
 }
 
 /* ---- files --------------------------------------------------------------------------------------------- */
+/* The norms, and how both sides were sampled. */
 static pg_status json_file (const pg_comparison *c, const pg_comparison_request *q, const char *path)
 {
     pg_status status = PG_OK;
@@ -150,12 +159,14 @@ done:
     return status;
 }
 
+/* Names a file that was written. */
 static void tell (const pg_comparison_request *q, const char *what, const char *path)
 {
     if (q->out) fprintf (q->out, "  %s %s\n", what, path);
 }
 
-/* The tables of the scene follow its field: compare_2.csv ... */
+/* Files of n tables; `before` is the number of files that have been written already: the
+ * tables of the scene follow its field. */
 static pg_status table_files (const pg_comparison *c, const pg_comparison_request *q, const pg_line *line,
                               size_t n, size_t before)
 {
@@ -176,6 +187,7 @@ done:
     return status;
 }
 
+/* Field first, then a table that was named, then the tables of the scene, the norms last. */
 pg_status pg_comparison_write (const pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;

@@ -88,6 +88,7 @@ done:
     return status;
 }
 
+/* The list of studies is too large for the stack. */
 pg_status pg_converge_run (pg_converge_request *q)
 {
     pg_status status = PG_OK;

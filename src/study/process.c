@@ -94,6 +94,7 @@ done:
     return status;
 }
 
+/* Looks in each folder of PATH. */
 int pg_process_finds (const char *program)
 {
     const char *s = getenv ("PATH");
@@ -107,6 +108,7 @@ int pg_process_finds (const char *program)
     return 0;
 }
 
+/* Compilers, scripts and our own program all put the reason first. */
 void pg_process_complaint (const char *log, char *text, size_t size)
 {
     FILE *f = fopen (log, "r");

@@ -25,6 +25,7 @@ void pg_trial_read (pg_trial *out, const char *text)
     }
 }
 
+/* 17 digits: the same doubles on both sides. */
 void pg_trial_write (const pg_trial *t, FILE *to)
 {
     for (size_t k = 0; k < PG_TRIAL_COUNT; k++)

@@ -17,6 +17,7 @@ static double of_lines (const pg_errors *e)
     return reference > 0 ? sqrt (difference / reference) : NAN;
 }
 
+/* What was not measured stays NAN. */
 void pg_trial_take (pg_trial *t, const pg_errors *e)
 {
     if (e->norms.displacement)

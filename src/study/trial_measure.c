@@ -74,6 +74,8 @@ done:
     return status;
 }
 
+/* The problem is built with the threads of the trial; its time counts from the start of the
+ * process. */
 pg_status pg_trial_measure (pg_trial *t, const pg_scene *scene, const char *folder, int threads, double start)
 {
     pg_status status = PG_OK;

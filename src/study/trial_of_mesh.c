@@ -111,6 +111,7 @@ done:
     return status;
 }
 
+/* The problem of the scene is built for its dimension, its material and its reference only. */
 pg_status pg_trial_of_mesh (pg_trial *t, const pg_scene *scene, const char *path, double unit)
 {
     pg_status status = PG_OK;

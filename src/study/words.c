@@ -3,6 +3,7 @@
 #include "perigal/study.h"
 #include <string.h>
 
+/* An empty word, such as in "a,,b", is refused rather than skipped: it usually is a slip. */
 int pg_word_list_split (pg_word_list *out, const char *text)
 {
     memset (out, 0, sizeof *out);
@@ -16,6 +17,7 @@ int pg_word_list_split (pg_word_list *out, const char *text)
     }
 }
 
+/* Everything that is neither the user's command line nor the scene counts as failed. */
 int pg_exit_code (pg_status status)
 {
     switch (status) {
