@@ -77,7 +77,7 @@ typedef struct {
     /* Thickness in 2D (m), cross section in 1D (m^2), 1 in 3D. */
     double  thickness;
     /* Geometry of the cut cells, owned by this structure; NULL where no cell is cut. */
-    const struct pg_cut *cut;
+    struct pg_cut *cut;
     /* Least number of Gauss points per direction in cut cells and on cut facets, whatever a caller asks
      * for. */
     int     cut_order;

@@ -151,7 +151,7 @@ void pg_cells_clear (pg_cells *c)
 {
     pg_free (c->kind), pg_free (c->start), pg_free (c->x), pg_free (c->volume), pg_free (c->block);
     pg_free (c->facet_kind), pg_free (c->facet_start), pg_free (c->facet_x), pg_free (c->facet_centre);
-    cut_free ((struct pg_cut *) c->cut);
+    cut_free (c->cut);
     pg_free (c->normal), pg_free (c->area), pg_free (c->facet_cell), pg_free (c->facet_surface),
         pg_free (c->facet_point);
     for (size_t i = 0; i < c->ngiven; i++) pg_free (c->given[i].point), pg_free (c->given[i].facet);

@@ -36,7 +36,7 @@ static int next_line (abaqus_file *f) { return mesh_line (&f->c, &f->line, &f->e
 
 static void file_close (abaqus_file *f)
 {
-    pg_free ((void *) f->bytes.text), pg_free (f->path);
+    pg_free (f->owned), pg_free (f->path);
     *f = (abaqus_file) { 0 };
 }
 
@@ -249,7 +249,7 @@ static pg_status begin_include (reader *r, const char *name)
     memcpy (path, now (r)->bytes.path, folder);
     memcpy (path + folder, name, strlen (name));
     abaqus_file *f = &r->file[r->depth + 1];
-    status = mesh_load (&f->bytes, path);
+    status = mesh_load (&f->bytes, &f->owned, path);
     /* The fault names both files. */
     if (status == PG_E_FILE) {
         char why[300];

@@ -73,8 +73,8 @@ typedef enum {
     ABAQUS_NODE_SURFACE,
     ABAQUS_INSTANCE
 } abaqus_mode;
-/* A file that is open; line .. end: the present line. */
-typedef struct { char *path; mesh_file bytes; mesh_cursor c; const char *line, *end; } abaqus_file;
+/* A file that is open; owned: its bytes, NULL for the main file; line .. end: the present line. */
+typedef struct { char *path, *owned; mesh_file bytes; mesh_cursor c; const char *line, *end; } abaqus_file;
 /* A parameter KEY=VALUE of a keyword line. */
 typedef struct { char key[32], value[ABAQUS_WORD]; } abaqus_parameter;
 

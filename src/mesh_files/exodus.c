@@ -128,6 +128,7 @@ static pg_status open_file (reader *r, const mesh_file *file)
     pg_status status = PG_OK;
     r->path = file->path, r->bytes = file->size;
     PG_TRY (mesh_netcdf_check_header (file));
+    /* netCDF does not change the bytes, though its declaration does not say so */
     NC_TRY (r, nc_open_mem (file->path, NC_NOWRITE, file->size, (void *) file->text, &r->ncid));
     r->open = 1;
     r->nnode = length_of (r->ncid, "num_nodes");

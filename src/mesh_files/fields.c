@@ -74,10 +74,11 @@ pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfie
                           double *time)
 {
     mesh_file file;
+    char *bytes;
     memset (out, 0, sizeof *out);
     *nfield = 0, *fields = NULL;
-    pg_status status = mesh_load (&file, path);
+    pg_status status = mesh_load (&file, &bytes, path);
     if (status == PG_OK) status = mesh_parse_result (out, &file, step, nfield, fields, time);
-    pg_free ((void *) file.text);
+    pg_free (bytes);
     return status;
 }

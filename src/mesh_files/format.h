@@ -35,8 +35,8 @@ pg_status mesh_parse (pg_mesh *out, const mesh_file *file);
 /* Mesh and fields of a file that is in memory. */
 pg_status mesh_parse_result (pg_mesh *out, const mesh_file *file, int step, size_t *nfield,
                              pg_mesh_field **fields, double *time);
-/* Reads a whole regular file; the caller frees text by pg_free. */
-pg_status mesh_load  (mesh_file *out, const char *path);
+/* Reads a whole file. *bytes is what `out` looks at, the caller's (pg_free); NULL after a failure. */
+pg_status mesh_load  (mesh_file *out, char **bytes, const char *path);
 /* Appends a field of nnode x components zeros; *field is borrowed until the next call. */
 pg_status mesh_fields_add (mesh_fields *f, size_t nnode, const char *name, int components,
                            pg_mesh_field **field);

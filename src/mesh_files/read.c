@@ -21,14 +21,13 @@ static const mesh_format *const formats[] = {
 };
 enum { FORMATS = sizeof formats / sizeof *formats };
 
-/* Folders, devices and pipes are refused: their size says nothing. */
-pg_status mesh_load (mesh_file *out, const char *path)
+pg_status mesh_load (mesh_file *out, char **bytes, const char *path)
 {
     pg_status status = PG_OK;
     char *text = NULL;
     struct stat about;
     FILE *file = fopen (path, "rb");
-    out->path = path, out->text = NULL, out->size = 0;
+    *out = (mesh_file) { path, NULL, 0 }, *bytes = NULL;
     if (!file || fstat (fileno (file), &about))
         PG_FAIL (PG_E_FILE, "%.400s: cannot be read: %s", path, strerror (errno));
     if (!S_ISREG (about.st_mode)) PG_FAIL (PG_E_FILE, "%.400s: is not a file", path);
@@ -38,7 +37,7 @@ pg_status mesh_load (mesh_file *out, const char *path)
 done:
     if (file) fclose (file);
     if (status != PG_OK) pg_free (text), out->size = 0;
-    else out->text = text;
+    else out->text = *bytes = text;
     return status;
 }
 
@@ -81,9 +80,10 @@ done:
 pg_status pg_mesh_read (pg_mesh *out, const char *path)
 {
     mesh_file file;
+    char *bytes;
     memset (out, 0, sizeof *out);
-    pg_status status = mesh_load (&file, path);
+    pg_status status = mesh_load (&file, &bytes, path);
     if (status == PG_OK) status = mesh_parse (out, &file);
-    pg_free ((void *) file.text);
+    pg_free (bytes);
     return status;
 }
