@@ -165,7 +165,8 @@ done:
     return status;
 }
 
-pg_status bond_force_march (void *self, double t, const double *d, double *residual, double *reference,
+pg_status bond_force_balance_and_break (void *self, double t, const double *d, double *residual,
+                                        double *reference,
                       pg_changes *broken)
 {
     pg_status status = PG_OK;

@@ -107,7 +107,8 @@ pg_status bond_force_impose (void *self, double t, double *d);
 pg_status bond_force_work_balance (void *self, double t, const double *d, const double *inertia,
                              pg_work_balance *out);
 unsigned long bond_force_revision (const void *self);
-pg_status bond_force_march (void *self, double t, const double *d, double *residual, double *reference,
+pg_status bond_force_balance_and_break (void *self, double t, const double *d, double *residual,
+                                        double *reference,
                       pg_changes *broken);
 pg_status bond_force_external (void *self, double t, double *P);
 pg_status bond_force_surface (void *self, const double *stress, double *P);
@@ -156,7 +157,7 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .basis = bond_force_basis, .impose = bond_force_impose, .utilisation = bond_force_utilisation, \
     .work_balance = bond_force_work_balance, .field = bond_force_field, .overlap = bond_force_overlap, \
     .census = bond_force_census, .revision = bond_force_revision, .sample = bond_force_sample, \
-    .march = bond_force_march, .external = bond_force_external, .bound = bond_force_bound, \
+    .balance_and_break = bond_force_balance_and_break, .external = bond_force_external, .bound = bond_force_bound, \
     .row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
     .couplings = bond_force_couplings, .surface = bond_force_surface
 #endif

@@ -95,11 +95,11 @@ done:
 
 /* ---- utilisation --------------------------------------------------------------------------------------- */
 typedef struct { const bond_force *b; const unsigned char *alive; double *utilisation,
-                 *factor; char *kind; } sweep;
+                 *factor; char *kind; } judging;
 
 static void spread_points (void *context, size_t first, size_t last, int thread)
 {
-    const sweep *s = context;
+    const judging *s = context;
     const pg_family *f = s->b->family;
     const double *u = s->b->density;
     (void) thread;
@@ -117,7 +117,7 @@ pg_status bond_force_energy_utilisation (bond_force *b, const pg_state *state, c
                                    char *kind, double *factor)
 {
     pg_status status = PG_OK;
-    sweep s = { b, state->alive, utilisation, factor, kind };
+    judging s = { b, state->alive, utilisation, factor, kind };
     PG_TRY (bond_force_energy_create (b));  /* a plan asks of a problem whose criterion comes later */
     PG_TRY (pg_bond_loop_energies (b->loop, d, b->density));
     for (size_t i = 0; i < b->n; i++) b->density[i] = sqrt (fmax (0, b->density[i] / b->critical[i]));

@@ -15,7 +15,7 @@ typedef struct {
     const double *d;
     double *utilisation, *factor;
     char *kind;
-} sweep;
+} judging;
 typedef struct {
     size_t n, entry[BATCH];
     double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH], shear[BATCH], bending[BATCH];
@@ -23,7 +23,7 @@ typedef struct {
 } batch;
 
 /* Those of a batch whose law is that of the material; the weaker of two laws decides. */
-static void judge_by (const sweep *s, const batch *all, int material)
+static void judge_by (const judging *s, const batch *all, int material)
 {
     const pg_problem *p = s->b->problem;
     const pg_criterion *c = &p->criterion[material];
@@ -52,13 +52,13 @@ static void judge_by (const sweep *s, const batch *all, int material)
         if (!(out[k] > s->factor[some[k]])) s->factor[some[k]] = out[k];
 }
 
-static void judge (const sweep *s, batch *all)
+static void judge (const judging *s, batch *all)
 {
     for (int m = 0; m < (int) s->b->problem->nmaterial; m++) judge_by (s, all, m);
     all->n = 0;
 }
 
-static void add (const sweep *s, batch *all, size_t i, const point_bonds *star, size_t e, int material,
+static void add (const judging *s, batch *all, size_t i, const point_bonds *star, size_t e, int material,
                  double ratio)
 {
     size_t dim = (size_t) s->b->dim, m = (size_t) s->b->stride, j = (size_t) star->node[e], k = all->n++;
@@ -75,7 +75,7 @@ static void add (const sweep *s, batch *all, size_t i, const point_bonds *star, 
 
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
-    const sweep *s = context;
+    const judging *s = context;
     const bond_force *b = s->b;
     const unsigned char *exempt = b->problem->exempt[PG_NODES];
     const int *material = b->problem->block[PG_NODES];
@@ -103,7 +103,7 @@ pg_status bond_force_utilisation (void *self, const pg_state *state, const doubl
                             char *kind, double *factor)
 {
     bond_force *b = self;
-    sweep s = { b, state, d, utilisation, factor, kind };
+    judging s = { b, state, d, utilisation, factor, kind };
     if (!b->problem->criterion->type)
         return pg_error (PG_E_USAGE, PG_HERE, "there is no failure criterion, and so no utilisation");
     if (b->problem->criterion->type->needs & PG_NEEDS_ENERGY)

@@ -23,10 +23,10 @@ static void negate (void *context, size_t first, size_t last, int thread)
 void bond_force_apply (void *context, const double *x, double *y)
 {
     bond_force *b = context;
-    pg_bond_loop *sweep;
+    pg_bond_loop *loop;
     size_t ndof = b->n * (size_t) b->stride;
-    int failed = bond_force_tangent_loop (b, &sweep) != PG_OK
-        || pg_bond_loop_force (sweep, x, y, NULL) != PG_OK;
+    int failed = bond_force_tangent_loop (b, &loop) != PG_OK
+        || pg_bond_loop_force (loop, x, y, NULL) != PG_OK;
     negation w = { y, failed };
     pg_parallel (b->threads, ndof, negate, &w);
 }

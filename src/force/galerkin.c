@@ -139,7 +139,7 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     double inside = 0, external = 0, reaction = 0;
     memset (residual, 0, ndof * sizeof *residual);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        if (s == g->bulk || s == PG_FACETS || g->npeg || g->problem->nload) galerkin_measure (g, s, d);
+        if (s == g->bulk || s == PG_FACETS || g->npenalty || g->problem->nload) galerkin_measure (g, s, d);
     galerkin_bulk_force (g, d, residual);
     for (size_t i = 0; i < ndof; i++) inside += residual[i] * residual[i], residual[i] = -residual[i];
     galerkin_boundary_force (g, t, d, residual, &external, &reaction);

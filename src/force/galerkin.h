@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
- * blocks, energy), galerkin_boundary.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
+ * blocks, energy), galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_field.c (fields),
  * galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
@@ -12,7 +12,7 @@
 typedef struct {                                       /* a prescribed component at a facet point */
     size_t point;
     int    load, component;
-} pin;
+} constraint;
 
 typedef struct {  /* one component's elimination: C_s d_s = g - C_m d_m */
     int     component;
@@ -57,12 +57,13 @@ typedef struct {
     double  *wide;                                     /* scratch: one row of blocks */
     double  *diagonal;  /* of K; known as long as diagonal_of is the revision */
     unsigned long diagonal_of;
-    pin     *pin;  size_t npin;                        /* Nitsche, ascending by point */
-    size_t  *pin_start;                                /* facet point -> pins */
-    pin     *peg;  size_t npeg;                        /* penalty: point = index into peg_node */
-    /* pegs of a node: peg_start[k]..peg_start[k + 1] */
-    int     *peg_node; size_t npegnode; size_t *peg_start;
-    pg_family peg_family;  /* constrained nodes -> nodes (copy of the node rows' families) */
+    constraint *nitsche;  size_t nnitsche;                        /* Nitsche, ascending by point */
+    size_t  *nitsche_start;                                /* facet point -> its constraints */
+    /* penalty: point = index into penalty_node */
+    constraint *penalty;  size_t npenalty;
+    /* constraints of a node: penalty_start[k]..penalty_start[k + 1] */
+    int     *penalty_node; size_t npenalty_node; size_t *penalty_start;
+    pg_family penalty_family;  /* constrained nodes -> nodes (copy of the node rows' families) */
     elimination side[3];
     pg_sparse T;
     int      has_T;
@@ -122,8 +123,8 @@ void galerkin_dilatation_blocks (void *context, size_t patch, size_t a, size_t m
 const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d);
 const pg_family *galerkin_dilatation_family (const galerkin *g);            /* nodes of the patches */
 void galerkin_dilatation_gaps (galerkin *g, double t);  /* after the measure of the facets */
-/* what the flux through the gaps adds to a pin's traction, Pa */
-double galerkin_dilatation_traction (const galerkin *g, const pin *q);
+/* what the flux through the gaps adds to the traction of a constraint, Pa */
+double galerkin_dilatation_traction (const galerkin *g, const constraint *q);
 /* f += work of the patches' pressures on the gaps, derived */
 void galerkin_dilatation_adjoint (const galerkin *g, double *f);
 /* bulk */
@@ -140,7 +141,7 @@ void galerkin_B_transpose (int dim, const double *grad, const double *stress, do
 pg_status galerkin_boundary_create (galerkin *g);
 void galerkin_boundary_free (galerkin *g);
 void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out);
-void galerkin_peg_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
+void galerkin_penalty_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
 /* y += what supports add to K x; facet points and constrained nodes only */
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y);
 /* residual += loads and boundary terms (after measure); external and reaction: squared norms for the

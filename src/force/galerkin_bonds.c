@@ -12,12 +12,12 @@ typedef struct {
     int     set;
     double *utilisation, *factor;
     char   *kind;
-} sweep;
+} judging;
 
 enum { BATCH = 128 };
 
 /* What `count` bonds show against one law; the weaker of the laws that judge a bond decides. */
-static void judge_by (const sweep *s, const pg_criterion *c, const pg_bond_measures *m, const size_t *bond)
+static void judge_by (const judging *s, const pg_criterion *c, const pg_bond_measures *m, const size_t *bond)
 {
     size_t base = s->g->problem->first_bond[s->set];
     double out[BATCH];
@@ -34,7 +34,7 @@ static void judge_by (const sweep *s, const pg_criterion *c, const pg_bond_measu
 }
 
 /* Those of a batch with an end in a material, by its law. */
-static void judge_material (const sweep *s, int material, pg_bond_measures m, const size_t *bond,
+static void judge_material (const judging *s, int material, pg_bond_measures m, const size_t *bond,
                             const size_t *point)
 {
     const galerkin *g = s->g;
@@ -72,7 +72,7 @@ static int one_material (const galerkin *g, int set, size_t count, const size_t 
 }
 
 /* Evaluates the criteria on `count` live bonds and their points. */
-static void judge (const sweep *s, size_t count, const size_t *bond, const size_t *point)
+static void judge (const judging *s, size_t count, const size_t *bond, const size_t *point)
 {
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
@@ -110,9 +110,9 @@ static void judge (const sweep *s, size_t count, const size_t *bond, const size_
     else for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point);
 }
 
-static void sweep_points (void *context, size_t first, size_t last, int thread)
+static void judge_points (void *context, size_t first, size_t last, int thread)
 {
-    const sweep *s = context;
+    const judging *s = context;
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
     const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set];
@@ -158,8 +158,8 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
             pg_parallel (g->threads, r->n, principal_points, &c);
     }
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        sweep s = { g, state, set, utilisation, factor, kind };
-        pg_parallel (g->threads, g->rows[set].n, sweep_points, &s);
+        judging s = { g, state, set, utilisation, factor, kind };
+        pg_parallel (g->threads, g->rows[set].n, judge_points, &s);
     }
     return PG_OK;
 }

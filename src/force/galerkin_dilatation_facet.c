@@ -55,7 +55,7 @@ done:
 /* Patch of a supported facet point; -1: none, or not supported. */
 static long patch_of (const galerkin *g, size_t f)
 {
-    if (g->pin_start[f + 1] == g->pin_start[f] || g->dilatation->home[f] < 0) return -1;
+    if (g->nitsche_start[f + 1] == g->nitsche_start[f] || g->dilatation->home[f] < 0) return -1;
     return g->problem->patches->of[g->dilatation->home[f]];
 }
 
@@ -153,10 +153,10 @@ void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerki
         galerkin_dilatation_polynomials (g, a, r->x + f * dim, psi);
         for (size_t e = r->family.start[f]; e < r->family.start[f + 1]; e++, at++) {
             while (node[at] != r->family.node[e]) at++;
-            for (size_t q = g->pin_start[f]; q < g->pin_start[f + 1]; q++)
+            for (size_t q = g->nitsche_start[f]; q < g->nitsche_start[f + 1]; q++)
                 for (int t = 0; t < a->terms; t++)
-                    a->s[((size_t) t * m + at) * dim + (size_t) g->pin[q].component] +=
-                        r->weight[f] * psi[t] * normal (g, f, g->pin[q].component) * r->N[e];
+                    a->s[((size_t) t * m + at) * dim + (size_t) g->nitsche[q].component] +=
+                        r->weight[f] * psi[t] * normal (g, f, g->nitsche[q].component) * r->N[e];
         }
     }
 }
@@ -183,8 +183,8 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
     for (size_t c = 0; d && c < g->problem->patches->n; c++)
         for (size_t k = 0; k < d->patch[c].n; k++)
             memset (d->patch[c].part[k].gap, 0, sizeof d->patch[c].part[k].gap);
-    for (size_t i = 0; d && i < g->npin; i++) {
-        const pin *q = &g->pin[i];
+    for (size_t i = 0; d && i < g->nnitsche; i++) {
+        const constraint *q = &g->nitsche[i];
         galerkin_part *a = part_behind (g, q->point);
         if (!a) continue;
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component]
@@ -196,7 +196,7 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
     }
 }
 
-double galerkin_dilatation_traction (const galerkin *g, const pin *q)
+double galerkin_dilatation_traction (const galerkin *g, const constraint *q)
 {
     const galerkin_part *a = part_behind (g, q->point);
     double psi[4], sum = 0;

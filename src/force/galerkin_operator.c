@@ -10,7 +10,7 @@ void galerkin_apply (void *context, const double *x, double *y)
     galerkin *g = context;
     memset (y, 0, g->n * (size_t) g->dim * sizeof *y);
     galerkin_bulk_apply (g, x, y);
-    if (g->npin || g->npeg) galerkin_boundary_apply (g, x, y);
+    if (g->nnitsche || g->npenalty) galerkin_boundary_apply (g, x, y);
 }
 
 /* diag K_aa += w B_a' D B_a of the bulk; the diagonal of the boundary and stabilisation terms from their
@@ -66,8 +66,8 @@ pg_status galerkin_operator_create (galerkin *g)
 {
     pg_status status = PG_OK;
     size_t most = widest (&g->rows[PG_FACETS].family), bulk = widest (&g->sums.family),
-           peg = widest (&g->peg_family);
-    most = most > bulk ? most : bulk, most = most > peg ? most : peg;
+           penalty = widest (&g->penalty_family);
+    most = most > bulk ? most : bulk, most = most > penalty ? most : penalty;
     PG_ALLOC (g->wide, most * (size_t) (g->dim * g->dim));
     PG_ALLOC (g->stale, g->n);
     PG_ALLOC (g->diagonal, g->n * (size_t) g->dim);
@@ -94,9 +94,10 @@ void galerkin_diagonal (void *context, double *d)
         if (g->dilatation) galerkin_dilatation_diagonal (g, g->diagonal);
         if (!(g->options->silling > 0) && all_isotropic (g->problem)) bulk_diagonal (g, g->diagonal);
         else add_diagonal_blocks (g, &g->sums.family, galerkin_bulk_blocks, g->wide, g->diagonal);
-        if (g->npin)
+        if (g->nnitsche)
             add_diagonal_blocks (g, &g->rows[PG_FACETS].family, galerkin_facet_blocks, g->wide, g->diagonal);
-        if (g->npeg) add_diagonal_blocks (g, &g->peg_family, galerkin_peg_blocks, g->wide, g->diagonal);
+        if (g->npenalty) add_diagonal_blocks (g, &g->penalty_family, galerkin_penalty_blocks, g->wide,
+                                              g->diagonal);
         g->diagonal_of = g->revision;
     }
     memcpy (d, g->diagonal, ndof * sizeof *d);
@@ -111,11 +112,13 @@ static void mark_family (galerkin *g, int set, size_t p)
 
 void galerkin_mark_stale (galerkin *g, const size_t *count)
 {
-    size_t marked = count[g->bulk] + (g->npin ? count[PG_FACETS] : 0) + (g->npeg ? count[PG_NODES] : 0);
+    size_t marked = count[g->bulk] + (g->nnitsche ? count[PG_FACETS] : 0) + (g->npenalty ? count[PG_NODES]
+            : 0);
     for (size_t k = 0; k < count[g->bulk]; k++) mark_family (g, g->bulk, g->list[g->bulk][k]);
-    for (size_t k = 0; g->npin && k < count[PG_FACETS]; k++)
+    for (size_t k = 0; g->nnitsche && k < count[PG_FACETS]; k++)
         mark_family (g, PG_FACETS, g->list[PG_FACETS][k]);
-    for (size_t k = 0; g->npeg && k < count[PG_NODES]; k++) mark_family (g, PG_NODES, g->list[PG_NODES][k]);
+    for (size_t k = 0; g->npenalty && k < count[PG_NODES]; k++) mark_family (g, PG_NODES,
+            g->list[PG_NODES][k]);
     g->revision += marked > 0;
 }
 
@@ -126,10 +129,11 @@ static pg_status create_matrix (galerkin *g)
     if (g->whole) source[n++] = (pg_assembly_source){ &g->problem->consistency->cell_family, g,
                                                       galerkin_cell_blocks };
     else source[n++] = (pg_assembly_source) { &g->sums.family, g, galerkin_bulk_blocks };
-    if (g->npin) source[n++] = (pg_assembly_source) { &g->rows[PG_FACETS].family, g, galerkin_facet_blocks };
+    if (g->nnitsche) source[n++] = (pg_assembly_source) { &g->rows[PG_FACETS].family, g,
+                                                          galerkin_facet_blocks };
     if (g->dilatation)
         source[n++] = (pg_assembly_source){ galerkin_dilatation_family (g), g, galerkin_dilatation_blocks };
-    if (g->npeg) source[n++] = (pg_assembly_source) { &g->peg_family, g, galerkin_peg_blocks };
+    if (g->npenalty) source[n++] = (pg_assembly_source) { &g->penalty_family, g, galerkin_penalty_blocks };
     g->all_stale = 1;
     return pg_assembly_create (&g->K, g->n, g->dim, n, source);
 }

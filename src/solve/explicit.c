@@ -228,14 +228,14 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     pg_system *sys = &b->system;
     const pg_force_type *force = sys->force;
     double t0 = pg_seconds (), unused;
-    breaking = breaking && (force->march || force->utilisation) && s->problem->criterion->type;
+    breaking = breaking && (force->balance_and_break || force->utilisation) && s->problem->criterion->type;
     b->changes.n = 0;
-    if (breaking && force->march)
-        PG_TRY (force->march (sys->self, t, state->d, sys->residual, reference, &b->changes));
+    if (breaking && force->balance_and_break)
+        PG_TRY (force->balance_and_break (sys->self, t, state->d, sys->residual, reference, &b->changes));
     else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     if (!breaking) goto done;
-    if (force->march) PG_TRY (bury (s, state, t));
+    if (force->balance_and_break) PG_TRY (bury (s, state, t));
     else {
         PG_TRY (break_by_sweep (s, state, t));
         if (b->changes.n)

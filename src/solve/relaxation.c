@@ -40,7 +40,7 @@ void relaxation_free (pg_solver *s)
 static int breaks (const pg_solver *s)
 {
     const pg_force_type *force = s->break_loop.system.force;
-    return (force->march || force->utilisation) && s->problem->criterion->type;
+    return (force->balance_and_break || force->utilisation) && s->problem->criterion->type;
 }
 
 /* ---- stages -------------------------------------------------------------------------------------------- */
@@ -281,7 +281,7 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
     const pg_solver_options *o = &s->options;
     double top = 0, t0 = pg_seconds ();
     b->changes.n = 0;
-    if (o->break_mode == PG_BREAK_PASSING || (o->break_mode == PG_BREAK_ALL && sys->force->march))
+    if (o->break_mode == PG_BREAK_PASSING || (o->break_mode == PG_BREAK_ALL && sys->force->balance_and_break))
         PG_TRY (examine (s, state, t, 1));
     else {
         PG_TRY (break_loop_ready (b));

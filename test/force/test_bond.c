@@ -313,7 +313,7 @@ static void test_products_after_breaking (void **unused)
         const pg_operator *A = a.force->operator_ (a.self), *B = b.force->operator_ (b.self);
         for (size_t i = 0; i < a.ndof; i++) d[i] *= 3e-4;
         A->apply (A->context, x, y);
-        check_ok (a.force->march (a.self, 0, d, y, &reference, &broken));
+        check_ok (a.force->balance_and_break (a.self, 0, d, y, &reference, &broken));
         assert_true (broken.n > 10 && broken.n < a.state->nbond / 2);
         for (size_t n = 0; n < broken.n; n++) b.state->alive[broken.bond[n]] = 0;
         check_ok (b.force->refresh (b.self, b.state, NULL));

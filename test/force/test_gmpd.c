@@ -250,7 +250,7 @@ static void test_breaking (void **unused)
                 for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
                 for (size_t i = 0; i < b.ndof; i++) d[i] *= 1.7 / most;
                 check_ok (b.force->utilisation (b.self, b.state, d, u, kind, NULL));
-                check_ok (b.force->march (b.self, 0, d, f, &reference, &broken));
+                check_ok (b.force->balance_and_break (b.self, 0, d, f, &reference, &broken));
                 assert_true (broken.n > 10 && broken.n < b.state->nbond);
                 size_t at = 0;
                 for (size_t e = 0; e < b.state->nbond; e++) {
@@ -318,7 +318,7 @@ static void test_breaking_graded (void **unused)
         for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
         for (size_t i = 0; i < b.ndof; i++) d[i] *= 2.5 / most;
         check_ok (b.force->utilisation (b.self, b.state, d, u, kind, NULL));
-        check_ok (b.force->march (b.self, 0, d, f, &reference, &broken));
+        check_ok (b.force->balance_and_break (b.self, 0, d, f, &reference, &broken));
         assert_true (broken.n > 20 && broken.n < b.state->nbond - 20);
         size_t at = 0;
         for (size_t n = 0; b.force->kind_of && n < broken.n; n++)

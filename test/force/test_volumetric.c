@@ -448,7 +448,7 @@ static void test_breaking (void **unused)
             check_ok (b.force->utilisation (b.self, b.state, d, u, NULL, NULL));
             for (size_t e = 0; e < b.state->nbond; e++) most = fmax (most, u[e]);
             for (size_t i = 0; i < b.ndof; i++) d[i] *= 1.7 / most;
-            check_ok (b.force->march (b.self, 0, d, f, NULL, &broken));
+            check_ok (b.force->balance_and_break (b.self, 0, d, f, NULL, &broken));
             size_t over = 0;
             for (size_t e = 0; e < b.state->nbond; e++) over += u[e] * 1.7 / most >= 1;
             assert_int_equal (broken.n, over);

@@ -24,14 +24,15 @@ static int free_by (const pg_problem *p, const pg_load *load, int k)
     return k >= p->dim || !pg_load_prescribes (load) || !load->value[k];
 }
 
-/* Nitsche pins, ascending by point; a component that two loads prescribe belongs to the first. */
-static pg_status make_pins (galerkin *g)
+/* Constraints by Nitsche's terms, ascending by point; a component that two loads prescribe belongs to the
+ * first. */
+static pg_status find_nitsche (galerkin *g)
 {
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t cap = 0;
-    PG_ALLOC (g->pin_start, r->n + 1);
+    PG_ALLOC (g->nitsche_start, r->n + 1);
     for (size_t q = 0; q < r->n; q++) {
         unsigned taken = 0;
         for (size_t l = 0; l < p->nload; l++) {
@@ -41,19 +42,19 @@ static pg_status make_pins (galerkin *g)
                 continue;
             for (int k = 0; k < g->dim; k++) {
                 if (free_by (p, load, k) || (taken >> k & 1)) continue;
-                PG_GROW (g->pin, cap, g->npin + 1);
-                g->pin[g->npin++] = (pin) { q, (int) l, k };
+                PG_GROW (g->nitsche, cap, g->nnitsche + 1);
+                g->nitsche[g->nnitsche++] = (constraint) { q, (int) l, k };
                 taken |= 1u << k;
             }
         }
-        g->pin_start[q + 1] = g->npin;
+        g->nitsche_start[q + 1] = g->nnitsche;
     }
 done:
     return status;
 }
 
-/* Penalty pegs and the families of their nodes. */
-static pg_status make_pegs (galerkin *g)
+/* Constraints by penalty, and the families of their nodes. */
+static pg_status find_penalties (galerkin *g)
 {
     pg_status status = PG_OK;
     const pg_problem *p = g->problem;
@@ -68,21 +69,21 @@ static pg_status make_pegs (galerkin *g)
                 continue;
             for (int k = 0; k < g->dim; k++) {
                 if (free_by (p, load, k) || (taken >> k & 1)) continue;
-                PG_GROW (g->peg, cap, g->npeg + 1);
-                g->peg[g->npeg++] = (pin) { g->npegnode, (int) l, k };
+                PG_GROW (g->penalty, cap, g->npenalty + 1);
+                g->penalty[g->npenalty++] = (constraint) { g->npenalty_node, (int) l, k };
                 taken |= 1u << k;
             }
         }
         if (!taken) continue;
-        PG_GROW (g->peg_node, cap_node, g->npegnode + 1);
-        PG_GROW (g->peg_family.start, cap_start, g->npegnode + 2);
-        PG_GROW (g->peg_start, cap_first, g->npegnode + 2);
-        PG_GROW (g->peg_family.node, cap_entry, nnz + f->start[i + 1] - f->start[i]);
-        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) g->peg_family.node[nnz++] = f->node[e];
-        g->peg_node[g->npegnode++] = (int) i;
-        g->peg_family.start[g->npegnode] = nnz;
-        g->peg_start[g->npegnode] = g->npeg;
-        g->peg_family.n = g->npegnode;
+        PG_GROW (g->penalty_node, cap_node, g->npenalty_node + 1);
+        PG_GROW (g->penalty_family.start, cap_start, g->npenalty_node + 2);
+        PG_GROW (g->penalty_start, cap_first, g->npenalty_node + 2);
+        PG_GROW (g->penalty_family.node, cap_entry, nnz + f->start[i + 1] - f->start[i]);
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) g->penalty_family.node[nnz++] = f->node[e];
+        g->penalty_node[g->npenalty_node++] = (int) i;
+        g->penalty_family.start[g->npenalty_node] = nnz;
+        g->penalty_start[g->npenalty_node] = g->npenalty;
+        g->penalty_family.n = g->npenalty_node;
     }
 done:
     return status;
@@ -90,14 +91,15 @@ done:
 
 pg_status galerkin_boundary_create (galerkin *g)
 {
-    pg_status status = make_pins (g);
-    return status == PG_OK ? make_pegs (g) : status;
+    pg_status status = find_nitsche (g);
+    return status == PG_OK ? find_penalties (g) : status;
 }
 
 void galerkin_boundary_free (galerkin *g)
 {
-    pg_free (g->pin), pg_free (g->pin_start), pg_free (g->peg), pg_free (g->peg_node), pg_free (g->peg_start);
-    pg_family_clear (&g->peg_family);
+    pg_free (g->nitsche), pg_free (g->nitsche_start), pg_free (g->penalty), pg_free (g->penalty_node),
+        pg_free (g->penalty_start);
+    pg_family_clear (&g->penalty_family);
 }
 
 /* Q . sigma = (sigma n)_k in Voigt form */
@@ -142,8 +144,8 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim, first = r->family.start[p];
     double w = r->weight[p], QD[6], ta[3], tb[3];
-    for (size_t i = g->pin_start[p]; i < g->pin_start[p + 1]; i++) {
-        size_t k = (size_t) g->pin[i].component;
+    for (size_t i = g->nitsche_start[p]; i < g->nitsche_start[p + 1]; i++) {
+        size_t k = (size_t) g->nitsche[i].component;
         double Na = r->N[first + a];
         traction_of_strain (g, p, (int) k, QD);
         galerkin_B_transpose (g->dim, r->dN + (first + a) * dim, QD, ta);
@@ -159,24 +161,25 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
     }
 }
 
-static double penalty (const galerkin *g, const pin *peg)
+static double penalty (const galerkin *g, const constraint *q)
 {
     const pg_problem *p = g->problem;
-    size_t node = (size_t) g->peg_node[peg->point];
+    size_t node = (size_t) g->penalty_node[q->point];
     double h = pg_problem_spacing (p, PG_NODES, node);
-    return p->load[peg->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h)
+    return p->load[q->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h)
            * p->cloud.volume[node];
 }
 
-void galerkin_peg_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
     const pg_rows *r = &g->rows[PG_NODES];
-    size_t dim = (size_t) g->dim, first = r->family.start[g->peg_node[p]];
-    for (size_t i = g->peg_start[p]; i < g->peg_start[p + 1]; i++) {
-        size_t k = (size_t) g->peg[i].component;
+    size_t dim = (size_t) g->dim, first = r->family.start[g->penalty_node[p]];
+    for (size_t i = g->penalty_start[p]; i < g->penalty_start[p + 1]; i++) {
+        size_t k = (size_t) g->penalty[i].component;
         for (size_t b = 0; b < m; b++)
-            out[b * dim * dim + k * dim + k] += penalty (g, &g->peg[i]) * r->N[first + a] * r->N[first + b];
+            out[b * dim * dim + k * dim + k] += penalty (g,
+                                                         &g->penalty[i]) * r->N[first + a] * r->N[first + b];
     }
 }
 
@@ -187,7 +190,7 @@ void galerkin_peg_blocks (void *context, size_t p, size_t a, size_t m, double *o
 typedef void (*visitor) (void *context, int set, size_t point, int load, int k, double force,
                          double displacement);
 
-static double pin_traction (const galerkin *g, const pin *q, double gap)
+static double nitsche_traction (const galerkin *g, const constraint *q, double gap)
 {
     double Q[6], t = 0;
     const double *s = g->stress[PG_FACETS] + q->point * (size_t) g->nv;
@@ -200,19 +203,19 @@ static void visit_supports (galerkin *g, double t, visitor visit, void *context)
 {
     size_t dim = (size_t) g->dim;
     galerkin_dilatation_gaps (g, t);
-    for (size_t i = 0; i < g->npin; i++) {
-        const pin *q = &g->pin[i];
+    for (size_t i = 0; i < g->nnitsche; i++) {
+        const constraint *q = &g->nitsche[i];
         double u = g->u[PG_FACETS][q->point * dim + (size_t) q->component];
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
                                      g->rows[PG_FACETS].x + q->point * dim, t);
         visit (context, PG_FACETS, q->point, q->load, q->component,
                g->rows[PG_FACETS].weight[q->point]
-                   * (pin_traction (g, q, u - goal) + galerkin_dilatation_traction (g, q)),
+                   * (nitsche_traction (g, q, u - goal) + galerkin_dilatation_traction (g, q)),
                goal);
     }
-    for (size_t i = 0; i < g->npeg; i++) {
-        const pin *q = &g->peg[i];
-        size_t node = (size_t) g->peg_node[q->point];
+    for (size_t i = 0; i < g->npenalty; i++) {
+        const constraint *q = &g->penalty[i];
+        size_t node = (size_t) g->penalty_node[q->point];
         double u = g->u[PG_NODES][node * dim + (size_t) q->component];
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
                                      g->rows[PG_NODES].x + node * dim, t);
@@ -278,8 +281,8 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
 {
     size_t dim = (size_t) g->dim;
     const pg_rows *r = &g->rows[PG_FACETS];
-    for (size_t i = 0; i < g->npin; i++) {
-        const pin *q = &g->pin[i];
+    for (size_t i = 0; i < g->nnitsche; i++) {
+        const constraint *q = &g->nitsche[i];
         size_t k = (size_t) q->component, p = q->point;
         double QD[6], part[3], u = 0, t = 0, w = r->weight[p];
         traction_of_strain (g, p, q->component, QD);
@@ -297,9 +300,9 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
             for (size_t c = 0; c < dim; c++) to[c] -= w * u * part[c];
         }
     }
-    for (size_t i = 0; i < g->npeg; i++) {
-        const pin *q = &g->peg[i];
-        int node = g->peg_node[q->point];
+    for (size_t i = 0; i < g->npenalty; i++) {
+        const constraint *q = &g->penalty[i];
+        int node = g->penalty_node[q->point];
         const pg_rows *n = &g->rows[PG_NODES];
         double u = 0;
         for (size_t e = n->family.start[node]; e < n->family.start[node + 1]; e++)
@@ -321,8 +324,8 @@ static void add_adjoint (galerkin *g, double t, double *f)
 {
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim;
-    for (size_t i = 0; i < g->npin; i++) {
-        const pin *q = &g->pin[i];
+    for (size_t i = 0; i < g->nnitsche; i++) {
+        const constraint *q = &g->nitsche[i];
         double QD[6], part[3],
             goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, r->x + q->point * dim, t);
         double gap = r->weight[q->point] * (g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal);
@@ -359,17 +362,18 @@ double galerkin_boundary_energy (galerkin *g, double t)
     size_t dim = (size_t) g->dim;
     double sum = 0;
     galerkin_dilatation_gaps (g, t);
-    for (size_t i = 0; i < g->npin; i++) {
-        const pin *q = &g->pin[i];
+    for (size_t i = 0; i < g->nnitsche; i++) {
+        const constraint *q = &g->nitsche[i];
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
                                      g->rows[PG_FACETS].x + q->point * dim, t);
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
         sum -= g->rows[PG_FACETS].weight[q->point] * gap * 0.5
-               * (pin_traction (g, q, gap) + pin_traction (g, q, 0) + galerkin_dilatation_traction (g, q));
+               * (nitsche_traction (g, q, gap) + nitsche_traction (g, q,
+                                                                   0) + galerkin_dilatation_traction (g, q));
     }
-    for (size_t i = 0; i < g->npeg; i++) {
-        const pin *q = &g->peg[i];
-        size_t node = (size_t) g->peg_node[q->point];
+    for (size_t i = 0; i < g->npenalty; i++) {
+        const constraint *q = &g->penalty[i];
+        size_t node = (size_t) g->penalty_node[q->point];
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
                                      g->rows[PG_NODES].x + node * dim, t);
         double gap = g->u[PG_NODES][node * dim + (size_t) q->component] - goal;
