@@ -157,7 +157,8 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .basis = bond_force_basis, .impose = bond_force_impose, .utilisation = bond_force_utilisation, \
     .work_balance = bond_force_work_balance, .field = bond_force_field, .overlap = bond_force_overlap, \
     .census = bond_force_census, .revision = bond_force_revision, .sample = bond_force_sample, \
-    .balance_and_break = bond_force_balance_and_break, .external = bond_force_external, .bound = bond_force_bound, \
+    .balance_and_break = bond_force_balance_and_break, .external = bond_force_external, \
+    .bound = bond_force_bound, \
     .row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
     .couplings = bond_force_couplings, .surface = bond_force_surface
 #endif
