@@ -142,8 +142,9 @@ static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, c
 /* A reason for which a run leaves something out. */
 typedef struct { int applies; const char *what, *why; } reason;
 
-/* The counterpart of what the solver reports after a run: only what follows from the options
- * is said. */
+/* What the run will not do, as far as that is known before it starts: the counterpart of what
+ * the solver reports afterwards (`skipped`). Entries that follow from numbers of the run
+ * itself are missing here. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
 {
     const pg_solver_options *o = p->options;

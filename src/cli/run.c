@@ -207,8 +207,8 @@ static void settle_blas (const pg_problem *p)
     openblas_set_num_threads (unknowns < enough ? 1 : p->threads);
 }
 
-/* What a run leaves behind, whatever ended it: the reasons on stderr, and how to go on where that is
- * possible. */
+/* What a person is told on stderr at the end, whatever ended the run: the reasons, each once,
+ * and how to go on where that is possible. */
 static void tell_outcome (const command *c, pg_status outcome, const char *failure, pg_status written,
                           const char *fault, int kept)
 {
@@ -220,8 +220,8 @@ static void tell_outcome (const command *c, pg_status outcome, const char *failu
 }
 
 /* Everything between an open result and the last message. The checkpoint comes before the
- * results are finished, since a full disk may stop these; both faults are reported, but not
- * twice the same. */
+ * results are finished, since a full disk may stop these. search: seconds of building; start:
+ * when the run began. */
 static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w, double search, double start)
 {
     char failure[4096] = "", fault[4096];
@@ -238,7 +238,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     return failed ? outcome : status;
 }
 
-/* Everything a run is made of; freed in the reverse order of making. */
+/* Everything that a run is made of; freed in the reverse order of its making. */
 typedef struct {
     command    c;
     pg_scene  *scene;
@@ -250,7 +250,9 @@ typedef struct {
     int        finished;                               /* --resume of a run that is whole already */
 } run;
 
-/* Scene, memory, problem, result folder: all that can refuse a run before its long work begins. */
+/* Everything that can refuse a run before its long work begins, the cheap refusals first:
+ * folder, memory, faults of the scene, patch test. The name of the folder follows from the
+ * scene unless it is given. */
 static pg_status prepare (run *r)
 {
     pg_status status = PG_OK;
@@ -271,7 +273,7 @@ done:
     return status;
 }
 
-/* The solver and the state it starts from, and the result folder that takes what comes of them. */
+/* The solver with the state that it starts from, and the result folder, which is touched last. */
 static pg_status open_run (run *r)
 {
     pg_status status = PG_OK;
@@ -287,8 +289,8 @@ done:
     return status;
 }
 
-/* The order puts cheap refusals first: folder, memory, faults of the scene, patch test, then
- * the solver. */
+/* Exit codes: 0 done, or finished already; 130 interrupted, with a checkpoint; others as in
+ * cli.h. */
 int pg_cli_run (int argc, char **argv)
 {
     pg_status status = PG_OK;

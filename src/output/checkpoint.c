@@ -81,6 +81,8 @@ done:
 }
 
 /* The three functions that a keeper offers, for doubles, counts and bytes. */
+/* netCDF has a 64-bit integer type but no `long`; the two are the same on all systems that
+ * this library supports. */
 _Static_assert (sizeof (long) == sizeof (int64_t), "counts are kept as 64-bit integers");
 static pg_status keep_numbers (void *c, const char *name, size_t n, double *value)
 {
