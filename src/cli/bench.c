@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal bench: the command line of benchmarks (study.h). Lists of catalogue entries are
- * checked here, so that a misspelt name does not end a benchmark after an hour. */
+ * perigal bench: the command line of benchmarks (study.h): scenes, lists of methods and sizes
+ * to combine, repeats. Lists of catalogue entries are checked here, so that a misspelt name
+ * does not end a benchmark after an hour. The options --row and --fem-row are for the
+ * processes that a benchmark starts (trial.c). */
 #include "cli.h"
 #include <math.h>
 #include <stdlib.h>

@@ -227,6 +227,7 @@ static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, 
     for (size_t q = 0; q < half; q++) {                /* to the height of the branches */
         const double *y = c->continuum + q * c->n;
         size_t end = 2;
+        /* The straight lines of the continuum would otherwise shrink the branches. */
         while (end <= LEG && y[end] <= top) end++;
         curve[n++] = (pg_curve){
             .name = q ? "continuum, shear" : "continuum, longitudinal", .n = end, .x = c->x, .y = y

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Options that run and check share, the usage of all commands, and how a scene becomes a
- * problem for them. Wrong options end with the usage and exit code 64; the nearest name is
- * offered for misspelt ones. */
+ * problem for them.
+ *
+ * Conventions of all commands: long options, with a short form for the most usual ones; a
+ * wrong option or value ends with a message that says what is allowed, usually with the
+ * nearest name for a misspelt one, and with exit code 64; messages go to stderr, results to
+ * stdout. Nothing is asked interactively, so that every command works in scripts. */
 #include "cli.h"
 #include <getopt.h>
 #include <math.h>
@@ -204,7 +208,8 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
     return 0;
 }
 
-/* One option of run or check; -1: go on, else the exit code. */
+/* Reads one option of run or check; -1: go on, else the exit code. Options of the other
+ * command are refused by name. */
 static int read_option (command *c, const char *name, int option, const char *word)
 {
     int checks = strcmp (name, "check") == 0;
@@ -224,7 +229,8 @@ static int read_option (command *c, const char *name, int option, const char *wo
     }
 }
 
-/* getopt_long changes the order of the words, so lost quotes are looked for before it. */
+/* getopt_long changes the order of the words, so lost quotes are looked for before it. opterr
+ * = 0: the messages are our own. Without --threads all processors are used. */
 int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal compare DIR [REFERENCE]: a result against the reference of its scene, a table,
- * another result or a finite element result. The command line is read here; study.h compares. */
+ * another result or a finite element result. The command line is read here; study.h opens both
+ * sides and measures, compare.h has the norms. */
 #include "cli.h"
 #include <errno.h>
 #include <getopt.h>
@@ -73,7 +74,7 @@ static int read_number (const char *text, double *out)
     return end != text && !*end && isfinite (*out);
 }
 
-/* --threads N */
+/* A number of threads from 0 to 64; 0 means one for each processor. */
 static int read_threads (const char *text, int *out)
 {
     double threads = 0;

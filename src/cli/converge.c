@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal converge: the command line of a study of convergence (study.h). */
+ * perigal converge: the command line of a study of convergence (study.h): a scene, how many
+ * spacings, their ratio, the horizons, and whether the horizon falls with the spacing
+ * (--delta, the default) or keeps its length (--m). */
 #include "cli.h"
 #include <math.h>
 #include <stdlib.h>
@@ -64,7 +66,7 @@ done:
     return status;
 }
 
-/* The long name of an option. */
+/* The long name of a short option; other words stay as they are. */
 static const char *long_name (const char *word)
 {
     static const char *const names[][2] = { { "-o", "--out" }, { "-s", "--set" }, { "-q", "--quiet" } };

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal: finds the command and starts it. Numbers of threads of the libraries are set before
- * these start, since they read their environment once. */
+ * perigal: finds the command and starts it. Numbers of threads of the libraries (OpenBLAS,
+ * OpenMP) are set before these start, since they read their environment once, when they are
+ * loaded; the program therefore starts itself again with the environment changed. All else is
+ * in the files of the commands. */
 #include "cli.h"
 #include "plot.h"
 #include <stdlib.h>

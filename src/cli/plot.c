@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal plot DIR|FILE: a field of DIR/result.e, a mesh or a finite element result, or with
  * --curve columns of DIR/history.csv, as PNG or SVG. Here is the command line; drawing is in
- * the files plot_*.c. */
+ * the files plot_*.c. Every option is one function and one row of the table `options`.
+ *
+ * Drawing prints the names of the files that were written, one per line, and nothing else. */
 #include "plot.h"
 #include "perigal/study.h"
 #include <math.h>

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal run: scene -> problem -> solver -> steps -> result folder. An interrupted or failed
- * run leaves a checkpoint, if it had done anything, and says how to go on. */
+ * perigal run: scene -> problem -> solver -> steps -> result folder.
+ *
+ * A run can end early in three ways: interrupted by a signal, stopped by a failure (no
+ * equilibrium, no memory, a full disk), or killed. In the first two a checkpoint is written,
+ * if anything had been done, the results so far are finished with the reason in report.json,
+ * and where going on can help the command for it is printed; after the third the last
+ * checkpoint and all complete steps are there. */
 #include "cli.h"
 #include <signal.h>
 #include <string.h>
@@ -18,6 +23,7 @@ static void settle_signals (void)
     static const int asking[] = { SIGINT, SIGTERM, SIGHUP };
     struct sigaction act = { 0 }, before;
     act.sa_handler = on_signal;
+    /* SA_RESTART: system calls go on after the signal, so that no write is cut short. */
     act.sa_flags = SA_RESTART | (int) SA_RESETHAND;
     for (size_t k = 0; k < sizeof asking / sizeof *asking; k++)
         if (sigaction (asking[k], NULL, &before) == 0

@@ -50,6 +50,7 @@ static pg_status claim (int file, const char *path, const char *folder, int *ret
     pg_status status = PG_OK;
     char host[128], here[128] = "", text[200];
     gethostname (here, sizeof here - 1);
+    /* A blank would end the name when the lock is read back. */
     for (char *c = here; *c; c++) if (*c == ' ') *c = '_';
     int taken = flock (file, LOCK_EX | LOCK_NB) != 0, without_locks = taken && errno != EWOULDBLOCK;
     long process = owner_of (file, host);
@@ -64,6 +65,7 @@ static pg_status claim (int file, const char *path, const char *folder, int *ret
             PG_E_USAGE,
             "%s may be in use by a run on another host (process %ld on %s): if that run is over, remove %s",
             folder, process, host, path);
+    /* The text serves people, and hosts that do not see the lock of this one. */
     int n = snprintf (text, sizeof text, "%ld %s\n", (long) getpid (), *here ? here : "unknown");
     if (ftruncate (file, 0) != 0 || pwrite (file, text, (size_t) n, 0) != n)
         PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
