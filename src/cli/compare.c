@@ -128,7 +128,7 @@ static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
     for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qh", options, NULL)) != -1;) {
         if (k == 'h') return command_usage (stdout, argv[0]) ? PG_EXIT_DONE : PG_EXIT_USAGE;
         if (k == ':') wrong = complain ("%s needs a value", argv[optind - 1]);
-        else if (k == '?') wrong = complain ("there is no option %s", argv[optind - 1]);
+        else if (k == '?') wrong = complain ("unknown option %s", argv[optind - 1]);
         else wrong = read_option (q, json, k, optarg);
         if (wrong >= 0) return wrong;
     }

@@ -46,7 +46,7 @@ static pg_status read_option (pg_converge_request *q, const char *name, const ch
     while (k < sizeof known / sizeof *known && strcmp (known[k], name) != 0) k++;
     if (k == sizeof known / sizeof *known) {
         const char *near = pg_nearest_name (name, names);
-        PG_FAIL (PG_E_USAGE, "there is no option %s%s%s%s", name, near ? " (did you mean " : "",
+        PG_FAIL (PG_E_USAGE, "unknown option %s%s%s%s", name, near ? " (did you mean " : "",
                  near ? near : "", near ? "?)" : "");
     }
     if (!value) PG_FAIL (PG_E_USAGE, "%s needs a value", name);

@@ -359,7 +359,7 @@ static void print_patch (const pg_problem *p)
     if (!p->patch.measured) return;
     pg_patch_words (p, words, sizeof words);
     printf ("  %-18s  %s (%s)\n", "patch test", words,
-            p->patch.held ? "the outermost points held" : "tractions on the whole surface");
+            p->patch.held ? "outermost points constrained" : "tractions on the whole surface");
 }
 
 /* All that check says, in the order geometry, method, materials, solver, memory, warnings,

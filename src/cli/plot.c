@@ -256,10 +256,10 @@ static pg_status read_arguments (plot_request *q, int argc, char **argv)
             PG_TRY (read_option (q, argv[k], k + 1 < argc ? argv[k + 1] : NULL, &used));
             k += used;
         } else if (q->directory)
-            PG_FAIL (PG_E_USAGE, "one directory at a time: %s, %s", q->directory, argv[k]);
+            PG_FAIL (PG_E_USAGE, "one result folder at a time: %s, %s", q->directory, argv[k]);
         else q->directory = argv[k];
     }
-    if (!q->directory) PG_FAIL (PG_E_USAGE, "no directory given");
+    if (!q->directory) PG_FAIL (PG_E_USAGE, "no result folder given");
     if (strlen (q->directory) > PLOT_PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
     if (q->part && q->component && strcmp (q->part, q->component) != 0)
         PG_FAIL (PG_E_USAGE, "--field %s.%s and --component %s: which part?", q->field, q->part,

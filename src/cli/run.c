@@ -52,7 +52,7 @@ static void print_counts (const pg_statistics *r, const pg_solver_options *o)
     if (r->cg_iterations && !(o->flags & PG_SOLVER_EXPLICIT) && !(o->flags & PG_SOLVER_STAGED))
         printf ("  %zu iterations of conjugate gradients%s%s%s\n", r->cg_iterations,
                 *r->preconditioner ? ", preconditioner " : "", r->preconditioner,
-                r->preconditioners > 1 ? ", made anew as bonds broke" : "");
+                r->preconditioners > 1 ? ", rebuilt as bonds broke" : "");
     if ((o->flags & PG_SOLVER_EXPLICIT))
         printf (
             "  energy: external work %.4g J = strain %.4g + kinetic %.4g + damping %.4g + breaking %.4g J\n",
@@ -86,7 +86,7 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
                 nodal ? "more than " : "", 100 * e->relative, e->left_out, e->points + e->left_out,
                 e->seconds);
     printf ("  %.2f s: shape functions and assembly %.2f, analysis %.2f, factorization %.2f, solve %.2f, "
-            "forces %.2f, bond sweep %.2f; peak memory %.0f MB\n",
+            "forces %.2f, bond failure %.2f; peak memory %.0f MB\n",
             total,
             r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE],
             r->seconds[PG_SECONDS_ANALYSE], r->seconds[PG_SECONDS_FACTOR], r->seconds[PG_SECONDS_SOLVE],
@@ -196,8 +196,8 @@ static pg_status open_result (const command *c, const char *folder, const pg_sce
                  "differ\n",
                  from.threads, problem->threads);
     if (!c->quiet)
-        printf ("  going on after step %ld%s, %.0f s after the start\n", from.step,
-                from.rounds ? " in the middle of the next" : "", from.seconds);
+        printf ("  continuing after step %ld%s, %.0f s after the start\n", from.step,
+                from.rounds ? " in the middle of the next one one one" : "", from.seconds);
 done:
     return status;
 }

@@ -135,7 +135,7 @@ static pg_status check_sum (checkpoint *c)
     NC_TRY (c->path, nc_get_var (c->ncid, last, &found));
     if (found != (int64_t) c->sum)
         PG_FAIL (PG_E_FILE,
-                 "%s is damaged or cut off: its checksum is not that of its values; begin anew with --force",
+                 "%s is damaged or cut off: its checksum is not that of its values; start anew with --force",
                  c->path);
 done:
     return status;

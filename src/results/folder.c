@@ -235,7 +235,7 @@ static pg_status must_not_be_the_users (const char *folder, const pg_scene *scen
     if (same_file (path, pg_scene_file (scene))) {
         if (pg_scene_setting (scene, 0) || strstr (present, "\n# --set "))
             PG_FAIL (PG_E_USAGE,
-                     "%s is the scene itself, and a run notes its --set options there: name another folder "
+                     "%s is the scene itself, in which a run would note its --set options: name another folder "
                      "with -o",
                      path);
         goto done;
@@ -246,7 +246,7 @@ static pg_status must_not_be_the_users (const char *folder, const pg_scene *scen
     if (!report)
         PG_FAIL (
             PG_E_USAGE,
-            "%s/scene.yaml was not put there by a run and would be written over: name another folder with -o",
+            "%s/scene.yaml was not written by a run and would be overwritten: name another folder with -o",
             folder);
 done:
     pg_free (report);
@@ -270,15 +270,15 @@ pg_status pg_result_may_open (const char *folder, const pg_scene *scene)
     PG_TRY (count_rows (folder, &rows));
     if (there_is (folder, "checkpoint.nc"))
         PG_FAIL (PG_E_USAGE,
-                 "%s holds a run that is not finished, %ld rows of history.csv and a checkpoint: go on with "
-                 "--resume, begin anew with --force, or name "
+                 "%s holds an unfinished run, %ld rows of history.csv and a checkpoint: continue with "
+                 "--resume, start anew with --force, or name "
                  "another folder with -o",
                  folder, rows);
     if (rows < 1 || there_is (folder, "report.json")) goto done;
     PG_TRY (copy_text (&copy, scene));
     if (!present || strcmp (present, copy) != 0)
         PG_FAIL (PG_E_USAGE,
-                 "%s holds %ld rows of history.csv of another run that did not come to its end: replace them "
+                 "%s holds %ld rows of history.csv of another run that did not finish: replace them "
                  "with --force, or name another folder with -o",
                  folder, rows);
 done:

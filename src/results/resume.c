@@ -54,7 +54,7 @@ static pg_status keep_files (memory *m, const pg_keeper *k)
         if (memcmp (hash[i], r->named[i].hash, WORD) != 0)
             PG_FAIL (PG_E_USAGE,
                      "%s (%s of the scene) has changed since %s was written: bring back what it was, or "
-                     "begin anew with --force",
+                     "start anew with --force",
                      r->named[i].path, r->named[i].key, m->path);
 done:
     pg_free (hash);
@@ -296,7 +296,7 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
     m.path = path;
     PG_TRY (pg_result_check (scene, problem));
     if (access (path, F_OK) != 0)
-        PG_FAIL (PG_E_USAGE, "there is no %s to go on from: run without --resume", path);
+        PG_FAIL (PG_E_USAGE, "there is no %s to continue from: run without --resume", path);
     PG_ALLOC (r, 1);
     m.r = r;
     PG_TRY (pg_result_prepare (r, folder, scene, problem, solver));

@@ -86,7 +86,7 @@ for _ in $(seq 60); do                                 # too late: earlier; befo
     [ -e "$work/half/checkpoint.nc" ] && break
     delay=$((delay * 11 / 10 + 5))
 done
-[ $code -eq 130 ] && grep -q 'go on with: perigal run plate.yaml -o .*--set .spacing=0.5 mm. .*--resume' "$work/err"; verdict "TERM: exit code 130 and the command to go on" $?
+[ $code -eq 130 ] && grep -q 'continue with: perigal run plate.yaml -o .*--set .spacing=0.5 mm. .*--resume' "$work/err"; verdict "TERM: exit code 130 and the command to go on" $?
 grep -q '"outcome": "interrupted' "$work/half/report.json"; verdict "TERM: the report tells it" $?
 sum=$(cd "$work/half" && cat checkpoint.nc history.csv result.e | cksum)
 run "${event[@]}" --set solver.tie=1e-9 -o "$work/half" --resume; [ $? -eq 64 ] && grep -q 'of another scene' "$work/err" && [ "$sum" = "$(cd "$work/half" && cat checkpoint.nc history.csv result.e | cksum)" ]
