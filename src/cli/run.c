@@ -197,7 +197,7 @@ static pg_status open_result (const command *c, const char *folder, const pg_sce
                  from.threads, problem->threads);
     if (!c->quiet)
         printf ("  continuing after step %ld%s, %.0f s after the start\n", from.step,
-                from.rounds ? " in the middle of the next one one one" : "", from.seconds);
+                from.rounds ? " in the middle of the next one" : "", from.seconds);
 done:
     return status;
 }

@@ -60,16 +60,15 @@ static const char compare[] =
     "                       values\n";
 
 static const char bench[] =
-    "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B] [--spacing\n"
-    "A,B]\n"
-    "              [--perturb 0,0.2] ...\n"
+    "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B]\n"
+    "              [--spacing A,B] [--perturb 0,0.2] ...\n"
     "  Runs every combination, each in its own process, and measures it against the reference of the\n"
     "  scene. Writes DIR/bench.csv, time_error.png, dofs_error.png. A list that is not given stands for\n"
     "  the whole catalogue; without --spacing: twice, once and half the spacing of the scene.\n"
-    "      --force, --approximation, --integration, --basis LIST   entries of the catalogues (perigal\n"
-    "                       list)\n"
-    "      --spacing, --horizon, --perturb, --cells LIST           such as --spacing '1 mm,0.5 mm', or\n"
-    "                       --horizon 2,2.5 (in spacings)\n"
+    "      --force, --approximation, --integration, --basis LIST\n"
+    "                       entries of the catalogues (perigal list)\n"
+    "      --spacing, --horizon, --perturb, --cells LIST\n"
+    "                       such as --spacing '1 mm,0.5 mm' or --horizon 2,2.5 (in spacings)\n"
     "      --fem            also solve the same bodies with CalculiX (ccx, one thread); --fem-element\n"
     "                       CPS4,CPS8 and --fem-size 8,16,32 choose elements and sizes\n"
     "      --mesh-size LIST sizes of scenes on a mesh of data/calculix/make_mesh.py, such as\n"

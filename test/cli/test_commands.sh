@@ -177,6 +177,6 @@ expect "a finished run is run again"           0 'results in' '*' run plate.yaml
 expect "--force and --resume"                 64 '' 'exclude each other' run plate.yaml -o "$work/stopped" --force --resume
 mkdir "$work/own"; cp plate.yaml "$work/own/scene.yaml"
 expect "a scene in its own result folder"     64 '' 'is the scene itself' run "$work/own/scene.yaml" -o "$work/own" --threads 1 --set solver.max_events=1
-expect "another scene over one of the user"   64 '' 'was not put there by a run' run plate.yaml -o "$work/own" --threads 1 --set solver.max_events=1
+expect "another scene over one of the user"   64 '' 'was not written by a run' run plate.yaml -o "$work/own" --threads 1 --set solver.max_events=1
 cmp plate.yaml "$work/own/scene.yaml" > "$work/out" 2>&1; verdict "the scene is as it was" $?
 finish

@@ -93,7 +93,7 @@ run "${event[@]}" --set solver.tie=1e-9 -o "$work/half" --resume; [ $? -eq 64 ] 
 verdict "a changed scene is refused, the folder stays" $?
 head -c 3000 "$work/half/checkpoint.nc" > "$work/cut" && cp -r "$work/half" "$work/torn" && cp "$work/cut" "$work/torn/checkpoint.nc"
 run "${event[@]}" -o "$work/torn" --resume; [ $? -eq 70 ] && grep -q 'checkpoint.nc' "$work/err"; verdict "a torn checkpoint is refused" $?
-run "${event[@]}" -o "$work/half"; [ $? -eq 64 ] && grep -q 'holds a run that is not finished' "$work/err"; verdict "without --resume or --force it is not replaced" $?
+run "${event[@]}" -o "$work/half"; [ $? -eq 64 ] && grep -q 'holds an unfinished run' "$work/err"; verdict "without --resume or --force it is not replaced" $?
 run "${event[@]}" -o "$work/half" --force; code=$?; same "$work/event" "$work/half" > "$work/why" 2>&1; verdict "with --force it begins anew" $((code + $?))
 
 # ---- disks: limited file size (EFBIG), a small disk (ENOSPC), a folder that cannot be written
