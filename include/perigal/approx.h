@@ -28,16 +28,10 @@ PG_API_BEGIN
  *              N belongs to the foot of the place on their line or plane, gradients lie in it
  *   SHEPARD    fewer than dim + 1 neighbours, or the smallest eigenvalue of their centred second moment is
  *              below 1e-3 h^2: N = w / sum w and no gradient, so there is a displacement but no stress
- *   DEAD       no live neighbour: N = 0 */
-enum { PG_GRADE_FULL,
-       PG_GRADE_LOWERED,   /* quadratic asked, linear used */
-       /* `projected`, and of the linear basis only the directions in which the neighbours still spread: N is
-        * that of the foot of the point on their line or plane, gradients are along it */
-       PG_GRADE_PROJECTED,
-       /* fewer than dim + 1 live neighbours, or smallest eigenvalue of the centred second moment below 1e-3
-        * h^2: N = w / sum w, gradients 0: carries no stress, keeps a displacement */
-       PG_GRADE_SHEPARD,
-       PG_GRADE_DEAD };    /* no live neighbour: N = 0 */
+ *   DEAD       no live neighbour: N = 0
+ *
+ * A node of nosb that has lost all bonds keeps N = 1 at itself and counts as SHEPARD. */
+enum { PG_GRADE_FULL, PG_GRADE_LOWERED, PG_GRADE_PROJECTED, PG_GRADE_SHEPARD, PG_GRADE_DEAD };
 
 /* Evaluation points with their shape functions in compressed rows: entries family.start[i] to
  * family.start[i + 1] - 1 belong to point i; nnz is their total number. */
@@ -73,7 +67,8 @@ typedef struct {
     int    order;
     /* PG_RADIAL: the influence is w (|z|); PG_TENSOR: the product of w (|z_k|). */
     int    shape;
-    int    use_volume;  /* V_j in the weights (default: nosb, pddo yes; rkpm no: V_j = 1) */
+    /* 1: the weights contain the volumes V_j (default of nosb and pddo); 0: V_j = 1 (rkpm). */
+    int    use_volume;
     /* Radius of the support, m. */
     double horizon;
     /* 1: PG_GRADE_PROJECTED is allowed (linear basis only); 0: never. */

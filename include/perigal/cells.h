@@ -120,9 +120,6 @@ void      pg_set_name (char out[57], const char *name);
 void      pg_cells_clear (pg_cells *cells);
 
 /* ---- cut cells ----------------------------------------------------------------------------------------- */
-/* Quadrature of given order in a cell of kind PG_CUT, or on a facet of that kind, appended to `out` (zero at
- * first): all weights positive, m^3 or m^2 with the thickness, their sum exact to the order only. Errors:
- * PG_E_MEMORY. Dimension reduction: Saye 2015, doi 10.1137/140966290. */
 /* Quadrature points in the part of a cell that lies in the body: positions x (m, n x dim), weights (m^3 in
  * cells, m^2 on facets, thickness included) and, on facets, outward unit normals (n x dim; zero in cells).
  * Method: dimension reduction after Saye 2015, doi 10.1137/140966290 (src/cells/cut_points.c). All weights

@@ -195,7 +195,7 @@ void      pg_family_clear (pg_family *family);
 typedef struct pg_nearest pg_nearest;
 /* Says whether a point does not count: 1: it is passed over. */
 typedef int (*pg_refuse) (void *context, const double *place, size_t point);
-/* Sorts n points into a grid. PG_E_USAGE: there are none; PG_E_MEMORY. */
+/* Sorts copies of n points into the tree, O(n log n). PG_E_USAGE: there are none; PG_E_MEMORY. */
 pg_status pg_nearest_create (pg_nearest **out, int dim, size_t n, const double *x /* n x dim, m */);
 void      pg_nearest_free   (pg_nearest **nearest);
 /* The nearest point that is not refused (refuse NULL: none is); of equally near ones the lowest number; -1:
@@ -203,7 +203,7 @@ void      pg_nearest_free   (pg_nearest **nearest);
 long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_refuse refuse, void *context);
 
 /* Positions no further apart than this part of the local spacing are at one place. */
-#define PG_NO_LENGTH 1e-6  /* of the local spacing: what is no further apart is at one place */
+#define PG_NO_LENGTH 1e-6
 
 /* ---- pre-cracks ---------------------------------------------------------------------------------------- */
 /* Kinds of pre-cracks. */

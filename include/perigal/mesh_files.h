@@ -17,12 +17,12 @@
 
 PG_API_BEGIN
 
-/* Reads a mesh. Physical groups and sets of the file become blocks, side sets and node sets. Nodes that
- * no solid element uses are dropped. Elements turned inside out are put right; flat ones, and nodes that
- * are not there, are faults. Groups of lower dimension become node sets, and side sets where they are
- * faces of solid elements (a face between two belongs to the first of them). Sets of equal name are one;
- * groups and sets without a name have their number as name. Shells of lower dimension that a crack splits
- * are no fault. */
+/* Reads a mesh. Physical groups and sets of the file become blocks, side sets and node sets. Nodes that no
+ * solid element uses are dropped. Elements given inside out are mirrored; flat elements, and nodes that do
+ * not exist, are faults. Groups of lower dimension become node sets, and side sets where they are faces of
+ * solid elements (a face between two belongs to the first of them). Sets of equal name are united; groups
+ * and sets without a name are named by their number. Shells of lower dimension that a crack splits are no
+ * fault. */
 pg_status pg_mesh_read  (pg_mesh *out, const char *path);
 
 /* Reads a mesh and the nodal fields of one step (-1: the last); *time is that of the step. Vectors of a
@@ -33,10 +33,10 @@ pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfie
                           double *time);
 
 /* Does the header of a classic netCDF file, by the published grammar of the format, fit into the file? To
- * be asked before the library netCDF opens one (mesh, result, checkpoint): it trusts the counts of the
- * header, so that a few bytes of a broken file make it take gigabytes. PG_E_FILE: no, and near which
- * byte; or there is no such file, or it is empty or no regular file. Files of netCDF-4 (HDF5) have no
- * such header and are PG_OK. */
+ * be called before the netCDF library opens one (mesh, result, checkpoint): the library trusts the counts
+ * in the header, so that a few bytes of a broken file make it allocate gigabytes. PG_E_FILE: it does not,
+ * and near which byte; or there is no such file, or it is empty or no regular file. Files of netCDF-4
+ * (HDF5) have no such header: PG_OK. */
 pg_status pg_netcdf_check_header (const char *path);
 
 PG_API_END

@@ -66,21 +66,28 @@ typedef struct {
 /* The keys that a folder brings. */
 typedef struct { const char *folder; const pg_key *key; size_t n; } pg_key_table;
 
-/* Keys of the entries of a catalogue. An entry (a material, a criterion, a solver ...) declares its own keys
- * in its own file; several entries may share a table. The scene knows all of them. It requires a key without
- * a default only where an entry that owns it is chosen, and the manual names the entries with each key. A
- * folder with such entries has one line in src/scene/list.h and a `const pg_key_catalogue
- * pg_entry_keys_<folder>`. */
-typedef const pg_key_table *const *pg_key_tables;      /* a list of tables that ends with NULL */
+/* Keys of the entries of a catalogue. An entry (a material, a criterion, a solver ...) declares its own
+ * keys in its own file; several entries may share a table. The scene knows all of them. A key without a
+ * default is required only where an entry that owns it is chosen, and the manual names the entries with
+ * each key. A folder with such entries has one line in src/scene/list.h and a `const pg_key_catalogue
+ * pg_entry_keys_<folder>`. pg_key_tables is a list of tables that ends with NULL. */
+typedef const pg_key_table *const *pg_key_tables;
+
+/* A catalogue whose entries have keys. */
 typedef struct {
-    const char *selector;                              /* the key that chooses an entry: "solver.kind" */
-    const char *(*name) (size_t i);                    /* of the i-th entry; NULL past the end */
-    pg_key_tables (*keys) (size_t i);                  /* its own keys; NULL: none */
-    pg_key_tables (*keys_twice) (size_t i);            /* more of them, known below `also` too; NULL: none */
-    const char *also, *also_doc;                       /* "materials.{}.", "for this material" */
+    /* The key that chooses an entry: "solver.kind". */
+    const char *selector;
+    /* Name of entry i; NULL past the end. */
+    const char *(*name) (size_t i);
+    /* Keys of entry i; NULL: none. */
+    pg_key_tables (*keys) (size_t i);
+    /* Further keys of entry i, which are known below `also` as well; NULL: none. */
+    pg_key_tables (*keys_twice) (size_t i);
+    /* Prefix of the second place, and its name in the manual: "materials.{}.", "for this material". */
+    const char *also, *also_doc;
 } pg_key_catalogue;
-/* The entries that own a key, "adr|relax"; NULL: the key is of no entry. *selector (or NULL): what
- * chooses. */
+/* The entries that own a key, "adr|relax", and in *selector (unless NULL) the key that chooses among them;
+ * NULL: the key belongs to no entry. */
 const char *pg_key_entries (const pg_key *key, const char **selector);
 /* Is `name` one of "a|b|c"? */
 int pg_listed (const char *names, const char *name);
@@ -147,9 +154,6 @@ const char *pg_scene_source  (const pg_scene *s);
 const char *pg_scene_setting (const pg_scene *s, size_t k);
 /* SHA-256 of text and overrides, 64 hexadecimal digits. */
 const char *pg_scene_hash    (const pg_scene *s);
-/* The k-th key below a map of the scene ("solver", "materials.glass") that is given, though it is of other
- * entries than the one chosen there: its path, from which the name below the map is returned; NULL: there are
- * no more. */
 enum { PG_STRAY_PATH = 256 };
 /* The k-th key below a map of the scene ("solver", "materials.glass") that is given although it belongs to
  * other entries of a catalogue than the one chosen there. Writes its path and returns the name below the

@@ -92,8 +92,8 @@ typedef struct {
     const char  *set[PG_TRIAL_SETS];  size_t nset;
     /* Takes bench.csv and the pictures. */
     const char  *folder;
-    /* Repeats of each run, of which the one with the least CPU seconds counts; 1: the same
-     * bodies are computed by CalculiX too; threads of each run. */
+    /* Repeats of each run; 1: the same bodies are computed by CalculiX too; threads of each
+     * run. */
     int          repeat, fem, threads;
     FILE        *out;
 } pg_bench_request;

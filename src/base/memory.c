@@ -56,6 +56,7 @@ void *pg_calloc (size_t n, size_t size)
     return block + HEAD;
 }
 
+/* Allocates anew and copies, so that the old block is untouched on failure and the new part is zero. */
 void *pg_resize (void *p, size_t n, size_t size)
 {
     if (!p) return pg_calloc (n, size);
@@ -73,6 +74,7 @@ void *pg_resize (void *p, size_t n, size_t size)
     return block + HEAD;
 }
 
+/* The size of the block stands in front of it. */
 void pg_free (void *p)
 {
     if (!p) return;

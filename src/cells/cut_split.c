@@ -113,7 +113,8 @@ static int resultant (const conic *p, const conic *q, double *R)
         C[k] = difference (p->a * q->C[k], q->a * p->C[k]);
         scale = fmax (scale, fabs (C[k]));
     }
-    if (fabs (B[0]) + fabs (B[1]) <= flat * scale) {       /* mirror images: every z is common */
+    /* Mirror images about a plane across the height: every z is common. */
+    if (fabs (B[0]) + fabs (B[1]) <= flat * scale) {
         for (int k = 0; k < 3; k++) R[k] = C[k];
         return 2;
     }

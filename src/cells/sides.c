@@ -39,9 +39,9 @@ static int nodes_lie_in (const pg_marks *m, size_t f, int side)
     return 1;
 }
 
-/* Does the body reach the plane over the face of a lattice cell, not only touch it? At its centre, and at a
- * place a quarter step aside at least (on both sides of a place where it touches it does not; at the end of a
- * flat side it does on one). */
+/* Does the body really end in the plane over this face of a lattice cell, or does it only touch the plane
+ * there? It must reach the plane at the centre of the face and at one of the places a quarter step aside:
+ * where a round body touches the plane it is missing on all sides, at the end of a flat side only on some. */
 static int body_reaches (const pg_marks *m, size_t f, int side)
 {
     size_t dim = (size_t) m->cells->dim;

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal bench: the command line of benchmarks (study.h). Lists of catalogue entries are
- * checked here, so that a misspelt name does not end a benchmark after an hour. */
+ * perigal bench: the command line of benchmarks (study.h): scenes, lists of methods and sizes
+ * to combine, repeats. Lists of catalogue entries are checked here, so that a misspelt name
+ * does not end a benchmark after an hour. The options --row and --fem-row are for the
+ * processes that a benchmark starts (trial.c). */
 #include "cli.h"
 #include <math.h>
 #include <stdlib.h>
@@ -28,7 +30,7 @@ static pg_status read_list (const list_option *o, const char *value)
 {
     pg_status status = PG_OK;
     if (!pg_word_list_split (o->words, value))
-        PG_FAIL (PG_E_USAGE, "%s %s: expected words separated by commas, at most %d", o->option, value,
+        PG_FAIL (PG_E_USAGE, "%s %s: expected at most %d words separated by commas", o->option, value,
                  PG_LIST_WORDS);
     for (size_t k = 0; o->names && k < o->words->n; k++) {
         const char *word = o->words->word[k], *near;
@@ -77,7 +79,7 @@ static pg_status read_option (pg_bench_request *q, const char *name, const char 
     }
     if (!is_one_of (name, all)) {
         const char *near = pg_nearest_name (name, all);
-        PG_FAIL (PG_E_USAGE, "there is no option %s%s%s%s", name, near ? " (did you mean " : "",
+        PG_FAIL (PG_E_USAGE, "unknown option %s%s%s%s", name, near ? " (did you mean " : "",
                  near ? near : "", near ? "?)" : "");
     }
     if (!value) PG_FAIL (PG_E_USAGE, "%s needs a value", name);

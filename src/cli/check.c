@@ -37,7 +37,7 @@ int pg_cli_check (int argc, char **argv)
     if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
     plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from };
     if (c.json) PG_TRY (plan_print_json (&all));
-    else printf ("%s: the scene is right\n", c.scene);
+    else printf ("%s: the scene is valid\n", c.scene);
     if (!c.quiet && !c.json) plan_print_long (&all);
     if (c.spectrum && !c.json) spectrum_print (&waves, p);
     if (c.spectrum && c.folder) PG_TRY (spectrum_write (&waves, p, c.folder));

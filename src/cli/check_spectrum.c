@@ -67,7 +67,7 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
     const pg_symbol *s = x->symbol;
     const pg_survey *v = &x->survey;
     double speed = pg_material_waves (&s->material).pressure / s->h;
-    printf ("  %-18s  %s%s: %zu wave vectors, grid of %d along each axis; a point answers %zu others "
+    printf ("  %-18s  %s%s: %zu wave vectors, grid of %d along each axis; a point interacts with %zu others "
             "(measured in a box of %zu points)\n",
             "spectrum", s->material.name, p->nmaterial > 1 ? " (the first material)" : "", v->vectors,
             v->grid, s->n - 1, s->points);
@@ -76,9 +76,9 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
     printf ("  %-18s  %.4g, ", "smallest", v->smallest.value), print_motion (&v->smallest, s);
     printf ("  %-18s  %.4g of a continuum's, ", "softest", v->softest.value), print_motion (&v->softest, s);
     if (!isnan (v->turning[0]))
-        printf ("  %-18s  %.5g E V where all points turn alike, at least %.5g\n", "rotations", v->turning[0],
+        printf ("  %-18s  %.5g E V where all points rotate alike, at least %.5g\n", "rotations", v->turning[0],
                 v->turning[1]);
-    if (s->unknowns > s->dim && s->held[s->dim]) printf ("  %-18s  without stiffness: held\n", "rotations");
+    if (s->unknowns > s->dim && s->held[s->dim]) printf ("  %-18s  without stiffness: constrained\n", "rotations");
     printf ("  %-18s  %zu, without energy %zu (beside rigid translation), below 0.01 of a continuum's %zu\n",
             "gaining energy", v->negative, v->zero, v->weak);
     if (v->zero) printf ("  %-18s  ", "without energy"), print_motion (&v->first, s);
@@ -227,6 +227,7 @@ static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, 
     for (size_t q = 0; q < half; q++) {                /* to the height of the branches */
         const double *y = c->continuum + q * c->n;
         size_t end = 2;
+        /* The straight lines of the continuum would otherwise shrink the branches. */
         while (end <= LEG && y[end] <= top) end++;
         curve[n++] = (pg_curve){
             .name = q ? "continuum, shear" : "continuum, longitudinal", .n = end, .x = c->x, .y = y

@@ -37,6 +37,9 @@ void progress_show (progress *p, const pg_progress *at, const pg_step *step, con
                     int within);
 void progress_end   (progress *p);
 
+/* usage.c: prints what a command says of itself; 0: there is no such command. */
+int       command_usage (FILE *to, const char *name);
+
 /* What the command line of run and check says (command.c). */
 typedef struct {
     const char *scene, *folder, *set[64];
@@ -53,8 +56,6 @@ int       command_parse (command *c, int argc, char **argv);
 /* 1 if words follow a --set that belong to its value but lost their quotes; `out` gets the
  * message. */
 int       command_unquoted (char *out, size_t size, int argc, char **argv);
-/* Prints the usage of a command; 0 if there is no such command. */
-int       command_usage (FILE *to, const char *name);
 /* Loads the scene with the --set options. A file that cannot be read counts as a wrong scene.
  * The scene may be partial: it then has faults but can be looked at for more. */
 pg_status command_scene (const command *c, pg_scene **scene);

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Options that run and check share, the usage of all commands, and how a scene becomes a
- * problem for them. Wrong options end with the usage and exit code 64; the nearest name is
- * offered for misspelt ones. */
+ * problem for them.
+ *
+ * Conventions of all commands: long options, with a short form for the most usual ones; a
+ * wrong option or value ends with a message that says what is allowed, usually with the
+ * nearest name for a misspelt one, and with exit code 64; messages go to stderr, results to
+ * stdout. Nothing is asked interactively, so that every command works in scripts. */
 #include "cli.h"
 #include <getopt.h>
 #include <math.h>
@@ -9,106 +13,6 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The usage of each command, as --help and wrong use print it. */
-static const struct { const char *name, *text;
-} usages[] = {
-    { "run",
-      "perigal run SCENE.yaml [-o DIR] [--resume | --force] [--threads N] [--memory SIZE] [--set "
-      "KEY=VALUE]... [--quiet]\n"
-      "  -o, --out DIR        result folder, made if need be; default out/NAME, NAME from the scene's folder "
-      "or file\n"
-      "      --resume         goes on from DIR/checkpoint.nc of an interrupted run, with the same scene and "
-      "--set\n"
-      "      --force          begins anew in a folder with an interrupted run, whose checkpoint and rows are "
-      "lost\n"
-      "      --threads N      0 (the default): one per processor\n"
-      "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A run that needs "
-      "more is refused\n"
-      "  -s, --set KEY=VALUE  replaces or adds one value of the scene, such as method.horizon='2.5 spacing'\n"
-      "  -q, --quiet          neither progress nor summary; warnings are in DIR/report.json\n"
-      "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) leaves a checkpoint after the break round at hand; a second one "
-      "ends at once.\n" },
-    { "check", "perigal check SCENE.yaml [--json] [--solve] [--spectrum [-o DIR]] [--memory SIZE] [--set "
-               "KEY=VALUE]... [--quiet]\n"
-               "  All faults of the scene with line and column, or what it amounts to: points, bonds, "
-               "unknowns, memory, constants,\n"
-               "  time steps, and what the run will skip.\n"
-               "      --solve          solves once: the load at which the first bond breaks, and where; the "
-               "stable time step\n"
-               "      --spectrum       plane waves of the lattice: is every motion resisted, how fast are "
-               "long waves, which time step is stable;\n"
-               "                       with -o DIR: DIR/spectrum.csv, spectrum.png: frequencies along the "
-               "edges of the zone\n"
-               "      --json           the same for programs\n"
-               "      --memory SIZE    may be used, such as 8GB; default: what the machine has left. A scene "
-               "that needs more is refused\n" },
-    { "plot", "perigal plot DIR [--field damage|stress.yy|displacement.x ...] [--step N|all | --steps "
-              "N,N,...] [--view SIDE|iso|crack] [--section CUT] ...\n"
-              "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
-              "  A field of DIR/result.e (damage, last step), or two columns of DIR/history.csv, as PNG or "
-              "SVG; all options: perigal plot --help.\n" },
-    { "compare",
-      "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S] "
-      "[--out FILE.png] [--json] [--quiet]\n"
-      "  Norms of the difference of the result in DIR and a reference: that of its scene, or REFERENCE: a "
-      "table (.csv: x [mm], y [mm],\n"
-      "  u_x [mm], s_xx [MPa] ...), another result folder, a finite element result (CalculiX .frd, Exodus). "
-      "Writes DIR/compare.csv,\n"
-      "  compare.json, compare.png.\n"
-      "      --step N         of DIR/result.e, the last if not given;  --reference-step N: of the reference\n"
-      "      --field NAME     of the picture: displacement, stress, displacement.x, stress.xx ...\n"
-      "      --unit mm        length unit of a finite element result, and of a table's columns that name "
-      "none\n"
-      "      --shift X,Y,Z    moves the reference, m if no unit is given;  --scale S: multiplies its "
-      "values\n" },
-    { "bench",
-      "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B] [--spacing A,B] "
-      "[--perturb 0,0.2] ...\n"
-      "  Runs every combination, each in a process of its own, and measures it against the scene's "
-      "reference: DIR/bench.csv, time_error.png,\n"
-      "  dofs_error.png. What is not listed: all the catalogue has, and twice, once and half the spacing of "
-      "the scene.\n"
-      "      --force, --approximation, --integration, --basis LIST   of the catalogues (perigal list)\n"
-      "      --spacing, --horizon, --perturb, --cells LIST           such as --spacing '1 mm,0.5 mm' "
-      "--horizon 2,2.5 (spacings)\n"
-      "      --fem            the same bodies by CalculiX (ccx, one thread); also --fem-element CPS4,CPS8 "
-      "--fem-size 8,16,32\n"
-      "      --mesh-size LIST sizes of scenes on a mesh of data/calculix/make_mesh.py, such as "
-      "data/kirsch_mesh; 8,16,32 unless --fem-size is given\n"
-      "      --repeat N       every run N times, one after the other; the least CPU seconds count\n"
-      "      --threads N      of each run, 1 unless given\n"
-      "  -o, --out DIR        default out/bench\n"
-      "  -s, --set KEY=VALUE  for every run\n"
-      "  -q, --quiet          only the files\n" },
-    { "converge",
-      "perigal converge SCENE.yaml [--spacing 4] [--ratio 2] [--horizon 2,2.5,3] [--delta | --m] [-o DIR] "
-      "[--set KEY=VALUE]... [--threads N]\n"
-      "  The scene at falling sizes, and of every number it gives (errors, reactions, displacements, gauges, "
-      "averages, energies): the order of\n"
-      "  convergence, Richardson's value and the estimated error. Table on the screen and in "
-      "DIR/convergence.csv, picture DIR/convergence.png.\n"
-      "      --spacing N      sizes: the scene's spacing and N - 1 smaller ones; 4 unless given (3 with "
-      "--m)\n"
-      "      --ratio R        of a spacing to the next, 2 unless given\n"
-      "      --horizon LIST   in spacings; a study for each; the scene's unless given\n"
-      "      --delta          horizon / spacing is kept: both go to 0 (the default)\n"
-      "      --m              the horizon is kept, that of the first spacing: more and more neighbours\n"
-      "  -o, --out DIR        default out/converge\n"
-      "  -q, --quiet          only the files\n" },
-    { "list", "perigal list\n  Methods, kernels, criteria, solvers of this build, one line each.\n" },
-    { "help", "perigal help [KEY | COMMAND | --manual]\n  All keys of the scene file; one key; one command; "
-              "or all keys as markdown.\n" },
-};
-
-/* Usages are found by the name of the command. */
-int command_usage (FILE *to, const char *name)
-{
-    for (size_t k = 0; k < sizeof usages / sizeof *usages; k++)
-        if (strcmp (usages[k].name, name) == 0) return fputs (usages[k].text, to) >= 0;
-    return 0;
-}
-
-/* --threads N, 0 to 64; 0 means one for each processor. */
 static int read_threads (command *c, const char *text)
 {
     char *end;
@@ -168,7 +72,7 @@ static int refuse (const char *name, int option, const char *argument)
                              strcmp (name, "check") == 0
                                  ? "--json|--solve|--spectrum|--out|--threads|--memory|--set|--quiet|--help"
                                  : "--out|--resume|--force|--threads|--memory|--set|--quiet|--help");
-        fprintf (stderr, "perigal %s: there is no option %s%s%s%s\n", name, argument,
+        fprintf (stderr, "perigal %s: unknown option %s%s%s%s\n", name, argument,
                  near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     }
     command_usage (stderr, name);
@@ -194,7 +98,7 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
         while (last < argc && argv[last][0] != '-' && !is_scene (argv[last])) last++;
         if (first >= argc || last == first) continue;
         size_t n = (size_t) snprintf (out, size,
-                                      "'%.60s' is no file: a value with blanks needs quotes: --set '%.200s",
+                                      "'%.60s' is not a file: a value with blanks needs quotes: --set '%.200s",
                                       argv[first], joined ? argv[k] + 6 : argv[k + 1]);
         for (int i = first; i < last && n < size; i++)
             n += (size_t) snprintf (out + n, size - n, " %.100s", argv[i]);
@@ -204,7 +108,8 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
     return 0;
 }
 
-/* One option of run or check; -1: go on, else the exit code. */
+/* Reads one option of run or check; -1: go on, else the exit code. Options of the other
+ * command are refused by name. */
 static int read_option (command *c, const char *name, int option, const char *word)
 {
     int checks = strcmp (name, "check") == 0;
@@ -224,7 +129,8 @@ static int read_option (command *c, const char *name, int option, const char *wo
     }
 }
 
-/* getopt_long changes the order of the words, so lost quotes are looked for before it. */
+/* getopt_long changes the order of the words, so lost quotes are looked for before it. opterr
+ * = 0: the messages are our own. Without --threads all processors are used. */
 int command_parse (command *c, int argc, char **argv)
 {
     static const struct option options[] = {
@@ -308,7 +214,7 @@ static void put_word (const char *word)
 /* All options that change the run are repeated, so that the line can be copied. */
 void command_again (const command *c)
 {
-    fputs ("perigal: go on with: perigal run ", stderr);
+    fputs ("perigal: continue with: perigal run ", stderr);
     put_word (c->scene);
     if (c->folder) fputs (" -o ", stderr), put_word (c->folder);
     for (size_t k = 0; k < c->nset; k++) fputs (" --set ", stderr), put_word (c->set[k]);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal compare DIR [REFERENCE]: a result against the reference of its scene, a table,
- * another result or a finite element result. The command line is read here; study.h compares. */
+ * another result or a finite element result. The command line is read here; study.h opens both
+ * sides and measures, compare.h has the norms. */
 #include "cli.h"
 #include <errno.h>
 #include <getopt.h>
@@ -73,7 +74,7 @@ static int read_number (const char *text, double *out)
     return end != text && !*end && isfinite (*out);
 }
 
-/* --threads N */
+/* A number of threads from 0 to 64; 0 means one for each processor. */
 static int read_threads (const char *text, int *out)
 {
     double threads = 0;
@@ -127,7 +128,7 @@ static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
     for (int k, wrong = -1; (k = getopt_long (argc, argv, ":o:qh", options, NULL)) != -1;) {
         if (k == 'h') return command_usage (stdout, argv[0]) ? PG_EXIT_DONE : PG_EXIT_USAGE;
         if (k == ':') wrong = complain ("%s needs a value", argv[optind - 1]);
-        else if (k == '?') wrong = complain ("there is no option %s", argv[optind - 1]);
+        else if (k == '?') wrong = complain ("unknown option %s", argv[optind - 1]);
         else wrong = read_option (q, json, k, optarg);
         if (wrong >= 0) return wrong;
     }

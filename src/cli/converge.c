@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal converge: the command line of a study of convergence (study.h). */
+ * perigal converge: the command line of a study of convergence (study.h): a scene, how many
+ * spacings, their ratio, the horizons, and whether the horizon falls with the spacing
+ * (--delta, the default) or keeps its length (--m). */
 #include "cli.h"
 #include <math.h>
 #include <stdlib.h>
@@ -44,7 +46,7 @@ static pg_status read_option (pg_converge_request *q, const char *name, const ch
     while (k < sizeof known / sizeof *known && strcmp (known[k], name) != 0) k++;
     if (k == sizeof known / sizeof *known) {
         const char *near = pg_nearest_name (name, names);
-        PG_FAIL (PG_E_USAGE, "there is no option %s%s%s%s", name, near ? " (did you mean " : "",
+        PG_FAIL (PG_E_USAGE, "unknown option %s%s%s%s", name, near ? " (did you mean " : "",
                  near ? near : "", near ? "?)" : "");
     }
     if (!value) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
@@ -64,7 +66,7 @@ done:
     return status;
 }
 
-/* The long name of an option. */
+/* The long name of a short option; other words stay as they are. */
 static const char *long_name (const char *word)
 {
     static const char *const names[][2] = { { "-o", "--out" }, { "-s", "--set" }, { "-q", "--quiet" } };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal list and perigal help: what this build holds, and what a key of the scene means.
  * Both read the catalogues and the tables of keys, so that they cannot differ from what the
- * program does. */
+ * program does: a new entry of a catalogue appears here without another line. */
 #include "cli.h"
 #include <string.h>
 

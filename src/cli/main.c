@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal: finds the command and starts it. Numbers of threads of the libraries are set before
- * these start, since they read their environment once. */
+ * perigal: finds the command and starts it. Numbers of threads of the libraries (OpenBLAS,
+ * OpenMP) are set before these start, since they read their environment once, when they are
+ * loaded; the program therefore starts itself again with the environment changed. All else is
+ * in the files of the commands. */
 #include "cli.h"
 #include "plot.h"
 #include <stdlib.h>
@@ -10,19 +12,20 @@
 /* The commands, in the order of the usage. */
 static const struct { const char *name; int (*run) (int, char **); const char *summary;
 } commands[] = {
-    { "run", pg_cli_run, "run SCENE.yaml [-o DIR] [--set KEY=VALUE]  solve, leave a folder of results" },
+    { "run", pg_cli_run,
+      "run SCENE.yaml [-o DIR] [--set KEY=VALUE]  solve a scene and write a result folder" },
     { "check", pg_cli_check,
-      "check SCENE.yaml [--set KEY=VALUE]         what is wrong with a scene, or what it amounts to" },
-    { "plot", pg_cli_plot, "plot DIR [--field NAME] [--step N]         pictures from a folder of results" },
+      "check SCENE.yaml [--set KEY=VALUE]         validate a scene and show what a run would do" },
+    { "plot", pg_cli_plot, "plot DIR [--field NAME] [--step N]         draw pictures from a result folder" },
     { "compare", pg_cli_compare,
-      "compare DIR [REFERENCE]                    a result against a closed form, a table, another result" },
+      "compare DIR [REFERENCE]                    compare a result with a reference" },
     { "bench", pg_cli_bench,
-      "bench [SCENE...] [--fem]                   error and cost of methods and sizes, beside CalculiX" },
+      "bench [SCENE...] [--fem]                   error and cost of methods and sizes, also of CalculiX" },
     { "converge", pg_cli_converge,
-      "converge SCENE.yaml [--m]                  order of convergence of every quantity of a scene" },
+      "converge SCENE.yaml [--m]                  orders of convergence of all results of a scene" },
     { "list", pg_cli_list,
       "list                                       methods, kernels, criteria ... of this build" },
-    { "help", pg_cli_help, "help [KEY | COMMAND | --manual]            the keys of the scene file" },
+    { "help", pg_cli_help, "help [KEY | COMMAND | --manual]            explain the keys of the scene file" },
 };
 
 /* Commands and exit codes. */
@@ -32,8 +35,8 @@ static void usage (FILE *to)
                  ": peridynamic Galerkin solver for brittle and quasi-brittle fracture\n\nusage:\n");
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
         fprintf (to, "  perigal %s\n", commands[k].summary);
-    fprintf (to, "\nexit codes: 0 done, 64 usage, 65 scene wrong, 70 failed (numerics, memory, files), 130 "
-                 "interrupted\n");
+    fprintf (to, "\nexit codes: 0 done, 64 wrong usage, 65 invalid scene, 70 failed (numerics, memory,\n"
+                 "            files), 130 interrupted\n");
 }
 
 /* Starts the program again with an environment that limits OpenMP to one thread: the OpenMP
@@ -77,7 +80,7 @@ int main (int argc, char **argv)
         }
     const char *near = pg_nearest_name (argv[1],
                                         "run|check|plot|compare|bench|converge|list|help|--version|--help");
-    fprintf (stderr, "perigal: there is no %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1],
+    fprintf (stderr, "perigal: unknown %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1],
              near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     usage (stderr);
     return PG_EXIT_USAGE;

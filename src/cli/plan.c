@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What a scene amounts to, in words: in short before a run, and at length for check. Numbers
  * come from the built problem, not from the scene, so that they say what the program has
- * understood: a millimetre that was read as a metre shows in the box of the body. */
+ * understood: a millimetre that was read as a metre shows in the box of the body.
+ *
+ * Each line has a name of at most 18 characters and what belongs to it, so that a number is
+ * found by its name. plan_json.c has the same numbers for programs; a number that is added
+ * here belongs there too. */
 #include "cli.h"
 #include <math.h>
 #include <string.h>
@@ -13,7 +17,8 @@ static const char *stepping (const pg_solver_options *o)
     return type && type->manner ? type->manner (o) : "";
 }
 
-/* The criterion; with several materials one line for each, with its points. width: of the
+/* The criterion; with several materials one line for each, with its points and its evaluation
+ * points, because a block that was meant to have another material shows there. width: of the
  * first column. */
 static void describe (const pg_problem *p, int width)
 {
@@ -30,7 +35,8 @@ static void describe (const pg_problem *p, int width)
     }
 }
 
-/* The choices of the method, and what the force says of its constants. */
+/* The choices of the method, and what the force says of its constants: the force is created
+ * for that and freed again. */
 static void print_method (const pg_problem *p)
 {
     const pg_force_type *force = pg_force_of (p);
@@ -142,8 +148,9 @@ static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, c
 /* A reason for which a run leaves something out. */
 typedef struct { int applies; const char *what, *why; } reason;
 
-/* The counterpart of what the solver reports after a run: only what follows from the options
- * is said. */
+/* What the run will not do, as far as that is known before it starts: the counterpart of what
+ * the solver reports afterwards (`skipped`). Entries that follow from numbers of the run
+ * itself are missing here. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
 {
     const pg_solver_options *o = p->options;
@@ -200,7 +207,7 @@ static void print_layers (const pg_problem *q)
     }
 }
 
-/* Points, cells, bonds, unknowns. */
+/* Points, cells, bonds, unknowns. The mean family is that of the node-node bonds. */
 static void print_counts (const plan *p)
 {
     const pg_problem *q = p->problem;
@@ -311,7 +318,8 @@ static void print_memory (const plan *p)
     }
 }
 
-/* What --solve found. */
+/* What --solve found. A load factor above 1 means that nothing breaks under the full load,
+ * which is warned of, as is a criterion that no load can reach. */
 static void print_first_break (const plan *p)
 {
     static const char *const sets[PG_BOND_SETS] = { "node-node", "point-node", "facet-node" };
@@ -351,7 +359,7 @@ static void print_patch (const pg_problem *p)
     if (!p->patch.measured) return;
     pg_patch_words (p, words, sizeof words);
     printf ("  %-18s  %s (%s)\n", "patch test", words,
-            p->patch.held ? "the outermost points held" : "tractions on the whole surface");
+            p->patch.held ? "outermost points constrained" : "tractions on the whole surface");
 }
 
 /* All that check says, in the order geometry, method, materials, solver, memory, warnings,

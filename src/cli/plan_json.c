@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The plan of perigal check as JSON (doc/output.md explains the keys): the same numbers as in
- * plan.c, for programs. */
+ * plan.c, for programs. Keys have no units, since all numbers are SI; NAN becomes null. */
 #include "cli.h"
 #include <errno.h>
 #include <math.h>
@@ -8,7 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Sizes of the problem. */
+/* Sizes of the problem: points, spacing, cells, bonds of each set, unknowns, horizon, and the
+ * mesh if there is one. */
 static void counts (pg_json *j, const plan *p)
 {
     static const char *const sets[PG_BOND_SETS] = { "node_node", "point_node", "facet_node" };
@@ -39,7 +40,8 @@ static void counts (pg_json *j, const plan *p)
     plan_mesh_json (j, q);
 }
 
-/* Materials with their wave speeds and criteria. */
+/* Each material with its wave speeds and its criterion; other laws than the isotropic one
+ * describe themselves in words. */
 static void constants (pg_json *j, const pg_problem *p)
 {
     char text[512];
@@ -68,7 +70,8 @@ static void constants (pg_json *j, const pg_problem *p)
     pg_json_shut (j);
 }
 
-/* Solver and time steps. */
+/* Solver and time steps, and where the stable time step comes from: measured, an estimate, or
+ * unknown without a density. */
 static void steps (pg_json *j, const plan *p)
 {
     plan_times t = plan_times_of (p);
@@ -92,7 +95,7 @@ static void steps (pg_json *j, const plan *p)
                               : "no density");
 }
 
-/* Linear solver and memory, bytes. */
+/* Linear solver, size of matrix and factor, and the forecast of memory by part, bytes. */
 static void memory (pg_json *j, const plan *p)
 {
     const pg_forecast *f = p->forecast;

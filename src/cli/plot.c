@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal plot DIR|FILE: a field of DIR/result.e, a mesh or a finite element result, or with
  * --curve columns of DIR/history.csv, as PNG or SVG. Here is the command line; drawing is in
- * the files plot_*.c. */
+ * the files plot_*.c. Every option is one function and one row of the table `options`.
+ *
+ * Drawing prints the names of the files that were written, one per line, and nothing else. */
 #include "plot.h"
 #include "perigal/study.h"
 #include <math.h>
@@ -254,10 +256,10 @@ static pg_status read_arguments (plot_request *q, int argc, char **argv)
             PG_TRY (read_option (q, argv[k], k + 1 < argc ? argv[k + 1] : NULL, &used));
             k += used;
         } else if (q->directory)
-            PG_FAIL (PG_E_USAGE, "one directory at a time: %s, %s", q->directory, argv[k]);
+            PG_FAIL (PG_E_USAGE, "one result folder at a time: %s, %s", q->directory, argv[k]);
         else q->directory = argv[k];
     }
-    if (!q->directory) PG_FAIL (PG_E_USAGE, "no directory given");
+    if (!q->directory) PG_FAIL (PG_E_USAGE, "no result folder given");
     if (strlen (q->directory) > PLOT_PATH / 2) PG_FAIL (PG_E_USAGE, "the path is too long");
     if (q->part && q->component && strcmp (q->part, q->component) != 0)
         PG_FAIL (PG_E_USAGE, "--field %s.%s and --component %s: which part?", q->field, q->part,

@@ -435,7 +435,7 @@ static pg_status read_arguments (request *q, int argc, char **argv)
         else if (q->n == MOST) PG_FAIL (PG_E_USAGE, "at most %d folders in one picture", MOST);
         else q->directory[q->n++] = argv[k];
     }
-    if (q->n == 0) PG_FAIL (PG_E_USAGE, "no directory given");
+    if (q->n == 0) PG_FAIL (PG_E_USAGE, "no result folder given");
 done:
     return status;
 }

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Fields of a result as pictures: reads steps of DIR/result.e, chooses the component and the
  * points, finds out from the copied scene where body and pre-cracks are, names files and
- * panels, and hands everything to picture.h. */
+ * panels, and hands everything to picture.h.
+ *
+ * Only the folder is needed: without scene.yaml a picture has no pre-cracks and an outline
+ * from the points alone; without the mesh file of the run it is drawn by points. */
 #include "plot.h"
 #include "perigal/compare.h"
 #include <math.h>

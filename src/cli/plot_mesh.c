@@ -67,6 +67,8 @@ static double size_of (const double *v, int m)
 /* What of a field is drawn: one component, the magnitude, or the equivalent stress of von Mises. */
 typedef struct { const char *names, *wanted; int norm, equivalent, component; } choice;
 
+/* The component of a field with m values per node: by name, its magnitude, or the von Mises
+ * stress of a tensor. */
 static pg_status choose_part (choice *c, const plot_request *q, int m)
 {
     pg_status status = PG_OK;

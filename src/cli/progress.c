@@ -89,6 +89,7 @@ static void add_time (char *line, const progress *p, const pg_progress *at, doub
     add (line, text);
 }
 
+/* Appends a number in that format. */
 static void add_number (char *line, const char *format, double value)
 {
     char text[96];

@@ -1,6 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal run: scene -> problem -> solver -> steps -> result folder. An interrupted or failed
- * run leaves a checkpoint, if it had done anything, and says how to go on. */
+ * perigal run: scene -> problem -> solver -> steps -> result folder.
+ *
+ * A run can end early in three ways: interrupted by a signal, stopped by a failure (no
+ * equilibrium, no memory, a full disk), or killed. In the first two a checkpoint is written,
+ * if anything had been done, the results so far are finished with the reason in report.json,
+ * and where going on can help the command for it is printed; after the third the last
+ * checkpoint and all complete steps are there. */
 #include "cli.h"
 #include <signal.h>
 #include <string.h>
@@ -18,6 +23,7 @@ static void settle_signals (void)
     static const int asking[] = { SIGINT, SIGTERM, SIGHUP };
     struct sigaction act = { 0 }, before;
     act.sa_handler = on_signal;
+    /* SA_RESTART: system calls go on after the signal, so that no write is cut short. */
     act.sa_flags = SA_RESTART | (int) SA_RESETHAND;
     for (size_t k = 0; k < sizeof asking / sizeof *asking; k++)
         if (sigaction (asking[k], NULL, &before) == 0
@@ -46,7 +52,7 @@ static void print_counts (const pg_statistics *r, const pg_solver_options *o)
     if (r->cg_iterations && !(o->flags & PG_SOLVER_EXPLICIT) && !(o->flags & PG_SOLVER_STAGED))
         printf ("  %zu iterations of conjugate gradients%s%s%s\n", r->cg_iterations,
                 *r->preconditioner ? ", preconditioner " : "", r->preconditioner,
-                r->preconditioners > 1 ? ", made anew as bonds broke" : "");
+                r->preconditioners > 1 ? ", rebuilt as bonds broke" : "");
     if ((o->flags & PG_SOLVER_EXPLICIT))
         printf (
             "  energy: external work %.4g J = strain %.4g + kinetic %.4g + damping %.4g + breaking %.4g J\n",
@@ -80,7 +86,7 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
                 nodal ? "more than " : "", 100 * e->relative, e->left_out, e->points + e->left_out,
                 e->seconds);
     printf ("  %.2f s: shape functions and assembly %.2f, analysis %.2f, factorization %.2f, solve %.2f, "
-            "forces %.2f, bond sweep %.2f; peak memory %.0f MB\n",
+            "forces %.2f, bond failure %.2f; peak memory %.0f MB\n",
             total,
             r->seconds[PG_SECONDS_SHAPE] + r->seconds[PG_SECONDS_ASSEMBLE] + r->seconds[PG_SECONDS_UPDATE],
             r->seconds[PG_SECONDS_ANALYSE], r->seconds[PG_SECONDS_FACTOR], r->seconds[PG_SECONDS_SOLVE],
@@ -190,8 +196,8 @@ static pg_status open_result (const command *c, const char *folder, const pg_sce
                  "differ\n",
                  from.threads, problem->threads);
     if (!c->quiet)
-        printf ("  going on after step %ld%s, %.0f s after the start\n", from.step,
-                from.rounds ? " in the middle of the next" : "", from.seconds);
+        printf ("  continuing after step %ld%s, %.0f s after the start\n", from.step,
+                from.rounds ? " in the middle of the next one" : "", from.seconds);
 done:
     return status;
 }
@@ -207,8 +213,8 @@ static void settle_blas (const pg_problem *p)
     openblas_set_num_threads (unknowns < enough ? 1 : p->threads);
 }
 
-/* What a run leaves behind, whatever ended it: the reasons on stderr, and how to go on where that is
- * possible. */
+/* What a person is told on stderr at the end, whatever ended the run: the reasons, each once,
+ * and how to go on where that is possible. */
 static void tell_outcome (const command *c, pg_status outcome, const char *failure, pg_status written,
                           const char *fault, int kept)
 {
@@ -220,8 +226,8 @@ static void tell_outcome (const command *c, pg_status outcome, const char *failu
 }
 
 /* Everything between an open result and the last message. The checkpoint comes before the
- * results are finished, since a full disk may stop these; both faults are reported, but not
- * twice the same. */
+ * results are finished, since a full disk may stop these. search: seconds of building; start:
+ * when the run began. */
 static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w, double search, double start)
 {
     char failure[4096] = "", fault[4096];
@@ -238,7 +244,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     return failed ? outcome : status;
 }
 
-/* Everything a run is made of; freed in the reverse order of making. */
+/* Everything that a run is made of; freed in the reverse order of its making. */
 typedef struct {
     command    c;
     pg_scene  *scene;
@@ -250,7 +256,9 @@ typedef struct {
     int        finished;                               /* --resume of a run that is whole already */
 } run;
 
-/* Scene, memory, problem, result folder: all that can refuse a run before its long work begins. */
+/* Everything that can refuse a run before its long work begins, the cheap refusals first:
+ * folder, memory, faults of the scene, patch test. The name of the folder follows from the
+ * scene unless it is given. */
 static pg_status prepare (run *r)
 {
     pg_status status = PG_OK;
@@ -271,7 +279,7 @@ done:
     return status;
 }
 
-/* The solver and the state it starts from, and the result folder that takes what comes of them. */
+/* The solver with the state that it starts from, and the result folder, which is touched last. */
 static pg_status open_run (run *r)
 {
     pg_status status = PG_OK;
@@ -287,8 +295,8 @@ done:
     return status;
 }
 
-/* The order puts cheap refusals first: folder, memory, faults of the scene, patch test, then
- * the solver. */
+/* Exit codes: 0 done, or finished already; 130 interrupted, with a checkpoint; others as in
+ * cli.h. */
 int pg_cli_run (int argc, char **argv)
 {
     pg_status status = PG_OK;

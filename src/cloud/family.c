@@ -8,16 +8,21 @@
 #include <string.h>
 
 /* ---- who belongs to a family --------------------------------------------------------------------------- */
+/* One pass over all points. */
 typedef struct {
-    const pg_tree *tree;                               /* of the centres */
-    /* of the search: a little more than the largest distance */
+    /* Tree of the centres. */
+    const pg_tree *tree;
+    /* Reach of the search, a little more than the largest distance of a member, m. */
     double  reach;
-    double  limit;                                     /* largest distance (radial: its square) */
+    /* Largest distance of a member (radial: its square). */
+    double  limit;
     int     shape, closed;
-    /* of each centre: where its next node goes; counts up */
+    /* For each centre the place of its next member; counts up. */
     size_t *next;
-    int    *node;                                      /* NULL in the counting pass */
-    const double *x;  int j;                           /* the point that visits the centres near it */
+    /* Members of all families; NULL in the counting pass. */
+    int    *node;
+    /* The point whose turn it is: its position and number. */
+    const double *x;  int j;
 } search;
 
 /* Does the visiting point belong to the family of the centre c? */
@@ -95,7 +100,9 @@ pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, cons
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (s.next, n);
     out->n = n;
+    /* First pass: numbers of members. */
     visit_points (&s, cloud, far);
+    /* next becomes the place of the first member of each family. */
     for (size_t i = 0; i < n; i++) {
         out->start[i + 1] = out->start[i] + s.next[i];
         s.next[i] = out->start[i];

@@ -29,7 +29,8 @@ static void read_name (pg_layer *layer, const pg_body *body, const pg_scene *sce
         pg_scene_fault (scene, at, "a name has at least one letter and no space . [ ] { } =");
     else if (pg_layers_taken (name))
         pg_scene_fault (scene, at, "'%s' already names a side of the body", name);
-    for (size_t k = 0; k < body->n; k++)                   /* those of the layers before it among them */
+    /* Shapes of the scene, and the boxes of earlier layers. */
+    for (size_t k = 0; k < body->n; k++)
         if (!strcmp (name, body->shape[k].boundary)) {
             pg_scene_fault (scene, at, "'%s' already names the surface of a shape, or another layer", name);
             break;

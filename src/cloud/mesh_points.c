@@ -43,7 +43,8 @@ static void share_of (const pg_mesh *m, size_t e, pg_element shape, double volum
         for (int i = 0; i < nodes; i++) row[i] += w * N[i], square[i] += w * N[i] * N[i];
     }
     for (int i = 0; i < nodes; i++) rows += row[i], squares += square[i], least = fmin (least, row[i]);
-    /* tri6: 0 at corners; tet10, quad8, hex20, wedge15: negative */
+    /* Integrals of N are 0 at the corners of tri6 and negative at those of tet10, quad8, hex20 and
+     * wedge15. */
     int scaled = least < 0.01 * volume / nodes;
     for (int i = 0; i < nodes; i++) share[i] = volume * (scaled ? square[i] / squares : row[i] / rows);
 }
@@ -102,7 +103,8 @@ static void collect (edges *at, const pg_mesh_body *b, int corners)
 /* Local spacings and their mean; local = 0: only the mean is kept. */
 static pg_status place_sizes (pg_cloud *c, const pg_mesh_body *b, int corners, int local)
 {
-    static const double reach = 0.6;  /* of the longest edge at a node: 1.7 times it passes the other end */
+    /* Part of the longest edge at a node: 1.7 times it passes the other end of the edge. */
+    static const double reach = 0.6;
     pg_status status = PG_OK;
     edges *at = NULL;
     double sum = 0;

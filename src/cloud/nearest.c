@@ -5,6 +5,7 @@
 #include "tree.h"
 #include <limits.h>
 
+/* The tree; a structure of its own, so that the header of the tree stays private. */
 struct pg_nearest { pg_tree tree; };
 
 pg_status pg_nearest_create (pg_nearest **out, int dim, size_t n, const double *x)
@@ -30,6 +31,7 @@ void pg_nearest_free (pg_nearest **nearest)
     *nearest = NULL;
 }
 
+/* pg_refuse and pg_tree_refuse are the same type of function. */
 long pg_nearest_find (const pg_nearest *nearest, const double *place, pg_refuse refuse, void *context)
 {
     return pg_tree_nearest (&nearest->tree, place, refuse, context);

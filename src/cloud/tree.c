@@ -6,8 +6,10 @@
 #include <string.h>
 
 /* ---- sorting ------------------------------------------------------------------------------------------- */
+/* What is sorted: numbers of points, by the coordinates x (n x dim) of the points. */
 typedef struct { size_t *item; const double *x; size_t dim; } sorter;
 
+/* Coordinate of the point at a place of the order along an axis. */
 static double along (const sorter *s, size_t place, size_t axis)
 {
     return s->x[s->item[place] * s->dim + axis];
@@ -19,8 +21,9 @@ static void swap (size_t *a, size_t *b)
     *a = *b, *b = c;
 }
 
-/* Puts the item at `middle` that a sorted range first..last - 1 would have there, smaller ones before it,
- * larger ones behind. */
+/* Quickselect: puts at `middle` the item that a sorted range first .. last - 1 would have there, smaller
+ * ones before it, larger ones behind. Items equal to the pivot are collected in the middle, so that many
+ * equal coordinates do not slow it down. */
 static void part (sorter *s, size_t first, size_t last, size_t middle, size_t axis)
 {
     while (last - first > 1) {
@@ -38,6 +41,7 @@ static void part (sorter *s, size_t first, size_t last, size_t middle, size_t ax
     }
 }
 
+/* Divides a range by its middle item along one axis, then both parts along the next. */
 static void halve (sorter *s, size_t first, size_t last, size_t axis)
 {
     if (last - first <= PG_TREE_LEAF) return;
@@ -47,6 +51,7 @@ static void halve (sorter *s, size_t first, size_t last, size_t axis)
     halve (s, middle + 1, last, next);
 }
 
+/* First the order alone, then the coordinates are copied into it. */
 pg_status pg_tree_build (pg_tree *out, int dim, size_t n, const double *x)
 {
     pg_status status = PG_OK;
@@ -69,8 +74,10 @@ void pg_tree_clear (pg_tree *tree)
 }
 
 /* ---- all points near a place --------------------------------------------------------------------------- */
+/* A search for all points near a place. */
 typedef struct { const double *at; double reach; pg_tree_visit visit; void *context; } vicinity;
 
+/* A part of a range is left out where the dividing item is farther than `reach` on its other side. */
 static void visit_near (const pg_tree *t, const vicinity *v, size_t first, size_t last, int axis)
 {
     if (last - first <= PG_TREE_LEAF) {
@@ -92,13 +99,18 @@ void pg_tree_near (const pg_tree *tree, const double *at, double reach, pg_tree_
 }
 
 /* ---- the nearest point --------------------------------------------------------------------------------- */
+/* A search for the nearest point. */
 typedef struct {
     const double *at;
     pg_tree_refuse refuse;  void *context;
-    long   found;                                      /* number of the nearest so far, -1: none */
-    double best;                                       /* square of its distance, m^2 */
+    /* Number of the nearest so far, -1: none. */
+    long   found;
+    /* Square of its distance, m^2. */
+    double best;
 } query;
 
+/* Compares the points of a range with the nearest so far. A point is offered for refusal only if it would
+ * win. */
 static void consider (const pg_tree *t, query *q, size_t first, size_t last)
 {
     for (size_t e = first; e < last; e++) {

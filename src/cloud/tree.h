@@ -11,15 +11,17 @@
 
 enum { PG_TREE_LEAF = 8 };
 
+/* The sorted points. */
 typedef struct {
     int     dim;
     size_t  n;
-    /* number of the point at each place of the order (n) */
+    /* Number of the point at each place of the order (n). */
     size_t *item;
-    double *x;                                         /* the points in that order, m (n x dim) */
+    /* The points in that order, m (n x dim): a range of places is contiguous in memory. */
+    double *x;
 } pg_tree;
 
-/* Sorts n points x (n x dim, m); equal points are allowed. PG_E_MEMORY. */
+/* Sorts n points x (n x dim, m), which are copied; equal points are allowed. PG_E_MEMORY. */
 pg_status pg_tree_build (pg_tree *out, int dim, size_t n, const double *x);
 void      pg_tree_clear (pg_tree *tree);
 

@@ -123,6 +123,7 @@ done:
     return status;
 }
 
+/* May be called for errors that were never measured. */
 void pg_errors_clear (pg_errors *errors)
 {
     pg_free (errors->line), pg_free (errors->difference);
@@ -162,6 +163,7 @@ static void json_line (pg_json *j, const pg_line_norms *l)
     pg_json_shut (j);
 }
 
+/* Norms that were not measured have no entry. */
 void pg_errors_json (pg_json *j, const pg_errors *e)
 {
     const pg_norms *n = &e->norms;

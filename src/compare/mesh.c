@@ -50,7 +50,8 @@ static const pg_material *law_at (const fem *f, const double *x)
                                 [pg_nearest_find (f->material, x, NULL, NULL)]];
 }
 
-/* One place; 1: an element holds it, or one lies near enough. A place that no element knows gives NAN. */
+/* Samples one place. Returns 1 if an element holds it, or one lies near enough; such places
+ * outside are counted, and callers report them: many of them mean that the two bodies differ. */
 static int sample_place (fem *f, const double *x, double *u, double *stress)
 {
     double xi[3], away = 0, H[9];
@@ -63,8 +64,7 @@ static int sample_place (fem *f, const double *x, double *u, double *stress)
     return 1;
 }
 
-/* Counts the places outside, which callers report: many of them mean that the two bodies
- * differ. */
+/* Places that no element knows become NAN. */
 static pg_status sample_fem (void *context, size_t n, const double *x, double *u, double *stress)
 {
     fem *f = context;

@@ -206,6 +206,7 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Closed forms are evaluated with threads; every place is written by one of them. */
 static pg_status sample_forms (void *context, size_t n, const double *x, double *u, double *stress)
 {
     const forms *f = context;

@@ -48,6 +48,7 @@ done:
     return status;
 }
 
+/* The context holds no copy: state and force must outlive the sampler. */
 pg_status pg_sampler_solution (pg_sampler *out, const pg_problem *problem, const pg_force_type *force,
                                void *self, const pg_state *state)
 {
@@ -224,6 +225,7 @@ static void free_moved (void *context)
     pg_free (m);
 }
 
+/* The given sampler becomes part of the new one, which frees it. */
 pg_status pg_sampler_moved (pg_sampler *out, pg_sampler *sampler, const double *shift, double factor)
 {
     pg_status status = PG_OK;

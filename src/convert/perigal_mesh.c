@@ -1,9 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal-mesh: turns anything that Gmsh opens (.geo, .step, .iges, .brep, .stl, .msh, .unv,
- * .med ...) into a .msh file that Perigal reads, and meshes it if it is a geometry. It is a
- * program of its own, built only where the library of Gmsh is installed (Debian: libgmsh-dev),
- * because loading that library takes longer than many a run. Exit codes: 0 done, 1 failed, 2
- * wrong arguments. */
+ * .med ...) into a .msh file that Perigal reads, and meshes it if it is a geometry.
+ *
+ * It is a program of its own, built only where the library of Gmsh is installed (Debian:
+ * libgmsh-dev), because loading that library takes longer than many a run. The steps: read the
+ * command line, open the file in Gmsh, make elements unless there are some, name bodies and
+ * sides, write, and read the result again as Perigal would, so that a file which Perigal
+ * cannot use is noticed here. Exit codes: 0 done, 1 failed, 2 wrong arguments. */
 #include "perigal/mesh_files.h"
 #include <gmshc.h>
 #include <stdio.h>
@@ -55,6 +58,7 @@ static const struct { const char *name; double low, high; int whole; const char 
     [DIM] = { "--dim", 2, 3, 1, "2 or 3" },
 };
 
+/* Index of an option that takes a number; -1 if the word is none. */
 static int option_of (const char *word)
 {
     for (int k = 0; k <= DIM; k++) if (strcmp (word, options[k].name) == 0) return k;

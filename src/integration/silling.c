@@ -68,7 +68,7 @@ void pg_silling_add (const pg_rows *rows, const pg_cloud *cloud, size_t p, size_
     local (rows, cloud, p, a, &M, &own_a, &wa, xa, &ga);
     for (size_t b = 0; b < m; b++) {
         local (rows, cloud, p, b, &M, &own_b, &wb, xb, &gb);
-        /* star graph: own node against each neighbour */
+        /* The term w_l delta_lm: each neighbour is coupled with the own node only. */
         double s = a == b ? wa : own_a ? -wb : own_b ? -wa : 0;
         for (int k = 0; k < dim; k++) {
             s -= xa[k] * gb[k] + xb[k] * ga[k];

@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Moments of influence functions. */
+ * Moments of influence functions by composite Gauss quadrature: five points on each of 32 panels. A
+ * polynomial kernel times q^n is integrated exactly up to degree 9; the knot of the cubic spline at q = 1/2
+ * lies between two panels. */
 #include "perigal/kernel.h"
 #include <math.h>
 
 enum { PANELS = 32, POINTS = 5 };
 
-/* int_0^1 w(q) q^n dq by five Gauss points on each of 32 panels (a spline's knot at 1/2 lies between
- * panels) */
+/* int_0^1 w(q) q^n dq. */
 double pg_kernel_moment (const pg_kernel *kernel, int n)
 {
     static const double place[POINTS] = { -0.906179845938663992797627, -0.538469310105683091036314, 0,

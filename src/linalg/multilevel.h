@@ -26,7 +26,8 @@ typedef struct {
     double *x;
     /* No coupling goes further than this along each axis, m. */
     double  reach[3];
-    /* the matrix: finest an operator and the caller's rows, else rows of blocks, nodes ascending */
+    /* The matrix: on the finest level an operator, with the rows of the caller; on coarse levels rows of
+     * blocks, below. */
     const pg_operator *A;
     pg_couplings rows;
     /* Coarse levels: rows of blocks, nodes ascending: start (n + 1), node (start[n]), value (start[n] x

@@ -89,7 +89,7 @@ static pg_status lu_factor (void *self, const pg_sparse *A)
     if (code == UMFPACK_OK)
         code = umfpack_dl_numeric (u->F.start, u->F.row, u->F.value, u->symbolic, &u->numeric, u->control,
                                    info);
-    /* smallest by largest pivot of scaled rows */
+    /* Ratio of the smallest to the largest pivot of the scaled rows. */
     int lost = code == UMFPACK_OK && !(info[UMFPACK_RCOND] > 1e-14);
     if (code == UMFPACK_WARNING_singular_matrix || lost)
         PG_FAIL (PG_E_SINGULAR, "the matrix of %zu unknowns is singular: a part that can move freely?",

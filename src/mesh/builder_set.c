@@ -85,7 +85,7 @@ static int by_source (const void *p, const void *q)
     return (a->group > b->group) - (a->group < b->group);
 }
 
-/* Elements that do no more than name a set. */
+/* Elements that only name a set: those of lower dimension, and repetitions of solid ones. */
 static int names_a_set (const pg_mesh_builder *m, size_t e)
 {
     return m->group[e] && m->solid[e] < 0;

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Tables of the finite elements: nodes on the reference element, faces, edges, shape functions. Nodes and
- * sides are in the order of Exodus II, which fixes all tables here. */
+ * sides are in the order of Exodus II, which fixes all tables here.
+ *
+ * Shape functions are those of Lagrange (products of polynomials, or barycentric in simplices) and of the
+ * serendipity family (quad8, hex20, wedge15); they are 1 at their own node, 0 at all others, and sum to 1. */
 #include "element.h"
 #include <string.h>
 

@@ -117,7 +117,7 @@ double pg_element_outside (pg_element kind, const double *xi)
 {
     int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners,
         simplex = d > 1 && (corners == d + 1), wedge = corners == 6;
-    /* the first axes: 0 <= xi, sum <= 1; the others in [-1, 1] */
+    /* The first axes belong to a simplex (xi >= 0, sum <= 1), the others run over [-1, 1]. */
     int triangle = simplex ? d : wedge ? 2 : 0;
     double out = d == 0 ? 0 : -1, sum = 0;
     for (int a = 0; a < triangle; a++) out = fmax (out, -xi[a]), sum += xi[a];

@@ -49,9 +49,10 @@ static pg_element nodes_of (const pg_mesh_locator *f, size_t e, double x[3 * PG_
 }
 
 /* ---- boxes --------------------------------------------------------------------------------------------- */
-/* Corners bound linear elements. Other nodes move it by their distance d from the linear map; the sum of |N|
- * of those nodes is below 3 in every element of the table (hex20: (1 - x^2) + (1 - y^2) + (1 - z^2)), so 3 d
- * to each side bounds the curved one. */
+/* Box of element e, and its size (longest edge of the box of its corners). Corners bound linear elements.
+ * Other nodes move the map by their distance d from the linear map; the sum of |N| of these nodes is below
+ * 3 in every element of the table (hex20: (1 - x^2) + (1 - y^2) + (1 - z^2)), so that 3 d to each side
+ * bounds a curved element. */
 static box box_of (const pg_mesh_locator *f, size_t e, double *size)
 {
     static const pg_element linear[PG_ELEMENTS] = { PG_POINT1, PG_BAR2,  PG_BAR2,  PG_TRI3,   PG_TRI3,
@@ -301,7 +302,6 @@ double pg_mesh_locator_depth (const pg_mesh_locator *f, const double *place, dou
     return depth;
 }
 
-/* The nearest so far; d: its distance. Elements as near as that to nine digits: the lowest. */
 /* The nearest element so far, at distance d; away: d in sizes of the element. far: elements farther away
  * than their own size count too. */
 typedef struct { long element; double d, away, xi[3]; int far; } nearest;

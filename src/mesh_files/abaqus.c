@@ -282,13 +282,14 @@ done:
 /* Keywords that make nodes or elements from others: skipping them would give another mesh. */
 static int generates (const char *keyword)
 {
+    /* Generation and copying of nodes and elements, other coordinate systems, models from other files. */
     static const char *const word[] = { "NGEN",   "NFILL",  "NCOPY",  "NMAP",    "ELGEN",
                                         "ELCOPY", "SYSTEM", "IMPORT", "SUBMODEL" };
     for (size_t k = 0; k < sizeof word / sizeof *word; k++) if (strcmp (keyword, word[k]) == 0) return 1;
     return 0;
 }
 
-/* A fault if the element being read lacks nodes. */
+/* Called at every keyword and at the end of the file: a fault if the element being read lacks nodes. */
 static pg_status finish_element (const reader *r)
 {
     if (r->have < 0) return PG_OK;
@@ -361,6 +362,7 @@ done:
     return status;
 }
 
+/* Closes all files that are open. */
 static void reader_free (reader *r)
 {
     abaqus *a = &r->data;
@@ -389,7 +391,7 @@ done:
     return status;
 }
 
-/* The first line that is no comment begins with * and a letter. */
+/* The first line that is neither empty nor a comment begins with * and a letter. */
 static int knows_abaqus (const mesh_file *file)
 {
     mesh_cursor c = mesh_begin (file);

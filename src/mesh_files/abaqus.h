@@ -1,8 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: what the files of the .inp reader share: element types (abaqus_type.c), what was read before
  * names and numbers are resolved (filled by abaqus.c and abaqus_data.c), and the way from there into a mesh
- * (abaqus_sets.c). An .inp file may name sets before their members exist, and sets of sets, so that
- * resolving has to wait for the end. */
+ * (abaqus_sets.c).
+ *
+ * An .inp file may name sets before their members exist, and sets of sets, so that resolving has to wait
+ * for the end. Only one part with at most one instance can be read, because numbers are unique within a
+ * part only. */
 #ifndef MESH_ABAQUS_H
 #define MESH_ABAQUS_H
 #include "format.h"

@@ -43,6 +43,7 @@ static pg_status node_line (reader *r)
     for (int a = 0; a < 3 && !at_end (s, end); a++) {
         s = skip_comma (s, end);
         const char *before = s;
+        /* A coordinate may be left out between two commas. */
         if (empty (s, end)) continue;
         if (!mesh_real (&s, end, &x[a]) || !empty (s, end))
             PG_TRY (ABAQUS_WRONG (r, "coordinate %d of node %ld is '%.*s'", a + 1, id,
@@ -169,6 +170,7 @@ static pg_status surface_line (reader *r)
     char word[ABAQUS_WORD], face[ABAQUS_WORD] = "";
     abaqus_surface *surface = &r->data.surface[r->surface];
     abaqus_face f = { .line = now (r)->c.line, .set = -1 };
+    /* A line without a first word means all free faces in Abaqus: it names none here. */
     if (!next_word (r, &s, end, word) || !word[0]) goto done;
     next_word (r, &s, end, face);
     if (!face[0])

@@ -85,7 +85,7 @@ static pg_status gather_start (gather *g, const char *what, const abaqus_sets *s
     pg_status status = PG_OK;
     size_t twice;
     g->what = what, g->sets = sets, g->all = n, g->id = id;
-    /* numbers given twice are for the builder to tell */
+    /* Numbers that are given twice are reported by the builder. */
     PG_TRY (pg_id_table_build (&g->table, n, id, &twice));
     PG_ALLOC (g->place, n);
     PG_ALLOC (g->in, n);
@@ -148,7 +148,7 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
     return PG_OK;
 }
 
-/* Sets named by sets are walked once each, so that sets that name one another end. */
+/* Collects the members of a set; defined below, as element sets may stand within node sets. */
 static pg_status collect (resolver *r, gather *g, int set);
 /* Adds the nodes of element e. */
 static void put_nodes (resolver *r, int e)

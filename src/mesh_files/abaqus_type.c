@@ -97,6 +97,7 @@ int abaqus_side (pg_element kind, int shell, const char *face)
     int number = second - '1';
     if (letter == 'S' && (second == 'P' || second == 'N')) return shell ? -2 : -1;     /* SPOS, SNEG */
     if (!letter || !strchr ("SPE", letter) || number < 0 || number > 5 || face[2]) return -1;
+    /* S1 and S2 are the two faces of a shell, S3 and on its edges; edges are also E1 and on. */
     if (shell && letter != 'E') {
         if (number < 2) return -2;
         number -= 2;

@@ -127,6 +127,7 @@ static pg_status open_file (reader *r, const mesh_file *file)
 {
     pg_status status = PG_OK;
     r->path = file->path, r->bytes = file->size;
+    /* The library trusts the counts in a header. */
     PG_TRY (mesh_netcdf_check_header (file));
     /* netCDF does not change the bytes, though its declaration does not say so */
     NC_TRY (r, nc_open_mem (file->path, NC_NOWRITE, file->size, (void *) file->text, &r->ncid));
@@ -142,6 +143,7 @@ done:
     return status;
 }
 
+/* Closes the file if it was opened. */
 static void close_file (reader *r)
 {
     if (r->open) nc_close (r->ncid);
@@ -318,6 +320,7 @@ static pg_status add_side (const reader *r, long element, long side)
         PG_FAIL (PG_E_FILE, "%.400s: a side set has element %ld of %zu", r->path, element, r->n);
     if (side < 1 || side > 6)
         PG_FAIL (PG_E_FILE, "%.400s: a side set has side %ld of element %ld", r->path, side, element);
+    /* Edges of shells are sides 3 and on. */
     int first = r->shell[element - 1] ? 3 : 1;
     if (side < first) goto done;
     PG_TRY (pg_mesh_builder_sideset_add (r->builder, element, (int) side - first));
@@ -434,6 +437,7 @@ static pg_status read_values (const reader *r, const variable *v, size_t step, c
             nc_get_vara_double (r->ncid, v->var, (size_t[2]){ step, 0 }, (size_t[2]){ 1, r->nnode }, work));
     for (size_t i = 0; i < mesh->nnode; i++) {
         double value = work[at[i]];
+        /* A field must be finite wherever the mesh has a node. */
         if (!isfinite (value))
             PG_FAIL (PG_E_FILE, "%.400s: %s at node %ld is not finite", r->path, v->base, mesh->node_id[i]);
         field->value[i * m + c] = value;

@@ -26,6 +26,7 @@ pg_status mesh_fields_step (const char *path, size_t steps, int step, size_t *ou
 {
     pg_status status = PG_OK;
     if (steps == 0) PG_FAIL (PG_E_FILE, "%.400s holds a mesh and no results at nodes", path);
+    /* A step that does not exist is a fault of the caller's, not of the file. */
     if (step < -1 || (step >= 0 && (size_t) step >= steps))
         PG_FAIL (PG_E_USAGE, "%.400s has no step %d; its steps are 0 to %zu", path, step, steps - 1);
     *out = step < 0 ? steps - 1 : (size_t) step;

@@ -2,6 +2,8 @@
  * Private: what a reader of mesh files is, and how it walks through text. A new format is one file
  * src/mesh_files/NAME.c that ends in `const mesh_format mesh_format_NAME`, and one line in list.h.
  *
+ * A reader hands nodes, elements and sets to the builder as the file gives them (pg_mesh_builder); the
+ * builder resolves numbers, separates solid elements from those that only name a set, and checks the mesh.
  * Readers trust nothing in a file: counts are compared with the bytes that are left before memory is asked
  * for, and every fault names file and line, byte or element (PG_E_FILE). test/fuzz feeds them broken files.
  */

@@ -44,6 +44,7 @@ typedef struct {
 static int column (const reader *r, size_t at, size_t width, const char **s, const char **end)
 {
     size_t n = (size_t) (r->last - r->first);
+    /* Lines may end before their last columns. */
     if (at >= n) return 0;
     *s = r->first + at;
     *end = at + width < n ? *s + width : r->last;
@@ -199,6 +200,7 @@ static pg_status binary_elements (reader *r, long n)
         if (!p) MESH_FAIL (&r->c, "the file ends within element %ld of %ld", k + 1, n);
         PG_TRY (check_kind (r, int_at (p), int_at (p + 4), &kind));
         int nodes = pg_element_types[kind].nodes;
+        /* The number of nodes follows from the kind. */
         if (!(q = bytes (r, 4 * (size_t) nodes)))
             MESH_FAIL (&r->c, "the file ends within element %ld of %ld", k + 1, n);
         for (int i = 0; i < nodes; i++) node[i] = int_at (q + 4 * i);
@@ -256,6 +258,7 @@ static pg_status skip_values (reader *r, const block *b)
 {
     pg_status status = PG_OK;
     size_t size = 4 + (b->format == DOUBLES ? 8 : 4) * (size_t) b->components;
+    /* Text up to the line that ends the block; binary blocks by their size. */
     if (b->format < FLOATS) {
         while (next (r)) if (is_key (r, " -3")) goto done;
         MESH_FAIL (&r->c, "the file ends within %s", b->name);
@@ -303,6 +306,7 @@ static pg_status read_material (reader *r)
     char name[64];
     if (!r->builder || !whole (r, 9, 5, &n)) goto done;
     word (r, 14, 63, name, sizeof name);
+    /* The material is the group of elements of any dimension. */
     for (int dim = 1; dim <= 3; dim++) PG_TRY (pg_mesh_builder_group (r->builder, dim, n, name));
 done:
     return status;

@@ -3,6 +3,7 @@
 #include "gmsh.h"
 #include <string.h>
 
+/* Binary files have no lines. */
 const char *gmsh_at (const gmsh_reader *g, char text[40])
 {
     if (g->binary) snprintf (text, 40, "byte %zu", (size_t) (g->c.at - g->c.file->text));
@@ -50,6 +51,7 @@ pg_status gmsh_open (gmsh_reader *g, pg_mesh_builder *m, const mesh_file *file)
     if (!mesh_real (&at, last, &g->version) || !mesh_whole (&at, last, &binary)
         || !mesh_whole (&at, last, &size))
         GMSH_FAIL (g, "$MeshFormat needs version, file type and data size");
+    /* Size of a floating-point number in bytes. */
     if (size != 8) GMSH_FAIL (g, "the size of numbers is %ld bytes; only 8 is known", size);
     g->binary = binary != 0;
     if (g->binary) {
@@ -85,6 +87,7 @@ pg_status gmsh_skip (gmsh_reader *g, const char *name)
     const char *first, *last;
     size_t n = (size_t) snprintf (end, sizeof end, "$End%s", name);
     if (g->binary) {
+        /* Bytes that happen to look like the end would need the whole word $EndNAME. */
         for (const char *p = g->c.at; (p = memchr (p, '$', (size_t) (g->c.end - p))); p++)
             if ((size_t) (g->c.end - p) >= n && !memcmp (p, end, n)) {
                 g->c.at = p + n;
@@ -114,6 +117,7 @@ done:
     return status;
 }
 
+/* Blanks at the beginning are skipped as well. */
 pg_status gmsh_line (gmsh_reader *g, const char *what, const char **at, const char **last)
 {
     pg_status status = PG_OK;
@@ -125,6 +129,7 @@ done:
     return status;
 }
 
+/* What stands behind them on the line is ignored. */
 pg_status gmsh_wholes (gmsh_reader *g, const char *what, int n, long *value)
 {
     pg_status status = PG_OK;

@@ -32,9 +32,9 @@ int       gmsh_section (gmsh_reader *g, char name[64]);
 pg_status gmsh_skip    (gmsh_reader *g, const char *name);
 pg_status gmsh_end     (gmsh_reader *g, const char *name);
 pg_status gmsh_names   (gmsh_reader *g);
-/* Next line that is not blank; a fault names what was awaited. */
+/* The next line that is not blank; a fault names what was expected there. */
 pg_status gmsh_line    (gmsh_reader *g, const char *what, const char **at, const char **last);
-/* n whole numbers of one line of text. */
+/* Reads n whole numbers from one line of text. */
 pg_status gmsh_wholes  (gmsh_reader *g, const char *what, int n, long *value);
 /* Three coordinates. */
 pg_status gmsh_place   (gmsh_reader *g, const char **at, const char *last, double x[3]);

@@ -34,6 +34,7 @@ static pg_status element_of_text (gmsh_reader *g, const char *at, const char *la
         GMSH_FAIL (g, "an element needs number, type and number of tags");
     PG_TRY (gmsh_kind (g, type, id, &t));
     if (tags < 0) GMSH_FAIL (g, "element %ld has %ld tags", id, tags);
+    /* Further tags (entity, partitions) are not needed. */
     for (long k = 0; k < tags; k++) {
         if (!mesh_whole (&at, last, &tag))
             GMSH_FAIL (g, "element %ld: tag %ld of %ld is missing", id, k + 1, tags);
@@ -136,6 +137,7 @@ static pg_status read_elements (gmsh_reader *g)
     long n;
     PG_TRY (gmsh_wholes (g, "the number of elements", 1, &n));
     if (n < 0) GMSH_FAIL (g, "%ld elements", n);
+    /* Text has one element per line; binary files have blocks until all elements are read. */
     if (!g->binary) PG_TRY (elements_of_text (g, n));
     else while (n > 0) PG_TRY (block_of_bytes (g, &n));
     PG_TRY (gmsh_end (g, "Elements"));

@@ -29,6 +29,7 @@ done:
 
 /* Groups of one entity at most: an element is given once for each. */
 enum { MOST_GROUPS = 100 };
+/* A negative number says that the entity is seen from the other side: only its size names the group. */
 static pg_status add_group (reader *r, long group)
 {
     pg_status status = PG_OK;
@@ -53,6 +54,7 @@ static pg_status entity_of_text (reader *r, int dim)
     double unused;
     PG_TRY (gmsh_line (g, "the last entity", &at, &last));
     if (!mesh_whole (&at, last, &tag)) GMSH_FAIL (g, "an entity has no number");
+    /* Box of the entity, or position of a point: not needed. */
     for (int k = 0; k < (dim ? 6 : 3); k++)
         if (!mesh_real (&at, last, &unused))
             GMSH_FAIL (g, "entity %ld: number %d of its box is missing", tag, k + 1);
@@ -83,6 +85,7 @@ static pg_status entity_of_bytes (reader *r, int dim)
     for (long k = 0; k < n; k++) PG_TRY (add_group (r, gmsh_int (g)));
     if (dim == 0) goto done;
     PG_TRY (gmsh_has_left (g, "the bounds of an entity", 1, 8));
+    /* Entities that bound this one: not needed. */
     n = gmsh_long (g);
     PG_TRY (gmsh_has_left (g, "the bounds of an entity", (size_t) n, 4));
     g->c.at += 4 * (size_t) n;

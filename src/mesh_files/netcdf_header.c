@@ -123,7 +123,7 @@ pg_status mesh_netcdf_check_header (const mesh_file *file)
                    file->path, w.at);
 }
 
-/* Of a result of gigabytes only the pages of the header are read. */
+/* The file is mapped into memory: of a result of gigabytes only the pages of the header are read. */
 pg_status pg_netcdf_check_header (const char *path)
 {
     pg_status status = PG_OK;

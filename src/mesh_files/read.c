@@ -31,6 +31,7 @@ pg_status mesh_load (mesh_file *out, char **bytes, const char *path)
     if (!file || fstat (fileno (file), &about))
         PG_FAIL (PG_E_FILE, "%.400s: cannot be read: %s", path, strerror (errno));
     if (!S_ISREG (about.st_mode)) PG_FAIL (PG_E_FILE, "%.400s: is not a file", path);
+    /* One byte more, which stays 0: text ends safely. */
     PG_ALLOC (text, (size_t) about.st_size + 1);
     out->size = fread (text, 1, (size_t) about.st_size, file);
     if (out->size < (size_t) about.st_size) PG_FAIL (PG_E_FILE, "%.400s: could not be read to its end", path);

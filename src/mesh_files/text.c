@@ -44,6 +44,7 @@ int mesh_whole (const char **at, const char *last, long *value)
     p += p < last && (*p == '-' || *p == '+');
     const char *digits = p;
     for (; p < last && *p >= '0' && *p <= '9'; p++) {
+        /* The next digit could overflow. */
         if (sum > (LONG_MAX - 9) / 10) return 0;
         sum = 10 * sum + (unsigned long) (*p - '0');
     }
@@ -83,6 +84,7 @@ static const char *read_digits (const char *p, const char *last, digits *d)
             continue;
         }
         d->count++, d->behind_point += point;
+        /* Below 2^53 / 10 another digit keeps the sum exact. */
         if (d->sum < UINT64_C (900719925474099)) d->sum = 10 * d->sum + (uint64_t) (*p - '0');
         else d->exact = 0;
     }

@@ -81,6 +81,8 @@ done:
 }
 
 /* The three functions that a keeper offers, for doubles, counts and bytes. */
+/* netCDF has a 64-bit integer type but no `long`; the two are the same on all systems that
+ * this library supports. */
 _Static_assert (sizeof (long) == sizeof (int64_t), "counts are kept as 64-bit integers");
 static pg_status keep_numbers (void *c, const char *name, size_t n, double *value)
 {
@@ -133,7 +135,7 @@ static pg_status check_sum (checkpoint *c)
     NC_TRY (c->path, nc_get_var (c->ncid, last, &found));
     if (found != (int64_t) c->sum)
         PG_FAIL (PG_E_FILE,
-                 "%s is damaged or cut off: its checksum is not that of its values; begin anew with --force",
+                 "%s is damaged or cut off: its checksum is not that of its values; start anew with --force",
                  c->path);
 done:
     return status;

@@ -91,6 +91,7 @@ done:
     return status;
 }
 
+/* The names point into the text, which therefore stays in memory. */
 pg_status pg_csv_read (pg_csv *csv, const char *path)
 {
     pg_status status = PG_OK;
@@ -111,6 +112,7 @@ void pg_csv_clear (pg_csv *csv)
     memset (csv, 0, sizeof *csv);
 }
 
+/* The name ends before the bracket of the unit, blanks taken off. */
 size_t pg_csv_name (const char *column)
 {
     size_t n = strcspn (column, "[");

@@ -126,6 +126,7 @@ done:
     return status;
 }
 
+/* The request is checked before the file is touched. */
 pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
                             size_t nfield, const pg_field_view *fields)
 {
@@ -274,6 +275,7 @@ done:
 
 pg_status pg_exodus_sync (const pg_exodus *f) { return pg_disk_sync (f->path); }
 
+/* Nothing is left to write: every step was complete when its call returned. */
 void pg_exodus_close (pg_exodus **file)
 {
     if (!file || !*file) return;

@@ -185,6 +185,7 @@ done:
     return status;
 }
 
+/* All components of a field have the unit of the first. */
 pg_status pg_exodus_unit (const char *path, const char *field, char unit[16])
 {
     pg_status status = PG_OK;

@@ -154,6 +154,7 @@ void pg_json_count (pg_json *j, const char *key, size_t value)
     if (begin (j, key)) fprintf (j->file, "%zu", value);
 }
 
+/* NULL becomes null, so that optional texts need no test. */
 void pg_json_text (pg_json *j, const char *key, const char *value)
 {
     if (!begin (j, key)) return;

@@ -163,6 +163,7 @@ done:
     return status;
 }
 
+/* The same for texts; NULL is an empty cell. */
 pg_status pg_table_line (pg_table *t, const char *const *values)
 {
     pg_status status = PG_OK;

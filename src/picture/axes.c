@@ -30,6 +30,7 @@ void pg_range_decades (double *low, double *high)
     if (!(*low < 0.999 * *high)) *low = 0.1 * *high;
 }
 
+/* One pass over the values; the order of comparison does not matter, since NAN is skipped. */
 int pg_range_of (size_t n, const double *value, int log, double *low, double *high)
 {
     int found = 0;
@@ -292,6 +293,7 @@ static void foot (const pg_axis *a, double value, double x, double y, double w, 
     *px = floor (*px) + 0.5, *py = floor (*py) + 0.5;
 }
 
+/* Small ticks first, then ticks, texts and the label. */
 void pg_axis_draw (const pg_axis *a, cairo_t *cr, double x, double y, double w, double h)
 {
     double px, py, dx = a->side == PG_LEFT ? -1 : a->side == PG_RIGHT, dy = a->side == PG_BOTTOM,

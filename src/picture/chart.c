@@ -157,6 +157,7 @@ static void draw_chart (const chart *c, cairo_t *cr, size_t ncurve, const pg_cur
     if (style->title) pg_title (cr, style->title, c->left + 0.5 * c->width, c->top - 34, c->total);
 }
 
+/* The layout comes before the file is created, since it decides how wide the picture is. */
 pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *curves,
                             const pg_chart_style *style)
 {

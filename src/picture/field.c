@@ -330,6 +330,7 @@ done:
  * plane. */
 typedef struct { double *place, *shift, *damage, *size; } plane_points;
 
+/* Frees the arrays of the points in the plane. */
 static void free_plane_points (plane_points *p)
 {
     pg_free (p->place), pg_free (p->shift), pg_free (p->damage), pg_free (p->size);
@@ -557,6 +558,7 @@ done:
     return status;
 }
 
+/* A 2D cloud needs no lattice: its spacing or that of each point is enough. */
 pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel,
                              int columns, const pg_picture_style *style)
 {

@@ -248,6 +248,7 @@ done:
     return canvas.path ? pg_canvas_close (&canvas, status) : status;
 }
 
+/* The order: view, places of the nodes, faces, frame, drawing. */
 pg_status pg_picture_mesh (const char *path, const pg_mesh *mesh, const double *value,
                            const pg_picture_style *style)
 {

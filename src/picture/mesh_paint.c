@@ -74,6 +74,8 @@ static float light_of (const mesh_drawing *d, const double (*x)[3])
  * grid. */
 typedef struct { int triangle, m, stride; double at[SPOTS][3], x[SPOTS][3], value[SPOTS]; } face_grid;
 
+/* Fills the grid of a face: places, pixels with depth, and values. A face with a category of
+ * its own has one value. */
 static void sample_face (const mesh_drawing *d, const pg_screen *s, size_t f, face_grid *g)
 {
     int node[9];
@@ -101,6 +103,8 @@ static void paint_triangle (const mesh_drawing *d, pg_screen *s, const face_grid
         pg_triangle (s, (const double (*)[3]) v, 0, light_of (d, (const double (*)[3]) y), w);
 }
 
+/* Paints the triangles between the places of the grid: two for each square, one at the long
+ * side of a triangle. */
 static void paint_face (const mesh_drawing *d, pg_screen *s, size_t f)
 {
     face_grid g;

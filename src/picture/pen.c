@@ -7,17 +7,20 @@
 
 enum { DASHES = 4 };
 
+/* A logarithmic axis has no place for zero and negative values. */
 int pg_chart_visible (const chart *c, double x, double y)
 {
     return isfinite (x) && isfinite (y) && (!c->x.log || x > 0) && (!c->y.log || y > 0);
 }
 
+/* Pixels count downwards, values upwards. */
 void pg_chart_place (const chart *c, double x, double y, double *px, double *py)
 {
     *px = c->left + pg_axis_at (&c->x, x) * c->width;
     *py = c->top + (1 - pg_axis_at (&c->y, y)) * c->height;
 }
 
+/* Curves 9 to 16 have the colours of the first eight with dashes, and so on. */
 void pg_chart_pen (cairo_t *cr, size_t k)
 {
     static const double dash[DASHES][4] = { { 0 }, { 14, 7, 14, 7 }, { 3, 6, 3, 6 }, { 16, 6, 3, 6 } };

@@ -102,6 +102,8 @@ static void keep_near (const pg_spots *s, size_t n, const unsigned short *seen, 
     }
 }
 
+/* Lattice cells and irregular points share the arrays but not the rule that decides which
+ * pixels stay. */
 pg_status pg_raster (const pg_spots *spots, int width, int height, int *owner)
 {
     pg_status status = PG_OK;

@@ -61,6 +61,7 @@ done:
     return status;
 }
 
+/* Looks into the buckets that the circle touches. */
 size_t pg_tiles_near (const pg_tiles *t, const double *at, double reach, size_t most, int *out)
 {
     size_t n = 0;

@@ -169,6 +169,8 @@ static long beside (const pg_tiles *t, const double *place)
     return best;
 }
 
+/* Places are taken a thousandth of a spacing beside the crack, on the side that is asked for,
+ * so that they see the points of that side only. */
 void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int side, size_t n, double *out)
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot (dx, dy),

@@ -152,6 +152,7 @@ void pg_wire_cracks (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid
     cairo_restore (cr);
 }
 
+/* NAN begins a new line, and so does each face. */
 void pg_wire_faces (const pg_sheet *p, cairo_t *cr, size_t panel, size_t n, size_t m, const double *place)
 {
     double x, y;

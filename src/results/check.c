@@ -201,7 +201,8 @@ void pg_result_check_names (const pg_scene *scene)
     const pg_force_type *force = pg_force_find (pg_scene_text (scene, "method.force"));
     int dim = (int) pg_scene_integer (scene, "dimension"),
         turns = force && dim > 0 && dim < 4 ? force->method.rotations[dim] : 0;
-    /* no list: told already */
+    /* A scene without a valid dimension, or without that list, has other faults, which are
+     * reported elsewhere. */
     if (dim < 1 || dim > 3 || !pg_scene_given (scene, "output.pictures[0]")) return;
     picture_names (dim, turns, names, sizeof names);
     check_pictures (scene, names);

@@ -346,7 +346,7 @@ int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
     int used = snprintf (out, size, "%s: ", tip->name);
     out += used, size -= (size_t) used;
     if (!run.moved)
-        return snprintf (out, size, "%s", tip->length[r->tips - 1] > 0 ? "does not run" : "there is none"), 1;
+        return snprintf (out, size, "%s", tip->length[r->tips - 1] > 0 ? "does not grow" : "no crack"), 1;
     used = snprintf (out, size, "%.4g to %.4g mm", 1e3 * tip->length[run.first],
                      1e3 * tip->length[r->tips - 1]);
     out += used, size -= (size_t) used;

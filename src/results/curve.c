@@ -109,6 +109,7 @@ static double initial_stiffness (const pg_result *r, size_t peak)
     for (size_t i = 0; i <= peak && !by_events (r); i++)
         if (fabs (r->curve_y[i]) <= 0.4 * fabs (r->curve_y[peak]))
             xy += r->curve_x[i] * r->curve_y[i], xx += r->curve_x[i] * r->curve_x[i];
+    /* Least squares through the origin: k = sum x y / sum x^2. */
     if (xx > 0 && xy != 0) return xy / xx;
     return r->curve_x[0] != 0 ? r->curve_y[0] / r->curve_x[0] : NAN;
 }

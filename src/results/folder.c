@@ -50,6 +50,7 @@ static pg_status claim (int file, const char *path, const char *folder, int *ret
     pg_status status = PG_OK;
     char host[128], here[128] = "", text[200];
     gethostname (here, sizeof here - 1);
+    /* A blank would end the name when the lock is read back. */
     for (char *c = here; *c; c++) if (*c == ' ') *c = '_';
     int taken = flock (file, LOCK_EX | LOCK_NB) != 0, without_locks = taken && errno != EWOULDBLOCK;
     long process = owner_of (file, host);
@@ -64,6 +65,7 @@ static pg_status claim (int file, const char *path, const char *folder, int *ret
             PG_E_USAGE,
             "%s may be in use by a run on another host (process %ld on %s): if that run is over, remove %s",
             folder, process, host, path);
+    /* The text serves people, and hosts that do not see the lock of this one. */
     int n = snprintf (text, sizeof text, "%ld %s\n", (long) getpid (), *here ? here : "unknown");
     if (ftruncate (file, 0) != 0 || pwrite (file, text, (size_t) n, 0) != n)
         PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
@@ -233,7 +235,7 @@ static pg_status must_not_be_the_users (const char *folder, const pg_scene *scen
     if (same_file (path, pg_scene_file (scene))) {
         if (pg_scene_setting (scene, 0) || strstr (present, "\n# --set "))
             PG_FAIL (PG_E_USAGE,
-                     "%s is the scene itself, and a run notes its --set options there: name another folder "
+                     "%s is the scene itself, in which a run would note its --set options: name another folder "
                      "with -o",
                      path);
         goto done;
@@ -244,7 +246,7 @@ static pg_status must_not_be_the_users (const char *folder, const pg_scene *scen
     if (!report)
         PG_FAIL (
             PG_E_USAGE,
-            "%s/scene.yaml was not put there by a run and would be written over: name another folder with -o",
+            "%s/scene.yaml was not written by a run and would be overwritten: name another folder with -o",
             folder);
 done:
     pg_free (report);
@@ -268,15 +270,15 @@ pg_status pg_result_may_open (const char *folder, const pg_scene *scene)
     PG_TRY (count_rows (folder, &rows));
     if (there_is (folder, "checkpoint.nc"))
         PG_FAIL (PG_E_USAGE,
-                 "%s holds a run that is not finished, %ld rows of history.csv and a checkpoint: go on with "
-                 "--resume, begin anew with --force, or name "
+                 "%s holds an unfinished run, %ld rows of history.csv and a checkpoint: continue with "
+                 "--resume, start anew with --force, or name "
                  "another folder with -o",
                  folder, rows);
     if (rows < 1 || there_is (folder, "report.json")) goto done;
     PG_TRY (copy_text (&copy, scene));
     if (!present || strcmp (present, copy) != 0)
         PG_FAIL (PG_E_USAGE,
-                 "%s holds %ld rows of history.csv of another run that did not come to its end: replace them "
+                 "%s holds %ld rows of history.csv of another run that did not finish: replace them "
                  "with --force, or name another folder with -o",
                  folder, rows);
 done:

@@ -1,7 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * history.csv has one row per step with reactions and mean displacements of every load,
- * gauges, averages, cracks, energies and the work of the solver; events.csv has one row per
- * broken bond. doc/output.md explains all columns. */
+ * history.csv has one row per step:
+ *
+ *   step, time, load_factor
+ *   per load     reaction (N; N m for rotations) and mean displacement of its points (m; rad), per component
+ *   per gauge    opening, m                     per entry of output.averages   its mean
+ *   per entry of output.tips   length of the crack, m
+ *   energies (J), broken bonds, iterations, residual, utilisation, event, level
+ *
+ * events.csv has one row per broken bond: when, where, how, and which kind of bond. Both
+ * tables are read by other programs and by our own (`perigal plot --curve`, converge), by the
+ * names of the columns. doc/output.md explains all of them. */
 #include "results_private.h"
 #include <math.h>
 #include <stdio.h>

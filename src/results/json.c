@@ -1,6 +1,18 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * report.json: what the run did, under fixed keys that doc/output.md explains. Numbers are in
- * SI units. */
+ * SI units; what is not known is null or missing.
+ *
+ *   (no key)   sizes of the problem, steps, events, iterations, work of the linear solver, energies
+ *   curve      peak of the load-displacement curve and its stiffnesses        (curve.c)
+ *   new_crack  what the broken bonds amount to                                (crack.c)
+ *   patch      patch test of the discretization before the first step
+ *   error_estimate, error   of the last stress, and against the reference of the scene
+ *   seconds    where the time went
+ *   tips       cracks that were followed
+ *   skipped, warnings, notes   what the solver left out and why, and what the user should know
+ *
+ * It is written last: a folder with a report holds a run that came to its end, or that ended
+ * early for the reason in `outcome`. */
 #include "results_private.h"
 #include <limits.h>
 #include <stdio.h>

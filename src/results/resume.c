@@ -54,7 +54,7 @@ static pg_status keep_files (memory *m, const pg_keeper *k)
         if (memcmp (hash[i], r->named[i].hash, WORD) != 0)
             PG_FAIL (PG_E_USAGE,
                      "%s (%s of the scene) has changed since %s was written: bring back what it was, or "
-                     "begin anew with --force",
+                     "start anew with --force",
                      r->named[i].path, r->named[i].key, m->path);
 done:
     pg_free (hash);
@@ -68,6 +68,7 @@ static pg_status keep_identity (memory *m, const pg_keeper *k)
     pg_status status = PG_OK;
     const pg_problem *p = m->r->problem;
     char version[WORD] = PG_VERSION, hash[WORD + 1] = "";
+    /* Whatever changes one of these numbers makes the checkpoint useless for this problem. */
     long size[] = { (long) p->cloud.n,       (long) p->first_bond[PG_BOND_SETS],
                     (long) m->state->ndof,   (long) p->nload,
                     fingerprint (&p->cloud), (long) m->r->ntip };
@@ -231,6 +232,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     double t0 = pg_seconds ();
     snprintf (path, sizeof path, "%s/checkpoint.nc", r->folder);
     memory m = memory_of (r, state, path);
+    /* Rows first, then the marks that count them. */
     PG_TRY (pg_table_sync (r->history));
     PG_TRY (pg_table_sync (r->events));
     PG_TRY (pg_exodus_sync (r->file));
@@ -294,7 +296,7 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
     m.path = path;
     PG_TRY (pg_result_check (scene, problem));
     if (access (path, F_OK) != 0)
-        PG_FAIL (PG_E_USAGE, "there is no %s to go on from: run without --resume", path);
+        PG_FAIL (PG_E_USAGE, "there is no %s to continue from: run without --resume", path);
     PG_ALLOC (r, 1);
     m.r = r;
     PG_TRY (pg_result_prepare (r, folder, scene, problem, solver));

@@ -16,8 +16,8 @@ int pg_listed (const char *names, const char *name)
     return 0;
 }
 
-/* Puts the names of `map` into a pattern that begins alike: "materials.{}.density" below "materials.glass"
- * becomes "materials.glass.density". 0: it begins otherwise. */
+/* Puts the names of `map` into a pattern that begins alike: "materials.{}.density" with the map
+ * "materials.glass" becomes "materials.glass.density". 0: the pattern does not begin like the map. */
 static int concrete (char out[PG_PATTERN], const char *pattern, const char *map)
 {
     const char *at = map;
@@ -49,8 +49,8 @@ const char *pg_scene_stray (const pg_scene *s, size_t k, const char *map, char p
     return NULL;
 }
 
-/* What is written for the selector of a key, or its default: when selector and key stand in the same map,
- * `node` of the pattern; NULL: not known here. */
+/* The entry that is chosen by the selector of a key, written or by default, where selector and key stand in
+ * the same map, `node` of this pattern; NULL: this is not known here. */
 static const char *chosen_entry (const pg_scene *s, const pg_node *node, const char *pattern,
                                  const char *selector, char first[PG_LEVEL_NAMES])
 {

@@ -178,8 +178,8 @@ static pg_status load_one (reader *r, yaml_parser_t *parser, pg_node *root, cons
     return status;
 }
 
-/* libyaml looks at all open brackets for every one that follows, so they are counted before it builds a tree;
- * other faults are told then. */
+/* For every bracket libyaml looks at all that are open, so that deep nesting costs quadratic time: the
+ * depth is checked by its events before the tree is built. Other faults are found when it is. */
 static pg_status check_depth (reader *r, const char *text, size_t length)
 {
     yaml_parser_t parser;

@@ -165,6 +165,6 @@ int pg_solver_note (const pg_problem *p, const pg_solver_options *o, size_t k, c
         return 1;
     }
     if (!*o->unused || k > 0) return 0;
-    snprintf (out, size, "without meaning for solver.kind: %s, in solver: %s", o->kind, o->unused);
+    snprintf (out, size, "ignored with solver.kind: %s, in solver: %s", o->kind, o->unused);
     return 1;
 }

@@ -89,7 +89,7 @@ pg_status event_stops (pg_solver *s, const pg_state *state, double factor, doubl
     double share = e->secant = secant / e->secant0;
     if (s->problem->nload
         && (share < least || share > 1 / fmax (least, 1e-12))) {
-        pg_statistics_warn (&s->report, "the body is apart: the run ends at event %ld, load factor %.6g",
+        pg_statistics_warn (&s->report, "the body has separated: the run ends at event %ld, load factor %.6g",
                             state->events, factor);
         s->finished = 1;
     }

@@ -525,6 +525,6 @@ void relaxation_read (pg_solver_options *o, const pg_problem *problem, const pg_
 
 const char *relaxation_manner (const pg_solver_options *o)
 {
-    return PG_OWN (pg_stages_options, o)->hold ? ", each stage held until balanced"
-                                               : ", one iteration a stage";
+    return PG_OWN (pg_stages_options, o)->hold ? ", each stage iterated to equilibrium"
+                                               : ", one iteration per stage";
 }

@@ -87,7 +87,7 @@ static const pg_key keys[] = {
          "Number of equal load steps, with stepping: fixed."),
     ROW ("solver.stop.stiffness", PG_NUMBER, "1", "[0, 1)", "1e-3", NULL,
          "Event stepping ends when breaking has brought the work per squared load factor below this share of "
-         "its first value (the body is apart)."),
+         "its first value (the body has separated)."),
 };
 static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 

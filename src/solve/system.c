@@ -218,7 +218,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
         }
         if (s->problem->sums)
             PG_FAIL (PG_E_NOT_SPD,
-                     "%s; bonds leave parts of the body free to move: hold them, or set solver.linear: pcg",
+                     "%s; bonds leave parts of the body free to move: constrain them, or set solver.linear: pcg",
                      pg_last_error ());
         if (!automatic || s->umfpack)
             PG_FAIL (PG_E_NOT_SPD,

@@ -7,12 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Order of doubles for qsort. */
 static int ascending (const void *a, const void *b)
 {
     double p = *(const double *) a, q = *(const double *) b;
     return (p > q) - (p < q);
 }
 
+/* Least, median and largest CPU seconds of the repeats of a case; NAN if none came to an end. */
 void pg_bench_spread (const pg_bench_case *c, double *least, double *median, double *largest)
 {
     double sorted[PG_BENCH_REPEATS];
@@ -70,7 +72,8 @@ static void tell (FILE *out, const pg_bench_case *c)
     fflush (out);
 }
 
-/* A combination that cannot be leaves its larger sizes out too; a run that failed only ends with a note. */
+/* Notes why a case did not run, and marks the smaller sizes of an impossible combination as
+ * skipped. */
 static void note_trouble (pg_bench_cases *cases, size_t k, pg_status outcome)
 {
     pg_bench_case *c = &cases->at[k];
@@ -80,6 +83,7 @@ static void note_trouble (pg_bench_cases *cases, size_t k, pg_status outcome)
         snprintf (cases->at[i].trouble, sizeof c->trouble, "skipped: see the size before");
 }
 
+/* Keeps the CPU seconds of a run, and its other numbers if no repeat took less. */
 static void count_run (pg_bench_case *c, const pg_trial *t)
 {
     if (c->runs < PG_BENCH_REPEATS) c->cpu[c->runs] = t->value[PG_TRIAL_CPU];

@@ -5,6 +5,7 @@
 #define PG_STUDY_BENCH_H
 #include "perigal/study.h"
 
+/* Largest number of repeats. */
 enum { PG_BENCH_REPEATS = 100 };
 /* A point of a curve: one scene, one method, one size. */
 typedef struct {
@@ -21,9 +22,10 @@ typedef struct {
     /* "mesh.file=..." for such a scene, once the mesh is made. */
     char   mesh[4300];
     size_t nset;
-    /* The repeat with the least CPU seconds. */
+    /* The numbers of the repeat with the least CPU seconds. */
     pg_trial best;
-    double cpu[PG_BENCH_REPEATS];                      /* s of every run, in the order of running (runs) */
+    /* CPU seconds of every run, in the order of running (runs), s. */
+    double cpu[PG_BENCH_REPEATS];
 } pg_bench_case;
 typedef struct { size_t n, cap, ncurve; pg_bench_case *at; } pg_bench_cases;
 

@@ -27,6 +27,7 @@ static const char *const words[FIRST] = { "case",  "method",  "approximation", "
 static const char *const word_key[FIRST] = { [2] = "method.approximation=", [3] = "method.integration=",
                                              [4] = "method.basis=" };
 
+/* The words of a row: an entry of a catalogue that a case replaces stands in its own column. */
 static void fill_words (const pg_bench_case *c, const char *cell[FIRST])
 {
     const char *fixed[FIRST] = { c->name, c->method,  "",       "",
@@ -39,6 +40,7 @@ static void fill_words (const pg_bench_case *c, const char *cell[FIRST])
     }
 }
 
+/* The numbers of a row as text; what is not known stays empty. */
 static void fill_numbers (const pg_bench_case *c, char number[NUMBERS][32])
 {
     double value[NUMBERS], least;

@@ -62,7 +62,7 @@ if command -v ccx > /dev/null && command -v python3 > /dev/null; then
 fi
 expect "a result of CalculiX that is none"             70 '' 'nowhere.frd' bench --fem-row $beam nowhere.frd m
 expect "bench: an entry that is none names the nearest" 64 '' 'did you mean rkpm' bench $beam --approximation rkpn
-expect "bench: an option that is none"                 64 '' 'there is no option --spacin (did you mean --spacing' bench $beam --spacin 3
+expect "bench: an option that is none"                 64 '' 'unknown option --spacin (did you mean --spacing' bench $beam --spacin 3
 expect "bench: a list without its value"               64 '' '--spacing needs a list' bench $beam --spacing
 expect "bench: a scene that is none"                   65 '' '^nowhere.yaml' bench nowhere.yaml -o "$work/none"
 expect "bench --help"                                   0 'dofs_error.png' '' bench --help

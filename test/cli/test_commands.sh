@@ -10,7 +10,7 @@ expect "unknown command names the nearest"    64 '' 'did you mean check?' chek
 expect "run without a scene"                  64 '' 'needs exactly one scene file' run
 expect "run with two scenes"                  64 '' 'needs exactly one scene file' run plate.yaml plate.yaml
 expect "run --help"                            0 'result folder' '' run --help
-expect "unknown option is named"              64 '' 'there is no option --foo' run plate.yaml --foo
+expect "unknown option is named"              64 '' 'unknown option --foo' run plate.yaml --foo
 expect "option without its value"             64 '' '--out needs a value' run plate.yaml --out
 expect "wrong number of threads"              64 '' '--threads x' run plate.yaml --threads x
 expect "--set without ="                      64 '' 'KEY=VALUE is needed' run plate.yaml --set spacing
@@ -40,7 +40,7 @@ verdict "all files are there" $good
 rows=$(($(wc -l < "$out/history.csv") - 1)); grep -q "\"steps\": $rows," "$out/report.json"; verdict "history.csv has one row a step" $?
 broken=$(($(wc -l < "$out/events.csv") - 1)); [ $broken -gt 0 ] && grep -q "\"broken\": $broken," "$out/report.json"; verdict "events.csv has one row a bond" $?
 grep -q '^# --set solver.max_events=3$' "$out/scene.yaml"; verdict "the copy of the scene tells the overrides" $?
-expect "the copy is a scene"                   0 'the scene is right' '' check "$out/scene.yaml"
+expect "the copy is a scene"                   0 'the scene is valid' '' check "$out/scene.yaml"
 expect "run --quiet is quiet"                  0 '' '' run plate.yaml -o "$work/quiet" --quiet --threads 1 --set 'failure={criterion: none}'
 expect "a run ends where a wrong scene does"  65 '' 'unknown key' run wrong/unknown_key.yaml -o "$work/none"
 [ ! -e "$work/none" ]; verdict "a wrong scene leaves no folder" $?
@@ -168,7 +168,7 @@ for _ in $(seq 200); do [ "$(cat "$work/stopped/history.csv" 2> /dev/null | wc -
 kill -INT $pid; wait $pid; code=$?
 [ $code -eq 130 ]; verdict "SIGINT: exit code 130 (got $code)" $?
 grep -q 'interrupted' "$work/stopped/report.json"; verdict "SIGINT: the report tells it" $?
-expect "an unfinished run is not replaced"    64 '' 'go on with --resume, begin anew with --force' run plate.yaml -o "$work/stopped" --threads 1
+expect "an unfinished run is not replaced"    64 '' 'continue with --resume, start anew with --force' run plate.yaml -o "$work/stopped" --threads 1
 grep -q 'interrupted' "$work/stopped/report.json" && [ -s "$work/stopped/checkpoint.nc" ]; verdict "it stays as it was" $?
 expect "SIGINT: results are readable"          0 'damage.png' '' plot "$work/stopped"
 expect "--force begins anew"                   0 'results in' '*' run plate.yaml -o "$work/stopped" --threads 1 --set solver.max_events=1 --force
@@ -177,6 +177,6 @@ expect "a finished run is run again"           0 'results in' '*' run plate.yaml
 expect "--force and --resume"                 64 '' 'exclude each other' run plate.yaml -o "$work/stopped" --force --resume
 mkdir "$work/own"; cp plate.yaml "$work/own/scene.yaml"
 expect "a scene in its own result folder"     64 '' 'is the scene itself' run "$work/own/scene.yaml" -o "$work/own" --threads 1 --set solver.max_events=1
-expect "another scene over one of the user"   64 '' 'was not put there by a run' run plate.yaml -o "$work/own" --threads 1 --set solver.max_events=1
+expect "another scene over one of the user"   64 '' 'was not written by a run' run plate.yaml -o "$work/own" --threads 1 --set solver.max_events=1
 cmp plate.yaml "$work/own/scene.yaml" > "$work/out" 2>&1; verdict "the scene is as it was" $?
 finish

@@ -65,6 +65,6 @@ compare "no folder"                            64 '' 'is no result folder' "$wor
 compare "no such reference"                    70 '' 'nowhere' "$work/one" "$work/nowhere"
 compare "no such step"                         64 '' 'its steps are 0 to 0' "$work/one" --step 3
 compare "no such step of the reference"        64 '' 'one/result.e has no step 3' "$work/two" "$work/one" --reference-step 3
-compare "unknown option"                       64 '' 'there is no option --foo' "$work/one" --foo
+compare "unknown option"                       64 '' 'unknown option --foo' "$work/one" --foo
 compare "nothing"                              64 '' 'perigal compare DIR' 
 finish

@@ -86,14 +86,14 @@ for _ in $(seq 60); do                                 # too late: earlier; befo
     [ -e "$work/half/checkpoint.nc" ] && break
     delay=$((delay * 11 / 10 + 5))
 done
-[ $code -eq 130 ] && grep -q 'go on with: perigal run plate.yaml -o .*--set .spacing=0.5 mm. .*--resume' "$work/err"; verdict "TERM: exit code 130 and the command to go on" $?
+[ $code -eq 130 ] && grep -q 'continue with: perigal run plate.yaml -o .*--set .spacing=0.5 mm. .*--resume' "$work/err"; verdict "TERM: exit code 130 and the command to go on" $?
 grep -q '"outcome": "interrupted' "$work/half/report.json"; verdict "TERM: the report tells it" $?
 sum=$(cd "$work/half" && cat checkpoint.nc history.csv result.e | cksum)
 run "${event[@]}" --set solver.tie=1e-9 -o "$work/half" --resume; [ $? -eq 64 ] && grep -q 'of another scene' "$work/err" && [ "$sum" = "$(cd "$work/half" && cat checkpoint.nc history.csv result.e | cksum)" ]
 verdict "a changed scene is refused, the folder stays" $?
 head -c 3000 "$work/half/checkpoint.nc" > "$work/cut" && cp -r "$work/half" "$work/torn" && cp "$work/cut" "$work/torn/checkpoint.nc"
 run "${event[@]}" -o "$work/torn" --resume; [ $? -eq 70 ] && grep -q 'checkpoint.nc' "$work/err"; verdict "a torn checkpoint is refused" $?
-run "${event[@]}" -o "$work/half"; [ $? -eq 64 ] && grep -q 'holds a run that is not finished' "$work/err"; verdict "without --resume or --force it is not replaced" $?
+run "${event[@]}" -o "$work/half"; [ $? -eq 64 ] && grep -q 'holds an unfinished run' "$work/err"; verdict "without --resume or --force it is not replaced" $?
 run "${event[@]}" -o "$work/half" --force; code=$?; same "$work/event" "$work/half" > "$work/why" 2>&1; verdict "with --force it begins anew" $((code + $?))
 
 # ---- disks: limited file size (EFBIG), a small disk (ENOSPC), a folder that cannot be written

@@ -74,12 +74,12 @@ expect "a step that is not there: which are"    64 '' 'has no step 99; its steps
 verdict "help KEY tells all of a key, in each of its places" $?
 
 # ---- a value that lost its quotes --------------------------------------------------------------------------------------------
-expect "--set KEY=VALUE without quotes"         64 '' "'mm' is no file: a value with blanks needs quotes: --set 'spacing=4 mm'" check plate.yaml --set spacing=4 mm
+expect "--set KEY=VALUE without quotes"         64 '' "'mm' is not a file: a value with blanks needs quotes: --set 'spacing=4 mm'" check plate.yaml --set spacing=4 mm
 expect "the same before the scene"              64 '' "quotes: --set 'spacing=4 mm'" check --set spacing=4 mm plate.yaml
 expect "a map without quotes"                   64 '' "quotes: --set 'failure={criterion: none}'" run plate.yaml -s failure={criterion: none} -o "$work/none"
 expect "converge says it too"                   64 '' "quotes: --set 'spacing=4 mm'" converge plate.yaml --set spacing=4 mm
 expect "a scene that is not there is no value"  65 '' '^nowhere.yaml: cannot be opened' check --set spacing=4 nowhere.yaml
-expect "an option of nothing"                   64 '' 'there is no option --verson (did you mean --version?)' --verson
-expect "a misspelt option of run"               64 '' 'there is no option --reume (did you mean --resume?)' run plate.yaml --reume
+expect "an option of nothing"                   64 '' 'unknown option --verson (did you mean --version?)' --verson
+expect "a misspelt option of run"               64 '' 'unknown option --reume (did you mean --resume?)' run plate.yaml --reume
 expect "help of a misspelt command"             64 '' 'or the command run?' help runn
 finish

@@ -181,7 +181,7 @@ static void the_users_scene_stays (void **state)
         pg_free (text);
     }
     check_fails (pg_result_open (&result, mine, r.scene, r.problem, r.solver), PG_E_USAGE);
-    check_contains (pg_last_error (), "scene.yaml was not put there by a run");
+    check_contains (pg_last_error (), "scene.yaml was not written by a run");
     text = slurp (path);
     assert_string_equal (text, SCENE);
     pg_free (text);

@@ -1,0 +1,116 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What each command says of itself: the synopsis and the options, at most 100 columns wide. Shown by
+ * `perigal help COMMAND`, by --help, and after a command line that could not be understood; .ci/man makes
+ * the man page of it. */
+#include "cli.h"
+#include <string.h>
+
+static const char run[] =
+    "perigal run SCENE.yaml [-o DIR] [--resume | --force] [--threads N] [--memory SIZE]\n"
+    "            [--set KEY=VALUE]... [--quiet]\n"
+    "  Solves a scene and writes a result folder.\n"
+    "  -o, --out DIR        result folder, created if needed; default: out/NAME, where NAME is that of\n"
+    "                       the scene's folder or file\n"
+    "      --resume         continue an interrupted run from DIR/checkpoint.nc, with the same scene and\n"
+    "                       --set\n"
+    "      --force          start anew in a folder with an interrupted run; its checkpoint and rows are\n"
+    "                       lost\n"
+    "      --threads N      0 (the default): one per processor\n"
+    "      --memory SIZE    limit, such as 8GB; default: what the machine has free. A run that needs more\n"
+    "                       is refused before it starts\n"
+    "  -s, --set KEY=VALUE  replace or add a value of the scene, such as method.horizon='2.5 spacing'\n"
+    "  -q, --quiet          no progress and no summary; warnings are in DIR/report.json\n"
+    "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) writes a checkpoint after the current break round and stops; a\n"
+    "  second one stops at once.\n";
+
+static const char check[] =
+    "perigal check SCENE.yaml [--json] [--solve] [--spectrum [-o DIR]] [--memory SIZE]\n"
+    "              [--set KEY=VALUE]... [--quiet]\n"
+    "  Reports all faults of a scene with line and column; of a valid scene, what a run would do: points,\n"
+    "  bonds, unknowns, memory, material constants, time steps, and what it will skip.\n"
+    "      --solve          solve once at load factor 1: at which load the first bond breaks, and where;\n"
+    "                       the stable time step\n"
+    "      --spectrum       plane waves of the lattice: whether every motion is resisted, how fast long\n"
+    "                       waves are, which time step is stable; with -o DIR also DIR/spectrum.csv and\n"
+    "                       spectrum.png, the frequencies along the edges of the Brillouin zone\n"
+    "      --json           the same as JSON\n"
+    "      --memory SIZE    limit, such as 8GB; default: what the machine has free. A scene that needs\n"
+    "                       more is refused\n";
+
+static const char plot[] =
+    "perigal plot DIR [--field damage|stress.yy|displacement.x ...] [--step N|all | --steps N,N,...]\n"
+    "             [--view SIDE|iso|crack] [--section CUT] ...\n"
+    "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
+    "  Draws a field of DIR/result.e (by default damage at the last step), or two columns of\n"
+    "  DIR/history.csv, as PNG or SVG. All options: perigal plot --help.\n";
+
+static const char compare[] =
+    "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S]\n"
+    "                [--out FILE.png] [--json] [--quiet]\n"
+    "  Norms of the difference between the result in DIR and a reference: that of its scene, or\n"
+    "  REFERENCE, which may be a table (.csv with columns such as x [mm], y [mm], u_x [mm], s_xx [MPa]),\n"
+    "  another result folder or a finite element result (CalculiX .frd, Exodus). Writes DIR/compare.csv,\n"
+    "  compare.json, compare.png.\n"
+    "      --step N         step of DIR/result.e, by default the last;  --reference-step N: of the\n"
+    "                       reference\n"
+    "      --field NAME     shown in the picture: displacement, stress, displacement.x, stress.xx ...\n"
+    "      --unit mm        length unit of a finite element result, and of columns of a table without a\n"
+    "                       unit\n"
+    "      --shift X,Y,Z    move the reference, in m unless a unit is given;  --scale S: multiply its\n"
+    "                       values\n";
+
+static const char bench[] =
+    "perigal bench [SCENE.yaml]... [--approximation A,B] [--integration A,B] [--basis A,B]\n"
+    "              [--spacing A,B] [--perturb 0,0.2] ...\n"
+    "  Runs every combination, each in its own process, and measures it against the reference of the\n"
+    "  scene. Writes DIR/bench.csv, time_error.png, dofs_error.png. A list that is not given stands for\n"
+    "  the whole catalogue; without --spacing: twice, once and half the spacing of the scene.\n"
+    "      --force, --approximation, --integration, --basis LIST\n"
+    "                       entries of the catalogues (perigal list)\n"
+    "      --spacing, --horizon, --perturb, --cells LIST\n"
+    "                       such as --spacing '1 mm,0.5 mm' or --horizon 2,2.5 (in spacings)\n"
+    "      --fem            also solve the same bodies with CalculiX (ccx, one thread); --fem-element\n"
+    "                       CPS4,CPS8 and --fem-size 8,16,32 choose elements and sizes\n"
+    "      --mesh-size LIST sizes of scenes on a mesh of data/calculix/make_mesh.py, such as\n"
+    "                       data/kirsch_mesh; default: those of --fem-size, or 8,16,32\n"
+    "      --repeat N       run everything N times, one after the other; bench.csv then holds the least,\n"
+    "                       the median and the largest CPU seconds, and the least are drawn\n"
+    "      --threads N      per run, default 1\n"
+    "  -o, --out DIR        default out/bench\n"
+    "  -s, --set KEY=VALUE  for every run\n"
+    "  -q, --quiet          print nothing\n";
+
+static const char converge[] =
+    "perigal converge SCENE.yaml [--spacing 4] [--ratio 2] [--horizon 2,2.5,3] [--delta | --m] [-o DIR]\n"
+    "                 [--set KEY=VALUE]... [--threads N]\n"
+    "  Runs a scene at decreasing spacings and finds, for every number that it gives (errors, reactions,\n"
+    "  displacements, gauges, averages, energies), the order of convergence, Richardson's value and the\n"
+    "  estimated error. Writes DIR/convergence.csv, convergence.png.\n"
+    "      --spacing N      how many spacings: the scene's own and N - 1 smaller ones; default 4 (3 with\n"
+    "                       --m)\n"
+    "      --ratio R        of one spacing to the next, default 2\n"
+    "      --horizon LIST   horizons in spacings, one study each; default: that of the scene\n"
+    "      --delta          keep horizon / spacing constant, so that both go to 0 (the default)\n"
+    "      --m              keep the horizon of the first spacing, so that the number of neighbours grows\n"
+    "  -o, --out DIR        default out/converge\n"
+    "  -q, --quiet          print nothing\n";
+
+static const char list[] = "perigal list\n"
+                           "  The methods, kernels, criteria and solvers of this build, one line each.\n";
+
+static const char help[] =
+    "perigal help [KEY | COMMAND | --manual]\n"
+    "  Explains one key of the scene file or one command; without an argument lists all keys; --manual\n"
+    "  writes all keys as Markdown.\n";
+
+static const struct { const char *name, *text; } usages[] = {
+    { "run", run },     { "check", check },       { "plot", plot }, { "compare", compare },
+    { "bench", bench }, { "converge", converge }, { "list", list }, { "help", help },
+};
+
+int command_usage (FILE *to, const char *name)
+{
+    for (size_t k = 0; k < sizeof usages / sizeof *usages; k++)
+        if (strcmp (usages[k].name, name) == 0) return fputs (usages[k].text, to) >= 0;
+    return 0;
+}
