@@ -76,7 +76,7 @@ typedef struct {
 /* The loop over places: gathers live bonds, applies the rule for too few of them, calls the
  * formula. Arguments as those of pg_approx_type.evaluate. PG_E_USAGE: a bad order, dimension
  * or horizon, or a node that is missing in its own family. */
-pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
+pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
                            pg_rows *rows, const unsigned char *alive, size_t count, const size_t *list,
                            int threads);
 

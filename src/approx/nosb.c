@@ -35,7 +35,7 @@ static const pg_formula formula = { .about_node = 1, .fill = fill };
 static pg_status evaluate (const pg_approx *a, const pg_cloud *cloud, pg_rows *rows,
                            const unsigned char *alive, size_t count, const size_t *list, int threads)
 {
-    return pg_moment_sweep (&formula, a, cloud, rows, alive, count, list, threads);
+    return pg_moment_evaluate (&formula, a, cloud, rows, alive, count, list, threads);
 }
 
 const pg_approx_type pg_approx_nosb = {

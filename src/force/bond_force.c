@@ -25,7 +25,7 @@ void bond_force_free (void **self)
     pg_bond_loop_free (&b->loop), pg_bond_loop_free (&b->tangent);
     bond_force_energy_free (b);
     b->theory->free (b);
-    nodal_free (&b->nodal);
+    boundary_free (&b->boundary);
     pg_sparse_clear (&b->K);
     pg_nearest_free (&b->near);
     pg_free (b->idle), pg_free (b->limit), pg_free (b->workspace), pg_free (b->work), pg_free (b->stale),
@@ -93,7 +93,7 @@ pg_status bond_force_make (void **self, const pg_problem *problem, const bond_th
     PG_TRY (make_limits (b));
     PG_TRY (make_loop (b, &b->loop, problem->sums, b->limit));
     PG_TRY (dilatation_weigh (b));
-    PG_TRY (nodal_create (&b->nodal, problem, b->stride, b->length, b->idle));
+    PG_TRY (boundary_create (&b->boundary, problem, b->stride, b->length, b->idle));
 done:
     if (status != PG_OK) bond_force_free (self);
     return status;
@@ -151,8 +151,8 @@ static void finish (bond_force *b, double t, double *residual, double *reference
 {
     double inside = 0;
     for (size_t i = 0; reference && i < ndof (b); i++) inside += residual[i] * residual[i];
-    if (reference) *reference = fmax (sqrt (inside), nodal_size (&b->nodal, t));
-    nodal_add (&b->nodal, t, residual);
+    if (reference) *reference = fmax (sqrt (inside), boundary_size (&b->boundary, t));
+    boundary_add (&b->boundary, t, residual);
 }
 
 pg_status bond_force_balance (void *self, double t, const double *d, double *residual, double *reference)
@@ -188,14 +188,14 @@ pg_status bond_force_external (void *self, double t, double *P)
 {
     bond_force *b = self;
     memset (P, 0, ndof (b) * sizeof *P);
-    nodal_add (&b->nodal, t, P);
+    boundary_add (&b->boundary, t, P);
     return PG_OK;
 }
 
 pg_status bond_force_surface (void *self, const double *stress, double *P)
 {
     const bond_force *b = self;
-    return b->problem->nload ? nodal_surface (&b->nodal, 0, stress, P) : PG_OK;
+    return b->problem->nload ? boundary_surface (&b->boundary, 0, stress, P) : PG_OK;
 }
 
 /* ---- the rest ------------------------------------------------------------------------------------------ */
@@ -219,7 +219,7 @@ pg_status bond_force_work_balance (void *self, double t, const double *d, const 
     bond_force *b = self;
     PG_TRY (bond_force_balance (b, t, d, b->work, NULL));
     for (size_t i = 0; inertia && i < ndof (b); i++) b->work[i] += inertia[i];
-    PG_TRY (nodal_work_balance (&b->nodal, t, d, b->work, out));
+    PG_TRY (boundary_work_balance (&b->boundary, t, d, b->work, out));
     out->strain = pg_bond_loop_energy (b->loop, d);
 done:
     return status;
@@ -227,10 +227,10 @@ done:
 
 unsigned long bond_force_revision (const void *self) { return ((const bond_force *) self)->revision; }
 const pg_operator *bond_force_operator (void *self) { return &((bond_force *) self)->op; }
-const pg_sparse *bond_force_basis (void *self) { return nodal_basis (&((bond_force *) self)->nodal); }
+const pg_sparse *bond_force_basis (void *self) { return boundary_basis (&((bond_force *) self)->boundary); }
 
 pg_status bond_force_impose (void *self, double t, double *d)
 {
-    nodal_impose (&((bond_force *) self)->nodal, t, d);
+    boundary_impose (&((bond_force *) self)->boundary, t, d);
     return PG_OK;
 }

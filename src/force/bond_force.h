@@ -7,7 +7,7 @@
  * theories: pairwise.h, state_based.h, micropolar.h; the dilatation that the last two have: dilatation.h. */
 #ifndef PG_BOND_FORCE_H
 #define PG_BOND_FORCE_H
-#include "nodal.h"
+#include "point_boundary.h"
 #include "bond_force_scene.h"
 
 typedef struct bond_force bond_force;
@@ -56,7 +56,7 @@ struct bond_force {
     int       dim, threads, stride;
     size_t    n, widest;                               /* points; most bonds of one */
     const pg_family *family;
-    nodal     nodal;
+    point_boundary boundary;
     /* unknowns of rotations are this times the angle, m; 0: none */
     double    length;
     /* points whose rotations nothing resists; NULL: none (n) */

@@ -84,9 +84,3 @@ done:
     pg_problem_free (&p);
     return status;
 }
-
-void pg_work_balance_clear (pg_work_balance *work_balance)
-{
-    pg_free (work_balance->force), pg_free (work_balance->displacement), pg_free (work_balance->reaction);
-    memset (work_balance, 0, sizeof *work_balance);
-}

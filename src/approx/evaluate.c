@@ -15,7 +15,7 @@ typedef struct {
     const size_t *list;
     /* Scratch space, one for each thread. */
     pg_neighbourhood *star;
-} sweep;
+} evaluation;
 
 /* Kernel and its derivative at q (n). Arguments are limited to 1: a family that includes its
  * edge may hold bonds that are longer by rounding. */
@@ -64,7 +64,7 @@ static void tensor (const pg_kernel *kernel, pg_neighbourhood *s)
 }
 
 /* The node that row i is, or else the nearest one that it sees; -1: it sees none. */
-static int nearest_node (const sweep *g, size_t i)
+static int nearest_node (const evaluation *g, size_t i)
 {
     const pg_rows *rows = g->rows;
     size_t dim = (size_t) rows->dim;
@@ -82,7 +82,7 @@ static int nearest_node (const sweep *g, size_t i)
 }
 
 /* Support radius and spacing at row i, those of its nearest node where spacings differ. */
-static void measure_place (const sweep *g, size_t i, pg_neighbourhood *s)
+static void measure_place (const evaluation *g, size_t i, pg_neighbourhood *s)
 {
     int nearest = g->cloud->size ? nearest_node (g, i) : -1;
     double ratio = nearest < 0 ? 1 : pg_cloud_ratio (g->cloud, (size_t) nearest);
@@ -92,7 +92,7 @@ static void measure_place (const sweep *g, size_t i, pg_neighbourhood *s)
 
 /* Collects the live bonds of row i. A node that expands about its own value is not its own
  * neighbour. */
-static void gather (const sweep *g, size_t i, pg_neighbourhood *s)
+static void gather (const evaluation *g, size_t i, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;
     size_t dim = (size_t) s->dim, first = rows->family.start[i], last = rows->family.start[i + 1];
@@ -115,7 +115,7 @@ static void gather (const sweep *g, size_t i, pg_neighbourhood *s)
 
 /* Writes the influence times volume of each bond into rows->w, drops bonds without a weight,
  * and scales the others to the sum 1. */
-static void weigh (const sweep *g, size_t i, pg_neighbourhood *s)
+static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, first = g->rows->family.start[i], kept = 0;
     (g->a->shape == PG_TENSOR ? tensor : radial) (g->a->kernel, s);
@@ -169,7 +169,7 @@ static void clear (pg_rows *rows, size_t first, size_t last)
 /* Shape functions by the richest basis that the live bonds can carry; returns its grade.
  * Derivatives that the caller did not ask for go to scratch space, where the rule for steep
  * ones or the formula needs them. */
-static int fill (const sweep *g, pg_neighbourhood *s, pg_rows *rows, size_t first, size_t last)
+static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t first, size_t last)
 {
     for (int order = g->a->order; order >= 1; order--) {
         int grade = pg_neighbourhood_grade (s, order, s->h);
@@ -185,7 +185,7 @@ static int fill (const sweep *g, pg_neighbourhood *s, pg_rows *rows, size_t firs
 }
 
 /* Evaluates row i. */
-static void row (const sweep *g, size_t i, pg_neighbourhood *s)
+static void row (const evaluation *g, size_t i, pg_neighbourhood *s)
 {
     pg_rows *rows = g->rows;
     size_t first = rows->family.start[i], last = rows->family.start[i + 1];
@@ -208,7 +208,7 @@ static void row (const sweep *g, size_t i, pg_neighbourhood *s)
 /* The rows of one thread. */
 static void work (void *context, size_t first, size_t last, int thread)
 {
-    const sweep *g = context;
+    const evaluation *g = context;
     for (size_t k = first; k < last; k++) row (g, g->list ? g->list[k] : k, &g->star[thread]);
 }
 
@@ -236,13 +236,13 @@ done:
 }
 
 /* A stray node is noted by its thread and reported after the loop, since threads cannot fail. */
-pg_status pg_moment_sweep (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
+pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
                            pg_rows *rows, const unsigned char *alive, size_t count, const size_t *list,
                            int threads)
 {
     pg_status status = PG_OK;
     size_t slots = threads < 1 ? 1 : (size_t) threads, most = 0;
-    sweep g = { formula, a, cloud, rows, alive, list, NULL };
+    evaluation g = { formula, a, cloud, rows, alive, list, NULL };
     int dim = rows->dim;
     if (dim < 1 || dim > 3 || a->order < 1 || a->order > 2 || !(a->horizon > 0))
         PG_FAIL (PG_E_USAGE, "approximation of order %d in %d dimensions with horizon %g m", a->order, dim,

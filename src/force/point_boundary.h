@@ -3,53 +3,71 @@
  * points, the work balance. Unknown k of point i is i * stride + k; the first dim of them are its
  * displacement, further ones its rotations times a length, so that all unknowns are lengths and what works on
  * them are forces. */
-#ifndef PG_NODAL_H
-#define PG_NODAL_H
+#ifndef PG_POINT_BOUNDARY_H
+#define PG_POINT_BOUNDARY_H
 #include "perigal/force.h"
 #include "perigal/integration.h"
 
 /* load -1: held at zero for want of stiffness */
-typedef struct { size_t dof, point; int load, component; } nodal_support;
+typedef struct { size_t dof, point; int load, component; } boundary_support;
 typedef struct {                                       /* what one place of a load gives to one point */
     size_t at;                                         /* index into the points of the load */
     double weight;                                     /* m^2, m^3 or 1 times the share of the point */
     double x[3], normal[3];                            /* m; 1 */
-} nodal_part;
+} boundary_share;
 typedef struct {
     int     load, separates;                           /* separates: pattern is that of factor 1, for good */
     size_t  npoint, npart;
     int    *point;                                     /* ascending, each once (npoint) */
-    nodal_part *part;                                  /* NULL once the pattern is known */
+    boundary_share *part;                                  /* NULL once the pattern is known */
     int     first, components;                         /* unknowns of a point it works on */
     double *pattern;  /* N, of factor 1; else of `time` (npoint x components) */
     double  time;                                      /* s */
-} nodal_load;
+} boundary_load;
 typedef struct {
     const pg_problem *problem;
     int        dim, stride;
     double     length;                                 /* of rotations, m */
     size_t     n;
     /* ascending by unknown, each once: the first entry that prescribes it */
-    nodal_support *support;  size_t nsupport;
+    boundary_support *support;  size_t nsupport;
     double    *goal;  /* m, of factor 1 where its load separates (nsupport) */
-    nodal_load *load;  size_t nload;
+    boundary_load *load;  size_t nload;
     pg_sparse  T;                                      /* selects the free unknowns */
-} nodal;
+} point_boundary;
 
 /* idle: points whose rotations nothing resists, which are held; NULL: none (n). */
-pg_status nodal_create (nodal *s, const pg_problem *problem, int stride, double length,
+pg_status boundary_create (point_boundary *s, const pg_problem *problem, int stride, double length,
                         const unsigned char *idle);
-void      nodal_free   (nodal *s);
-/* Which points a load acts on and by which share (nodal_parts.c). */
-pg_status nodal_parts  (nodal_load *out, const nodal *s, int load);
-void      nodal_add    (nodal *s, double t, double *P);              /* P += loads at t, N */
+void      boundary_free   (point_boundary *s);
+/* Which points a load acts on and by which share (boundary_shares.c). */
+pg_status boundary_shares  (boundary_load *out, const point_boundary *s, int load);
+void      boundary_add    (point_boundary *s, double t, double *P);              /* P += loads at t, N */
 /* P += tractions of a uniform stress (as pg_force_type.surface) on the facets of load number `load`, N. */
-pg_status nodal_surface (const nodal *s, int load, const double *stress, double *P);
-double    nodal_size   (nodal *s, double t);                         /* norm of the loads at t, N */
-const pg_sparse *nodal_basis (const nodal *s);                       /* NULL: nothing is prescribed */
-void      nodal_impose (const nodal *s, double t, double *d);
+pg_status boundary_surface (const point_boundary *s, int load, const double *stress, double *P);
+/* norm of the loads at t, N */
+double    boundary_size   (point_boundary *s, double t);
+/* NULL: nothing is prescribed */
+const pg_sparse *boundary_basis (const point_boundary *s);
+void      boundary_impose (const point_boundary *s, double t, double *d);
 /* Pairs and reactions; residual: loads less resistance (and inertia) at every unknown. Strain energy is left
  * alone. */
-pg_status nodal_work_balance (nodal *s, double t, const double *d, const double *residual,
+pg_status boundary_work_balance (point_boundary *s, double t, const double *d, const double *residual,
                               pg_work_balance *out);
+
+/* ---- between these files
+ * --------------------------------------------------------------------------------- */
+pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle);
+pg_status boundary_make_load (point_boundary *s, boundary_load *l, int load);
+/* what support k prescribes at t, m */
+double    boundary_goal (const point_boundary *s, size_t k, double t);
+/* factor of its pattern at t */
+double    boundary_bring_to (const point_boundary *s, boundary_load *l, double t);
+/* First of the unknowns of a point that a load is about, and a unit of its values in theirs */
+static inline int boundary_first (const point_boundary *s,
+                                  const pg_load *load) { return pg_load_rotates (load) ? s->dim : 0; }
+static inline double boundary_unit (const point_boundary *s, const pg_load *load)
+{
+    return load->kind == PG_ROTATION ? s->length : load->kind == PG_MOMENT ? 1 / s->length : 1;
+}
 #endif

@@ -2,18 +2,18 @@
  * Which points carry a load: the force on a facet goes to the points nearest to its centre, in equal parts to
  * those equally near, or to those of the column below it, by their volumes; a total force to all points of
  * its set alike; a force per volume to every point by its volume. */
-#include "nodal.h"
+#include "point_boundary.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 /* index: of each point, -1: not yet */
-typedef struct { nodal_load *out; size_t cap, cap_point; int *index; } gathering;
+typedef struct { boundary_load *out; size_t cap, cap_point; int *index; } gathering;
 
-static pg_status add_part (gathering *g, int point, nodal_part part)
+static pg_status add_part (gathering *g, int point, boundary_share part)
 {
     pg_status status = PG_OK;
-    nodal_load *l = g->out;
+    boundary_load *l = g->out;
     PG_GROW (l->part, g->cap, l->npart + 1);
     if (g->index[point] < 0) {
         PG_GROW (l->point, g->cap_point, l->npoint + 1);
@@ -50,7 +50,8 @@ static int is_known (void *context, const double *place, size_t point)
     return 0;
 }
 
-static size_t nearest_points (const nodal *s, const pg_nearest *grid, const double *centre, int *found)
+static size_t nearest_points (const point_boundary *s, const pg_nearest *grid, const double *centre,
+                              int *found)
 {
     const pg_cloud *c = &s->problem->cloud;
     known k = { found, 0 };
@@ -81,7 +82,7 @@ typedef struct {
 
 /* Is point j below the facet, not deeper than `depth`, and within half a step of its middle along every
  * axis? */
-static int is_below (const nodal *s, size_t facet, int j, double depth)
+static int is_below (const point_boundary *s, size_t facet, int j, double depth)
 {
     const pg_cloud *c = &s->problem->cloud;
     size_t dim = (size_t) s->dim;
@@ -97,7 +98,8 @@ static int is_below (const nodal *s, size_t facet, int j, double depth)
 
 /* The force at one quadrature point of a facet, to its column; *found 0: nothing is there. A point between
  * columns belongs to each by a part. */
-static pg_status column_parts (gathering *g, const nodal *s, const columns *c, int facet, nodal_part part,
+static pg_status column_parts (gathering *g, const point_boundary *s, const columns *c, int facet,
+                               boundary_share part,
                                int *found)
 {
     pg_status status = PG_OK;
@@ -125,7 +127,7 @@ static void clear_columns (columns *c)
     pg_free (c->below), pg_free (c->columns);
 }
 
-static pg_status find_columns (columns *out, const nodal *s, const pg_load *load)
+static pg_status find_columns (columns *out, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
     const pg_cells *cells = &s->problem->cells;
@@ -154,7 +156,7 @@ done:
     return status;
 }
 
-static pg_status facet_parts (gathering *g, const nodal *s, const pg_load *load)
+static pg_status facet_parts (gathering *g, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
     const pg_cells *cells = &s->problem->cells;
@@ -168,7 +170,7 @@ static pg_status facet_parts (gathering *g, const nodal *s, const pg_load *load)
     if (load->depth > 0) PG_TRY (find_columns (&below, s, load));
     for (size_t i = 0; i < q.n; i++) {
         if (!member (load->set->facet, load->set->nfacet, q.cell[i])) continue;
-        nodal_part part = { .weight = q.weight[i] };
+        boundary_share part = { .weight = q.weight[i] };
         memcpy (part.x, q.x + i * dim, dim * sizeof *part.x);
         memcpy (part.normal, q.normal + i * dim, dim * sizeof *part.normal);
         if (load->depth > 0) {
@@ -189,13 +191,13 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-static pg_status point_parts (gathering *g, const nodal *s, const pg_load *load)
+static pg_status point_parts (gathering *g, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
     const pg_cloud *c = &s->problem->cloud;
     for (size_t i = 0; i < load->set->npoint; i++) {
         int j = load->set->point[i];
-        nodal_part part = { .weight = load->kind == PG_BODY_FORCE ? c->volume[j]
+        boundary_share part = { .weight = load->kind == PG_BODY_FORCE ? c->volume[j]
                                                                   : 1 / (double) load->set->npoint };
         memcpy (part.x, c->x + (size_t) j * (size_t) s->dim, (size_t) s->dim * sizeof *part.x);
         PG_TRY (add_part (g, j, part));
@@ -204,7 +206,7 @@ done:
     return status;
 }
 
-pg_status nodal_parts (nodal_load *out, const nodal *s, int load)
+pg_status boundary_shares (boundary_load *out, const point_boundary *s, int load)
 {
     pg_status status = PG_OK;
     const pg_load *l = &s->problem->load[load];

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Essential conditions of forces whose unknowns are the values of the points: prescribed unknowns are left
+ * out, d = T q + g with T the selection of the others. */
+#include "point_boundary.h"
+
+static int prescribes (const pg_load *load, int k) { return pg_load_prescribes (load) && load->value[k]; }
+
+enum { FREE = -1, IDLE = -2 };
+
+/* The entry that prescribes each unknown, FREE: none, IDLE: nothing resists. */
+static void claim (const point_boundary *s, const unsigned char *idle, int *by)
+{
+    const pg_problem *p = s->problem;
+    size_t stride = (size_t) s->stride, dim = (size_t) s->dim;
+    for (size_t i = 0; i < s->n * stride; i++)
+        by[i] = idle && idle[i / stride] && i % stride >= dim ? IDLE : FREE;
+    for (size_t l = p->nload; l-- > 0;)                /* the first entry wins */
+        for (int k = 0; k < pg_load_components (&p->load[l], s->dim); k++)
+            for (size_t i = 0; prescribes (&p->load[l], k) && i < p->load[l].set->npoint; i++)
+                by[(size_t) p->load[l].set->point[i] * stride + (size_t) (boundary_first (s,
+                        &p->load[l]) + k)] =
+                    (int) l;
+}
+
+pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
+    size_t ndof = s->n * (size_t) s->stride;
+    int *by = NULL;
+    PG_ALLOC (by, ndof);
+    claim (s, idle, by);
+    for (size_t i = 0; i < ndof; i++) s->nsupport += by[i] != FREE;
+    PG_ALLOC (s->support, s->nsupport);
+    PG_ALLOC (s->goal, s->nsupport);
+    size_t at = 0;
+    for (size_t i = 0; i < ndof; i++) {
+        if (by[i] == FREE) continue;
+        size_t point = i / (size_t) s->stride;
+        const pg_load *load = by[i] >= 0 ? &p->load[by[i]] : NULL;
+        int k = (int) (i % (size_t) s->stride) - (load ? boundary_first (s, load) : s->dim);
+        s->support[at] = (boundary_support) { i, point, load ? by[i] : -1, k };
+        s->goal[at++] = load ? pg_load_pattern (load, k, s->dim, p->cloud.x + point * (size_t) s->dim)
+                                   * boundary_unit (s, load)
+                             : 0;
+    }
+    if (s->nsupport == 0) goto done;
+    PG_TRY (pg_sparse_create (&s->T, ndof, ndof - s->nsupport, ndof - s->nsupport, 0));
+    long column = 0;
+    for (size_t i = 0; i < ndof; i++) {
+        if (by[i] != FREE) continue;
+        s->T.row[column] = (long) i, s->T.value[column] = 1;
+        column++;
+        s->T.start[column] = column;
+    }
+done:
+    pg_free (by);
+    return status;
+}
+
+double boundary_goal (const point_boundary *s, size_t k, double t)
+{
+    if (s->support[k].load < 0) return 0;
+    const pg_load *load = &s->problem->load[s->support[k].load];
+    if (pg_load_separates (load)) return s->goal[k] * pg_load_factor (load, t);
+    return pg_load_value (load, s->support[k].component, s->dim,
+                          s->problem->cloud.x + s->support[k].point * (size_t) s->dim, t)
+           * boundary_unit (s, load);
+}
+
+const pg_sparse *boundary_basis (const point_boundary *s) { return s->nsupport ? &s->T : NULL; }
+
+void boundary_impose (const point_boundary *s, double t, double *d)
+{
+    for (size_t k = 0; k < s->nsupport; k++) d[s->support[k].dof] = boundary_goal (s, k, t);
+}
+
+/* ---- life ---------------------------------------------------------------------------------------------- */
+pg_status boundary_create (point_boundary *s, const pg_problem *problem, int stride, double length,
+                        const unsigned char *idle)
+{
+    pg_status status = PG_OK;
+    *s = (point_boundary){
+        .problem = problem, .dim = problem->dim, .stride = stride, .length = length, .n = problem->cloud.n
+    };
+    PG_TRY (boundary_make_supports (s, idle));
+    PG_ALLOC (s->load, problem->nload);
+    for (size_t l = 0; l < problem->nload; l++)
+        if (!pg_load_prescribes (&problem->load[l])) PG_TRY (boundary_make_load (s, &s->load[s->nload++],
+                (int) l));
+done:
+    return status;
+}
+
+void boundary_free (point_boundary *s)
+{
+    for (size_t k = 0; k < s->nload; k++)
+        pg_free (s->load[k].point), pg_free (s->load[k].part), pg_free (s->load[k].pattern);
+    pg_free (s->load), pg_free (s->support), pg_free (s->goal);
+    pg_sparse_clear (&s->T);
+    *s = (point_boundary) { 0 };
+}

@@ -1,0 +1,93 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Loads of forces whose unknowns are the values of the points: sums of forces on points, computed once
+ * where they are a pattern times a factor of t. */
+#include "point_boundary.h"
+#include <math.h>
+#include <string.h>
+
+/* The pattern at t, or at factor 1. */
+static void evaluate (const point_boundary *s, boundary_load *l, double t)
+{
+    const pg_load *load = &s->problem->load[l->load];
+    int pressure = load->kind == PG_PRESSURE;
+    size_t dim = (size_t) l->components;
+    double unit = boundary_unit (s, load);
+    memset (l->pattern, 0, l->npoint * dim * sizeof *l->pattern);
+    for (size_t i = 0; i < l->npart; i++) {
+        const boundary_share *q = &l->part[i];
+        for (size_t k = 0; k < dim; k++) {
+            int c = pressure ? 0 : (int) k;
+            double f = l->separates ? pg_load_pattern (load, c, s->dim, q->x)
+                                    : pg_load_value (load, c, s->dim, q->x, t);
+            l->pattern[q->at * dim + k] += q->weight * (pressure ? -f * q->normal[k] : f * unit);
+        }
+    }
+    l->time = t;
+}
+
+pg_status boundary_make_load (point_boundary *s, boundary_load *l, int load)
+{
+    pg_status status = PG_OK;
+    l->load = load, l->separates = pg_load_separates (&s->problem->load[load]), l->time = NAN;
+    l->first = boundary_first (s, &s->problem->load[load]),
+    l->components = pg_load_components (&s->problem->load[load], s->dim);
+    PG_TRY (boundary_shares (l, s, load));
+    PG_ALLOC (l->pattern, l->npoint * (size_t) l->components);
+    if (!l->separates) goto done;
+    evaluate (s, l, 0);
+    pg_free (l->part);
+    l->part = NULL, l->npart = 0;
+done:
+    return status;
+}
+
+/* Factor of the pattern as it is now. */
+double boundary_bring_to (const point_boundary *s, boundary_load *l, double t)
+{
+    if (l->separates) return pg_load_factor (&s->problem->load[l->load], t);
+    if (!(l->time == t)) evaluate (s, l, t);
+    return 1;
+}
+
+void boundary_add (point_boundary *s, double t, double *P)
+{
+    size_t stride = (size_t) s->stride;
+    for (size_t k = 0; k < s->nload; k++) {
+        boundary_load *l = &s->load[k];
+        size_t dim = (size_t) l->components;
+        double factor = boundary_bring_to (s, l, t);
+        for (size_t i = 0; i < l->npoint; i++)
+            for (size_t c = 0; c < dim; c++)
+                P[(size_t) l->point[i] * stride + (size_t) l->first + c] += factor * l->pattern[i * dim + c];
+    }
+}
+
+pg_status boundary_surface (const point_boundary *s, int load, const double *stress, double *P)
+{
+    pg_status status = PG_OK;
+    boundary_load l = { .load = load };
+    PG_TRY (boundary_shares (&l, s, load));
+    for (size_t i = 0; i < l.npart; i++) {
+        const boundary_share *q = &l.part[i];
+        double *p = P + (size_t) l.point[q->at] * (size_t) s->stride;
+        for (int k = 0; k < s->dim; k++)
+            for (int c = 0; c < s->dim; c++)
+                p[k] += q->weight * stress[pg_voigt_at (s->dim, k, c)] * q->normal[c];
+    }
+done:
+    pg_free (l.point), pg_free (l.part);
+    return status;
+}
+
+/* A point under several loads counts once for each: a size, no more. */
+double boundary_size (point_boundary *s, double t)
+{
+    double sum = 0;
+    for (size_t k = 0; k < s->nload; k++) {
+        double factor = boundary_bring_to (s, &s->load[k], t), square = 0;
+        for (size_t i = 0; i < s->load[k].npoint * (size_t) s->load[k].components; i++)
+            square += s->load[k].pattern[i] * s->load[k].pattern[i];
+        sum += factor * factor * square;
+    }
+    return sqrt (sum);
+}
