@@ -8,9 +8,8 @@ static const pg_key keys[] = {
       .kind = PG_NAME,
       .fallback = "cut",
       .choices = "cut|staircase",
-      .doc = "Cells of the lattice that the surface of the body crosses are cut along it (exact volume, true "
-             "normals), "
-             "or are in or out as a whole by their centre." },
+      .doc = "Cells of the lattice that the surface of the body crosses are cut along it (exact volume, "
+             "true normals), or belong to the body entirely or not at all, by their centre." },
     { .path = "sets",
       .kind = PG_MAP,
       .fallback = "",

@@ -131,9 +131,9 @@ static const pg_key keys[] = {
       .kind = PG_NAME,
       .choices = "box|body",
       .fallback = "box",
-      .doc = "Over the whole face of the bounding box, or only over the part where the body is: from the "
-             "first to the last place along the face with the body half a"
-             " cell below it (the foot of an L; one box, also across a notch)." },
+      .doc = "Over the whole face of the bounding box, or only over the part that the body reaches: from "
+             "the first to the last place along the face with the body half a cell below it (the foot of "
+             "an L; one box, also across a notch)." },
     { .path = "points",
       .kind = PG_FILE,
       .fallback = "",
@@ -176,8 +176,8 @@ static const pg_key keys[] = {
       .unit = "m",
       .range = LENGTH,
       .fallback = "",
-      .doc = "Wanted distance of points; adapted per axis so that a whole number of cells fills the bounding "
-             "box. Needed with body." },
+      .doc = "Desired distance of the points; adapted per axis so that a whole number of cells fills the "
+             "bounding box. Needed with body." },
     { .path = "lattice",
       .kind = PG_NAME,
       .fallback = "nodes",
@@ -204,7 +204,7 @@ static const pg_key keys[] = {
       .kind = PG_INTEGER,
       .range = "[0, inf)",
       .fallback = "1",
-      .doc = "Another seed, another arrangement." },
+      .doc = "Seed of the random numbers: another seed gives another arrangement." },
     { .path = "cracks",
       .kind = PG_LIST,
       .fallback = "",

@@ -25,8 +25,8 @@ static const pg_key keys[] = {
       .fallback = "",
       .choices = "sets.{}|left|right|bottom|top|back|front|all",
       .doc =
-          "Sets of nodes whose bonds never break, such as grips; where points die, they do not (their bonds "
-          "to others that do break)." },
+          "Sets of nodes whose bonds never break, such as grips; with a criterion of points these never "
+          "fail (but their bonds to points that do break)." },
     { .path = "materials.{}.failure",
       .kind = PG_MAP,
       .fallback = "",

@@ -54,7 +54,7 @@ static const pg_key limit_keys[] = {
       .unit = "1",
       .range = "(0, inf)",
       .fallback = "0.5",
-      .doc = "A point dies at the energy density wc_factor times fracture_energy / horizon." },
+      .doc = "A point fails at the energy density wc_factor times fracture_energy / horizon." },
 };
 static const pg_key_table limits = { "criterion", limit_keys, 1 };
 

@@ -120,7 +120,7 @@ static const pg_key limit_keys[] = {
       .range = "(0, inf)",
       .fallback = "",
       .group = "limit:most",
-      .doc = "Relative elongation at which a bond breaks; either this or fracture_energy." },
+      .doc = "Relative elongation at which a bond breaks; this or fracture_energy." },
 };
 static const pg_key option_keys[] = {
     { .path = "failure.stretch",

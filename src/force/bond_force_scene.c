@@ -21,8 +21,8 @@ static const pg_key keys[] = {
       "and a critical stretch that comes from "
       "fracture_energy so that a straight crack along the lattice consumes it." },
     { "method.surface_correction", PG_NAME, NULL, NULL, "auto", "auto|none|product|volume", NULL, NULL,
-      "stiffens bonds of points near the surface, whose families are not whole; auto: none below a "
-      "horizon of 4 spacings (there it does harm), else product." },
+      "stiffens bonds of points near the surface, whose families are cut off; auto: none below a horizon "
+      "of 4 spacings (where it increases the error), else product." },
     { "method.stretch", PG_NAME, NULL, NULL, "linear", "linear|finite", NULL, NULL,
       "force from the stretch along the undeformed bond (small displacements), or from the deformed "
       "length along the deformed bond (verlet, central, "
@@ -32,10 +32,9 @@ const pg_key_table bond_force_keys = { "force", keys, sizeof keys / sizeof *keys
 
 static const pg_key dilatation_keys[] = {
     { "method.weighted_volume", PG_NAME, NULL, NULL, "intact", "intact|live", NULL, NULL,
-      "the weighted volume q of a point, which its dilatation and forces are "
-      "divided by: intact: of the bonds that no pre-crack cuts, for good; live: of the "
-      "bonds that live, so that what is left of a family carries on as if it had never had more (stiffer "
-      "near new cracks; small time steps)." },
+      "the weighted volume q of a point, which its dilatation and forces are divided by: intact: of the "
+      "bonds that no pre-crack cuts, for the whole run; live: of the unbroken bonds, so that the rest of a "
+      "family behaves as if it had always been alone (stiffer near new cracks; small time steps)." },
 };
 const pg_key_table state_based_keys = { "force", dilatation_keys,
                                         sizeof dilatation_keys / sizeof *dilatation_keys };

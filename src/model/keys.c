@@ -51,8 +51,8 @@ static const pg_key keys[] = {
     { "boundary[].table[]", PG_NUMBERS, NULL, NULL, "", NULL, NULL, NULL,
       "One pair: t in s (static: load factor 0 to 1), factor." },
     { "initial.velocity", PG_MAP, NULL, NULL, "", no_choice, NULL, NULL,
-      "Velocity of every point at the start of a dynamic run, at rest unless given; supports have their own; "
-      "points that turn (gmpd) turn with half its curl. Not with force: galerkin so far." },
+      "Velocity of every point at the start of a dynamic run, at rest unless given; supports have their "
+      "own; points with rotations (gmpd) rotate with half its curl. Not with force: galerkin so far." },
     { "initial.velocity.x", PG_EXPRESSION, "m/s", NULL, "", no_choice, NULL, NULL,
       "Component along x; absent: zero." },
     { "initial.velocity.y", PG_EXPRESSION, "m/s", NULL, "", no_choice, NULL, NULL, "Component along y." },

@@ -19,12 +19,12 @@ static const pg_key keys[] = {
       "A field, or a part of one, as in output.pictures; damage if not given." },
     { "output.views[].view", PG_NAME, NULL, NULL, "", "front|back|left|right|top|bottom|iso|crack", NULL,
       "look:most",
-      "3D: the body from outside, at its side of that name (front is the face of largest z), or obliquely "
-      "(iso, the default); crack: its damaged points alone." },
+      "3D: the body from outside, seen from the side of that name (front is the face of largest z), or "
+      "obliquely (iso, the default); crack: its damaged points alone." },
     { "output.views[].section", PG_TEXT, NULL, NULL, "", NULL, NULL, "look:most",
       "3D: a cut, AXIS = PLACE (z = 5 mm) or NORMAL = DISTANCE along it from the origin (1, 0, 1 = 5 mm)." },
     { "output.views[].direction", PG_VECTOR, "1", NULL, "", NULL, NULL, NULL,
-      "View iso and crack: direction from the body to the eye; y points up." },
+      "View iso and crack: direction from the body to the observer; y points up." },
     { "output.views[].above", PG_NUMBER, "1", NULL, "", NULL, NULL, NULL,
       "3D views: only points whose field (SI) is at least this are drawn, the body grey behind them. View "
       "crack without it: damage 0.35." },
@@ -42,13 +42,13 @@ static const pg_key keys[] = {
     { "output.magnify", PG_NUMBER, "1", "[0, inf)", "0", NULL, NULL, NULL,
       "Pictures show the body deformed by this multiple of the displacement." },
     { "output.at.events", PG_INTEGER, NULL, "[1, 1000000000]", "", NULL, NULL, NULL,
-      "Fields are also written every so many events (static: event stepping)." },
+      "Fields are also written at every n-th event (static: event stepping)." },
     { "output.at.broken", PG_NUMBER, "1", "(0, 1]", "", NULL, NULL, NULL,
-      "Fields are also written each time this share of all bonds has broken anew, also in the middle of a "
+      "Fields are also written each time another such share of all bonds has broken, also in the middle of a "
       "step." },
     { "output.checkpoint", PG_NUMBER, "s", "[0, inf)", "5 min", NULL, NULL, NULL,
-      "Wall time between checkpoints, from which run --resume goes on; 0: only when the run is interrupted "
-      "or fails." },
+      "Wall time between checkpoints, from which run --resume continues; 0: only when the run is "
+      "interrupted or fails." },
     { "output.averages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
       "Means of a field over a set, a column of history.csv each." },
     { "output.averages[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },
@@ -69,9 +69,9 @@ static const pg_key keys[] = {
     { "output.tips[].along", PG_VECTOR, "1", NULL, NULL, NULL, NULL, NULL,
       "Direction in which the crack runs; its length does not matter." },
     { "output.tips[].damage", PG_NUMBER, "1", "(0, 1]", "35 %", NULL, NULL, NULL,
-      "The tip is the farthest point of the crack with at least this damage, the crack being all such points "
-      "that hang together with those nearest to from; beside a straight crack damage is about 0.4 (horizon "
-      "of 3 spacings)." },
+      "The tip is the farthest point of the crack with at least this damage, the crack being all such "
+      "points that are connected to those nearest to from; beside a straight crack damage is about 0.4 "
+      "(horizon of 3 spacings)." },
     { "output.tips[].where", PG_EXPRESSION, "bool", NULL, "", NULL, NULL, NULL,
       "Only points where this condition in x, y, z, r, angle holds: y > 0 for the upper of two branches." },
 };
