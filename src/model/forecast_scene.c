@@ -2,6 +2,7 @@
  * Sizes of a run from the scene alone: method and solver as written, points and bonds counted on the lattice
  * or sampled from a file. */
 #include "forecast.h"
+#include "perigal/linalg.h"
 #include <math.h>
 #include <string.h>
 
@@ -63,10 +64,8 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     f->automatic = !linear || is (linear, "auto");
     f->dynamic = !pg_solver_is (kind, PG_SOLVER_STATIC);
     f->explicit_ = !pg_solver_is (kind, PG_SOLVER_IMPLICIT);
-    snprintf (f->linear, sizeof f->linear, "%s",
-              f->automatic         ? "cholmod"
-              : is (linear, "pcg") ? "cg"
-                                   : linear);
+    f->linear = f->automatic ? pg_linear_first (1, 1) : pg_linear_find (linear);
+    if (f->linear && !f->linear->factors) f->linear = NULL;
     if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }

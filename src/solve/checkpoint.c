@@ -199,7 +199,7 @@ static int operates (const pg_system *s) { return s->force->operator_ && s->forc
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[8] = { s->mode,  s->umfpack,   s->kept,  s->marked, s->factored != NULL,
+    long count[8] = { s->mode,  s->indefinite,   s->kept,  s->marked, s->factored != NULL,
                       s->stale, s->unshifted, s->spared };
     double number[3] = { s->mean_diagonal, s->shift, s->rent };
     PG_TRY (k->counts (k->context, "system.counts", 8, count));
@@ -212,10 +212,10 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
     s->spared = count[7];
     s->mean_diagonal = number[0], s->shift = number[1], s->rent = number[2];
-    if (k->reading && count[1] && !s->umfpack) {
+    if (k->reading && count[1] && !s->indefinite) {
         if (s->factor) s->linear->free (&s->factor);
-        s->linear = pg_linear_direct (0);
-        s->umfpack = 1;
+        s->linear = pg_linear_first (0, 1);
+        s->indefinite = 1;
     }
     long made = s->multilevel != NULL || s->remake;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));

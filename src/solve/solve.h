@@ -22,7 +22,8 @@ typedef struct {
     const pg_solver_options *options;
     pg_statistics           *report;
     /* all_weak: every unknown gets the shift (touched) */
-    int       components, stale, umfpack, mode, unshifted, all_weak;
+    int       components, stale, mode, unshifted, all_weak;
+    int       indefinite;                              /* K proved not positive definite: another linear solver took over */
     unsigned long revision;                            /* of K when it was last factored or found stale */
     long      spared;                                  /* solves by the factor of an earlier K */
     long      kept;                                    /* refreshes that left K as it was */
