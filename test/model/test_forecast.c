@@ -241,8 +241,10 @@ static void test_small_time_steps_factor_nothing (void **state)
     assert_string_equal (pg_forecast_linear (&large), "cholmod");
     assert_true (small.bytes[PG_BYTES_FACTOR] == 0 && small.bytes[PG_BYTES_MATRIX] == 0
                  && large.bytes[PG_BYTES_FACTOR] > 0);
-    assert_string_equal (forecast (DISK "spacing: 0.01\nsolver: {linear: pcg}\n").linear, "cg");
-    assert_string_equal (forecast (DISK "spacing: 0.01\nsolver: {linear: umfpack}\n").linear, "umfpack");
+    pg_forecast products = forecast (DISK "spacing: 0.01\nsolver: {linear: pcg}\n"),
+                lu = forecast (DISK "spacing: 0.01\nsolver: {linear: umfpack}\n");
+    assert_string_equal (pg_forecast_linear (&products), "cg");
+    assert_string_equal (pg_forecast_linear (&lu), "umfpack");
 }
 
 /* ---- refusals ------------------------------------------------------------------------------------------ */
