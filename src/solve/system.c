@@ -217,9 +217,10 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
             continue;
         }
         if (s->problem->sums)
-            PG_FAIL (PG_E_NOT_SPD,
-                     "%s; bonds leave parts of the body free to move: constrain them, or set solver.linear: %s",
-                     pg_last_error (), pg_linear_first (1, 0)->name);
+            PG_FAIL (
+                PG_E_NOT_SPD,
+                "%s; bonds leave parts of the body free to move: constrain them, or set solver.linear: %s",
+                pg_last_error (), pg_linear_first (1, 0)->name);
         if (!automatic || s->indefinite)
             PG_FAIL (PG_E_NOT_SPD,
                      "%s; with essential: nitsche raise method.nitsche_factor, or set solver.linear: %s",
@@ -281,25 +282,26 @@ static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double
 {
     pg_status status = PG_OK;
     size_t used = 0;
-    if (s->stale && s->rent > factor_cost (s)) {
+    if (s->stale && s->extra_cost > factor_cost (s)) {
         PG_TRY (system_factorize (s, dyn));
-        s->rent = 0;
+        s->extra_cost = 0;
     }
     s->spared += s->stale;
     pg_status now = system_iterate (s, dyn, 1, tolerance, 200, &used);
-    if (used > 2) s->rent += (double) (used - 2) * (solve_cost (s) + apply_cost (s));
+    if (used > 2) s->extra_cost += (double) (used - 2) * (solve_cost (s) + apply_cost (s));
     if (now == PG_OK) return PG_OK;
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
-    s->stale = 1, s->rent = 0;
+    s->stale = 1, s->extra_cost = 0;
     status = solve_by_factor (s, dyn);
 done:
     return status;
 }
 
-static int by_sweeps (const pg_system *s, int can)
+static int by_bond_loops (const pg_system *s, int can)
 {
     const pg_problem *p = s->problem;
-    return p->sums && (can || p->sums->stencil.n) && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
+    return p->sums && (can || p->sums->stencil.n)
+           && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
 }
 
 /* Chosen once: solver.linear says it, a force without a matrix leaves no choice, and in a small time step the
@@ -319,7 +321,7 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
     if (!system_has_matrix (s) || (!s->linear->factors && operator_of (s)))
         s->mode = SYSTEM_NO_FACTOR;
     else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
-    else if (automatic && operator_of (s) && by_sweeps (s, can)) {
+    else if (automatic && operator_of (s) && by_bond_loops (s, can)) {
         s->mode = SYSTEM_NO_FACTOR;
         pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization",
                             "so many points: conjugate gradients with sums over the bonds are "
