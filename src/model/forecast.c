@@ -118,9 +118,9 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (factors)
         b[PG_BYTES_MATRIX] = !f->method->shape_functions
-            ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
-                                       : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
-                                             + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
+                                 ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
+                                 : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
+                                       + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
     if (factors) {
         double entries = lu ? 2 * f->factor_entries : f->factor_entries;
         b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);

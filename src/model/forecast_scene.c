@@ -144,8 +144,7 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
 /* The bonds of one point of forces straight between points; moved points have those of whole volumes and a
  * falling rim. */
 static pg_status make_bonds (pg_stencil *out, const pg_method *method, const pg_scene *scene,
-                             const pg_lattice *l,
-                             const pg_approx *a)
+                             const pg_lattice *l, const pg_approx *a)
 {
     pg_mode mode = l->dim == 1                                     ? PG_LINE
                    : l->dim == 3                                   ? PG_SOLID
@@ -219,7 +218,7 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     /* a side each */
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);
     f->facets = !f->method->shape_functions ? 0 : fmin (facets, all),
-        f->bonds[PG_FACETS] = f->facets * 0.6 * each;
+    f->bonds[PG_FACETS] = f->facets * 0.6 * each;
 done:
     pg_free (element), pg_free (side);
     return status;
