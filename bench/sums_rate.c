@@ -410,12 +410,13 @@ static pg_status time_transforms (bench *b)
     const fft_kernels *kernels = pg_instructions_here (PG_AVX512) ? &pg_fft_avx512
                                  : pg_instructions_here (PG_AVX2) ? &pg_fft_avx2
                                                                   : &pg_fft_scalar;
-    PG_TRY (fft_create (&f, b->body.cloud.dim, n, sums->stencil.n, sums->stencil.offset, one, NULL, kernels,
+    PG_TRY (pg_fft_create (&f, b->body.cloud.dim, n, sums->stencil.n, sums->stencil.offset, one, NULL,
+                           kernels,
                         1, 1));
     start = lattice_seconds (2);
     for (all.n = 0; again (&all, start); all.n++) {
         double t = lattice_seconds (1);
-        fft_convolve (&f, &job);
+        pg_fft_convolve (&f, &job);
         all.time[all.n] = lattice_seconds (1) - t;
     }
     snprintf (name, sizeof name, "transforms %zux%zux%zu", f.box.T[0], f.box.T[1], f.box.T[2]);
@@ -424,7 +425,7 @@ static pg_status time_transforms (bench *b)
     print_times (&all);
     printf (",,,,%d,%d,\n", b->body.cloud.dim, b->body.cloud.dim);
 done:
-    fft_clear (&f);
+    pg_fft_clear (&f);
     return status;
 }
 

@@ -124,9 +124,10 @@ typedef struct pg_linear_type {
 } pg_linear_type;
 /* The entry of that name, NULL: there is none; all names, separated by |, and "auto". */
 const pg_linear_type *pg_linear_find  (const char *name);
+/* The first in the list with these flags; NULL: there is none. symmetric and factors: for K, the usual one; not
+ * symmetric: for matrices that are indefinite or not symmetric; without factors: by products with A. */
+const pg_linear_type *pg_linear_first (int symmetric, int factors);
 const char           *pg_linear_names (void);
-/* The first solver of list.h that factors matrices: symmetric positive definite ones (1), or any (0). */
-const pg_linear_type *pg_linear_direct (int symmetric);
 
 /* Predicts what the factor of a matrix with dense blocks (block x block) on `graph` will hold and cost: the
  * same ordering, and a symbolic analysis of the graph of the nodes alone. graph: upper triangle, diagonal

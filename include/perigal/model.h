@@ -259,7 +259,7 @@ typedef struct {
     /* without shape functions: bonds are summed by lists of neighbours, on a lattice or off it */
     int    by_list;
     int    counted, analysed;  /* 1: the counts, the factor are exact, not estimates */
-    char   linear[16];  /* what will solve: "cholmod", "umfpack", "cg" (no matrix at all) */
+    const struct pg_linear_type *linear;               /* what will factor K; NULL: conjugate gradients, no matrix */
     int    automatic, dynamic;                         /* solver.linear: auto; newmark */
     double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
     char   ordering[16];                               /* of an analysed factor */
@@ -291,6 +291,7 @@ void        pg_forecast_sum   (pg_forecast *f);        /* bytes and peak from th
 /* smallest spacing (m, 2 digits) that fits */
 double      pg_forecast_fitting (const pg_forecast *f, double available);
 /* PG_E_LIMIT with needs, means and ways out when the peak exceeds `available` bytes. */
+const char *pg_forecast_linear (const pg_forecast *f); /* its name, or "cg" */
 pg_status   pg_forecast_afford (const pg_forecast *f, double available);
 const char *pg_forecast_item  (int item);              /* "bonds", ... */
 /* Bytes that this process may still take: least of free memory, control groups (v2, v1) and RLIMIT_AS. root:

@@ -85,7 +85,7 @@ pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p,
     double available = afford_available (c);
     PG_TRY (pg_forecast_problem (f, p));
     int close = f->peak > 0.5 * available;
-    if ((thorough || close) && f->points <= most && strcmp (f->linear, "cholmod") == 0)
+    if ((thorough || close) && f->points <= most && f->linear && f->linear->symmetric)
         PG_TRY (analyse (f, p));
     PG_TRY (pg_forecast_afford (f, available));
 done:

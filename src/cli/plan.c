@@ -156,7 +156,7 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     const pg_solver_options *o = p->options;
     int fails = p->problem->criterion->type != NULL, steps = (o->flags & PG_SOLVER_EXPLICIT) != 0;
     int relaxed = !steps && (o->flags & PG_SOLVER_STAGED), solves = !steps && !relaxed;
-    int matrix = solves && strcmp (p->forecast->linear, "cg") != 0, iterates = solves && !matrix;
+    int matrix = solves && p->forecast->linear != NULL, iterates = solves && !matrix;
     int quasi_static = (o->flags & PG_SOLVER_QUASI_STATIC) != 0;
     const reason reasons[] = {
         { !fails, "bond failure", "there is no failure criterion" },
@@ -284,12 +284,12 @@ static void print_times (const plan *p)
 static void print_factor (const pg_forecast *f)
 {
     printf ("  %-18s  %s", "linear solver",
-            strcmp (f->linear, "cg") == 0
+            !f->linear
                 ? !f->method->shape_functions && !f->dynamic
                       ? "conjugate gradients, no matrix, preconditioned on several grids\n"
                       : "conjugate gradients, no matrix\n"
-                : f->linear);
-    if (strcmp (f->linear, "cg") == 0) return;
+                : f->linear->name);
+    if (!f->linear) return;
     printf (", %.4g entries in the upper triangle of K\n", f->matrix_entries);
     printf ("  %-18s  %.4g entries, %.3g operations, about %.2g s each at 20 GFLOP/s (%s%s)\n", "factor",
             f->factor_entries, f->factor_flops, f->factor_flops / 20e9,

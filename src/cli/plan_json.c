@@ -99,8 +99,8 @@ static void steps (pg_json *j, const plan *p)
 static void memory (pg_json *j, const plan *p)
 {
     const pg_forecast *f = p->forecast;
-    int factors = strcmp (f->linear, "cg") != 0;
-    pg_json_text (j, "linear_solver", f->linear);
+    int factors = f->linear != NULL;
+    pg_json_text (j, "linear_solver", pg_forecast_linear (f));
     if (factors) {
         pg_json_text (j, "ordering", f->analysed ? f->ordering : "estimate");
         pg_json_number (j, "matrix_entries", f->matrix_entries);

@@ -165,7 +165,7 @@ static pg_status update_side (galerkin *g, elimination *e, int *index)
 {
     pg_status status = PG_OK;
     const pg_rows *r = &g->rows[PG_NODES];
-    const pg_linear_type *lu = pg_linear_direct (0);
+    const pg_linear_type *lu = pg_linear_first (0, 1);
     pg_sparse C = { 0 };
     void *solver = NULL;
     double *unit = NULL;

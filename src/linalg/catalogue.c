@@ -21,10 +21,10 @@ const pg_linear_type *pg_linear_find (const char *name)
     return NULL;
 }
 
-const pg_linear_type *pg_linear_direct (int symmetric)
+const pg_linear_type *pg_linear_first (int symmetric, int factors)
 {
     for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
-        if (entries[i]->factors && entries[i]->symmetric == symmetric) return entries[i];
+        if (entries[i]->symmetric == symmetric && entries[i]->factors == factors) return entries[i];
     return NULL;
 }
 

@@ -85,7 +85,7 @@ static pg_status factor_coarsest (pg_multilevel *m, level *l)
     pg_status status = PG_OK;
     pg_sparse A = { 0 };
     pg_linear_options o = { l->block, l->dim, l->threads, 0 };
-    m->direct = pg_linear_direct (1);
+    m->direct = pg_linear_first (1, 1);
     for (double lift = 1e-10; ; lift *= 100) {
         pg_sparse_clear (&A);
         PG_TRY (coarsest_matrix (&A, l, lift));

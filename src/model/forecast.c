@@ -6,6 +6,7 @@
  * of as many nodes as one is coupled to, this is within 20 % of METIS for disks, cubes and plates of 10^3 to
  * 10^5 nodes (test/model/test_forecast.c). */
 #include "forecast.h"
+#include "perigal/linalg.h"
 #include <math.h>
 #include <string.h>
 
@@ -62,8 +63,10 @@ static void choose_linear (pg_forecast *f)
                : !f->method->shape_functions
                    ? pg_method_iterates (f->method, 1, f->dim, f->points * (f->dim + f->rotations))
                                              : f->dim == 3 && f->points * 3 > 200000;
-    strcpy (f->linear, none ? "cg" : "cholmod");
+    f->linear = none ? NULL : pg_linear_first (1, 1);
 }
+
+const char *pg_forecast_linear (const pg_forecast *f) { return f->linear ? f->linear->name : "cg"; }
 
 /* ---- bytes --------------------------------------------------------------------------------------------- */
 const char *pg_forecast_item (int item)
@@ -85,7 +88,7 @@ void pg_forecast_sum (pg_forecast *f)
                                   : f->bonds[PG_POINTS],
            corners = pow (2, d), *b = f->bytes;
     choose_linear (f);
-    int factors = strcmp (f->linear, "cg") != 0, lu = strcmp (f->linear, "umfpack") == 0;
+    int factors = f->linear != NULL, lu = factors && !f->linear->symmetric;
     double m = d + f->rotations;
     f->dofs = n * m;
     f->matrix_entries = (f->pairs - n) * m * m + n * m * (m + 1) / 2;
@@ -115,9 +118,9 @@ void pg_forecast_sum (pg_forecast *f)
     b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
     if (factors)
         b[PG_BYTES_MATRIX] = !f->method->shape_functions
-            ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
-                                       : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
-                                             + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
+                                 ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
+                                 : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
+                                       + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
     if (factors) {
         double entries = lu ? 2 * f->factor_entries : f->factor_entries;
         b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
@@ -272,12 +275,14 @@ pg_status pg_forecast_afford (const pg_forecast *f, double available)
         pg_forecast_sum (&g);
         alternative (&g, "method.integration: nodal needs about", available, text, sizeof text);
     }
-    if (strcmp (f->linear, "cg") != 0) {
+    if (f->linear) {
         pg_forecast g = *f;
         g.automatic = 0;
-        strcpy (g.linear, "cg");
+        g.linear = NULL;
         pg_forecast_sum (&g);
-        alternative (&g, "solver.linear: pcg needs about", available, text, sizeof text);
+        char words[80];
+        snprintf (words, sizeof words, "solver.linear: %s needs about", pg_linear_first (1, 0)->name);
+        alternative (&g, words, available, text, sizeof text);
     }
     size_t at = strlen (text);
     if (f->dim == 3)

@@ -2,6 +2,7 @@
  * Sizes of a run from the scene alone: method and solver as written, points and bonds counted on the lattice
  * or sampled from a file. */
 #include "forecast.h"
+#include "perigal/linalg.h"
 #include <math.h>
 #include <string.h>
 
@@ -63,10 +64,8 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     f->automatic = !linear || is (linear, "auto");
     f->dynamic = !pg_solver_is (kind, PG_SOLVER_STATIC);
     f->explicit_ = !pg_solver_is (kind, PG_SOLVER_IMPLICIT);
-    snprintf (f->linear, sizeof f->linear, "%s",
-              f->automatic         ? "cholmod"
-              : is (linear, "pcg") ? "cg"
-                                   : linear);
+    f->linear = f->automatic ? pg_linear_first (1, 1) : pg_linear_find (linear);
+    if (f->linear && !f->linear->factors) f->linear = NULL;
     if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }
@@ -145,8 +144,7 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
 /* The bonds of one point of forces straight between points; moved points have those of whole volumes and a
  * falling rim. */
 static pg_status make_bonds (pg_stencil *out, const pg_method *method, const pg_scene *scene,
-                             const pg_lattice *l,
-                             const pg_approx *a)
+                             const pg_lattice *l, const pg_approx *a)
 {
     pg_mode mode = l->dim == 1                                     ? PG_LINE
                    : l->dim == 3                                   ? PG_SOLID
@@ -220,7 +218,7 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     /* a side each */
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) facets += all / (2 * f->dim);
     f->facets = !f->method->shape_functions ? 0 : fmin (facets, all),
-        f->bonds[PG_FACETS] = f->facets * 0.6 * each;
+    f->bonds[PG_FACETS] = f->facets * 0.6 * each;
 done:
     pg_free (element), pg_free (side);
     return status;

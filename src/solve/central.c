@@ -5,28 +5,28 @@
  *     dt. */
 #include "explicit.h"
 
-static void range (const sweep *w, size_t first, size_t last, double *sum)
+static void range (const half_kicks *w, size_t first, size_t last, double *sum)
 {
     double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), keep = (1 - h * c) * less,
            push = dt * less, rate = 1 / dt;
     double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a, before[8] = { 0 }, after[8] = { 0 },
                      kinetic[8] = { 0 };
     const double *restrict f = w->f, *restrict inverse = w->inverse;
-    if (w->settle) {
+    if (w->closing) {
         for (size_t i = first; c > 0 && i < last; i++) {
             double vn = 0.5 * (v[i] + (keep * v[i] + push * (f[i] * inverse[i])));
             before[i & 7] += w->mass[i] * vn * v[i];
             after[i & 7] += w->mass[i] * vn * (2 * vn - v[i]);
         }
-        sum[SUM_C] = sweep_sum (before), sum[SUM_D] = sweep_sum (after);
+        sum[SUM_C] = lane_sum (before), sum[SUM_D] = lane_sum (after);
     }
 #define BOTH(i) do { v[i] = keep * v[i] + push * (f[i] * inverse[i]); d[i] += dt * v[i]; } while (0)
     size_t at = first;
-    if (w->settle && w->launch) {
+    if (w->closing && w->opening) {
         for (; at + LANES <= last; at += LANES) for (size_t k = at; k < at + LANES; k++) BOTH (k);
         for (; at < last; at++) BOTH (at);
     }
-    else if (w->launch) for (size_t i = first; i < last; i++) d[i] += dt * v[i];
+    else if (w->opening) for (size_t i = first; i < last; i++) d[i] += dt * v[i];
     else {
         for (size_t i = first; i < last; i++) {
             double now = keep * v[i] + push * (f[i] * inverse[i]);
@@ -34,13 +34,13 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
             a[i] = (now - v[i]) * rate;
             v[i] = now;
         }
-        sum[SUM_K] = sweep_sum (kinetic);
+        sum[SUM_K] = lane_sum (kinetic);
     }
 }
 
 static pg_status step (pg_solver *s, pg_state *state, pg_step *out)
 {
-    return march_step (s, state, out, range, 1);
+    return explicit_step (s, state, out, range, 1);
 }
 
 const pg_solver_type pg_solver_central = {
@@ -48,15 +48,15 @@ const pg_solver_type pg_solver_central = {
     .summary = "explicit dynamics, central differences",
     .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY,
     .keys = { &solver_keys_step, &solver_keys_time },
-    .read = march_read,
-    .prepare = march_prepare,
-    .start = march_start,
+    .read = explicit_read,
+    .prepare = explicit_prepare,
+    .start = explicit_start,
     .step = step,
-    .done = march_done,
-    .refused = march_refused,
+    .done = explicit_done,
+    .refused = explicit_refused,
     .free = explicit_free,
     .keep = explicit_keep,
     .own_size = sizeof (motion),
     .stable = explicit_bound,
-    .progress = march_progress,
+    .progress = explicit_progress,
 };

@@ -199,9 +199,9 @@ static int operates (const pg_system *s) { return s->force->operator_ && s->forc
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[8] = { s->mode,  s->umfpack,   s->kept,  s->marked, s->factored != NULL,
+    long count[8] = { s->mode,  s->indefinite,   s->kept,  s->marked, s->factored != NULL,
                       s->stale, s->unshifted, s->spared };
-    double number[3] = { s->mean_diagonal, s->shift, s->rent };
+    double number[3] = { s->mean_diagonal, s->shift, s->extra_cost };
     PG_TRY (k->counts (k->context, "system.counts", 8, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
@@ -211,11 +211,11 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     PG_KEEP_BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
     s->spared = count[7];
-    s->mean_diagonal = number[0], s->shift = number[1], s->rent = number[2];
-    if (k->reading && count[1] && !s->umfpack) {
+    s->mean_diagonal = number[0], s->shift = number[1], s->extra_cost = number[2];
+    if (k->reading && count[1] && !s->indefinite) {
         if (s->factor) s->linear->free (&s->factor);
-        s->linear = pg_linear_direct (0);
-        s->umfpack = 1;
+        s->linear = pg_linear_first (0, 1);
+        s->indefinite = 1;
     }
     long made = s->multilevel != NULL || s->remake;
     PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
@@ -253,16 +253,16 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     break_loop *b = &s->break_loop;
     size_t nload = s->problem->nload;
     long pairs = -1;
-    long count[7] = { s->finished,   s->overlap_told, s->energy_told, s->skips_told,
-                      s->next_level, b->round,        s->spared_told };
+    long count[7] = { s->finished,   s->warned_overlap, s->warned_energy, s->reported_skips,
+                      s->next_level, b->round,        s->reported_spared };
     double number[3] = { b->work, b->work0, b->stored0 };
     PG_TRY (k->counts (k->context, "solver.counts", 7, count));
     PG_TRY (k->numbers (k->context, "solver.numbers", 3, number));
     PG_KEEP_BOUND (k, "the next level", count[4], 0, s->options.levels + 1);
     PG_KEEP_BOUND (k, "the round", count[5], 0, most);
-    s->finished = (int) count[0], s->overlap_told = (int) count[1], s->energy_told = (int) count[2],
-    s->skips_told = (int) count[3];
-    s->next_level = count[4], b->round = count[5], s->spared_told = (int) count[6];
+    s->finished = (int) count[0], s->warned_overlap = (int) count[1], s->warned_energy = (int) count[2],
+    s->reported_skips = (int) count[3];
+    s->next_level = count[4], b->round = count[5], s->reported_spared = (int) count[6];
     b->work = number[0], b->work0 = number[1], b->stored0 = number[2];
     PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
@@ -283,14 +283,14 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     pg_statistics counts = s->report;
     int stale = sys->stale;
     unsigned char *alive = state->alive;
-    double rent = sys->rent, pace = sys->pace;
+    double extra_cost = sys->extra_cost, pace = sys->pace;
     if (sys->remake && sys->factored) {
         state->alive = sys->factored;
         status = system_refresh (sys, state, NULL);
         if (status == PG_OK) status = system_make_multilevel (sys);
         state->alive = alive;
         PG_TRY (status);
-        sys->rent = rent, sys->pace = pace, sys->remake = 0;
+        sys->extra_cost = extra_cost, sys->pace = pace, sys->remake = 0;
     } else if ((sys->mode == SYSTEM_KEPT_FACTOR || !stale) && sys->factored) {
         state->alive = sys->factored;
         status = system_refresh (sys, state, NULL);

@@ -232,12 +232,12 @@ pg_status event_keep (pg_solver *s, const pg_keeper *k)
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     size_t ndof = s->break_loop.system.ndof;
-    long count[4] = { (long) e->ended, e->balance_fresh, e->unit != NULL, e->held };
+    long count[4] = { (long) e->ended, e->balance_fresh, e->unit != NULL, e->constant_events };
     double number[2] = { e->unit_residual, e->secant0 };
     PG_TRY (k->counts (k->context, "event_stepping.counts", 4, count));
     PG_TRY (k->numbers (k->context, "event_stepping.numbers", 2, number));
     PG_KEEP_BOUND (k, "the end of the run", count[0], 0, 63);
-    e->ended = (pg_status) count[0], e->balance_fresh = (int) count[1], e->held = count[3];
+    e->ended = (pg_status) count[0], e->balance_fresh = (int) count[1], e->constant_events = count[3];
     e->unit_residual = number[0], e->secant0 = number[1];
     PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
     if (count[2] && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));

@@ -8,7 +8,7 @@
 typedef struct {                                       /* state of `static` with stepping: event */
     double   *unit;                                    /* displacement at load factor 1 (ndof) */
     double   *base;                                    /* affine loads: at load factor 0 (ndof); else NULL */
-    long      held;                                    /* affine loads: events at a held load factor */
+    long      constant_events;  /* affine loads: events at a held load factor */
     double    unit_residual;                           /* of `unit` (and `base`) */
     pg_status ended;                                   /* no step can follow: the next one fails with this */
     char      why[1024];                               /* and says why */

@@ -126,7 +126,7 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     if (found) PG_TRY (way_out (s, state, in, now, factor));
     else {
         *factor = now;
-        if (!events_of (s)->held++)
+        if (!events_of (s)->constant_events++)
             pg_statistics_warn (&s->report,
                                 "at load factor %.6g, after event %ld, no lower factor lets the remaining "
                                 "bonds live: the constant loads drive the crack, which then runs "
@@ -218,7 +218,7 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     if (s->problem->criterion->type && b->system.force->utilisation) {
         long over = break_loop_over (b, state, 1, &step->utilisation);
         /* at a held factor they are about to break */
-        if (!e->held || !breaks) s->report.bonds_over_limit += over;
+        if (!e->constant_events || !breaks) s->report.bonds_over_limit += over;
     }
     if (breaks) PG_TRY (break_here (s, state, factor, step));
     if (start) step->level = 1;

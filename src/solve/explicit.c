@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What explicit and relaxed methods have in common: supports, loads, the stable time step, forces with
- * breaking, rows and levels. */
+ * What explicit dynamics and relaxation have in common: supports, loads, forces with breaking, rows and
+ * levels. */
 #include "explicit.h"
 #include <math.h>
 #include <string.h>
@@ -9,7 +9,7 @@ enum { BLOCK = 2048 };
 
 /* ---- supports ------------------------------------------------------------------------------------------ */
 /* The rows of T without an entry; T must select: one entry a column, which is 1. */
-static pg_status find_held (motion *m, const pg_sparse *T, size_t ndof, const char *kind)
+static pg_status find_prescribed (motion *m, const pg_sparse *T, size_t ndof, const char *kind)
 {
     pg_status status = PG_OK;
     unsigned char *is_free = NULL;
@@ -23,10 +23,10 @@ static pg_status find_held (motion *m, const pg_sparse *T, size_t ndof, const ch
                      kind);
         is_free[T->row[T->start[j]]] = 1;
     }
-    for (size_t i = 0; i < ndof; i++) m->nheld += !is_free[i];
-    PG_ALLOC (m->held, m->nheld);
+    for (size_t i = 0; i < ndof; i++) m->nprescribed += !is_free[i];
+    PG_ALLOC (m->prescribed, m->nprescribed);
     size_t n = 0;
-    for (size_t i = 0; i < ndof; i++) if (!is_free[i]) m->held[n++] = i;
+    for (size_t i = 0; i < ndof; i++) if (!is_free[i]) m->prescribed[n++] = i;
 done:
     pg_free (is_free);
     return status;
@@ -53,11 +53,11 @@ pg_status explicit_create (pg_solver *s)
     const pg_force_type *force = sys->force;
     const pg_sparse *T = force->basis ? force->basis (sys->self) : NULL;
     motion *m = motion_of (s);
-    if (T && force->impose) PG_TRY (find_held (m, T, sys->ndof, s->type->name));
-    PG_ALLOC (m->lists, 3 * m->nheld);
-    m->before = m->lists, m->goal = m->before + m->nheld, m->next = m->goal + m->nheld;
-    PG_ALLOC (m->push, 2 * m->nheld);
-    m->push0 = m->push + m->nheld;
+    if (T && force->impose) PG_TRY (find_prescribed (m, T, sys->ndof, s->type->name));
+    PG_ALLOC (m->lists, 3 * m->nprescribed);
+    m->before = m->lists, m->goal = m->before + m->nprescribed, m->next = m->goal + m->nprescribed;
+    PG_ALLOC (m->push, 2 * m->nprescribed);
+    m->push0 = m->push + m->nprescribed;
     if (force->external && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
     m->by_work_balance = !force->external && force->work_balance
                          && (has_forces (s->problem) || has_springs (s->problem));
@@ -74,14 +74,14 @@ void explicit_free (pg_solver *s)
 {
     motion *m = motion_of (s);
     if (!m) return;
-    pg_free (m->held), pg_free (m->lists), pg_free (m->push), pg_free (m->P), pg_free (m->inverse),
+    pg_free (m->prescribed), pg_free (m->lists), pg_free (m->push), pg_free (m->P), pg_free (m->inverse),
         pg_free (m->sum);
 }
 
 void explicit_release (pg_solver *s, pg_state *state)
 {
     const motion *m = motion_of (s);
-    for (size_t k = 0; k < m->nheld; k++) state->v[m->held[k]] = state->a[m->held[k]] = 0;
+    for (size_t k = 0; k < m->nprescribed; k++) state->v[m->prescribed[k]] = state->a[m->prescribed[k]] = 0;
 }
 
 static pg_status gather (pg_solver *s, double t, double *out)
@@ -89,9 +89,9 @@ static pg_status gather (pg_solver *s, double t, double *out)
     pg_status status = PG_OK;
     const motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
-    if (m->nheld == 0) return PG_OK;
+    if (m->nprescribed == 0) return PG_OK;
     PG_TRY (sys->force->impose (sys->self, t, sys->full));
-    for (size_t k = 0; k < m->nheld; k++) out[k] = sys->full[m->held[k]];
+    for (size_t k = 0; k < m->nprescribed; k++) out[k] = sys->full[m->prescribed[k]];
 done:
     return status;
 }
@@ -115,81 +115,8 @@ done:
     return status;
 }
 
-/* ---- the stable time step ------------------------------------------------------------------------------ */
-/* A bound from above where the force has one; else the largest frequency itself, from below within 1 %. */
-static pg_status find_bound (pg_solver *s)
-{
-    pg_status status = PG_OK;
-    motion *m = motion_of (s);
-    pg_system *sys = &s->break_loop.system;
-    int exact = !sys->force->bound && !sys->force->row_sums;
-    if (!sys->force->bound) PG_TRY (system_refresh (sys, s->backup, NULL));
-    PG_TRY (pg_force_bound (sys->force, sys->self, sys->ndof, sys->mass, sys->full, &m->omega, &m->from));
-    if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
-    if (!isfinite (m->omega))
-        PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
-    m->stable = m->omega > 0 ? (exact ? 0.99 : 1) * 2 / m->omega : INFINITY;
-done:
-    return status;
-}
-
-/* Beyond the bound the frequency itself decides. */
-static pg_status check_dt (pg_solver *s)
-{
-    pg_status status = PG_OK;
-    motion *m = motion_of (s);
-    double omega;
-    if (s->options.dt <= m->stable) goto done;
-    PG_TRY (pg_solver_fastest (s, s->backup, &omega));
-    double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
-    if (s->options.dt <= limit) goto done;
-    const pg_scene *scene = s->options.scene;
-    if (scene && !pg_scene_given (scene, "solver.dt"))     /* by solver.end / solver.time_steps */
-        PG_TRY (solver_fault (s, "solver.time_steps",
-                              "steps of %.6g s are too large: explicit steps are stable up to %.4g s (2 / "
-                              "largest frequency); take at least %.0f, "
-                              "or leave solver.time_steps out",
-                              s->options.dt, limit, ceil (s->options.end / limit)));
-    PG_TRY (solver_fault (s, "solver.dt",
-                          "%.6g s is too large: explicit steps are stable up to %.4g s (2 / largest "
-                          "frequency); take at most that, or leave "
-                          "solver.dt out",
-                          s->options.dt, limit));
-done:
-    return status;
-}
-
-pg_status explicit_stable (pg_solver *s)
-{
-    pg_status status = PG_OK;
-    pg_system *sys = &s->break_loop.system;
-    motion *m = motion_of (s);
-    for (size_t i = 0; i < sys->ndof; i++) {
-        if (!(sys->mass[i] > 0))
-            PG_TRY (solver_fault (s, "solver.kind",
-                                  "%s needs mass at every point: give the material a density",
-                                  s->type->name));
-        m->inverse[i] = 1 / sys->mass[i];
-    }
-    PG_TRY (find_bound (s));
-    if (s->options.dt > 0) PG_TRY (check_dt (s));
-    else if (isfinite (m->stable)) s->options.dt = 0.9 * m->stable;
-    else
-        PG_TRY (solver_fault (s, "solver.dt",
-                              "nothing resists, so that any time step is stable: give solver.dt"));
-done:
-    return status;
-}
-
-double explicit_bound (const pg_solver *s, const char **from)
-{
-    const motion *m = motion_of (s);
-    if (m->from) *from = m->from;
-    return m->from ? m->stable : NAN;
-}
-
 /* ---- forces -------------------------------------------------------------------------------------------- */
-static pg_status bury (pg_solver *s, pg_state *state, double t)
+static pg_status remove_broken (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
@@ -205,8 +132,8 @@ done:
     return status;
 }
 
-/* By a sweep of utilisation: 1: bonds died, the caches are in line. */
-static pg_status break_by_sweep (pg_solver *s, pg_state *state, double t)
+/* By the utilisation of all bonds; the caches are brought in line with those that died. */
+static pg_status break_by_utilisation (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
@@ -235,9 +162,9 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     if (!breaking) goto done;
-    if (force->balance_and_break) PG_TRY (bury (s, state, t));
+    if (force->balance_and_break) PG_TRY (remove_broken (s, state, t));
     else {
-        PG_TRY (break_by_sweep (s, state, t));
+        PG_TRY (break_by_utilisation (s, state, t));
         if (b->changes.n)
             PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     }
@@ -328,7 +255,7 @@ pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "motion.numbers", 5, number));
     m->damped = number[0], m->damped0 = number[1], m->resist = number[2], m->resist0 = number[3],
     m->most = number[4];
-    if (m->nheld) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nheld, m->push));
+    if (m->nprescribed) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nprescribed, m->push));
     if (k->reading) m->fresh = 0;
 done:
     return status;

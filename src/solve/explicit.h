@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: what explicit and relaxed methods have in common. Time step n ends at t_n = n dt; velocities live
- * half way between. Prescribed unknowns ("held") follow their motion: their entries of v and a are 0 inside a
+ * half way between. Prescribed unknowns follow their motion: their entries of v and a are 0 inside a
  * step and filled in where a state is shown. The force on them from outside, m a + f_int with a = (g_n+1 - 2
  * g_n + g_n-1) / dt^2, does the work of the supports. */
 #ifndef PG_EXPLICIT_H
@@ -8,9 +8,9 @@
 #include "solve.h"
 
 typedef struct {
-    size_t  nheld, *held;                              /* prescribed unknowns, ascending */
-    double *lists, *before, *goal, *next;  /* their displacement at t_n-1, t_n, t_n+1, m (nheld) */
-    double *push, *push0;  /* force on them from outside at t_n; at the start of the step, N (nheld) */
+    size_t  nprescribed, *prescribed;                  /* prescribed unknowns, ascending */
+    double *lists, *before, *goal, *next;  /* their displacement at t_n-1, t_n, t_n+1, m (nprescribed) */
+    double *push, *push0;  /* force on them from outside at t_n; at the start of the step, N (nprescribed) */
     double *P;  /* loads at t_n, N (ndof); NULL: none, or the force does not say */
     double *inverse;                                   /* 1 / mass; 0: no mass (ndof) */
     double *sum;  size_t nblock;                       /* of every block of unknowns (nblock x SUMS) */
@@ -30,11 +30,7 @@ enum { SUM_A, SUM_B, SUM_C, SUM_D, SUM_K, SUM_BAD, SUMS };
 
 /* ---- explicit.c ---------------------------------------------------------------------------------------- */
 pg_status explicit_create  (pg_solver *s);             /* supports, masses, work space */
-double    explicit_bound   (const pg_solver *s, const char **from);
 void      explicit_free    (pg_solver *s);
-/* Bound of the largest frequency into omega, stable and from; then options.dt: 0.9 of the stable one if not
- * given; one that is too large is refused. */
-pg_status explicit_stable  (pg_solver *s);
 /* v of prescribed unknowns 0, so that the loops over all unknowns leave them out. */
 void      explicit_release (pg_solver *s, pg_state *state);
 /* Motion of the supports around time step n (t_n, its length): before, goal, next; loads. */
@@ -52,25 +48,33 @@ int       explicit_level   (pg_solver *s, long total, long now);
 pg_status explicit_end     (pg_solver *s, const pg_state *state, int last, const char *what, double t);
 pg_status explicit_keep    (pg_solver *s, const pg_keeper *keeper);
 
-/* ---- march.c ------------------------------------------------------------------------------------------- */
-/* One sweep over unknowns first..last - 1 of a block; settle: forces are at hand, v and a become those of the
- * method at t_n; launch: on to the next half step and d_n+1. Both at once give the bits of one after the
- * other. Of `sum` it fills C, D (settle) and K (settle alone). */
+/* ---- stable_time_step.c -------------------------------------------------------------------------------- */
+/* Bound of the largest frequency into omega, stable and from; then options.dt: 0.9 of the stable one if not
+ * given; one that is too large is refused. */
+pg_status explicit_stable  (pg_solver *s);
+double    explicit_bound   (const pg_solver *s, const char **from);    /* the stable time step, s */
+
+/* ---- explicit_step.c ----------------------------------------------------------------------------------- */
+/* One pass over unknowns first..last - 1 of a block. Leapfrog in two half kicks: the closing one takes the
+ * velocity from t_n-1/2 to t_n, where forces are at hand, and v and a become those that the method shows; the
+ * opening one takes it to t_n+1/2 and the displacement to t_n+1. Both at once give the bits of one after the
+ * other. Of `sum` the pass fills C, D (closing) and K (closing alone). */
 typedef struct {
     double *d, *v, *a;
     const double *f, *inverse, *mass, *P;              /* P: or NULL */
     double dt, damping;                                /* s, 1/s */
-    int    settle, launch;
-} sweep;
-typedef void (*sweep_range) (const sweep *w, size_t first, size_t last, double *sum);
-void      march_read    (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
-pg_status march_prepare (pg_solver *s);
-pg_status march_start   (pg_solver *s, pg_state *state);
-pg_status march_step    (pg_solver *s, pg_state *state, pg_step *step, sweep_range range, int staggered);
-int       march_done    (const pg_solver *s, const pg_state *state);
-void      march_refused (pg_solver *s);
-double    march_progress (const pg_solver *s, const pg_state *state);
-double    sweep_sum     (const double *s);             /* of 8 lanes */
-double    sweep_dot     (const double *a, const double *b, size_t first, size_t last);
-double    sweep_bad     (const double *d, size_t first, size_t last);  /* 0, or NaN when one is not finite */
+    int    closing, opening;
+} half_kicks;
+typedef void (*kick_range) (const half_kicks *w, size_t first, size_t last, double *sum);
+void      explicit_read    (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
+pg_status explicit_prepare (pg_solver *s);
+pg_status explicit_start   (pg_solver *s, pg_state *state);
+pg_status explicit_step    (pg_solver *s, pg_state *state, pg_step *step, kick_range range, int staggered);
+int       explicit_done    (const pg_solver *s, const pg_state *state);
+void      explicit_refused (pg_solver *s);
+double    explicit_progress (const pg_solver *s, const pg_state *state);
+double    lane_sum     (const double *s);             /* of 8 lanes */
+double    lane_dot     (const double *a, const double *b, size_t first, size_t last);
+/* 0, or NaN when one is not finite */
+double    lane_not_finite     (const double *d, size_t first, size_t last);
 #endif

@@ -146,7 +146,8 @@ static void newmark_read (pg_solver_options *o, const pg_problem *problem, const
     own->rayleigh_stiffness = pg_scene_number (scene, "solver.rayleigh.stiffness");
     own->consistent = strcmp (pg_scene_text (scene, "solver.mass"), "consistent") == 0;
     if (own->consistent && force && !force->mass_matrix)
-        pg_scene_fault (scene, "solver.mass", "force: %s has no consistent mass: use lumped", problem->method->name);
+        pg_scene_fault (scene, "solver.mass", "force: %s has no consistent mass: use lumped",
+                        problem->method->name);
     own->alpha = pg_scene_number (scene, "solver.alpha");
     own->beta = pg_scene_given (scene, "solver.beta") ? pg_scene_number (scene, "solver.beta")
                                            : (1 - own->alpha) * (1 - own->alpha) / 4;

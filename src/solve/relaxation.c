@@ -8,13 +8,7 @@
 
 enum { BLOCK = 2048, SUM_R = 0, SUM_STIFF = 1, SUM_MASS = 2 };
 static const double least = 1e-2;  /* of the largest reference so far: a body apart bears nothing */
-/* hold: off, on: of Rayleigh's quotient, an iteration: from one alone damping jumps, and blows rounding up */
-static const double memory[2] = { 0.98, 0.9 };
-/* hold: off: least damping, of the critical one of the shape that the loads give the body */
-static const double share = 0.5;
 static const double arrival = 1e-2;  /* imbalance at which the load of a stage has come to act */
-
-static pg_stages_options *stages_of (const pg_solver *s) { return PG_OWN (pg_stages_options, &s->options); }
 
 pg_status relaxation_create (pg_solver *s)
 {
@@ -35,76 +29,6 @@ void relaxation_free (pg_solver *s)
     if (x) pg_free (x->mass), pg_free (x->rate);
     pg_free (x);
     explicit_free (s);
-}
-
-static int breaks (const pg_solver *s)
-{
-    const pg_force_type *force = s->break_loop.system.force;
-    return (force->balance_and_break || force->utilisation) && s->problem->criterion->type;
-}
-
-/* ---- stages -------------------------------------------------------------------------------------------- */
-/* The smallest stretch that breaks a bond, by the criterion itself; INFINITY where stretch does not
- * decide. */
-static double smallest_stretch (const pg_problem *p)
-{
-    double xi[3] = { p->cloud.h, 0, 0 }, eta[3] = { p->cloud.h, 0, 0 }, utilisation, s0 = INFINITY;
-    pg_bond_measures m = { .n = 1, .dim = p->dim, .xi = xi, .eta = eta };
-    for (size_t k = 0; k < p->nmaterial; k++) {
-        const pg_criterion *c = &p->criterion[k];
-        if (!c->type || c->never || c->type->needs != PG_NEEDS_STRETCH) continue;
-        c->type->utilisation (c, &m, &utilisation, NULL);
-        if (utilisation > 0) s0 = fmin (s0, 1 / utilisation);
-    }
-    return s0;
-}
-
-/* Shen 2016 eqs (21), (22): a stage must not stretch bonds to their limit by its mere arrival, d_lambda |b| <
- * 2 rho s0 h / dt^2. */
-static pg_status limit_stages (pg_solver *s)
-{
-    pg_status status = PG_OK;
-    pg_stages_options *own = stages_of (s);
-    motion *m = motion_of (s);
-    const struct relaxation *x = m->relaxation;
-    double most = 0;
-    if (!m->P || !breaks (s)) goto done;
-    double s0 = smallest_stretch (s->problem);
-    if (!isfinite (s0)) goto done;
-    PG_TRY (s->break_loop.system.force->external (s->break_loop.system.self, 1, m->P));
-    for (size_t i = 0; i < s->break_loop.system.ndof; i++)
-        if (x->mass[i] > 0) most = fmax (most, fabs (m->P[i]) / x->mass[i]);
-    double needed = ceil (most * x->dt * x->dt / (2 * s0 * s->problem->cloud.h) * (1 - 1e-12));
-    if (needed > 1e9)
-        PG_TRY (solver_fault (s, "solver.stages",
-                              "the load would need %g stages so that its mere arrival breaks no bond: it is "
-                              "too large for these limits",
-                              needed));
-    if (needed > (double) own->stages) {
-        pg_statistics_warn (&s->report,
-                            "the load comes in %.0f stages instead of %ld, so that its mere arrival breaks "
-                            "no bond (Shen 2016 eq (22))",
-                            needed, own->stages);
-        own->stages = (long) needed;
-    }
-done:
-    return status;
-}
-
-pg_status relaxation_stages (pg_solver *s)
-{
-    pg_status status = PG_OK;
-    const pg_stages_options *own = stages_of (s);
-    pg_solver_options *o = &s->options;
-    if (own->stages < 1) PG_FAIL (PG_E_USAGE, "%s needs a number of stages", o->kind);
-    if (!(own->imbalance > 0)) PG_FAIL (PG_E_USAGE, "%s needs an imbalance to end at", o->kind);
-    PG_TRY (limit_stages (s));
-    o->steps = own->hold ? own->stages : 0;
-    for (long n = 0; !own->hold && n < own->stages;
-         n = explicit_row (s, own->stages, n))
-        o->steps++;
-done:
-    return status;
 }
 
 pg_status relaxation_start (pg_solver *s, pg_state *state)
@@ -144,14 +68,14 @@ static void measure (void *context, size_t first, size_t last, int thread)
     for (size_t b = first; b < last; b++) {
         size_t i = b * BLOCK, end = i + BLOCK < w->ndof ? i + BLOCK : w->ndof;
         double stiff[8] = { 0 }, heavy[8] = { 0 }, *sum = w->sum + b * SUMS;
-        sum[SUM_R] = sweep_dot (r, r, i, end);
-        sum[SUM_BAD] = sweep_bad (d, i, end);
+        sum[SUM_R] = lane_dot (r, r, i, end);
+        sum[SUM_BAD] = lane_not_finite (d, i, end);
         for (; i < end; i++) {
             size_t k = i & 7;
             stiff[k] += v[i] * (a[i] - r[i]);
             heavy[k] += v[i] * (v[i] * mass[i]);
         }
-        sum[SUM_STIFF] = sweep_sum (stiff), sum[SUM_MASS] = sweep_sum (heavy);
+        sum[SUM_STIFF] = lane_sum (stiff), sum[SUM_MASS] = lane_sum (heavy);
     }
 }
 
@@ -175,7 +99,7 @@ static void move (void *context, size_t first, size_t last, int thread)
     }
 }
 
-static double norm (const double *a, size_t n) { return sqrt (sweep_dot (a, a, 0, n)); }
+static double norm (const double *a, size_t n) { return sqrt (lane_dot (a, a, 0, n)); }
 
 /* The residual at d, free of the forces of supports; its size over that of loads and reactions; damping from
  * it. */
@@ -191,10 +115,10 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     x->broke = breaking && s->break_loop.changes.n > 0;
     if (x->broke && x->weigh) PG_TRY (x->weigh (s));
     double t0 = pg_seconds ();
-    for (size_t k = 0; k < m->nheld; k++)
-        m->push[k] = -sys->residual[m->held[k]], sys->residual[m->held[k]] = 0;
+    for (size_t k = 0; k < m->nprescribed; k++)
+        m->push[k] = -sys->residual[m->prescribed[k]], sys->residual[m->prescribed[k]] = 0;
     if (m->P) reference = 0;
-    reference = fmax (reference, fmax (m->P ? norm (m->P, sys->ndof) : 0, norm (m->push, m->nheld)));
+    reference = fmax (reference, fmax (m->P ? norm (m->P, sys->ndof) : 0, norm (m->push, m->nprescribed)));
     if (x->armed || !own->hold) x->most = fmax (x->most, reference);
     reference = fmax (reference, least * x->most);
     iterating all = { x, state->d, state->v, state->a, sys->residual, m->inverse, m->sum, 0, sys->ndof, 0 };
@@ -203,12 +127,7 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     double size = sqrt (total[SUM_R]);
     if (total[SUM_BAD] != 0 || !isfinite (size)) PG_TRY (explicit_lost (s, state, t));
     x->imbalance = reference > 0 ? size / reference : size > 0 ? 1 : 0;
-    if (x->resting) x->stiff = x->heavy = 0;
-    else if (!x->broke && total[SUM_MASS] > 0) {
-        x->stiff = memory[own->hold] * x->stiff + total[SUM_STIFF],
-        x->heavy = memory[own->hold] * x->heavy + total[SUM_MASS];
-        x->c = fmin (1.9 / x->dt, fmax (x->floor, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt)))));
-    }
+    relaxation_damp (x, own->hold, total[SUM_STIFF], total[SUM_MASS]);
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
 done:
     return status;
@@ -231,8 +150,8 @@ static void iterate (pg_solver *s, pg_state *state)
 static void impose (const pg_solver *s, pg_state *state)
 {
     const motion *m = motion_of (s);
-    for (size_t k = 0; k < m->nheld; k++)
-        state->d[m->held[k]] = m->goal[k], state->v[m->held[k]] = state->a[m->held[k]] = 0;
+    for (size_t k = 0; k < m->nprescribed; k++)
+        state->d[m->prescribed[k]] = m->goal[k], state->v[m->prescribed[k]] = state->a[m->prescribed[k]] = 0;
 }
 
 /* Under proportional loads the last balanced state times the ratio of loads is the next one, until bonds
@@ -342,7 +261,7 @@ static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
     break_loop *b = &s->break_loop;
     struct relaxation *x = m->relaxation;
     const pg_solver_options *o = &s->options;
-    int can = breaks (s), passing = can && o->break_mode == PG_BREAK_PASSING;
+    int can = relaxation_breaks (s), passing = can && o->break_mode == PG_BREAK_PASSING;
     for (;; b->round++) {
         if (b->watch && b->round > b->began && b->round % m->between == 0)
             PG_TRY (look (s, state, step));
@@ -369,7 +288,7 @@ done:
     return status;
 }
 
-static pg_status step_held (pg_solver *s, pg_state *state, pg_step *step)
+static pg_status step_of_held_stage (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
@@ -393,26 +312,6 @@ done:
 }
 
 /* ---- one iteration a stage ----------------------------------------------------------------------------- */
-/* The body that follows slow loads moves without strain rates to speak of: v K v would tell no damping, and
- * what then swings grows out of rounding. Rayleigh's quotient of the displacement itself, but for its mean,
- * does: d . (P - r) is d K d. */
-static double steady_damping (const pg_solver *s, const pg_state *state)
-{
-    const motion *m = motion_of (s);
-    const pg_system *sys = &s->break_loop.system;
-    const double *d = state->d, *mass = m->relaxation->mass;
-    double stiff = 0, heavy = 0;
-    for (size_t i = 0; i < sys->ndof; i++) stiff += d[i] * ((m->P ? m->P[i] : 0) - sys->residual[i]);
-    for (size_t k = 0; k < m->nheld; k++) stiff += d[m->held[k]] * m->push[k];
-    for (size_t c = 0; c < (size_t) sys->components; c++) {
-        double sum = 0, first = 0, second = 0;
-        for (size_t i = c; i < sys->ndof; i += (size_t) sys->components)
-            sum += mass[i], first += mass[i] * d[i], second += mass[i] * d[i] * d[i];
-        if (sum > 0) heavy += second - first * first / sum;
-    }
-    return heavy > 0 && stiff > 0 ? share * 2 * sqrt (stiff / heavy) : 0;
-}
-
 static int is_due (long n) { return n % 64 == 0 || (n < 64 && (n & (n - 1)) == 0); }
 
 static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
@@ -432,7 +331,7 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
         PG_TRY (explicit_follow (s, t, t, t));
         impose (s, state);
         PG_TRY (examine (s, state, t, 1));
-        if (is_due (n)) x->floor = steady_damping (s, state);
+        if (is_due (n)) x->floor = relaxation_least_damping (s, state);
         x->worst = fmax (x->worst, x->imbalance);
         iterate (s, state);
         b->round = n - state->iterations;
@@ -462,7 +361,7 @@ pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    PG_TRY (stages_of (s)->hold ? step_held (s, state, step) : step_on (s, state, step));
+    PG_TRY (stages_of (s)->hold ? step_of_held_stage (s, state, step) : step_on (s, state, step));
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     state->time = step->time = step->factor = state->factor;
@@ -506,25 +405,4 @@ pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
     x->broke = (int) count[3];
 done:
     return status;
-}
-
-/* ---- options ------------------------------------------------------------------------------------------- */
-void relaxation_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
-{
-    pg_stages_options *own = PG_OWN (pg_stages_options, o);
-    (void) problem;
-    own->stages = pg_scene_integer (scene, "solver.stages");
-    own->hold = pg_scene_bool (scene, "solver.hold");
-    own->imbalance = pg_scene_number (scene, "solver.imbalance");
-    if (!pg_scene_given (scene, "solver.break")) o->break_mode = PG_BREAK_PASSING;
-    if (!own->hold && o->break_mode != PG_BREAK_PASSING)
-        pg_scene_fault (scene, "solver.break",
-                        "%s goes by balanced states, which there are none with hold: off",
-                        pg_scene_text (scene, "solver.break"));
-}
-
-const char *relaxation_manner (const pg_solver_options *o)
-{
-    return PG_OWN (pg_stages_options, o)->hold ? ", each stage iterated to equilibrium"
-                                               : ", one iteration per stage";
 }

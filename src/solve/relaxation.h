@@ -13,7 +13,7 @@ struct relaxation {
     /* masses anew where bonds that broke may have stiffened the body; NULL: never */
     pg_status (*weigh) (pg_solver *s);
     double *rate;                                      /* given damping, 1/s; NULL: c (ndof) */
-    double dt, c;                                      /* 1/s, by Rayleigh's quotient stiff / heavy */
+    double dt, c;  /* s; damping, 1/s, by Rayleigh's quotient stiff / heavy */
     double stiff, heavy;  /* v K v dt and v M v of the last iterations, older ones count less */
     double floor;                                      /* hold: off: least c, 1/s */
     double imbalance, worst;                           /* of the last residual; hold: off: the largest */
@@ -22,10 +22,13 @@ struct relaxation {
      * break of the stage and not booked; bonds broke at the last residual */
     int    armed, resting, pending, broke;
 };
-pg_status relaxation_create  (pg_solver *s);  /* s->motion with it; masses and dt are the caller's */
-pg_status relaxation_stages  (pg_solver *s);  /* limit (22), number of steps; after masses and dt */
-void      relaxation_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
-const char *relaxation_manner (const pg_solver_options *o);
+static inline pg_stages_options *stages_of (const pg_solver *s)
+{
+    return PG_OWN (pg_stages_options, &s->options);
+}
+
+/* ---- relaxation.c: the motion -------------------------------------------------------------------------- */
+pg_status relaxation_create  (pg_solver *s);  /* motion_of (s)->relaxation; masses and dt are the caller's */
 void      relaxation_free    (pg_solver *s);
 pg_status relaxation_start   (pg_solver *s, pg_state *state);
 pg_status relaxation_step    (pg_solver *s, pg_state *state, pg_step *step);
@@ -33,4 +36,16 @@ int       relaxation_done    (const pg_solver *s, const pg_state *state);
 double    relaxation_progress (const pg_solver *s, const pg_state *state);
 void      relaxation_refused (pg_solver *s);
 pg_status relaxation_keep    (pg_solver *s, const pg_keeper *keeper);
+
+/* ---- relaxation_damping.c ------------------------------------------------------------------------------ */
+/* c from the sums v K v dt and v M v of this iteration and of those before. */
+void      relaxation_damp    (struct relaxation *x, int hold, double stiff, double heavy);
+/* The least damping of a body that follows its loads without being held, 1/s. */
+double    relaxation_least_damping (const pg_solver *s, const pg_state *state);
+
+/* ---- load_stages.c ------------------------------------------------------------------------------------- */
+int       relaxation_breaks  (const pg_solver *s);
+pg_status relaxation_stages  (pg_solver *s);           /* how many stages and steps; after masses and dt */
+void      relaxation_read    (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
+const char *relaxation_manner (const pg_solver_options *o);
 #endif

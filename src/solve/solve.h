@@ -22,7 +22,8 @@ typedef struct {
     const pg_solver_options *options;
     pg_statistics           *report;
     /* all_weak: every unknown gets the shift (touched) */
-    int       components, stale, umfpack, mode, unshifted, all_weak;
+    int       components, stale, mode, unshifted, all_weak;
+    int       indefinite;  /* K proved not positive definite: another linear solver took over */
     unsigned long revision;                            /* of K when it was last factored or found stale */
     long      spared;                                  /* solves by the factor of an earlier K */
     long      kept;                                    /* refreshes that left K as it was */
@@ -41,7 +42,7 @@ typedef struct {
     double    borne;  /* the largest reference of an accepted state of fixed load steps, N */
     double    shift;
     /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
-    double    rent;
+    double    extra_cost;
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
     unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
     int       remake;  /* read back: the preconditioner is to be made from `factored` */
@@ -63,7 +64,7 @@ void      system_multiply (const pg_system *s, const double *x, double *y);
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit,
                           size_t *used);
 /* The same for K alone by conjugate gradients with the multilevel preconditioner, made when needed
- * (precondition.c). */
+ * (preconditioner.c). */
 pg_status system_iterate_multilevel (pg_system *s, double tolerance);
 pg_status system_make_multilevel (pg_system *s);  /* from the last refresh */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
@@ -79,7 +80,7 @@ void system_add_mass (const pg_system *s, double factor, const double *x, double
 void system_add_mass_diagonal (const pg_system *s, double factor, double *d);
 void system_add_mass_matrix (const pg_system *s, double factor, const pg_sparse *K, double *value);
 
-/* ---- equilibrate.c ------------------------------------------------------------------------------------- */
+/* ---- break_loop.c ------------------------------------------------------------------------------------- */
 typedef struct {
     pg_system  system;
     double    *utilisation, *factor;                   /* per bond */
@@ -152,7 +153,7 @@ struct pg_solver {
     const pg_problem *problem;
     break_loop   break_loop;
     pg_statistics report;
-    int       started, finished, overlap_told, energy_told, skips_told, spared_told;
+    int       started, finished, warned_overlap, warned_energy, reported_skips, reported_spared;
     long      next_level;                              /* next level to report: next_level / levels */
     pg_state *backup;                                  /* last accepted state, for refused steps */
     double   *reaction;

@@ -163,7 +163,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
     if (sys->force->overlap)
         s->report.overlap_max = fmax (s->report.overlap_max,
                                       sys->force->overlap (sys->self, state, state->d));
-    if (sys->kept && !s->skips_told && s->report.factorizations) {
+    if (sys->kept && !s->reported_skips && s->report.factorizations) {
         char what[96];
         snprintf (what, sizeof what, "factorization after %ld break rounds", sys->kept);
         pg_statistics_skip (&s->report,
@@ -171,9 +171,9 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
                                 / (double) s->report.factorizations,
                             what,
                             "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
-        s->skips_told = 1;
+        s->reported_skips = 1;
     }
-    if (sys->spared && !s->spared_told && s->report.preconditioners) {
+    if (sys->spared && !s->reported_spared && s->report.preconditioners) {
         char what[96];
         snprintf (what, sizeof what, "preconditioner in %ld solves after a break", sys->spared);
         pg_statistics_skip (&s->report,
@@ -182,9 +182,9 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
                             what,
                             "that of an earlier K serves until the iterations it costs would have paid for "
                             "another (their time is not taken off)");
-        s->spared_told = 1;
+        s->reported_spared = 1;
     }
-    if (sys->spared && !s->spared_told && s->report.factorizations) {
+    if (sys->spared && !s->reported_spared && s->report.factorizations) {
         char what[96];
         snprintf (what, sizeof what, "factorization in %ld solves after a break", sys->spared);
         pg_statistics_skip (&s->report,
@@ -193,21 +193,21 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
                             what,
                             "the factor of an earlier K preconditions conjugate gradients until a new one "
                             "would pay (their time is not taken off)");
-        s->spared_told = 1;
+        s->reported_spared = 1;
     }
-    if (!s->energy_told && s->report.broken > 0
+    if (!s->warned_energy && s->report.broken > 0
         && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
         pg_statistics_warn (&s->report,
                             "breaking has fed %.3g J into the body instead of dissipating energy (external "
                             "work %.3g J): single bonds are not an "
                             "objective measure of fracture",
                             -s->report.energy_dissipated, s->report.energy_external);
-        s->energy_told = 1;
+        s->warned_energy = 1;
     }
-    if (!s->overlap_told && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
+    if (!s->warned_overlap && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
         pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)",
                             s->report.overlap_max);
-        s->overlap_told = 1;
+        s->warned_overlap = 1;
     }
     return &s->report;
 }

@@ -65,9 +65,9 @@ pg_status system_create (pg_system *s)
     PG_ALLOC (s->diagonal0, s->ndof);
     PG_ALLOC (s->touched, s->problem->cloud.n);
     if (s->force->mass) PG_TRY (s->force->mass (s->self, s->mass));
-    const char *name = s->options->linear;
-    s->linear = strcmp (name, "auto") == 0 ? pg_linear_direct (1) : pg_linear_find (name);
-    if (!s->linear) PG_FAIL (PG_E_USAGE, "there is no linear solver %s", name);
+    int automatic = strcmp (s->options->linear, "auto") == 0;
+    s->linear = automatic ? pg_linear_first (1, 1) : pg_linear_find (s->options->linear);
+    if (!s->linear) PG_FAIL (PG_E_USAGE, "there is no linear solver %s", s->options->linear);
 done:
     return status;
 }
@@ -217,21 +217,22 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
             continue;
         }
         if (s->problem->sums)
+            PG_FAIL (
+                PG_E_NOT_SPD,
+                "%s; bonds leave parts of the body free to move: constrain them, or set solver.linear: %s",
+                pg_last_error (), pg_linear_first (1, 0)->name);
+        if (!automatic || s->indefinite)
             PG_FAIL (PG_E_NOT_SPD,
-                     "%s; bonds leave parts of the body free to move: constrain them, or set solver.linear: pcg",
-                     pg_last_error ());
-        if (!automatic || s->umfpack)
-            PG_FAIL (PG_E_NOT_SPD,
-                     "%s; with essential: nitsche raise method.nitsche_factor, or set solver.linear: umfpack",
-                     pg_last_error ());
+                     "%s; with essential: nitsche raise method.nitsche_factor, or set solver.linear: %s",
+                     pg_last_error (), pg_linear_first (0, 1)->name);
         pg_statistics_warn (s->report,
                             "K is not positive definite: UMFPACK instead of Cholesky from step %ld on (with "
                             "essential: nitsche, a larger "
                             "method.nitsche_factor may help)",
                             s->report->steps);
         s->linear->free (&s->factor);
-        s->linear = pg_linear_direct (0);
-        s->umfpack = 1;
+        s->linear = pg_linear_first (0, 1);
+        s->indefinite = 1;
     }
     s->stale = 0;
     s->unshifted = s->shift < 1e-10;
@@ -269,7 +270,7 @@ static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
     s->report->cg_iterations += info.iterations - s->matrix_iterations;
     s->matrix_iterations = info.iterations;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
-    int keep = operator_of (s) && strcmp (s->options->linear, "auto") == 0 && !s->umfpack && s->unshifted;
+    int keep = operator_of (s) && strcmp (s->options->linear, "auto") == 0 && !s->indefinite && s->unshifted;
     if (keep && factor_cost (s) > worth_keeping * solve_cost (s)) s->mode = SYSTEM_KEPT_FACTOR;
 done:
     return status;
@@ -281,25 +282,26 @@ static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double
 {
     pg_status status = PG_OK;
     size_t used = 0;
-    if (s->stale && s->rent > factor_cost (s)) {
+    if (s->stale && s->extra_cost > factor_cost (s)) {
         PG_TRY (system_factorize (s, dyn));
-        s->rent = 0;
+        s->extra_cost = 0;
     }
     s->spared += s->stale;
     pg_status now = system_iterate (s, dyn, 1, tolerance, 200, &used);
-    if (used > 2) s->rent += (double) (used - 2) * (solve_cost (s) + apply_cost (s));
+    if (used > 2) s->extra_cost += (double) (used - 2) * (solve_cost (s) + apply_cost (s));
     if (now == PG_OK) return PG_OK;
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
-    s->stale = 1, s->rent = 0;
+    s->stale = 1, s->extra_cost = 0;
     status = solve_by_factor (s, dyn);
 done:
     return status;
 }
 
-static int by_sweeps (const pg_system *s, int can)
+static int by_bond_loops (const pg_system *s, int can)
 {
     const pg_problem *p = s->problem;
-    return p->sums && (can || p->sums->stencil.n) && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
+    return p->sums && (can || p->sums->stencil.n)
+           && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
 }
 
 /* Chosen once: solver.linear says it, a force without a matrix leaves no choice, and in a small time step the
@@ -309,19 +311,17 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
     int can;
-    const char *linear = s->options->linear;
-    const pg_linear_type *asked = pg_linear_find (linear);             /* NULL: auto */
-    int automatic = strcmp (linear, "auto") == 0;
+    int automatic = strcmp (s->options->linear, "auto") == 0;
     PG_TRY (system_can_precondition (s, dyn, &can));
     if (!can && strcmp (s->options->preconditioner, "multilevel") == 0)
         pg_statistics_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that "
                                        "tells the rows of K, with supports on points: the diagonal instead "
                                        "where there is no factor");
     s->mode = SYSTEM_FACTOR;
-    if (!system_has_matrix (s) || (asked && !asked->factors && operator_of (s)))
+    if (!system_has_matrix (s) || (!s->linear->factors && operator_of (s)))
         s->mode = SYSTEM_NO_FACTOR;
     else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
-    else if (automatic && operator_of (s) && by_sweeps (s, can)) {
+    else if (automatic && operator_of (s) && by_bond_loops (s, can)) {
         s->mode = SYSTEM_NO_FACTOR;
         pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization",
                             "so many points: conjugate gradients with sums over the bonds are "

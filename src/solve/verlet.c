@@ -5,19 +5,19 @@
 #include "explicit.h"
 
 /* The two halves of a step round alike, whether they come at once or one by one. */
-static void range (const sweep *w, size_t first, size_t last, double *sum)
+static void range (const half_kicks *w, size_t first, size_t last, double *sum)
 {
     double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), before[8] = { 0 },
            after[8] = { 0 }, kinetic[8] = { 0 };
     double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a;
     const double *restrict f = w->f, *restrict inverse = w->inverse;
-    if (w->settle) {
+    if (w->closing) {
         for (size_t i = first; c > 0 && i < last; i++) {
             double vn = (v[i] + h * (f[i] * inverse[i])) * less;
             before[i & 7] += w->mass[i] * vn * v[i];
             after[i & 7] += w->mass[i] * vn * (2 * vn - v[i]);
         }
-        sum[SUM_C] = sweep_sum (before), sum[SUM_D] = sweep_sum (after);
+        sum[SUM_C] = lane_sum (before), sum[SUM_D] = lane_sum (after);
     }
 #define BOTH(i) \
     do { \
@@ -26,11 +26,11 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
         d[i] += dt * v[i]; \
     } while (0)
     size_t at = first;
-    if (w->settle && w->launch) {
+    if (w->closing && w->opening) {
         for (; at + LANES <= last; at += LANES) for (size_t k = at; k < at + LANES; k++) BOTH (k);
         for (; at < last; at++) BOTH (at);
     }
-    else if (w->launch)
+    else if (w->opening)
         for (size_t i = first; i < last; i++) {
             v[i] = v[i] + h * a[i];
             d[i] += dt * v[i];
@@ -41,13 +41,13 @@ static void range (const sweep *w, size_t first, size_t last, double *sum)
             v[i] = vn, a[i] = acc - c * vn;
             kinetic[i & 7] += w->mass[i] * old * (vn + h * a[i]);
         }
-        sum[SUM_K] = sweep_sum (kinetic);
+        sum[SUM_K] = lane_sum (kinetic);
     }
 }
 
 static pg_status step (pg_solver *s, pg_state *state, pg_step *out)
 {
-    return march_step (s, state, out, range, 0);
+    return explicit_step (s, state, out, range, 0);
 }
 
 const pg_solver_type pg_solver_verlet = {
@@ -55,15 +55,15 @@ const pg_solver_type pg_solver_verlet = {
     .summary = "explicit dynamics, velocity Verlet",
     .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY,
     .keys = { &solver_keys_step, &solver_keys_time },
-    .read = march_read,
-    .prepare = march_prepare,
-    .start = march_start,
+    .read = explicit_read,
+    .prepare = explicit_prepare,
+    .start = explicit_start,
     .step = step,
-    .done = march_done,
-    .refused = march_refused,
+    .done = explicit_done,
+    .refused = explicit_refused,
     .free = explicit_free,
     .keep = explicit_keep,
     .own_size = sizeof (motion),
     .stable = explicit_bound,
-    .progress = march_progress,
+    .progress = explicit_progress,
 };

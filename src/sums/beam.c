@@ -91,7 +91,7 @@ static pg_status shear_of_cloud (double *out, const pg_sums *sums)
     for (size_t i = 0; i < cloud->n; i++) {
         for (size_t e = family.start[i]; e < family.start[i + 1]; e++) {
             size_t j = (size_t) family.node[e];
-            sums_bond b = sums_bond_between (&sums->rule, cloud, i, j);
+            sums_bond b = pg_sums_bond_between (&sums->rule, cloud, i, j);
             double ratio = 0.5 * (pg_cloud_ratio (cloud, i) + pg_cloud_ratio (cloud, j));
             volume[i] += b.beta * cloud->volume[j] / pow (pg_cloud_ratio (cloud, i), cloud->dim);
             sum[i] += ratio * ratio * b.weight / b.r * cloud->volume[j] / cloud->thickness;

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Micropolar bonds of points on a lattice: the blocks and bits of stencil_sweep.c with rotations beside
+ * Micropolar bonds of points on a lattice: the blocks and bits of stencil_loop.c with rotations beside
  * displacements. Breaking: blocks are looked through for bonds at their limit, which die before the forces
  * are summed. theory G2. */
 #include "beam.h"
-#include "stencil_sweep.h"
+#include "stencil_loop.h"
 #include <math.h>
 #include <string.h>
 
@@ -30,7 +30,7 @@ static const char *refusal (const pg_bond_loop_setting *setting)
     if (differs (law->shear, n) || differs (law->bending, n)) return "there are several moduli";
     if (setting->limit && (differs (law->shear_limit, n) || differs (law->bending_limit, n)))
         return "there are several limits";
-    return stencil_refusal (setting);
+    return pg_stencil_loop_refusal (setting);
 }
 
 static void release (void *self)
@@ -38,7 +38,7 @@ static void release (void *self)
     beams *s = self;
     if (!s) return;
     pg_free (s->turn), pg_free (s->over);
-    stencil_free (s);
+    pg_stencil_loop_free (s);
 }
 
 static double share (double limit, double unit)
@@ -69,10 +69,10 @@ static void set_terms (beams *s)
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
-    PG_TRY (stencil_create (self, setting, set, sizeof (beams)));
+    PG_TRY (pg_stencil_loop_create (self, setting, set, sizeof (beams)));
     beams *s = *self;
     stencil *b = &s->base;
-    size_t places = stencil_places (b);
+    size_t places = pg_stencil_loop_places (b);
     int turns = b->job.dim == 2 ? 1 : 3;
     s->law = *setting->beams, b->setting.beams = &s->law;
     s->m = b->job.dim + turns;
@@ -89,7 +89,7 @@ done:
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const beams *s = self;
-    stencil_bytes (s, per_bond, per_point);
+    pg_stencil_loop_bytes (s, per_bond, per_point);
     *per_point *= (double) s->m / s->base.job.dim;
 }
 
@@ -113,7 +113,7 @@ static void spread_blocks (void *context, size_t first, size_t last, int thread)
 
 static void spread (beams *s, const double *u)
 {
-    pg_parallel_heavy (stencil_threads (&s->base), s->base.nblock, spread_blocks, &(pass) { s, u });
+    pg_parallel_heavy (pg_stencil_loop_threads (&s->base), s->base.nblock, spread_blocks, &(pass) { s, u });
 }
 
 static pg_status kill (stencil *b, size_t k, pg_changes *found)
@@ -125,7 +125,8 @@ static pg_status kill (stencil *b, size_t k, pg_changes *found)
             unsigned bit = (unsigned) __builtin_ctz (left);
             b->alive[k * b->job.n + j] &= ~(1u << bit);
             PG_GROW (found->bond, found->cap, found->n + 1);
-            found->bond[found->n++] = stencil_entry (b, b->job.point[block->site + bit], block->base + bit,
+            found->bond[found->n++] = pg_stencil_loop_entry (b, b->job.point[block->site + bit],
+                                                             block->base + bit,
                                                      j);
         }
 done:
@@ -149,9 +150,9 @@ static void break_blocks (void *context, size_t first, size_t last, int thread)
 static pg_status break_bonds (beams *s, pg_changes *broken)
 {
     stencil *b = &s->base;
-    int threads = stencil_threads (b);
+    int threads = pg_stencil_loop_threads (b);
     pg_parallel_heavy (threads, b->nblock, break_blocks, s);
-    return sweep_collect (broken, threads, b->found, b->failed);
+    return pg_changes_collect (broken, threads, b->found, b->failed);
 }
 
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
@@ -162,7 +163,7 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
     b->job.f = f;
     spread (s, u);
     if (broken && s->over) PG_TRY (break_bonds (s, broken));
-    PG_TRY (stencil_run (b, b->kernels->beam[b->job.dim - 2][b->p != NULL], NULL, NULL, NULL));
+    PG_TRY (pg_stencil_loop_run (b, b->kernels->beam[b->job.dim - 2][b->p != NULL], NULL, NULL, NULL));
 done:
     return status;
 }
@@ -172,7 +173,7 @@ static double sum_energies (beams *s, const double *u, double *W)
     stencil *b = &s->base;
     spread (s, u);
     /* half of w, and half of it to each end */
-    return stencil_stored (b, b->kernels->beam_energy[b->job.dim - 2][b->p != NULL], W) / 4;
+    return pg_stencil_loop_stored (b, b->kernels->beam_energy[b->job.dim - 2][b->p != NULL], W) / 4;
 }
 
 static double energy (void *self, const double *u) { return sum_energies (self, u, NULL); }
@@ -193,7 +194,7 @@ const pg_bond_loop_kind pg_bond_loop_beam_stencil = {
     .create = create,
     .free = release,
     .bytes = bytes,
-    .update = stencil_update,
+    .update = pg_stencil_loop_update,
     .force = force,
     .energy = energy,
     .energies = energies,

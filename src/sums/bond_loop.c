@@ -179,7 +179,7 @@ done:
     return status;
 }
 
-pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed)
+pg_status pg_changes_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed)
 {
     pg_status status = PG_OK;
     for (int t = 0; t < threads; t++) if (failed[t] != PG_OK) status = failed[t], failed[t] = PG_OK;

@@ -42,5 +42,5 @@ extern const pg_bond_loop_kind pg_bond_loop_stencil, pg_bond_loop_list, pg_bond_
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond);
 /* The same for what each thread has found, or failed to note; leaves nothing found and nothing failed,
  * whatever it returns. */
-pg_status sweep_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed);
+pg_status pg_changes_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed);
 #endif

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Calibration to a lattice (method.calibrate; theory A2): what the bonds of an infinite lattice add up to over
- * what they should. The hydrostatic energy gives the factor of the micromodulus, the energy of a straight cut
- * that of the fracture energy; the stiffness shows how isotropic the lattice is. */
+ * Calibration to a lattice (method.calibrate; theory A2): what the bonds of an infinite lattice add up to
+ * over what they should. The hydrostatic energy gives the factor of the micromodulus, the energy of a
+ * straight cut that of the fracture energy; the stiffness shows how isotropic the lattice is. */
 #include "sums_private.h"
 #include <math.h>
 #include <string.h>
 
-double sums_whole (const pg_sum_rule *rule, int dim)
+double pg_sums_whole (const pg_sum_rule *rule, int dim)
 {
     static const double pi = 3.14159265358979323846264338327950288;
     double sphere = dim == 1 ? 2 : dim == 2 ? 2 * pi : 4 * pi;
@@ -17,7 +17,7 @@ double pg_stencil_calibration (const pg_stencil *s, const pg_sum_rule *rule)
 {
     double sum = 0;
     for (size_t b = 0; b < s->n; b++) sum += s->weight[b] * s->r[b];
-    return sums_whole (rule, s->dim) / (sum * s->cell);
+    return pg_sums_whole (rule, s->dim) / (sum * s->cell);
 }
 
 /* D = 1/2 sum c k beta r (n n^T) V, strain along the bond = n . (xx yy zz xy yz zx) */

@@ -25,7 +25,7 @@ static size_t find (const int *list, size_t n, int item)
 }
 
 /* ---- on a lattice -------------------------------------------------------------------------------------- */
-int sums_neighbour (const pg_sites *s, int site, const int *offset)
+int pg_sums_neighbour (const pg_sites *s, int site, const int *offset)
 {
     int x = site % s->count[0] + offset[0], rest = site / s->count[0], y = rest % s->count[1] + offset[1],
         z = rest / s->count[1] + offset[2];
@@ -60,7 +60,7 @@ static size_t visit (const walk *w, size_t i, int *node)
     int in = inside (w, s->site[i]);
     if (in && w->packed && !node) return t->n;
     for (size_t b = 0; b < t->n; b++) {
-        int j = in ? from[w->jump[b]] : sums_neighbour (s, s->site[i], t->offset + 3*b);
+        int j = in ? from[w->jump[b]] : pg_sums_neighbour (s, s->site[i], t->offset + 3*b);
         if (j < 0) continue;
         if (node) node[n] = j;
         n++;
@@ -120,14 +120,14 @@ static double distance (const pg_cloud *cloud, size_t i, size_t j)
     return sqrt (r2);
 }
 
-sums_bond sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j)
+sums_bond pg_sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j)
 {
     sums_bond b = {.r = distance (cloud, i, j)};
     double ratio = 0.5 * (pg_cloud_ratio (cloud, i) + pg_cloud_ratio (cloud, j)),
            horizon = rule->horizon * ratio;
-    b.beta = sums_partial (rule->partial, b.r, horizon, cloud->h * ratio);
+    b.beta = pg_sums_partial (rule->partial, b.r, horizon, cloud->h * ratio);
     if (!(b.beta > 0)) return b;
-    b.weight = b.beta * sums_kernel (rule, b.r, horizon);
+    b.weight = b.beta * pg_sums_kernel (rule, b.r, horizon);
     if (ratio != 1) b.weight /= pow (ratio, cloud->dim + 1);
     if (!(b.weight > 0)) b.beta = 0;
     return b;
@@ -142,7 +142,7 @@ static pg_status spread (const pg_sums *sums, const pg_family *near, size_t *nex
         for (size_t e = near->start[i]; e < near->start[i + 1]; e++) {
             size_t j = (size_t) near->node[e], first = near->start[j], m = near->start[j + 1] - first;
             if (i == j) continue;
-            sums_bond b = sums_bond_between (&sums->rule, sums->cloud, i, j);
+            sums_bond b = pg_sums_bond_between (&sums->rule, sums->cloud, i, j);
             if (!(b.r > PG_NO_LENGTH * sums->cloud->h * pg_cloud_ratio (sums->cloud, i))) {
                 double x[3] = { 0 };
                 memcpy (x, sums->cloud->x + i * (size_t) sums->cloud->dim,
@@ -203,7 +203,7 @@ static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, d
     const pg_stencil *t = &sums->stencil;
     size_t dim = (size_t) t->dim;
     for (size_t k = 0; xi && k < dim; k++) xi[e*dim + k] = t->xi[b*dim + k];
-    if (weight) weight[e] = sums->family_volume ? t->weight[b] * sums_surface (sums, i, j) : t->weight[b];
+    if (weight) weight[e] = sums->family_volume ? t->weight[b] * pg_sums_surface (sums, i, j) : t->weight[b];
     if (beta) beta[e] = t->beta[b];
 }
 
@@ -214,7 +214,7 @@ static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_
     size_t next = 0;
     for (size_t b = 0; b < t->n; b++) {
         int whole = sums->ordered && n == t->n;
-        int j = whole ? node[b] : sums_neighbour (&sums->sites, sums->sites.site[i], t->offset + 3*b);
+        int j = whole ? node[b] : pg_sums_neighbour (&sums->sites, sums->sites.site[i], t->offset + 3*b);
         if (j < 0) continue;
         size_t e = whole ? b : sums->ordered && next < n && node[next] == j ? next : find (node, n, j);
         if (e == n) continue;
@@ -235,9 +235,9 @@ void pg_sums_bonds (const pg_sums *sums, const pg_family *family, size_t i, doub
     }
     for (size_t e = 0; e < n; e++) {
         size_t j = (size_t) node[e];
-        sums_bond b = sums_bond_between (&sums->rule, cloud, i, j);
+        sums_bond b = pg_sums_bond_between (&sums->rule, cloud, i, j);
         for (size_t k = 0; xi && k < dim; k++) xi[e*dim + k] = cloud->x[j*dim + k] - cloud->x[i*dim + k];
-        if (weight) weight[e] = sums->family_volume ? b.weight * sums_surface (sums, i, j) : b.weight;
+        if (weight) weight[e] = sums->family_volume ? b.weight * pg_sums_surface (sums, i, j) : b.weight;
         if (beta) beta[e] = b.beta;
     }
 }

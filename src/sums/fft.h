@@ -19,15 +19,15 @@ typedef struct {
 
 /* Sites n (x, y, z; 1 beyond dim), places at least n + reach. measure: plans are timed unless a file
  * remembers them. */
-pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure);
-void      fft_box_clear  (fft_box *box);
+pg_status pg_fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure);
+void      pg_fft_box_clear  (fft_box *box);
 /* 2^a 3^b 5^c 7^d >= least, the one that is transformed fastest */
-size_t    fft_size       (size_t least, int even);
+size_t    pg_fft_size       (size_t least, int even);
 /* one forward transform in place of [T0][T1][T2], rows of T2 + 2; NULL: no memory */
-fftw_plan fft_plan_box   (const int *T, double *x);
-fftw_plan fft_plan_box_back (const int *T, double *x);
-void      fft_plan_free  (fftw_plan plan);
-double    fft_work       (const fft_box *box);         /* of one transform of the box, operations */
+fftw_plan pg_fft_plan_box   (const int *T, double *x);
+fftw_plan pg_fft_plan_box_back (const int *T, double *x);
+void      pg_fft_plan_free  (fftw_plan plan);
+double    pg_fft_work       (const fft_box *box);         /* of one transform of the box, operations */
 
 /* Real even kernels of all pairs of axes: xx | xx xy yy | xx xy xz yy yz zz */
 typedef struct fft_kernels fft_kernels;
@@ -43,11 +43,11 @@ typedef struct {
 } fft;
 
 /* value (context, pair, entry): kernel at `entry` of the list of n offsets (n x 3). */
-pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset,
+pg_status pg_fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset,
                       double (*value) (const void *context, int pair, size_t entry), const void *context,
                       const fft_kernels *kernels, int threads, int measure);
-void      fft_clear  (fft *f);
-pg_status fft_fields (fft *f, int fields);             /* workspace for as many fields */
+void      pg_fft_clear  (fft *f);
+pg_status pg_fft_fields (fft *f, int fields);             /* workspace for as many fields */
 
 typedef struct {
     int in, out;                                       /* fields read and made */
@@ -59,5 +59,5 @@ typedef struct {
 } fft_job;
 /* in = out = dim: out_a = sum_b K_ab * in_b. in = pairs, out = 1: sum over pairs (those of two axes twice) of
  * K_ab * in_ab. Rows count as n[1] n[2]. */
-void fft_convolve (fft *f, const fft_job *job);
+void pg_fft_convolve (fft *f, const fft_job *job);
 #endif

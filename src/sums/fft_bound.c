@@ -5,7 +5,7 @@
  * max G_aa e_a^2 + sum_{a<b} |e_a e_b| C_ab, C_ab = the larger of max G_ab + max G_ba and -(min G_ab + min
  * G_ba); of a rotation, G_ab = -G_ba, nothing is left. Where a site of the box has no point nothing is known:
  * such blocks are looked at always. */
-#include "fft_sweep.h"
+#include "fft_convolution.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-pg_status fft_bound_create (transformer *t)
+pg_status pg_fft_bound_create (transformer *t)
 {
     pg_status status = PG_OK;
     t->room_edges = (size_t) extremes (t->dim) * strips_along (t) * rows_along (t, 2) * t->s->row_blocks;
@@ -180,10 +180,10 @@ static void judge_strips (void *context, size_t first, size_t last, int thread)
 
 /* Blocks that may have a bond at its limit, and those with cut bonds: written to list, ascending; how
  * many. */
-size_t fft_bound_suspects (transformer *t, double limit, int *list)
+size_t pg_fft_bound_suspects (transformer *t, double limit, int *list)
 {
     const stencil *s = t->s;
-    int threads = stencil_threads (s), count = extremes (t->dim), safe;
+    int threads = pg_stencil_loop_threads (s), count = extremes (t->dim), safe;
     size_t n = 0, per = strips_along (t), strips = per * rows_along (t, 2), all = strips * s->row_blocks;
     double least = limit * (1 - 1e-12), whole[15], *from = t->edge, *to = t->edge + t->room_edges;
     slider g = { t, NULL, from, 0 };

@@ -142,7 +142,7 @@ static void backward_slabs (void *context, size_t first, size_t last, int thread
     }
 }
 
-void fft_convolve (fft *f, const fft_job *job)
+void pg_fft_convolve (fft *f, const fft_job *job)
 {
     pass p = { f, job };
     pg_parallel_heavy (f->threads, f->box.n[2], forward_slabs, &p);
@@ -172,10 +172,10 @@ static pg_status make_kernel (fft *f, int pair, size_t n, const int *offset,
         }
         box[(at[2] * b->T[1] + at[1]) * pitch + at[0]] = value (context, pair, e) / (double) all;
     }
-    fftw_plan plan = fft_plan_box (T, box);
+    fftw_plan plan = pg_fft_plan_box (T, box);
     if (!plan) PG_FAIL (PG_E_MEMORY, "no memory for the transform of a kernel");
     fftw_execute (plan);
-    fft_plan_free (plan);
+    pg_fft_plan_free (plan);
     for (size_t c = 0; c < C; c++)
         for (size_t m = 0; m < middle; m++)
             for (size_t l = 0; l < half; l++)
@@ -186,7 +186,7 @@ done:
     return status;
 }
 
-pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset,
+pg_status pg_fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset,
                       double (*value) (const void *context, int pair, size_t entry), const void *context,
                       const fft_kernels *kernels, int threads, int measure)
 {
@@ -198,7 +198,7 @@ pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const in
     for (size_t e = 0; e < n; e++)
         for (int k = 0; k < dim; k++)
             if (offset[3 * e + (size_t) k] > (int) reach[k]) reach[k] = (size_t) offset[3 * e + (size_t) k];
-    PG_TRY (fft_box_create (&f->box, dim, sites, reach, measure));
+    PG_TRY (pg_fft_box_create (&f->box, dim, sites, reach, measure));
     const fft_box *b = &f->box;
     size_t row = (b->T[0] + 7) / 8 * 8, most = (size_t) f->pairs * b->T[2] * BATCH;
     if (most < 8 * row) most = 8 * row;
@@ -208,13 +208,13 @@ pg_status fft_create (fft *out, int dim, const size_t *sites, size_t n, const in
     PG_ALLOC (f->kernel, b->C * (b->T[1] / 2 + 1) * (b->T[2] / 2 + 1) * (size_t) f->pairs);
     PG_ALLOC (box, (b->T[0] + 2) * b->T[1] * b->T[2]);
     for (int p = 0; p < f->pairs; p++) PG_TRY (make_kernel (f, p, n, offset, value, context, box));
-    PG_TRY (fft_fields (f, dim));
+    PG_TRY (pg_fft_fields (f, dim));
 done:
     pg_free (box);
     return status;
 }
 
-pg_status fft_fields (fft *f, int fields)
+pg_status pg_fft_fields (fft *f, int fields)
 {
     pg_status status = PG_OK;
     size_t each = 2 * f->box.C * f->box.T[1] * f->box.n[2] + 8;
@@ -228,9 +228,9 @@ done:
     return status;
 }
 
-void fft_clear (fft *f)
+void pg_fft_clear (fft *f)
 {
-    fft_box_clear (&f->box);
+    pg_fft_box_clear (&f->box);
     pg_free (f->workspaces), pg_free (f->kernel), pg_free (f->block);
     memset (f, 0, sizeof *f);
 }

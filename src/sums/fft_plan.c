@@ -30,7 +30,7 @@ static double time_of (size_t n)
     return n == 1 ? sum : INFINITY;
 }
 
-size_t fft_size (size_t least, int even)
+size_t pg_fft_size (size_t least, int even)
 {
     size_t best = 0;
     double least_time = INFINITY;
@@ -42,7 +42,7 @@ size_t fft_size (size_t least, int even)
     return best;
 }
 
-double fft_work (const fft_box *box)
+double pg_fft_work (const fft_box *box)
 {
     double n = 1;
     for (int k = 0; k < 3; k++) n *= (double) box->T[k];
@@ -122,7 +122,7 @@ static void clear_plans (fft_box *b)
     }
 }
 
-pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure)
+pg_status pg_fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure)
 {
     pg_status status = PG_OK;
     fft_box *b = out;
@@ -140,7 +140,7 @@ pg_status fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *
                      : dim == 3 ? reach[2]
                      : dim == 2 ? reach[1]
                                 : 0;
-        b->T[k] = k == 0 || dim == 3 || (dim == 2 && k == 2) ? fft_size (b->n[k] + far, k == 0) : 1;
+        b->T[k] = k == 0 || dim == 3 || (dim == 2 && k == 2) ? pg_fft_size (b->n[k] + far, k == 0) : 1;
         if (b->T[k] > 1u << 26)
             PG_FAIL (PG_E_LIMIT, "transforms of %zu places are too long; try evaluation: stencil", b->T[k]);
         most = b->T[k] > most ? b->T[k] : most;
@@ -171,14 +171,14 @@ done:
     return status;
 }
 
-void fft_box_clear (fft_box *box)
+void pg_fft_box_clear (fft_box *box)
 {
     pthread_mutex_lock (&planner);
     clear_plans (box);
     pthread_mutex_unlock (&planner);
 }
 
-fftw_plan fft_plan_box (const int *T, double *x)
+fftw_plan pg_fft_plan_box (const int *T, double *x)
 {
     pthread_mutex_lock (&planner);
     fftw_plan plan = fftw_plan_dft_r2c (3, T, x, (fftw_complex *) x, FFTW_ESTIMATE);
@@ -186,7 +186,7 @@ fftw_plan fft_plan_box (const int *T, double *x)
     return plan;
 }
 
-fftw_plan fft_plan_box_back (const int *T, double *x)
+fftw_plan pg_fft_plan_box_back (const int *T, double *x)
 {
     pthread_mutex_lock (&planner);
     fftw_plan plan = fftw_plan_dft_c2r (3, T, (fftw_complex *) x, x, FFTW_ESTIMATE);
@@ -194,7 +194,7 @@ fftw_plan fft_plan_box_back (const int *T, double *x)
     return plan;
 }
 
-void fft_plan_free (fftw_plan plan)
+void pg_fft_plan_free (fftw_plan plan)
 {
     pthread_mutex_lock (&planner);
     fftw_destroy_plan (plan);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Partial volumes: the share of a neighbour's cell that lies inside the horizon (method.partial_volume; theory
- * A2). `none` and `linear` follow from the distance of the points alone. `overlap` is what a box and a ball
- * about the origin have in common: length and area in closed form, volume by Gauss
+ * Partial volumes: the share of a neighbour's cell that lies inside the horizon (method.partial_volume;
+ * theory A2). `none` and `linear` follow from the distance of the points alone. `overlap` is what a box and
+ * a ball about the origin have in common: length and area in closed form, volume by Gauss
  * points over slices between the places where a corner enters. A box that the axes cut through is folded into
  * the first octant before, so that corners are its nearest and its farthest points. Means of a kernel over
  * the common part follow from the volumes V (rho) of all smaller balls: int k dV = -int k' V d rho for k (1)
@@ -19,7 +19,7 @@ static const double weight[POINTS / 2] = { 0.1894506104550685, 0.182603415044923
                                            0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
                                            0.0622535239386479, 0.0271524594117541 };
 
-double sums_partial (pg_partial partial, double r, double horizon, double width)
+double pg_sums_partial (pg_partial partial, double r, double horizon, double width)
 {
     if (partial == PG_PARTIAL_NONE) return r <= horizon * (1 + 1e-9);
     double beta = (horizon - r) / width + 0.5;
@@ -112,7 +112,7 @@ static double fold (box *b, int dim, const int *n, const double *step, double *n
     return size;
 }
 
-double sums_overlap (int dim, const int *n, const double *step, double radius)
+double pg_sums_overlap (int dim, const int *n, const double *step, double radius)
 {
     box b;
     double nearest, farthest, size = fold (&b, dim, n, step, &nearest, &farthest);
@@ -121,7 +121,8 @@ double sums_overlap (int dim, const int *n, const double *step, double radius)
     return fmin (1, common (&b, radius) / size);
 }
 
-double sums_overlap_mean (int dim, const int *n, const double *step, double radius, const pg_kernel *kernel)
+double pg_sums_overlap_mean (int dim, const int *n, const double *step, double radius,
+                             const pg_kernel *kernel)
 {
     box b;
     double nearest, farthest, size = fold (&b, dim, n, step, &nearest, &farthest), kink[11], sum = 0;

@@ -7,8 +7,9 @@
 /* The cell of a lattice `n` sites from the origin (n >= 0 along each axis), and the ball of this radius, in
  * the unit of the steps. */
 /* share of the cell inside, 0 to 1 */
-double sums_overlap      (int dim, const int *n, const double *step, double radius);
-double sums_overlap_mean (int dim, const int *n, const double *step, double radius, const pg_kernel *kernel);
+double pg_sums_overlap      (int dim, const int *n, const double *step, double radius);
+double pg_sums_overlap_mean (int dim, const int *n, const double *step, double radius,
+                             const pg_kernel *kernel);
 /* ^ integral of k (|x| / radius) over the cell's part in the ball, over the cell's volume; kernels that
  * vanish at the horizon */
 #endif

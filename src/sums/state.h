@@ -16,5 +16,5 @@ static inline double state_beta (const pg_bond_loop_setting *s, size_t i, double
 }
 
 /* NULL: theory and rule go together; else why not. */
-const char *state_refusal (const pg_bond_loop_setting *setting);
+const char *pg_state_loop_refusal (const pg_bond_loop_setting *setting);
 #endif

@@ -9,7 +9,7 @@
  * 2 d + 1 transforms forth and as many back. Blocks of 32 sites with a cut bond are summed bond by bond
  *     instead, by the loops of state_stencil.c. Each
  * transform is the work of one thread: the same bits for any number of them. */
-#include "fft_sweep.h"
+#include "fft_convolution.h"
 #include "state_stencil.h"
 #include <math.h>
 #include <string.h>
@@ -45,14 +45,14 @@ static void release (void *self)
 {
     convolver *c = self;
     if (!c) return;
-    if (c->forth) fft_plan_free (c->forth);
-    if (c->back) fft_plan_free (c->back);
+    if (c->forth) pg_fft_plan_free (c->forth);
+    if (c->back) pg_fft_plan_free (c->back);
     for (int k = 0; k < MOST; k++) pg_free (c->field[k]);
     for (int k = 0; k < 3; k++) pg_free (c->S[k]), pg_free (c->G[k]);
     for (int k = 0; k < 6; k++) pg_free (c->C[k]), pg_free (c->D[k]), pg_free (c->H[k]);
     pg_free (c->chi), pg_free (c->bits), pg_free (c->cut), pg_free (c->is_cut), pg_free (c->suspect);
     pg_free (c->bound.edge), pg_free (c->bound.ragged), pg_free (c->bound.risky);
-    state_free (c);
+    pg_state_loop_free (c);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
@@ -77,7 +77,7 @@ static void do_rows (void *context, size_t first, size_t last, int thread)
 
 static void each_row (convolver *c, rows_of work)
 {
-    pg_parallel_heavy (stencil_threads (&c->base.base), rows (c), do_rows, &(rowing) { c, work });
+    pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), rows (c), do_rows, &(rowing) { c, work });
 }
 
 /* Of a field: where the row's first site is */
@@ -102,7 +102,7 @@ static void transform_fields (void *context, size_t first, size_t last, int thre
 
 static void transform (convolver *c, int first, int n, int back)
 {
-    pg_parallel_heavy (stencil_threads (&c->base.base), (size_t) n, transform_fields,
+    pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), (size_t) n, transform_fields,
                        &(transforming){ c, first, back });
     *(back ? &c->count.back : &c->count.forward) += n;
 }
@@ -121,7 +121,8 @@ static void do_places (void *context, size_t first, size_t last, int thread)
 
 static void each_place (convolver *c, places_of work)
 {
-    pg_parallel_heavy (stencil_threads (&c->base.base), c->complexes, do_places, &(multiplying) { c, work });
+    pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), c->complexes, do_places,
+                       &(multiplying) { c, work });
 }
 
 /* alpha = sum_a i S_a u_a */
@@ -266,16 +267,16 @@ static void mark_cut (convolver *c, const pg_changes *changes)
 {
     const stencil *s = &c->base.base;
     unsigned bit;
-    if (!changes) pg_parallel_heavy (stencil_threads (s), s->nblock, look_at_blocks, c);
+    if (!changes) pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, look_at_blocks, c);
     for (size_t k = 0; changes && k < changes->n; k++)
-        c->is_cut[stencil_block (s, s->place[stencil_owner (s, changes->bond[k])], &bit)] = 1;
+        c->is_cut[pg_stencil_loop_block (s, s->place[pg_stencil_loop_owner (s, changes->bond[k])], &bit)] = 1;
     list_cut (c);
     c->stale |= s->setting.sums->rule.follow;
 }
 
 static void update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
-    state_update (self, alive, changes);
+    pg_state_loop_update (self, alive, changes);
     mark_cut (self, changes);
 }
 
@@ -284,7 +285,7 @@ static pg_status allocate (convolver *c)
 {
     pg_status status = PG_OK;
     const stencil *s = &c->base.base;
-    size_t places = stencil_places (s);
+    size_t places = pg_stencil_loop_places (s);
     for (int k = 0; k < 2 * c->dim + 1; k++) PG_ALLOC (c->field[k], 2 * c->complexes);
     for (int k = 0; k < c->dim; k++) {
         PG_ALLOC (c->S[k], c->complexes);
@@ -308,14 +309,14 @@ static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_in
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
     pg_status status = PG_OK;
-    PG_TRY (state_create (self, setting, set, sizeof (convolver)));
+    PG_TRY (pg_state_loop_create (self, setting, set, sizeof (convolver)));
     convolver *c = *self;
     const stencil *s = &c->base.base;
     const pg_sites *sites = &setting->sums->sites;
     c->dim = s->job.dim, c->pairs = c->dim * (c->dim + 1) / 2;
     for (int k = 0; k < 3; k++)
         c->n[k] = (size_t) sites->count[k],
-        c->T[k] = k < c->dim ? fft_size (c->n[k] + (size_t) s->reach[k], k == 0) : 1;
+        c->T[k] = k < c->dim ? pg_fft_size (c->n[k] + (size_t) s->reach[k], k == 0) : 1;
     c->wide = c->T[0] + 2, c->complexes = (c->T[0] / 2 + 1) * c->T[1] * c->T[2];
     if ((double) c->T[0] * (double) c->T[1] * (double) c->T[2] > 1e9)
         PG_FAIL (PG_E_LIMIT, "transforms of %zu x %zu x %zu places are too large; try evaluation: stencil",
@@ -324,9 +325,9 @@ static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_in
     c->bound.s = &c->base.base, c->bound.dim = c->dim, c->bound.nx = c->n[0], c->bound.rows = rows (c),
     c->bound.cut = c->is_cut;
     c->bound.f.kernels = kernels[set];
-    if (setting->limit) PG_TRY (fft_bound_create (&c->bound));
+    if (setting->limit) PG_TRY (pg_fft_bound_create (&c->bound));
     int T[3] = { (int) c->T[2], (int) c->T[1], (int) c->T[0] };
-    c->forth = fft_plan_box (T, c->field[0]), c->back = fft_plan_box_back (T, c->field[0]);
+    c->forth = pg_fft_plan_box (T, c->field[0]), c->back = pg_fft_plan_box_back (T, c->field[0]);
     if (!c->forth || !c->back) PG_FAIL (PG_E_MEMORY, "no memory for the plan of a transform");
     for (size_t i = 0; i < setting->sums->cloud->n; i++) c->chi[s->place[i]] = s->p ? s->p[s->place[i]] : 1;
     for (size_t k = 0; k < s->nblock; k++) c->bits[k] = bits_of (s, k);
@@ -407,7 +408,7 @@ static void take_forces (convolver *c, size_t row, size_t place)
 
 static void redo_cut (convolver *c, pg_block_loop loop)
 {
-    if (c->ncut) stencil_run_some (&c->base.base, loop, NULL, NULL, (size_t) c->ncut, c->cut, NULL);
+    if (c->ncut) pg_stencil_loop_run_some (&c->base.base, loop, NULL, NULL, (size_t) c->ncut, c->cut, NULL);
 }
 
 static void clear_margins (convolver *c)
@@ -438,12 +439,12 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
                                              : PG_CHECK_ALL;
     size_t before = broken ? broken->n : 0;
     s->job.f = f;
-    stencil_spread (s, u);
+    pg_stencil_loop_spread (s, u);
     if (check) {
-        size_t n = fft_bound_suspects (&c->bound, s->setting.limit[0], c->suspect);
+        size_t n = pg_fft_bound_suspects (&c->bound, s->setting.limit[0], c->suspect);
         c->count.bonds += n;
-        PG_TRY (stencil_run_some (s, s->kernels->dilate[at][check][weighted],
-                                  s->kernels->dilate[at][PG_CHECK_NONE][weighted], state_lost (s), n,
+        PG_TRY (pg_stencil_loop_run_some (s, s->kernels->dilate[at][check][weighted],
+                                  s->kernels->dilate[at][PG_CHECK_NONE][weighted], pg_state_loop_lost (s), n,
                                   c->suspect, broken));
         if (broken->n > before) mark_cut (c, &(pg_changes) { broken->n - before, 0, broken->bond + before });
     }
@@ -476,8 +477,8 @@ const pg_bond_loop_kind pg_bond_loop_state_fft = {
     .bytes = bytes,
     .update = update,
     .force = force,
-    .energy = state_energy,
-    .energies = state_energies,
-    .dilatation = state_dilatation,
+    .energy = pg_state_loop_energy,
+    .energies = pg_state_loop_energies,
+    .dilatation = pg_state_loop_dilatation,
     .counts = counts,
 };

@@ -229,6 +229,7 @@ static pg_status dilatation (void *self, const double *u, double *theta, double 
 }
 
 const pg_bond_loop_kind pg_bond_loop_state_list = {
-    .name = "list", .state = 1, .refusal = state_refusal, .create = create, .free = release, .bytes = bytes,
+    .name = "list", .state = 1, .refusal = pg_state_loop_refusal, .create = create, .free = release,
+        .bytes = bytes,
     .update = update, .force = force, .energy = energy, .energies = energies, .dilatation = dilatation,
 };

@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * State-based sums (linear peridynamic solid) over the bonds of points on a lattice: a loop for the
- * dilatation of every point, one for the forces, on the blocks and bits of stencil_sweep.c. Breaking: bonds
+ * dilatation of every point, one for the forces, on the blocks and bits of stencil_loop.c. Breaking: bonds
  * over their limit die in the first loop. theory B6. */
 #include "state_stencil.h"
 #include <math.h>
 #include <string.h>
 
-const char *state_refusal (const pg_bond_loop_setting *setting)
+const char *pg_state_loop_refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite)
         return "state-based sums are linear in the displacement, and the stretch is to be finite";
@@ -19,16 +19,16 @@ const char *state_refusal (const pg_bond_loop_setting *setting)
 
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
-    const char *why = state_refusal (setting);
-    return why ? why : stencil_refusal (setting);
+    const char *why = pg_state_loop_refusal (setting);
+    return why ? why : pg_stencil_loop_refusal (setting);
 }
 
-void state_free (void *self)
+void pg_state_loop_free (void *self)
 {
     state *s = self;
     if (!s) return;
     pg_free (s->q), pg_free (s->factor), pg_free (s->beta), pg_free (s->alpha);
-    stencil_free (s);
+    pg_stencil_loop_free (s);
 }
 
 /* ---- q ------------------------------------------------------------------------------------------------- */
@@ -38,7 +38,7 @@ static void weigh (state *s, size_t i)
     const stencil *b = &s->base;
     const pg_stencil *st = &b->setting.sums->stencil;
     unsigned bit;
-    size_t place = b->place[i], k = stencil_block (b, place, &bit);
+    size_t place = b->place[i], k = pg_stencil_loop_block (b, place, &bit);
     double q = 0;
     for (size_t j = 0; j < st->n; j++)
         if (b->alive[k * b->job.n + j] >> bit & 1)
@@ -56,7 +56,7 @@ static void weigh_points (void *context, size_t first, size_t last, int thread)
 
 static void weigh_all (state *s)
 {
-    pg_parallel_heavy (stencil_threads (&s->base), s->base.setting.sums->cloud->n, weigh_points, s);
+    pg_parallel_heavy (pg_stencil_loop_threads (&s->base), s->base.setting.sums->cloud->n, weigh_points, s);
 }
 
 static void weigh_block (stencil *b, size_t k)
@@ -65,15 +65,19 @@ static void weigh_block (stencil *b, size_t k)
         weigh ((state *) b, (size_t) b->job.point[b->block[k].site + (size_t) __builtin_ctz (left)]);
 }
 
-stencil_lost state_lost (const stencil *s) { return s->setting.sums->rule.follow ? weigh_block : NULL; }
+stencil_lost pg_state_loop_lost (const stencil *s)
+{
+    return s->setting.sums->rule.follow ? weigh_block : NULL;
+}
 
-void state_update (void *self, const unsigned char *alive, const pg_changes *changes)
+void pg_state_loop_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     state *s = self;
-    stencil_update (self, alive, changes);
+    pg_stencil_loop_update (self, alive, changes);
     if (!s->base.setting.sums->rule.follow) return;
     if (!changes) weigh_all (s);
-    for (size_t c = 0; changes && c < changes->n; c++) weigh (s, stencil_owner (&s->base, changes->bond[c]));
+    for (size_t c = 0; changes && c < changes->n; c++)
+        weigh (s, pg_stencil_loop_owner (&s->base, changes->bond[c]));
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
@@ -88,13 +92,14 @@ static void set_terms (state *s)
     }
 }
 
-pg_status state_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes)
+pg_status pg_state_loop_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
+                                size_t bytes)
 {
     pg_status status = PG_OK;
-    PG_TRY (stencil_create (self, setting, set, bytes));
+    PG_TRY (pg_stencil_loop_create (self, setting, set, bytes));
     state *s = *self;
     pg_block_job *job = &s->base.job;
-    size_t places = stencil_places (&s->base);
+    size_t places = pg_stencil_loop_places (&s->base);
     job->volume = setting->sums->stencil.cell * setting->sums->cloud->thickness;
     PG_ALLOC (s->q, setting->sums->cloud->n);
     PG_ALLOC (s->factor, places);
@@ -102,22 +107,22 @@ pg_status state_create (void **self, const pg_bond_loop_setting *setting, pg_ins
     PG_ALLOC (s->alpha, places);
     job->factor = s->factor, job->beta = s->beta, job->alpha = s->alpha;
     set_terms (s);
-    if (setting->counted && !setting->sums->rule.follow) stencil_update (s, setting->counted, NULL);
+    if (setting->counted && !setting->sums->rule.follow) pg_stencil_loop_update (s, setting->counted, NULL);
     weigh_all (s);
-    if (setting->counted && !setting->sums->rule.follow) stencil_update (s, NULL, NULL);
+    if (setting->counted && !setting->sums->rule.follow) pg_stencil_loop_update (s, NULL, NULL);
 done:
     return status;
 }
 
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
-    return state_create (self, setting, set, sizeof (state));
+    return pg_state_loop_create (self, setting, set, sizeof (state));
 }
 
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const stencil *s = self;
-    stencil_bytes (s, per_bond, per_point);
+    pg_stencil_loop_bytes (s, per_bond, per_point);
     *per_bond *= 2;  /* two loops; the second reads alpha and beta as well */
     *per_point = 2 * *per_point + sizeof (double) * 4;
 }
@@ -133,11 +138,12 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
                 : b->may                     ? PG_CHECK_SOME
                                              : PG_CHECK_ALL;
     b->job.f = f;
-    stencil_spread (b, u);
-    PG_TRY (stencil_run (b, b->kernels->dilate[at][check][weighted],
-                         check ? b->kernels->dilate[at][PG_CHECK_NONE][weighted] : NULL, state_lost (b),
+    pg_stencil_loop_spread (b, u);
+    PG_TRY (pg_stencil_loop_run (b, b->kernels->dilate[at][check][weighted],
+                         check ? b->kernels->dilate[at][PG_CHECK_NONE][weighted] : NULL,
+                             pg_state_loop_lost (b),
                          broken));
-    PG_TRY (stencil_run (b, b->kernels->pull[at][weighted], NULL, NULL, NULL));
+    PG_TRY (pg_stencil_loop_run (b, b->kernels->pull[at][weighted], NULL, NULL, NULL));
 done:
     return status;
 }
@@ -145,20 +151,20 @@ done:
 static double sum_energies (state *s, const double *u, double *W)
 {
     stencil *b = &s->base;
-    stencil_spread (b, u);
-    return stencil_stored (b, b->kernels->store[b->job.dim - 2][b->p != NULL], W);
+    pg_stencil_loop_spread (b, u);
+    return pg_stencil_loop_stored (b, b->kernels->store[b->job.dim - 2][b->p != NULL], W);
 }
 
-double state_energy (void *self, const double *u) { return sum_energies (self, u, NULL); }
+double pg_state_loop_energy (void *self, const double *u) { return sum_energies (self, u, NULL); }
 
-pg_status state_energies (void *self, const double *u, double *W)
+pg_status pg_state_loop_energies (void *self, const double *u, double *W)
 {
     sum_energies (self, u, W);
     return PG_OK;
 }
 
 /* theta = alpha q / A, summed with a factor of its own */
-pg_status state_dilatation (void *self, const double *u, double *theta, double *q)
+pg_status pg_state_loop_dilatation (void *self, const double *u, double *theta, double *q)
 {
     pg_status status = PG_OK;
     state *s = self;
@@ -167,11 +173,12 @@ pg_status state_dilatation (void *self, const double *u, double *theta, double *
     double *factor = s->factor, *own = NULL;
     if (q) memcpy (q, s->q, n * sizeof *q);
     if (!theta) return PG_OK;
-    PG_ALLOC (own, stencil_places (b));
+    PG_ALLOC (own, pg_stencil_loop_places (b));
     for (size_t i = 0; i < n; i++) own[b->place[i]] = s->q[i] > 0 ? b->job.dim / s->q[i] : 0;
     b->job.factor = own;
-    stencil_spread (b, u);
-    stencil_run (b, b->kernels->dilate[b->job.dim - 2][PG_CHECK_NONE][b->p != NULL], NULL, NULL, NULL);
+    pg_stencil_loop_spread (b, u);
+    pg_stencil_loop_run (b, b->kernels->dilate[b->job.dim - 2][PG_CHECK_NONE][b->p != NULL], NULL, NULL,
+                         NULL);
     b->job.factor = factor;
     for (size_t i = 0; i < n; i++) theta[i] = s->alpha[b->place[i]];
 done:
@@ -184,11 +191,11 @@ const pg_bond_loop_kind pg_bond_loop_state_stencil = {
     .state = 1,
     .refusal = refusal,
     .create = create,
-    .free = state_free,
+    .free = pg_state_loop_free,
     .bytes = bytes,
-    .update = state_update,
+    .update = pg_state_loop_update,
     .force = force,
-    .energy = state_energy,
-    .energies = state_energies,
-    .dilatation = state_dilatation,
+    .energy = pg_state_loop_energy,
+    .energies = pg_state_loop_energies,
+    .dilatation = pg_state_loop_dilatation,
 };

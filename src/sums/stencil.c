@@ -25,7 +25,7 @@ static double value (const pg_kernel *kernel, double q)
     return w;
 }
 
-double sums_kernel (const pg_sum_rule *rule, double r, double horizon)
+double pg_sums_kernel (const pg_sum_rule *rule, double r, double horizon)
 {
     double q = r / horizon;
     if (!rule->kernel->closed && q > 1 - 1e-9) return 0;
@@ -48,15 +48,15 @@ static shell shell_at (const shells *s, const int *n)
     if (!(r2 > 0)) return out;
     out.r = sqrt (r2);
     if (rule->partial == PG_PARTIAL_OVERLAP) {
-        out.beta = sums_overlap (s->dim, n, s->step, rule->horizon);
+        out.beta = pg_sums_overlap (s->dim, n, s->step, rule->horizon);
         if (out.beta < 1e-12) out.beta = 0;
     } else
-        out.beta = sums_partial (rule->partial, out.r, rule->horizon,
+        out.beta = pg_sums_partial (rule->partial, out.r, rule->horizon,
                                  even ? s->step[0] : sqrt (spread) / out.r);
     if (!(out.beta > 0)) return out;
     if (rule->partial == PG_PARTIAL_OVERLAP && !rule->kernel->closed)
-        out.weight = sums_overlap_mean (s->dim, n, s->step, rule->horizon, rule->kernel);
-    else out.weight = out.beta * sums_kernel (rule, out.r, rule->horizon);
+        out.weight = pg_sums_overlap_mean (s->dim, n, s->step, rule->horizon, rule->kernel);
+    else out.weight = out.beta * pg_sums_kernel (rule, out.r, rule->horizon);
     if (!(out.weight > 0)) out.beta = 0;
     return out;
 }
@@ -143,7 +143,7 @@ pg_status pg_stencil_build (pg_stencil *out, const pg_sum_rule *rule, int dim, c
     pg_status status = PG_OK;
     shells s = {0};
     memset (out, 0, sizeof *out);
-    PG_TRY (sums_check_rule (rule, dim));
+    PG_TRY (pg_sums_check_rule (rule, dim));
     for (int k = 0; k < dim; k++)
         if (!(step[k] > 0) || !isfinite (step[k]))
             PG_FAIL (PG_E_USAGE, "step %g m of a lattice must be positive", step[k]);

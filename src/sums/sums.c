@@ -9,7 +9,7 @@
 
 static const double whole_family = 0.8;                /* of the largest family's volume */
 
-pg_status sums_check_rule (const pg_sum_rule *rule, int dim)
+pg_status pg_sums_check_rule (const pg_sum_rule *rule, int dim)
 {
     pg_status status = PG_OK;
     int wanted = rule->mode == PG_LINE ? 1 : rule->mode == PG_SOLID ? 3 : 2;
@@ -56,7 +56,7 @@ static pg_status from_lattice (pg_sums *s)
     for (size_t b = 0; b < s->stencil.n; b++) s->full += s->stencil.beta[b] * cell;
     PG_TRY (find_shares (s, cell));
     check_order (s);
-    if (rule->surface != PG_SURFACE_NONE) PG_TRY (sums_family_volumes (s));
+    if (rule->surface != PG_SURFACE_NONE) PG_TRY (pg_sums_family_volumes (s));
 done:
     return status;
 }
@@ -139,13 +139,13 @@ static pg_status from_cloud (pg_sums *s)
     for (size_t i = 0; i < n; i++)
         for (size_t e = family.start[i]; e < family.start[i + 1]; e++) {
             size_t j = (size_t) family.node[e];
-            sums_bond b = sums_bond_between (&s->rule, cloud, i, j);
+            sums_bond b = pg_sums_bond_between (&s->rule, cloud, i, j);
             volume[i] += b.beta * cloud->volume[j] / pow (pg_cloud_ratio (cloud, i), cloud->dim);
             moment[i] += b.weight * b.r * cloud->volume[j] / cloud->thickness;
         }
     s->full = median_of_whole (n, volume, volume, work);
     double middle = median_of_whole (n, volume, moment, work);
-    if (s->rule.calibrate) s->calibration = sums_whole (&s->rule, cloud->dim) / middle;
+    if (s->rule.calibrate) s->calibration = pg_sums_whole (&s->rule, cloud->dim) / middle;
     if (s->rule.surface != PG_SURFACE_NONE) {
         for (size_t i = 0; i < n; i++) volume[i] /= s->full;
         s->family_volume = volume;
@@ -165,7 +165,7 @@ pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud
     pg_status status = PG_OK;
     pg_sums *s = NULL;
     *out = NULL;
-    PG_TRY (sums_check_rule (rule, cloud->dim));
+    PG_TRY (pg_sums_check_rule (rule, cloud->dim));
     if (cloud->n == 0) PG_FAIL (PG_E_USAGE, "bonds need points, and there are none");
     PG_ALLOC (s, 1);
     s->rule = *rule;

@@ -5,7 +5,7 @@
 #include "sums_private.h"
 #include <math.h>
 
-double sums_surface (const pg_sums *sums, size_t i, size_t j)
+double pg_sums_surface (const pg_sums *sums, size_t i, size_t j)
 {
     const double *v = sums->family_volume;
     if (!v) return 1;
@@ -14,7 +14,7 @@ double sums_surface (const pg_sums *sums, size_t i, size_t j)
 
 /* v of every point of a lattice, from the shares beta of its stencil. Points on no lattice: from_cloud in
  * sums.c, which sums their bonds anyway. */
-pg_status sums_family_volumes (pg_sums *s)
+pg_status pg_sums_family_volumes (pg_sums *s)
 {
     pg_status status = PG_OK;
     const pg_stencil *t = &s->stencil;
@@ -24,7 +24,7 @@ pg_status sums_family_volumes (pg_sums *s)
     for (size_t i = 0; i < s->cloud->n; i++) {
         double sum = 0;
         for (size_t b = 0; b < t->n; b++) {
-            int j = sums_neighbour (&s->sites, s->sites.site[i], t->offset + 3*b);
+            int j = pg_sums_neighbour (&s->sites, s->sites.site[i], t->offset + 3*b);
             if (j >= 0) sum += t->beta[b] * (s->share ? s->share[j] : 1);
         }
         s->family_volume[i] = sum / whole;

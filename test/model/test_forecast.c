@@ -237,12 +237,14 @@ static void test_small_time_steps_factor_nothing (void **state)
     (void) state;
     pg_forecast small = forecast (DISK "spacing: 0.01\nsolver: {kind: newmark, dt: 2 us, end: 1 ms}\n");
     pg_forecast large = forecast (DISK "spacing: 0.01\nsolver: {kind: newmark, dt: 1 ms, end: 1 s}\n");
-    assert_string_equal (small.linear, "cg");
-    assert_string_equal (large.linear, "cholmod");
+    assert_string_equal (pg_forecast_linear (&small), "cg");
+    assert_string_equal (pg_forecast_linear (&large), "cholmod");
     assert_true (small.bytes[PG_BYTES_FACTOR] == 0 && small.bytes[PG_BYTES_MATRIX] == 0
                  && large.bytes[PG_BYTES_FACTOR] > 0);
-    assert_string_equal (forecast (DISK "spacing: 0.01\nsolver: {linear: pcg}\n").linear, "cg");
-    assert_string_equal (forecast (DISK "spacing: 0.01\nsolver: {linear: umfpack}\n").linear, "umfpack");
+    pg_forecast products = forecast (DISK "spacing: 0.01\nsolver: {linear: pcg}\n"),
+                lu = forecast (DISK "spacing: 0.01\nsolver: {linear: umfpack}\n");
+    assert_string_equal (pg_forecast_linear (&products), "cg");
+    assert_string_equal (pg_forecast_linear (&lu), "umfpack");
 }
 
 /* ---- refusals ------------------------------------------------------------------------------------------ */

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * fft_sweep.h: bonds of a lattice summed by transforms (private; theory B1, B2). With chi the weight of a
- * point (its share of a cell over the root of how full its family is; 0 where there is no point or where all
- * its bonds are dead) and K_ab = c V^2 k beta / r^3 xi_a xi_b,
+ * fft_convolution.h: bonds of a lattice summed by transforms (private; theory B1, B2). With chi the weight
+ * of a point (its share of a cell over the root of how full its family is; 0 where there is no point or
+ * where all its bonds are dead) and K_ab = c V^2 k beta / r^3 xi_a xi_b,
  *   f_a = chi (q_a - sum_b D_ab u_b), q_a = sum_b K_ab * (chi u_b), D_ab = K_ab * chi (*: cyclic convolution)
  * is the force on points all whose bonds (to points of weight) live. A block of 32 sites with a cut bond is
  *     summed bond by bond instead, by the loops
@@ -11,10 +11,10 @@
  *     best is taken off first. Inside it makes
  * no force; at points whose family is not whole T_abc e_bc, which is added. Its values at the sites are exact
  *     multiples of a power of 2. */
-#ifndef PERIGAL_SUMS_FFT_SWEEP_H
-#define PERIGAL_SUMS_FFT_SWEEP_H
+#ifndef PERIGAL_SUMS_FFT_CONVOLUTION_H
+#define PERIGAL_SUMS_FFT_CONVOLUTION_H
 #include "fft_rows.h"
-#include "stencil_sweep.h"
+#include "stencil_loop.h"
 
 enum { FFT_TERMS = 16 };                               /* pairs and thirds in space */
 typedef struct { int point, block; } fft_rim;
@@ -58,8 +58,12 @@ static inline int fft_pair (int dim, int a, int b)
     return dim == 3 ? a * (5 - a) / 2 + b : dim == 2 ? a + b : 0;
 }
 
+/* Fits the motion that is to be taken off u: of uniform strain, or rigid; its values along a row of sites are
+ * shift[d] + (from + k * by) at site k (fft_motion.c). */
+void      pg_fft_fit_motion (transformer *t, const double *u, int strained);
+void      pg_fft_motion_of (const transformer *t, size_t row, int d, double *from, double *by);
 /* Blocks that may have a bond at its limit (fft_bound.c) and those with cut bonds: written to list,
  * ascending; how many. */
-pg_status fft_bound_create (transformer *t);
-size_t    fft_bound_suspects (transformer *t, double limit, int *list);
+pg_status pg_fft_bound_create (transformer *t);
+size_t    pg_fft_bound_suspects (transformer *t, double limit, int *list);
 #endif

@@ -9,27 +9,27 @@
 
 enum { BLOCK = 2048 };
 
-double sweep_sum (const double *s)
+double lane_sum (const double *s)
 {
     return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
 }
 
-double sweep_dot (const double *a, const double *b, size_t first, size_t last)
+double lane_dot (const double *a, const double *b, size_t first, size_t last)
 {
     double s[8] = { 0 };
     size_t i = first;
     for (; i + 8 <= last; i += 8) for (size_t k = 0; k < 8; k++) s[k] += a[i + k] * b[i + k];
     for (; i < last; i++) s[0] += a[i] * b[i];
-    return sweep_sum (s);
+    return lane_sum (s);
 }
 
-double sweep_bad (const double *d, size_t first, size_t last)
+double lane_not_finite (const double *d, size_t first, size_t last)
 {
     double s[8] = { 0 };
     size_t i = first;
     for (; i + 8 <= last; i += 8) for (size_t k = 0; k < 8; k++) s[k] += 0 * d[i + k];
     for (; i < last; i++) s[0] += 0 * d[i];
-    return sweep_sum (s);
+    return lane_sum (s);
 }
 
 /* ---- how many steps ------------------------------------------------------------------------------------ */
@@ -51,7 +51,7 @@ done:
     return status;
 }
 
-pg_status march_prepare (pg_solver *s)
+pg_status explicit_prepare (pg_solver *s)
 {
     pg_status status = PG_OK;
     PG_TRY (explicit_create (s));
@@ -61,7 +61,7 @@ done:
     return status;
 }
 
-pg_status march_start (pg_solver *s, pg_state *state)
+pg_status explicit_start (pg_solver *s, pg_state *state)
 {
     s->next_level = 1;
     return system_refresh (&s->break_loop.system, state, NULL);
@@ -72,62 +72,62 @@ static double time_at (const pg_solver *s, long n)
     return n == s->options.time_steps ? s->options.end : (double) n * s->options.dt;
 }
 
-/* ---- one sweep over all unknowns ----------------------------------------------------------------------- */
-typedef struct { sweep w; sweep_range range; size_t ndof; double *sum; } sweeping;
+/* ---- half kicks of all unknowns ------------------------------------------------------------------------ */
+typedef struct { half_kicks w; kick_range range; size_t ndof; double *sum; } kicking;
 
 static void work_on_blocks (void *context, size_t first, size_t last, int thread)
 {
-    const sweeping *c = context;
-    const sweep *w = &c->w;
+    const kicking *c = context;
+    const half_kicks *w = &c->w;
     (void) thread;
     for (size_t b = first; b < last; b++) {
         size_t i = b * BLOCK, end = i + BLOCK < c->ndof ? i + BLOCK : c->ndof;
         double *sum = c->sum + b * SUMS;
-        if (w->settle && w->P) sum[SUM_A] = sweep_dot (w->P, w->v, i, end);
+        if (w->closing && w->P) sum[SUM_A] = lane_dot (w->P, w->v, i, end);
         c->range (w, i, end, sum);
-        if (w->launch && w->P) sum[SUM_B] = sweep_dot (w->P, w->v, i, end);
-        if (w->launch) sum[SUM_BAD] = sweep_bad (w->d, i, end);
+        if (w->opening && w->P) sum[SUM_B] = lane_dot (w->P, w->v, i, end);
+        if (w->opening) sum[SUM_BAD] = lane_not_finite (w->d, i, end);
     }
 }
 
-/* Work of loads and supports over one half of a step, whose velocity is v (held: that of the list). */
+/* Work of loads and supports over one half of a step, whose velocity is v (prescribed: that of the list). */
 static double push_work (const pg_solver *s, double loads, const double *from, const double *to)
 {
     const motion *m = motion_of (s);
     double sum = s->options.dt * loads;
-    for (size_t k = 0; k < m->nheld; k++) sum += m->push[k] * (to[k] - from[k]);
+    for (size_t k = 0; k < m->nprescribed; k++) sum += m->push[k] * (to[k] - from[k]);
     return 0.5 * sum;
 }
 
-static pg_status move (pg_solver *s, pg_state *state, sweep_range range, int settle, int launch)
+static pg_status move (pg_solver *s, pg_state *state, kick_range range, int closing, int opening)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds (), total[SUMS], c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
            dt = s->options.dt;
-    sweeping all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, dt, c,
-                       settle, launch },
+    kicking all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, dt, c,
+                       closing, opening },
                      range,
                      sys->ndof,
                      m->sum };
-    if (launch && !settle) explicit_release (s, state);
+    if (opening && !closing) explicit_release (s, state);
     pg_parallel (s->problem->threads, m->nblock, work_on_blocks, &all);
     explicit_total (s, total);
-    if (settle) {
+    if (closing) {
         if (!m->by_work_balance) s->break_loop.work += push_work (s, total[SUM_A], m->before, m->goal);
         m->resist = total[SUM_D];
         m->damped += 0.5 * dt * c * total[SUM_C];
         s->report.energy_kinetic = 0.5 * total[SUM_K];
-        for (size_t k = 0; k < m->nheld; k++)
-            s->report.energy_kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k])
+        for (size_t k = 0; k < m->nprescribed; k++)
+            s->report.energy_kinetic += 0.5 * sys->mass[m->prescribed[k]] * (m->goal[k] - m->before[k])
                                         * (m->next[k] - m->goal[k]) / (dt * dt);
     }
-    if (launch) {
+    if (opening) {
         if (!m->by_work_balance) s->break_loop.work += push_work (s, total[SUM_B], m->goal, m->next);
         m->damped += 0.5 * dt * c * m->resist;
-        for (size_t k = 0; k < m->nheld; k++) state->d[m->held[k]] = m->next[k];
-        total[SUM_BAD] += sweep_bad (m->next, 0, m->nheld);
+        for (size_t k = 0; k < m->nprescribed; k++) state->d[m->prescribed[k]] = m->next[k];
+        total[SUM_BAD] += lane_not_finite (m->next, 0, m->nprescribed);
         if (total[SUM_BAD] != 0) PG_FAIL (PG_E_EQUILIBRIUM, "not finite");
     }
 done:
@@ -135,26 +135,26 @@ done:
     return status;
 }
 
-/* What the held unknowns show of v and a at t_n. */
-static void show_held (const pg_solver *s, pg_state *state, int staggered)
+/* What the prescribed unknowns show of v and a at t_n. */
+static void show_prescribed (const pg_solver *s, pg_state *state, int staggered)
 {
     const motion *m = motion_of (s);
     double dt = s->options.dt;
-    for (size_t k = 0; k < m->nheld; k++) {
-        size_t i = m->held[k];
+    for (size_t k = 0; k < m->nprescribed; k++) {
+        size_t i = m->prescribed[k];
         state->v[i] = staggered ? (m->next[k] - m->goal[k]) / dt : (m->next[k] - m->before[k]) / (2 * dt);
         state->a[i] = ((m->next[k] - m->goal[k]) - (m->goal[k] - m->before[k])) / (dt * dt);
     }
 }
 
-/* The force on held unknowns from outside; their out-of-balance force is none. */
+/* The force on prescribed unknowns from outside; their out-of-balance force is none. */
 static void take_reactions (pg_solver *s)
 {
     motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt;
-    for (size_t k = 0; k < m->nheld; k++) {
-        size_t i = m->held[k];
+    for (size_t k = 0; k < m->nprescribed; k++) {
+        size_t i = m->prescribed[k];
         m->push[k] = sys->mass[i] * (((m->next[k] - m->goal[k]) - (m->goal[k] - m->before[k])) / (dt * dt))
                      - sys->residual[i] + (m->P ? m->P[i] : 0);
         sys->residual[i] = 0;
@@ -183,8 +183,8 @@ static void inertia (pg_solver *s, const pg_state *state, int staggered, double 
            half = staggered ? 0.5 * s->options.dt : 0;
     for (size_t i = 0; i < sys->ndof; i++)
         out[i] = -sys->mass[i] * (state->a[i] + c * (state->v[i] - half * state->a[i]));
-    for (size_t k = 0; c > 0 && k < m->nheld; k++)
-        out[m->held[k]] = -sys->mass[m->held[k]] * state->a[m->held[k]];
+    for (size_t k = 0; c > 0 && k < m->nprescribed; k++)
+        out[m->prescribed[k]] = -sys->mass[m->prescribed[k]] * state->a[m->prescribed[k]];
 }
 
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
@@ -204,8 +204,8 @@ done:
 }
 
 /* ---- a run --------------------------------------------------------------------------------------------- */
-/* d and v as given but for the supports; held unknowns that do not move on as they did are pushed. Energy at
- * hand counts as work done. */
+/* d and v as given but for the supports; prescribed unknowns that do not move on as they did are pushed.
+ * Energy at hand counts as work done. */
 static pg_status begin (pg_solver *s, pg_state *state, int staggered)
 {
     pg_status status = PG_OK;
@@ -213,8 +213,8 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
     pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt, c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass, kinetic = 0;
     PG_TRY (explicit_follow (s, 0, 0, dt));
-    for (size_t k = 0; k < m->nheld; k++) {
-        size_t i = m->held[k];
+    for (size_t k = 0; k < m->nprescribed; k++) {
+        size_t i = m->prescribed[k];
         state->d[i] = m->goal[k];
         m->before[k] = m->goal[k] - dt * state->v[i];
         state->v[i] = 0;
@@ -227,10 +227,10 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
         m->resist += sys->mass[i] * v * (v + 0.5 * dt * a);
         kinetic += 0.5 * sys->mass[i] * (v - 0.5 * dt * a) * (v + 0.5 * dt * a);
     }
-    for (size_t k = 0; k < m->nheld; k++)
-        kinetic += 0.5 * sys->mass[m->held[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k])
+    for (size_t k = 0; k < m->nprescribed; k++)
+        kinetic += 0.5 * sys->mass[m->prescribed[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k])
                    / (dt * dt);
-    show_held (s, state, staggered);
+    show_prescribed (s, state, staggered);
     s->report.energy_kinetic = kinetic;
     PG_TRY (account (s, state, 0, staggered, 1));
     s->break_loop.work = s->report.energy_strain + kinetic;
@@ -294,31 +294,31 @@ done:
     return status;
 }
 
-pg_status march_step (pg_solver *s, pg_state *state, pg_step *step, sweep_range range, int staggered)
+pg_status explicit_step (pg_solver *s, pg_state *state, pg_step *step, kick_range range, int staggered)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     motion *m = motion_of (s);
     long n = state->iterations + b->round, last = explicit_row (s, s->options.time_steps, state->iterations);
-    int settled = 1;
+    int closed = 1;
     if (b->round == 0) {
         b->nbroken = 0;
         m->damped0 = m->damped, m->resist0 = m->resist;
         if (n == 0) PG_TRY (begin (s, state, staggered));
-        if (m->nheld) memcpy (m->push0, m->push, m->nheld * sizeof *m->push);
+        if (m->nprescribed) memcpy (m->push0, m->push, m->nprescribed * sizeof *m->push);
     }
     if (!m->fresh)
         PG_TRY (explicit_follow (s, time_at (s, n - 1), time_at (s, n), (double) (n + 1) * s->options.dt));
     while (n < last) {
-        pg_status now = move (s, state, range, !settled, 1);
+        pg_status now = move (s, state, range, !closed, 1);
         if (now != PG_OK) PG_TRY (explicit_lost (s, state, time_at (s, n + 1)));
         b->round = ++n - state->iterations;
         PG_TRY (arrive (s, state, n));
         int due = b->watch && n % m->between == 0 && n < last;
-        settled = n == last || due || m->by_work_balance;
-        if (!settled) continue;
+        closed = n == last || due || m->by_work_balance;
+        if (!closed) continue;
         PG_TRY (move (s, state, range, 1, 0));
-        show_held (s, state, staggered);
+        show_prescribed (s, state, staggered);
         if (m->by_work_balance) PG_TRY (account (s, state, time_at (s, n), staggered, 1));
         if (due) PG_TRY (look (s, state, step, n));
     }
@@ -329,26 +329,26 @@ done:
     return status;
 }
 
-void march_refused (pg_solver *s)
+void explicit_refused (pg_solver *s)
 {
     motion *m = motion_of (s);
     m->damped = m->damped0, m->resist = m->resist0;
-    if (m->nheld) memcpy (m->push, m->push0, m->nheld * sizeof *m->push);
+    if (m->nprescribed) memcpy (m->push, m->push0, m->nprescribed * sizeof *m->push);
     m->fresh = 0;
 }
 
-int march_done (const pg_solver *s, const pg_state *state)
+int explicit_done (const pg_solver *s, const pg_state *state)
 {
     return state->iterations + s->break_loop.round >= s->options.time_steps;
 }
 
-double march_progress (const pg_solver *s, const pg_state *state)
+double explicit_progress (const pg_solver *s, const pg_state *state)
 {
     return (double) (state->iterations + s->break_loop.round) / (double) s->options.time_steps;
 }
 
 /* ---- options ------------------------------------------------------------------------------------------- */
-void march_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+void explicit_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     PG_OWN (pg_explicit_options, o)->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");
     if (strcmp (pg_scene_text (scene, "solver.mass"), "consistent") == 0)

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The bonds of points on a lattice: sites in blocks of 32 of a row, one bit per bond and site, displacements
  * in padded arrays. */
-#include "stencil_sweep.h"
+#include "stencil_loop.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 
-const char *stencil_refusal (const pg_bond_loop_setting *setting)
+const char *pg_stencil_loop_refusal (const pg_bond_loop_setting *setting)
 {
     const pg_sums *sums = setting->sums;
     size_t n = sums->cloud->n;
@@ -22,7 +22,7 @@ const char *stencil_refusal (const pg_bond_loop_setting *setting)
     return NULL;
 }
 
-void stencil_free (void *self)
+void pg_stencil_loop_free (void *self)
 {
     stencil *s = self;
     if (!s) return;
@@ -41,7 +41,7 @@ static size_t place_of (const stencil *s, const size_t *at)
 }
 
 /* Block and bit of a padded place */
-size_t stencil_block (const stencil *s, size_t place, unsigned *bit)
+size_t pg_stencil_loop_block (const stencil *s, size_t place, unsigned *bit)
 {
     size_t row = place / s->pitch, x = place % s->pitch - (size_t) s->left;
     *bit = (unsigned) (x % PG_BLOCK);
@@ -62,7 +62,7 @@ static pg_status lay_out (stencil *s)
     s->pitch = (size_t) s->left + s->row_blocks * PG_BLOCK;
     s->rows = (size_t) (sums->sites.count[1] + 2 * s->reach[1]),
     s->planes = (size_t) (sums->sites.count[2] + 2 * s->reach[2]);
-    size_t places = stencil_places (s);
+    size_t places = pg_stencil_loop_places (s);
     if (places > UINT32_MAX)
         PG_FAIL (PG_E_LIMIT, "a lattice of %zu padded sites: at most %lu; try evaluation: list", places,
                  (unsigned long) UINT32_MAX);
@@ -139,7 +139,7 @@ static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, cons
     pg_status status = PG_OK;
     const pg_family *family = s->setting.family;
     unsigned bit;
-    size_t k = stencil_block (s, s->place[i], &bit), b = 0;
+    size_t k = pg_stencil_loop_block (s, s->place[i], &bit), b = 0;
     for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
         if (live && !live[e]) continue;
         b = bond_of (s, jump_of (s, i, e), b);
@@ -175,14 +175,14 @@ static void renew_blocks (void *context, size_t first, size_t last, int thread)
         }
 }
 
-int stencil_threads (const stencil *s)
+int pg_stencil_loop_threads (const stencil *s)
 {
     int t = s->setting.threads;
     if (s->nblock * s->job.n * PG_BLOCK < FEW || t < 1) return 1;
     return t < MAX_THREADS ? t : MAX_THREADS;
 }
 
-size_t stencil_owner (const stencil *s, size_t entry)
+size_t pg_stencil_loop_owner (const stencil *s, size_t entry)
 {
     const size_t *start = s->setting.family->start;
     size_t low = 0, high = s->setting.sums->cloud->n;
@@ -194,18 +194,18 @@ size_t stencil_owner (const stencil *s, size_t entry)
     return low;
 }
 
-void stencil_update (void *self, const unsigned char *alive, const pg_changes *changes)
+void pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     stencil *s = self;
     if (!changes) {
         renewal r = { .s = s, .live = alive };         /* every bond was found when this was created */
-        pg_parallel_heavy (stencil_threads (s), s->nblock, renew_blocks, &r);
+        pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, renew_blocks, &r);
         return;
     }
     for (size_t c = 0; c < changes->n; c++) {
-        size_t e = changes->bond[c], low = stencil_owner (s, e);
+        size_t e = changes->bond[c], low = pg_stencil_loop_owner (s, e);
         unsigned bit;
-        size_t k = stencil_block (s, s->place[low], &bit), b = bond_of (s, jump_of (s, low, e), 0);
+        size_t k = pg_stencil_loop_block (s, s->place[low], &bit), b = bond_of (s, jump_of (s, low, e), 0);
         if (b < s->job.n) s->alive[k * s->job.n + b] &= ~(1u << bit);
     }
 }
@@ -234,7 +234,7 @@ done:
     return status;
 }
 
-size_t stencil_places (const stencil *s) { return s->pitch * s->rows * s->planes + (size_t) s->left; }
+size_t pg_stencil_loop_places (const stencil *s) { return s->pitch * s->rows * s->planes + (size_t) s->left; }
 
 /* Weights of points, where not all are 1: share of a cell's volume over the root of how full the family is */
 static pg_status set_weights (stencil *s)
@@ -243,7 +243,7 @@ static pg_status set_weights (stencil *s)
     const pg_sums *sums = s->setting.sums;
     int product = sums->rule.surface == PG_SURFACE_PRODUCT && sums->family_volume, one = 1;
     if (!sums->share && !product) return PG_OK;
-    PG_ALLOC (s->p, stencil_places (s));
+    PG_ALLOC (s->p, pg_stencil_loop_places (s));
     for (size_t i = 0; i < sums->cloud->n; i++) {
         double p = (sums->share ? sums->share[i] : 1) / (product ? sqrt (sums->family_volume[i]) : 1);
         s->p[s->place[i]] = p;
@@ -254,7 +254,8 @@ done:
     return status;
 }
 
-pg_status stencil_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set, size_t bytes)
+pg_status pg_stencil_loop_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
+                                  size_t bytes)
 {
     static const pg_block_kernels *const kernels[] = { &pg_block_scalar, &pg_block_avx2, &pg_block_avx512 };
     pg_status status = PG_OK;
@@ -280,7 +281,7 @@ pg_status stencil_create (void **self, const pg_bond_loop_setting *setting, pg_i
     s->job.may = s->may, s->job.p = s->p;
     s->job.hit = s->hit, s->job.energy = s->energy;
     renewal r = { .s = s, .exempt = exempt };
-    pg_parallel_heavy (stencil_threads (s), s->nblock, renew_blocks, &r);
+    pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, renew_blocks, &r);
     /* says it on this thread */
     for (int t = 0; t < MAX_THREADS; t++)
         if (r.status[t] != PG_OK) PG_TRY (set_bits (s, r.lost[t], NULL, exempt));
@@ -290,10 +291,10 @@ done:
 
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
-    return stencil_create (self, setting, set, sizeof (stencil));
+    return pg_stencil_loop_create (self, setting, set, sizeof (stencil));
 }
 
-void stencil_bytes (const void *self, double *per_bond, double *per_point)
+void pg_stencil_loop_bytes (const void *self, double *per_bond, double *per_point)
 {
     const stencil *s = self;
     size_t n = s->setting.sums->cloud->n, dim = (size_t) s->job.dim;
@@ -306,12 +307,12 @@ void stencil_bytes (const void *self, double *per_bond, double *per_point)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-size_t stencil_entry (const stencil *s, int i, size_t place, size_t b)
+size_t pg_stencil_loop_entry (const stencil *s, int i, size_t place, size_t b)
 {
     const pg_family *family = s->setting.family;
     size_t low = family->start[i], high = family->start[i + 1];
     unsigned bit;
-    size_t k = stencil_block (s, (size_t) ((ptrdiff_t) place + s->jump[b]), &bit);
+    size_t k = pg_stencil_loop_block (s, (size_t) ((ptrdiff_t) place + s->jump[b]), &bit);
     int j = s->job.point[s->block[k].site + bit];
     while (high - low > 1) {
         size_t middle = (low + high) / 2;
@@ -347,7 +348,8 @@ static pg_status kill_bonds (stencil *s, size_t k, pg_changes *found)
             if (!(measure (s, block->base + bit, b) >= s->term[b * PG_TERMS + PG_AT_LIMIT])) continue;
             *word &= ~(1u << bit);
             PG_GROW (found->bond, found->cap, found->n + 1);
-            found->bond[found->n++] = stencil_entry (s, s->job.point[block->site + bit], block->base + bit,
+            found->bond[found->n++] = pg_stencil_loop_entry (s, s->job.point[block->site + bit],
+                                                             block->base + bit,
                                                      b);
         }
     }
@@ -389,32 +391,33 @@ static void force_blocks (void *context, size_t first, size_t last, int thread)
     }
 }
 
-void stencil_spread (stencil *s, const double *u)
+void pg_stencil_loop_spread (stencil *s, const double *u)
 {
-    pg_parallel_heavy (stencil_threads (s), s->nblock, spread_blocks, &(pass) { .s = s, .u = u });
+    pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, spread_blocks, &(pass) { .s = s, .u = u });
 }
 
 static pg_status run (stencil *s, pass *p, pg_changes *broken)
 {
-    int threads = stencil_threads (s);
+    int threads = pg_stencil_loop_threads (s);
     pg_parallel_heavy (threads, p->n, force_blocks, p);
-    return p->again ? sweep_collect (broken, threads, s->found, s->failed) : PG_OK;
+    return p->again ? pg_changes_collect (broken, threads, s->found, s->failed) : PG_OK;
 }
 
-pg_status stencil_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost,
+pg_status pg_stencil_loop_run (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost,
                        pg_changes *broken)
 {
     return run (s, &(pass) { .s = s, .loop = loop, .again = again, .lost = lost, .n = s->nblock }, broken);
 }
 
-pg_status stencil_run_some (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost, size_t n,
+pg_status pg_stencil_loop_run_some (stencil *s, pg_block_loop loop, pg_block_loop again, stencil_lost lost,
+                                    size_t n,
                             const int *list, pg_changes *broken)
 {
     return run (s, &(pass){ .s = s, .loop = loop, .again = again, .lost = lost, .n = n, .list = list },
                 broken);
 }
 
-pg_status stencil_force_some (stencil *s, size_t n, const int *list, double *f, pg_changes *broken)
+pg_status pg_stencil_loop_force_some (stencil *s, size_t n, const int *list, double *f, pg_changes *broken)
 {
     int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL;
     int check = !broken || !s->setting.limit ? PG_CHECK_NONE : s->may ? PG_CHECK_SOME : PG_CHECK_ALL;
@@ -429,8 +432,8 @@ pg_status stencil_force_some (stencil *s, size_t n, const int *list, double *f, 
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     stencil *s = self;
-    stencil_spread (s, u);
-    return stencil_force_some (s, s->nblock, NULL, f, broken);
+    pg_stencil_loop_spread (s, u);
+    return pg_stencil_loop_force_some (s, s->nblock, NULL, f, broken);
 }
 
 static void energy_blocks (void *context, size_t first, size_t last, int thread)
@@ -443,21 +446,22 @@ static void energy_blocks (void *context, size_t first, size_t last, int thread)
             p->loop (&p->s->job, (size_t) p->list[k], (size_t) p->list[k] + 1);
 }
 
-void stencil_energies_some (stencil *s, size_t n, const int *list, double *W)
+void pg_stencil_loop_energies_some (stencil *s, size_t n, const int *list, double *W)
 {
     pass p = { .s = s,
                .loop = s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL],
                .list = list };
     s->job.energies = W;
-    pg_parallel_heavy (stencil_threads (s), n, energy_blocks, &p);
+    pg_parallel_heavy (pg_stencil_loop_threads (s), n, energy_blocks, &p);
     s->job.energies = NULL;
 }
 
-double stencil_stored (stencil *s, pg_block_loop loop, double *W)
+double pg_stencil_loop_stored (stencil *s, pg_block_loop loop, double *W)
 {
     double sum = 0;
     s->job.energies = W;
-    pg_parallel_heavy (stencil_threads (s), s->nblock, energy_blocks, &(pass) { .s = s, .loop = loop });
+    pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, energy_blocks, &(pass) { .s = s,
+                                                                                        .loop = loop });
     s->job.energies = NULL;
     for (size_t k = 0; k < s->nblock; k++) sum += s->energy[k];
     return sum;
@@ -466,9 +470,9 @@ double stencil_stored (stencil *s, pg_block_loop loop, double *W)
 static double energy (void *self, const double *u)
 {
     stencil *s = self;
-    stencil_spread (s, u);
+    pg_stencil_loop_spread (s, u);
     /* w / 2 of each bond, seen from both its ends */
-    return stencil_stored (
+    return pg_stencil_loop_stored (
                s, s->kernels->energy[s->job.dim - 1][s->setting.sums->rule.finite != 0][s->p != NULL], NULL)
            / 4;
 }
@@ -477,8 +481,8 @@ static pg_status energies (void *self, const double *u, double *W)
 {
     stencil *s = self;
     const pg_cloud *cloud = s->setting.sums->cloud;
-    stencil_spread (s, u);
-    stencil_energies_some (s, s->nblock, NULL, W);
+    pg_stencil_loop_spread (s, u);
+    pg_stencil_loop_energies_some (s, s->nblock, NULL, W);
     for (size_t i = 0; i < cloud->n; i++) W[i] = W[i] != 0 ? W[i] / (4 * cloud->volume[i]) : 0;
     return PG_OK;
 }
@@ -494,11 +498,11 @@ static double time_of (const pg_bond_loop_setting *setting, pg_instructions set)
 
 const pg_bond_loop_kind pg_bond_loop_stencil = {
     .name = "stencil",
-    .refusal = stencil_refusal,
+    .refusal = pg_stencil_loop_refusal,
     .create = create,
-    .free = stencil_free,
-    .bytes = stencil_bytes,
-    .update = stencil_update,
+    .free = pg_stencil_loop_free,
+    .bytes = pg_stencil_loop_bytes,
+    .update = pg_stencil_loop_update,
     .force = force,
     .energy = energy,
     .energies = energies,

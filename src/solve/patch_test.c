@@ -226,7 +226,10 @@ static double measure_softness (probe *t)
         if (t->inverse[i] == 0) t->r[i] = 0;
         size += t->r[i] * t->r[i] * t->inverse[i];
     }
-    return iterate (t, 0) / size;
+    int settled = t->out.settled;  /* says of the displacement whether it is known, not of this */
+    double energy = iterate (t, 0);
+    t->out.settled = settled;
+    return energy / size;
 }
 
 static double size_of (const probe *t, const double *f)

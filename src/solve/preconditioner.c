@@ -66,7 +66,7 @@ pg_status system_make_multilevel (pg_system *s)
     PG_TRY (s->force->couplings (s->self, &setting.rows));
     PG_TRY (pg_multilevel_create (&s->multilevel, &setting));
     s->report->preconditioners++;
-    s->rent = s->pace = 0;
+    s->extra_cost = s->pace = 0;
     tell (s);
     PG_TRY (system_remember_alive (s));
 done:
@@ -92,7 +92,7 @@ static pg_status iterate (pg_system *s, double tolerance, size_t *used)
     pg_status status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
     double gain = -log (tolerance);
     if (s->pace == 0) s->pace = gain / (double) (*used + 1);
-    else s->rent += fmax (0, (double) (*used + 1) - gain / s->pace);
+    else s->extra_cost += fmax (0, (double) (*used + 1) - gain / s->pace);
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     return status;
@@ -104,7 +104,7 @@ pg_status system_iterate_multilevel (pg_system *s, double tolerance)
     size_t used = 0;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     system_remember_diagonal (s, NULL);
-    if (!s->multilevel || s->rent > RENEWAL) PG_TRY (system_make_multilevel (s));
+    if (!s->multilevel || s->extra_cost > RENEWAL) PG_TRY (system_make_multilevel (s));
     else s->spared += s->stale;
     strcpy (s->report->solver, "cg");
     pg_status now = iterate (s, tolerance, &used);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Sweep by transforms: fft_sweep.h says how. */
-#include "fft_sweep.h"
+ * Sweep by transforms: fft_convolution.h says how. */
+#include "fft_convolution.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,15 +8,15 @@
 static const char *fft_refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "finite stretch is not linear in the displacement";
-    return stencil_refusal (setting);
+    return pg_stencil_loop_refusal (setting);
 }
 
 static void fft_free (void *self)
 {
     transformer *t = self;
     if (!t) return;
-    fft_clear (&t->f);
-    stencil_free (t->s);
+    pg_fft_clear (&t->f);
+    pg_stencil_loop_free (t->s);
     void *blocks[] = { t->K,       t->chi,   t->D,     t->cut,    t->seen,  t->seen_block,
                        t->touched, t->list,  t->edge,  t->ragged, t->risky, t->W,
                        t->ones,    t->f_own, t->third, t->open,   t->rim };
@@ -31,7 +31,7 @@ static void weigh_point (transformer *t, size_t i)
     const stencil *s = t->s;
     size_t place = s->place[i];
     unsigned bit;
-    const uint32_t *alive = s->alive + stencil_block (s, place, &bit) * s->job.n;
+    const uint32_t *alive = s->alive + pg_stencil_loop_block (s, place, &bit) * s->job.n;
     uint32_t any = 0;
     for (size_t b = 0; b < s->job.n; b++) any |= alive[b];
     t->chi[place] = any >> bit & 1 ? (s->p ? s->p[place] : 1) : 0;
@@ -110,14 +110,14 @@ static void count_gone (transformer *t)
 static void join_rim (transformer *t, size_t i)
 {
     unsigned bit;
-    size_t block = stencil_block (t->s, t->s->place[i], &bit);
+    size_t block = pg_stencil_loop_block (t->s, t->s->place[i], &bit);
     t->rim[t->nrim++] = (fft_rim) { (int) i, (int) block };
 }
 
 static void renew (transformer *t)
 {
     size_t n = t->s->setting.sums->cloud->n;
-    int threads = stencil_threads (t->s);
+    int threads = pg_stencil_loop_threads (t->s);
     pg_parallel (threads, n, weigh_points, t);
     pg_parallel (threads, n, sum_D_points, t);
     t->nrim = 0;
@@ -129,7 +129,7 @@ static void renew (transformer *t)
 static void touch_block (transformer *t, size_t place, size_t *blocks)
 {
     unsigned bit;
-    size_t k = stencil_block (t->s, place, &bit);
+    size_t k = pg_stencil_loop_block (t->s, place, &bit);
     if (t->seen_block[k]) return;
     t->seen_block[k] = 1, t->list[(*blocks)++] = (int) k;
 }
@@ -143,7 +143,7 @@ static void lose_bonds (transformer *t, size_t n, const size_t *bond)
     const pg_family *family = s->setting.family;
     size_t points = 0, blocks = 0, owners;
     for (size_t c = 0; c < n; c++) {
-        size_t i = stencil_owner (s, bond[c]);
+        size_t i = pg_stencil_loop_owner (s, bond[c]);
         if (t->seen[i]) continue;
         t->seen[i] = OWNER, t->touched[points++] = (int) i;
         touch_block (t, s->place[i], &blocks);
@@ -178,117 +178,17 @@ static void lose_bonds (transformer *t, size_t n, const size_t *bond)
 static void fft_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     transformer *t = self;
-    stencil_update (t->s, alive, changes);
+    pg_stencil_loop_update (t->s, alive, changes);
     if (changes) lose_bonds (t, changes->n, changes->bond);
     else renew (t);
 }
 
-/* ---- motion taken off ---------------------------------------------------------------------------------- */
-/* Moments of some points spread over the body: their mean place and displacement, sum r r and sum v r about
- * these */
-typedef struct { double centre[3], shift[3], rr[9], vr[9]; } moments;
-
-static moments sample (const transformer *t, const double *u)
-{
-    enum { SAMPLES = 1024 };
-    const pg_cloud *cloud = t->s->setting.sums->cloud;
-    size_t dim = (size_t) t->dim, n = cloud->n, all = n < SAMPLES ? n : SAMPLES, count = 0, point[SAMPLES];
-    moments m = { 0 };
-    for (size_t k = 0; k < all; k++) {
-        double golden = 0.6180339887498949 * (double) k;  /* as spread along rows as across them */
-        size_t i = all == n ? k : (size_t) ((golden - floor (golden)) * (double) n);
-        if (t->chi[t->s->place[i]] == 0) continue;
-        for (size_t d = 0; d < dim; d++) m.centre[d] += cloud->x[i*dim + d], m.shift[d] += u[i*dim + d];
-        point[count++] = i;
-    }
-    for (size_t d = 0; count && d < dim; d++) m.centre[d] /= (double) count, m.shift[d] /= (double) count;
-    for (size_t k = 0; k < count; k++)
-        for (size_t d = 0; d < dim; d++)
-            for (size_t c = 0; c < dim; c++) {
-                double r = cloud->x[point[k]*dim + c] - m.centre[c];
-                m.rr[3 * d + c] += (cloud->x[point[k] * dim + d] - m.centre[d]) * r,
-                    m.vr[3 * d + c] += (u[point[k] * dim + d] - m.shift[d]) * r;
-            }
-    return m;
-}
-
-/* Gradient of the best rotation: turn x r */
-static void fit_turn (const moments *m, int dim, double *G)
-{
-    double J[9], turn[3], all = m->rr[0] + m->rr[4] + m->rr[8];
-    memset (G, 0, 9 * sizeof *G);
-    for (int a = 0; a < 3; a++) {
-        int b = (a + 1) % 3, c = (a + 2) % 3;
-        turn[a] = m->vr[3*c + b] - m->vr[3*b + c];
-        for (int k = 0; k < 3; k++) J[3*a + k] = (a == k ? all : 0) - m->rr[3*a + k];
-    }
-    if (dim < 2 || !(all > 0)) return;
-    if (dim == 2) turn[0] = turn[1] = 0, turn[2] /= all;
-    else if (pg_dense_cholesky (3, J, 1e-9) != 0) return;
-    else pg_dense_solve (3, J, turn);
-    for (int a = 0; a < 3; a++) {
-        int b = (a + 1) % 3, c = (a + 2) % 3;
-        G[3*c + b] = turn[a], G[3*b + c] = -turn[a];
-    }
-}
-
-/* Of the best uniform gradient; points in a line or plane: of the rotation */
-static void fit_strain (const moments *m, int dim, double *G)
-{
-    double J[9];
-    for (int a = 0; a < dim; a++) for (int b = 0; b < dim; b++) J[a*dim + b] = m->rr[3*a + b];
-    if (pg_dense_cholesky (dim, J, 1e-9) != 0) {
-        fit_turn (m, dim, G);
-        return;
-    }
-    for (int d = 0; d < dim; d++) {
-        double row[3] = { m->vr[3*d], m->vr[3*d + 1], m->vr[3*d + 2] };
-        pg_dense_solve (dim, J, row);
-        for (int k = 0; k < dim; k++) G[3*d + k] = row[k];
-    }
-}
-
-/* shift + (base + slope . (x, y, z)) of a site. Base and slope in units so coarse that no sum or product of
- * these is rounded anywhere in the lattice: a motion of rounded values would be another one at every point.
- * Strained: all in base, so that u loses no digit of the little that is left of it. */
-static void fit_motion (transformer *t, const double *u, int strained)
-{
-    const pg_sums *sums = t->s->setting.sums;
-    const pg_sites *sites = &sums->sites;
-    moments m = sample (t, u);
-    double G[9] = { 0 };
-    int at[3], site = sites->site[0];
-    (strained ? fit_strain : fit_turn) (&m, t->dim, G);
-    for (int k = 0; k < 3; k++) at[k] = site % sites->count[k], site /= sites->count[k];
-    memset (t->base, 0, sizeof t->base), memset (t->slope, 0, sizeof t->slope);
-    for (int d = 0; d < t->dim; d++) {
-        double base = strained ? m.shift[d] : 0, most = 0, slope[3] = { 0 };
-        t->shift[d] = m.shift[d] - base;
-        for (int k = 0; k < t->dim; k++) {
-            base += G[3*d + k] * (sums->cloud->x[k] - at[k] * sites->step[k] - m.centre[k]);
-            slope[k] = G[3*d + k] * sites->step[k], most += fabs (slope[k]) * sites->count[k];
-        }
-        most += fabs (base);
-        if (!(most > 0) || !isfinite (most)) continue;
-        double unit = ldexp (1, ilogb (most) - 51);
-        t->base[d] = unit * nearbyint (base / unit);
-        for (int k = 0; k < t->dim; k++) t->slope[3*d + k] = unit * nearbyint (slope[k] / unit);
-    }
-}
-
-/* That motion along a row: shift + (from + k * by) at its site k */
-static void motion_of (const transformer *t, size_t row, int d, double *from, double *by)
-{
-    size_t ny = (size_t) t->s->setting.sums->sites.count[1];
-    *from = t->base[d] + t->slope[3*d + 1] * (double) (row % ny) + t->slope[3*d + 2] * (double) (row / ny);
-    *by = t->slope[3*d];
-}
-
+/* ---- rows ---------------------------------------------------------------------------------------------- */
 /* Displacements of a row less the motion, times a weight */
 static void still_row (const transformer *t, size_t row, int d, const double *weight, double *x)
 {
     double from, by;
-    motion_of (t, row, d, &from, &by);
+    pg_fft_motion_of (t, row, d, &from, &by);
     t->f.kernels->still (t->nx, t->s->job.u[d] + fft_row_base (t, row), t->shift[d], from, by, weight, x);
 }
 
@@ -336,7 +236,7 @@ static void take_force (void *context, size_t row, double *const *q, double *spa
     (void) spare;
     for (int d = 0; d < t->dim; d++) {
         r.u[d] = t->s->job.u[d] + base, r.q[d] = q[d], r.shift[d] = t->shift[d];
-        motion_of (t, row, d, &r.from[d], &r.by[d]);
+        pg_fft_motion_of (t, row, d, &r.from[d], &r.by[d]);
     }
     for (int p = 0; p < t->pairs; p++) r.D[p] = t->D + (size_t) p * all + row * t->width;
     t->f.kernels->force[t->dim - 1] (&t->s->job, &r);
@@ -393,19 +293,19 @@ static pg_status fft_force (void *self, const double *u, double *f, pg_changes *
     size_t before = broken ? broken->n : 0, n = 0, blocks = s->nblock, cut = 0;
     int check = broken && s->setting.limit && s->setting.sums->cloud->n;
     t->u = u;
-    stencil_spread (s, u);
-    if (check) n = fft_bound_suspects (t, s->setting.limit[0], t->list);
+    pg_stencil_loop_spread (s, u);
+    if (check) n = pg_fft_bound_suspects (t, s->setting.limit[0], t->list);
     else for (size_t k = 0; k < blocks; k++) if (t->cut[k]) t->list[n++] = (int) k;
-    PG_TRY (stencil_force_some (s, n, t->list, f, check ? broken : NULL));
+    PG_TRY (pg_stencil_loop_force_some (s, n, t->list, f, check ? broken : NULL));
     if (check && broken->n > before) lose_bonds (t, broken->n - before, broken->bond + before);
     for (size_t k = 0; k < blocks; k++) cut += t->cut[k];
     t->count.sums++, t->count.blocks += blocks, t->count.bonds += n, t->count.cut += cut;
     if (cut == blocks) goto done;
-    fit_motion (t, u, 1);
+    pg_fft_fit_motion (t, u, 1);
     fft_job job = { t->dim, t->dim, fill_force, take_force, t };
-    fft_convolve (&t->f, &job);
+    pg_fft_convolve (&t->f, &job);
     strain strain_ = strain_of (t);
-    pg_parallel (stencil_threads (s), t->nrim, add_strain, &strain_);
+    pg_parallel (pg_stencil_loop_threads (s), t->nrim, add_strain, &strain_);
 done:
     return status;
 }
@@ -457,15 +357,15 @@ static pg_status fft_energies (void *self, const double *u, double *W)
     size_t n = 0;
     t->u = u, t->f_out = W;
     if (!t->W) PG_ALLOC (t->W, t->rows * t->width);
-    PG_TRY (fft_fields (&t->f, t->pairs));
-    stencil_spread (s, u);
-    fit_motion (t, u, 0);
+    PG_TRY (pg_fft_fields (&t->f, t->pairs));
+    pg_stencil_loop_spread (s, u);
+    pg_fft_fit_motion (t, u, 0);
     fft_job force = { t->dim, t->dim, fill_force, take_work, t },
             squares = { t->pairs, 1, fill_squares, take_squares, t };
-    fft_convolve (&t->f, &force);
-    fft_convolve (&t->f, &squares);
+    pg_fft_convolve (&t->f, &force);
+    pg_fft_convolve (&t->f, &squares);
     for (size_t k = 0; k < s->nblock; k++) if (t->cut[k]) t->list[n++] = (int) k;
-    stencil_energies_some (s, n, t->list, W);
+    pg_stencil_loop_energies_some (s, n, t->list, W);
     for (size_t i = 0; i < cloud->n; i++) W[i] = W[i] != 0 ? fmax (W[i], 0) / (4 * cloud->volume[i]) : 0;
 done:
     return status;
@@ -479,12 +379,12 @@ static double fft_energy (void *self, const double *u)
     size_t dim = (size_t) t->dim;
     double sum = 0;
     fft_force (t, u, t->f_own, NULL);
-    fit_motion (t, u, 0);
+    pg_fft_fit_motion (t, u, 0);
     for (size_t i = 0; i < cloud->n; i++) {
         size_t site = (size_t) t->s->setting.sums->sites.site[i];
         double part = 0, from, by;
         for (size_t d = 0; d < dim; d++) {
-            motion_of (t, site / t->nx, (int) d, &from, &by);
+            pg_fft_motion_of (t, site / t->nx, (int) d, &from, &by);
             part += t->f_own[i * dim + d]
                     * (u[i * dim + d] - t->shift[d] - (from + by * (double) (site % t->nx)));
         }
@@ -530,7 +430,7 @@ static int worth_timing (const pg_bond_loop_setting *setting)
     return setting->sums->rule.sweeps * (double) setting->sums->cloud->n > 2e8;
 }
 
-static pg_status fft_create_sweep (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
+static pg_status create_convolution (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
     pg_status status = PG_OK;
@@ -539,7 +439,7 @@ static pg_status fft_create_sweep (void **self, const pg_bond_loop_setting *sett
     void *bonds = NULL;
     PG_ALLOC (t, 1);
     *self = t;
-    status = stencil_create (&bonds, setting, set, sizeof (stencil));
+    status = pg_stencil_loop_create (&bonds, setting, set, sizeof (stencil));
     t->s = bonds;
     PG_TRY (status);
     stencil *s = t->s;
@@ -547,7 +447,7 @@ static pg_status fft_create_sweep (void **self, const pg_bond_loop_setting *sett
            count[3] = { (size_t) sites->count[0], (size_t) sites->count[1], (size_t) sites->count[2] };
     t->dim = s->job.dim, t->pairs = t->dim * (t->dim + 1) / 2, t->thirds = fft_third (0, 0, t->dim);
     t->nx = count[0], t->rows = count[1] * count[2], t->width = s->row_blocks * PG_BLOCK,
-    t->places = stencil_places (s);
+    t->places = pg_stencil_loop_places (s);
     PG_ALLOC (t->chi, t->places);
     PG_ALLOC (t->D, (size_t) t->pairs * t->rows * t->width);
     PG_ALLOC (t->ones, t->width);
@@ -562,9 +462,9 @@ static pg_status fft_create_sweep (void **self, const pg_bond_loop_setting *sett
     PG_ALLOC (t->touched, n);
     PG_ALLOC (t->list, s->nblock);
     PG_TRY (set_kernels (t));
-    PG_TRY (fft_create (&t->f, t->dim, count, s->job.n, setting->sums->stencil.offset, kernel_value, t,
-                        kernels[set], stencil_threads (s), worth_timing (setting)));
-    PG_TRY (fft_bound_create (t));
+    PG_TRY (pg_fft_create (&t->f, t->dim, count, s->job.n, setting->sums->stencil.offset, kernel_value, t,
+                        kernels[set], pg_stencil_loop_threads (s), worth_timing (setting)));
+    PG_TRY (pg_fft_bound_create (t));
     renew (t);
 done:
     return status;
@@ -597,7 +497,7 @@ static double fft_time (const pg_bond_loop_setting *setting, pg_instructions set
             if (sums->stencil.offset[3 * e + (size_t) d] > reach[d])
                 reach[d] = sums->stencil.offset[3 * e + (size_t) d];
     for (int d = 0; d < dim; d++)
-        places *= (double) fft_size ((size_t) (sums->sites.count[d] + reach[d]), d == 0);
+        places *= (double) pg_fft_size ((size_t) (sums->sites.count[d] + reach[d]), d == 0);
     return 2e4 + (dim == 3 ? 0.4 : 0.3) * dim * places * log2 (places)
            + (dim == 3 ? 15 : 6) * slower * (double) sums->cloud->n;
 }
@@ -618,7 +518,7 @@ static void fft_counts (const void *self, pg_bond_loop_counts *out)
 const pg_bond_loop_kind pg_bond_loop_fft = {
     .name = "fft",
     .refusal = fft_refusal,
-    .create = fft_create_sweep,
+    .create = create_convolution,
     .free = fft_free,
     .bytes = fft_bytes,
     .update = fft_update,

@@ -1,0 +1,40 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The energy balance of a run: external work is summed by trapezoids over pairs of generalised forces and
+ * displacements that the force tells of the boundary (pg_work_balance), between one accounted state and the
+ * next. What it exceeds strain, kinetic and damping energy by is what breaking has taken (solver.c). */
+#include "solve.h"
+#include <string.h>
+
+pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale)
+{
+    pg_status status = PG_OK;
+    pg_system *s = &b->system;
+    if (!s->force->work_balance) return PG_OK;
+    double t0 = pg_seconds (), unused = 0;
+    if (dyn) {
+        memset (s->full, 0, s->ndof * sizeof *s->full);
+        dyn->add (dyn->context, d, s->full, &unused);
+    }
+    PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : NULL, &b->work_balance));
+    PG_TRY (break_loop_book (b, scale));
+done:
+    s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    return status;
+}
+
+pg_status break_loop_book (break_loop *b, double scale)
+{
+    pg_status status = PG_OK;
+    if (!b->before.force) {                            /* the first state is reached from rest */
+        PG_ALLOC (b->before.force, b->work_balance.npair);
+        PG_ALLOC (b->before.displacement, b->work_balance.npair);
+        b->before.npair = b->work_balance.npair;
+    }
+    for (size_t k = 0; k < b->work_balance.npair; k++) {
+        double f = scale * b->work_balance.force[k], u = scale * b->work_balance.displacement[k];
+        b->work += 0.5 * (b->before.force[k] + f) * (u - b->before.displacement[k]);
+        b->before.force[k] = f, b->before.displacement[k] = u;
+    }
+done:
+    return status;
+}

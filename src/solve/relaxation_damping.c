@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Damping of relaxation, critical for the lowest frequency that is in motion: c = 2 omega, omega^2 = v K v /
+ * v M v, Rayleigh's quotient of the velocity, found anew at every iteration from the change of the residual
+ * (Kilic and Madenci 2010). */
+#include "relaxation.h"
+#include <math.h>
+
+/* What of the quotient's two sums is kept from one iteration to the next, without and with hold: one
+ * iteration alone makes the damping jump, and amplifies rounding. */
+static const double memory[2] = { 0.98, 0.9 };
+/* Without hold the damping is at least this share of the critical one of the shape that the loads give the
+ * body. */
+static const double share = 0.5;
+
+void relaxation_damp (struct relaxation *x, int hold, double stiff, double heavy)
+{
+    if (x->resting) x->stiff = x->heavy = 0;
+    else if (!x->broke && heavy > 0) {
+        x->stiff = memory[hold] * x->stiff + stiff, x->heavy = memory[hold] * x->heavy + heavy;
+        x->c = fmin (1.9 / x->dt, fmax (x->floor, 2 * sqrt (fmax (0, x->stiff / (x->heavy * x->dt)))));
+    }
+}
+
+/* A body that follows slow loads has hardly any strain rate: v K v would give no damping, and oscillations
+ * would grow out of rounding. Rayleigh's quotient of the displacement itself, less its mean, is used instead:
+ * d . (P - r) is d K d. */
+double relaxation_least_damping (const pg_solver *s, const pg_state *state)
+{
+    const motion *m = motion_of (s);
+    const pg_system *sys = &s->break_loop.system;
+    const double *d = state->d, *mass = m->relaxation->mass;
+    double stiff = 0, heavy = 0;
+    for (size_t i = 0; i < sys->ndof; i++) stiff += d[i] * ((m->P ? m->P[i] : 0) - sys->residual[i]);
+    for (size_t k = 0; k < m->nprescribed; k++) stiff += d[m->prescribed[k]] * m->push[k];
+    for (size_t c = 0; c < (size_t) sys->components; c++) {
+        double sum = 0, first = 0, second = 0;
+        for (size_t i = c; i < sys->ndof; i += (size_t) sys->components)
+            sum += mass[i], first += mass[i] * d[i], second += mass[i] * d[i] * d[i];
+        if (sum > 0) heavy += second - first * first / sum;
+    }
+    return heavy > 0 && stiff > 0 ? share * 2 * sqrt (stiff / heavy) : 0;
+}

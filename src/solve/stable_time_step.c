@@ -1,0 +1,80 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The stable time step of explicit methods: 2 / omega, omega the largest frequency of the body. The force may
+ * know an upper bound of omega in closed form or from the row sums of K; else it is measured (spectrum.c),
+ * from below within 1 %. Left to the solver the step is 0.9 of the stable one, which leaves room for what
+ * breaking may stiffen. */
+#include "explicit.h"
+#include <math.h>
+
+/* A bound from above where the force has one; else the largest frequency itself, from below within 1 %. */
+static pg_status find_bound (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    motion *m = motion_of (s);
+    pg_system *sys = &s->break_loop.system;
+    int exact = !sys->force->bound && !sys->force->row_sums;
+    if (!sys->force->bound) PG_TRY (system_refresh (sys, s->backup, NULL));
+    PG_TRY (pg_force_bound (sys->force, sys->self, sys->ndof, sys->mass, sys->full, &m->omega, &m->from));
+    if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
+    if (!isfinite (m->omega))
+        PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
+    m->stable = m->omega > 0 ? (exact ? 0.99 : 1) * 2 / m->omega : INFINITY;
+done:
+    return status;
+}
+
+/* Beyond the bound the frequency itself decides. */
+static pg_status check_dt (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    motion *m = motion_of (s);
+    double omega;
+    if (s->options.dt <= m->stable) goto done;
+    PG_TRY (pg_solver_fastest (s, s->backup, &omega));
+    double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
+    if (s->options.dt <= limit) goto done;
+    const pg_scene *scene = s->options.scene;
+    if (scene && !pg_scene_given (scene, "solver.dt"))     /* by solver.end / solver.time_steps */
+        PG_TRY (solver_fault (s, "solver.time_steps",
+                              "steps of %.6g s are too large: explicit steps are stable up to %.4g s (2 / "
+                              "largest frequency); take at least %.0f, "
+                              "or leave solver.time_steps out",
+                              s->options.dt, limit, ceil (s->options.end / limit)));
+    PG_TRY (solver_fault (s, "solver.dt",
+                          "%.6g s is too large: explicit steps are stable up to %.4g s (2 / largest "
+                          "frequency); take at most that, or leave "
+                          "solver.dt out",
+                          s->options.dt, limit));
+done:
+    return status;
+}
+
+/* ---- the stable time step ------------------------------------------------------------------------------ */
+pg_status explicit_stable (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->break_loop.system;
+    motion *m = motion_of (s);
+    for (size_t i = 0; i < sys->ndof; i++) {
+        if (!(sys->mass[i] > 0))
+            PG_TRY (solver_fault (s, "solver.kind",
+                                  "%s needs mass at every point: give the material a density",
+                                  s->type->name));
+        m->inverse[i] = 1 / sys->mass[i];
+    }
+    PG_TRY (find_bound (s));
+    if (s->options.dt > 0) PG_TRY (check_dt (s));
+    else if (isfinite (m->stable)) s->options.dt = 0.9 * m->stable;
+    else
+        PG_TRY (solver_fault (s, "solver.dt",
+                              "nothing resists, so that any time step is stable: give solver.dt"));
+done:
+    return status;
+}
+
+double explicit_bound (const pg_solver *s, const char **from)
+{
+    const motion *m = motion_of (s);
+    if (m->from) *from = m->from;
+    return m->from ? m->stable : NAN;
+}
