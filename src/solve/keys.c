@@ -8,8 +8,8 @@ static const pg_key keys[] = {
     { "solver.kind", PG_NAME, NULL, NULL, PG_FIRST_CHOICE, NULL, pg_solver_names, NULL,
       "The method that advances the state." },
     ROW ("solver.max_events", PG_INTEGER, NULL, "[1, 1000000000]", "1000000", NULL,
-         "Event stepping ends after so many events; explicit dynamics after so many time steps in which "
-         "bonds broke."),
+         "Event stepping ends after so many events; explicit dynamics after so many time steps with "
+         "breaking bonds."),
     ROW ("solver.stop.set", PG_NAME, NULL, NULL, "", "sets.{}|left|right|bottom|top|back|front|all",
          "The run ends when the crack arrives at a point of this set."),
     ROW ("solver.stop.damage", PG_NUMBER, "1", "(0, 1]", "50 %", NULL,
@@ -17,22 +17,22 @@ static const pg_key keys[] = {
     ROW ("output.at.levels", PG_INTEGER, NULL, "[1, 1000000]", "20", NULL,
          "Fields are written at this many equal levels of load (quasi-static solvers) or time."),
     ROW ("output.at.rows", PG_INTEGER, NULL, "[1, 1000000]", "", NULL,
-         "Explicit dynamics, and hold: off: most rows of history.csv (but one for each level); if not given "
-         "one for every ten time steps, 100 to 1000."),
+         "Explicit dynamics, and hold: off: largest number of rows of history.csv (at least one for each "
+         "level); if not given one for every ten time steps, 100 to 1000."),
 };
 const pg_key_table pg_keys_solve = { "solve", keys, sizeof keys / sizeof *keys };
 
 static const pg_key breaking[] = {
     ROW ("solver.break", PG_NAME, NULL, NULL, "worst", "worst|fraction|all|passing",
          "Which bonds over the limit break before the next solve: the worst (with ties), those within "
-         "break_fraction of it, or all (as in the paper; "
-         "the peak load then depends on the increment). passing, with stages of the "
-         "load and then the default: at any iteration once the load of the stage has come to act."),
+         "break_fraction of it, or all (the peak load then depends on the increment). passing (with load "
+         "stages, and the default there): at any iteration, once the load of the stage has taken effect."),
     ROW ("solver.break_fraction", PG_NUMBER, "1", "(0, 1)", "2 %", NULL, "For break: fraction."),
     ROW ("solver.tie", PG_NUMBER, "1", "[0, 0.1]", "1e-4", NULL,
          "Bonds within this share of the worst break with it: keeps symmetric scenes symmetric."),
     ROW ("solver.max_iterations", PG_INTEGER, NULL, "[1, 1000000000]", "100000", NULL,
-         "Most break-and-solve rounds of one step, or iterations of one stage; more: the step is refused."),
+         "Largest number of break-and-solve rounds of one step, or iterations of one stage; more: the step "
+         "is refused."),
 };
 const pg_key_table solver_keys_breaking = { "solve", breaking, sizeof breaking / sizeof *breaking };
 
@@ -43,9 +43,8 @@ static const pg_key linear[] = {
       "Linear solver; auto: the first, or one for indefinite matrices where K is not positive definite." },
     ROW ("solver.preconditioner", PG_NAME, NULL, NULL, "auto", "auto|jacobi|multilevel",
          "Of conjugate gradients without a matrix: the diagonal (jacobi), or grids of partition-of-unity "
-         "functions over the points, "
-         "split by cracks (multilevel: forces that tell the "
-         "rows of K, at rest); auto: multilevel where it can be."),
+         "functions over the points, split by cracks (multilevel: static problems with forces that provide "
+         "the rows of K); auto: multilevel where possible."),
 };
 const pg_key_table solver_keys_linear = { "solve", linear, sizeof linear / sizeof *linear };
 
@@ -71,12 +70,12 @@ const pg_key_table solver_keys_time = { "solve", times, sizeof times / sizeof *t
 
 static const pg_key stages[] = {
     ROW ("solver.stages", PG_INTEGER, NULL, "[1, 1000000000]", "10", NULL,
-         "The load comes in so many equal stages."),
+         "Number of equal stages in which the load is applied."),
     ROW ("solver.hold", PG_BOOL, NULL, NULL, "on", NULL,
-         "Each stage is held until it is balanced and no bond breaks any more; off: one "
-         "iteration a stage, never in equilibrium."),
+         "Each stage is iterated until it is in equilibrium and no bond breaks any more; off: one "
+         "iteration per stage, never in equilibrium."),
     ROW ("solver.imbalance", PG_NUMBER, "1", "[1e-12, 0.1]", "1e-5", NULL,
-         "A stage is balanced when the out-of-balance force is at most this share of the loads "
-         "(or reactions)."),
+         "A stage is in equilibrium when the out-of-balance force is at most this share of the loads (or "
+         "reactions)."),
 };
 const pg_key_table solver_keys_stages = { "solve", stages, sizeof stages / sizeof *stages };

@@ -35,8 +35,8 @@ static void read (pg_solver_options *o, const pg_problem *problem, const pg_scen
 #define ROW PG_SOLVER_KEY
 static const pg_key keys[] = {
     ROW ("solver.damping", PG_NUMBER, "kg/m^3/s", "(0, inf)", "", NULL,
-         "Artificial damping C; found anew at every iteration from the lowest frequency (Rayleigh's "
-         "quotient) if not given."),
+         "Artificial damping C; from the lowest frequency in every iteration (Rayleigh's quotient) if not "
+         "given."),
 };
 static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 
