@@ -111,7 +111,8 @@ int pg_body_inside (const pg_body *body, const double *x, double tolerance)
     int in = 0;
     for (size_t i = 0; i < body->n; i++) {
         const pg_shape *s = &body->shape[i];
-        if (in == s->add) continue;                        /* would change nothing */
+        /* An added shape cannot take away, a subtracted one cannot add. */
+        if (in == s->add) continue;
         double d = pg_shape_types[s->kind].distance (s, body->dim, x, tolerance);
         in = s->add ? d <= tolerance : !(d < -tolerance);
     }

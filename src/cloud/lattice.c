@@ -17,7 +17,8 @@ double pg_lattice_tolerance (const pg_lattice *l)
         step = fmin (step, l->step[k]);
         size = fmax (size, fmax (fabs (l->origin[k]), fabs (l->high[k])));
     }
-    return 1e-9 * step + 8 * DBL_EPSILON * size;  /* far from the origin rounding is coarser than 1e-9 step */
+    /* The second term is the rounding of coordinates far from the origin. */
+    return 1e-9 * step + 8 * DBL_EPSILON * size;
 }
 
 /* Number of cells of the body without its layers, in [low, high]; *more: those of the layers on both

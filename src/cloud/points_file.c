@@ -337,7 +337,8 @@ static pg_status read_text (reader *r, pg_cloud *cloud)
 {
     pg_status status = PG_OK;
     char *line = r->text;
-    if (!strncmp (line, "\xEF\xBB\xBF", 3)) line += 3;     /* byte order mark */
+    /* Some programs begin a file with the byte order mark of UTF-8. */
+    if (!strncmp (line, "\xEF\xBB\xBF", 3)) line += 3;
     while (*line) {
         size_t length = strcspn (line, "\n");
         char *next = line + length + (line[length] == '\n');

@@ -82,7 +82,8 @@ const char *pg_polygon_fault (size_t n, const double *v)
     }
     for (size_t i = 0; i < n; i++)
         for (size_t j = i + 2; j < n; j++) {
-            if (i == 0 && j == n - 1) continue;            /* neighbours share a vertex */
+            /* The first and the last edge share a vertex. */
+            if (i == 0 && j == n - 1) continue;
             if (edges_meet (v + 2 * i, v + 2 * (i + 1), v + 2 * j, v + 2 * ((j + 1) % n)))
                 return "touches or crosses itself";
         }

@@ -40,7 +40,8 @@ void pg_mesh_builder_free (pg_mesh_builder **builder)
 /* Coordinates beyond 1e100 are refused: their cubes, which volumes need, would overflow. */
 pg_status pg_mesh_builder_node (pg_mesh_builder *m, long id, const double *x)
 {
-    enum { EXPONENT = 100 };                               /* 1e100: its cube is still a number */
+    /* The cube of 1e100 is still a number. */
+    enum { EXPONENT = 100 };
     pg_status status = PG_OK;
     for (int a = 0; a < 3; a++)
         if (!(fabs (x[a]) <= pow (10, EXPONENT)))

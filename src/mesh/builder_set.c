@@ -149,7 +149,8 @@ static pg_status unite (builder *b)
     for (size_t k = 0; k < b->n; k++) {
         /* Numbers in the order of appearance. */
         b->final[k] = first[k] == k ? b->nfinal++ : b->final[first[k]];
-        b->set[b->final[k]].sides |= b->set[k].sides;      /* final[k] <= k: nothing is lost */
+        /* As final[k] <= k, no entry is overwritten before it has been used. */
+        b->set[b->final[k]].sides |= b->set[k].sides;
         if (first[k] == k) b->set[b->final[k]] = b->set[k];
     }
 done:

@@ -6,7 +6,8 @@
 
 /* The faces as a mesh whose elements have one dimension less than its space; positions are borrowed. */
 struct pg_mesh_skin {
-    pg_mesh faces;  /* dim of the space, elements of one less; x is borrowed */
+    /* dim is that of the space, the elements have one dimension less; x is borrowed. */
+    pg_mesh faces;
     pg_mesh_locator *locator;
     int *element, *side;
 };

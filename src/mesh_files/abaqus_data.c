@@ -139,7 +139,8 @@ static pg_status set_line (reader *r, abaqus_sets *sets, const char *what)
         int other = abaqus_set_find (sets, word);
         if (other < 0) PG_TRY (ABAQUS_WRONG (r, "there is no %s set '%.63s' before this line", what, word));
         PG_TRY (abaqus_set_add (&sets->set[r->set], (abaqus_range) { other, other, ABAQUS_SET, 0 }));
-        if (r->mode == ABAQUS_NODE_SURFACE) break;                /* an area may follow */
+        /* In a surface of nodes an area may follow, which is not needed. */
+        if (r->mode == ABAQUS_NODE_SURFACE) break;
     }
 done:
     return status;

@@ -76,9 +76,11 @@ void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES])
 {
     for (int k = 0; k < PG_ELEMENT_NODES; k++) order[k] = k;
     int first = kind == PG_HEX20 ? 12 : kind == PG_WEDGE15 ? 9 : 0, n = kind == PG_HEX20 ? 4 : 3;
-    if (first)                                         /* middles: upright edges before those of the top */
+    /* Middles of the upright edges come before those of the upper ones in Exodus. */
+    if (first)
         for (int k = 0; k < n; k++) order[first + k] = first + n + k, order[first + n + k] = first + k;
-    if (kind == PG_BAR3) order[1] = 2, order[2] = 1;   /* along the line */
+    /* Abaqus lists the nodes of a line in their order along it. */
+    if (kind == PG_BAR3) order[1] = 2, order[2] = 1;
 }
 
 /* Side in the order of Exodus of face `number` (from 0) of a solid element in that of Abaqus. */

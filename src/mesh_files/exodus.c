@@ -161,7 +161,8 @@ static pg_status read_nodes (reader *r)
     size_t dim = length_of (r->ncid, "num_dim");
     if (dim < 1 || dim > 3) PG_FAIL (PG_E_FILE, "%.400s: %zu dimensions", r->path, dim);
     for (size_t a = 0; a < 3; a++) PG_ALLOC (x[a], r->nnode);
-    PG_TRY (find (r, "coord", dim * r->nnode, &var));      /* of old files: all in one */
+    /* Old files have one table of all coordinates. */
+    PG_TRY (find (r, "coord", dim * r->nnode, &var));
     if (var >= 0) {
         PG_ALLOC (together, dim * r->nnode);
         NC_TRY (r, nc_get_var_double (r->ncid, var, together));
@@ -210,7 +211,8 @@ static pg_element kind_of (const char *type, size_t nodes, int *shell)
          * decide. */
         if (strncasecmp (type, table[k].begin, strlen (table[k].begin)) != 0) continue;
         *shell = table[k].shell;
-        for (int j = 0; j < 4; j++)                        /* PG_POINT1 = 0 fills what the table leaves out */
+        /* Kinds that the table leaves out are 0, that is PG_POINT1: only the first entry may be a point. */
+        for (int j = 0; j < 4; j++)
             if ((j == 0 || table[k].kind[j]) && (size_t) pg_element_types[table[k].kind[j]].nodes == nodes)
                 return table[k].kind[j];
     }
@@ -229,7 +231,8 @@ static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_elemen
     snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
     size_t nodes = length_of (r->ncid, name);
     *kind = PG_ELEMENTS;
-    if (*count == 0) goto done;                            /* an empty block has no connect */
+    /* An empty block has no connectivity. */
+    if (*count == 0) goto done;
     snprintf (name, sizeof name, "connect%zu", k + 1);
     /* The type is an attribute of the connectivity. */
     NC_TRY (r, nc_inq_varid (r->ncid, name, &var));
@@ -409,7 +412,8 @@ static void split_name (const char *name, variable *v)
 {
     /* xz is another name of zx. */
     static const char *const suffix[] = { "xx", "yy", "zz", "xy", "yz", "zx", "xz", "x", "y", "z" };
-    static const int part[] = { 0, 1, 2, 3, 4, 5, 5, 10, 11, 12 };      /* 10 on: of a vector */
+    /* Parts from 10 on belong to vectors. */
+    static const int part[] = { 0, 1, 2, 3, 4, 5, 5, 10, 11, 12 };
     const char *bar = strrchr (name, '_');
     snprintf (v->base, sizeof v->base, "%s", name);
     v->part = -1;
@@ -499,7 +503,8 @@ static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *
         size_t j = 0;
         /* Is there an earlier component of the same field? */
         while (j < k && !together (&v[j], &v[k])) j++;
-        if (j < k) continue;                               /* read with the first of its components */
+        /* This component was read with the first of its field. */
+        if (j < k) continue;
         PG_TRY (mesh_fields_add (out, mesh->nnode, v[k].base, components_of (&v[k]), &field));
         for (j = k; j < n; j++)
             if (j == k || together (&v[j], &v[k]))

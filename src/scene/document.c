@@ -82,7 +82,8 @@ static pg_status read_some (pg_scene **out, const char *text, size_t length, con
     PG_TRY (pg_schema_create (&s->schema, table, ntable));
     /* Text, overrides, checks; then the verdict on all faults. */
     PG_TRY (read_tree (s, text, length));
-    PG_TRY (pg_faults_verdict (s->faults));            /* without a tree there is nothing more to check */
+    /* Without a tree there is nothing more to check. */
+    PG_TRY (pg_faults_verdict (s->faults));
     for (size_t k = 0; k < nset; k++) PG_TRY (pg_scene_override (s, set[k], s->set[k]));
     PG_TRY (pg_scene_check (s));
     if (some && s->faults->n && geometry_is_sound (s)) s->partial = 1, pg_scene_pass (s);

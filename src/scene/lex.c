@@ -68,7 +68,8 @@ const pg_function *pg_function_of (const char *s, size_t n)
     return NULL;
 }
 
-int pg_is_own_word (const char *s, size_t n)            /* a word that cannot be a unit here */
+/* Variables, functions and the words of the grammar cannot be units. */
+int pg_is_own_word (const char *s, size_t n)
 {
     static const char *const words[] = { "and", "or", "not", "pi", "true", "false" };
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)

@@ -114,7 +114,8 @@ pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin)
     node->name = NULL;
     value.origin = origin;
     value.line = value.column = 0;
-    if (value.shape == PG_SCALAR && !value.text) value.plain = 1;      /* nothing after the = */
+    /* Nothing stands behind the sign: an empty value. */
+    if (value.shape == PG_SCALAR && !value.text) value.plain = 1;
     pg_node_clear (node);
     *node = value;
     value = (pg_node) { 0 };

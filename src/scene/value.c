@@ -207,7 +207,8 @@ static int is_quoted_list (pg_scene *s, const pg_node *node, const char *path)
 static void check_length (pg_scene *s, const pg_node *node, const char *path)
 {
     size_t n = node->shape == PG_SCALAR ? 1 : node->n, dim = (size_t) s->dimension;
-    if (node->origin == pg_default_origin) return;      /* as long as the scene needs */
+    /* A default may have more numbers than the scene has dimensions. */
+    if (node->origin == pg_default_origin) return;
     if (dim && n != dim) FAULT (node, "needs %zu number%s in %zuD, has %zu", dim, dim > 1 ? "s" : "", dim, n);
     else if (n < 1 || n > 3) FAULT (node, "needs 1 to 3 numbers, has %zu", n);
 }
