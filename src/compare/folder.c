@@ -73,9 +73,10 @@ static char *cut_line (char *text, const char *mark)
     return text + start + strlen (mark);
 }
 
-/* Removes what `perigal run` appended: *from becomes the path of the original scene (NULL if
- * not noted), set the --set options in the order in which they were given. Lines are removed
- * from the end, so the order is reversed at last. Returns the number of options. */
+/* Removes what `perigal run` appended to the text: *from becomes the path of the original
+ * scene (NULL if not noted), set the --set options in the order in which they were given.
+ * Lines are removed from the end, so the order is reversed at last. Returns the number of
+ * options. */
 static size_t cut_settings (char *text, char **set, const char **from)
 {
     size_t n = 0;

@@ -113,8 +113,8 @@ done:
 }
 
 /* Marks the points that have more damage now than after the pre-cracks were cut: these have
- * lost bonds during the run (*torn: n, to be freed with pg_free). PG_E_USAGE if the file has
- * no field damage. */
+ * lost bonds during the run (*torn: n, to be freed with pg_free). Damage is the only trace of
+ * broken bonds in result.e; PG_E_USAGE if the file does not have it. */
 static pg_status find_torn (pg_stored *s, const char *path, unsigned char **torn)
 {
     pg_status status = PG_OK;
@@ -202,7 +202,7 @@ done:
 /* ---- folder -------------------------------------------------------------------------------------------- */
 /* Finds the step and its time. In dynamic runs result.e counts time; static runs with event
  * stepping number their steps, and the load factor comes from history.csv; with fixed steps it
- * is the load factor itself. */
+ * is the load factor itself. *broken is the number of broken bonds at that step. */
 static pg_status find_step (pg_stored *s, const char *folder, const char *path, int step, double *broken)
 {
     pg_status status = PG_OK;

@@ -130,7 +130,8 @@ static entities entities_of (int dim)
 }
 
 /* A closed surface of triangles (.stl) becomes a body: its surface is divided into faces along
- * edges sharper than 40 degrees (0.698 rad), then a volume is defined inside. */
+ * edges sharper than 40 degrees (0.698 rad), geometry is made of the faces, and a volume is
+ * defined inside. Fails for surfaces with holes. */
 static int fill_surface (const request *w)
 {
     int e, bad = 0;
@@ -174,8 +175,9 @@ static void set_size (const request *w, int meshed)
     if (meshed) fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
 }
 
-/* Makes elements unless the file has some already, and sets their order. Returns the exit
- * code. */
+/* Makes elements unless the file has some already, and sets their order. The dimension is that
+ * of the body, or 3 for a closed surface; a mesh of a higher dimension than the body cannot be
+ * made. Returns the exit code. */
 static int make_mesh (const request *w)
 {
     int e, dim = gmshModelGetDimension (&e), stl = dim == 2 && elements_of (2) && is_stl (w->input);
@@ -219,8 +221,9 @@ static void name_entities (int dim, const char *stem)
     gmshFree (list.pair);
 }
 
-/* Writes version 4.1, binary. Without any groups bodies and sides are named; with groups of
- * sides only, the bodies are. Returns the exit code. */
+/* Writes version 4.1, binary. Names matter, because scenes refer to blocks and sets by them:
+ * without any groups bodies and sides are named here; with groups of sides only, the bodies
+ * are. Returns the exit code. */
 static int write_mesh (const request *w)
 {
     entities groups = { NULL, 0 }, top = { NULL, 0 };

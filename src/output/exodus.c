@@ -238,7 +238,9 @@ done:
     return status;
 }
 
-/* Writes one step in the order that keeps the file readable: values, time, count. */
+/* Writes one step in the order that keeps the file readable at any instant: first the values,
+ * which lie behind the counted records, then the time, then the count, after which readers see
+ * the step. */
 static pg_status write_record (pg_exodus *f, double time, const pg_field_view *fields)
 {
     pg_status status = PG_OK;
@@ -252,8 +254,9 @@ done:
     return status;
 }
 
-/* If cutting off a failed step fails as well, its bytes stay behind the counted records, where
- * readers ignore them and the next step overwrites them. */
+/* The fields must be those of the creation, in their order. If cutting off a failed step fails
+ * as well, its bytes stay behind the counted records, where readers ignore them and the next
+ * step overwrites them. */
 pg_status pg_exodus_write (pg_exodus *f, double time, const pg_field_view *fields)
 {
     pg_status status = PG_OK;

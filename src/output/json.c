@@ -67,8 +67,9 @@ static void put_string (FILE *file, const char *text)
     fputc ('"', file);
 }
 
-/* Writes what comes before a value: comma, new line, key. Returns 0 if no value may stand
- * here. */
+/* Writes what comes before a value: a comma unless it is the first one on its level, a new
+ * line, the key. Returns 0 if no value may stand here: a key inside a list, none inside an
+ * object, a second value at the top. */
 static int begin (pg_json *j, const char *key)
 {
     if (!j) return 0;

@@ -104,8 +104,9 @@ done:
     return status;
 }
 
-/* Moves behind the header and `rows` rows; line ends within quotes do not count. PG_E_FILE if
- * there are fewer. */
+/* Moves behind the header and `rows` rows and counts their bytes; line ends within quotes do
+ * not count. The number of rows begins at -1, so that the header is row 0. PG_E_FILE if there
+ * are fewer. */
 static pg_status skip_rows (pg_table *t, long rows)
 {
     pg_status status = PG_OK;

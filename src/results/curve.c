@@ -164,7 +164,7 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     pg_json_shut (j);
 }
 
-/* The peak in words. */
+/* The peak in words: force, displacement, step, time or load factor, and the gauges there. */
 static void tell_peak (const pg_result *r, char *out, size_t size)
 {
     const result_peak *k = &r->peak;
@@ -215,7 +215,9 @@ int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
 }
 
 /* ---- its picture --------------------------------------------------------------------------------------- */
-/* Draws the curve from the origin if the body starts unloaded, and marks the peak. */
+/* Draws the curve, from the origin if the body starts unloaded, and marks the peak. With event
+ * stepping the line is the envelope; it may be drawn along lines through the origin only if
+ * all loads are proportional. */
 pg_status pg_result_curve_picture (pg_result *r)
 {
     pg_status status = PG_OK;

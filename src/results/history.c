@@ -130,7 +130,8 @@ done:
 }
 
 /* Writes the row of a step and the rows of its bonds. Displacements are those of the body, u
- * (x) = sum N_j d_j, not coefficients. Gauges without a field between points are empty. */
+ * (x) = sum N_j d_j, not coefficients. Gauges are empty if the force knows no field between
+ * the points. r->u holds two fields: displacements and, 3 n values behind, rotations. */
 pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;

@@ -217,8 +217,9 @@ done:
     return status;
 }
 
-/* A force without shape functions has none to choose among: it gets one combination instead of
- * all of them. */
+/* Scene by scene: the product of all lists, then CalculiX if that is asked for. A force
+ * without shape functions has none to choose among: it gets one combination instead of all of
+ * them. */
 pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *asked)
 {
     pg_status status = PG_OK;

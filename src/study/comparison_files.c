@@ -52,8 +52,9 @@ done:
     return status;
 }
 
-/* The difference on the elements of a finite element reference. Its nodes are moved by the
- * shift, where the reference has been moved to; the picture shows the mesh at its own place. */
+/* The difference on the elements of a finite element reference: its nodes, moved by the shift
+ * to where our result is, are the places of comparison. The picture shows the mesh at its own
+ * place, without displacement. */
 static pg_status mesh_picture (const pg_comparison *c, const pg_comparison_request *q, const pg_mesh *mesh,
                                const char *path)
 {

@@ -57,8 +57,9 @@ static int all_dense (const pg_problem *p)
     return 1;
 }
 
-/* The problem is copied without its criterion for the solve; the copy shares all arrays with
- * the original and must not be freed. */
+/* The problem is copied without its criterion for the solve, so that nothing breaks; the copy
+ * shares all arrays with the original and must not be freed. The solver takes one step to the
+ * full load. Dynamic and staged scenes get the frequency only. */
 pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
 {
     pg_status status = PG_OK;

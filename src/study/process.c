@@ -62,7 +62,9 @@ static size_t drain (int from, char *text, size_t size)
 /* A time of the system in seconds. */
 static double seconds_of (const struct timeval *t) { return (double) t->tv_sec + 1e-6 * (double) t->tv_usec; }
 
-/* All streams are flushed before the fork: otherwise their buffers would be written twice. */
+/* The output of the child is read to its end before its exit is waited for: a full pipe would
+ * block both. All streams are flushed before the fork: otherwise their buffers would be
+ * written twice. */
 pg_status pg_process_run (pg_process *out, const char *program, char *const argv[], const char *folder,
                      const char *log, int threads)
 {

@@ -62,7 +62,8 @@ done:
     return status;
 }
 
-/* The norms over the cells of the scene are replaced by those over the result's own elements. */
+/* First the tables, by the norms over the cells of the scene, which are then replaced by those
+ * over the result's own elements. Expressions are taken at t = 1, the full load. */
 static pg_status measure (pg_trial *t, solution *s, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
