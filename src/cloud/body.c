@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The body: shapes added and subtracted in the order of the scene. A position on a surface belongs to the
- * body. */
+ * body. Later shapes win: what is subtracted may be filled again by a shape that is added after it. */
 #include "shape.h"
 #include <math.h>
 #include <stdio.h>

@@ -2,7 +2,10 @@
  * Which bonds does a crack cut? One rule for crossing, touching and lying in the crack: the part of the
  * bond that lies within the tolerance of the crack's line or plane is compared with the crack there, grown
  * by the tolerance. The ends of a bond are put in a fixed order first, so that x - y and y - x have the
- * same bits. */
+ * same bits.
+ *
+ * `retreat` takes strips along tips and fronts away from a crack (model/tips.c chooses their widths): bonds
+ * that cross the crack there are not cut. */
 #include "perigal/cloud.h"
 #include "polygon.h"
 #include <math.h>

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes, in which
- * displacements are prescribed (doc/method.md B3). */
+ * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes. A
+ * displacement prescribed in a layer as deep as the horizon constrains the points of the body as material
+ * would (doc/method.md B3). The lattice of the body itself is not changed by its layers: steps follow from
+ * the extent without them, and thicknesses are rounded to whole cells. */
 #include "shape.h"
 #include <limits.h>
 #include <math.h>

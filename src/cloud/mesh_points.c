@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points at the nodes of a mesh: lumped volumes, local spacings, random shifts. */
+ * Points at the nodes of a mesh: lumped volumes, local spacings, random shifts.
+ *
+ * The sum of the volumes is the volume of the elements. The spacing of a point is the mean length of the
+ * edges at its node, but at least 0.6 of the longest one: with a horizon of 1.7 spacings both ends of every
+ * edge see each other, however graded the mesh is, so that neighbouring points are always coupled. */
 #include "place.h"
 #include "mesh_body.h"
 #include <math.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields given at the nodes of a mesh, within its elements: sum N_i value_i, and the gradient. */
+ * Fields given at the nodes of a mesh, within its elements: sum N_i value_i, and the gradient. Gradients
+ * jump between elements, as those of finite elements do. */
 #include "element.h"
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The surface of a mesh as a mesh of faces in a search tree: distance to it, its box, its size. */
+ * The surface of a mesh as a mesh of faces in a search tree: distance to it, its box, its size. Distances
+ * have no sign: inside or outside is a question to the elements (locator.c). */
 #include "locator.h"
 #include <math.h>
 #include <string.h>

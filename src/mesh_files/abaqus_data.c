@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The data lines of an .inp file behind *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE and *INSTANCE. */
+ * The data lines of an .inp file behind *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE and *INSTANCE. Fields are
+ * separated by commas; an element may extend over several lines; names in sets refer to sets that were
+ * named before. */
 #include "abaqus.h"
 #include <ctype.h>
 #include <string.h>

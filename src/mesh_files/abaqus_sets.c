@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Sets of an .inp file: numbers, ranges and other sets by name, resolved once all nodes and elements are
- * known. */
+ * known.
+ *
+ * Members of sets by number must exist, with the exception of ranges by GENERATE, which may have gaps.
+ * Blocks are element sets that *ELEMENT names, or those of sections. */
 #include "abaqus.h"
 #include <stdio.h>
 #include <string.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Element types of Abaqus and CalculiX: which elements they are, the order of their nodes, and the numbers
- * of their faces in terms of Exodus. */
+ * of their faces in terms of Exodus. Elements that differ only in formulation or integration are the same
+ * here, as only the geometry is read. */
 #include "abaqus.h"
 #include "perigal/scene.h"
 #include <ctype.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: what versions 2.2 and 4.1 of Gmsh's format share: header, sections, names of groups, types of
- * elements, binary numbers. */
+ * elements, binary numbers. A section begins with a line $Name and ends with $EndName. */
 #ifndef MESH_GMSH_H
 #define MESH_GMSH_H
 #include "format.h"

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * pg_mesh_read: loads a file, recognises its format by its content, and builds the mesh. */
+ * pg_mesh_read: loads a file, recognises its format by its content, never by its name, and builds the mesh.
+ */
 #include "format.h"
 #include <errno.h>
 #include <limits.h>

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A scene from a file or from memory: read, apply overrides, check, report all faults. */
+ * A scene from a file or from memory: read, apply overrides, check, report all faults.
+ *
+ * The order matters: without a tree nothing else can be checked; overrides come before the checks, so that
+ * a value from the command line is checked like one from the file; all other faults are collected and
+ * reported together. */
 #include "document.h"
 #include "sha256.h"
 #include <errno.h>

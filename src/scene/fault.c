@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Faults of a scene: collected, then reported together in the order of the file. */
+ * Faults of a scene: collected, then reported together in the order of the file. Faults in overrides stand
+ * behind those of the file. Control characters in texts of the user are shown as ?, so that a message is
+ * always one line per fault. */
 #include "node.h"
 #include <ctype.h>
 #include <limits.h>

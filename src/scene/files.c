@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The files that a scene names: where they are, and a fingerprint of their content, by which a result can
- * be traced to its input. */
+ * be traced to its input. A file name is taken relative to the folder of the scene, not to that of the
+ * program. */
 #include "document.h"
 #include "sha256.h"
 #include <errno.h>

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a key means, from the tables: for one key on the terminal; for all keys see manual.c. */
+ * What a key means, from the tables: for one key on the terminal; for all keys see manual.c. A key may be
+ * given by its full path, without the names that the user chooses (materials.{}.density or
+ * materials.density), by its last word, or by the path of a map, for which the keys below are listed. */
 #include "help.h"
 #include "schema.h"
 #include <string.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * "a.b[0].c=value": puts a value, read as YAML, into the tree; maps and lists on the way are created where
- * they are missing. */
+ * they are missing. Index n of a list with n elements appends one. Overrides happen before the checks and
+ * enter the hash by which results name their scene. */
 #include "document.h"
 #include <string.h>
 

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Numbers with units, names and calls of functions in an expression. */
+ * Numbers with units, names and calls of functions in an expression. A unit is what follows a number and is
+ * no word of the language: in "2 mm * x" mm is a unit, in "2 * x" x is the variable, and "2 x" is refused
+ * as ambiguous. */
 #include "compile.h"
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Numbers with units ("10 GPa" gives 1e10) and ranges ("[0, 0.5)"). */
+ * Numbers with units ("10 GPa" gives 1e10) and ranges ("[0, 0.5)").
+ *
+ * A number without a unit is in SI. A unit must have the dimension that the key wants; of dimensionless
+ * ones angles and plain numbers are told apart. Conversions divide where that is exact and multiplication
+ * is not, so that "3 mm" is the double nearest to 0.003. */
 #include "unit.h"
 #include <locale.h>
 #include <math.h>

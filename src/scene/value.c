@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Checks one value against its row: number, unit, range, choice, length of a vector. */
+ * Checks one value against its row: number, unit, range, choice, length of a vector.
+ *
+ * What passes is stored in the node: numbers in SI (node->value), or as a multiple of the point spacing
+ * (node->spacing); truth values as 0 and 1; texts, names and expressions as they are. Names that refer to
+ * other parts of the scene, such as sets, are checked as far as the text alone allows; the rest is found
+ * when these parts exist. */
 #include "value.h"
 #include "expression.h"
 #include "unit.h"

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * YAML text to a tree of nodes with line and column, through the document interface of libyaml. */
+ * YAML text to a tree of nodes with line and column, through the document interface of libyaml. Depth of
+ * nesting and number of nodes are limited, since aliases and brackets could make a small file fill the
+ * memory; errors of libyaml are translated into what a user can mend. */
 #include "node.h"
 #include <string.h>
 #include <yaml.h>
