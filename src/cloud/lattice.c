@@ -45,6 +45,7 @@ static pg_status fit_axes (pg_lattice *l, const pg_body *body, double spacing, c
         double low, high, more, cells = cells_along (body, k, spacing, &low, &high, &more);
         double shift = offset ? offset[k] - ceil (offset[k]) : 0;                  /* in (-1, 0] */
         vertices *= cells + more + 2;
+        /* Counted as floating-point numbers, which cannot overflow. */
         if (!(vertices < INT_MAX))
             PG_FAIL (PG_E_LIMIT, "spacing %g m gives more than %d cells", spacing, INT_MAX);
         l->step[k]   = (high - low) / cells;

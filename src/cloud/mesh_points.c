@@ -97,6 +97,7 @@ static void collect (edges *at, const pg_mesh_body *b, int corners)
                 length += pow (m->x[3 * (size_t) node[end[0]] + (size_t) a]
                                    - m->x[3 * (size_t) node[end[1]] + (size_t) a],
                                2);
+            /* Half an edge, where points lie in the middle of edges. */
             length = sqrt (length) * (t->order == 2 && !corners ? 0.5 : 1);
             for (int i = 0; i < 2; i++) add_edge (&at[b->point[node[end[i]]]], length);
             for (int i = t->corners; i < t->nodes && !corners; i++) add_edge (&at[b->point[node[i]]], length);
@@ -139,6 +140,7 @@ static pg_status perturb (pg_cloud *c, const pg_mesh_body *b, double amount, uin
     if (!(amount > 0)) return PG_OK;
     PG_ALLOC (outside, c->n);
     PG_TRY (pg_mesh_surface (m, &n, &element, &side));
+    /* Points on the surface stay, so that the boundary keeps its shape. */
     for (size_t f = 0; f < n; f++) {
         int node[9],
             count = pg_element_types[pg_element_face ((pg_element) m->kind[element[f]], side[f], node)].nodes;

@@ -220,6 +220,7 @@ void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
     snprintf (name, 64, "%ld", group);
     mesh_group key = { .dim = dim, .group = group },
                *g = group && m->ngroup ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
+    /* bsearch may find any of several equal ones. */
     while (g && g > m->groups && by_group (g - 1, &key) == 0) g--;
     if (g) memcpy (name, g->name, 64);
 }

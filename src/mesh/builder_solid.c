@@ -208,6 +208,7 @@ static double centre_size (const pg_mesh *out, size_t e, int *flat)
             double v = x[k * dim + a] = out->x[3 * (size_t) out->node[out->start[e] + k] + a];
             low = fmin (low, v), high = fmax (high, v);
         }
+        /* Longest edge of the box around the element. */
         longest = fmax (longest, high - low);
     }
     element_centre (out->kind[e], xi);

@@ -109,6 +109,7 @@ int pg_element_invert (pg_element kind, const double *x, const double *place, do
         /* Long steps in curved elements are shortened to 2. */
         double short_of = linear || longest <= 2 ? 1 : 2 / longest;
         for (int a = 0; a < d; a++) xi[a] += short_of * step[a];
+        /* A linear map is solved by the first step; the second one only confirms it. */
         if (longest <= 1e-12 * size || (linear && k > 0)) return 1;
     }
     return 0;

@@ -271,6 +271,7 @@ static long find_inside (const pg_mesh_locator *f, const double *place, double *
         }
         for (int k = t->first; k < t->first + t->n; k++) {
             double x[3 * PG_ELEMENT_NODES], at[3];
+            /* Only a lower element can be better. */
             if (f->item[k] >= best || !holds (&f->box[k], place, dim)) continue;
             pg_element kind = nodes_of (f, (size_t) f->item[k], x);
             if (!invert (kind, dim, x, place, at) || pg_element_outside (kind, at) > inside) continue;

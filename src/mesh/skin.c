@@ -92,6 +92,7 @@ static void widen (const double *x, pg_element kind, int dim, double *low, doubl
     enum { STEPS = 32 };
     int d = pg_element_types[kind].dim, simplex = pg_element_types[kind].corners == 3;
     for (int i = 0; i <= STEPS; i++)
+        /* Triangles only below the diagonal. */
         for (int j = 0; j <= (d > 1 ? simplex ? STEPS - i : STEPS : 0); j++) {
             double xi[2] = { (double) i / STEPS, (double) j / STEPS }, place[3];
             if (!simplex) xi[0] = 2 * xi[0] - 1, xi[1] = 2 * xi[1] - 1;

@@ -87,6 +87,7 @@ void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES])
 /* Side in the order of Exodus of face `number` (from 0) of a solid element in that of Abaqus. */
 static int solid_side (pg_element kind, int number)
 {
+    /* Abaqus begins with the bottom (and the top), Exodus with the upright sides. */
     static const signed char tet[] = { 3, 0, 1, 2 }, wedge[] = { 3, 4, 0, 1, 2 },
                              hex[] = { 4, 5, 0, 1, 2, 3 };
     int corners = pg_element_types[kind].corners;

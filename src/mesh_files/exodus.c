@@ -283,6 +283,7 @@ static pg_status check_points (const reader *r)
 {
     pg_status status = PG_OK;
     const pg_mesh_given given = pg_mesh_builder_given (r->builder);
+    /* One element with an extent is enough. */
     for (size_t e = 0; e < given.n; e++) if (given.kind[e] != PG_POINT1) goto done;
     PG_FAIL (PG_E_FILE, "%.400s: points without elements (SPHERE): a result of points is no mesh", r->path);
 done:
@@ -460,6 +461,7 @@ static pg_status list_variables (const reader *r, size_t steps, size_t n, variab
         PG_TRY (find (r, name, steps * r->nnode, &v[k].var));
         if (v[k].var < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s'", r->path, name);
         name_of (r, "name_nod_var", k, name);
+        /* A variable without a name is known by its number. */
         if (!name[0]) snprintf (name, sizeof name, "variable %zu", k + 1);
         split_name (name, &v[k]);
     }
@@ -526,6 +528,7 @@ static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mes
     PG_TRY (open_file (&r, file));
     size_t steps = length_of (r.ncid, "time_step"), n = length_of (r.ncid, "num_nod_var");
     if (n > r.bytes) PG_FAIL (PG_E_FILE, "%.400s: %zu variables are more than it can hold", r.path, n);
+    /* Steps without nodal variables are no steps here. */
     PG_TRY (mesh_fields_step (r.path, n ? steps : 0, step, &chosen));
     PG_ALLOC (v, n);
     PG_TRY (list_variables (&r, steps, n, v));

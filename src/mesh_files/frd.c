@@ -122,6 +122,7 @@ static pg_status block_head (const reader *r, const char *what, size_t at, size_
     pg_status status = PG_OK;
     long f = 0;
     if (!whole (r, at, 12, n) || *n < 0) MESH_FAIL (&r->c, "no number of %s", what);
+    /* The format stands at the end of the line. */
     if (!whole (r, format_at, 2, &f) || f < SHORT || f > DOUBLES)
         MESH_FAIL (&r->c, "the format of the %s is none of 0 (short), 1 (long), 2, 3 (binary)", what);
     *format = (int) f;
@@ -380,6 +381,7 @@ done:
 /* The field's name here: displacement, stress, strain, else as in the file. */
 static const char *field_name (const char *name)
 {
+    /* DISP, STRESS and TOSTRAIN are CalculiX's names of displacements, stresses and total strains. */
     return strcmp (name, "DISP") == 0       ? "displacement"
            : strcmp (name, "STRESS") == 0   ? "stress"
            : strcmp (name, "TOSTRAIN") == 0 ? "strain"

@@ -131,6 +131,7 @@ static pg_status section_head (gmsh_reader *g, const char *what, long *blocks, l
         PG_TRY (gmsh_has_left (g, what, 4, 8));
         for (int k = 0; k < 4; k++) head[k] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, what, 4, head));
+    /* Members are counted down by the blocks; lowest and highest number are not needed. */
     if (head[0] < 0 || head[1] < 0) GMSH_FAIL (g, "%s: %ld blocks with %ld members", what, head[0], head[1]);
     *blocks = head[0], *members = head[1];
 done:
@@ -161,6 +162,7 @@ static pg_status nodes_of_text (gmsh_reader *g, long n)
     pg_status status = PG_OK;
     gmsh_reader number = *g;
     const char *at, *last;
+    /* To the end of the numbers. */
     for (long k = 0; k < n; k++) PG_TRY (gmsh_line (g, "the last number of a node", &at, &last));
     for (long k = 0; k < n; k++) {
         long id;

@@ -37,6 +37,7 @@ static pg_status keep_texts (pg_scene *s, const char *text, size_t length, const
     if (!s->file) PG_FAIL (PG_E_MEMORY, "no memory for the name of the scene");
     PG_ALLOC (s->faults, 1);
     PG_ALLOC (s->set, nset);
+    /* Counted while they are made, so that a failure releases what there is. */
     for (s->nset = 0; s->nset < nset; s->nset++) {
         size_t n = strlen (set[s->nset]) + sizeof "--set ";
         PG_ALLOC (s->set[s->nset], n);

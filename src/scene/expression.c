@@ -109,6 +109,7 @@ double pg_expression_value (const pg_expression *e, const pg_place *at)
 int pg_expression_uses (const pg_expression *e, char variable)
 {
     for (size_t k = 0; k < sizeof variables / sizeof *variables; k++)
+        /* Variables differ in their first letter. */
         if (variables[k].name[0] == variable) return (e->uses >> variables[k].op & 1) != 0;
     return 0;
 }

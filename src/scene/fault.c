@@ -15,6 +15,7 @@ static void printable (char *out, size_t most, const char *text)
 {
     size_t n = 0, length = strlen (text);
     if (length > most) {
+        /* Back to the beginning of a character of UTF-8. */
         for (length = most - 3; length > 0 && ((unsigned char) text[length] & 0xC0) == 0x80; length--)
             continue;
     }

@@ -59,6 +59,7 @@ static pg_status collect (collection *c, const pg_node *node, const char *path)
         c->n++;
         PG_TRY (hash_file (f->path, f->hash));
     }
+    /* Children of a map have names, elements of a list have indices. */
     for (size_t k = 0; k < node->n; k++) {
         const pg_node *child = &node->child[k];
         if (child->name) snprintf (below, sizeof below, "%.60s%s%.63s", path, *path ? "." : "", child->name);

@@ -132,6 +132,7 @@ static const char *nearest_key (const pg_schema *s, const char *key)
 {
     char path[PG_PATTERN];
     const char *near = NULL;
+    /* Full paths first, then last words. */
     for (int whole = 1; whole >= 0 && !near; whole--) {
         size_t used = 0;
         size_t size = s->n * PG_PATTERN + 1;

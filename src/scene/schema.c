@@ -56,6 +56,7 @@ static int extend (const pg_schema *s, char *pattern, const char *joint, const c
 int pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *name, size_t length)
 {
     const char *joint = *pattern ? "." : "";
+    /* Letters that have a meaning in patterns cannot be part of a name. */
     if (length == 0 || memchr (name, '.', length) || memchr (name, '[', length) || memchr (name, '{', length))
         return 0;
     if (extend (s, pattern, joint, name, length)) return 1;
@@ -129,6 +130,7 @@ void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEV
         const char *rest = rest_of (s->row[k]->path, pattern);
         if (!rest || (*pattern && *rest != '.')) continue;
         rest += *pattern != '\0';
+        /* The first word behind the pattern. */
         size_t n = strcspn (rest, ".[");
         if (n == 0 || rest[0] == '{' || listed (names, rest, n) || used + n + 2 > PG_LEVEL_NAMES) continue;
         used += (size_t) snprintf (names + used, PG_LEVEL_NAMES - used, "%s%.*s", used ? "|" : "", (int) n,

@@ -116,6 +116,7 @@ static pg_status read_call (pg_reader *p, pg_operand *o, const pg_function *f)
     size_t start = p->at - strlen (f->name);
     int n = 0;
     if (!pg_read_take (p, "(")) PG_BAD (p->at, "%s needs an argument in ( )", f->name);
+    /* Arguments from the second on are combined with the first by the operation of the function. */
     do PG_TRY (read_argument (p, o, f, n++)); while (pg_read_take (p, ","));
     if (!pg_read_take (p, ")")) PG_BAD (p->at, "')' is missing");
     if (n < f->arguments) PG_BAD (start, "%s takes %d arguments", f->name, f->arguments);

@@ -104,6 +104,7 @@ static int is_part_of_shape (const pg_scene *s, const char *base, const char *te
                       *shape = pg_node_child (&list->child[k], "add", 3);
         if (!shape) shape = pg_node_child (&list->child[k], "subtract", 8);
         if (name && name->text && !strcmp (name->text, base)) return 1;
+        /* The key below add: or subtract: is what the shape is. */
         for (size_t c = 0; shape && c < shape->n; c++)
             if (shape->child[c].name && !strcmp (shape->child[c].name, base)) return 1;
     }
@@ -150,6 +151,7 @@ static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, c
         check_reference (s, node, choices, path);
         return;
     }
+    /* "a|b" becomes "a, b". */
     for (const char *c = choices; *c && n + 3 < sizeof listed; c++) {
         listed[n++] = *c == '|' ? ',' : *c;
         if (*c == '|') listed[n++] = ' ';
@@ -167,6 +169,7 @@ static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row
     pg_status status = pg_expression_compile (&e, node->text, row->unit);
     node->value = NAN;
     if (status != PG_OK) return as_fault (s, node, path, status);
+    /* A number, or a formula without variables. */
     if (pg_expression_constant (e, &node->value)) {
         if (!isfinite (node->value)) FAULT (node, "has no finite value");
         else if (pg_quantity_sane (node->value) != PG_OK) FAULT (node, "%s", pg_last_error ());
