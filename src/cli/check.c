@@ -6,7 +6,8 @@
 #include <math.h>
 
 /* For explicit and relaxation solvers the solver itself is created, because only it knows its
- * time step. */
+ * time step. --solve and --spectrum come last, since they take the longest and everything else
+ * must be right for them. */
 int pg_cli_check (int argc, char **argv)
 {
     pg_status status = PG_OK;

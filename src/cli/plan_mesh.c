@@ -22,7 +22,8 @@ static size_t of_block (const pg_mesh *m, size_t block)
     return n;
 }
 
-/* File, unit, elements and blocks. */
+/* File, length unit, number of nodes and of elements of each kind, and the blocks, the first
+ * twelve by name. */
 static void print_elements (const pg_mesh_body *b)
 {
     const pg_mesh *m = &b->mesh;

@@ -66,7 +66,8 @@ done:
     return status;
 }
 
-/* Up to `most` steps "3,5,8"; negative ones count from the end. */
+/* Up to `most` steps "3,5,8"; negative ones count from the end. Whether they exist is known
+ * only when the result is open (count_steps). */
 static pg_status read_steps (plot_request *q, const char *name, const char *text, int most)
 {
     pg_status status = PG_OK;
@@ -194,7 +195,8 @@ done:
 static pg_status read_sets (plot_request *q, const char *text) { (void) text, q->sets = 1; return PG_OK; }
 static pg_status read_list (plot_request *q, const char *text) { (void) text, q->list = 1; return PG_OK; }
 static pg_status read_log (plot_request *q, const char *text) { (void) text, q->style.log = 1; return PG_OK; }
-/* "stress", or as in output.pictures "stress.yy". */
+/* "stress", or as in output.pictures "stress.yy": the part behind the last dot counts only if
+ * it is the name of a component, since names of fields may contain dots. */
 static pg_status read_field (plot_request *q, const char *text)
 {
     const char *dot = strrchr (text, '.');
@@ -246,7 +248,8 @@ static void cut_result (char *path)
     if (n > 9 && strcmp (path + n - 9, "/result.e") == 0 && pg_plot_is_file (path)) path[n - 9] = 0;
 }
 
-/* Reads the command line and what excludes each other. */
+/* Reads the command line: one folder or file, options in any order. Checks what excludes each
+ * other and that the folder exists. */
 static pg_status read_arguments (plot_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;

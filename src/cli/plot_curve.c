@@ -157,7 +157,8 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
 }
 
 /* ---- one run ------------------------------------------------------------------------------------------- */
-/* Reads both columns of a run, and its load factors where the table has them. */
+/* Reads both columns of a run, and its load factors where the table has them (0 otherwise). A
+ * table without rows belongs to a run that has just begun. */
 static pg_status read_rows (run_curve *c, const char *directory, const char *const *wanted)
 {
     pg_status status = PG_OK;
@@ -233,7 +234,7 @@ static void name_of_folder (const char *path, char *out, size_t size)
 }
 
 /* Names in the legend: the labels, one per folder, or the folders (with the whole path where
- * two have one name). */
+ * two have one name). PG_E_USAGE if the number of labels is not that of the folders. */
 static pg_status name_curves (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -326,7 +327,8 @@ done:
     return status;
 }
 
-/* Reads, chooses the lines, draws. */
+/* Reads, chooses the lines, draws. Signs are changed before the envelope is sought, which
+ * depends on them. Runs of one or two rows get markers, since a line would not be seen. */
 static pg_status draw (const request *q, const char *path)
 {
     pg_status status = PG_OK;

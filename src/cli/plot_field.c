@@ -195,7 +195,8 @@ done:
     return status;
 }
 
-/* Opens the result; keys for 3D views are refused for others. */
+/* Opens the result: points, steps, components and unit of the field; keys for 3D views are
+ * refused for others. The copied scene is optional. */
 static pg_status open_source (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -228,7 +229,8 @@ static void close_source (source *s)
     pg_cloud_clear (&s->cloud);
 }
 
-/* "time 2 ms", "load factor 0.5", or with event stepping "event 12, load factor 0.5". */
+/* "time 2 ms", "load factor 0.5", or with event stepping "event 12, load factor 0.5"; without
+ * the scene, which says what the time means, "step 3, time 0.5". */
 static void name_stage (const plot_request *q, const source *s, int step, char *text, size_t size)
 {
     const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "",
@@ -247,7 +249,8 @@ static void name_stage (const plot_request *q, const source *s, int step, char *
     else snprintf (text, size, "load factor %.4g", factor);
 }
 
-/* Reads what a picture of one step needs. */
+/* Reads what a picture of one step needs: the field and its component; displacements and
+ * damage if the body is drawn deformed; damage for the view crack. */
 static pg_status read_stage (const plot_request *q, const source *s, int step, stage *g)
 {
     pg_status status = PG_OK;
@@ -384,8 +387,8 @@ done:
     return status;
 }
 
-/* Every step as a picture of its own; steps are read twice, which keeps one of them in memory
- * at a time. */
+/* Every step as a picture of its own. Steps are read twice, once for the common range of the
+ * colours and once to be drawn, which keeps one of them in memory at a time. */
 static pg_status draw_each (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;

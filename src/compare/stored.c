@@ -12,7 +12,8 @@
 typedef struct { pg_sampler field; pg_nearest *points; const pg_problem *problem; } bounded;
 
 /* Samples the field and makes places unknown that are more than sqrt (dim) spacings away from
- * every point: no cell of the body reaches that far. */
+ * every point: no cell of the body reaches that far. Without this, a fit would extrapolate
+ * anywhere. */
 static pg_status sample_bounded (void *context, size_t n, const double *x, double *u, double *stress)
 {
     pg_status status = PG_OK;

@@ -239,7 +239,8 @@ static int write_mesh (const request *w)
     return e ? failed ("cannot be written", w->output) : 0;
 }
 
-/* Reads the file as Perigal will, and prints what is in it. */
+/* Reads the file as Perigal will, and prints its dimension, elements, blocks and sets; 1 if it
+ * cannot be used. */
 static int look_at (const request *w)
 {
     pg_mesh mesh;
@@ -261,7 +262,8 @@ static int look_at (const request *w)
     return 0;
 }
 
-/* Starts Gmsh quietly; gmshInitialize has one more argument in newer versions. */
+/* Starts Gmsh without output of its own; its messages are kept for `failed`. gmshInitialize
+ * has one more argument in newer versions. */
 static void start (void)
 {
     int e;

@@ -59,7 +59,8 @@ done:
     return status;
 }
 
-/* Copies what later steps are checked against and computes the size of a record. */
+/* Copies what later steps are checked against and computes the size of a record: the time and
+ * n values for each component, 8 bytes each. */
 static pg_status copy_request (pg_exodus *f, const char *path, const pg_cloud *cloud, size_t nfield,
                                const pg_field_view *fields)
 {
@@ -106,7 +107,7 @@ done:
 }
 
 /* Writes the header under PATH.new and renames it, so that PATH appears whole or not at all.
- * The steps begin at the end of this file. */
+ * The steps begin at the end of this file, whose length is therefore kept (f->begin). */
 static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *title)
 {
     pg_status status = PG_OK;

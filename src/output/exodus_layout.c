@@ -307,8 +307,8 @@ done:
 }
 
 /* Creates the file. A variable may have 2^32 - 4 bytes per step with 64-bit offsets, and any
- * number in CDF-5. The file is created by our own function first, because netCDF does not
- * always pass on the system's reason. */
+ * number in CDF-5. The file is created by our own function first, which removes links and says
+ * why a file cannot be written; netCDF does not always pass on that reason. */
 static pg_status open_file (writer *w)
 {
     pg_status status = PG_OK;

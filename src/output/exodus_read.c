@@ -274,7 +274,8 @@ done:
 }
 
 /* The thickness of files of other programs is 1 m, that of plane models that do not say
- * otherwise. After a failure the cloud is empty. */
+ * otherwise. After a failure the cloud is empty and *time is NULL, so that callers need no
+ * clean-up. */
 pg_status pg_exodus_points (const char *path, pg_cloud *cloud, size_t *nstep, double **time)
 {
     pg_status status = PG_OK;

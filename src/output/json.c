@@ -163,8 +163,9 @@ void pg_json_text (pg_json *j, const char *key, const char *value)
     else fputs ("null", j->file);
 }
 
-/* The text is synced to the disk before the rename: otherwise a crash of the system could
- * leave an empty file under the final name. */
+/* Brackets that are still open are closed. The text is synced to the disk before the rename:
+ * otherwise a crash of the system could leave an empty file under the final name. After any
+ * fault PATH.tmp is removed and PATH is what it was. */
 pg_status pg_json_close (pg_json **json)
 {
     pg_status status = PG_OK;

@@ -186,8 +186,9 @@ done:
     return status;
 }
 
-/* The least CPU seconds that reach the error, at a size or between two sizes of a curve, and
- * the name of the curve; INFINITY if none does. */
+/* The least CPU seconds that reach the error: at a size whose error is small enough, or
+ * between two sizes of a curve where the error is reached in between; *name: of the curve.
+ * INFINITY if none does. */
 static double cheapest (const curve *list, size_t n, int fem, double error, const char **name)
 {
     double least = INFINITY;
