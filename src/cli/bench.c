@@ -25,7 +25,8 @@ static int is_one_of (const char *word, const char *names)
     return 0;
 }
 
-/* Cuts the value of a list option and checks its words. */
+/* Cuts the value of a list option and checks each word against the names that are allowed; the
+ * message offers the nearest one. */
 static pg_status read_list (const list_option *o, const char *value)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal check: everything that a run checks before its first step, and what the scene
  * amounts to. The order is that of a run, so that a scene that passes here does not fail
- * there. */
+ * there. Nothing is written, except with --spectrum -o DIR. */
 #include "cli.h"
 #include <math.h>
 

@@ -51,7 +51,7 @@ static int read_memory (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* --set KEY=VALUE; the key is checked when the scene is loaded. */
+/* --set KEY=VALUE, at most 64 times; the key is checked when the scene is loaded. */
 static int read_set (command *c, const char *text)
 {
     if (c->nset >= sizeof c->set / sizeof *c->set || !strchr (text, '=')) {
@@ -195,7 +195,8 @@ done:
     return status;
 }
 
-/* Faults of a scene begin with file and line; anything else with the name of the program. */
+/* Faults of a scene begin with file and line, where editors find them; anything else begins
+ * with the name of the program. */
 void command_complain (pg_status status, const char *text)
 {
     fprintf (stderr, "%s%s\n", status == PG_E_SCENE ? "" : "perigal: ", text);

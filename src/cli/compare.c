@@ -19,7 +19,7 @@ static int complain (const char *format, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* Up to three lengths "1, -2 mm, 0", in m. */
+/* Up to three lengths "1, -2 mm, 0", in m; a number without a unit is in m. */
 static int read_shift (const char *text, double shift[3])
 {
     char part[64];
@@ -157,7 +157,7 @@ static void print_rows (const pg_comparison *c, const pg_comparison_request *q)
     for (size_t k = 0; pg_errors_row (&c->errors, k, row, sizeof row); k++) printf ("  %s\n", row);
 }
 
-/* The same file that is left in the folder, on stdout. */
+/* The same file that is left in the folder, copied to stdout. */
 static pg_status print_json (const pg_comparison_request *q)
 {
     pg_status status = PG_OK;

@@ -83,7 +83,7 @@ int pg_cli_list (int argc, char **argv)
     return PG_EXIT_DONE;
 }
 
-/* All keys of the scene, one per line. */
+/* All keys of the scene, one per line, in the order of the folders that own them. */
 static void all_keys (void)
 {
     size_t n;

@@ -4,7 +4,8 @@
 #include "cli.h"
 #include <string.h>
 
-enum { MOST = 12 };                                    /* blocks and sets listed */
+/* Blocks and sets that are listed by name. */
+enum { MOST = 12 };
 
 /* Number of elements of a kind. */
 static size_t of_kind (const pg_mesh *m, int kind)
@@ -54,7 +55,8 @@ static void print_renamed (const pg_mesh *m)
     }
 }
 
-/* Nothing is printed for bodies without a mesh. Volume and surface show a wrong length unit. */
+/* Nothing is printed for bodies without a mesh. Volume and surface show a wrong length unit;
+ * the worst quality (scaled Jacobian, 1 is perfect) shows a bad element with its number. */
 void plan_mesh (const pg_problem *p)
 {
     const pg_mesh_body *b = &p->part;

@@ -68,7 +68,7 @@ static int number_of (const char *text, int most)
     return end == text || *end || k < 0 || k >= most ? -1 : (int) k;
 }
 
-/* Index of a component by name ("yy") or number; -1: there is none of that name. */
+/* Index of a component by its name ("yy") or number; -1 if there is none. */
 static int component_of (const char *wanted, const char *names, int m)
 {
     int k = pg_plot_index (wanted, names);
@@ -76,7 +76,7 @@ static int component_of (const char *wanted, const char *names, int m)
 }
 
 /* The component that is asked for by name or number; by default the magnitude of a vector and
- * xx of a tensor. */
+ * xx of a tensor. Also the name on the colour bar. */
 static pg_status choose_component (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -179,8 +179,9 @@ done:
     return status;
 }
 
-/* The mesh of the run, unless it is gone or its nodes are not the points any more. Fields are
- * drawn on its elements unless something broke, since these would hide the crack. */
+/* The mesh of the run, unless it is gone or its nodes are not the points any more (to 1e-6 of
+ * the spacing). Fields are drawn on its elements unless something broke in the steps that are
+ * shown, since these would hide the crack; damage itself is always drawn by points. */
 static pg_status read_part (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -320,8 +321,8 @@ done:
     return status;
 }
 
-/* The final range: blue to red where both signs occur to more than a trace, damage 0 to 1, or
- * what was given. */
+/* The final range: blue to red where both signs occur to more than a trace (2 % of the
+ * larger), damage 0 to 1, or what was given; logarithmic colours find their own. */
 static void settle_range (const plot_request *q, pg_picture_style *style)
 {
     /* not for a trace of the other sign */

@@ -11,7 +11,8 @@
  * most. */
 enum { LINE = 400, NARROW = 20, FULL = 3 };
 
-/* Both marks of the pace begin at the start of the run. */
+/* Both marks of the pace begin at the start of the run. stderr is asked whether it is a
+ * terminal. */
 void progress_start (progress *p, int quiet, const pg_solver_options *o)
 {
     double now = pg_seconds ();
@@ -97,7 +98,8 @@ static void add_number (char *line, const char *format, double value)
     add (line, text);
 }
 
-/* The line with `full` details: 0 the least, FULL everything. */
+/* The line with `full` details: 0 the least, FULL everything: share of the run, step, load
+ * factor, stiffness and damage for stop conditions, broken bonds, residual, time. */
 static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step,
                      const pg_statistics *r, double now, int within)
 {

@@ -11,8 +11,7 @@
 #include <string.h>
 
 /* The quadrature of the background cells with *order points per direction, thickness included.
- * A body without cells (force models on points only) is measured by the volumes of its points,
- * and *order becomes 0. */
+ * A body without cells is measured by the volumes of its points, and *order becomes 0. */
 static pg_status quadrature (pg_quadrature *q, const pg_problem *p, int *order)
 {
     pg_status status = PG_OK;

@@ -93,8 +93,9 @@ static size_t cut_settings (char *text, char **set, const char **from)
     return n;
 }
 
-/* Relative file names in the scene refer to the folder of the original scene: noted in the
- * copy, or in older folders in report.json; the copy itself is the last resort. */
+/* The copy is parsed as if it stood at the place of the original, because relative file names
+ * in the scene refer to that folder: noted in the copy, or in older folders in report.json;
+ * the copy itself is the last resort. */
 pg_status pg_stored_scene (pg_scene **out, const char *folder)
 {
     pg_status status = PG_OK;

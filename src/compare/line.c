@@ -87,7 +87,8 @@ done:
     return status;
 }
 
-/* Reads the first row; at least one coordinate and one value are needed. */
+/* Reads the first row and so fixes meaning and unit of each column; at least one coordinate
+ * and one value are needed, else the file is no such table. */
 static pg_status read_header (reader *r, char *row)
 {
     pg_status status = PG_OK;
@@ -203,6 +204,7 @@ done:
     return status;
 }
 
+/* May be called twice. */
 void pg_line_clear (pg_line *line)
 {
     pg_free (line->x), pg_free (line->value);

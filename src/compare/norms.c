@@ -194,8 +194,9 @@ done:
 }
 
 /* ---- tables -------------------------------------------------------------------------------------------- */
-/* Norms of column k of a table. Rows with a reference near zero (below 1e-3 of the largest)
- * have no meaningful relative error and count in the other norms only. */
+/* Norms of column k of a table over its rows, unweighted. Rows with a reference near zero
+ * (below 1e-3 of the largest) have no meaningful relative error and count in the other norms
+ * only. */
 static void measure_column (pg_line_norms *out, const pg_line *line, size_t k, const double *u,
                             const double *s)
 {

@@ -165,12 +165,14 @@ done:
     return status;
 }
 
+/* In the order of the scene. */
 const pg_line *pg_reference_lines (const pg_reference *r, size_t *n)
 {
     *n = r->nline;
     return r->line;
 }
 
+/* Accepts one that was only half read. */
 void pg_reference_free (pg_reference **reference)
 {
     pg_reference *r = *reference;

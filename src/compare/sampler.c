@@ -10,6 +10,7 @@
 /* Places at a time, which bounds the memory. */
 enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory */
 
+/* free is NULL for samplers that were lent out. */
 void pg_sampler_clear (pg_sampler *sampler)
 {
     if (sampler->free) sampler->free (sampler->context);

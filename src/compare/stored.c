@@ -165,9 +165,10 @@ done:
     return status;
 }
 
-/* Chooses the field. For nosb coefficients and displacements are the same. After breaks the
- * shape functions of the run cannot be restored, as result.e does not say which bonds are
- * alive. */
+/* Chooses the field. With coefficients (for approximations that interpolate the displacements
+ * are the same), rotations where points have them, and no broken bonds, the field is that of
+ * the run itself. After breaks its shape functions cannot be restored, as result.e does not
+ * say which bonds are alive. */
 static pg_status read_step (pg_stored *s, const char *path, double broken)
 {
     pg_status status = PG_OK;
@@ -262,6 +263,7 @@ done:
     return status;
 }
 
+/* The sampler goes first: it borrows everything else. */
 void pg_stored_free (pg_stored **stored)
 {
     pg_stored *s = *stored;

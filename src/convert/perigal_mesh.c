@@ -65,7 +65,8 @@ static int option_of (const char *word)
     return -1;
 }
 
-/* 1: a number of the option's range. */
+/* Reads the value of an option; 0 if it is missing, out of range, or not whole where it must
+ * be. */
 static int read_option (request *w, int option, const char *text)
 {
     double v;

@@ -158,9 +158,9 @@ done:
     return status;
 }
 
-/* Writes the whole file and syncs it. It is created by our own function first, whose message
- * says why that fails; nc__create then truncates it. 1 MiB of buffer keeps the number of
- * system calls small. */
+/* Writes the whole file and syncs it: first all definitions, then all values, as netCDF
+ * demands. It is created by our own function first, whose message says why that fails;
+ * nc__create then truncates it. 1 MiB of buffer keeps the number of system calls small. */
 static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;

@@ -106,6 +106,7 @@ done:
     return status;
 }
 
+/* May be called for a table that was never read. */
 void pg_csv_clear (pg_csv *csv)
 {
     pg_free (csv->text), pg_free (csv->name), pg_free (csv->value);

@@ -27,7 +27,7 @@ done:
     return status;
 }
 
-/* Used to take back what was written incompletely, and to resume. */
+/* Used when a file is opened for appending: what lies behind the remembered length goes. */
 pg_status pg_disk_cut (const char *path, int file, long bytes)
 {
     return ftruncate (file, bytes) == 0 ? PG_OK

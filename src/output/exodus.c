@@ -154,7 +154,8 @@ static pg_status count_records (pg_exodus *f, size_t count)
     return pg_disk_write (f->path, f->file, bytes, m, 4);
 }
 
-/* PG_E_FILE unless the file was made for the same number of points and components. */
+/* PG_E_FILE unless the file was made for the same number of points and components: otherwise
+ * steps would be appended in another layout. */
 static pg_status check_sizes (const pg_exodus *f)
 {
     pg_status status = PG_OK;
@@ -203,6 +204,7 @@ done:
     return status;
 }
 
+/* What a checkpoint remembers to cut the file to. */
 void pg_exodus_size (const pg_exodus *f, long *steps, long *bytes)
 {
     *steps = (long) f->step;

@@ -150,6 +150,7 @@ void pg_json_number (pg_json *j, const char *key, double value)
     fputs (text, j->file);
 }
 
+/* Counts are written as integers, never with an exponent. */
 void pg_json_count (pg_json *j, const char *key, size_t value)
 {
     if (begin (j, key)) fprintf (j->file, "%zu", value);

@@ -51,7 +51,7 @@ done:
 }
 
 /* A length needs a direction that is not zero, a condition that does not change with time, and
- * points in that direction. */
+ * points in that direction where the condition holds. */
 static pg_status check_tip (const pg_scene *scene, size_t i, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -367,7 +367,7 @@ int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
     return 1;
 }
 
-/* The summary of each crack. */
+/* The summary of each crack; static runs have load factors instead of times, and no speeds. */
 void pg_result_tips_json (pg_json *j, const pg_result *r)
 {
     double rayleigh = pg_result_tips_rayleigh (r);

@@ -48,7 +48,8 @@ void pg_result_curve_choose (pg_result *r)
 
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* Appends a point with displacement x (m) and force y (N). */
+/* Appends a point with displacement x (m) and force y (N), and what the report will say about
+ * it: step, time, load factor, gauges (m). */
 pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -140,7 +141,8 @@ done:
     return status;
 }
 
-/* Writes the peak, the gauges at the peak and both stiffnesses. */
+/* Writes the load and component that the curve follows, the peak, the gauges at the peak and
+ * both stiffnesses; nothing without a curve. */
 void pg_result_curve_json (pg_json *j, const pg_result *r)
 {
     const result_peak *k = &r->peak;

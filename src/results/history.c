@@ -26,7 +26,8 @@ static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinet
 /* Columns of events.csv: numbers, then the names of bond set and kind. */
 enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
 
-/* The order of the columns here is that of the values in pg_result_history_row. */
+/* The order of the columns here is that of the values in pg_result_history_row. Names are at
+ * most 127 bytes. */
 pg_status pg_result_history_create (pg_result *r, const result_marks *from)
 {
     pg_status status = PG_OK;

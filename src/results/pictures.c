@@ -147,7 +147,7 @@ done:
     return status;
 }
 
-/* The distance from the reference at the points. */
+/* The distance from the reference at the points, with both norms in the title. */
 static pg_status error_picture (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;

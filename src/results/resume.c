@@ -177,7 +177,8 @@ done:
     return status;
 }
 
-/* All of a checkpoint, in a fixed order. */
+/* All of a checkpoint, in a fixed order: identity, counters, marks, curve, cracks, a pending
+ * step, and at last the state and the solver. Sizes come before the arrays that they count. */
 static pg_status keep_all (void *context, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -14,7 +14,7 @@ static int place_of (const char *word, const char *names)
     return -1;
 }
 
-/* Text of a key of entry i; NULL if it is not given. */
+/* Text of a key of entry i; NULL if it is not given, which differs from an empty text. */
 static const char *text_of (const pg_scene *scene, size_t i, const char *key)
 {
     return pg_scene_has (scene, "output.views[%zu].%s", i, key)

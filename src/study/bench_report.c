@@ -147,7 +147,8 @@ static void thin_out (curve *list, size_t *n, size_t most)
     }
 }
 
-/* One picture for a group; alone = 1: its file name needs no group. */
+/* One picture for a group, over CPU seconds or unknowns; alone = 1: its file name needs no
+ * group. The title says if curves were left out. */
 static pg_status draw (const pg_bench_cases *cases, const pg_bench_request *q, const char *name, int alone,
                        int over)
 {

@@ -166,8 +166,8 @@ static void tell (const pg_comparison_request *q, const char *what, const char *
     if (q->out) fprintf (q->out, "  %s %s\n", what, path);
 }
 
-/* Files of n tables; `before` is the number of files that have been written already: the
- * tables of the scene follow its field. */
+/* Files of n tables, a CSV and a chart each; `before` is the number of files that have been
+ * written already: the tables of the scene follow its field. */
 static pg_status table_files (const pg_comparison *c, const pg_comparison_request *q, const pg_line *line,
                               size_t n, size_t before)
 {

@@ -62,7 +62,8 @@ done:
     return status;
 }
 
-/* All horizons, then table and picture. */
+/* All horizons, then table, file and picture. Without a list the horizon of the scene is
+ * taken. */
 static pg_status study_all (pg_study *list, pg_converge_request *q)
 {
     pg_status status = PG_OK;

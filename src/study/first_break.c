@@ -27,7 +27,7 @@ static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
 }
 
 /* Asks the force for the utilisation of every bond. Without proportional loads the factor is
- * an estimate: 1 over the utilisation. */
+ * an estimate: 1 over the utilisation. INFINITY if nothing can break. */
 static pg_status judge (pg_first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
 {
     pg_status status = PG_OK;

@@ -27,7 +27,8 @@ static void settle_environment (int threads)
     setenv ("OMP_WAIT_POLICY", "passive", 1);
 }
 
-/* The new process becomes the program; never returns. 127: could not be started. */
+/* The new process becomes the program; never returns. stdin is empty, stdout goes to the
+ * parent, stderr to the log. 127: could not be started. */
 static void become (const char *program, char *const argv[], const char *folder, const char *log, int to,
                     int threads)
 {

@@ -93,7 +93,8 @@ done:
     return status;
 }
 
-/* Reads the last step; PG_E_FILE without a displacement or with another dimension. */
+/* Reads the last step, makes 3D elements of a plane result plane, and prepares the search.
+ * PG_E_FILE without a displacement or with another dimension. */
 static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_mesh_field **fields,
                                 const char *path, const pg_problem *p)
 {
