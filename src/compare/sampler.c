@@ -178,8 +178,8 @@ pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const d
     memset (out, 0, sizeof *out);
     PG_ALLOC (s, 1);
     s->problem = problem, s->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
-    s->approx = (pg_approx){ .type = pg_approx_find ("rkpm"),
-                             .kernel = pg_kernel_find ("cubic_spline"),
+    s->approx = (pg_approx){ .type = pg_approx_first (),
+                             .kernel = pg_kernel_entry (0),
                              .order = 1,
                              .shape = PG_RADIAL,
                              .horizon = 2 * problem->cloud.h };
