@@ -55,6 +55,7 @@ int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t el
     return 1;
 }
 
+/* Releases n fields and their list. */
 void pg_mesh_fields_clear (size_t n, pg_mesh_field **fields)
 {
     if (!fields || !*fields) return;

@@ -24,8 +24,10 @@ typedef struct { box box; int first, n, right; } tree_node;
 
 /* The tree. */
 struct pg_mesh_locator {
+    /* The mesh; borrowed. */
     const pg_mesh *mesh;
     int        dim;
+    /* Nodes in the order of a walk; the root is the first. */
     tree_node *tree;
     size_t     ntree;
     /* Elements in the order of the leaves (mesh->n). */

@@ -10,6 +10,7 @@ struct pg_mesh_skin {
     /* dim is that of the space, the elements have one dimension less; x is borrowed. */
     pg_mesh faces;
     pg_mesh_locator *locator;
+    /* Element and side of each face. */
     int *element, *side;
 };
 

@@ -77,6 +77,7 @@ typedef struct {
 /* All that resolving needs. */
 typedef struct { abaqus *a; pg_mesh_given given; gather node, element; } resolver;
 
+/* Releases what gather_start allocated. */
 static void gather_clear (gather *g)
 {
     pg_id_table_clear (&g->table);

@@ -17,14 +17,17 @@
 #include <string.h>
 #include <strings.h>
 
+/* Length of a name, with its end. */
 enum { NAME = 256 };
 
 /* The open file. */
 typedef struct {
     const char *path;
+    /* Number of the file within netCDF; 1: it is open. */
     int    ncid, open;
     /* Numbers of nodes, elements and blocks; size of the file. */
     size_t nnode, n, nblock, bytes;
+    /* Receives the mesh; NULL while fields are read. */
     pg_mesh_builder *builder;
     /* 1: sides 1 and 2 of this element are its faces, as of shells (n). */
     unsigned char *shell;

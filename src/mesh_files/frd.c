@@ -23,6 +23,7 @@ typedef struct {
     double value;
     /* Number of the step; number of nodes. */
     long   number, nodes;
+    /* Format of its values, and number of components that are stored. */
     int    format, components;
     /* Where the values begin. */
     mesh_cursor data;
@@ -30,11 +31,13 @@ typedef struct {
 
 /* State of the reader. */
 typedef struct {
+    /* Place in the file. */
     mesh_cursor    c;
     /* The present line. */
     const char    *first, *last;
     /* Receives the mesh; NULL: only results are wanted. */
     pg_mesh_builder *builder;
+    /* Blocks of results found so far. */
     size_t  nblock, capacity;
     block  *block;
 } reader;
@@ -336,6 +339,7 @@ static int knows_frd (const mesh_file *file)
                || !memcmp (file->text, "    1U", 6));
 }
 
+/* Results are passed over while the mesh is read; their places are not kept. */
 static pg_status read_frd (pg_mesh_builder *m, const mesh_file *file)
 {
     reader r = { .c = mesh_begin (file), .builder = m };

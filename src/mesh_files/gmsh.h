@@ -8,8 +8,11 @@
 
 /* State of a reader; copies serve to look ahead. */
 typedef struct {
+    /* Place in the file. */
     mesh_cursor    c;
+    /* Receives nodes, elements and groups. */
     pg_mesh_builder *m;
+    /* Version of the format. */
     double         version;
     /* binary: numbers are bytes; swap: in the other byte order. */
     int            binary, swap;

@@ -10,6 +10,8 @@
 
 /* An entity; its groups are group[first] .. group[first + n - 1]. */
 typedef struct { long dim, tag; size_t first, n; } entity;
+
+/* State of the reader: entities (nentity), and the groups of all entities (ngroup). */
 typedef struct {
     gmsh_reader g;
     size_t  nentity, entity_cap, ngroup, group_cap;

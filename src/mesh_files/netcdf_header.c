@@ -59,7 +59,7 @@ static int type (walker *w, size_t *bytes)
     return 1;
 }
 
-/* The head of a list: its tag and count, or zeros where there is none. */
+/* The head of a list: its tag and count, or zeros where there is none. least: bytes of an item, at least. */
 static int list (walker *w, uint64_t tag, size_t least, uint64_t *n)
 {
     uint64_t got;

@@ -69,6 +69,7 @@ pg_status mesh_parse (pg_mesh *out, const mesh_file *file)
     pg_mesh_builder *m = NULL;
     memset (out, 0, sizeof *out);
     const mesh_format *format = mesh_format_of (file);
+    /* A fault that lists the known formats. */
     if (!format) PG_TRY (unknown (file));
     PG_TRY (pg_mesh_builder_create (&m, file->path));
     PG_TRY (format->read (m, file));

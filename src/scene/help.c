@@ -150,7 +150,7 @@ static const char *nearest_key (const pg_schema *s, const char *key)
     return near;
 }
 
-/* All rows that match `key` in this way (see match), `before` each. */
+/* All rows that match the key in this way (see match), each behind the text `before`. */
 static void print_matches (FILE *to, const pg_schema *s, const char *key, int how, const char *before)
 {
     for (size_t k = 0; k < s->n; k++) {
@@ -182,6 +182,7 @@ pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
     return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the help could not be written") : PG_OK;
 }
 
+/* Help from the tables of all folders. */
 pg_status pg_scene_help (FILE *to, const char *key)
 {
     pg_status status = PG_OK;

@@ -17,6 +17,7 @@ pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...)
     return pg_error (PG_E_SCENE, PG_HERE, "column %zu: %s", at + 1, text);
 }
 
+/* Line ends too: expressions may be folded in YAML. */
 void pg_read_skip (pg_reader *p)
 {
     while (p->text[p->at] && strchr (" \t\r\n", p->text[p->at])) p->at++;

@@ -242,6 +242,7 @@ int pg_measure_same (const pg_measure *a, const pg_measure *b)
     return 1;
 }
 
+/* rad counts as 1. */
 int pg_measure_plain (const pg_measure *m)
 {
     static const pg_measure one = { .factor = 1 };
@@ -294,6 +295,7 @@ void pg_measure_text (const pg_measure *m, char *out, size_t n)
     }
 }
 
+/* An example for this very unit, else for its dimension. */
 const char *pg_measure_example (const pg_measure *m, const char *unit)
 {
     const char *example = NULL;

@@ -34,6 +34,7 @@ static int next_part (const char **path, const char *end, char word[WORD], long 
     size_t n = 0;
     if (*s == '[') {
         *index = 0;
+        /* At most nine digits: the index fits an int. */
         for (n = 1; s + n < end && s[n] >= '0' && s[n] <= '9' && n < 9; n++)
             *index = *index * 10 + (s[n] - '0');
         if (n == 1 || s + n >= end || s[n] != ']') return 0;
