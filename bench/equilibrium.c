@@ -1,13 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Times the equilibrium of bond-based bodies (plate with a hole, the same with a crack through most of it, cantilever, irregular
- * points, cube) and of micropolar ones (the same plate, and the cube with a penny-shaped flaw of data/chen_cube). A CSV row for
- * each body, size and method: conjugate gradients with the multilevel preconditioner, conjugate gradients with the diagonal, and
- * the factorization of K by CHOLMOD.
+ * Times the equilibrium of bond-based bodies (plate with a hole, the same with a crack through most of
+ * it, cantilever, irregular points, cube) and of micropolar ones (the same plate, and the cube with a
+ * penny-shaped flaw of data/chen_cube). A CSV row for each body, size and method: conjugate gradients
+ * with the multilevel preconditioner, conjugate gradients with the diagonal, and the factorization of K
+ * by CHOLMOD.
  *     equilibrium [BODY [POINTS ALONG ITS EDGE]]      without arguments: all
- * Set-up and solution in processor seconds of all threads, the solution in wall seconds too, each as least, median and largest
- * of three (CHOLMOD: one). Relative residual 1e-8. error: largest difference to the factorization, over the largest
- * displacement, where a factorization was made: up to 4e4 unknowns in 2D and 15e3 in 3D. The diagonal is tried up to 5e5
- * unknowns. PERIGAL_BENCH_THREADS: threads (1). */
+ * Set-up and solution in processor seconds of all threads, the solution in wall seconds too, each as
+ * least, median and largest of three (CHOLMOD: one). Relative residual 1e-8. error: largest difference to
+ * the factorization, over the largest displacement, where a factorization was made: up to 4e4 unknowns in
+ * 2D and 15e3 in 3D. The diagonal is tried up to 5e5 unknowns. PERIGAL_BENCH_THREADS: threads (1). */
 #include "perigal/force.h"
 #include "perigal/scene.h"
 #include "spread.h"

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Times the search for the element that holds a place, for each kind of element: a CSV row with the processor seconds of building
- * the search and of a million places inside the body, and the microseconds of one place outside, each as least, median, largest. */
+ * Times the search for the element that holds a place, for each kind of element: a CSV row with the
+ * processor seconds of building the search and of a million places inside the body, and the microseconds
+ * of one place outside, each as least, median, largest. */
 #include "perigal/mesh.h"
 #include "spread.h"
 #include <stdio.h>
@@ -56,7 +57,8 @@ static void place_of (const pg_mesh *m, unsigned *seed, double *place)
     }
 }
 
-/* One repeat: seconds of building the search, of a million places inside, microseconds of one place outside. Returns the places found. */
+/* One repeat: seconds of building the search, of a million places inside, microseconds of one place
+ * outside. Returns the places found. */
 static long repeat (const pg_mesh *m, spread *build, spread *inside, spread *outside)
 {
     pg_mesh_locator *f = NULL;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Times the reading of meshes: mesh_read [FILE...]. Without files a cube of 100^3 hexahedra and a square of 10^6 triangles are
- * written and read in every format. CSV: file, bytes, dimension, nodes, elements, blocks, node sets, volume, processor seconds
- * of reading and of finding the surface (each as least, median, largest of five), faces of the surface. */
+ * Times the reading of meshes: mesh_read [FILE...]. Without files a cube of 100^3 hexahedra and a square
+ * of 10^6 triangles are written and read in every format. CSV: file, bytes, dimension, nodes, elements,
+ * blocks, node sets, volume, processor seconds of reading and of finding the surface (each as least,
+ * median, largest of five), faces of the surface. */
 #include "perigal/mesh_files.h"
 #include "spread.h"
 #include <stdint.h>

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * spread.h: least, median and largest of repeated measurements, for the CSV rows of the programs in bench/. A program that repeats a
- * measurement prints three columns X_min, X_median, X_max; bench/run reads them and writes doc/benchmarks.md. */
+ * spread.h: least, median and largest of repeated measurements, for the CSV rows of the programs in
+ * bench/. A program that repeats a measurement prints three columns X_min, X_median, X_max; bench/run
+ * reads them and writes doc/benchmarks.md. */
 #ifndef PERIGAL_BENCH_SPREAD_H
 #define PERIGAL_BENCH_SPREAD_H
 #include <math.h>
@@ -28,7 +29,8 @@ static inline double spread_quantile (spread *s, size_t k)
 {
     if (s->n == 0) return NAN;
     qsort (s->value, s->n, sizeof *s->value, spread_compare);
-    size_t twice = k * (s->n - 1);                     /* twice the place in order; between two places their mean */
+    /* twice the place in order; between two places their mean */
+    size_t twice = k * (s->n - 1);
     return 0.5 * (s->value[twice / 2] + s->value[(twice + 1) / 2]);
 }
 

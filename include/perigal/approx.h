@@ -104,6 +104,8 @@ struct pg_approx_type {
 const pg_approx_type *pg_approx_find (const char *name);
 /* All names, separated by |. */
 const char *pg_approx_names (void);
+/* The first line of list.h: what a scene gets that names none. */
+const pg_approx_type *pg_approx_first (void);
 /* Reads the approximation of the section `method` of a scene for a force with shape functions;
  * spacing in m. A horizon below one spacing is a fault of the scene. */
 pg_status pg_approx_read (pg_approx *out, const pg_scene *scene, double spacing);

@@ -73,6 +73,8 @@ struct pg_criterion_type {
 };
 const pg_criterion_type *pg_criterion_find (const char *name);
 const char *pg_criterion_names (void);
+/* Name of the first criterion of list.h that judges by these measures (PG_NEEDS_...); NULL: there is none. */
+const char *pg_criterion_by_need (int needs);
 /* The criterion of `failure` in the scene for each of n materials, with the limits of materials.NAME.failure
  * before those of failure. All have one type; it is NULL when nothing breaks. Faults: keys they lack or would
  * ignore. */

@@ -122,11 +122,13 @@ typedef struct pg_linear_type {
     void      (*info)    (const void *self, pg_linear_info *info);
     void      (*free)    (void **self);
 } pg_linear_type;
-/* The entry of that name, NULL: there is none; all names, separated by |, and "auto". */
+/* The entry of that name, NULL: there is none. */
 const pg_linear_type *pg_linear_find  (const char *name);
-/* The first in the list with these flags; NULL: there is none. symmetric and factors: for K, the usual one; not
- * symmetric: for matrices that are indefinite or not symmetric; without factors: by products with A. */
+/* The first entry of the list with these flags, NULL: there is none. Symmetric with a factor: the usual
+ * one, for K; not symmetric: for matrices that are indefinite or not symmetric; without a factor: by
+ * products with A only. */
 const pg_linear_type *pg_linear_first (int symmetric, int factors);
+/* All names, separated by |, and "auto". */
 const char           *pg_linear_names (void);
 
 /* Predicts what the factor of a matrix with dense blocks (block x block) on `graph` will hold and cost: the

@@ -96,7 +96,9 @@ typedef struct {
     int         rotations[4];  /* rotational degrees of freedom of a point, by the dimension of the body */
     int         anisotropic;   /* 1: carries any material, by its tangent; 0: isotropic ones, by E and nu */
     int         shows;         /* PG_NEEDS_...: what its bonds can show to a failure criterion */
-    const char *criterion;     /* where `failure` names none; NULL: stretch, if the scene gives its limits */
+    /* PG_NEEDS_...: where `failure` names no criterion, the first that judges by these; 0: by the
+     * stretch, if the scene gives limits of it. */
+    int         judged_by;
     /* Without shape functions: kernel and horizon (spacings) where the scene gives none. */
     const char *kernel;
     double      horizon;

@@ -26,6 +26,8 @@ const pg_approx_type *pg_approx_find (const char *name)
     return NULL;
 }
 
+const pg_approx_type *pg_approx_first (void) { return table[0]; }
+
 const char *pg_approx_names (void) { return names + 1; }
 
 /* 1 if the key has that value. */

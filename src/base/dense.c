@@ -11,7 +11,8 @@ int pg_dense_cholesky (int n, double *A, double tiny)
     for (int j = 0; j < n; j++) {
         double d = A[j*n + j], top = d;
         for (int k = 0; k < j; k++) d -= A[j*n + k] * A[j*n + k];
-        if (!(d > tiny * top)) return j + 1;           /* also catches NaN */
+        /* Written so that a NaN counts as a failed pivot. */
+        if (!(d > tiny * top)) return j + 1;
         d = sqrt (d);
         A[j*n + j] = d;
         for (int i = j + 1; i < n; i++) {

@@ -46,7 +46,8 @@ static struct {
     atomic_int      unfinished;                        /* parts of the loop that are under way elsewhere */
 } pool = { .started = 1, .looks = -1, .once = PTHREAD_ONCE_INIT, .gate = PTHREAD_MUTEX_INITIALIZER,
            .end_lock = PTHREAD_MUTEX_INITIALIZER, .end = PTHREAD_COND_INITIALIZER };
-static _Thread_local int inside;                       /* this thread runs a part of a loop */
+/* 1: this thread is running a part of a loop. */
+static _Thread_local int inside;
 
 double pg_seconds (void)
 {
@@ -136,7 +137,8 @@ static void prepare (void)
 /* At exit, and where the library is unloaded: no thread may be left in its code. */
 __attribute__ ((destructor)) static void dismiss (void)
 {
-    if (pthread_mutex_trylock (&pool.gate) != 0) return;    /* exit from within a loop */
+    /* The process exits from within a loop: threads are still at work. */
+    if (pthread_mutex_trylock (&pool.gate) != 0) return;
     for (int k = 1; k < pool.started; k++) give_turn (&pool.helper[k], 1);
     for (int k = 1; k < pool.started; k++) pthread_join (pool.helper[k].id, NULL);
     pool.started = 1;
@@ -210,7 +212,8 @@ void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context)
     for (int k = 0; k < threads; k++)
         jobs[k] = (job){ work, context, n * (size_t) k / (size_t) threads,
                          n * (size_t) (k + 1) / (size_t) threads, k };
-    if (threads == 1) work (context, 0, n, 0);         /* loops within may use threads */
+    /* On one thread: loops inside may use others. */
+    if (threads == 1) work (context, 0, n, 0);
     else if (inside) {
         for (int k = 0; k < threads; k++) run (&jobs[k]);
     } else if (pthread_mutex_trylock (&pool.gate) == 0) {

@@ -24,7 +24,8 @@ const char *pg_last_error_where (void) { return place; }
 
 pg_status pg_error (pg_status code, const char *where, const char *format, ...)
 {
-    char text[sizeof message];                          /* the arguments may point into the old message */
+    /* Formatted aside, since the arguments may point into the present message. */
+    char text[sizeof message];
     va_list args;
     va_start (args, format);
     vsnprintf (text, sizeof text, format, args);

@@ -139,7 +139,8 @@ pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, doubl
 {
     size_t n = 0, nfacet = 0, corners = (size_t) 1 << lattice->dim;
     memset (out, 0, sizeof *out);
-    if (lattice->dim == 0) return PG_OK;                   /* points from a file: no cells */
+    /* Points from a file have no lattice. */
+    if (lattice->dim == 0) return PG_OK;
     count (&n, &nfacet, lattice);
     pg_status status = pg_cells_reserve (out, lattice->dim, thickness, n, n * corners, nfacet,
                                          nfacet * corners / 2);

@@ -21,7 +21,8 @@ void pg_set_name (char out[57], const char *name)
     for (; name[n] && n < 56; n++) {
         out[n] = is_plain ((unsigned char) name[n]) ? name[n] : '_';
     }
-    while (n > 0 && name[n] && ((unsigned char) name[n] & 0xC0) == 0x80) n--;      /* not within a letter */
+    /* A letter of several bytes is kept whole or dropped. */
+    while (n > 0 && name[n] && ((unsigned char) name[n] & 0xC0) == 0x80) n--;
     out[n] = '\0';
     /* all stays everything */
     if (!n || !strcmp (out, "all")) snprintf (out, 57, "mesh_%s", n ? "all" : "set");

@@ -188,7 +188,8 @@ static pg_status put (builder *m, const one_facet *f)
 {
     pg_status status = PG_OK;
     for (size_t k = m->nfacet; f->face >= 0 && k-- > 0 && m->facet[k].cell == f->cell; )
-        if (m->facet[k].face == f->face) return PG_OK;         /* two shapes have the same side */
+        /* Two shapes may have the same side. */
+        if (m->facet[k].face == f->face) return PG_OK;
     PG_GROW (m->facet, m->capacity, m->nfacet + 1);
     m->facet[m->nfacet++] = *f;
 done:
@@ -357,7 +358,8 @@ void cut_free (struct pg_cut *cut)
 static pg_status enter (const pg_cells *cells, size_t cell)
 {
     const struct pg_cut *cut = cells->cut;
-    size_t dim = (size_t) cells->dim, far = dim == 3 ? 6 : dim == 2 ? 2 : 1;           /* the corner across */
+    /* Number of the corner diagonally opposite the first one, in the order of Exodus. */
+    size_t dim = (size_t) cells->dim, far = dim == 3 ? 6 : dim == 2 ? 2 : 1;
     const double *x = cells->x + cells->start[cell] * dim;
     return cut_work_cell (cut->work, x, x + far * dim, cut->start[cell + 1] - cut->start[cell],
                           cut->near + cut->start[cell]);

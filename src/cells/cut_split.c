@@ -134,7 +134,8 @@ static int heights (const conic *p, double y, double *z)
     int n = cut_roots (2, c, -1 - 1e-6, 1 + 1e-6, z);
     if (n == 0 && fabs (p->a) > flat && fabs (at_B (p, y) / (2 * p->a)) < 1
         && fabs (c[1] * c[1] - 4 * p->a * c[0]) < 1e-9)
-        z[0] = -c[1] / (2 * p->a), n = 1;                  /* a tangent, missed by rounding */
+        /* The discriminant of a tangent may come out slightly negative. */
+        z[0] = -c[1] / (2 * p->a), n = 1;
     return n;
 }
 
@@ -244,7 +245,8 @@ static int straight (const cut_quadric *q)
 static void split_box_faces (cut_slices *s, const cut_quadric *q, cut_level *out)
 {
     int x = s->axis[0], y = s->axis[1], z = s->axis[2];
-    cut_quadric *face = s->level[1].q;                     /* workspace that the walk needs only later */
+    /* The next level is free until the walk descends into it. */
+    cut_quadric *face = s->level[1].q;
     for (int f = 0; f < 4; f++) {
         int across = f < 2 ? z : y, along = f < 2 ? y : z;
         s->at[across] = f % 2 ? 1 : -1;

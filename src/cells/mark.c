@@ -220,7 +220,8 @@ int pg_marks_boundary (pg_marks *m, const char *name)
     if (side < 0 && !all) return mark_shape (m, name) || cells_mark_part (m, name);
     for (size_t f = 0; f < m->cells->nfacet; f++)
         if (all || cells_facet_on_side (m, f, side)) cells_mark_facet (m, f);
-    for (size_t i = 0; m->cells->nfacet == 0 && i < m->cloud->n; i++)      /* points from a file */
+    /* Points from a file have no facets: the sides mark points. */
+    for (size_t i = 0; m->cells->nfacet == 0 && i < m->cloud->n; i++)
         for (int s = 0; s < 2 * m->cloud->dim; s++)
             if ((all || s == side) && cells_point_on_side (m, i, s)) m->point[i] = 1;
     return 1;

@@ -100,7 +100,8 @@ static int nearest_edge (const pg_shape *s, const double *x, const double *n)
     double least = INFINITY, area = 0;
     for (size_t i = 0, j = s->nvertex - 1; i < s->nvertex; j = i++)
         area += s->vertex[2 * j] * s->vertex[2 * i + 1] - s->vertex[2 * i] * s->vertex[2 * j + 1];
-    double out = (area > 0) == (s->add != 0) ? 1 : -1;     /* the outward normal is that of the body */
+    /* The outward normal of a subtracted shape points into the shape. */
+    double out = (area > 0) == (s->add != 0) ? 1 : -1;
     for (size_t j = 0; j < s->nvertex; j++) {
         const double *a = s->vertex + 2 * j, *b = s->vertex + 2 * ((j + 1) % s->nvertex);
         double t[2] = {b[0] - a[0], b[1] - a[1]}, size = t[0] * t[0] + t[1] * t[1];

@@ -57,7 +57,8 @@ static pg_status add_one (builder *b, const char *name, int side)
     PG_GROW (b->out->set, b->capacity, b->out->n + 1);
     pg_set *s = &b->out->set[b->out->n];
     memset (s, 0, sizeof *s);
-    b->out->n++;                                           /* from here on cleared with the rest */
+    /* From here on the set is released with all others. */
+    b->out->n++;
     snprintf (s->name, sizeof s->name, "%.56s%s%s", name, side < 0 ? "" : ".",
               side < 0 ? "" : pg_side_names[side]);
     PG_TRY (gather (&s->point, &s->npoint, m, m->point, m->cloud->n, m->cloud->x, side));
@@ -91,7 +92,8 @@ static pg_status add_predefined (builder *b)
     PG_TRY (add_set (b, "all"));
     for (size_t i = 0; i < b->marks.cells->ngiven; i++) {
         const char *name = b->marks.cells->given[i].name;
-        if (pg_sets_find (b->out, name)) continue;         /* the mesh's own left, top ... is there already */
+        /* A set of the mesh called left, top ... has taken the place of the predefined one. */
+        if (pg_sets_find (b->out, name)) continue;
         pg_marks_fill (&b->marks, 0);
         pg_marks_boundary (&b->marks, name);
         PG_TRY (add_set (b, name));
@@ -212,7 +214,8 @@ static pg_status keep_angles (builder *b, const char *name)
         }
         pg_scene_vector (b->scene, 2, v, "%s[%zu]", at, i);
         double span = v[1] - v[0];
-        if (fabs (span) < turn) span = span < 0 ? span + turn : span;      /* [350 deg, 10 deg] passes 0 */
+        /* A range that ends before it begins passes through 0: [350 deg, 10 deg]. */
+        if (fabs (span) < turn) span = span < 0 ? span + turn : span;
         else span = turn;
         r.range[2*i] = v[0], r.range[2*i + 1] = span;
     }

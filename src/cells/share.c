@@ -45,7 +45,8 @@ pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_latti
     cells_sites sites = {0};
     pg_nearest *nearest = NULL;
     size_t dim = (size_t) cells->dim;
-    if (!cells->cut) return PG_OK;                         /* the lattice's own volumes are exact */
+    /* Where nothing is cut the volumes from the lattice are exact. */
+    if (!cells->cut) return PG_OK;
     PG_TRY (cells_sites_create (&sites, lattice, cloud));
     PG_TRY (pg_nearest_create (&nearest, cloud->dim, cloud->n, cloud->x));
     memset (cloud->volume, 0, cloud->n * sizeof *cloud->volume);

@@ -47,7 +47,8 @@ static int body_reaches (const pg_marks *m, size_t f, int side)
     size_t dim = (size_t) m->cells->dim;
     int axis = side / 2, aside = dim > 1 ? 1 << (dim - 1) : 0, reached = aside == 0;
     double face = plane_of (m, side), depth = pg_body_meshes (m->body) ? 1e-6 * m->size : slack (m, face);
-    for (int q = 0; q <= aside; q++) {                     /* the last: the centre */
+    /* The last place is the centre. */
+    for (int q = 0; q <= aside; q++) {
         double x[3] = {0};
         int bit = 0;
         for (int k = 0; k < (int) dim; k++) {

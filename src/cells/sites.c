@@ -38,7 +38,8 @@ pg_status cells_sites_create (cells_sites *s, const pg_lattice *l, const pg_clou
     int next = 0;
     memset (s, 0, sizeof *s);
     for (size_t c = 0; c < cells; c++) kept += l->in[c] != 0;
-    s->l = l, s->centred = kept == cloud->n;               /* there are more vertices than cells */
+    /* There are more vertices than cells, so that the number of points tells what they are. */
+    s->l = l, s->centred = kept == cloud->n;
     for (int k = 0; k < 3; k++)
         s->size[k] = l->count[k] + (k < l->dim && !s->centred), n *= (size_t) s->size[k];
     PG_ALLOC (s->number, n);

@@ -27,7 +27,9 @@ int afford_tiny (const pg_scene *scene)
     return tiny;
 }
 
-/* Uses a scene of its own: faults are reported when the problem is built, once. */
+/* Judges from the scene alone, before the problem is built. It loads a scene of its own:
+ * faults are reported when the problem is built, once. A partial scene, which has faults
+ * already, is concluded here if its geometry is too large to be built only for more faults. */
 pg_status afford_scene (const command *c, pg_forecast *f)
 {
     pg_status status = PG_OK;
@@ -53,7 +55,10 @@ done:
     return status;
 }
 
-/* Ordering and symbolic analysis of the graph of nodes, as the linear solver will do it. */
+/* Ordering and symbolic analysis of the graph of nodes, as the linear solver will do it, with
+ * everything that couples nodes: families, facets of Nitsche supports, patches of the
+ * dilatation. Eliminated supports join a few more nodes than the graph has, so the result is
+ * then not called exact. */
 static pg_status analyse (pg_forecast *f, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -77,7 +82,9 @@ done:
     return status;
 }
 
-/* Beyond 3e5 points the analysis itself takes tens of seconds and is left out. */
+/* The forecast from the built problem; a symbolic analysis replaces the estimate of the factor
+ * if it is asked for, or if the estimate exceeds half of the memory. Beyond 3e5 points the
+ * analysis itself takes tens of seconds and is left out. */
 pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p, int thorough)
 {
     static const double most = 3e5;                    /* points whose graph is analysed: some ten seconds */

@@ -25,7 +25,8 @@ static int is_one_of (const char *word, const char *names)
     return 0;
 }
 
-/* Cuts the value of a list option and checks its words. */
+/* Cuts the value of a list option and checks each word against the names that are allowed; the
+ * message offers the nearest one. */
 static pg_status read_list (const list_option *o, const char *value)
 {
     pg_status status = PG_OK;
@@ -56,7 +57,8 @@ done:
     return status;
 }
 
-/* Reads one option with its value. Options of CalculiX switch it on. */
+/* Reads one option with its value: lists first, from a table, then the others. Options of
+ * CalculiX switch it on. */
 static pg_status read_option (pg_bench_request *q, const char *name, const char *value)
 {
     pg_status status = PG_OK;
@@ -93,7 +95,8 @@ done:
     return status;
 }
 
-/* Reads the command line; without a scene the cantilever of the textbook is taken. */
+/* Reads the command line: words that are no options are scenes. Without a scene the cantilever
+ * of the textbook is taken, the default output folder is out/bench. */
 static pg_status read_arguments (pg_bench_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;
@@ -119,7 +122,8 @@ done:
     return status;
 }
 
-/* --row and --fem-row are what the processes of a benchmark are started with. */
+/* --row and --fem-row are what the processes of a benchmark are started with; they come first
+ * and have a command line of their own. */
 int pg_cli_bench (int argc, char **argv)
 {
     pg_status status = PG_OK;

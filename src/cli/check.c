@@ -1,12 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal check: everything that a run checks before its first step, and what the scene
  * amounts to. The order is that of a run, so that a scene that passes here does not fail
- * there. */
+ * there. Nothing is written, except with --spectrum -o DIR. */
 #include "cli.h"
 #include <math.h>
 
 /* For explicit and relaxation solvers the solver itself is created, because only it knows its
- * time step. */
+ * time step. --solve and --spectrum come last, since they take the longest and everything else
+ * must be right for them. */
 int pg_cli_check (int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -36,7 +36,7 @@ static void print_motion (const pg_motion *m, const pg_symbol *s)
 }
 
 /* Tangent and speeds of long waves over those of the material. Directions with equal steps are
- * alike, so one of them is shown. */
+ * alike, so one of them is shown. Two shear speeds appear if they differ visibly. */
 static void print_tangent (const spectrum *x)
 {
     const double *T = x->survey.tangent;
@@ -159,7 +159,8 @@ void spectrum_json (pg_json *j, const spectrum *x)
  * x 3), the two waves of the continuum (2 x n) and m branches (m x n), all in c_p / h. */
 typedef struct { size_t n, m; double *x, *k, *continuum, *branch; } course;
 
-/* Solves all wave vectors of the path. */
+/* Solves all wave vectors of the path. Modes are sorted by frequency at each place, so
+ * branches may change places where they cross. */
 static pg_status follow (course *c, const pg_symbol *s)
 {
     pg_status status = PG_OK;
@@ -211,7 +212,8 @@ done:
     return status;
 }
 
-/* spectrum.png: the branches, and the waves of the continuum up to the height of the branches. */
+/* spectrum.png: the branches, and the waves of the continuum on the first edge of the zone, up
+ * to the height of the branches: that is where long waves are. */
 static pg_status draw (const course *c, const spectrum *x, const pg_problem *p, const char *folder)
 {
     pg_status status = PG_OK;

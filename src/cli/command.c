@@ -13,6 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
+/* --threads N, 0 to 64; 0 means one for each processor. The text is kept for command_again. */
 static int read_threads (command *c, const char *text)
 {
     char *end;
@@ -50,7 +51,7 @@ static int read_memory (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* --set KEY=VALUE; the key is checked when the scene is loaded. */
+/* --set KEY=VALUE, at most 64 times; the key is checked when the scene is loaded. */
 static int read_set (command *c, const char *text)
 {
     if (c->nset >= sizeof c->set / sizeof *c->set || !strchr (text, '=')) {
@@ -62,7 +63,8 @@ static int read_set (command *c, const char *text)
     return -1;
 }
 
-/* An unknown option or one without its value. */
+/* An unknown option or one without its value: names the nearest option of this command and
+ * prints its usage. Returns the exit code. */
 static int refuse (const char *name, int option, const char *argument)
 {
     if (option == ':') fprintf (stderr, "perigal %s: %s needs a value\n", name, argument);
@@ -87,7 +89,8 @@ static int is_scene (const char *word)
 }
 
 /* Shells split --set method.horizon=2.5 spacing at the blank. Words after the value of a --set
- * that are neither options nor files are taken for the rest of such a value. */
+ * that are neither options nor files are taken for the rest of such a value, and the message
+ * shows the line with quotes. Returns 0 if there are none. */
 int command_unquoted (char *out, size_t size, int argc, char **argv)
 {
     for (int k = 1; k + 1 < argc; k++) {
@@ -175,8 +178,8 @@ pg_status command_scene (const command *c, pg_scene **scene)
     return status == PG_E_FILE ? PG_E_SCENE : status;
 }
 
-/* Each part looks for its faults even if others have found some, and pg_scene_pass keeps them
- * until the end. */
+/* Problem, solver options, output: each part looks for its faults even if others have found
+ * some, and pg_scene_pass keeps them until pg_problem_complete reports all at once. */
 pg_status command_problem (const command *c, const pg_scene *scene, pg_problem **problem,
                            pg_solver_options *o)
 {
@@ -192,7 +195,8 @@ done:
     return status;
 }
 
-/* Faults of a scene begin with file and line; anything else with the name of the program. */
+/* Faults of a scene begin with file and line, where editors find them; anything else begins
+ * with the name of the program. */
 void command_complain (pg_status status, const char *text)
 {
     fprintf (stderr, "%s%s\n", status == PG_E_SCENE ? "" : "perigal: ", text);

@@ -19,7 +19,7 @@ static int complain (const char *format, const char *text)
     return PG_EXIT_USAGE;
 }
 
-/* Up to three lengths "1, -2 mm, 0", in m. */
+/* Up to three lengths "1, -2 mm, 0", in m; a number without a unit is in m. */
 static int read_shift (const char *text, double shift[3])
 {
     char part[64];
@@ -42,7 +42,8 @@ static int read_unit (const char *text, double *unit)
     return pg_unit_parse (unit, one, "m") == PG_OK && *unit > 0;
 }
 
-/* "displacement", "displacement.x", "stress.xx" as a column of compare.h. */
+/* "displacement", "displacement.x", "stress.xx" as a column of compare.h; returns 0 for other
+ * names. */
 static int read_field (const char *text, int *column)
 {
     if (strcmp (text, "displacement") == 0) *column = PG_COMPARE_U;
@@ -111,7 +112,8 @@ static int read_option (pg_comparison_request *q, int *json, int option, const c
     return good ? -1 : complain (faults[option], text);
 }
 
-/* Reads the command line; -1: go on, else the exit code. */
+/* Reads the command line; -1: go on, else the exit code. A folder is needed, a reference may
+ * follow. With --json nothing else is printed. */
 static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
 {
     static const struct option options[] = {
@@ -144,7 +146,7 @@ static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
     return -1;
 }
 
-/* The table for people. */
+/* The table for people: which step, how both sides were sampled, and the norms. */
 static void print_rows (const pg_comparison *c, const pg_comparison_request *q)
 {
     char row[400];
@@ -155,7 +157,7 @@ static void print_rows (const pg_comparison *c, const pg_comparison_request *q)
     for (size_t k = 0; pg_errors_row (&c->errors, k, row, sizeof row); k++) printf ("  %s\n", row);
 }
 
-/* The same file that is left in the folder, on stdout. */
+/* The same file that is left in the folder, copied to stdout. */
 static pg_status print_json (const pg_comparison_request *q)
 {
     pg_status status = PG_OK;

@@ -35,7 +35,7 @@ done:
     return status;
 }
 
-/* Reads one option with its value. */
+/* Reads one option with its value; options without one are read by read_arguments. */
 static pg_status read_option (pg_converge_request *q, const char *name, const char *value)
 {
     pg_status status = PG_OK;

@@ -7,6 +7,8 @@
 
 /* The line of description of a catalogue entry; one function per catalogue follows. */
 typedef const char *(*summary_of) (const char *name);
+/* The line of description of a force. The functions below do the same for the other
+ * catalogues; an unknown name has "". */
 static const char *of_force (const char *n)
 {
     const pg_force_type *t = pg_force_find (n);
@@ -81,7 +83,7 @@ int pg_cli_list (int argc, char **argv)
     return PG_EXIT_DONE;
 }
 
-/* All keys of the scene, one per line. */
+/* All keys of the scene, one per line, in the order of the folders that own them. */
 static void all_keys (void)
 {
     size_t n;

@@ -41,7 +41,8 @@ static void usage (FILE *to)
 
 /* Starts the program again with an environment that limits OpenMP to one thread: the OpenMP
  * threads of CHOLMOD only slow it down beside a threaded BLAS, and only the environment at the
- * start of the process limits them. */
+ * start of the process limits them. If OMP_THREAD_LIMIT is set already, by the user or by this
+ * function, nothing is done. If the program cannot be started again, it goes on as it is. */
 static void settle_threads (int argc, char **argv)
 {
     char count[16];

@@ -74,7 +74,8 @@ void plan_doubts (const pg_problem *p, const pg_solver_options *o)
     for (size_t k = 0; pg_solver_note (p, o, k, note, sizeof note); k++) printf ("  %s\n", note);
 }
 
-/* Flushed, because progress goes to the other stream. */
+/* The short form, before the progress of a run begins; flushed, because progress goes to the
+ * other stream. */
 void plan_print (const pg_problem *p, const pg_solver_options *o)
 {
     char text[400];
@@ -181,7 +182,8 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     return n;
 }
 
-/* Volume and surface of cut cells beside the exact ones, where these are known. */
+/* Volume and surface of cut cells beside the exact ones, where these are known: they show how
+ * well the cells represent curved surfaces. */
 static void print_cut (const pg_problem *q)
 {
     double volume = 0, area = 0, exact_volume, exact_area;
@@ -194,7 +196,8 @@ static void print_cut (const pg_problem *q)
     printf ("\n");
 }
 
-/* Layers of cells beyond the sides of the body. */
+/* Layers of cells beyond the sides of the body: rows of cells, thickness, and where they
+ * begin. */
 static void print_layers (const pg_problem *q)
 {
     static const char *const sides[] = {"left", "right", "bottom", "top", "back", "front"};
@@ -238,7 +241,9 @@ static void print_counts (const plan *p)
             q->approx.horizon / q->cloud.h, (double) first[1] / (double) q->cloud.n);
 }
 
-/* The constants of each material and its wave speeds. */
+/* The constants of each material and its wave speeds; Lame's constants are those of the mode
+ * (plane stress has its own lambda), Rayleigh waves exist in isotropic materials with a
+ * density only. */
 static void print_materials (const pg_problem *p)
 {
     for (size_t k = 0; k < p->nmaterial; k++) {
@@ -258,7 +263,8 @@ static void print_materials (const pg_problem *p)
     }
 }
 
-/* Time steps, and what would be stable for explicit ones. */
+/* Time steps or stages, and what would be stable for explicit ones. Without shape functions
+ * the stable step is known only once it has been measured. */
 static void print_times (const plan *p)
 {
     plan_times t = plan_times_of (p);
@@ -279,8 +285,8 @@ static void print_times (const plan *p)
                                 : "estimate; measured by --solve");
 }
 
-/* The linear solver and the size of its factor; seconds at 20 GFLOP/s are a rough measure
- * only. */
+/* The linear solver and the size of its factor; "analysed" numbers are exact, others are
+ * estimates. Seconds at 20 GFLOP/s are a rough measure only. */
 static void print_factor (const pg_forecast *f)
 {
     printf ("  %-18s  %s", "linear solver",
@@ -352,7 +358,8 @@ static void print_first_break (const plan *p)
                 b->factor);
 }
 
-/* The error of the patch test. */
+/* The error of the patch test: how far the discretization is from reproducing a uniform
+ * strain. */
 static void print_patch (const pg_problem *p)
 {
     char words[240];

@@ -120,7 +120,7 @@ static void memory (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* The first break, if it was asked for. */
+/* The first break, if it was asked for and the scene is static. */
 static void first (pg_json *j, const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -136,7 +136,7 @@ static void first (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* Warnings and notes. */
+/* Warnings and notes that are known before the run. */
 static void doubts (pg_json *j, const plan *p)
 {
     pg_statistics report = { 0 };
@@ -151,7 +151,7 @@ static void doubts (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* Writes everything to a file. */
+/* Writes everything to a file; a failure of the writer is reported when it closes. */
 static pg_status write_plan (const plan *p, const char *path)
 {
     pg_status status = PG_OK;
@@ -182,7 +182,8 @@ done:
     return status;
 }
 
-/* The JSON writer replaces whole files, so the text passes through a temporary one. */
+/* The JSON writer replaces whole files, so the text passes through a temporary one (TMPDIR, or
+ * /tmp), which is removed. */
 pg_status plan_print_json (const plan *p)
 {
     pg_status status = PG_OK;

@@ -12,6 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
+/* The whole help of the command; the summary in command.c is shorter. */
 static const char usage[] =
     "usage: perigal plot DIR [--field NAME[.x|.xx|.magnitude]] [--component NUMBER|x|xx|magnitude] [--step "
     "N|all | --steps N,N,...]\n"
@@ -66,7 +67,8 @@ done:
     return status;
 }
 
-/* Up to `most` steps "3,5,8"; negative ones count from the end. */
+/* Up to `most` steps "3,5,8"; negative ones count from the end. Whether they exist is known
+ * only when the result is open (count_steps). */
 static pg_status read_steps (plot_request *q, const char *name, const char *text, int most)
 {
     pg_status status = PG_OK;
@@ -100,7 +102,8 @@ static pg_status read_panels (plot_request *q, const char *text)
     return read_steps (q, "--steps", text, PLOT_STEPS);
 }
 
-/* --view SIDE, iso or crack; a view and a section exclude each other. */
+/* --view SIDE, iso or crack; a view and a section exclude each other. The list of names begins
+ * with "section", which is no view. */
 static pg_status read_view (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -147,7 +150,8 @@ static pg_status read_above (plot_request *q, const char *text)
     return read_number ("--above", text, -INFINITY, &q->style.above);
 }
 
-/* --range LOW,HIGH: the ends of the colour bar. */
+/* --range LOW,HIGH: the ends of the colour bar, in the unit of the field; values beyond it get
+ * the colours of the ends, and the bar ends in arrows. */
 static pg_status read_range (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -194,7 +198,8 @@ done:
 static pg_status read_sets (plot_request *q, const char *text) { (void) text, q->sets = 1; return PG_OK; }
 static pg_status read_list (plot_request *q, const char *text) { (void) text, q->list = 1; return PG_OK; }
 static pg_status read_log (plot_request *q, const char *text) { (void) text, q->style.log = 1; return PG_OK; }
-/* "stress", or as in output.pictures "stress.yy". */
+/* "stress", or as in output.pictures "stress.yy": the part behind the last dot counts only if
+ * it is the name of a component. */
 static pg_status read_field (plot_request *q, const char *text)
 {
     const char *dot = strrchr (text, '.');
@@ -239,14 +244,15 @@ done:
     return status;
 }
 
-/* DIR/result.e means DIR. */
+/* DIR/result.e means DIR. The path is shortened in place. */
 static void cut_result (char *path)
 {
     size_t n = strlen (path);
     if (n > 9 && strcmp (path + n - 9, "/result.e") == 0 && pg_plot_is_file (path)) path[n - 9] = 0;
 }
 
-/* Reads the command line and what excludes each other. */
+/* Reads the command line: one folder or file, options in any order. Checks what excludes each
+ * other and that the folder exists. */
 static pg_status read_arguments (plot_request *q, int argc, char **argv)
 {
     pg_status status = PG_OK;

@@ -53,6 +53,7 @@ typedef struct {
     double *line[2];
 } run_curve;
 
+/* The help of plot --curve. */
 static const char usage[] =
     "usage: perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--abs [x|y|xy]] "
     "[--log x|y|xy] [--markers]\n"
@@ -117,7 +118,7 @@ static int is_one_of (const char *column, const char *list)
 }
 
 /* 1 for columns that need not be 0 without load: damage of pre-cracks and the length of their
- * tips, and counts. */
+ * tips, which are there before any load, and counts of the solver. */
 static int starts_elsewhere (const pg_scene *scene, const char *column)
 {
     for (size_t i = 0; i < pg_scene_count (scene, "output.tips"); i++)
@@ -157,7 +158,8 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
 }
 
 /* ---- one run ------------------------------------------------------------------------------------------- */
-/* Reads both columns of a run, and its load factors where the table has them. */
+/* Reads both columns of a run, and its load factors where the table has them (0 otherwise). A
+ * table without rows belongs to a run that has just begun. */
 static pg_status read_rows (run_curve *c, const char *directory, const char *const *wanted)
 {
     pg_status status = PG_OK;
@@ -183,7 +185,8 @@ done:
 }
 
 /* The line that is drawn: the rows, from the origin on where the run starts unloaded; of a
- * path of events on which the load falls and rises, its envelope. */
+ * path of events on which the load factor falls and rises, its envelope. Without such a fall
+ * the path is its own envelope. c->peak: the place of largest |y|. */
 static pg_status choose_line (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -233,7 +236,7 @@ static void name_of_folder (const char *path, char *out, size_t size)
 }
 
 /* Names in the legend: the labels, one per folder, or the folders (with the whole path where
- * two have one name). */
+ * two have one name). PG_E_USAGE if the number of labels is not that of the folders. */
 static pg_status name_curves (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -256,8 +259,8 @@ done:
     return status;
 }
 
-/* Applies --negate and --abs, and says so in the labels; step, time and load factor keep their
- * sign. */
+/* Applies --negate and --abs, and says so in the labels (a minus sign, bars); step, time and
+ * load factor keep their sign. 0 - x instead of -x, which would show -0. */
 static void change_signs (const request *q, run_curve *c)
 {
     for (int k = 0; k < 2; k++) {
@@ -293,7 +296,7 @@ static void name_picture (const request *q, char *path, size_t size)
 }
 
 /* A ring at the peak of every curve; the value stands beside it, or in the legend if there are
- * several curves. */
+ * several curves. note: text for a single curve, which must live as long as the marks. */
 static void mark_peaks (const request *q, run_curve *c, pg_chart_mark *mark, char *note, size_t size)
 {
     char value[CELL / 4], place[CELL / 4];
@@ -326,7 +329,8 @@ done:
     return status;
 }
 
-/* Reads, chooses the lines, draws. */
+/* Reads, chooses the lines, draws. Signs are changed before the envelope is sought, which
+ * depends on them. Runs of one or two rows get markers, since a line would not be seen. */
 static pg_status draw (const request *q, const char *path)
 {
     pg_status status = PG_OK;

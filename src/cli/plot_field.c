@@ -68,7 +68,7 @@ static int number_of (const char *text, int most)
     return end == text || *end || k < 0 || k >= most ? -1 : (int) k;
 }
 
-/* Index of a component by name ("yy") or number; -1: there is none of that name. */
+/* Index of a component by its name ("yy") or number; -1 if there is none. */
 static int component_of (const char *wanted, const char *names, int m)
 {
     int k = pg_plot_index (wanted, names);
@@ -76,7 +76,7 @@ static int component_of (const char *wanted, const char *names, int m)
 }
 
 /* The component that is asked for by name or number; by default the magnitude of a vector and
- * xx of a tensor. */
+ * xx of a tensor. Also the name on the colour bar. */
 static pg_status choose_component (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -179,8 +179,9 @@ done:
     return status;
 }
 
-/* The mesh of the run, unless it is gone or its nodes are not the points any more. Fields are
- * drawn on its elements unless something broke, since these would hide the crack. */
+/* The mesh of the run, unless it is gone or its nodes are not the points any more (to 1e-6 of
+ * the spacing). Fields are drawn on its elements unless something broke in the steps that are
+ * shown, since these would hide the crack; damage itself is always drawn by points. */
 static pg_status read_part (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -195,7 +196,8 @@ done:
     return status;
 }
 
-/* Opens the result; keys for 3D views are refused for others. */
+/* Opens the result: points, steps, components and unit of the field; keys for 3D views are
+ * refused for others. The copied scene is optional. */
 static pg_status open_source (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
@@ -228,7 +230,8 @@ static void close_source (source *s)
     pg_cloud_clear (&s->cloud);
 }
 
-/* "time 2 ms", "load factor 0.5", or with event stepping "event 12, load factor 0.5". */
+/* "time 2 ms", "load factor 0.5", or with event stepping "event 12, load factor 0.5"; without
+ * the scene, which says what the time means, "step 3, time 0.5". */
 static void name_stage (const plot_request *q, const source *s, int step, char *text, size_t size)
 {
     const char *kind = s->scene ? pg_scene_text (s->scene, "solver.kind") : "",
@@ -247,7 +250,8 @@ static void name_stage (const plot_request *q, const source *s, int step, char *
     else snprintf (text, size, "load factor %.4g", factor);
 }
 
-/* Reads what a picture of one step needs. */
+/* Reads what a picture of one step needs: the field and its component; displacements and
+ * damage if the body is drawn deformed; damage for the view crack. */
 static pg_status read_stage (const plot_request *q, const source *s, int step, stage *g)
 {
     pg_status status = PG_OK;
@@ -317,8 +321,8 @@ done:
     return status;
 }
 
-/* The final range: blue to red where both signs occur to more than a trace, damage 0 to 1, or
- * what was given. */
+/* The final range: blue to red where both signs occur to more than a trace (2 % of the
+ * larger), damage 0 to 1, or what was given; logarithmic colours find their own. */
 static void settle_range (const plot_request *q, pg_picture_style *style)
 {
     /* not for a trace of the other sign */
@@ -384,8 +388,8 @@ done:
     return status;
 }
 
-/* Every step as a picture of its own; steps are read twice, which keeps one of them in memory
- * at a time. */
+/* Every step as a picture of its own. Steps are read twice, once for the common range of the
+ * colours and once to be drawn, which keeps one of them in memory at a time. */
 static pg_status draw_each (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;

@@ -32,7 +32,7 @@ static const pg_mesh_field *find_field (const fem *f, const char *name)
     return NULL;
 }
 
-/* The same, with a message that names all fields if there is none. */
+/* The field of that name; PG_E_USAGE with all names, and the nearest one, if there is none. */
 static pg_status need_field (const plot_request *q, const fem *f, const char *name, const pg_mesh_field **out)
 {
     pg_status status = PG_OK;
@@ -107,7 +107,8 @@ done:
     return status;
 }
 
-/* The displacements of the nodes. */
+/* The displacements of the nodes in the dimension of the mesh; files of plane results may have
+ * three components. */
 static pg_status choose_displacement (const plot_request *q, fem *f)
 {
     pg_status status = PG_OK;

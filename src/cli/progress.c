@@ -11,7 +11,8 @@
  * most. */
 enum { LINE = 400, NARROW = 20, FULL = 3 };
 
-/* Both marks of the pace begin at the start of the run. */
+/* Both marks of the pace begin at the start of the run. stderr is asked whether it is a
+ * terminal. */
 void progress_start (progress *p, int quiet, const pg_solver_options *o)
 {
     double now = pg_seconds ();
@@ -73,9 +74,9 @@ static void add_step (char *line, const progress *p, const pg_progress *at, cons
     add (line, text);
 }
 
-/* Time passed, and time left if shares of the run take even times. Nobody knows how many
- * rounds of breaking will follow, so nothing is said during one; with event stepping it is an
- * upper bound. */
+/* Time passed, and the time left if shares of the run take even times: it follows from the
+ * pace since the first mark. Nobody knows how many rounds of breaking will follow, so nothing
+ * is said during one; with event stepping it is an upper bound. */
 static void add_time (char *line, const progress *p, const pg_progress *at, double now, int breaking)
 {
     char word[32], text[64];
@@ -97,7 +98,8 @@ static void add_number (char *line, const char *format, double value)
     add (line, text);
 }
 
-/* The line with `full` details: 0 the least, FULL everything. */
+/* The line with `full` details: 0 the least, FULL everything: share of the run, step, load
+ * factor, stiffness and damage for stop conditions, broken bonds, residual, time. */
 static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step,
                      const pg_statistics *r, double now, int within)
 {
@@ -123,7 +125,8 @@ static size_t width_of_terminal (void)
     return ioctl (2, TIOCGWINSZ, &size) == 0 && size.ws_col >= NARROW ? size.ws_col : 80;
 }
 
-/* Takes details away until the line fits the terminal. */
+/* Takes details away until the line fits the terminal. "\r" goes back to its start, and ESC [
+ * K clears the rest of it. */
 static void write_line (const progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *r,
                         double now, int within)
 {

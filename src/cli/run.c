@@ -15,9 +15,9 @@
 static volatile sig_atomic_t asked_to_stop;
 static void on_signal (int number) { asked_to_stop = number; }
 
-/* The first signal asks for a checkpoint, the second one of its kind ends the program
- * (SA_RESETHAND). Signals that the caller ignores (nohup) stay ignored. A file that grows
- * beyond its limit is an error of writing, not a signal. */
+/* The first SIGINT, SIGTERM or SIGHUP asks for a checkpoint, the second one of its kind ends
+ * the program (SA_RESETHAND). Signals that the caller ignores (nohup) stay ignored, SIGINT
+ * excepted. A file that grows beyond its limit is an error of writing, not a signal. */
 static void settle_signals (void)
 {
     static const int asking[] = { SIGINT, SIGTERM, SIGHUP };
@@ -129,7 +129,9 @@ static void show (watched *w, const pg_step *step)
     progress_show (&w->shown, &at, step, pg_solver_report_now (w->solver), w->within);
 }
 
-/* Called between the rounds of breaking in a step: stages, progress, interruption, checkpoint. */
+/* Called between the rounds of breaking in a step: writes a stage if one is due, shows
+ * progress, ends the run if a signal asked for that, writes a checkpoint if one is due.
+ * w->within tells `advance` afterwards whether it was this function that ended the step. */
 static pg_status look (void *context, const pg_state *state, const pg_step *so_far)
 {
     pg_status status = PG_OK;
@@ -180,8 +182,8 @@ static int keep_for_later (const watched *w)
     return pg_result_checkpoint (w->result, w->state) == PG_OK;
 }
 
-/* A new result, or a resumed one. Other numbers of threads may change the last digits of
- * library calls. */
+/* A new result, or a resumed one; --force first discards what an unfinished run left. Other
+ * numbers of threads may change the last digits of library calls, which is said. */
 static pg_status open_result (const command *c, const char *folder, const pg_scene *scene,
                               const pg_problem *problem, pg_solver *solver, watched *w)
 {

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The body: shapes added and subtracted in the order of the scene. A position on a surface belongs to the
- * body. */
+ * body. Later shapes win: what is subtracted may be filled again by a shape that is added after it. */
 #include "shape.h"
 #include <math.h>
 #include <stdio.h>
@@ -111,7 +111,8 @@ int pg_body_inside (const pg_body *body, const double *x, double tolerance)
     int in = 0;
     for (size_t i = 0; i < body->n; i++) {
         const pg_shape *s = &body->shape[i];
-        if (in == s->add) continue;                        /* would change nothing */
+        /* An added shape cannot take away, a subtracted one cannot add. */
+        if (in == s->add) continue;
         double d = pg_shape_types[s->kind].distance (s, body->dim, x, tolerance);
         in = s->add ? d <= tolerance : !(d < -tolerance);
     }

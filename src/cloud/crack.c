@@ -2,7 +2,10 @@
  * Which bonds does a crack cut? One rule for crossing, touching and lying in the crack: the part of the
  * bond that lies within the tolerance of the crack's line or plane is compared with the crack there, grown
  * by the tolerance. The ends of a bond are put in a fixed order first, so that x - y and y - x have the
- * same bits. */
+ * same bits.
+ *
+ * `retreat` takes strips along tips and fronts away from a crack (model/tips.c chooses their widths): bonds
+ * that cross the crack there are not cut. */
 #include "perigal/cloud.h"
 #include "polygon.h"
 #include <math.h>
@@ -42,6 +45,7 @@ static double distance_segments (const double *a, const double *b, const double 
     double p = fmin (distance_point (3, a, c, d), distance_point (3, b, c, d));
     double q = fmin (distance_point (3, c, a, b), distance_point (3, d, a, b)), least = fmin (p, q);
     for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = d[k] - c[k], w[k] = c[k] - a[k];
+    /* Parameters of the nearest points of the two lines, by Cramer's rule. */
     double uu = dot (3, u, u), vv = dot (3, v, v), uv = dot (3, u, v), det = uu*vv - uv*uv;
     if (!(det > 1e-14 * uu * vv)) return least;
     double s = (dot (3, u, w) * vv - dot (3, v, w) * uv) / det,
@@ -60,6 +64,7 @@ static int meets_segment (const pg_crack *c, const double *a, const double *b, d
     double r[2] = {a[0] - p[0], a[1] - p[1]}, s[2] = {b[0] - p[0], b[1] - p[1]};
     double i = dot (2, t, r), j = dot (2, t, s);
     double first = c->retreat ? c->retreat[0] : 0, last = c->retreat ? c->retreat[1] : 0;
+    /* What the retreats leave of the crack, along its direction t. */
     double low = e > 0 ? first : e + last, high = e > 0 ? e - last : -first;
     return fmax (i, j) >= low - tolerance && fmin (i, j) <= high + tolerance;
 }
@@ -166,6 +171,7 @@ static int meets_polygon (const pg_crack *c, const double *a, const double *b, d
 {
     if (c->retreat) return meets_what_is_left (c, a, b, tolerance);
     if (in_polygon (c, a) || in_polygon (c, b)) return 1;
+    /* Neither end inside: the chord can only meet the outline. */
     for (size_t m = 0, l = c->nvertex - 1; m < c->nvertex; l = m++)
         if (distance_segments (a, b, c->vertex + 3*l, c->vertex + 3*m) <= tolerance) return 1;
     return 0;

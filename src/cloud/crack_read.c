@@ -99,6 +99,7 @@ static const char *polygon_fault (const pg_crack *c, double *flat)
         off = fmax (off, fabs (d));
     }
     if (!(length (3, c->normal) > 0)) return "has no area";
+    /* Vertices are often rounded to five or six digits. */
     if (!(off <= 1e-5 * size)) return "is not plane";
     for (int m = 1; m < 3; m++) if (fabs (c->normal[m]) > fabs (c->normal[k])) k = m;
     for (size_t i = 0; i < c->nvertex; i++)

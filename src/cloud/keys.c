@@ -84,7 +84,9 @@
         .doc = "Only these blocks of the mesh, by name or number; default all." \
     }
 
+/* Each row is one key of a scene: path, kind, unit, range, default, group and the text of `perigal help`. */
 static const pg_key keys[] = {
+    /* Where points come from: a body of shapes, a file of points, or a mesh (group "origin"). */
     { .path = "body",
       .kind = PG_LIST,
       .fallback = "",
@@ -108,6 +110,7 @@ static const pg_key keys[] = {
       .group = "op:one",
       .doc = "The shape is cut out of the body." },
     SHAPES ("body[].subtract"),
+    /* Boundary layers around a body of shapes. */
     { .path = "layers",
       .kind = PG_LIST,
       .fallback = "",
@@ -134,6 +137,7 @@ static const pg_key keys[] = {
       .doc = "Over the whole face of the bounding box, or only over the part that the body reaches: from "
              "the first to the last place along the face with the body half a cell below it (the foot of "
              "an L; one box, also across a notch)." },
+    /* The other two origins. */
     { .path = "points",
       .kind = PG_FILE,
       .fallback = "",
@@ -171,6 +175,7 @@ static const pg_key keys[] = {
       .choices = "local|equal",
       .doc =
           "Support of a point: horizon in units of the local spacing, or of the mean spacing everywhere." },
+    /* The lattice over a body of shapes. */
     { .path = "spacing",
       .kind = PG_NUMBER,
       .unit = "m",
@@ -189,6 +194,7 @@ static const pg_key keys[] = {
       .range = "[-1, 1]",
       .fallback = "",
       .doc = "Shift of the lattice against the bounding box, in steps of the lattice." },
+    /* Random shifts of points. */
     { .path = "perturb",
       .kind = PG_MAP,
       .fallback = "",
@@ -205,6 +211,7 @@ static const pg_key keys[] = {
       .range = "[0, inf)",
       .fallback = "1",
       .doc = "Seed of the random numbers: another seed gives another arrangement." },
+    /* Pre-cracks: a segment in 2D, a polygon or a disc in 3D. */
     { .path = "cracks",
       .kind = PG_LIST,
       .fallback = "",

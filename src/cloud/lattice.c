@@ -17,7 +17,8 @@ double pg_lattice_tolerance (const pg_lattice *l)
         step = fmin (step, l->step[k]);
         size = fmax (size, fmax (fabs (l->origin[k]), fabs (l->high[k])));
     }
-    return 1e-9 * step + 8 * DBL_EPSILON * size;  /* far from the origin rounding is coarser than 1e-9 step */
+    /* The second term is the rounding of coordinates far from the origin. */
+    return 1e-9 * step + 8 * DBL_EPSILON * size;
 }
 
 /* Number of cells of the body without its layers, in [low, high]; *more: those of the layers on both
@@ -44,6 +45,7 @@ static pg_status fit_axes (pg_lattice *l, const pg_body *body, double spacing, c
         double low, high, more, cells = cells_along (body, k, spacing, &low, &high, &more);
         double shift = offset ? offset[k] - ceil (offset[k]) : 0;                  /* in (-1, 0] */
         vertices *= cells + more + 2;
+        /* Counted as floating-point numbers, which cannot overflow. */
         if (!(vertices < INT_MAX))
             PG_FAIL (PG_E_LIMIT, "spacing %g m gives more than %d cells", spacing, INT_MAX);
         l->step[k]   = (high - low) / cells;

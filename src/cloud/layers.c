@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes, in which
- * displacements are prescribed (doc/method.md B3). */
+ * Fictitious boundary layers: boxes of whole lattice cells outside the bounding box of the shapes. A
+ * displacement prescribed in a layer as deep as the horizon constrains the points of the body as material
+ * would (doc/method.md B3). The lattice of the body itself is not changed by its layers: steps follow from
+ * the extent without them, and thicknesses are rounded to whole cells. */
 #include "shape.h"
 #include <limits.h>
 #include <math.h>
@@ -166,10 +168,12 @@ pg_status pg_layers_read (pg_body *body, const pg_scene *scene)
     if (n == 0) return PG_OK;
     refuse (scene);
     PG_TRY (pg_scene_verdict (scene));
-    if (body->n == 0 || !(pg_scene_number (scene, "spacing") > 0)) return PG_OK;  /* a fault, found later */
+    /* Without shapes or a spacing there is a fault that other checks report. */
+    if (body->n == 0 || !(pg_scene_number (scene, "spacing") > 0)) return PG_OK;
     memcpy (low, body->low, sizeof low), memcpy (high, body->high, sizeof high);
     PG_ALLOC (body->layer, n);
-    const pg_body bare = *body;                            /* without layers */
+    /* The body without layers, for questions where it lies. */
+    const pg_body bare = *body;
     for (size_t i = 0; i < n; i++) {
         pg_layer *layer = &body->layer[i];
         double reach;

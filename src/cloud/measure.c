@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Volume and surface of a body of one shape: in closed form, or by quadrature over the elements of a mesh. */
+ * Volume and surface of a body of one shape: in closed form, or by quadrature over the elements of a mesh.
+ * The plan of a run compares these with the sums over cells and facets. */
 #include "shape.h"
 #include "polygon.h"
 #include <math.h>

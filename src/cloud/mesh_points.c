@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Points at the nodes of a mesh: lumped volumes, local spacings, random shifts. */
+ * Points at the nodes of a mesh: lumped volumes, local spacings, random shifts.
+ *
+ * The sum of the volumes is the volume of the elements. The spacing of a point is the mean length of the
+ * edges at its node, but at least 0.6 of the longest one: with a horizon of 1.7 spacings both ends of every
+ * edge see each other, however graded the mesh is, so that neighbouring points are always coupled. */
 #include "place.h"
 #include "mesh_body.h"
 #include <math.h>
@@ -93,6 +97,7 @@ static void collect (edges *at, const pg_mesh_body *b, int corners)
                 length += pow (m->x[3 * (size_t) node[end[0]] + (size_t) a]
                                    - m->x[3 * (size_t) node[end[1]] + (size_t) a],
                                2);
+            /* Half an edge, where points lie in the middle of edges. */
             length = sqrt (length) * (t->order == 2 && !corners ? 0.5 : 1);
             for (int i = 0; i < 2; i++) add_edge (&at[b->point[node[end[i]]]], length);
             for (int i = t->corners; i < t->nodes && !corners; i++) add_edge (&at[b->point[node[i]]], length);
@@ -135,6 +140,7 @@ static pg_status perturb (pg_cloud *c, const pg_mesh_body *b, double amount, uin
     if (!(amount > 0)) return PG_OK;
     PG_ALLOC (outside, c->n);
     PG_TRY (pg_mesh_surface (m, &n, &element, &side));
+    /* Points on the surface stay, so that the boundary keeps its shape. */
     for (size_t f = 0; f < n; f++) {
         int node[9],
             count = pg_element_types[pg_element_face ((pg_element) m->kind[element[f]], side[f], node)].nodes;

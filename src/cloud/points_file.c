@@ -1,7 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * points: FILE. One point per line, x [y [z]] volume [block] [spacing], separated by commas or blanks; #
  * starts a comment. A header line may come first: it names the columns, in any order, with their units in
- * brackets (and must, for a spacing without a block). */
+ * brackets (and must, for a spacing without a block).
+ *
+ *     x [mm], y [mm], volume [mm3], block
+ *     0.5, 0.5, 1, 0
+ *
+ * Two points at one position are a fault, because a bond between them would have no length. */
 #include "points_file.h"
 #include "place.h"
 #include <errno.h>
@@ -337,7 +342,8 @@ static pg_status read_text (reader *r, pg_cloud *cloud)
 {
     pg_status status = PG_OK;
     char *line = r->text;
-    if (!strncmp (line, "\xEF\xBB\xBF", 3)) line += 3;     /* byte order mark */
+    /* Some programs begin a file with the byte order mark of UTF-8. */
+    if (!strncmp (line, "\xEF\xBB\xBF", 3)) line += 3;
     while (*line) {
         size_t length = strcspn (line, "\n");
         char *next = line + length + (line[length] == '\n');

@@ -82,10 +82,12 @@ const char *pg_polygon_fault (size_t n, const double *v)
     }
     for (size_t i = 0; i < n; i++)
         for (size_t j = i + 2; j < n; j++) {
-            if (i == 0 && j == n - 1) continue;            /* neighbours share a vertex */
+            /* The first and the last edge share a vertex. */
+            if (i == 0 && j == n - 1) continue;
             if (edges_meet (v + 2 * i, v + 2 * (i + 1), v + 2 * j, v + 2 * ((j + 1) % n)))
                 return "touches or crosses itself";
         }
+    /* An area below 1e-9 of the square of the extent is none. */
     double size = fmax (high[0] - low[0], high[1] - low[1]);
     return fabs (pg_polygon_area (n, v)) > 1e-9 * size * size ? NULL : "has no area";
 }

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Shapes: reading from the scene, signed distance from the surface (exact, negative inside), bounding box. */
+ * Shapes: reading from the scene, signed distance from the surface (exact, negative inside), bounding box.
+ *
+ * Distances must be true ones, not only of the right sign: pg_body_inside with a radius as tolerance also
+ * answers whether a ball may meet the body (crack_read.c). For intersections of two sets whose surfaces are
+ * at right angles (cylinder, prism) the distance is sqrt (p^2 + q^2) outside both, else the larger one. */
 #include "shape.h"
 #include "polygon.h"
 #include <math.h>

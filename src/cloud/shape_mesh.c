@@ -48,7 +48,8 @@ double shape_mesh_distance (const pg_shape *s, int dim, const double *x, double 
 {
     double near = 1000 * fabs (reach) / s->solid->part.smallest, xi[3];
     (void) dim;
-    if (near < 0.1) {                                      /* most places are far from the surface */
+    /* Most places are far from the surface. */
+    if (near < 0.1) {
         double depth = pg_mesh_locator_depth (s->solid->locator, x, fmax (near, 1e-8));
         if (fabs (depth) >= fmax (near, 1e-8)) return depth > 0 ? -HUGE_VAL : HUGE_VAL;
     }

@@ -10,8 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The quadrature of the background cells with *order points per direction. A body without
- * cells is measured by the volumes of its points, and *order becomes 0. */
+/* The quadrature of the background cells with *order points per direction, thickness included.
+ * A body without cells is measured by the volumes of its points, and *order becomes 0. */
 static pg_status quadrature (pg_quadrature *q, const pg_problem *p, int *order)
 {
     pg_status status = PG_OK;
@@ -27,7 +27,9 @@ done:
     return status;
 }
 
-/* |u - u_ref| at the points of the body, which also take part in the maximum norm. */
+/* |u - u_ref| at the points of the body (out->difference), which also take part in the maximum
+ * norm: between quadrature points the largest error often lies at the boundary, where points
+ * are. Points outside the condition, and those without a value, are NAN. */
 static pg_status at_points (pg_errors *out, const pg_problem *p, const pg_sampler *value,
                             const pg_sampler *reference, const pg_expression *where)
 {

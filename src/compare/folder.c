@@ -73,9 +73,10 @@ static char *cut_line (char *text, const char *mark)
     return text + start + strlen (mark);
 }
 
-/* Removes what `perigal run` appended: *from becomes the path of the original scene (NULL if
- * not noted), set the --set options in the order in which they were given. Lines are removed
- * from the end, so the order is reversed at last. Returns the number of options. */
+/* Removes what `perigal run` appended to the text: *from becomes the path of the original
+ * scene (NULL if not noted), set the --set options in the order in which they were given.
+ * Lines are removed from the end, so the order is reversed at last. Returns the number of
+ * options. */
 static size_t cut_settings (char *text, char **set, const char **from)
 {
     size_t n = 0;
@@ -92,8 +93,9 @@ static size_t cut_settings (char *text, char **set, const char **from)
     return n;
 }
 
-/* Relative file names in the scene refer to the folder of the original scene: noted in the
- * copy, or in older folders in report.json; the copy itself is the last resort. */
+/* The copy is parsed as if it stood at the place of the original, because relative file names
+ * in the scene refer to that folder: noted in the copy, or in older folders in report.json;
+ * the copy itself is the last resort. */
 pg_status pg_stored_scene (pg_scene **out, const char *folder)
 {
     pg_status status = PG_OK;

@@ -35,7 +35,9 @@ typedef struct {
     const double *along;
 } reader;
 
-/* Cuts at commas (semicolons, tabs), takes off blanks and quotes. */
+/* Cuts a row at commas, semicolons or tabs and takes blanks and quotes off the cells, in
+ * place. Returns the number of cells, which may exceed MOST_COLUMNS; only so many are filled
+ * in. */
 static size_t split (char *row, char *cell[MOST_COLUMNS])
 {
     size_t n = 0;
@@ -85,7 +87,8 @@ done:
     return status;
 }
 
-/* Reads the first row; at least one coordinate and one value are needed. */
+/* Reads the first row and so fixes meaning and unit of each column; at least one coordinate
+ * and one value are needed, else the file is no such table. */
 static pg_status read_header (reader *r, char *row)
 {
     pg_status status = PG_OK;
@@ -130,7 +133,8 @@ done:
     return status;
 }
 
-/* Appends a row. Places must be complete; values may be missing. */
+/* Appends a row: coordinates that are no columns come from `along`. Places must be complete;
+ * values may be missing. */
 static pg_status read_row (reader *r, char *row)
 {
     pg_status status = PG_OK;
@@ -157,7 +161,8 @@ done:
     return status;
 }
 
-/* A byte order mark at the beginning, which spreadsheets write, is skipped. */
+/* The first line that is neither empty nor a comment is the header. A byte order mark at the
+ * beginning, which spreadsheets write, is skipped. */
 pg_status pg_line_read (pg_line *out, const char *path, int dim, double unit, double factor,
                         const double *along)
 {
@@ -199,6 +204,7 @@ done:
     return status;
 }
 
+/* May be called twice. */
 void pg_line_clear (pg_line *line)
 {
     pg_free (line->x), pg_free (line->value);

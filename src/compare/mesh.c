@@ -78,8 +78,9 @@ static pg_status sample_fem (void *context, size_t n, const double *x, double *u
     return PG_OK;
 }
 
-/* Reads mesh and displacements of a step; results of one layer of 3D elements become plane.
- * PG_E_FILE if there is no displacement or the dimension is another one. */
+/* Reads mesh and displacements of a step and scales both to m; results of one layer of 3D
+ * elements become plane. PG_E_FILE if there is no displacement or the dimension is another
+ * one. */
 static pg_status read_fields (fem *f, const char *path, int step, double unit)
 {
     pg_status status = PG_OK;
@@ -107,6 +108,7 @@ done:
     return status;
 }
 
+/* All components count as known; single places may still be NAN. */
 pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double unit,
                            const pg_problem *problem)
 {

@@ -109,7 +109,9 @@ done:
     return status;
 }
 
-/* Decides which components are compared and allocates the samples. */
+/* Decides which components are compared and allocates the samples. Displacements need one
+ * component that both sides know; stress needs all of the dimension and an elastic law, since
+ * the energy norm couples them. */
 static pg_status prepare (measuring *m, const pg_quadrature *q, const pg_sampler *value,
                           const pg_sampler *reference)
 {
@@ -141,8 +143,9 @@ static int excluded (const pg_expression *where, int dim, const double *x)
     return pg_expression_value (where, &at) == 0;
 }
 
-/* Adds the sampled places first to first + n - 1; those without finite values on both sides
- * are counted as skipped. */
+/* Adds the sampled places first to first + n - 1; those without finite values on both sides,
+ * or outside the condition, are counted as skipped, and the volume is that of the places that
+ * were compared. */
 static void add_chunk (measuring *m, const pg_quadrature *q, size_t first, size_t n)
 {
     for (size_t i = 0; i < n; i++) {
@@ -191,8 +194,9 @@ done:
 }
 
 /* ---- tables -------------------------------------------------------------------------------------------- */
-/* Norms of column k of a table. Rows with a reference near zero (below 1e-3 of the largest)
- * have no meaningful relative error and count in the other norms only. */
+/* Norms of column k of a table over its rows, unweighted. Rows with a reference near zero
+ * (below 1e-3 of the largest) have no meaningful relative error and count in the other norms
+ * only. */
 static void measure_column (pg_line_norms *out, const pg_line *line, size_t k, const double *u,
                             const double *s)
 {

@@ -15,7 +15,7 @@ enum { HALVINGS = 80 };
  * rounding and residuals of solvers. */
 static const double highest = 20, same = 1e-10;
 
-/* The answer without an order. */
+/* The answer without an order: what is known of limit and error, and why there is no order. */
 static pg_observed none (double limit, double error, const char *why)
 {
     pg_observed o = { NAN, limit, error, why };

@@ -67,8 +67,8 @@ static int length_unit (const char *text, double *unit)
     return (pg_unit_parse (unit, one, "m") == PG_OK || pg_unit_parse (unit, text, "m") == PG_OK) && *unit > 0;
 }
 
-/* Reads table i of the list. A fault in the file becomes a fault of the scene at the key that
- * names it. */
+/* Reads table i of the list with its unit, its factor, the coordinates that it lacks, and its
+ * datum. A fault in the file becomes a fault of the scene at the key that names the file. */
 static pg_status read_line (pg_reference *r, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -111,7 +111,7 @@ int pg_norm_order (const pg_scene *scene, const pg_problem *problem)
 }
 
 /* Reads a finite element result, moved and scaled as the scene says. It excludes closed forms
- * of displacement. */
+ * of displacement, since there can be only one field to compare with. */
 static pg_status read_mesh (pg_reference *r, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -165,12 +165,14 @@ done:
     return status;
 }
 
+/* In the order of the scene. */
 const pg_line *pg_reference_lines (const pg_reference *r, size_t *n)
 {
     *n = r->nline;
     return r->line;
 }
 
+/* Accepts one that was only half read. */
 void pg_reference_free (pg_reference **reference)
 {
     pg_reference *r = *reference;

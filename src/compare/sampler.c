@@ -10,6 +10,7 @@
 /* Places at a time, which bounds the memory. */
 enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory */
 
+/* free is NULL for samplers that were lent out. */
 void pg_sampler_clear (pg_sampler *sampler)
 {
     if (sampler->free) sampler->free (sampler->context);
@@ -30,7 +31,8 @@ static pg_status sample_solution (void *context, size_t n, const double *x, doub
     return s->force->sample (s->self, s->state, s->state->d, n, x, u, stress);
 }
 
-/* Forces without shape functions show their displacements at the points only. */
+/* For forces without shape functions: the fit through the displacements that they show at the
+ * points. Rotations and coefficients are not used. */
 static pg_status least_squares (pg_sampler *out, const pg_problem *problem, const pg_force_type *force,
                                 void *self, const pg_state *state)
 {
@@ -105,8 +107,9 @@ static int at_tear (const points *s, const pg_rows *r, size_t at, double *u, dou
     return 1;
 }
 
-/* Displacement and stress at place `at` from its shape functions. Stress needs at least a
- * complete linear basis: where the neighbours do not allow that, it is unknown. */
+/* Displacement and stress at place `at` from its shape functions, H being the gradient of
+ * displacement. Stress needs at least a complete linear basis (grade FULL or LOWERED): where
+ * the neighbours do not allow that, it is unknown. */
 static void fit_one (const points *s, const pg_rows *r, size_t at, double *u, double *stress)
 {
     const pg_problem *p = s->problem;
@@ -175,8 +178,8 @@ pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const d
     memset (out, 0, sizeof *out);
     PG_ALLOC (s, 1);
     s->problem = problem, s->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
-    s->approx = (pg_approx){ .type = pg_approx_find ("rkpm"),
-                             .kernel = pg_kernel_find ("cubic_spline"),
+    s->approx = (pg_approx){ .type = pg_approx_first (),
+                             .kernel = pg_kernel_entry (0),
                              .order = 1,
                              .shape = PG_RADIAL,
                              .horizon = 2 * problem->cloud.h };

@@ -12,7 +12,8 @@
 typedef struct { pg_sampler field; pg_nearest *points; const pg_problem *problem; } bounded;
 
 /* Samples the field and makes places unknown that are more than sqrt (dim) spacings away from
- * every point: no cell of the body reaches that far. */
+ * every point: no cell of the body reaches that far. Without this, a fit would extrapolate
+ * anywhere. */
 static pg_status sample_bounded (void *context, size_t n, const double *x, double *u, double *stress)
 {
     pg_status status = PG_OK;
@@ -113,8 +114,8 @@ done:
 }
 
 /* Marks the points that have more damage now than after the pre-cracks were cut: these have
- * lost bonds during the run (*torn: n, to be freed with pg_free). PG_E_USAGE if the file has
- * no field damage. */
+ * lost bonds during the run (*torn: n, to be freed with pg_free). Damage is the only trace of
+ * broken bonds in result.e; PG_E_USAGE if the file does not have it. */
 static pg_status find_torn (pg_stored *s, const char *path, unsigned char **torn)
 {
     pg_status status = PG_OK;
@@ -164,9 +165,10 @@ done:
     return status;
 }
 
-/* Chooses the field. For nosb coefficients and displacements are the same. After breaks the
- * shape functions of the run cannot be restored, as result.e does not say which bonds are
- * alive. */
+/* Chooses the field. With coefficients (for approximations that interpolate the displacements
+ * are the same), rotations where points have them, and no broken bonds, the field is that of
+ * the run itself. After breaks its shape functions cannot be restored, as result.e does not
+ * say which bonds are alive. */
 static pg_status read_step (pg_stored *s, const char *path, double broken)
 {
     pg_status status = PG_OK;
@@ -202,7 +204,7 @@ done:
 /* ---- folder -------------------------------------------------------------------------------------------- */
 /* Finds the step and its time. In dynamic runs result.e counts time; static runs with event
  * stepping number their steps, and the load factor comes from history.csv; with fixed steps it
- * is the load factor itself. */
+ * is the load factor itself. *broken is the number of broken bonds at that step. */
 static pg_status find_step (pg_stored *s, const char *folder, const char *path, int step, double *broken)
 {
     pg_status status = PG_OK;
@@ -261,6 +263,7 @@ done:
     return status;
 }
 
+/* The sampler goes first: it borrows everything else. */
 void pg_stored_free (pg_stored **stored)
 {
     pg_stored *s = *stored;

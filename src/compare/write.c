@@ -31,8 +31,9 @@ static pg_status create (pg_table **out, const char *path, const pairs *p)
     return pg_table_create (out, path, n, column);
 }
 
-/* Samples both sides and lists the columns that both know. p->u is to be freed by the caller;
- * the other arrays are parts of it. */
+/* Samples both sides at all places and lists the columns that both know. PG_E_USAGE: bodies of
+ * different dimensions. p->u is to be freed by the caller, also after a failure; the other
+ * arrays are parts of it. */
 static pg_status sample_both (pairs *p, const pg_sampler *value, const pg_sampler *reference)
 {
     pg_status status = PG_OK;

@@ -65,7 +65,8 @@ static int option_of (const char *word)
     return -1;
 }
 
-/* 1: a number of the option's range. */
+/* Reads the value of an option; 0 if it is missing, out of range, or not whole where it must
+ * be. */
 static int read_option (request *w, int option, const char *text)
 {
     double v;
@@ -130,7 +131,8 @@ static entities entities_of (int dim)
 }
 
 /* A closed surface of triangles (.stl) becomes a body: its surface is divided into faces along
- * edges sharper than 40 degrees (0.698 rad), then a volume is defined inside. */
+ * edges sharper than 40 degrees (0.698 rad), geometry is made of the faces, and a volume is
+ * defined inside. Fails for surfaces with holes. */
 static int fill_surface (const request *w)
 {
     int e, bad = 0;
@@ -174,8 +176,9 @@ static void set_size (const request *w, int meshed)
     if (meshed) fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
 }
 
-/* Makes elements unless the file has some already, and sets their order. Returns the exit
- * code. */
+/* Makes elements unless the file has some already, and sets their order. The dimension is that
+ * of the body, or 3 for a closed surface; a mesh of a higher dimension than the body cannot be
+ * made. Returns the exit code. */
 static int make_mesh (const request *w)
 {
     int e, dim = gmshModelGetDimension (&e), stl = dim == 2 && elements_of (2) && is_stl (w->input);
@@ -219,8 +222,9 @@ static void name_entities (int dim, const char *stem)
     gmshFree (list.pair);
 }
 
-/* Writes version 4.1, binary. Without any groups bodies and sides are named; with groups of
- * sides only, the bodies are. Returns the exit code. */
+/* Writes version 4.1, binary. Names matter, because scenes refer to blocks and sets by them:
+ * without any groups bodies and sides are named here; with groups of sides only, the bodies
+ * are. Returns the exit code. */
 static int write_mesh (const request *w)
 {
     entities groups = { NULL, 0 }, top = { NULL, 0 };
@@ -236,7 +240,8 @@ static int write_mesh (const request *w)
     return e ? failed ("cannot be written", w->output) : 0;
 }
 
-/* Reads the file as Perigal will, and prints what is in it. */
+/* Reads the file as Perigal will, and prints its dimension, elements, blocks and sets; 1 if it
+ * cannot be used. */
 static int look_at (const request *w)
 {
     pg_mesh mesh;
@@ -258,7 +263,8 @@ static int look_at (const request *w)
     return 0;
 }
 
-/* Starts Gmsh quietly; gmshInitialize has one more argument in newer versions. */
+/* Starts Gmsh without output of its own; its messages are kept for `failed`. gmshInitialize
+ * has one more argument in newer versions. */
 static void start (void)
 {
     int e;

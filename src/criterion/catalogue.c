@@ -23,6 +23,13 @@ const pg_criterion_type *pg_criterion_find (const char *name)
     return NULL;
 }
 
+const char *pg_criterion_by_need (int needs)
+{
+    for (size_t i = 0; i < sizeof table / sizeof *table; i++)
+        if (table[i]->needs == needs) return table[i]->name;
+    return NULL;
+}
+
 const pg_criterion_type *pg_criterion_entry (size_t i)
 {
     return i < sizeof table / sizeof *table ? table[i] : NULL;

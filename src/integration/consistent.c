@@ -165,7 +165,8 @@ static void find_space (space *s, const pg_rows *points, size_t first, size_t la
         for (size_t k = 0; k < dim; k++)
             s->size = fmax (s->size, fabs (points->x[q * dim + k] - s->centre[k]));
     if (!(s->size > 0)) s->size = 1;                   /* one point */
-    const int sizes[] = { 1 << dim, (int) dim + 1, 1, 0 };  /* with the products, linear, constant, none */
+    /* With products, linear, constant, none. */
+    const int sizes[] = { 1 << dim, (int) dim + 1, 1, 0 };
     for (const int *size = sizes; (s->n = *size) > 0; size++) {
         if ((size_t) s->n > n) continue;
         memset (s->L, 0, sizeof s->L);

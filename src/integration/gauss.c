@@ -158,7 +158,8 @@ pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
     pg_status status = fill (out, &m, 1);
     for (size_t q = 0, end = 0; q < out->n; q = end) {
         int f = out->cell[q];
-        double sum = 0;                                /* the facet's own area carries the thickness */
+        /* The weights are scaled to the area of the facet, which has the thickness already. */
+        double sum = 0;
         for (end = q; end < out->n && out->cell[end] == f; end++) sum += out->weight[end];
         for (size_t k = q; k < end; k++) {
             if (c->facet_kind[f] == PG_CUT) continue;

@@ -19,7 +19,8 @@ size_t level_row (const level *l, size_t i, int thread, int *node, double *value
     for (size_t e = l->start[i]; e < l->start[i + 1]; e++) {
         const double *v = l->value + e * bb;
         size_t k = 0;
-        while (k < bb && v[k] == 0) k++;               /* in the pattern, but not coupled */
+        /* A block of zeros is in the pattern but couples nothing. */
+        while (k < bb && v[k] == 0) k++;
         if (k == bb) continue;
         node[m] = l->node[e];
         if (value) memcpy (value + m * bb, v, bb * sizeof *value);
@@ -110,7 +111,8 @@ static pg_status make_pattern (level *c, const level *f)
     pg_status status = PG_OK;
     int reach[3] = { 0 }, at[3] = { 0 };
     size_t bb = (size_t) (c->block * c->block);
-    for (int k = 0; k < f->dim; k++) {                 /* hats end before two steps and the reach */
+    /* Hats extend one step to each side: couplings of two hats end before two steps plus the reach. */
+    for (int k = 0; k < f->dim; k++) {
         reach[k] = (int) ceil (2 + f->reach[k] / f->step[k] + 1e-6) - 1;
         c->reach[k] = reach[k] * f->step[k];
     }
@@ -363,7 +365,8 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
 static void offset_of (const level *f, const int *cell, int function, int *out)
 {
     size_t low = 0, high = f->nhat;
-    while (high - low > 1) {                           /* the last hat that starts at or before it */
+    /* The last hat whose functions start at or before this one. */
+    while (high - low > 1) {
         /* first[] ascends with the hats. */
         size_t middle = (low + high) / 2;
         if (f->first[middle] <= (size_t) function) low = middle;

@@ -24,7 +24,8 @@ static void make_grid (level *l, double step)
         }
         double count = fmax (1, round ((high - low) / step)), h = l->rows.lattice[k];
         l->low[k] = low, l->step[k] = high > low ? (high - low) / count : 1;
-        if (h > 0) {  /* every cell holds the same nodes at the same places */
+        /* Cells of whole lattice steps hold the same nodes at the same relative positions. */
+        if (h > 0) {
             l->share_of[k] = (int) fmax (1, round (step / h));
             l->low[k] = low - h / 2, l->step[k] = l->share_of[k] * h;
             count = ceil (round ((high - low) / h + 1) / l->share_of[k]);
@@ -117,7 +118,8 @@ static int corner_of (const level *l, size_t i, const int *hat)
 static size_t gather (const level *l, const int *hat, int *under)
 {
     size_t count = 0;
-    for (int c = 0; c < l->corners; c++) {             /* the hat is corner c of this cell */
+    /* The cell whose corner c is this hat. */
+    for (int c = 0; c < l->corners; c++) {
         size_t cell = 0, stride = 1;
         int inside = 1;
         for (int k = 0; k < l->dim; k++) {

@@ -44,7 +44,8 @@ static pg_status expand (lu *u, const pg_sparse *A)
             if (A->symmetric && (size_t) A->row[p] != j) u->F.start[A->row[p] + 1]++;
         }
     for (size_t j = 0; j < A->ncol; j++) u->F.start[j + 1] += u->F.start[j], fill[j] = u->F.start[j];
-    for (size_t j = 0; j < A->ncol; j++)  /* ascending rows: all i <= j arrive before those i > j */
+    /* Entries of the upper triangle first: all rows i <= j arrive before those i > j, so that rows ascend. */
+    for (size_t j = 0; j < A->ncol; j++)
         for (long p = A->start[j]; p < A->start[j + 1]; p++)
             u->F.row[fill[j]] = A->row[p], u->from[fill[j]++] = p;
     if (A->symmetric)
@@ -83,7 +84,8 @@ static pg_status lu_factor (void *self, const pg_sparse *A)
     for (long k = 0; k < u->F.start[u->F.ncol]; k++) u->F.value[k] = A->value[u->from[k]];
     umfpack_dl_free_numeric (&u->numeric);
     long code = 0;
-    if (!u->symbolic)                                  /* the first numbers help it to choose its strategy */
+    /* UMFPACK uses the first values to choose its strategy. */
+    if (!u->symbolic)
         code = umfpack_dl_symbolic ((long) A->nrow, (long) A->ncol, u->F.start, u->F.row, u->F.value,
                                     &u->symbolic, u->control, info);
     if (code == UMFPACK_OK)

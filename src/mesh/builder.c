@@ -40,7 +40,8 @@ void pg_mesh_builder_free (pg_mesh_builder **builder)
 /* Coordinates beyond 1e100 are refused: their cubes, which volumes need, would overflow. */
 pg_status pg_mesh_builder_node (pg_mesh_builder *m, long id, const double *x)
 {
-    enum { EXPONENT = 100 };                               /* 1e100: its cube is still a number */
+    /* The cube of 1e100 is still a number. */
+    enum { EXPONENT = 100 };
     pg_status status = PG_OK;
     for (int a = 0; a < 3; a++)
         if (!(fabs (x[a]) <= pow (10, EXPONENT)))
@@ -219,6 +220,7 @@ void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
     snprintf (name, 64, "%ld", group);
     mesh_group key = { .dim = dim, .group = group },
                *g = group && m->ngroup ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
+    /* bsearch may find any of several equal ones. */
     while (g && g > m->groups && by_group (g - 1, &key) == 0) g--;
     if (g) memcpy (name, g->name, 64);
 }

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, and
  * the nodes of every side set. Sets of equal name are one. Members are collected as integers (set, member)
- * in one list; sorting it puts the sets in order and their members too, and shows repetitions. */
+ * in one list; sorting it puts the sets in order and their members too, and shows repetitions.
+ *
+ * An element of dimension dim - 1 that is a face of a solid element is a side in the set that its group
+ * names; whether it is a face is found by its corners, so that first and second order may be mixed. */
 #include "builder.h"
 #include "element.h"
 #include <stdint.h>
@@ -149,7 +152,8 @@ static pg_status unite (builder *b)
     for (size_t k = 0; k < b->n; k++) {
         /* Numbers in the order of appearance. */
         b->final[k] = first[k] == k ? b->nfinal++ : b->final[first[k]];
-        b->set[b->final[k]].sides |= b->set[k].sides;      /* final[k] <= k: nothing is lost */
+        /* As final[k] <= k, no entry is overwritten before it has been used. */
+        b->set[b->final[k]].sides |= b->set[k].sides;
         if (first[k] == k) b->set[b->final[k]] = b->set[k];
     }
 done:

@@ -1,7 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * From the numbers of a file to a mesh: nodes are looked up, solid elements are separated from those that
  * only name a set, nodes that no solid element uses are dropped, and elements that were given inside out
- * are mirrored. */
+ * are mirrored.
+ *
+ * Solid elements are those of the highest dimension in the file. Faults name the element with file and
+ * line: missing or repeated nodes, elements without extent, plane meshes that are not in a plane of
+ * constant z. */
 #include "builder.h"
 #include "element.h"
 #include <math.h>
@@ -204,6 +208,7 @@ static double centre_size (const pg_mesh *out, size_t e, int *flat)
             double v = x[k * dim + a] = out->x[3 * (size_t) out->node[out->start[e] + k] + a];
             low = fmin (low, v), high = fmax (high, v);
         }
+        /* Longest edge of the box around the element. */
         longest = fmax (longest, high - low);
     }
     element_centre (out->kind[e], xi);

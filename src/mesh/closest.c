@@ -33,6 +33,7 @@ static int solve (int n, double A[UNKNOWNS][UNKNOWNS + 1], double *x)
     for (int k = 0; k < n; k++) {
         int best = k;
         for (int i = k + 1; i < n; i++) if (fabs (A[i][k]) > fabs (A[best][k])) best = i;
+        /* H is scaled to a trace of 1: a smaller pivot is rounding. */
         if (!(fabs (A[best][k]) > 1e-14)) return 0;
         for (int j = k; j <= n; j++) { double t = A[k][j]; A[k][j] = A[best][j]; A[best][j] = t; }
         for (int i = k + 1; i < n; i++) {
@@ -126,6 +127,7 @@ double closest_in_element (pg_element kind, int dim, const double *x, const doub
     for (int k = 0; k < STEPS; k++) {
         double moved = 0, share = 1, now = best;
         if (!next_point (&s, H, c, xi, to)) break;
+        /* Full step, half of it, ... until the distance falls. */
         for (int half = 0; half < HALVINGS; half++, share /= 2) {
             for (int a = 0; a < s.dim; a++) trial[a] = xi[a] + share * (to[a] - xi[a]);
             now = normal_equations (kind, dim, x, place, trial, unused, v);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the place of one element that is nearest to a place outside it. */
+ * Private: the place of one element that is nearest to a place outside it, for the search for the nearest
+ * element and for distances from a surface. */
 #ifndef MESH_CLOSEST_H
 #define MESH_CLOSEST_H
 #include "perigal/mesh.h"

@@ -104,9 +104,12 @@ int pg_element_invert (pg_element kind, const double *x, const double *place, do
         if (!solve (d, J, r, step)) return 0;
         for (int a = 0; a < d; a++)
             longest = fmax (longest, fabs (step[a])), size = fmax (size, fabs (xi[a])), all += fabs (step[a]);
-        if (!isfinite (all)) return 0;                     /* fmax hides NaN */
-        double short_of = linear || longest <= 2 ? 1 : 2 / longest;   /* no leaps out of a curved element */
+        /* The sum is NaN if any step is; fmax would hide it. */
+        if (!isfinite (all)) return 0;
+        /* Long steps in curved elements are shortened to 2. */
+        double short_of = linear || longest <= 2 ? 1 : 2 / longest;
         for (int a = 0; a < d; a++) xi[a] += short_of * step[a];
+        /* A linear map is solved by the first step; the second one only confirms it. */
         if (longest <= 1e-12 * size || (linear && k > 0)) return 1;
     }
     return 0;

@@ -2,7 +2,10 @@
  * Quadrature on the reference elements. Rules of triangles and tetrahedra consist of orbits of points under
  * the symmetries of the simplex; weights and positions were found by solving the moment equations of the
  * invariant polynomials (Newton's method from random starts, polished with 70 digits). test/mesh checks
- * their degree. */
+ * their degree.
+ *
+ * Symmetric rules with positive weights inside the element keep results independent of the order in which a
+ * mesh generator lists the nodes of an element, and keep mass and stiffness positive. */
 #include "element.h"
 #include <string.h>
 

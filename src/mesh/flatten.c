@@ -32,6 +32,7 @@ static pg_status find_levels (plate *p)
         double z = m->x[3 * i + 2];
         p->level[i] = z <= p->low + near ? 0 : z >= p->high - near ? 2 : 1;
         p->twin[i] = -1;
+        /* Nodes of second order lie half-way; any other height means several layers of elements. */
         if (p->level[i] == 1 && fabs (z - (p->low + p->high) / 2) > near)
             PG_FAIL (PG_E_USAGE,
                      "node %ld lies at z = %g between %g and %g: the mesh is not one element thick",

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fields given at the nodes of a mesh, within its elements: sum N_i value_i, and the gradient. */
+ * Fields given at the nodes of a mesh, within its elements: sum N_i value_i, and the gradient. Gradients
+ * jump between elements, as those of finite elements do. */
 #include "element.h"
 #include <math.h>
 #include <string.h>
@@ -54,6 +55,7 @@ int pg_mesh_gradient (const pg_mesh *mesh, const pg_mesh_field *field, size_t el
     return 1;
 }
 
+/* Releases n fields and their list. */
 void pg_mesh_fields_clear (size_t n, pg_mesh_field **fields)
 {
     if (!fields || !*fields) return;

@@ -24,8 +24,10 @@ typedef struct { box box; int first, n, right; } tree_node;
 
 /* The tree. */
 struct pg_mesh_locator {
+    /* The mesh; borrowed. */
     const pg_mesh *mesh;
     int        dim;
+    /* Nodes in the order of a walk; the root is the first. */
     tree_node *tree;
     size_t     ntree;
     /* Elements in the order of the leaves (mesh->n). */
@@ -194,7 +196,8 @@ pg_status pg_mesh_locator_create (pg_mesh_locator **out, const pg_mesh *mesh)
     PG_ALLOC (f->item, mesh->n);
     PG_ALLOC (f->box, mesh->n);
     PG_ALLOC (f->centre, mesh->n * dim);
-    PG_ALLOC (f->tree, mesh->n);  /* at least 2 items a leaf where there is more than one leaf */
+    /* As leaves hold at least two items, unless there is only one leaf, mesh->n nodes suffice. */
+    PG_ALLOC (f->tree, mesh->n);
     for (size_t e = 0; e < mesh->n; e++) {
         /* Centres decide about the division, boxes about the search. */
         double size;
@@ -235,7 +238,8 @@ static int invert_simplex (int dim, const double *x, const double *p, double *xi
         xi[0] = (r[0] * e[1][1] - r[1] * e[1][0]) / det, xi[1] = (e[0][0] * r[1] - e[0][1] * r[0]) / det;
         return det != 0;
     }
-    double n[3][3], det = 0;                               /* n[k]: product of the other two edges */
+    /* n[k] is the cross product of the two edges other than k. */
+    double n[3][3], det = 0;
     for (int k = 0; k < 3; k++)
         for (int a = 0; a < 3; a++) {
             const double *u = e[(k + 1) % 3], *v = e[(k + 2) % 3];
@@ -269,6 +273,7 @@ static long find_inside (const pg_mesh_locator *f, const double *place, double *
         }
         for (int k = t->first; k < t->first + t->n; k++) {
             double x[3 * PG_ELEMENT_NODES], at[3];
+            /* Only a lower element can be better. */
             if (f->item[k] >= best || !holds (&f->box[k], place, dim)) continue;
             pg_element kind = nodes_of (f, (size_t) f->item[k], x);
             if (!invert (kind, dim, x, place, at) || pg_element_outside (kind, at) > inside) continue;

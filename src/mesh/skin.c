@@ -1,13 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The surface of a mesh as a mesh of faces in a search tree: distance to it, its box, its size. */
+ * The surface of a mesh as a mesh of faces in a search tree: distance to it, its box, its size. Distances
+ * have no sign: inside or outside is a question to the elements (locator.c). */
 #include "locator.h"
 #include <math.h>
 #include <string.h>
 
 /* The faces as a mesh whose elements have one dimension less than its space; positions are borrowed. */
 struct pg_mesh_skin {
-    pg_mesh faces;  /* dim of the space, elements of one less; x is borrowed */
+    /* dim is that of the space, the elements have one dimension less; x is borrowed. */
+    pg_mesh faces;
     pg_mesh_locator *locator;
+    /* Element and side of each face. */
     int *element, *side;
 };
 
@@ -90,6 +93,7 @@ static void widen (const double *x, pg_element kind, int dim, double *low, doubl
     enum { STEPS = 32 };
     int d = pg_element_types[kind].dim, simplex = pg_element_types[kind].corners == 3;
     for (int i = 0; i <= STEPS; i++)
+        /* Triangles only below the diagonal. */
         for (int j = 0; j <= (d > 1 ? simplex ? STEPS - i : STEPS : 0); j++) {
             double xi[2] = { (double) i / STEPS, (double) j / STEPS }, place[3];
             if (!simplex) xi[0] = 2 * xi[0] - 1, xi[1] = 2 * xi[1] - 1;

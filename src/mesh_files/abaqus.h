@@ -38,6 +38,7 @@ typedef struct { long first, last, step, line; } abaqus_range;
 enum { ABAQUS_SET = 0, ABAQUS_NODES_OF = -1 };
 /* A set; named: *ELEMENT names it, so that it is a block. */
 typedef struct { char name[ABAQUS_NAME]; size_t n, capacity; abaqus_range *range; int named; } abaqus_set;
+/* All node sets, or all element sets. */
 typedef struct { size_t n, capacity; abaqus_set *set; } abaqus_sets;
 /* A line of *SURFACE: an element (set = -1) or an element set, and the face. */
 typedef struct { long element, line; int set; char face[8]; } abaqus_face;
@@ -83,18 +84,22 @@ typedef struct { char key[32], value[ABAQUS_WORD]; } abaqus_parameter;
 
 /* State of the reader. */
 typedef struct {
+    /* What has been read. */
     abaqus      data;
     /* file[0] is the main file, the others are included. */
     abaqus_file file[ABAQUS_DEEPEST];
     /* Number of open files - 1. */
     int         depth;
+    /* What data lines mean at present. */
     abaqus_mode mode;
     /* The present keyword in capitals, without blanks. */
     char        keyword[32];
+    /* Parameters of the present keyword line. */
     int         nparameter;
     abaqus_parameter parameter[ABAQUS_PARAMETERS];
     /* What data lines fill: set, whether by ranges (GENERATE), surface. */
     int         set, generate, surface;
+    /* Type of the elements that data lines give. */
     abaqus_type type;
     /* order[k]: which node on the lines is node k of the element. */
     int         order[PG_ELEMENT_NODES];
@@ -121,7 +126,9 @@ pg_status abaqus_data  (abaqus_reader *r);
  * then. */
 int       abaqus_set_find (const abaqus_sets *sets, const char *name);
 pg_status abaqus_set_get  (abaqus_sets *sets, const char *name, int *set);
+/* Appends members; sets hold ranges, not single numbers. */
 pg_status abaqus_set_add  (abaqus_set *set, abaqus_range range);
+/* Releases all sets. */
 void      abaqus_sets_free (abaqus_sets *sets);
 /* Gives blocks, sets and surfaces to the builder. */
 pg_status abaqus_resolve (abaqus *a);

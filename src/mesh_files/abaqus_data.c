@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The data lines of an .inp file behind *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE and *INSTANCE. */
+ * The data lines of an .inp file behind *NODE, *ELEMENT, *NSET, *ELSET, *SURFACE and *INSTANCE. Fields are
+ * separated by commas; an element may extend over several lines; names in sets refer to sets that were
+ * named before. */
 #include "abaqus.h"
 #include <ctype.h>
 #include <string.h>
@@ -139,7 +141,8 @@ static pg_status set_line (reader *r, abaqus_sets *sets, const char *what)
         int other = abaqus_set_find (sets, word);
         if (other < 0) PG_TRY (ABAQUS_WRONG (r, "there is no %s set '%.63s' before this line", what, word));
         PG_TRY (abaqus_set_add (&sets->set[r->set], (abaqus_range) { other, other, ABAQUS_SET, 0 }));
-        if (r->mode == ABAQUS_NODE_SURFACE) break;                /* an area may follow */
+        /* In a surface of nodes an area may follow, which is not needed. */
+        if (r->mode == ABAQUS_NODE_SURFACE) break;
     }
 done:
     return status;

@@ -1,6 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Sets of an .inp file: numbers, ranges and other sets by name, resolved once all nodes and elements are
- * known. */
+ * known.
+ *
+ * Members of sets by number must exist, with the exception of ranges by GENERATE, which may have gaps.
+ * Blocks are element sets that *ELEMENT names, or those of sections. */
 #include "abaqus.h"
 #include <stdio.h>
 #include <string.h>
@@ -33,6 +36,7 @@ pg_status abaqus_set_add (abaqus_set *set, abaqus_range range)
 {
     pg_status status = PG_OK;
     abaqus_range *last = set->n ? &set->range[set->n - 1] : NULL;
+    /* Entries that must exist and those that need not are kept apart. */
     if (last && last->step == 1 && range.step == 1 && range.first == range.last
         && range.first == last->last + 1 && !last->line == !range.line) {
         last->last = range.last;
@@ -73,6 +77,7 @@ typedef struct {
 /* All that resolving needs. */
 typedef struct { abaqus *a; pg_mesh_given given; gather node, element; } resolver;
 
+/* Releases what gather_start allocated. */
 static void gather_clear (gather *g)
 {
     pg_id_table_clear (&g->table);
@@ -236,6 +241,7 @@ static pg_status resolve_sets (resolver *r)
         PG_TRY (emit_nodes (r, a->nset.set[k].name, (long) k + 1));
     }
     for (size_t k = 0; k < a->elset.n; k++) {
+        /* Blocks are known by their elements already; a node set of the same name is what the user means. */
         if (a->elset.set[k].named || abaqus_set_find (&a->nset, a->elset.set[k].name) >= 0) continue;
         forget (&r->node);
         PG_TRY (put_nodes_of (r, (int) k));
@@ -297,6 +303,7 @@ static pg_status resolve_surface (resolver *r, const abaqus_surface *surface, lo
         for (size_t i = 0; i < r->element.n; i++) {
             int e = r->element.place[i];
             PG_TRY (side_of (r, surface, &surface->face[k], e, dim, &side));
+            /* The face of a shell: its nodes join the node set of the surface. */
             if (side == -2) {
                 put_nodes (r, e);
                 continue;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Element types of Abaqus and CalculiX: which elements they are, the order of their nodes, and the numbers
- * of their faces in terms of Exodus. */
+ * of their faces in terms of Exodus. Elements that differ only in formulation or integration are the same
+ * here, as only the geometry is read. */
 #include "abaqus.h"
 #include "perigal/scene.h"
 #include <ctype.h>
@@ -76,14 +77,17 @@ void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES])
 {
     for (int k = 0; k < PG_ELEMENT_NODES; k++) order[k] = k;
     int first = kind == PG_HEX20 ? 12 : kind == PG_WEDGE15 ? 9 : 0, n = kind == PG_HEX20 ? 4 : 3;
-    if (first)                                         /* middles: upright edges before those of the top */
+    /* Middles of the upright edges come before those of the upper ones in Exodus. */
+    if (first)
         for (int k = 0; k < n; k++) order[first + k] = first + n + k, order[first + n + k] = first + k;
-    if (kind == PG_BAR3) order[1] = 2, order[2] = 1;   /* along the line */
+    /* Abaqus lists the nodes of a line in their order along it. */
+    if (kind == PG_BAR3) order[1] = 2, order[2] = 1;
 }
 
 /* Side in the order of Exodus of face `number` (from 0) of a solid element in that of Abaqus. */
 static int solid_side (pg_element kind, int number)
 {
+    /* Abaqus begins with the bottom (and the top), Exodus with the upright sides. */
     static const signed char tet[] = { 3, 0, 1, 2 }, wedge[] = { 3, 4, 0, 1, 2 },
                              hex[] = { 4, 5, 0, 1, 2, 3 };
     int corners = pg_element_types[kind].corners;

@@ -17,14 +17,17 @@
 #include <string.h>
 #include <strings.h>
 
+/* Length of a name, with its end. */
 enum { NAME = 256 };
 
 /* The open file. */
 typedef struct {
     const char *path;
+    /* Number of the file within netCDF; 1: it is open. */
     int    ncid, open;
     /* Numbers of nodes, elements and blocks; size of the file. */
     size_t nnode, n, nblock, bytes;
+    /* Receives the mesh; NULL while fields are read. */
     pg_mesh_builder *builder;
     /* 1: sides 1 and 2 of this element are its faces, as of shells (n). */
     unsigned char *shell;
@@ -161,7 +164,8 @@ static pg_status read_nodes (reader *r)
     size_t dim = length_of (r->ncid, "num_dim");
     if (dim < 1 || dim > 3) PG_FAIL (PG_E_FILE, "%.400s: %zu dimensions", r->path, dim);
     for (size_t a = 0; a < 3; a++) PG_ALLOC (x[a], r->nnode);
-    PG_TRY (find (r, "coord", dim * r->nnode, &var));      /* of old files: all in one */
+    /* Old files have one table of all coordinates. */
+    PG_TRY (find (r, "coord", dim * r->nnode, &var));
     if (var >= 0) {
         PG_ALLOC (together, dim * r->nnode);
         NC_TRY (r, nc_get_var_double (r->ncid, var, together));
@@ -210,7 +214,8 @@ static pg_element kind_of (const char *type, size_t nodes, int *shell)
          * decide. */
         if (strncasecmp (type, table[k].begin, strlen (table[k].begin)) != 0) continue;
         *shell = table[k].shell;
-        for (int j = 0; j < 4; j++)                        /* PG_POINT1 = 0 fills what the table leaves out */
+        /* Kinds that the table leaves out are 0, that is PG_POINT1: only the first entry may be a point. */
+        for (int j = 0; j < 4; j++)
             if ((j == 0 || table[k].kind[j]) && (size_t) pg_element_types[table[k].kind[j]].nodes == nodes)
                 return table[k].kind[j];
     }
@@ -229,7 +234,8 @@ static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_elemen
     snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
     size_t nodes = length_of (r->ncid, name);
     *kind = PG_ELEMENTS;
-    if (*count == 0) goto done;                            /* an empty block has no connect */
+    /* An empty block has no connectivity. */
+    if (*count == 0) goto done;
     snprintf (name, sizeof name, "connect%zu", k + 1);
     /* The type is an attribute of the connectivity. */
     NC_TRY (r, nc_inq_varid (r->ncid, name, &var));
@@ -280,6 +286,7 @@ static pg_status check_points (const reader *r)
 {
     pg_status status = PG_OK;
     const pg_mesh_given given = pg_mesh_builder_given (r->builder);
+    /* One element with an extent is enough. */
     for (size_t e = 0; e < given.n; e++) if (given.kind[e] != PG_POINT1) goto done;
     PG_FAIL (PG_E_FILE, "%.400s: points without elements (SPHERE): a result of points is no mesh", r->path);
 done:
@@ -409,7 +416,8 @@ static void split_name (const char *name, variable *v)
 {
     /* xz is another name of zx. */
     static const char *const suffix[] = { "xx", "yy", "zz", "xy", "yz", "zx", "xz", "x", "y", "z" };
-    static const int part[] = { 0, 1, 2, 3, 4, 5, 5, 10, 11, 12 };      /* 10 on: of a vector */
+    /* Parts from 10 on belong to vectors. */
+    static const int part[] = { 0, 1, 2, 3, 4, 5, 5, 10, 11, 12 };
     const char *bar = strrchr (name, '_');
     snprintf (v->base, sizeof v->base, "%s", name);
     v->part = -1;
@@ -456,6 +464,7 @@ static pg_status list_variables (const reader *r, size_t steps, size_t n, variab
         PG_TRY (find (r, name, steps * r->nnode, &v[k].var));
         if (v[k].var < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s'", r->path, name);
         name_of (r, "name_nod_var", k, name);
+        /* A variable without a name is known by its number. */
         if (!name[0]) snprintf (name, sizeof name, "variable %zu", k + 1);
         split_name (name, &v[k]);
     }
@@ -499,7 +508,8 @@ static pg_status read_fields (mesh_fields *out, const reader *r, const pg_mesh *
         size_t j = 0;
         /* Is there an earlier component of the same field? */
         while (j < k && !together (&v[j], &v[k])) j++;
-        if (j < k) continue;                               /* read with the first of its components */
+        /* This component was read with the first of its field. */
+        if (j < k) continue;
         PG_TRY (mesh_fields_add (out, mesh->nnode, v[k].base, components_of (&v[k]), &field));
         for (j = k; j < n; j++)
             if (j == k || together (&v[j], &v[k]))
@@ -521,6 +531,7 @@ static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mes
     PG_TRY (open_file (&r, file));
     size_t steps = length_of (r.ncid, "time_step"), n = length_of (r.ncid, "num_nod_var");
     if (n > r.bytes) PG_FAIL (PG_E_FILE, "%.400s: %zu variables are more than it can hold", r.path, n);
+    /* Steps without nodal variables are no steps here. */
     PG_TRY (mesh_fields_step (r.path, n ? steps : 0, step, &chosen));
     PG_ALLOC (v, n);
     PG_TRY (list_variables (&r, steps, n, v));

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * pg_mesh_result: a mesh and the nodal fields of one step. */
+ * pg_mesh_result: a mesh and the nodal fields of one step. The mesh is built first; the format then reads
+ * the fields at its nodes, by their numbers in the file. */
 #include "format.h"
 #include <stdio.h>
 #include <string.h>

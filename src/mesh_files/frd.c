@@ -23,6 +23,7 @@ typedef struct {
     double value;
     /* Number of the step; number of nodes. */
     long   number, nodes;
+    /* Format of its values, and number of components that are stored. */
     int    format, components;
     /* Where the values begin. */
     mesh_cursor data;
@@ -30,11 +31,13 @@ typedef struct {
 
 /* State of the reader. */
 typedef struct {
+    /* Place in the file. */
     mesh_cursor    c;
     /* The present line. */
     const char    *first, *last;
     /* Receives the mesh; NULL: only results are wanted. */
     pg_mesh_builder *builder;
+    /* Blocks of results found so far. */
     size_t  nblock, capacity;
     block  *block;
 } reader;
@@ -122,6 +125,7 @@ static pg_status block_head (const reader *r, const char *what, size_t at, size_
     pg_status status = PG_OK;
     long f = 0;
     if (!whole (r, at, 12, n) || *n < 0) MESH_FAIL (&r->c, "no number of %s", what);
+    /* The format stands at the end of the line. */
     if (!whole (r, format_at, 2, &f) || f < SHORT || f > DOUBLES)
         MESH_FAIL (&r->c, "the format of the %s is none of 0 (short), 1 (long), 2, 3 (binary)", what);
     *format = (int) f;
@@ -335,6 +339,7 @@ static int knows_frd (const mesh_file *file)
                || !memcmp (file->text, "    1U", 6));
 }
 
+/* Results are passed over while the mesh is read; their places are not kept. */
 static pg_status read_frd (pg_mesh_builder *m, const mesh_file *file)
 {
     reader r = { .c = mesh_begin (file), .builder = m };
@@ -380,6 +385,7 @@ done:
 /* The field's name here: displacement, stress, strain, else as in the file. */
 static const char *field_name (const char *name)
 {
+    /* DISP, STRESS and TOSTRAIN are CalculiX's names of displacements, stresses and total strains. */
     return strcmp (name, "DISP") == 0       ? "displacement"
            : strcmp (name, "STRESS") == 0   ? "stress"
            : strcmp (name, "TOSTRAIN") == 0 ? "strain"

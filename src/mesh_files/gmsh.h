@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: what versions 2.2 and 4.1 of Gmsh's format share: header, sections, names of groups, types of
- * elements, binary numbers. */
+ * elements, binary numbers. A section begins with a line $Name and ends with $EndName. */
 #ifndef MESH_GMSH_H
 #define MESH_GMSH_H
 #include "format.h"
@@ -8,8 +8,11 @@
 
 /* State of a reader; copies serve to look ahead. */
 typedef struct {
+    /* Place in the file. */
     mesh_cursor    c;
+    /* Receives nodes, elements and groups. */
     pg_mesh_builder *m;
+    /* Version of the format. */
     double         version;
     /* binary: numbers are bytes; swap: in the other byte order. */
     int            binary, swap;

@@ -69,6 +69,7 @@ done:
 static pg_status nodes_of_bytes (gmsh_reader *g, long n, int parametric)
 {
     pg_status status = PG_OK;
+    /* All nodes must fit before any is read; parameters make some longer. */
     PG_TRY (gmsh_has_left (g, "nodes", (size_t) n, parametric ? 36 : 28));
     for (long k = 0; k < n; k++) {
         double x[3];
@@ -161,6 +162,7 @@ done:
     return status;
 }
 
+/* Versions 2.0 to 2.2 differ in nothing that is read here. */
 static int knows (const mesh_file *file)
 {
     double version;

@@ -10,6 +10,8 @@
 
 /* An entity; its groups are group[first] .. group[first + n - 1]. */
 typedef struct { long dim, tag; size_t first, n; } entity;
+
+/* State of the reader: entities (nentity), and the groups of all entities (ngroup). */
 typedef struct {
     gmsh_reader g;
     size_t  nentity, entity_cap, ngroup, group_cap;
@@ -131,6 +133,7 @@ static pg_status section_head (gmsh_reader *g, const char *what, long *blocks, l
         PG_TRY (gmsh_has_left (g, what, 4, 8));
         for (int k = 0; k < 4; k++) head[k] = gmsh_long (g);
     } else PG_TRY (gmsh_wholes (g, what, 4, head));
+    /* Members are counted down by the blocks; lowest and highest number are not needed. */
     if (head[0] < 0 || head[1] < 0) GMSH_FAIL (g, "%s: %ld blocks with %ld members", what, head[0], head[1]);
     *blocks = head[0], *members = head[1];
 done:
@@ -161,6 +164,7 @@ static pg_status nodes_of_text (gmsh_reader *g, long n)
     pg_status status = PG_OK;
     gmsh_reader number = *g;
     const char *at, *last;
+    /* To the end of the numbers. */
     for (long k = 0; k < n; k++) PG_TRY (gmsh_line (g, "the last number of a node", &at, &last));
     for (long k = 0; k < n; k++) {
         long id;

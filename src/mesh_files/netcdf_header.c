@@ -51,6 +51,7 @@ static int name (walker *w)
 /* A type of values, and the size of one. */
 static int type (walker *w, size_t *bytes)
 {
+    /* Bytes of the types 1 to 11 of the format; those from 7 on exist in version 5 only. */
     static const unsigned char size[] = { 0, 1, 1, 2, 4, 4, 8, 1, 2, 4, 8, 8 };
     uint64_t t;
     if (!whole (w, 4, &t) || t < 1 || t > (w->kind == 5 ? 11 : 6)) return 0;
@@ -58,7 +59,7 @@ static int type (walker *w, size_t *bytes)
     return 1;
 }
 
-/* The head of a list: its tag and count, or zeros where there is none. */
+/* The head of a list: its tag and count, or zeros where there is none. least: bytes of an item, at least. */
 static int list (walker *w, uint64_t tag, size_t least, uint64_t *n)
 {
     uint64_t got;
@@ -81,6 +82,7 @@ static int dimensions (walker *w)
 {
     uint64_t n, length;
     if (!list (w, DIMENSION, 8, &n)) return 0;
+    /* Variables refer to dimensions by number. */
     for (w->ndim = n; n > 0; n--)
         if (!name (w) || !whole (w, w->kind == 5 ? 8 : 4, &length) || length >> 62) return 0;
     return 1;

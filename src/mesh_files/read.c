@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * pg_mesh_read: loads a file, recognises its format by its content, and builds the mesh. */
+ * pg_mesh_read: loads a file, recognises its format by its content, never by its name, and builds the mesh.
+ */
 #include "format.h"
 #include <errno.h>
 #include <limits.h>
@@ -68,6 +69,7 @@ pg_status mesh_parse (pg_mesh *out, const mesh_file *file)
     pg_mesh_builder *m = NULL;
     memset (out, 0, sizeof *out);
     const mesh_format *format = mesh_format_of (file);
+    /* A fault that lists the known formats. */
     if (!format) PG_TRY (unknown (file));
     PG_TRY (pg_mesh_builder_create (&m, file->path));
     PG_TRY (format->read (m, file));

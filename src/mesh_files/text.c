@@ -61,6 +61,7 @@ static int slow_real (const char *first, const char *last, double *value)
     char text[LONGEST], *end;
     size_t n = (size_t) (last - first);
     if (n >= LONGEST) return 0;
+    /* strtod does not know Fortran's exponents. */
     for (size_t k = 0; k < n; k++) text[k] = first[k] == 'D' || first[k] == 'd' ? 'e' : first[k];
     text[n] = '\0';
     *value = strtod (text, &end);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The alive mask, state->alive: one byte per bond of all bond sets, 1: alive, 0: broken. Bond number
- * first_bond[set] + e is entry e of the neighbour lists of that set (bonds.c). Breaking a bond clears its byte
- * and nothing else; forces bring their caches in line afterwards (refresh). Damage is the share of cleared
- * bytes of a point. */
+ * first_bond[set] + e is entry e of the neighbour lists of that set (bonds.c). Breaking a bond clears its
+ * byte and nothing else; forces bring their caches in line afterwards (refresh). Damage is the share of
+ * cleared bytes of a point. */
 #include "model.h"
 
 /* Bonds are numbered set by set and within a set point by point, so that both are found by bisection. */

@@ -23,8 +23,9 @@ static double used_facets (const pg_scene *scene, const pg_tally *t, int dim)
     static const char *const sides[6] = { "left", "right", "bottom", "top", "back", "front" };
     double used = 0, all = 0;
     const char *how = pg_scene_text (scene, "method.essential");
+    const pg_approx_type *type = pg_approx_find (pg_scene_text (scene, "method.approximation"));
     int nitsche = is (how, "nitsche")
-                  || (is (how, "auto") && !is (pg_scene_text (scene, "method.approximation"), "nosb"));
+                  || (is (how, "auto") && !(type && type->interpolates));
     for (int k = 0; k < 2 * dim; k++) all += t->open[k];
     for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
         const char *set = pg_scene_text (scene, "boundary[%zu].set", i);

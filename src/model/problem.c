@@ -79,11 +79,10 @@ done:
 /* The criterion where `failure` names none: the force's own, or that of a limit which the scene gives. */
 static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
 {
-    if (p->method->criterion) return p->method->criterion;
-    return pg_scene_given (scene, "failure.fracture_energy")
-                   || pg_scene_given (scene, "failure.critical_stretch")
-               ? "stretch"
-               : NULL;
+    if (p->method->judged_by) return pg_criterion_by_need (p->method->judged_by);
+    int given = pg_scene_given (scene, "failure.fracture_energy")
+                || pg_scene_given (scene, "failure.critical_stretch");
+    return given ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
 }
 
 static pg_status read_criteria (pg_problem *p, const pg_scene *scene)

@@ -61,7 +61,9 @@ done:
 }
 
 /* One piece of the checkpoint: defines it, writes it or reads it, depending on the visit.
- * Empty arrays are left out, because a dimension of length 0 would mean "unlimited" to netCDF. */
+ * While writing, the sum grows with each piece in its order; while reading it has been
+ * compared before. Empty arrays are left out, because a dimension of length 0 would mean
+ * "unlimited" to netCDF. */
 static pg_status keep (checkpoint *c, const char *name, size_t n, nc_type type, void *value)
 {
     pg_status status = PG_OK;
@@ -141,8 +143,8 @@ done:
     return status;
 }
 
-/* One visit of everything, which starts the sum anew; when reading the checksum is compared
- * first. */
+/* One visit of everything, which starts the sum anew. When reading, the checksum is compared
+ * first; when writing, it becomes the last variable. */
 static pg_status make_walk (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
@@ -156,9 +158,9 @@ done:
     return status;
 }
 
-/* Writes the whole file and syncs it. It is created by our own function first, whose message
- * says why that fails; nc__create then truncates it. 1 MiB of buffer keeps the number of
- * system calls small. */
+/* Writes the whole file and syncs it: first all definitions, then all values, as netCDF
+ * demands. It is created by our own function first, whose message says why that fails;
+ * nc__create then truncates it. 1 MiB of buffer keeps the number of system calls small. */
 static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;

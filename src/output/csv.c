@@ -65,8 +65,8 @@ done:
     return status;
 }
 
-/* The rows below the header; empty lines are skipped. Missing cells become NAN, and cells
- * beyond the header are dropped. */
+/* The rows below the header; empty lines are skipped. Missing cells and words become NAN, and
+ * cells beyond the header are dropped, so that every row has ncolumn values. */
 static pg_status read_rows (pg_csv *csv, char *at)
 {
     pg_status status = PG_OK;
@@ -106,6 +106,7 @@ done:
     return status;
 }
 
+/* May be called for a table that was never read. */
 void pg_csv_clear (pg_csv *csv)
 {
     pg_free (csv->text), pg_free (csv->name), pg_free (csv->value);

@@ -27,6 +27,7 @@ done:
     return status;
 }
 
+/* Used when a file is opened for appending: what lies behind the remembered length goes. */
 pg_status pg_disk_cut (const char *path, int file, long bytes)
 {
     return ftruncate (file, bytes) == 0 ? PG_OK
@@ -34,8 +35,9 @@ pg_status pg_disk_cut (const char *path, int file, long bytes)
 }
 
 /* A character device (/dev/full in tests, /dev/null) is written to as it is, since it holds
- * nothing that could be lost. Other special files and folders are refused. O_EXCL makes sure
- * that nobody has put something into the place in between. */
+ * nothing that could be lost. Other special files and folders are refused. The old file is
+ * removed rather than truncated, so that a hard link to it keeps its content. O_EXCL makes
+ * sure that nobody has put something into the place in between. */
 pg_status pg_disk_create (const char *path, int *file)
 {
     pg_status status = PG_OK;

@@ -59,7 +59,8 @@ done:
     return status;
 }
 
-/* Copies what later steps are checked against and computes the size of a record. */
+/* Copies what later steps are checked against and computes the size of a record: the time and
+ * n values for each component, 8 bytes each. */
 static pg_status copy_request (pg_exodus *f, const char *path, const pg_cloud *cloud, size_t nfield,
                                const pg_field_view *fields)
 {
@@ -106,7 +107,7 @@ done:
 }
 
 /* Writes the header under PATH.new and renames it, so that PATH appears whole or not at all.
- * The steps begin at the end of this file. */
+ * The steps begin at the end of this file, whose length is therefore kept (f->begin). */
 static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *title)
 {
     pg_status status = PG_OK;
@@ -153,7 +154,8 @@ static pg_status count_records (pg_exodus *f, size_t count)
     return pg_disk_write (f->path, f->file, bytes, m, 4);
 }
 
-/* PG_E_FILE unless the file was made for the same number of points and components. */
+/* PG_E_FILE unless the file was made for the same number of points and components: otherwise
+ * steps would be appended in another layout. */
 static pg_status check_sizes (const pg_exodus *f)
 {
     pg_status status = PG_OK;
@@ -202,6 +204,7 @@ done:
     return status;
 }
 
+/* What a checkpoint remembers to cut the file to. */
 void pg_exodus_size (const pg_exodus *f, long *steps, long *bytes)
 {
     *steps = (long) f->step;
@@ -238,7 +241,9 @@ done:
     return status;
 }
 
-/* Writes one step in the order that keeps the file readable: values, time, count. */
+/* Writes one step in the order that keeps the file readable at any instant: first the values,
+ * which lie behind the counted records, then the time, then the count, after which readers see
+ * the step. */
 static pg_status write_record (pg_exodus *f, double time, const pg_field_view *fields)
 {
     pg_status status = PG_OK;
@@ -252,8 +257,9 @@ done:
     return status;
 }
 
-/* If cutting off a failed step fails as well, its bytes stay behind the counted records, where
- * readers ignore them and the next step overwrites them. */
+/* The fields must be those of the creation, in their order. If cutting off a failed step fails
+ * as well, its bytes stay behind the counted records, where readers ignore them and the next
+ * step overwrites them. */
 pg_status pg_exodus_write (pg_exodus *f, double time, const pg_field_view *fields)
 {
     pg_status status = PG_OK;

@@ -53,7 +53,9 @@ static int put_numbers (int ncid, const char *name, size_t n, const double *valu
     return nc_put_att_double (ncid, NC_GLOBAL, name, NC_DOUBLE, n, value);
 }
 
-/* Global attributes: those that Exodus demands, then ours. */
+/* Global attributes: those that Exodus demands (version of the interface, size of numbers,
+ * longest name), then ours: title, version of the program, and what a picture needs to know
+ * about the points. */
 static pg_status define_globals (writer *w)
 {
     pg_status status = PG_OK;
@@ -110,7 +112,8 @@ static int belongs (const writer *w, size_t i, size_t k)
     return !w->l->cloud->block || w->l->cloud->block[i] == w->block[k];
 }
 
-/* One block of spheres: connect<k> (elements x 1) lists its nodes, counted from 1. */
+/* One block of spheres: connect<k> (elements x 1) lists its nodes, counted from 1. Readers of
+ * Exodus draw one glyph per sphere, which is why every point is an element, too. */
 static pg_status define_block (writer *w, size_t k)
 {
     pg_status status = PG_OK;
@@ -240,7 +243,8 @@ done:
     return status;
 }
 
-/* Writes the blocks. Exodus counts them from 1: eb_prop1 = cloud->block + 1. */
+/* Writes the blocks: nodes of each, name "block_<number>", status 1 and number. Exodus counts
+ * them from 1: eb_prop1 = cloud->block + 1. */
 static pg_status put_blocks (writer *w)
 {
     pg_status status = PG_OK;
@@ -303,8 +307,8 @@ done:
 }
 
 /* Creates the file. A variable may have 2^32 - 4 bytes per step with 64-bit offsets, and any
- * number in CDF-5. The file is created by our own function first, because netCDF does not
- * always pass on the system's reason. */
+ * number in CDF-5. The file is created by our own function first, which removes links and says
+ * why a file cannot be written; netCDF does not always pass on that reason. */
 static pg_status open_file (writer *w)
 {
     pg_status status = PG_OK;

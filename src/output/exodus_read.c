@@ -73,8 +73,9 @@ static void reader_close (reader *r)
     *r = (reader) { 0 };
 }
 
-/* Opens a file and lists its components. PG_E_FILE: not a netCDF file, damaged, or without
- * nodes. */
+/* Opens a file and lists its components; on failure it is closed again. PG_E_FILE: not a
+ * netCDF file, damaged, or without nodes. Names have the length len_name, in files of older
+ * writers len_string. */
 static pg_status reader_open (reader *r, const char *path)
 {
     pg_status status = PG_OK;
@@ -238,7 +239,8 @@ done:
     return status;
 }
 
-/* Reads which block each point belongs to; PG_E_FILE for blocks of other elements than points. */
+/* Reads which block each point belongs to. PG_E_FILE for blocks of other elements than points,
+ * and for nodes that do not exist: such numbers would be used as indices. */
 static pg_status read_blocks (const reader *r, pg_cloud *cloud)
 {
     pg_status status = PG_OK;
@@ -272,7 +274,8 @@ done:
 }
 
 /* The thickness of files of other programs is 1 m, that of plane models that do not say
- * otherwise. After a failure the cloud is empty. */
+ * otherwise. After a failure the cloud is empty and *time is NULL, so that callers need no
+ * clean-up. */
 pg_status pg_exodus_points (const char *path, pg_cloud *cloud, size_t *nstep, double **time)
 {
     pg_status status = PG_OK;

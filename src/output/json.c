@@ -67,8 +67,9 @@ static void put_string (FILE *file, const char *text)
     fputc ('"', file);
 }
 
-/* Writes what comes before a value: comma, new line, key. Returns 0 if no value may stand
- * here. */
+/* Writes what comes before a value: a comma unless it is the first one on its level, a new
+ * line, the key. Returns 0 if no value may stand here: a key inside a list, none inside an
+ * object, a second value at the top. */
 static int begin (pg_json *j, const char *key)
 {
     if (!j) return 0;
@@ -149,6 +150,7 @@ void pg_json_number (pg_json *j, const char *key, double value)
     fputs (text, j->file);
 }
 
+/* Counts are written as integers, never with an exponent. */
 void pg_json_count (pg_json *j, const char *key, size_t value)
 {
     if (begin (j, key)) fprintf (j->file, "%zu", value);
@@ -162,8 +164,9 @@ void pg_json_text (pg_json *j, const char *key, const char *value)
     else fputs ("null", j->file);
 }
 
-/* The text is synced to the disk before the rename: otherwise a crash of the system could
- * leave an empty file under the final name. */
+/* Brackets that are still open are closed. The text is synced to the disk before the rename:
+ * otherwise a crash of the system could leave an empty file under the final name. After any
+ * fault PATH.tmp is removed and PATH is what it was. */
 pg_status pg_json_close (pg_json **json)
 {
     pg_status status = PG_OK;

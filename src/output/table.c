@@ -69,7 +69,8 @@ done:
     return status;
 }
 
-/* Opens the file, created if `fresh`, else an existing one that is no symbolic link. */
+/* Opens the file: created if `fresh`, else an existing one that is no symbolic link. After a
+ * failure nothing is left open. */
 static pg_status prepare (pg_table **out, const char *path, int fresh)
 {
     pg_status status = PG_OK;
@@ -104,8 +105,9 @@ done:
     return status;
 }
 
-/* Moves behind the header and `rows` rows; line ends within quotes do not count. PG_E_FILE if
- * there are fewer. */
+/* Moves behind the header and `rows` rows and counts their bytes; line ends within quotes do
+ * not count. The number of rows begins at -1, so that the header is row 0. PG_E_FILE if there
+ * are fewer. */
 static pg_status skip_rows (pg_table *t, long rows)
 {
     pg_status status = PG_OK;
@@ -180,6 +182,7 @@ done:
 
 pg_status pg_table_sync (const pg_table *t) { return pg_disk_sync (t->path); }
 
+/* Nothing is left to write: rows are complete when they are written. */
 void pg_table_close (pg_table **table)
 {
     if (!table || !*table) return;

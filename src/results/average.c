@@ -62,7 +62,8 @@ static void check_field (const pg_scene *scene, const char *path, const char *fi
 }
 
 /* The columns that the user names (gauges, averages, tips) must differ from each other and
- * from those that are always there. */
+ * from those that are always there, and must not contain what separates cells or begins a
+ * unit. */
 static void check_names (const pg_scene *scene)
 {
     static const char *const list[] = { "output.gauges", "output.averages", "output.tips" };

@@ -133,7 +133,8 @@ static int is_taken (const pg_scene *scene, const pg_problem *p, size_t view, co
     return 0;
 }
 
-/* A file name consists of a few safe characters, and no two pictures have the same one. */
+/* A file name consists of a few safe characters, and no two pictures have the same one, those
+ * of curves and cracks included: the later one would overwrite the earlier one. */
 static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
 {
     char path[64];
@@ -146,7 +147,8 @@ static void check_name (const pg_scene *scene, const pg_problem *p, size_t i)
         pg_scene_fault (scene, path, "another picture is called %s.png; give another name", mine.name);
 }
 
-/* Everything about entry i of output.views. */
+/* Everything about entry i of output.views: its field, what is for three dimensions only, its
+ * range, its file name. */
 static void check_view (const pg_scene *scene, const pg_problem *p, size_t i, const char *names)
 {
     char path[64];
@@ -209,7 +211,7 @@ void pg_result_check_names (const pg_scene *scene)
 }
 
 /* Missing memory is the only failure that is not a fault of the scene. The reference is read
- * and thrown away: its faults are to come before the run begins. */
+ * and thrown away: its faults are to come before the run begins, not after hours at its end. */
 pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem)
 {
     char names[512], path[64];

@@ -29,7 +29,8 @@ done:
     return status;
 }
 
-/* Reads entry i of output.tips. */
+/* Reads entry i of output.tips; the direction becomes a unit vector in the dimension of the
+ * body, and the distance of every point along it is computed once. */
 static pg_status read_tip (result_tip *tip, const pg_scene *scene, size_t i, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -50,7 +51,7 @@ done:
 }
 
 /* A length needs a direction that is not zero, a condition that does not change with time, and
- * points in that direction. */
+ * points in that direction where the condition holds. */
 static pg_status check_tip (const pg_scene *scene, size_t i, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -296,8 +297,9 @@ static void write_names (const pg_result *r, size_t i, char *out, size_t size)
             used += snprintf (out + used, size - (size_t) used, " = %s", r->tip[k].name);
 }
 
-/* tip.png shows all lengths; tip_speed.png the speeds of those that moved, with the speed of
- * Rayleigh waves as a line. */
+/* tip.png shows all lengths over time or load factor; tip_speed.png, in dynamic runs, the
+ * speeds of those that moved, with the speed of Rayleigh waves as a line: theory allows no
+ * mode I crack to be faster. */
 pg_status pg_result_tips_pictures (pg_result *r)
 {
     enum { ROOM = 256 };
@@ -365,7 +367,7 @@ int pg_result_tip (const pg_result *r, size_t i, char *out, size_t size)
     return 1;
 }
 
-/* The summary of each crack. */
+/* The summary of each crack; static runs have load factors instead of times, and no speeds. */
 void pg_result_tips_json (pg_json *j, const pg_result *r)
 {
     double rayleigh = pg_result_tips_rayleigh (r);

@@ -48,7 +48,8 @@ void pg_result_curve_choose (pg_result *r)
 
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* Appends a point with displacement x (m) and force y (N). */
+/* Appends a point with displacement x (m) and force y (N), and what the report will say about
+ * it: step, time, load factor, gauges (m). */
 pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *gauges, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -140,7 +141,8 @@ done:
     return status;
 }
 
-/* Writes the peak, the gauges at the peak and both stiffnesses. */
+/* Writes the load and component that the curve follows, the peak, the gauges at the peak and
+ * both stiffnesses; nothing without a curve. */
 void pg_result_curve_json (pg_json *j, const pg_result *r)
 {
     const result_peak *k = &r->peak;
@@ -164,7 +166,7 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     pg_json_shut (j);
 }
 
-/* The peak in words. */
+/* The peak in words: force, displacement, step, time or load factor, and the gauges there. */
 static void tell_peak (const pg_result *r, char *out, size_t size)
 {
     const result_peak *k = &r->peak;
@@ -215,7 +217,9 @@ int pg_result_words (const pg_result *r, size_t k, char *out, size_t size)
 }
 
 /* ---- its picture --------------------------------------------------------------------------------------- */
-/* Draws the curve from the origin if the body starts unloaded, and marks the peak. */
+/* Draws the curve, from the origin if the body starts unloaded, and marks the peak. With event
+ * stepping the line is the envelope; it may be drawn along lines through the origin only if
+ * all loads are proportional. */
 pg_status pg_result_curve_picture (pg_result *r)
 {
     pg_status status = PG_OK;

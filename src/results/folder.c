@@ -41,10 +41,11 @@ static int is_still (int file, const char *path)
            && own.st_dev == present.st_dev;
 }
 
-/* Takes the lock. The system's lock (flock) ends with its process, even a killed one. Where a
- * file system has no such locks, or another host may hold it, what the file says counts: a
- * process of this host is asked whether it lives. *retry = 1: the owner has removed the file
- * in between, so that the lock is on a file that has no name any more. */
+/* Takes the lock on an open run.lock and writes this process into it. The system's lock
+ * (flock) ends with its process, even a killed one. Where a file system has no such locks, or
+ * another host may hold it, what the file says counts: a process of this host is asked whether
+ * it lives. *retry = 1: the owner has removed the file in between, so that the lock is on a
+ * file that has no name any more. */
 static pg_status claim (int file, const char *path, const char *folder, int *retry)
 {
     pg_status status = PG_OK;
@@ -253,8 +254,9 @@ done:
     return status;
 }
 
-/* Rows without a report are those of a run that was killed before its first checkpoint: the
- * same scene may begin anew there, another one may not. */
+/* Refusals, in this order: not a folder; a scene of the user; a checkpoint; rows of another
+ * scene without a report. Rows without a report are those of a run that was killed before its
+ * first checkpoint: the same scene may begin anew there, another one may not. */
 pg_status pg_result_may_open (const char *folder, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -26,7 +26,8 @@ static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinet
 /* Columns of events.csv: numbers, then the names of bond set and kind. */
 enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
 
-/* The order of the columns here is that of the values in pg_result_history_row. */
+/* The order of the columns here is that of the values in pg_result_history_row. Names are at
+ * most 127 bytes. */
 pg_status pg_result_history_create (pg_result *r, const result_marks *from)
 {
     pg_status status = PG_OK;
@@ -130,7 +131,8 @@ done:
 }
 
 /* Writes the row of a step and the rows of its bonds. Displacements are those of the body, u
- * (x) = sum N_j d_j, not coefficients. Gauges without a field between points are empty. */
+ * (x) = sum N_j d_j, not coefficients. Gauges are empty if the force knows no field between
+ * the points. r->u holds two fields: displacements and, 3 n values behind, rotations. */
 pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;

@@ -41,7 +41,8 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics
     pg_json_shut (j);
 }
 
-/* Sizes of the problem, the work of the solver, energies (J). */
+/* Sizes of the problem, steps and events, the work of the solver and of the linear solver, and
+ * the energies of the last state (J). */
 static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
 {
     const pg_problem *p = res->problem;

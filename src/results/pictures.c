@@ -115,7 +115,7 @@ done:
 }
 
 /* Draws all pictures into FOLDER/within; `suffix` follows their names. listed: they belong to
- * those that the run names at its end. */
+ * those that the run names at its end. Forces that show no fields have no pictures. */
 static pg_status draw_all (pg_result *r, const pg_state *state, const char *within, const char *suffix,
                            int listed)
 {
@@ -147,7 +147,7 @@ done:
     return status;
 }
 
-/* The distance from the reference at the points. */
+/* The distance from the reference at the points, with both norms in the title. */
 static pg_status error_picture (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;

@@ -136,8 +136,8 @@ result_marks pg_result_marks_now (const pg_result *r)
     return m;
 }
 
-/* Appends a step to result.e. Times must ascend in Exodus, so a second writing at the same
- * time moves on by one bit. */
+/* Computes all fields of the state and appends a step to result.e. Times must ascend in
+ * Exodus, so a second writing at the same time moves on to the next double. */
 static pg_status write_fields (pg_result *r, const pg_state *state, double time)
 {
     pg_status status = PG_OK;

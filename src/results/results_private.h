@@ -163,7 +163,7 @@ pg_status pg_result_averages_read  (pg_result *r, const pg_scene *scene);
 void      pg_result_average_column (const pg_result *r, size_t i, char *out, size_t size);
 pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row,
                                double *work /* 6 a point */);
-/* output.tips (tips.c): faults, reading, freeing, a row, keeping the first `rows` rows. */
+/* output.tips (crack_tips.c): faults, reading, freeing, a row, keeping the first `rows` rows. */
 pg_status pg_result_tips_check     (const pg_scene *scene, const pg_problem *problem);
 pg_status pg_result_tips_read      (pg_result *r, const pg_scene *scene);
 void      pg_result_tips_free      (pg_result *r);

@@ -140,7 +140,8 @@ done:
     return status;
 }
 
-/* A step that was made and could not be written: its rows are written after resuming. */
+/* A step that was made and could not be written, for example because the disk was full: its
+ * numbers, broken bonds and reactions, so that its rows are written after resuming. */
 static pg_status keep_pending (memory *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -176,7 +177,8 @@ done:
     return status;
 }
 
-/* All of a checkpoint, in a fixed order. */
+/* All of a checkpoint, in a fixed order: identity, counters, marks, curve, cracks, a pending
+ * step, and at last the state and the solver. Sizes come before the arrays that they count. */
 static pg_status keep_all (void *context, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -267,7 +269,8 @@ done:
     return status;
 }
 
-/* Writes what was due when the checkpoint was written and could not be done. */
+/* Writes what was due when the checkpoint was written and could not be done: the rows of a
+ * pending step, and the stage in the middle of a step. */
 static pg_status catch_up (memory *m)
 {
     pg_status status = PG_OK;

@@ -14,7 +14,7 @@ static int place_of (const char *word, const char *names)
     return -1;
 }
 
-/* Text of a key of entry i; NULL if it is not given. */
+/* Text of a key of entry i; NULL if it is not given, which differs from an empty text. */
 static const char *text_of (const pg_scene *scene, size_t i, const char *key)
 {
     return pg_scene_has (scene, "output.views[%zu].%s", i, key)
@@ -57,8 +57,9 @@ static void write_name (result_view *v, const char *name, const char *section)
     pg_picture_name (v->name, sizeof v->name, section ? section : v->look);
 }
 
-/* Direction and section should have been checked before; otherwise their faults are the
- * returned status. Without a name the file is FIELD_VIEW. */
+/* Reads entry i of output.views: field, view or section, range, magnification, file name
+ * (FIELD_VIEW unless given). Direction and section should have been checked before; otherwise
+ * their faults are the returned status. */
 pg_status pg_result_view_read (result_view *v, const pg_scene *scene, size_t i, int dim)
 {
     pg_status status = PG_OK;

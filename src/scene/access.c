@@ -140,7 +140,8 @@ static double number_of (const pg_node *node, double spacing)
 double pg_scene_number (const pg_scene *s, const char *path, ...)
 {
     LOCATE (f, s, path);
-    return number_of (f.node, NAN);                    /* multiples of the spacing need pg_scene_length */
+    /* NAN makes a multiple of the spacing unusable here: it needs pg_scene_length. */
+    return number_of (f.node, NAN);
 }
 
 double pg_scene_length (const pg_scene *s, double spacing, const char *path, ...)

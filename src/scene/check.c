@@ -38,6 +38,7 @@ static void unknown_key (pg_scene *s, const pg_node *node, const char *pattern, 
     pg_schema_names (&s->schema, pattern, names);
     const char *near = pg_nearest_name (node->name, names), *other = known_elsewhere (&s->schema, node->name);
     list_with_commas (listed, sizeof listed, names);
+    /* Merge keys of YAML 1.1, which users of other programs try. */
     if (strcmp (node->name, "<<") == 0)
         FAULT (node, 0,
                "merge keys are not known: write the keys again (an alias may stand for a whole value)");
@@ -141,6 +142,7 @@ static void check_groups (pg_scene *s, const pg_node *node, const char *pattern,
         if (!group || !pg_schema_below (s->schema.row[k], pattern)
             || !first_of_group (&s->schema, k, pattern))
             continue;
+        /* The part of the group behind the colon says how many must be given. */
         const char *rule = strrchr (group, ':');
         int one = rule && strcmp (rule, ":one") == 0;
         membership m = count_members (s, node, pattern, group);
@@ -200,6 +202,7 @@ done:
 static void shape_of_nothing (const pg_schema *schema, pg_node *node, const char *pattern)
 {
     if (!pg_node_null (node) || pg_schema_row (schema, pattern, PG_SCALAR)) return;
+    /* Where the key can be a list, it is an empty list, else an empty map. */
     pg_node_shape shape = pg_schema_opens (schema, pattern, '[')
                                   || pg_schema_row (schema, pattern, PG_SEQUENCE)
                               ? PG_SEQUENCE
@@ -259,6 +262,7 @@ pg_status pg_scene_check (pg_scene *s)
 {
     pg_status status = PG_OK;
     char pattern[PG_PATTERN] = "", path[PG_PATH_TEXT] = "";
+    /* The dimension is read by hand: its own check comes in the course of the walk. */
     const pg_node *d = pg_node_child (&s->root, "dimension", strlen ("dimension"));
     if (d && d->shape == PG_SCALAR && d->text && strlen (d->text) == 1 && strchr ("123", *d->text))
         s->dimension = *d->text - '0';

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A scene from a file or from memory: read, apply overrides, check, report all faults. */
+ * A scene from a file or from memory: read, apply overrides, check, report all faults.
+ *
+ * The order matters: without a tree nothing else can be checked; overrides come before the checks, so that
+ * a value from the command line is checked like one from the file; all other faults are collected and
+ * reported together. */
 #include "document.h"
 #include "sha256.h"
 #include <errno.h>
@@ -33,6 +37,7 @@ static pg_status keep_texts (pg_scene *s, const char *text, size_t length, const
     if (!s->file) PG_FAIL (PG_E_MEMORY, "no memory for the name of the scene");
     PG_ALLOC (s->faults, 1);
     PG_ALLOC (s->set, nset);
+    /* Counted while they are made, so that a failure releases what there is. */
     for (s->nset = 0; s->nset < nset; s->nset++) {
         size_t n = strlen (set[s->nset]) + sizeof "--set ";
         PG_ALLOC (s->set[s->nset], n);
@@ -82,7 +87,8 @@ static pg_status read_some (pg_scene **out, const char *text, size_t length, con
     PG_TRY (pg_schema_create (&s->schema, table, ntable));
     /* Text, overrides, checks; then the verdict on all faults. */
     PG_TRY (read_tree (s, text, length));
-    PG_TRY (pg_faults_verdict (s->faults));            /* without a tree there is nothing more to check */
+    /* Without a tree there is nothing more to check. */
+    PG_TRY (pg_faults_verdict (s->faults));
     for (size_t k = 0; k < nset; k++) PG_TRY (pg_scene_override (s, set[k], s->set[k]));
     PG_TRY (pg_scene_check (s));
     if (some && s->faults->n && geometry_is_sound (s)) s->partial = 1, pg_scene_pass (s);

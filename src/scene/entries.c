@@ -29,7 +29,8 @@ static int concrete (char out[PG_PATTERN], const char *pattern, const char *map)
         if (*pattern != '.' || (*at && *at != '.')) return 0;
         if (*at) at++, pattern++;
     }
-    if (strpbrk (pattern, "{[")) return 0;             /* below another name that the user chooses */
+    /* What is left of the pattern lies below another name that the user chooses. */
+    if (strpbrk (pattern, "{[")) return 0;
     return snprintf (out, PG_PATTERN, "%s%s", map, pattern) < PG_PATTERN;
 }
 

@@ -31,6 +31,7 @@ static const pg_function functions[] = {
       "angle of the vector (b, a), rad, from -pi to pi" },
 };
 
+/* NULL past the end ends the loops of those who list them. */
 const pg_function *pg_expression_function (size_t i)
 {
     return i < sizeof functions / sizeof *functions ? &functions[i] : NULL;
@@ -106,9 +107,11 @@ double pg_expression_value (const pg_expression *e, const pg_place *at)
     return n ? stack[0] : 0;
 }
 
+/* Bit op of `uses` was set by the compiler. */
 int pg_expression_uses (const pg_expression *e, char variable)
 {
     for (size_t k = 0; k < sizeof variables / sizeof *variables; k++)
+        /* Variables differ in their first letter. */
         if (variables[k].name[0] == variable) return (e->uses >> variables[k].op & 1) != 0;
     return 0;
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Faults of a scene: collected, then reported together in the order of the file. */
+ * Faults of a scene: collected, then reported together in the order of the file. Faults in overrides stand
+ * behind those of the file. Control characters in texts of the user are shown as ?, so that a message is
+ * always one line per fault. */
 #include "node.h"
 #include <ctype.h>
 #include <limits.h>
@@ -13,6 +15,7 @@ static void printable (char *out, size_t most, const char *text)
 {
     size_t n = 0, length = strlen (text);
     if (length > most) {
+        /* Back to the beginning of a character of UTF-8. */
         for (length = most - 3; length > 0 && ((unsigned char) text[length] & 0xC0) == 0x80; length--)
             continue;
     }

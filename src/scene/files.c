@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The files that a scene names: where they are, and a fingerprint of their content, by which a result can
- * be traced to its input. */
+ * be traced to its input. A file name is taken relative to the folder of the scene, not to that of the
+ * program. */
 #include "document.h"
 #include "sha256.h"
 #include <errno.h>
@@ -58,6 +59,7 @@ static pg_status collect (collection *c, const pg_node *node, const char *path)
         c->n++;
         PG_TRY (hash_file (f->path, f->hash));
     }
+    /* Children of a map have names, elements of a list have indices. */
     for (size_t k = 0; k < node->n; k++) {
         const pg_node *child = &node->child[k];
         if (child->name) snprintf (below, sizeof below, "%.60s%s%.63s", path, *path ? "." : "", child->name);

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a key means, from the tables: for one key on the terminal; for all keys see manual.c. */
+ * What a key means, from the tables: for one key on the terminal; for all keys see manual.c. A key may be
+ * given by its full path, without the names that the user chooses (materials.{}.density or
+ * materials.density), by its last word, or by the path of a map, for which the keys below are listed. */
 #include "help.h"
 #include "schema.h"
 #include <string.h>
@@ -130,6 +132,7 @@ static const char *nearest_key (const pg_schema *s, const char *key)
 {
     char path[PG_PATTERN];
     const char *near = NULL;
+    /* Full paths first, then last words. */
     for (int whole = 1; whole >= 0 && !near; whole--) {
         size_t used = 0;
         size_t size = s->n * PG_PATTERN + 1;
@@ -147,7 +150,7 @@ static const char *nearest_key (const pg_schema *s, const char *key)
     return near;
 }
 
-/* All rows that match `key` in this way (see match), `before` each. */
+/* All rows that match the key in this way (see match), each behind the text `before`. */
 static void print_matches (FILE *to, const pg_schema *s, const char *key, int how, const char *before)
 {
     for (size_t k = 0; k < s->n; k++) {
@@ -179,6 +182,7 @@ pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
     return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the help could not be written") : PG_OK;
 }
 
+/* Help from the tables of all folders. */
 pg_status pg_scene_help (FILE *to, const char *key)
 {
     pg_status status = PG_OK;

@@ -1,7 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of the scene as a whole. */
+ * Keys of the scene as a whole: title, dimension, and what one- and two-dimensional bodies lack of a solid.
+ */
 #include "perigal/scene.h"
 
+/* Each row is one key of a scene: path, kind, unit, range, default, choices and the text of `perigal
+ * help`. */
 static const pg_key keys[] = {
     { .path = "title",
       .kind = PG_TEXT,

@@ -17,6 +17,7 @@ pg_status pg_read_fault (pg_reader *p, size_t at, const char *format, ...)
     return pg_error (PG_E_SCENE, PG_HERE, "column %zu: %s", at + 1, text);
 }
 
+/* Line ends too: expressions may be folded in YAML. */
 void pg_read_skip (pg_reader *p)
 {
     while (p->text[p->at] && strchr (" \t\r\n", p->text[p->at])) p->at++;
@@ -68,7 +69,8 @@ const pg_function *pg_function_of (const char *s, size_t n)
     return NULL;
 }
 
-int pg_is_own_word (const char *s, size_t n)            /* a word that cannot be a unit here */
+/* Variables, functions and the words of the grammar cannot be units. */
+int pg_is_own_word (const char *s, size_t n)
 {
     static const char *const words[] = { "and", "or", "not", "pi", "true", "false" };
     for (size_t k = 0; k < sizeof words / sizeof *words; k++)

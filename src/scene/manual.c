@@ -5,6 +5,7 @@
 #include "help.h"
 #include <string.h>
 
+/* Text before the tables. */
 static const char introduction[] = "# The scene file\n\n"
                                    "This page is written by the program from the tables that also check a "
                                    "scene; `perigal help KEY` prints one entry.\n\n"
@@ -149,6 +150,7 @@ pg_status pg_manual_write (FILE *to, const pg_schema *s)
     return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the manual could not be written") : PG_OK;
 }
 
+/* The manual of the tables of all folders. */
 pg_status pg_scene_manual (FILE *to)
 {
     pg_status status = PG_OK;

@@ -16,7 +16,8 @@ enum { WORD = 40, REMEMBERED = 128 };
 static struct {
     pthread_once_t  once;
     pthread_mutex_t lock;
-    ut_system      *units;                             /* NULL: it could not be read */
+    /* NULL: the database could not be read. */
+    ut_system      *units;
     struct { char text[WORD]; pg_measure measure; } met[REMEMBERED];
 } database = { .once = PTHREAD_ONCE_INIT, .lock = PTHREAD_MUTEX_INITIALIZER };
 
@@ -24,7 +25,8 @@ static struct {
 static void load (void)
 {
     locale_t c = newlocale (LC_ALL_MASK, "C", (locale_t) 0), before = (locale_t) 0;
-    if (c) before = uselocale (c);                     /* the database has decimal points */
+    /* The database writes decimal points, whatever the locale of the program is. */
+    if (c) before = uselocale (c);
     ut_set_error_message_handler (ut_ignore);
     database.units = ut_read_xml (NULL);
     if (database.units) {
@@ -76,7 +78,8 @@ static ut_status visit_galilean (const ut_unit *unit, double scale, const ut_uni
                                  void *p)
 {
     (void) unit;
-    if (origin != 0) return UT_MEANINGLESS;            /* degC, "m from 5" */
+    /* Units with an origin, such as degC or "m from 5", have no factor. */
+    if (origin != 0) return UT_MEANINGLESS;
     ((pg_measure *) p)->factor *= scale;
     return ut_accept_visitor (under, &visitor, p);
 }
@@ -239,6 +242,7 @@ int pg_measure_same (const pg_measure *a, const pg_measure *b)
     return 1;
 }
 
+/* rad counts as 1. */
 int pg_measure_plain (const pg_measure *m)
 {
     static const pg_measure one = { .factor = 1 };
@@ -291,6 +295,7 @@ void pg_measure_text (const pg_measure *m, char *out, size_t n)
     }
 }
 
+/* An example for this very unit, else for its dimension. */
 const char *pg_measure_example (const pg_measure *m, const char *unit)
 {
     const char *example = NULL;

@@ -18,6 +18,7 @@ done:
     return status;
 }
 
+/* As if it were written without quotes. */
 pg_status pg_node_word (pg_node *node, const char *text, const char *origin)
 {
     node->shape = PG_SCALAR;
@@ -38,12 +39,14 @@ pg_node *pg_node_child (const pg_node *parent, const char *name, size_t length)
     return NULL;
 }
 
+/* A text in quotes is never nothing. */
 int pg_node_null (const pg_node *node)
 {
     return node->shape == PG_SCALAR && node->plain
            && (!node->text || *node->text == '\0' || strcmp (node->text, "~") == 0);
 }
 
+/* Releases a node with all below it. */
 void pg_node_clear (pg_node *node)
 {
     for (size_t k = 0; k < node->n; k++) pg_node_clear (&node->child[k]);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Operands of an expression: code for the stack machine with constants computed at once, and the dimension
- * of each part. */
+ * of each part. Values are always in SI; dimensions exist only while compiling and cost nothing when an
+ * expression is evaluated. */
 #include "compile.h"
 
 /* ---- code ---------------------------------------------------------------------------------------------- */

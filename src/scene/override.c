@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * "a.b[0].c=value": puts a value, read as YAML, into the tree; maps and lists on the way are created where
- * they are missing. */
+ * they are missing. Index n of a list with n elements appends one. Overrides happen before the checks and
+ * enter the hash by which results name their scene. */
 #include "document.h"
 #include <string.h>
 
@@ -33,6 +34,7 @@ static int next_part (const char **path, const char *end, char word[WORD], long 
     size_t n = 0;
     if (*s == '[') {
         *index = 0;
+        /* At most nine digits: the index fits an int. */
         for (n = 1; s + n < end && s[n] >= '0' && s[n] <= '9' && n < 9; n++)
             *index = *index * 10 + (s[n] - '0');
         if (n == 1 || s + n >= end || s[n] != ']') return 0;
@@ -114,7 +116,8 @@ pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin)
     node->name = NULL;
     value.origin = origin;
     value.line = value.column = 0;
-    if (value.shape == PG_SCALAR && !value.text) value.plain = 1;      /* nothing after the = */
+    /* Nothing stands behind the sign: an empty value. */
+    if (value.shape == PG_SCALAR && !value.text) value.plain = 1;
     pg_node_clear (node);
     *node = value;
     value = (pg_node) { 0 };

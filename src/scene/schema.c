@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Finds the row of a key table for a place in the scene. A pattern is a path in which {} stands for a name
- * chosen by the user and [] for an element of a list. */
+ * chosen by the user and [] for an element of a list: "materials.{}.density", "body[].add.disk.radius". All
+ * searches are linear in the number of rows, some hundreds, which takes no time beside reading the file. */
 #include "schema.h"
 #include "unit.h"
 #include <string.h>
@@ -55,6 +56,7 @@ static int extend (const pg_schema *s, char *pattern, const char *joint, const c
 int pg_schema_enter (const pg_schema *s, char pattern[PG_PATTERN], const char *name, size_t length)
 {
     const char *joint = *pattern ? "." : "";
+    /* Letters that have a meaning in patterns cannot be part of a name. */
     if (length == 0 || memchr (name, '.', length) || memchr (name, '[', length) || memchr (name, '{', length))
         return 0;
     if (extend (s, pattern, joint, name, length)) return 1;
@@ -128,6 +130,7 @@ void pg_schema_names (const pg_schema *s, const char *pattern, char names[PG_LEV
         const char *rest = rest_of (s->row[k]->path, pattern);
         if (!rest || (*pattern && *rest != '.')) continue;
         rest += *pattern != '\0';
+        /* The first word behind the pattern. */
         size_t n = strcspn (rest, ".[");
         if (n == 0 || rest[0] == '{' || listed (names, rest, n) || used + n + 2 > PG_LEVEL_NAMES) continue;
         used += (size_t) snprintf (names + used, PG_LEVEL_NAMES - used, "%s%.*s", used ? "|" : "", (int) n,

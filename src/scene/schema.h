@@ -11,6 +11,7 @@ enum { PG_PATTERN = 256, PG_LEVEL_NAMES = 2000 };
 /* All rows; borrowed from the tables. */
 typedef struct { const pg_key **row; size_t n; } pg_schema;
 
+/* All rows of these tables as one list. PG_E_MEMORY. */
 pg_status pg_schema_create (pg_schema *s, const pg_key_table *table, size_t ntable);
 void      pg_schema_clear  (pg_schema *s);
 /* Appends `.name`, or `.{}` where the user chooses names (returns 2); 0: no such key, the pattern is kept. */

@@ -11,6 +11,7 @@
 #undef PG_KEYS
 #undef PG_ENTRY_KEYS
 
+/* Most tables and copied rows; lengths of their texts. */
 enum { MOST_TABLES = 96, MOST_TWINS = 64, NAMES = 240, TWIN_PATH = 96, TWIN_DOC = 160 };
 
 /* Whose the table of the same number is: the rows as their entry declares them, its catalogue, and the names
@@ -44,7 +45,8 @@ static void add_table (const pg_key_table *table, const pg_key *declared, const 
     all.table[all.ntable++] = *table;
 }
 
-/* "failure.cohesion" becomes "materials.{}.failure.cohesion". */
+/* Copies the rows of a table below the second place of their catalogue: "failure.cohesion" becomes
+ * "materials.{}.failure.cohesion". */
 static pg_key_table twins_of (const pg_key_table *table, const pg_key_catalogue *catalogue)
 {
     size_t first = all.ntwin;
@@ -85,6 +87,7 @@ static void add_tables (pg_key_tables list, const pg_key_catalogue *catalogue, c
     }
 }
 
+/* Tables of all entries of a catalogue. */
 static void add_entries (const pg_key_catalogue *catalogue)
 {
     const char *name;
@@ -94,6 +97,7 @@ static void add_entries (const pg_key_catalogue *catalogue)
     }
 }
 
+/* Tables of all folders and catalogues, in the order of list.h. */
 static void gather (void)
 {
 #define PG_KEYS(folder) add_table (&pg_keys_##folder, NULL, NULL, "");

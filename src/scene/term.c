@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Numbers with units, names and calls of functions in an expression. */
+ * Numbers with units, names and calls of functions in an expression. A unit is what follows a number and is
+ * no word of the language: in "2 mm * x" mm is a unit, in "2 * x" x is the variable, and "2 x" is refused
+ * as ambiguous. */
 #include "compile.h"
 #include <math.h>
 #include <string.h>
@@ -114,6 +116,7 @@ static pg_status read_call (pg_reader *p, pg_operand *o, const pg_function *f)
     size_t start = p->at - strlen (f->name);
     int n = 0;
     if (!pg_read_take (p, "(")) PG_BAD (p->at, "%s needs an argument in ( )", f->name);
+    /* Arguments from the second on are combined with the first by the operation of the function. */
     do PG_TRY (read_argument (p, o, f, n++)); while (pg_read_take (p, ","));
     if (!pg_read_take (p, ")")) PG_BAD (p->at, "')' is missing");
     if (n < f->arguments) PG_BAD (start, "%s takes %d arguments", f->name, f->arguments);

@@ -1,5 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Numbers with units ("10 GPa" gives 1e10) and ranges ("[0, 0.5)"). */
+ * Numbers with units ("10 GPa" gives 1e10) and ranges ("[0, 0.5)").
+ *
+ * A number without a unit is in SI. A unit must have the dimension that the key wants; of dimensionless
+ * ones angles and plain numbers are told apart. Conversions divide where that is exact and multiplication
+ * is not, so that "3 mm" is the double nearest to 0.003. */
 #include "unit.h"
 #include <locale.h>
 #include <math.h>
@@ -106,6 +110,7 @@ static pg_status convert (double *out, double value, const char *word, size_t n,
     pg_status status = pg_measure_read (&given, word, n);
     if (status == PG_OK) status = pg_measure_read (&wanted, unit, unit_length (unit));
     if (status != PG_OK) return status;
+    /* Of dimensionless units the power of rad must agree as well. */
     int fits = pg_measure_same (&given, &wanted)
                && (!pg_measure_plain (&wanted) || given.angle == wanted.angle);
     if (!fits)
@@ -174,6 +179,7 @@ static const char *read_bound (const char *s, double *value)
         return s + 3;
     }
     const char *end = pg_number_read (s, value);
+    /* "pi" alone is 1 times pi. */
     if (!end) *value = 1;
     const char *rest = skip_space (end ? end : s);
     if (strncmp (rest, "pi", 2) == 0) {

@@ -33,13 +33,14 @@ double      pg_measure_scale   (double value, const pg_measure *m);
 /* End of the decimal number at the beginning of text, NULL: there is none; and its value, in any locale. */
 const char *pg_number_end  (const char *text);
 const char *pg_number_read (const char *text, double *value);
-/* "10 GPa" for unit "Pa"; with unit "m|spacing" also "2 spacing" (*spacing = 1, *out = 2). */
+/* Reads "10 GPa" for unit "Pa"; with unit "m|spacing" also "2 spacing" (*spacing = 1, *out = 2).
+ * PG_E_SCENE: the message says what is wrong. */
 pg_status   pg_quantity_read (double *out, int *spacing, const char *text, const char *unit);
 /* Refuses sizes whose products would leave the range of a double: beyond 1e60, below 1e-60 (SI). */
 pg_status   pg_quantity_sane (double value);
 /* What such a value looks like: "a number with a unit of Pa, for example 10 GPa". */
 void        pg_quantity_describe (char *out, size_t n, const char *unit);
-/* "[0, inf)": 1 when value lies in it (NULL: always). *fault is 1 when the text of the range itself is
+/* 1 when the value lies in a range such as "[0, inf)" (NULL: always). *fault = 1: the text of the range is
  * wrong. */
 int         pg_range_holds (const char *range, double value, int *fault);
 #endif

@@ -1,5 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Checks one value against its row: number, unit, range, choice, length of a vector. */
+ * Checks one value against its row: number, unit, range, choice, length of a vector.
+ *
+ * What passes is stored in the node: numbers in SI (node->value), or as a multiple of the point spacing
+ * (node->spacing); truth values as 0 and 1; texts, names and expressions as they are. Names that refer to
+ * other parts of the scene, such as sets, are checked as far as the text alone allows; the rest is found
+ * when these parts exist. */
 #include "value.h"
 #include "expression.h"
 #include "unit.h"
@@ -99,6 +104,7 @@ static int is_part_of_shape (const pg_scene *s, const char *base, const char *te
                       *shape = pg_node_child (&list->child[k], "add", 3);
         if (!shape) shape = pg_node_child (&list->child[k], "subtract", 8);
         if (name && name->text && !strcmp (name->text, base)) return 1;
+        /* The key below add: or subtract: is what the shape is. */
         for (size_t c = 0; shape && c < shape->n; c++)
             if (shape->child[c].name && !strcmp (shape->child[c].name, base)) return 1;
     }
@@ -145,6 +151,7 @@ static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, c
         check_reference (s, node, choices, path);
         return;
     }
+    /* "a|b" becomes "a, b". */
     for (const char *c = choices; *c && n + 3 < sizeof listed; c++) {
         listed[n++] = *c == '|' ? ',' : *c;
         if (*c == '|') listed[n++] = ' ';
@@ -162,6 +169,7 @@ static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row
     pg_status status = pg_expression_compile (&e, node->text, row->unit);
     node->value = NAN;
     if (status != PG_OK) return as_fault (s, node, path, status);
+    /* A number, or a formula without variables. */
     if (pg_expression_constant (e, &node->value)) {
         if (!isfinite (node->value)) FAULT (node, "has no finite value");
         else if (pg_quantity_sane (node->value) != PG_OK) FAULT (node, "%s", pg_last_error ());
@@ -207,7 +215,8 @@ static int is_quoted_list (pg_scene *s, const pg_node *node, const char *path)
 static void check_length (pg_scene *s, const pg_node *node, const char *path)
 {
     size_t n = node->shape == PG_SCALAR ? 1 : node->n, dim = (size_t) s->dimension;
-    if (node->origin == pg_default_origin) return;      /* as long as the scene needs */
+    /* A default may have more numbers than the scene has dimensions. */
+    if (node->origin == pg_default_origin) return;
     if (dim && n != dim) FAULT (node, "needs %zu number%s in %zuD, has %zu", dim, dim > 1 ? "s" : "", dim, n);
     else if (n < 1 || n > 3) FAULT (node, "needs 1 to 3 numbers, has %zu", n);
 }

@@ -1,5 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * YAML text to a tree of nodes with line and column, through the document interface of libyaml. */
+ * YAML text to a tree of nodes with line and column, through the document interface of libyaml. Depth of
+ * nesting and number of nodes are limited, since aliases and brackets could make a small file fill the
+ * memory; errors of libyaml are translated into what a user can mend. */
 #include "node.h"
 #include <string.h>
 #include <yaml.h>
@@ -115,6 +117,7 @@ static void locate (pg_node *at, const char *text, size_t length, size_t offset)
 static int has_tab (const char *text, size_t length, int line, int column)
 {
     size_t k = 0;
+    /* To the beginning of the line. */
     for (; line > 1 && k < length; k++) line -= text[k] == '\n';
     for (; column > 0 && k < length && text[k] != '\n'; k++, column--)
         if (text[k] == '\t') return 1;

@@ -46,7 +46,7 @@ void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 {
     double reach = p->approx.horizon / p->cloud.h, across = thinnest (p);
     int exact = p->approx.type->exact, consistent = p->integration->consistent,
-        smooth = strcmp (p->approx.kernel->name, "cubic_spline") == 0;
+        smooth = p->approx.kernel == pg_kernel_entry (0);
     if (p->sums && across < 4 * reach)
         snprintf (out, size,
                   "bond-type forces want at least %.0f points across, four horizons, and this body has %.0f: "

@@ -130,8 +130,8 @@ static size_t count_sizes (const pg_bench_request *q, const pg_bench_base *b, in
     return b->spacing > 0 ? 3 : 1;
 }
 
-/* Adds the sizes of one combination: those named, else twice, once and half the spacing of the
- * scene; for scenes on meshes the sizes of the meshes. */
+/* Adds the sizes of one combination as a curve: those named, else twice, once and half the
+ * spacing of the scene; for scenes on meshes the sizes of the meshes. */
 static pg_status add_curve (pg_bench_cases *out, const pg_bench_request *q, size_t s, const pg_bench_base *b,
                             const mix *m)
 {
@@ -217,8 +217,9 @@ done:
     return status;
 }
 
-/* A force without shape functions has none to choose among: it gets one combination instead of
- * all of them. */
+/* Scene by scene: the product of all lists, then CalculiX if that is asked for. A force
+ * without shape functions has none to choose among: it gets one combination instead of all of
+ * them. */
 pg_status pg_bench_cases_make (pg_bench_cases *out, const pg_bench_request *asked)
 {
     pg_status status = PG_OK;

@@ -45,8 +45,9 @@ done:
     return status;
 }
 
-/* The errors and sizes of a result. Elements with incompatible modes (C3D8I) have strains that
- * their displacement lacks, so no energy error can be derived from the displacement. */
+/* The errors and sizes of a result, measured by `bench --fem-row` in a process of its own.
+ * Elements with incompatible modes (C3D8I) have strains that their displacement lacks, so no
+ * energy error can be derived from the displacement. */
 static pg_status measure (pg_trial *t, const pg_bench_case *c, const pg_bench_request *q, const char *job)
 {
     pg_status status = PG_OK;
@@ -72,7 +73,8 @@ done:
     return status;
 }
 
-/* The result is measured once; repeats only look for the least CPU seconds. */
+/* Meshes, computes and, at the first run, measures. Repeats only look for the least CPU
+ * seconds, since the result is the same each time. */
 pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q)
 {
     pg_status status = PG_OK;

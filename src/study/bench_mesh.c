@@ -58,7 +58,9 @@ void pg_bench_mesh_name (const pg_bench_case *c, char *name, size_t size)
     snprintf (name, size, "%.24s_%.15s_%ld", pg_bench_body_find (c->name)->mesh, c->element, c->size);
 }
 
-/* PG_E_SCENE with the first line that the script wrote if it refuses. */
+/* Runs the script with the name of the body, the element and the size. A mesh that an earlier
+ * run of the same case made is kept. PG_E_SCENE with the first line that the script wrote if
+ * it refuses. */
 pg_status pg_bench_mesh_make (const pg_bench_case *c, const pg_bench_request *q)
 {
     pg_status status = PG_OK;

@@ -147,7 +147,8 @@ static void thin_out (curve *list, size_t *n, size_t most)
     }
 }
 
-/* One picture for a group; alone = 1: its file name needs no group. */
+/* One picture for a group, over CPU seconds or unknowns; alone = 1: its file name needs no
+ * group. The title says if curves were left out. */
 static pg_status draw (const pg_bench_cases *cases, const pg_bench_request *q, const char *name, int alone,
                        int over)
 {
@@ -186,8 +187,9 @@ done:
     return status;
 }
 
-/* The least CPU seconds that reach the error, at a size or between two sizes of a curve, and
- * the name of the curve; INFINITY if none does. */
+/* The least CPU seconds that reach the error: at a size whose error is small enough, or
+ * between two sizes of a curve where the error is reached in between; *name: of the curve.
+ * INFINITY if none does. */
 static double cheapest (const curve *list, size_t n, int fem, double error, const char **name)
 {
     double least = INFINITY;

@@ -64,8 +64,8 @@ done:
     return status;
 }
 
-/* Against a table; the shift moves its places. PG_E_USAGE if none of them lies in the body: a
- * wrong unit is the usual reason. */
+/* Against a table; unit and scale belong to its columns, the shift moves its places.
+ * PG_E_USAGE if none of them lies in the body: a wrong unit is the usual reason. */
 static pg_status against_table (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;

@@ -52,8 +52,9 @@ done:
     return status;
 }
 
-/* The difference on the elements of a finite element reference. Its nodes are moved by the
- * shift, where the reference has been moved to; the picture shows the mesh at its own place. */
+/* The difference on the elements of a finite element reference: its nodes, moved by the shift
+ * to where our result is, are the places of comparison. The picture shows the mesh at its own
+ * place, without displacement. */
 static pg_status mesh_picture (const pg_comparison *c, const pg_comparison_request *q, const pg_mesh *mesh,
                                const char *path)
 {
@@ -165,8 +166,8 @@ static void tell (const pg_comparison_request *q, const char *what, const char *
     if (q->out) fprintf (q->out, "  %s %s\n", what, path);
 }
 
-/* Files of n tables; `before` is the number of files that have been written already: the
- * tables of the scene follow its field. */
+/* Files of n tables, a CSV and a chart each; `before` is the number of files that have been
+ * written already: the tables of the scene follow its field. */
 static pg_status table_files (const pg_comparison *c, const pg_comparison_request *q, const pg_line *line,
                               size_t n, size_t before)
 {

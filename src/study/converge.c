@@ -27,8 +27,9 @@ done:
     return status;
 }
 
-/* Runs all sizes for one horizon. A spacing that did not fall shows that the scene takes its
- * points from elsewhere. */
+/* Runs all sizes for one horizon, each in a folder of its own whose history.csv is read
+ * afterwards. Spacing and horizon come after the values of the user and so count. A spacing
+ * that did not fall shows that the scene takes its points from elsewhere. */
 static pg_status run_study (pg_study *s, const pg_converge_request *q, const pg_bench_base *b)
 {
     pg_status status = PG_OK;
@@ -61,7 +62,8 @@ done:
     return status;
 }
 
-/* All horizons, then table and picture. */
+/* All horizons, then table, file and picture. Without a list the horizon of the scene is
+ * taken. */
 static pg_status study_all (pg_study *list, pg_converge_request *q)
 {
     pg_status status = PG_OK;

@@ -48,7 +48,8 @@ done:
     return status;
 }
 
-/* Empty cells were not measured and are skipped. */
+/* Takes the last row, and the largest magnitude of each force if there are several rows. Empty
+ * cells were not measured and are skipped. */
 pg_status pg_converge_history (pg_study *s, size_t k, const char *folder)
 {
     pg_status status = PG_OK;

@@ -44,8 +44,8 @@ static int is_noise (const pg_study *s, const pg_quantity *q)
     return size_of (s, q) <= noise * most;
 }
 
-/* One row per quantity: its value at each size, then order, limit and estimated error, or the
- * reason why there is no order. */
+/* A heading with the spacings, then one row per quantity: its value at each size, then order,
+ * limit and estimated error, or the reason why there is no order. */
 void pg_converge_print (const pg_study *s, int fixed, FILE *out)
 {
     fprintf (out, "horizon %g %s\n  %-30s", s->horizon,

@@ -27,7 +27,7 @@ static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
 }
 
 /* Asks the force for the utilisation of every bond. Without proportional loads the factor is
- * an estimate: 1 over the utilisation. */
+ * an estimate: 1 over the utilisation. INFINITY if nothing can break. */
 static pg_status judge (pg_first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -57,8 +57,9 @@ static int all_dense (const pg_problem *p)
     return 1;
 }
 
-/* The problem is copied without its criterion for the solve; the copy shares all arrays with
- * the original and must not be freed. */
+/* The problem is copied without its criterion for the solve, so that nothing breaks; the copy
+ * shares all arrays with the original and must not be freed. The solver takes one step to the
+ * full load. Dynamic and staged scenes get the frequency only. */
 pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
 {
     pg_status status = PG_OK;

@@ -27,7 +27,8 @@ static void settle_environment (int threads)
     setenv ("OMP_WAIT_POLICY", "passive", 1);
 }
 
-/* The new process becomes the program; never returns. 127: could not be started. */
+/* The new process becomes the program; never returns. stdin is empty, stdout goes to the
+ * parent, stderr to the log. 127: could not be started. */
 static void become (const char *program, char *const argv[], const char *folder, const char *log, int to,
                     int threads)
 {
@@ -62,7 +63,9 @@ static size_t drain (int from, char *text, size_t size)
 /* A time of the system in seconds. */
 static double seconds_of (const struct timeval *t) { return (double) t->tv_sec + 1e-6 * (double) t->tv_usec; }
 
-/* All streams are flushed before the fork: otherwise their buffers would be written twice. */
+/* The output of the child is read to its end before its exit is waited for: a full pipe would
+ * block both. All streams are flushed before the fork: otherwise their buffers would be
+ * written twice. */
 pg_status pg_process_run (pg_process *out, const char *program, char *const argv[], const char *folder,
                      const char *log, int threads)
 {

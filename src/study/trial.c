@@ -32,7 +32,8 @@ void pg_trial_write (const pg_trial *t, FILE *to)
         if (!isnan (t->value[k])) fprintf (to, "%s %.17g\n", pg_trial_name[k], t->value[k]);
 }
 
-/* The exit code of the child decides the status; the log stays if the run failed. */
+/* The exit code of the child decides the status: a wrong scene, an interruption, any other
+ * failure. The log stays if the run failed. */
 pg_status pg_trial_run (pg_trial *out, const pg_trial_request *q)
 {
     pg_status status = PG_OK;

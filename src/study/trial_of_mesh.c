@@ -62,7 +62,8 @@ done:
     return status;
 }
 
-/* The norms over the cells of the scene are replaced by those over the result's own elements. */
+/* First the tables, by the norms over the cells of the scene, which are then replaced by those
+ * over the result's own elements. Expressions are taken at t = 1, the full load. */
 static pg_status measure (pg_trial *t, solution *s, const pg_scene *scene, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -92,7 +93,8 @@ done:
     return status;
 }
 
-/* Reads the last step; PG_E_FILE without a displacement or with another dimension. */
+/* Reads the last step, makes 3D elements of a plane result plane, and prepares the search.
+ * PG_E_FILE without a displacement or with another dimension. */
 static pg_status read_solution (solution *s, pg_mesh *mesh, size_t *nfield, pg_mesh_field **fields,
                                 const char *path, const pg_problem *p)
 {

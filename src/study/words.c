@@ -3,7 +3,8 @@
 #include "perigal/study.h"
 #include <string.h>
 
-/* An empty word, such as in "a,,b", is refused rather than skipped: it usually is a slip. */
+/* Cuts at commas. An empty word, such as in "a,,b", is refused rather than skipped: it usually
+ * is a slip. */
 int pg_word_list_split (pg_word_list *out, const char *text)
 {
     memset (out, 0, sizeof *out);

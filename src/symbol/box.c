@@ -96,7 +96,8 @@ done:
     return status;
 }
 
-/* Density 1 where the scene has none: the stiffness does not depend on it. */
+/* The scene is written as text and parsed like a file of a user. Density 1 where the scene has
+ * none: the stiffness does not depend on it. */
 pg_status box_scene (pg_scene **out, const pg_scene *scene, const pg_problem *p, const box_size *size)
 {
     pg_status status = PG_OK;

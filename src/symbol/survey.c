@@ -94,7 +94,9 @@ static int rigid (const sample *x, int i, double largest)
     return x->stiffness == 0 && fabs (x->still.value[i]) <= none * largest && x->still.turning[i] < 0.5;
 }
 
-/* Takes one sample into the survey. */
+/* Takes one sample into the survey: extremes of the eigenvalues, those at the edges of the
+ * zone (`ends` components at the edge, none `inside`), rotations, and the counts of unstable
+ * and weak motions, each counted for k and - k. */
 static void look (pg_survey *o, const pg_symbol *s, const sample *x, int grid)
 {
     const pg_symbol_modes *m = &x->still;

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A survey in words: what kind of motion, where in the Brillouin zone, and a verdict with a
- * remedy that suits the method at hand. */
+ * remedy that suits the method at hand. Words are chosen so that a reader without the theory
+ * of lattices sees the motion: "checkerboard", "alternating along x", "waves of 3 spacings". */
 #include "symbol.h"
 #include <math.h>
 #include <stdio.h>
@@ -39,9 +40,11 @@ void pg_motion_where (const pg_motion *m, const pg_symbol *s, char *text, size_t
     else snprintf (text, size, "alternating along two axes");
 }
 
-/* The remedy depends on what causes the weakness: nodal integration samples the gradient where
- * it is blind to alternating motions; micropolar constants become negative at a large
- * Poisson's ratio; a small horizon has few bonds. */
+/* Three grades: unstable if a motion gains energy or meets no resistance, weak if one meets
+ * less than 0.01 of a continuum's, else stable. The remedy depends on what causes the
+ * weakness: nodal integration samples the gradient where it is blind to alternating motions;
+ * micropolar constants become negative at a large Poisson's ratio; a small horizon has few
+ * bonds. */
 void pg_survey_verdict (const pg_survey *v, const pg_symbol *s, const pg_problem *p, char *text, size_t size)
 {
     char where[64];

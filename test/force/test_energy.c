@@ -205,7 +205,8 @@ static void marching (const char *text, int threads, unsigned char **bits)
         }
         size_t left = c.n = 0;
         left = live_bonds (&b);
-        check_ok (b.force->balance_and_break (b.self, 0, u, r, NULL, &c));     /* the same again: nothing more */
+        /* the same again: nothing more */
+        check_ok (b.force->balance_and_break (b.self, 0, u, r, NULL, &c));
         assert_int_equal (c.n, 0);
         assert_int_equal (left, live_bonds (&b));
         pg_free (c.bond);

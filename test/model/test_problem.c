@@ -41,7 +41,8 @@ static void nodal_integration_has_no_points (void **state)
     built b = build (PLATE "method: {integration: nodal, approximation: nosb}\n");
     assert_int_equal (b.problem->rows[PG_POINTS].n, 0);
     assert_int_equal (b.problem->rows[PG_FACETS].n, 0);
-    assert_true (((const galerkin_options *) b.problem->options)->silling > 0);              /* auto: nosb with nodal integration */
+    /* auto: nosb with nodal integration */
+    assert_true (((const galerkin_options *) b.problem->options)->silling > 0);
     unbuild (&b);
     b = build (PLATE "method: {integration: nodal, approximation: pddo}\n");
     assert_true (((const galerkin_options *) b.problem->options)->silling == 0);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * A force that the catalogue does not hold: the pair forces of `bond`, stiffer by a factor that the scene gives, and
- * for one material only. */
+ * A force that the catalogue does not hold: the pair forces of `bond`, stiffer by a factor that the scene
+ * gives, and for one material only. */
 #include "pairwise.h"
 
 static const pg_key keys[] = {
