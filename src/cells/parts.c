@@ -72,7 +72,8 @@ static int is_called (const pg_body *body, size_t i, const char *name, size_t le
     return i + body->nlayer < body->n && strlen (kind) == length && !strncmp (kind, name, length);
 }
 
-/* Shapes that bear a default name (rim, side, hole) are listed by what they are; equal ones once. */
+/* Shapes named rim or side by default are listed by what they are, as are holes from a mesh; equal ones
+ * once. */
 void cells_parts_list (const pg_body *body, char *out, size_t size)
 {
     size_t used = 0;
