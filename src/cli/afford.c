@@ -13,6 +13,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+/* pg_available_memory looks at the machine and at limits of the process. */
 double afford_available (const command *c) { return c->memory > 0 ? c->memory : pg_available_memory (""); }
 
 /* 300 kB of mesh are some thousand elements. */

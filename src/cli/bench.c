@@ -44,7 +44,7 @@ done:
     return status;
 }
 
-/* Reads an integer from 1 to `most`. */
+/* Reads an integer from 1 to `most`; the whole text must be one. */
 static pg_status read_count (int *out, const char *name, const char *text, long most)
 {
     pg_status status = PG_OK;

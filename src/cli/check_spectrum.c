@@ -57,7 +57,7 @@ static void print_tangent (const spectrum *x)
     }
 }
 
-/* Stable time step 2 / omega, s; NAN if the scene gives no density. */
+/* Stable time step 2 / omega of central differences, s; NAN if the scene gives no density. */
 static double seconds (const spectrum *x, double omega) { return x->symbol->dense ? 2 / omega : NAN; }
 
 /* One line for each question: what was measured, the range of eigenvalues, remarkable motions,
@@ -188,7 +188,7 @@ done:
     return status;
 }
 
-/* spectrum.csv: one row per wave vector. */
+/* spectrum.csv: one row per wave vector: place on the path, wave vector, continuum, branches. */
 static pg_status write_table (const course *c, const pg_symbol *s, const char *folder)
 {
     pg_status status = PG_OK;

@@ -1,6 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Options that run and check share, the usage of all commands, and how a scene becomes a
- * problem for them.
+ * Options that run and check share, and how a scene becomes a problem for them.
  *
  * Conventions of all commands: long options, with a short form for the most usual ones; a
  * wrong option or value ends with a message that says what is allowed, usually with the
@@ -26,7 +25,8 @@ static int read_threads (command *c, const char *text)
     return -1;
 }
 
-/* Bytes of "8GB", "500 MB", "1.5 GiB" or "1e9"; NAN for anything else. */
+/* Bytes of "8GB", "500 MB", "1.5 GiB" or "1e9"; NAN for anything else. Units with an i are
+ * powers of 1024, the others powers of 1000. */
 static double size_of (const char *text)
 {
     static const struct { const char *unit; double size; } units[] = {
@@ -42,7 +42,7 @@ static double size_of (const char *text)
     return NAN;
 }
 
-/* --memory SIZE. */
+/* --memory SIZE: the run is refused if it needs more, and may use less. */
 static int read_memory (command *c, const char *text)
 {
     c->memory = size_of (text);
@@ -81,7 +81,8 @@ static int refuse (const char *name, int option, const char *argument)
     return PG_EXIT_USAGE;
 }
 
-/* 1 for a file that exists or is called like a scene. */
+/* 1 for a file that exists or is called like a scene, so that the scene after a --set is not
+ * taken for a part of its value. */
 static int is_scene (const char *word)
 {
     const char *dot = strrchr (word, '.');
@@ -202,7 +203,8 @@ void command_complain (pg_status status, const char *text)
     fprintf (stderr, "%s%s\n", status == PG_E_SCENE ? "" : "perigal: ", text);
 }
 
-/* A word as the shell would take it, in quotes where these are needed. */
+/* A word as the shell would take it, in single quotes where these are needed; a single quote
+ * inside is written as '\''. */
 static void put_word (const char *word)
 {
     if (!*word || word[strcspn (word, " \t\n\"'\\$`!*?[](){}<>|&;#~")]) {

@@ -10,7 +10,8 @@
 #include <math.h>
 #include <string.h>
 
-/* How the solver goes on, in its own words; "" if it says nothing. */
+/* How the solver goes on, in its own words (static solvers: event stepping or fixed steps); ""
+ * if it says nothing. */
 static const char *stepping (const pg_solver_options *o)
 {
     const pg_solver_type *type = pg_solver_find (o->kind);
@@ -50,7 +51,8 @@ static void print_method (const pg_problem *p)
     force->free (&self);
 }
 
-/* The box of the body, and thickness or cross section. */
+/* The box of the body, and thickness or cross section, with a remark if the scene gives none.
+ * width: of the first column; 0: none. */
 static void print_box (const pg_problem *q, int width)
 {
     double low[3], high[3];
@@ -92,7 +94,8 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
     fflush (stdout);                                   /* progress goes to the other stream */
 }
 
-/* Static solvers have no time step and print nothing here. */
+/* What is known only after the solver was created. Static solvers have no time step and print
+ * nothing here. */
 void plan_settled (const pg_solver *solver)
 {
     const pg_solver_options *o = pg_solver_settled (solver);
@@ -310,7 +313,7 @@ static void print_bytes (double bytes)
     else printf ("%.3g TB", bytes * 1e-12);
 }
 
-/* The forecast of memory by part, parts below 50 kB left out. */
+/* The forecast of memory and what there is, then by part, parts below 50 kB left out. */
 static void print_memory (const plan *p)
 {
     const pg_forecast *f = p->forecast;

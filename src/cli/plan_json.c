@@ -41,7 +41,7 @@ static void counts (pg_json *j, const plan *p)
 }
 
 /* Each material with its wave speeds and its criterion; other laws than the isotropic one
- * describe themselves in words. */
+ * describe themselves in words, as E and nu do not say all of them. */
 static void constants (pg_json *j, const pg_problem *p)
 {
     char text[512];

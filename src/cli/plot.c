@@ -12,7 +12,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* The whole help of the command; the summary in command.c is shorter. */
+/* The whole help of the command; the summary in usage.c is shorter. */
 static const char usage[] =
     "usage: perigal plot DIR [--field NAME[.x|.xx|.magnitude]] [--component NUMBER|x|xx|magnitude] [--step "
     "N|all | --steps N,N,...]\n"
@@ -118,7 +118,7 @@ done:
     return status;
 }
 
-/* --section 'z = 5 mm' or a normal. */
+/* --section 'z = 5 mm' or a normal and its distance, as in output.views. */
 static pg_status read_section (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -170,7 +170,7 @@ static pg_status read_magnify (plot_request *q, const char *text)
     return read_number ("--magnify", text, -INFINITY, &q->style.magnify);
 }
 
-/* --columns N: panels in a row. */
+/* --columns N: panels in a row, 1 to the largest number of steps. */
 static pg_status read_columns (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -225,7 +225,8 @@ static const struct { const char *name; pg_status (*read) (plot_request *q, cons
     { "--list", read_list },
 };
 
-/* Reads one option; *used = 1 if it took the value. */
+/* Reads one option; *used = 1 if it took the value. The nearest name is looked for among all
+ * options, those of --curve included. */
 static pg_status read_option (plot_request *q, const char *name, const char *value, int *used)
 {
     pg_status status = PG_OK;
@@ -279,7 +280,8 @@ done:
     return status;
 }
 
-/* --curve is a command of its own with other options. */
+/* --curve is a command of its own with other options. A file is drawn as a mesh, a folder as a
+ * result; damage is the usual field. */
 int pg_cli_plot (int argc, char **argv)
 {
     pg_status status = PG_OK;

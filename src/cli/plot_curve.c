@@ -73,7 +73,7 @@ static int is_table (const char *path)
     return n > 4 && strcmp (path + n - 4, ".csv") == 0;
 }
 
-/* 1 if `column`, as "name (unit)" or "name [unit]", has that name. */
+/* 1 if `column`, as "name (unit)" or "name [unit]", has that name; units may differ. */
 static int is_column (const char *column, const char *wanted)
 {
     size_t n = strcspn (column, "[(");
@@ -131,7 +131,7 @@ static int starts_elsewhere (const pg_scene *scene, const char *column)
 }
 
 /* Reads the scene of a run, if there is one; otherwise nothing is known and the rows are drawn
- * as they are. */
+ * as they are. Loads with a ramp or a table of their own are not proportional. */
 static void read_kind (run_kind *out, const char *directory, const char *const *wanted)
 {
     char path[LIST];
@@ -215,7 +215,8 @@ static int has_peak (const char *column)
     return 0;
 }
 
-/* A value with the unit of its column, such as "-15.03 MN". */
+/* A value with the unit of its column, such as "-15.03 MN"; units that take no prefix are
+ * written behind the number. */
 static void quantity_of (const char *column, double value, char *out, size_t size)
 {
     const char *open = strrchr (column, '(');
@@ -311,7 +312,7 @@ static void mark_peaks (const request *q, run_curve *c, pg_chart_mark *mark, cha
     }
 }
 
-/* All runs; they must agree in the units of both columns. */
+/* All runs; they must agree in the units of both columns, since one pair of axes serves all. */
 static pg_status read_all (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
@@ -382,7 +383,7 @@ static int is_axes (const char *text)
     return text && (strcmp (text, "x") == 0 || strcmp (text, "y") == 0 || strcmp (text, "xy") == 0);
 }
 
-/* --negate and --abs: of y unless axes follow. */
+/* --negate and --abs: of y unless axes follow. Both on one axis are refused. */
 static pg_status read_sign (request *q, const char *name, const char *axes)
 {
     pg_status status = PG_OK;

@@ -51,7 +51,7 @@ int pg_plot_index (const char *word, const char *list)
 }
 
 /* Names of the components of a field with m values per point as "x|y|z" or "xx|yy|xy"; "" if
- * they have none. */
+ * they have none. A field with dim values is a vector, with 3 (2D) or 6 (3D) a tensor. */
 static const char *component_names (int dim, int m)
 {
     static const char *const axes[] = { "", "x", "x|y", "x|y|z" };
@@ -110,7 +110,8 @@ static double magnitude (const double *v, int dim, int m, double shear)
 }
 
 /* ---- reading ------------------------------------------------------------------------------------------- */
-/* Where the body is, from the scene; points that come from files have none. */
+/* Where the body is, from the scene; points that come from files have none. With whole cells
+ * (staircase) the lattice is built again. */
 static void read_outline (source *s)
 {
     pg_cloud cloud = { 0 };
@@ -135,7 +136,8 @@ static int is_stored (const plot_request *q, const char *name)
     return found;
 }
 
-/* The scene that the run copied, with its pre-cracks; without one the picture has none. */
+/* The scene that the run copied, with its pre-cracks; without one the picture has none. Values
+ * that --set replaced are applied if they can be read back. */
 static void read_scene (const plot_request *q, source *s)
 {
     char path[PLOT_PATH];
@@ -286,7 +288,7 @@ static void drop_stage (stage *g)
 
 /* ---- drawing ------------------------------------------------------------------------------------------- */
 /* DIR/FIELD.COMPONENT_VIEW_0007.png as in output.pictures, or --out with the number before its
- * ending. */
+ * ending; number -1: without one. */
 static void name_picture (const plot_request *q, int number, char *path, size_t size)
 {
     char name[160] = "", count[16] = "";
@@ -357,7 +359,8 @@ static void write_label (const source *s, const pg_picture_style *style, char *l
     snprintf (label, size, "%s%s%s%s%s%s", bar, s->name, bar, unit[0] ? " (" : "", unit, unit[0] ? ")" : "");
 }
 
-/* Draws n steps as one picture, with title and label, and prints its name. */
+/* Draws n steps as one picture, with title and label, and prints its name. Only single steps
+ * are drawn on elements. */
 static pg_status draw (const plot_request *q, const source *s, size_t n, const stage *g,
                        const pg_picture_style *given, int number)
 {
@@ -413,7 +416,8 @@ done:
     return status;
 }
 
-/* Several steps as panels of one picture. */
+/* Several steps as panels of one picture. The range of the colours is then found from what the
+ * panels show. */
 static pg_status draw_together (const plot_request *q, const source *s)
 {
     pg_status status = PG_OK;

@@ -85,7 +85,8 @@ done:
     return status;
 }
 
-/* The values to draw and their label. */
+/* The values to draw and their label, which stands between bars if the colours are
+ * logarithmic. */
 static pg_status choose_value (const plot_request *q, fem *f)
 {
     pg_status status = PG_OK;
@@ -125,7 +126,8 @@ done:
 }
 
 /* ---- the picture --------------------------------------------------------------------------------------- */
-/* Beside the file: its name without the ending, and what is drawn. */
+/* Beside the file: its name without the ending, and what is drawn: _sets, _FIELD.COMPONENT,
+ * _VIEW. */
 static void name_picture (const plot_request *q, char *path, size_t size)
 {
     const char *dot = strrchr (q->directory, '.'), *slash = strrchr (q->directory, '/');
@@ -140,7 +142,8 @@ static void name_picture (const plot_request *q, char *path, size_t size)
                   q->component ? q->component : "", q->style.view ? "_" : "", q->style.view ? q->look : "");
 }
 
-/* Values with both signs get the diverging colours. */
+/* Values with both signs get the diverging colours, unless a range was given that is not
+ * symmetric. */
 static pg_status draw (const plot_request *q, const fem *f)
 {
     pg_status status = PG_OK;

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* Counts the rows with an event up to the row of that step. */
+/* Counts the rows with an event up to the row of that step, whose load factor is returned. 0
+ * if there is no such row or no such table. */
 int pg_plot_event (const char *folder, double step, long *events, double *factor)
 {
     char path[PLOT_PATH];

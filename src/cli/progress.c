@@ -38,7 +38,7 @@ static void keep_pace (progress *p, double now, double share, double events)
     p->mark[1].at = now, p->mark[1].share = share, p->mark[1].events = events;
 }
 
-/* Seconds in words. */
+/* Seconds in words; more than 100 s as minutes, rounded up. */
 static void put_time (char *out, size_t size, double seconds)
 {
     if (seconds < 100) snprintf (out, size, seconds < 10 ? "%.1f s" : "%.0f s", seconds);
@@ -54,8 +54,8 @@ static void add (char *line, const char *text)
     snprintf (line + n, LINE - n, "%s%s", n ? ", " : "", text);
 }
 
-/* Which step: time steps, events with their pace, or load steps with the rounds of the current
- * one. */
+/* Which step: time steps, events with their pace since the first mark, or load steps with the
+ * rounds of the current one (iterations, if it is relaxed). */
 static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step,
                       const pg_statistics *r, double now, int within)
 {

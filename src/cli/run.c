@@ -32,7 +32,8 @@ static void settle_signals (void)
     signal (SIGXFSZ, SIG_IGN);
 }
 
-/* What the solver did. */
+/* What the solver did, in the terms of its kind: time steps, stages, or steps with solves;
+ * explicit runs with their energy balance. */
 static void print_counts (const pg_statistics *r, const pg_solver_options *o)
 {
     if ((o->flags & PG_SOLVER_EXPLICIT))
@@ -71,7 +72,8 @@ static void print_warnings (const pg_statistics *r, const pg_problem *problem, c
     }
 }
 
-/* The last lines of a run. */
+/* The last lines of a run: work, peak and crack, estimated error, times, reference, what was
+ * skipped, warnings, files. */
 static void print_summary (const pg_result *result, const pg_statistics *r, const pg_solver_options *o,
                            const pg_problem *problem, double total)
 {
@@ -175,7 +177,7 @@ done:
 }
 
 /* Writes what it takes to go on with a run that did not come to its end; 1 if there is a
- * checkpoint now. */
+ * checkpoint now. A run that has done nothing needs none. */
 static int keep_for_later (const watched *w)
 {
     if (w->state->step == 0 && !w->within) return 0;   /* nothing has been done yet */

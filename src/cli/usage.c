@@ -103,11 +103,14 @@ static const char help[] =
     "  Explains one key of the scene file or one command; without an argument lists all keys; --manual\n"
     "  writes all keys as Markdown.\n";
 
+/* The commands in the order of the man page. */
 static const struct { const char *name, *text; } usages[] = {
     { "run", run },     { "check", check },       { "plot", plot }, { "compare", compare },
     { "bench", bench }, { "converge", converge }, { "list", list }, { "help", help },
 };
 
+/* Prints the usage of a command; 0 for other words, so that help can go on with keys of the
+ * scene. */
 int command_usage (FILE *to, const char *name)
 {
     for (size_t k = 0; k < sizeof usages / sizeof *usages; k++)

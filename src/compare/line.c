@@ -53,8 +53,8 @@ static size_t split (char *row, char *cell[MOST_COLUMNS])
     }
 }
 
-/* What a column of this name holds in a body of that dimension. In 2D the stress zz may stand
- * in the table, although the norms do not use it. */
+/* What a column of this name holds in a body of that dimension; -1: nothing, the column is
+ * skipped. In 2D the stress zz may stand in the table, although the norms do not use it. */
 static int meaning_of (const char *name, int dim)
 {
     static const int place_of[3] = { 'x', 'y', 'z' };
@@ -117,8 +117,8 @@ done:
     return status;
 }
 
-/* Reads a cell in SI; an empty one is NAN, and anything that is not a number is a fault with
- * its line and column. */
+/* Reads a cell and converts it to SI; an empty one is NAN, and anything that is not a number
+ * is a fault with its line and column. */
 static pg_status read_number (const reader *r, const char *cell, size_t k, double *out)
 {
     pg_status status = PG_OK;

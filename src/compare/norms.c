@@ -77,7 +77,8 @@ static void add_displacement (measuring *m, const double *x, const double *v, co
     m->top_u = fmax (m->top_u, sqrt (r2));
 }
 
-/* Adds a place with stresses s and t (reference) to energy and maximum norm. */
+/* Adds a place with stresses s and t (reference) to energy and maximum norm. In the maximum
+ * norm shears count twice, in the energy norm the engineering shears of D do the same. */
 static void add_stress (measuring *m, const double *x, const double *s, const double *t, double weight,
                         size_t material)
 {
@@ -93,8 +94,8 @@ static void add_stress (measuring *m, const double *x, const double *s, const do
     m->top_s = fmax (m->top_s, sqrt (r2));
 }
 
-/* Factors the elastic laws. A law that is not positive definite (a pivot below 1e-14 of the
- * diagonal) has no energy norm. */
+/* Factors the elastic laws D = L L', so that D^-1 s is two triangular solves. A law that is
+ * not positive definite (a pivot below 1e-14 of the diagonal) has no energy norm. */
 static pg_status factor_laws (measuring *m, size_t n)
 {
     pg_status status = PG_OK;

@@ -25,8 +25,9 @@ done:
 }
 
 /* Reads the closed forms. Displacement components may be missing; stress must be complete,
- * because the energy norm couples the components. The condition must not depend on time, so
- * that all steps are compared on the same part of the body. */
+ * because the energy norm couples the components. A component that the dimension does not have
+ * is a fault. The condition must not depend on time, so that all steps are compared on the
+ * same part of the body. */
 static pg_status read_forms (pg_reference *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;

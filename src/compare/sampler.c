@@ -89,7 +89,8 @@ static int cut (const pg_problem *p, const double *x, int node)
 }
 
 /* If a place has a torn point in reach, gives it the displacement of the nearest point and no
- * stress, and returns 1: a fit across an open crack would smear the jump. */
+ * stress, and returns 1: a fit across an open crack would smear the jump, and its gradient
+ * would be a false strain. */
 static int at_tear (const points *s, const pg_rows *r, size_t at, double *u, double *stress)
 {
     size_t dim = (size_t) s->problem->dim, nearest = 0;

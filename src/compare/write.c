@@ -14,7 +14,8 @@ static double part (const double *u, const double *s, size_t i, int column)
     return column < 3 ? u[3*i + (size_t) column] : s[6*i + (size_t) column - 3];
 }
 
-/* Creates the table with its header. */
+/* Creates the table with its header: coordinates, then for each column value, reference and
+ * difference, all with units. */
 static pg_status create (pg_table **out, const char *path, const pairs *p)
 {
     char name[30][48];
@@ -103,8 +104,8 @@ done:
     return status;
 }
 
-/* In the norm of the stress each shear counts twice, since it stands for two components of the
- * tensor. */
+/* Columns that one side does not know give NAN. In the norm of the stress each shear counts
+ * twice, since it stands for two components of the tensor. */
 pg_status pg_compare_field (double *out, const pg_cloud *cloud, int column, const pg_sampler *value,
                             const pg_sampler *reference)
 {

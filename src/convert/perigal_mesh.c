@@ -77,7 +77,8 @@ static int read_option (request *w, int option, const char *text)
     return 1;
 }
 
-/* The files: given, and the one to write of the right kind. 0: good. */
+/* 0 if both files are named and the one to write ends in .msh; else prints why not and returns
+ * the exit code. */
 static int check_files (const request *w)
 {
     if (!w->output) {

@@ -123,7 +123,8 @@ done:
     return status;
 }
 
-/* PG_E_FILE unless the last variable is the checksum of all those before it. */
+/* PG_E_FILE unless the last variable is the checksum of all those before it, in their order in
+ * the file. */
 static pg_status check_sum (checkpoint *c)
 {
     pg_status status = PG_OK;

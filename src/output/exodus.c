@@ -227,7 +227,7 @@ static void most_significant_first (double *value, size_t n)
 }
 
 /* Writes the components of one field one behind the other from byte *at on, and moves *at
- * behind them. */
+ * behind them. The file has one array per component, the caller one per field. */
 static pg_status write_view (pg_exodus *f, const pg_field_view *view, long *at)
 {
     pg_status status = PG_OK;

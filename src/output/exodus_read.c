@@ -44,8 +44,8 @@ static int text_attribute (int ncid, int var, const char *name, char *text, size
     return 1;
 }
 
-/* Reads name and unit of component k; row is scratch space of width + 1 bytes. Names of other
- * programs are padded with blanks. */
+/* Reads name and unit of component k from its attributes, or else the name from name_nod_var,
+ * padded with blanks; row is scratch space of width + 1 bytes. */
 static pg_status read_part (reader *r, size_t k, size_t width, char *row)
 {
     pg_status status = PG_OK;
@@ -117,7 +117,7 @@ static void list_fields (const reader *r, char *text, size_t size)
 }
 
 /* Index of the first component of a field and the number of its components; PG_E_USAGE names
- * the fields that there are. */
+ * the fields that there are, and the nearest one. */
 static pg_status find_field (const reader *r, const char *field, size_t *first, int *components)
 {
     pg_status status = PG_OK;

@@ -50,7 +50,8 @@ static int sequence (const unsigned char *p)
     return n;
 }
 
-/* Writes a text in quotes with the escapes that JSON demands; invalid UTF-8 becomes U+FFFD. */
+/* Writes a text in quotes with the escapes that JSON demands, and DEL; invalid UTF-8 becomes
+ * U+FFFD, byte by byte. */
 static void put_string (FILE *file, const char *text)
 {
     fputc ('"', file);

@@ -48,7 +48,8 @@ done:
     return status;
 }
 
-/* Writes the row; if not all of it can be written, the file is shortened to what it was. */
+/* Writes the row in as few system calls as the system allows; if not all of it can be written,
+ * the file is shortened to what it was. */
 static pg_status end_row (pg_table *t)
 {
     pg_status status = PG_OK;

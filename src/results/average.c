@@ -42,7 +42,7 @@ static int place_in (const char *names, const char *name)
 
 /* ---- checks -------------------------------------------------------------------------------------------- */
 /* A fault of the scene with all possible names, and the nearest one, if the field is none of
- * them. */
+ * them: "stress" alone is no column, "stress.yy" is. */
 static void check_field (const pg_scene *scene, const char *path, const char *field, int dim, int turns)
 {
     char names[400], listed[600];

@@ -12,7 +12,7 @@
 
 /* ---- from the scene ------------------------------------------------------------------------------------ */
 /* The points that count and their distance along the direction (tip->along, m); points behind
- * `from`, or where the condition fails, have 0. */
+ * `from`, or where the condition fails, have 0 and never become the tip. */
 static pg_status find_points (result_tip *tip, const pg_problem *p, const pg_expression *where)
 {
     pg_status status = PG_OK;

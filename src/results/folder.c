@@ -132,7 +132,8 @@ done:
 }
 
 /* The text of the scene, followed by comment lines with its origin, the files that it names
- * with their hashes, and the --set options. pg_stored_scene takes these lines off again. */
+ * with their hashes, and the --set options. pg_stored_scene takes these lines off again. Paths
+ * are absolute, so that the folder may be moved. */
 static pg_status copy_text (char **text, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -175,7 +176,7 @@ done:
     return status;
 }
 
-/* 1 if both paths lead to the same file. */
+/* 1 if both paths lead to the same file, by its number on its device. */
 static int same_file (const char *a, const char *b)
 {
     struct stat one, other;

@@ -19,7 +19,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Where the time went, s. */
+/* Where the time went, s: search for neighbours, the phases of the solver, writing, estimates,
+ * and the total. */
 static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics *r, double search,
                            double total)
 {
@@ -112,7 +113,8 @@ static void estimate_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
-/* The patch test of the discretisation, made before the first step. */
+/* The patch test of the discretization, made before the first step; missing if it was not
+ * measured. */
 static void patch_block (pg_json *j, const pg_problem *p)
 {
     if (!p->patch.measured) return;

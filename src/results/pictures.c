@@ -53,7 +53,8 @@ done:
     return status;
 }
 
-/* A title such as "Disk: damage, back, load factor 0.5". */
+/* A title such as "Disk: damage, back, load factor 0.5": title of the problem, view, limit of
+ * the selection, time or load factor. */
 static void write_title (const pg_result *r, const pg_state *state, const result_view *v, const char *unit,
                          char *title, size_t size)
 {

@@ -33,8 +33,8 @@ const pg_bench_body *pg_bench_body_find (const char *scene)
     return NULL;
 }
 
-/* The path of the script: beside the scenes, or below the current folder; NULL if it is not
- * there. */
+/* The path of the script: in ../calculix beside the folder of the scene, or below the current
+ * folder; NULL if it is not there. */
 static const char *script_of (const char *path, char *script, size_t size)
 {
     const char *slash = strrchr (path, '/');

@@ -130,7 +130,7 @@ done:
 }
 
 /* Keeps the curves of CalculiX and those with the least product of error and cost, as many as
- * can be told apart. */
+ * can be told apart; the curves that are left out are freed. */
 static void thin_out (curve *list, size_t *n, size_t most)
 {
     while (*n > most) {
@@ -203,7 +203,8 @@ static double cheapest (const curve *list, size_t n, int fem, double error, cons
     return least;
 }
 
-/* Seconds of both programs at three levels of error, and their ratio. */
+/* CPU seconds of both programs at three levels of error, and their ratio: what an answer of
+ * that quality costs. */
 static pg_status print_ratios (const pg_bench_cases *cases, const pg_bench_request *q, const char *name)
 {
     pg_status status = PG_OK;

@@ -26,7 +26,8 @@ static int ends (const char *text, const char *tail)
     return n > m && strcasecmp (text + n - m, tail) == 0;
 }
 
-/* 1 for a result folder, or for its result.e; folder (4096 bytes) gets the path of the folder. */
+/* 1 for a result folder, or for its result.e, the copied scene being there; folder (4096
+ * bytes) gets the path of the folder. */
 static int is_result (const char *reference, char *folder)
 {
     const char *slash = strrchr (reference, '/');

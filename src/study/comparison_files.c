@@ -139,7 +139,7 @@ done:
 }
 
 /* ---- files --------------------------------------------------------------------------------------------- */
-/* The norms, and how both sides were sampled. */
+/* The norms, how both sides were sampled, and which step was compared. */
 static pg_status json_file (const pg_comparison *c, const pg_comparison_request *q, const char *path)
 {
     pg_status status = PG_OK;

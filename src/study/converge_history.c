@@ -30,7 +30,8 @@ static int wanted (const char *name)
     return 1;
 }
 
-/* Takes a value under the name of its column, with `what` before it, at size k. */
+/* Takes a value under the name of its column without its unit, with `what` before it, at size
+ * k. */
 static pg_status put (pg_study *s, size_t k, const char *what, const char *column, double value)
 {
     pg_status status = PG_OK;

@@ -75,7 +75,8 @@ static void number (char *cell, size_t size, double value)
     else snprintf (cell, size, "%.12g", value);
 }
 
-/* The order in row k is that of the sizes up to k. */
+/* One row per quantity and size; the order in row k is that of the sizes up to k, so that it
+ * can be seen to settle. */
 pg_status pg_converge_table (const pg_study *list, size_t n, const char *folder)
 {
     pg_status status = PG_OK;

@@ -13,8 +13,8 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-/* Numbers of threads for the libraries of the child. OMP_THREAD_LIMIT stays 1: OpenMP threads
- * of CHOLMOD slow it down beside a threaded BLAS. */
+/* Numbers of threads for the libraries of the child, CalculiX included. OMP_THREAD_LIMIT stays
+ * 1: OpenMP threads of CHOLMOD slow it down beside a threaded BLAS. */
 static void settle_environment (int threads)
 {
     static const char *const counts[] = { "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS",
