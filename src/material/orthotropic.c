@@ -134,44 +134,58 @@ static void stiffness (int n, const double c[CONSTANTS], double C[36])
 
 static double length (const double *a) { return sqrt (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 
-/* Rows of R: the axes 1, 2, 3 of the material in those of the scene. 0: they cannot be told. */
-static int read_axes (const pg_material *m, const pg_scene *scene, double R[9])
+/* Keys of the other number of dimensions are faults. 0: there are some. */
+static int axes_fit (const pg_material *m, const pg_scene *scene)
 {
-    int solid = m->mode == PG_SOLID;
     static const char *const key[3] = { "angle", "axis_1", "axis_2" };
-    for (int k = 0; k < 3; k++)
-        if ((k == 0) == solid && pg_scene_given (scene, "materials.%s.%s", m->name, key[k])) {
-            fault (scene, m, key[k],
-                   solid ? "is for two dimensions: give axis_1 and axis_2"
-                         : "is for three dimensions: give angle");
-            return 0;
-        }
-    memset (R, 0, 9 * sizeof *R);
-    R[0] = R[4] = R[8] = 1;
-    if (!solid) {
-        double angle = pg_scene_number (scene, "materials.%s.angle", m->name);
-        R[0] = R[4] = cos (angle), R[1] = sin (angle), R[3] = -R[1];
-        return 1;
+    int solid = m->mode == PG_SOLID;
+    for (int k = 0; k < 3; k++) {
+        if ((k == 0) != solid || !pg_scene_given (scene, "materials.%s.%s", m->name, key[k])) continue;
+        fault (scene, m, key[k],
+               solid ? "is for two dimensions: give axis_1 and axis_2"
+                     : "is for three dimensions: give angle");
+        return 0;
     }
-    for (int k = 1; k < 3; k++)
+    return 1;
+}
+
+/* Axis 1 and a vector in the plane of axes 1 and 2 become three unit vectors at right angles (Gram-Schmidt),
+ * the rows of R. 0: they span no plane. */
+static int read_vectors (const pg_material *m, const pg_scene *scene, double R[9])
+{
+    static const char *const key[2] = { "axis_1", "axis_2" };
+    double size[2], along = 0;
+    for (int k = 0; k < 2; k++) {
         if (pg_scene_given (scene, "materials.%s.%s", m->name, key[k]))
-            pg_scene_vector (scene, 3, R + 3 * (k - 1), "materials.%s.%s", m->name, key[k]);
-    double size[2] = { length (R), length (R + 3) }, along = 0;
-    for (int k = 0; k < 2; k++) if (!(size[k] > 0)) {
-        fault (scene, m, key[k + 1], "has no direction");
+            pg_scene_vector (scene, 3, R + 3 * k, "materials.%s.%s", m->name, key[k]);
+        size[k] = length (R + 3 * k);
+        if (size[k] > 0) continue;
+        fault (scene, m, key[k], "has no direction");
         return 0;
     }
     for (int k = 0; k < 3; k++) R[k] /= size[0], R[3 + k] /= size[1], along += R[k] * R[3 + k];
     for (int k = 0; k < 3; k++) R[3 + k] -= along * R[k];
     double left = length (R + 3);
     if (!(left > 1e-6)) {
-        fault (scene, m, pg_scene_given (scene, "materials.%s.axis_2", m->name) ? "axis_2" : "axis_1",
+        fault (scene, m, key[pg_scene_given (scene, "materials.%s.axis_2", m->name)],
                "axis_1 and axis_2 point the same way: give two vectors that span a plane");
         return 0;
     }
     for (int k = 0; k < 3; k++) R[3 + k] /= left;
-    for (int k = 0; k < 3; k++)
+    for (int k = 0; k < 3; k++)                        /* axis 3 = axis 1 x axis 2 */
         R[6 + k] = R[(k + 1) % 3] * R[3 + (k + 2) % 3] - R[(k + 2) % 3] * R[3 + (k + 1) % 3];
+    return 1;
+}
+
+/* Rows of R: the axes 1, 2, 3 of the material in those of the scene. 0: the scene is wrong about them. */
+static int read_axes (const pg_material *m, const pg_scene *scene, double R[9])
+{
+    if (!axes_fit (m, scene)) return 0;
+    memset (R, 0, 9 * sizeof *R);
+    R[0] = R[4] = R[8] = 1;
+    if (m->mode == PG_SOLID) return read_vectors (m, scene, R);
+    double angle = pg_scene_number (scene, "materials.%s.angle", m->name);
+    R[0] = R[4] = cos (angle), R[1] = sin (angle), R[3] = -R[1];
     return 1;
 }
 

@@ -78,53 +78,75 @@ const char *pg_forecast_item (int item)
     return item >= 0 && item < PG_BYTES_COUNT ? names[item] : "";
 }
 
-/* 8 bytes a number; see the structures named. Of each pair of phases that do not meet, the larger counts. */
-void pg_forecast_sum (pg_forecast *f)
+/* Bytes follow from counts: 8 for each number, 4 for each neighbour, as the structures named beside them
+ * hold. They are upper bounds within some 20 %, checked against the peak of whole runs
+ * (test/results/test_memory.c). */
+
+/* Shape functions and their derivatives (galerkin), or the bonds of forces that carry them alone. */
+static double shape_bytes (const pg_forecast *f, double all, double rows)
 {
-    double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points,
-           all = f->bonds[0] + f->bonds[1] + f->bonds[2], rows = n + f->evaluation + f->facets;
+    double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points, bytes;
+    int listed = f->listed || f->by_list, factors = f->linear != NULL;
+    bytes = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;             /* galerkin */
+    bytes += (12 + 8 * d) * f->summed;  /* pg_consistency */
+    bytes += (4 + 8 * d * (d + 1)) * f->patched;  /* galerkin_dilatation */
+    if (!f->method->shape_functions)  /* pg_bond_loop, bond */
+        bytes = (listed ? (f->rotations ? 25 + 8 * d : 7) : 0.25) * all + (100 + 16 * f->rotations) * n
+                + (factors ? 0 : 8 * f->dofs);
+    if (f->matrixless && f->rotations)                                                     /* dilatations */
+        bytes += (listed ? 9 : 0.25) * all + (120 + 40 * d) * n;
+    return bytes;
+}
+
+/* Vectors of the unknowns, and what solves at rest without a factor add: rows of state-based forces, and the
+ * multilevel preconditioner with its finest level and its first coarse matrix. */
+static double vector_bytes (const pg_forecast *f)
+{
+    double d = f->dim, n = f->points, m = d + f->rotations, corners = pow (2, d), bytes;
+    int at_rest = !f->explicit_ && !f->dynamic;
+    bytes = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
+    if (f->matrixless && at_rest) bytes += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));      /* lps_rows.c */
+    if (!f->method->shape_functions && !f->linear && at_rest)
+        bytes += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
+    return bytes;
+}
+
+/* K and its factor, where there is one; slaves: unknowns that elimination takes out, which costs a second
+ * matrix. */
+static void add_matrix_bytes (pg_forecast *f)
+{
     double bulk = f->nodal        ? f->bonds[PG_NODES]
                   : f->summed > 0 ? f->summed
-                                  : f->bonds[PG_POINTS],
-           corners = pow (2, d), *b = f->bytes;
+                                  : f->bonds[PG_POINTS];
+    double *b = f->bytes;
+    b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
+    if (!f->linear) return;
+    int lu = !f->linear->symmetric;
+    b[PG_BYTES_MATRIX] = !f->method->shape_functions
+                             ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
+                             : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
+                                   + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
+    double entries = lu ? 2 * f->factor_entries : f->factor_entries;
+    b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
+}
+
+/* Of each pair of phases that do not meet, the larger counts. */
+void pg_forecast_sum (pg_forecast *f)
+{
+    double d = f->dim, n = f->points, m = d + f->rotations, *b = f->bytes;
+    double all = f->bonds[0] + f->bonds[1] + f->bonds[2], rows = n + f->evaluation + f->facets;
     choose_linear (f);
-    int factors = f->linear != NULL, lu = factors && !f->linear->symmetric;
-    double m = d + f->rotations;
     f->dofs = n * m;
     f->matrix_entries = (f->pairs - n) * m * m + n * m * (m + 1) / 2;
     b[PG_BYTES_PROGRAM] = 35e6;
-    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * corners;  /* pg_cloud, pg_cells */
+    b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * pow (2, d);  /* pg_cloud, pg_cells */
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows */
-    b[PG_BYTES_SHAPES] = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;  /* galerkin */
-    b[PG_BYTES_SHAPES] += (12 + 8 * d) * f->summed;  /* pg_consistency */
-    b[PG_BYTES_SHAPES] += (4 + 8 * d * (d + 1)) * f->patched;  /* galerkin_dilatation */
-    /* pg_bond_loop, bond */
-    if (!f->method->shape_functions)
-        b[PG_BYTES_SHAPES] = (f->listed || f->by_list ? (f->rotations ? 25 + 8 * d : 7) : 0.25) * all
-                             + (100 + 16 * f->rotations) * n + (factors ? 0 : 8 * f->dofs);
-    /* dilatations */
-    if (f->matrixless && f->rotations)
-        b[PG_BYTES_SHAPES] += (f->listed || f->by_list ? 9 : 0.25) * all + (120 + 40 * d) * n;
+    b[PG_BYTES_SHAPES] = shape_bytes (f, all, rows);
     /* states; break_loop; factored */
-    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + factors) * all;
-    b[PG_BYTES_VECTORS] = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
-    /* lps_rows.c */
-    if (f->matrixless && !f->explicit_ && !f->dynamic)
-        b[PG_BYTES_VECTORS] += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));
-    /* the multilevel preconditioner: its finest level, its first coarse matrix */
-    if (!f->method->shape_functions && !factors && !f->explicit_ && !f->dynamic)
-        b[PG_BYTES_VECTORS] += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
+    b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + (f->linear != NULL)) * all;
+    b[PG_BYTES_VECTORS] = vector_bytes (f);
     b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
-    b[PG_BYTES_MATRIX] = b[PG_BYTES_FACTOR] = 0;
-    if (factors)
-        b[PG_BYTES_MATRIX] = !f->method->shape_functions
-                                 ? 24 * f->matrix_entries + (f->slaves > 0 ? 56 * f->matrix_entries : 0)
-                                 : 16 * bulk + 4 * f->pairs + 24 * f->matrix_entries + 8 * f->eliminated
-                                       + (f->slaves > 0 ? 56 * f->matrix_entries : 0);
-    if (factors) {
-        double entries = lu ? 2 * f->factor_entries : f->factor_entries;
-        b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
-    }
+    add_matrix_bytes (f);
     f->peak = 0;
     for (int i = 0; i < PG_BYTES_COUNT; i++) f->peak += b[i];
 }

@@ -196,6 +196,27 @@ done:
 
 static int operates (const pg_system *s) { return s->force->operator_ && s->force->operator_ (s->self); }
 
+/* The multilevel preconditioner and the factor of an earlier K are caches: what is kept is which bonds lived
+ * when they were made (`factored`), from which they are made again. */
+static pg_status keep_preconditioner (pg_system *s, int solves, long factored, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    size_t nbond = s->problem->first_bond[PG_BOND_SETS];
+    long made = s->multilevel != NULL || s->remake;
+    int can = solves && s->force->couplings && operates (s) && factored;
+    PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
+    PG_KEEP_BOUND (k, "the multilevel preconditioner", made, 0, can ? 1 : 0);
+    PG_KEEP_BOUND (k, "a factor of the bonds", made ? 0 : factored, 0, system_has_matrix (s) ? 1 : 0);
+    PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
+    PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
+    if (k->reading) s->remake = made != 0;
+    if (k->reading && factored && !s->factored) PG_ALLOC (s->factored, nbond);
+    if (factored) PG_TRY (keep_flags ("system.factored", nbond, s->factored, k));
+done:
+    return status;
+}
+
+/* The linear system: how it is solved, which unknowns are weak, what the iterations have cost so far. */
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -217,17 +238,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
         s->linear = pg_linear_first (0, 1);
         s->indefinite = 1;
     }
-    long made = s->multilevel != NULL || s->remake;
-    PG_TRY (k->counts (k->context, "system.multilevel", 1, &made));
-    PG_KEEP_BOUND (k, "the multilevel preconditioner", made, 0,
-           solves && s->force->couplings && operates (s) && count[4] ? 1 : 0);
-    PG_KEEP_BOUND (k, "a factor of the bonds", made ? 0 : count[4], 0, system_has_matrix (s) ? 1 : 0);
-    PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
-    PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
-    if (k->reading) s->remake = made != 0;
-    size_t nbond = s->problem->first_bond[PG_BOND_SETS];
-    if (k->reading && count[4] && !s->factored) PG_ALLOC (s->factored, nbond);
-    if (count[4]) PG_TRY (keep_flags ("system.factored", nbond, s->factored, k));
+    PG_TRY (keep_preconditioner (s, solves, count[4], k));
     s->stale = (int) count[5];
 done:
     return status;

@@ -276,7 +276,8 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     break_loop *b = &s->break_loop;
     const pg_statistics *r = &s->report;
     double t = time_at (s, n);
-    int breaks = (b->system.force->balance_and_break || b->system.force->utilisation) && s->problem->criterion->type;
+    int breaks = (b->system.force->balance_and_break || b->system.force->utilisation)
+                 && s->problem->criterion->type;
     if (!m->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
     s->report.energy_damping = m->damped;
     PG_TRY (check_growth (s, t));

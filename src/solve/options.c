@@ -73,23 +73,25 @@ static void need_end (const pg_problem *problem, const pg_scene *scene)
     }
 }
 
-/* Equal steps fill the run, none longer than asked. */
-void options_read_times (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+/* What is missing of step, end and number of steps, and what is said twice. stable: the step may be left to
+ * the largest frequency of the body, so that one of the last two is enough. */
+static void check_times (const pg_solver_options *o, const pg_scene *scene, int stable)
 {
-    const char *kind = o->kind;
-    int stable = (o->flags & PG_SOLVER_EXPLICIT) != 0; /* the step may be left to the largest frequency */
-    o->dt = options_number (scene, "solver.dt");
-    o->end = options_number (scene, "solver.end");
-    o->time_steps = options_integer (scene, "solver.time_steps");
     if (!stable && !given (scene, "solver.dt") && !(o->end > 0 && o->time_steps))
-        pg_scene_fault (scene, "solver.dt", "%s needs a time step", kind);
+        pg_scene_fault (scene, "solver.dt", "%s needs a time step", o->kind);
     if (!(o->end > 0) && !o->time_steps)
-        pg_scene_fault (scene, "solver.end", "%s needs an end time%s", kind,
+        pg_scene_fault (scene, "solver.end", "%s needs an end time%s", o->kind,
                         stable ? ", or solver.time_steps" : "");
     if (o->dt > 0 && o->end > 0 && o->time_steps)
         pg_scene_fault (scene, "solver.time_steps",
                         "solver.dt and solver.end say how many time steps there are: give two of the three");
-    else if (o->time_steps && o->end > 0) o->dt = o->end / (double) o->time_steps;
+}
+
+/* The third of step, end and number of steps from two of them. Equal steps fill the run, none longer than
+ * asked. */
+static void complete_times (pg_solver_options *o, const pg_scene *scene)
+{
+    if (o->time_steps && o->end > 0) o->dt = o->end / (double) o->time_steps;
     else if (o->time_steps && o->dt > 0) o->end = o->dt * (double) o->time_steps;
     else if (o->dt > 0 && o->end > 0) {
         double steps = ceil (o->end / o->dt * (1 - 1e-12));
@@ -97,10 +99,21 @@ void options_read_times (pg_solver_options *o, const pg_problem *problem, const 
         o->time_steps = (long) fmin (steps, MOST_STEPS);
         if (fabs (steps * o->dt - o->end) > 1e-9 * o->end) o->dt = o->end / steps;
     }
+}
+
+void options_read_times (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    int stable = (o->flags & PG_SOLVER_EXPLICIT) != 0;
+    o->dt = options_number (scene, "solver.dt");
+    o->end = options_number (scene, "solver.end");
+    o->time_steps = options_integer (scene, "solver.time_steps");
+    check_times (o, scene, stable);
+    if (!(o->dt > 0 && o->end > 0 && o->time_steps)) complete_times (o, scene);
     if (!stable) o->steps = o->time_steps;
     if (stable && o->time_steps && !(o->end > 0)) need_end (problem, scene);
 }
 
+/* Inertia needs a mass at every point. */
 static void need_density (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     for (size_t i = 0; i < problem->nmaterial; i++)

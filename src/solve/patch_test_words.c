@@ -42,11 +42,21 @@ static double thinnest (const pg_problem *p)
     return round (least);
 }
 
+/* Does the influence function, with its slope, go to zero at the horizon, and is it flat at the point itself?
+ * Such functions are integrated best. */
+static int ends_smoothly (const pg_kernel *kernel)
+{
+    const double q[2] = { 1e-9, 1 - 1e-9 };
+    double w[2], dw[2];
+    kernel->value (2, q, w, dw);
+    return fabs (dw[0]) < 1e-6 && fabs (w[1]) < 1e-6 && fabs (dw[1]) < 1e-6;
+}
+
 void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 {
     double reach = p->approx.horizon / p->cloud.h, across = thinnest (p);
     int exact = p->approx.type->exact, consistent = p->integration->consistent,
-        smooth = p->approx.kernel == pg_kernel_entry (0);
+        smooth = ends_smoothly (p->approx.kernel);
     if (p->sums && across < 4 * reach)
         snprintf (out, size,
                   "bond-type forces want at least %.0f points across, four horizons, and this body has %.0f: "

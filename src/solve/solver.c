@@ -154,15 +154,10 @@ static double largest_displacement (const pg_solver *s, const pg_state *state)
     return top;
 }
 
-const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
+/* Work that breaking did not cost: factors and preconditioners that were kept. Told once. */
+static void report_skips (pg_solver *s)
 {
-    pg_system *sys = &s->break_loop.system;
-    if (sys->force->census)
-        sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
-                            &s->report.fragments);
-    if (sys->force->overlap)
-        s->report.overlap_max = fmax (s->report.overlap_max,
-                                      sys->force->overlap (sys->self, state, state->d));
+    const pg_system *sys = &s->break_loop.system;
     if (sys->kept && !s->reported_skips && s->report.factorizations) {
         char what[96];
         snprintf (what, sizeof what, "factorization after %ld break rounds", sys->kept);
@@ -195,6 +190,11 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
                             "would pay (their time is not taken off)");
         s->reported_spared = 1;
     }
+}
+
+/* What a result may be doubted for: energy from breaking, faces of a crack that overlap. Told once. */
+static void warn_at_end (pg_solver *s, const pg_state *state)
+{
     if (!s->warned_energy && s->report.broken > 0
         && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
         pg_statistics_warn (&s->report,
@@ -209,6 +209,19 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
                             s->report.overlap_max);
         s->warned_overlap = 1;
     }
+}
+
+const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
+{
+    pg_system *sys = &s->break_loop.system;
+    if (sys->force->census)
+        sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
+                            &s->report.fragments);
+    if (sys->force->overlap)
+        s->report.overlap_max = fmax (s->report.overlap_max,
+                                      sys->force->overlap (sys->self, state, state->d));
+    report_skips (s);
+    warn_at_end (s, state);
     return &s->report;
 }
 
