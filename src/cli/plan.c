@@ -160,15 +160,16 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     const pg_solver_options *o = p->options;
     int fails = p->problem->criterion->type != NULL, steps = (o->flags & PG_SOLVER_EXPLICIT) != 0;
     int relaxed = !steps && (o->flags & PG_SOLVER_STAGED), solves = !steps && !relaxed;
-    int matrix = solves && p->forecast->linear != NULL, iterates = solves && !matrix;
+    int by_events = solves && o->event, factors = p->forecast->linear != NULL;
+    int matrix = solves && factors, iterates = solves && !factors;
     int quasi_static = (o->flags & PG_SOLVER_QUASI_STATIC) != 0;
     const reason reasons[] = {
         { !fails, "bond failure", "there is no failure criterion" },
         { steps, "stiffness matrix and factorization", "explicit time steps need neither" },
         { relaxed, "stiffness matrix and factorization", "relaxation needs neither" },
-        { solves && !fails && o->event, "all solves but one",
+        { by_events && !fails, "all solves but one",
           "nothing can break: the answer is linear in the load factor" },
-        { solves && fails && o->event, "load increments in which nothing breaks",
+        { by_events && fails, "load increments in which nothing breaks",
           "event stepping goes from break to break in closed form" },
         { iterates && !quasi_static, "stiffness matrix and factorization",
           "small time step: the mass dominates, conjugate gradients need few iterations" },

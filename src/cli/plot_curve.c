@@ -399,6 +399,13 @@ done:
     return status;
 }
 
+static pg_status unknown_option (const char *name, const char *names)
+{
+    const char *near = pg_nearest_name (name, names);
+    return pg_error (PG_E_USAGE, PG_HERE, "unknown option %s beside --curve%s%s", name,
+                     near ? "; did you mean " : "", near ? near : "");
+}
+
 /* Reads one option; *used counts it with its values. */
 static pg_status read_option (request *q, const char *name, char **value, int left, int *used)
 {
@@ -407,10 +414,7 @@ static pg_status read_option (request *q, const char *name, char **value, int le
     static const int values[] = { 2, 1, 1, 1, 0, 0, 0 };
     pg_status status = PG_OK;
     int k = pg_plot_index (name, names), axes = left > 0 && is_axes (value[0]);
-    const char *near = k < 0 ? pg_nearest_name (name, names) : NULL;
-    if (k < 0)
-        PG_FAIL (PG_E_USAGE, "unknown option %s beside --curve%s%s", name, near ? "; did you mean " : "",
-                 near ? near : "");
+    if (k < 0) return unknown_option (name, names);
     *used = 1 + values[k];
     if (left < values[k])
         PG_FAIL (PG_E_USAGE, "%s needs %s", name, k == CURVE ? "two column names" : "a value");
