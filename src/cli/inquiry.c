@@ -51,6 +51,8 @@ static const char *of_solver (const char *n)
     return t ? t->summary : "";
 }
 
+/* The catalogues that scenes choose from: the key of the scene, the names, the line of
+ * description. */
 static const struct { const char *key; const char *(*names) (void); summary_of summary;
 } catalogues[] = {
     { "method.force", pg_force_names, of_force },

@@ -124,7 +124,7 @@ static void compose (char *line, int full, const progress *p, const pg_progress 
     add_time (line, p, at, now, within && step->nbroken && relaxes_or_solves);
 }
 
-/* Its columns; 80 if it does not say. */
+/* Columns of the terminal behind stderr; 80 if it does not say or is narrower than believable. */
 static size_t width_of_terminal (void)
 {
     struct winsize size;

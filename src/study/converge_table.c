@@ -123,7 +123,7 @@ typedef struct {
 } chart;
 
 /* Adds an error, or of a value with an order its distance from Richardson's extrapolated
- * value, relative to that. */
+ * value, relative to that; values without an order have nothing to show. */
 static void add_curve (chart *c, const pg_study *s, const pg_quantity *q, int several)
 {
     pg_observed o = pg_study_order (s, q, s->n);
