@@ -25,7 +25,8 @@ done:
 void spectrum_free (spectrum *s) { pg_symbol_free (&s->symbol); }
 
 /* ---- words --------------------------------------------------------------------------------------------- */
-/* A motion in words with its wave vector in units of pi / step. */
+/* A motion in words with its wave vector in units of pi / step, so that 1 is the edge of the
+ * zone. */
 static void print_motion (const pg_motion *m, const pg_symbol *s)
 {
     char where[64];
@@ -100,7 +101,8 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
 }
 
 /* ---- JSON ---------------------------------------------------------------------------------------------- */
-/* A motion as a JSON object. */
+/* A motion as a JSON object: value, wave vector in units of pi / step, kind and place in
+ * words. */
 static void put_motion (pg_json *j, const char *key, const pg_motion *m, const pg_symbol *s)
 {
     char where[64];

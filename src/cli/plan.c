@@ -140,7 +140,7 @@ plan_times plan_times_of (const plan *p)
     return t;
 }
 
-/* Appends an entry unless the list is full. */
+/* Appends an entry unless the list is full; what it saves in seconds is not known beforehand. */
 static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, const char *why)
 {
     if (*n == most) return;
@@ -306,7 +306,7 @@ static void print_factor (const pg_forecast *f)
             f->analysed ? "analysed: " : "estimate", f->analysed ? f->ordering : "");
 }
 
-/* Bytes with three digits and a unit. */
+/* Bytes with three digits in MB, GB or TB (powers of 1000); the limits avoid "1e+03 MB". */
 static void print_bytes (double bytes)
 {
     if (bytes < 999.5e6) printf ("%.3g MB", bytes * 1e-6);

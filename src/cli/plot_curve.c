@@ -13,7 +13,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Longest cell, longest path or list of names, and the largest number of curves. */
+/* Longest cell or label, longest path or list of names, and the largest number of curves in
+ * one picture. */
 enum { CELL = 256, LIST = 4096, MOST = 24 };
 
 /* What the command line asks for. */
@@ -226,7 +227,7 @@ static void quantity_of (const char *column, double value, char *out, size_t siz
     else snprintf (out, size, "%.4g%s%s", value, *unit ? " " : "", unit);
 }
 
-/* The last part of a path without slashes at its end. */
+/* The last part of a path without slashes at its end, which names a run in the legend. */
 static void name_of_folder (const char *path, char *out, size_t size)
 {
     size_t end = strlen (path);
@@ -284,7 +285,8 @@ static void change_signs (const request *q, run_curve *c)
 }
 
 /* ---- the picture --------------------------------------------------------------------------------------- */
-/* DIR/Y-X.png, with other characters than letters, digits, - and _ replaced by _. */
+/* DIR/Y-X.png of the first folder, with other characters than letters, digits, - and _
+ * replaced by _; beside a table the current folder. */
 static void name_picture (const request *q, char *path, size_t size)
 {
     char name[128];

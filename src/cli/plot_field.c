@@ -108,8 +108,8 @@ done:
     return status;
 }
 
-/* Length of a vector, or Frobenius norm of a symmetric tensor; shears count twice, engineering
- * strains with half their value (shear = 0.5). */
+/* Length of a vector, or Frobenius norm of a symmetric tensor in Voigt order: shears count
+ * twice, engineering strains with half their value (shear = 0.5; stresses 1). */
 static double magnitude (const double *v, int dim, int m, double shear)
 {
     double sum = 0;
@@ -230,7 +230,7 @@ done:
     return status;
 }
 
-/* May be called for a result that was only half opened. */
+/* Frees everything; may be called for a result that was only half opened. */
 static void close_source (source *s)
 {
     pg_cracks_clear (&s->cracks);
@@ -315,7 +315,8 @@ static void name_picture (const plot_request *q, int number, char *path, size_t 
     snprintf (path, size, "%.2100s/%s%s.png", q->directory, name, count);
 }
 
-/* Extends the range of the colours by one step: all pictures of a series share it. */
+/* Extends the range of the colours by one step: all pictures of a series share it, so that
+ * they can be compared. *any: a finite value has been seen. */
 static pg_status widen_range (const plot_request *q, const source *s, const stage *g, pg_picture_style *style,
                               int *any)
 {

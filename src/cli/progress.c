@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 /* Longest line; width of terminal below which its size is not believed; number of details at
- * most. */
+ * most, which are taken away one after the other. */
 enum { LINE = 400, NARROW = 20, FULL = 3 };
 
 /* Both marks of the pace begin at the start of the run. stderr is asked whether it is a

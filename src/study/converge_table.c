@@ -35,7 +35,7 @@ static double largest (const pg_study *s, const char *unit)
 }
 
 /* 1 if a quantity is rounding beside those of its unit; forces also beside energy over
- * displacement, for a run may have no other force. */
+ * displacement, for a run may have no other force. Errors are never noise. */
 static int is_noise (const pg_study *s, const pg_quantity *q)
 {
     double most = largest (s, q->unit), way = largest (s, "m");
