@@ -47,7 +47,7 @@ static int is (const pg_scene *scene, const char *key, const char *word)
 
 /* ---- rule ---------------------------------------------------------------------------------------------- */
 /* Sums of forces that such a run asks for, about */
-static double sweeps_of (const pg_scene *scene)
+static double evaluations_of (const pg_scene *scene)
 {
     if (pg_scene_has (scene, "solver.time_steps"))
         return (double) pg_scene_integer (scene, "solver.time_steps");
@@ -82,7 +82,7 @@ void bond_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, co
                        : is (scene, evaluation, "list")  ? PG_EVALUATE_LIST
                        : is (scene, evaluation, "fft")   ? PG_EVALUATE_FFT
                                                          : PG_EVALUATE_AUTO;
-    rule->sweeps = sweeps_of (scene);
+    rule->evaluations = evaluations_of (scene);
 }
 
 /* Weighted volumes are those of the bonds at the start, or follow what lives. */
