@@ -35,6 +35,7 @@ int pg_instructions_here (pg_instructions set)
 #endif
 }
 
+/* The instructions asked for, or the best that this machine has */
 static pg_status choose_instructions (pg_instructions *out, const char *name)
 {
     pg_status status = PG_OK;
@@ -64,6 +65,8 @@ static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_lo
     snprintf (reason, size, "auto: about %.2g ns a point by transforms, %.2g by stencil", fast, direct);
 }
 
+/* The first kind of loop that is made for the theory (bonds alone, state-based, beams, both) and does not
+ * refuse. */
 static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_setting *setting)
 {
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL,
