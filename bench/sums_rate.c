@@ -194,7 +194,7 @@ static pg_status build (bench *b, const force *f, const shape *s, const kind *k)
                          .state = f->bit == LPS,
                          .beams = f->bit == GMPD,
                          .finite = k->finite,
-                         .sweeps = 1e5 };
+                         .evaluations = 1e5 };
     PG_TRY (lattice_bond (body, &rule, s->scatter > 0));
     PG_TRY (set_values (b, &rule));
     for (size_t i = 0; i < body->cloud.n; i++) {

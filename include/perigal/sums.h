@@ -40,7 +40,7 @@ typedef struct {
     int        finite;  /* 0: s = e.eta / r; 1: s = (|xi + eta| - r) / r, force along xi + eta */
     pg_evaluation evaluation;                          /* never changes the physics */
     /* sums of forces that will be asked for, about; 0: a few. Many are worth timing plans of transforms */
-    double     sweeps;
+    double     evaluations;
     int        threads;  /* of the search for neighbours on a lattice, below 2: one; never changes a bit */
 } pg_sum_rule;
 
@@ -198,40 +198,40 @@ typedef struct pg_bond_loop pg_bond_loop;
  * product), by transforms where that saves a fifth of the stencil's time by counted work and stored rates
  * (never a clock; linear stretch), else by list. PG_E_USAGE: the rule asks for what cannot be, or the
  * instructions are not there. What the setting points to is borrowed. Plans of transforms are guessed, or
- * with rule.sweeps times points above 2e8 timed and kept in $XDG_CACHE_HOME/perigal or ~/.cache/perigal
+ * with rule.evaluations times points above 2e8 timed and kept in $XDG_CACHE_HOME/perigal or ~/.cache/perigal
  * (where that can be written): the same bits as long as they are kept. */
 pg_status   pg_bond_loop_create (pg_bond_loop **out, const pg_bond_loop_setting *setting);
-void        pg_bond_loop_free   (pg_bond_loop **sweep);
-const char *pg_bond_loop_name   (const pg_bond_loop *sweep);   /* "stencil avx512", "list scalar", ... */
+void        pg_bond_loop_free   (pg_bond_loop **loop);
+const char *pg_bond_loop_name   (const pg_bond_loop *loop);   /* "stencil avx512", "list scalar", ... */
 /* Why that one: "asked for", "auto: about 2.4 ns a point by transforms, 3 by stencil", ...; plans of
  * transforms guessed or timed. */
-const char *pg_bond_loop_reason (const pg_bond_loop *sweep);
-typedef struct {  /* of a sweep by transforms ("fft avx2") since it was made; all 0 of others */
+const char *pg_bond_loop_reason (const pg_bond_loop *loop);
+typedef struct {  /* of a loop by transforms ("fft avx2") since it was made; all 0 of others */
     long   sums;                                       /* forces */
     long   forward, back;                              /* real transforms of the padded box */
     /* blocks of 32 sites, summed over forces; looked at bond by bond; with cut bonds */
     size_t blocks, bonds, cut;
     size_t gone;                                       /* points all whose bonds are dead, now */
 } pg_bond_loop_counts;
-void        pg_bond_loop_counted (const pg_bond_loop *sweep, pg_bond_loop_counts *out);
-/* of memory that a force sweep reads and writes */
-void        pg_bond_loop_bytes  (const pg_bond_loop *sweep, double *per_bond, double *per_point);
-/* Brings the sweep's own bits in line with alive (entries of the family): all (changes NULL), or those that
+void        pg_bond_loop_counted (const pg_bond_loop *loop, pg_bond_loop_counts *out);
+/* of memory that a force loop reads and writes */
+void        pg_bond_loop_bytes  (const pg_bond_loop *loop, double *per_bond, double *per_point);
+/* Brings the loop's own bits in line with alive (entries of the family): all (changes NULL), or those that
  * died. */
-void        pg_bond_loop_update (pg_bond_loop *sweep, const unsigned char *alive, const pg_changes *changes);
+void        pg_bond_loop_update (pg_bond_loop *loop, const unsigned char *alive, const pg_changes *changes);
 /* f (n x dim, N) = force of the live bonds on every point at displacement u (n x dim, m): V_i L_i. Unless
  * `broken` is NULL, bonds at or over their limit are dead before they are summed and stay so; they are
  * appended ascending, both directions. The same bits for any number of threads. */
-pg_status   pg_bond_loop_force  (pg_bond_loop *sweep, const double *u, double *f, pg_changes *broken);
+pg_status   pg_bond_loop_force  (pg_bond_loop *loop, const double *u, double *f, pg_changes *broken);
 /* Stored energy of the live bonds, J. */
-double      pg_bond_loop_energy (pg_bond_loop *sweep, const double *u);
+double      pg_bond_loop_energy (pg_bond_loop *loop, const double *u);
 /* W (n, J/m^3) = energy density of every point at displacement u: half the energy of each of its live bonds
  * over its volume, W_i = 1/4 sum_j c k beta g r s^2 V_j (theory B2); sum of W_i V_i = pg_bond_loop_energy to
  * rounding. 0 where a point has no live bond. The same bits for any number of threads. */
-pg_status   pg_bond_loop_energies (pg_bond_loop *sweep, const double *u, double *W);
+pg_status   pg_bond_loop_energies (pg_bond_loop *loop, const double *u, double *W);
 /* State-based sums: dilatation of every point, theta_i = d / q_i sum_j w xi.eta V_j (1), and its q_i (m^2
  * times m^3 over the unit of w), both n or NULL (theta NULL: u is not read); 0 where no bond counts.
  * PG_E_USAGE: bonds alone have none. */
-pg_status   pg_bond_loop_dilatation (pg_bond_loop *sweep, const double *u, double *theta, double *q);
+pg_status   pg_bond_loop_dilatation (pg_bond_loop *loop, const double *u, double *theta, double *q);
 PG_API_END
 #endif

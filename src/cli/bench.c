@@ -16,7 +16,7 @@ static const char *cell_kinds (void) { return cell_names; }
 /* A list option: where its words go, and the names that are allowed (NULL: any). */
 typedef struct { const char *option; pg_word_list *words; const char *(*names) (void); } list_option;
 
-/* 1 if the word is in "a|b|c". */
+/* 1 if the word is in "a|b|c", as a whole word. */
 static int is_one_of (const char *word, const char *names)
 {
     size_t n = strlen (word);

@@ -25,7 +25,8 @@ done:
 void spectrum_free (spectrum *s) { pg_symbol_free (&s->symbol); }
 
 /* ---- words --------------------------------------------------------------------------------------------- */
-/* A motion in words with its wave vector in units of pi / step. */
+/* A motion in words with its wave vector in units of pi / step, so that 1 is the edge of the
+ * zone. */
 static void print_motion (const pg_motion *m, const pg_symbol *s)
 {
     char where[64];
@@ -76,9 +77,10 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
     printf ("  %-18s  %.4g, ", "smallest", v->smallest.value), print_motion (&v->smallest, s);
     printf ("  %-18s  %.4g of a continuum's, ", "softest", v->softest.value), print_motion (&v->softest, s);
     if (!isnan (v->turning[0]))
-        printf ("  %-18s  %.5g E V where all points rotate alike, at least %.5g\n", "rotations", v->turning[0],
-                v->turning[1]);
-    if (s->unknowns > s->dim && s->held[s->dim]) printf ("  %-18s  without stiffness: constrained\n", "rotations");
+        printf ("  %-18s  %.5g E V where all points rotate alike, at least %.5g\n", "rotations",
+                v->turning[0], v->turning[1]);
+    if (s->unknowns > s->dim && s->held[s->dim])
+        printf ("  %-18s  without stiffness: constrained\n", "rotations");
     printf ("  %-18s  %zu, without energy %zu (beside rigid translation), below 0.01 of a continuum's %zu\n",
             "gaining energy", v->negative, v->zero, v->weak);
     if (v->zero) printf ("  %-18s  ", "without energy"), print_motion (&v->first, s);
@@ -99,7 +101,8 @@ void spectrum_print (const spectrum *x, const pg_problem *p)
 }
 
 /* ---- JSON ---------------------------------------------------------------------------------------------- */
-/* A motion as a JSON object. */
+/* A motion as a JSON object: value, wave vector in units of pi / step, kind and place in
+ * words. */
 static void put_motion (pg_json *j, const char *key, const pg_motion *m, const pg_symbol *s)
 {
     char where[64];

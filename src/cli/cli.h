@@ -7,12 +7,19 @@
 #define PERIGAL_CLI_H
 #include "perigal.h"
 
+/* SCENE [-o DIR] [--resume | --force] ...: solves and leaves a folder of results (run.c). */
 int pg_cli_run   (int argc, char **argv);
+/* SCENE [--json] [--solve] [--spectrum] ...: what is wrong with a scene, or what it amounts to
+ * (check.c). */
 int pg_cli_check (int argc, char **argv);
+/* DIR [REFERENCE] ...: a result against what is known of it (compare.c). */
 int pg_cli_compare (int argc, char **argv);
+/* The entries of all catalogues; the keys of the scene (inquiry.c). */
 int pg_cli_list  (int argc, char **argv);
 int pg_cli_help  (int argc, char **argv);
+/* Error and cost of methods and sizes (bench.c). */
 int pg_cli_bench (int argc, char **argv);
+/* Orders of convergence (converge.c). */
 int pg_cli_converge (int argc, char **argv);
 /* What bench and converge start in a new process (trial.c). */
 int pg_cli_trial (int argc, char **argv);
@@ -30,11 +37,13 @@ typedef struct {
      * of relaxation; a first share is known. */
     int    tenth, tty, quiet, steps_in_time, staged, begun;
 } progress;
+/* Begins; settled: the options as the solver has settled them, which say what a step is. */
 void progress_start (progress *p, int quiet, const pg_solver_options *settled);
 /* Shows a line if it is time. within = 1: between two rounds of a step that is not done, whose
  * numbers so far are in `step`. */
 void progress_show (progress *p, const pg_progress *at, const pg_step *step, const pg_statistics *report,
                     int within);
+/* Removes the line from the terminal. */
 void progress_end   (progress *p);
 
 /* usage.c: prints what a command says of itself; 0: there is no such command. */
@@ -83,6 +92,7 @@ pg_status afford_problem (const command *c, pg_forecast *f, const pg_problem *p,
 /* Plane waves of the scene's lattice (check_spectrum.c); symbol is NULL if they were not asked
  * for. */
 typedef struct { pg_symbol *symbol; pg_survey survey; char verdict[400]; } spectrum;
+/* Measures the lattice and samples its waves; PG_E_USAGE without a lattice (symbol.h). */
 pg_status spectrum_find  (spectrum *out, const pg_scene *scene, const pg_problem *p);
 void      spectrum_free  (spectrum *spectrum);
 void      spectrum_print (const spectrum *spectrum, const pg_problem *p);
@@ -107,10 +117,12 @@ typedef struct {
 /* Largest frequency (rad/s), stable time step (s), c_p dt / h of Newmark steps. measured: 0:
  * an estimate, 1: by --solve, 2: by the solver itself. */
 typedef struct { double omega, dt, courant; int measured; } plan_times;
+/* Largest frequency and stable time step, measured where that was done, else estimated. */
 plan_times plan_times_of (const plan *p);
 /* What the run will not do, as far as that is known before; returns how many entries were
  * written. */
 size_t plan_skips (const plan *p, pg_skip *skip, size_t most);
+/* The same numbers at length for people, and as JSON for programs. */
 void plan_print_long (const plan *p);
 pg_status plan_print_json (const plan *p);
 /* The mesh of a body, if it has one (plan_mesh.c). */

@@ -101,9 +101,9 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
         if (!joined && !apart) continue;
         while (last < argc && argv[last][0] != '-' && !is_scene (argv[last])) last++;
         if (first >= argc || last == first) continue;
-        size_t n = (size_t) snprintf (out, size,
-                                      "'%.60s' is not a file: a value with blanks needs quotes: --set '%.200s",
-                                      argv[first], joined ? argv[k] + 6 : argv[k + 1]);
+        size_t n = (size_t) snprintf (
+            out, size, "'%.60s' is not a file: a value with blanks needs quotes: --set '%.200s", argv[first],
+            joined ? argv[k] + 6 : argv[k + 1]);
         for (int i = first; i < last && n < size; i++)
             n += (size_t) snprintf (out + n, size - n, " %.100s", argv[i]);
         if (n < size) snprintf (out + n, size - n, "'");
@@ -112,11 +112,18 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
     return 0;
 }
 
-/* Reads one option of run or check; -1: go on, else the exit code. Options of the other
- * command are refused by name. */
-static int read_option (command *c, const char *name, int option, const char *word)
+/* run and check share their options but for these: --force is for run; --json, --solve, --spectrum for
+ * check. */
+static int belongs_to (int option, const char *name)
 {
     int checks = strcmp (name, "check") == 0;
+    return option == 'f' ? !checks : checks || !strchr ("jvw", option);
+}
+
+/* One option of run or check; -1: go on, else the exit code. */
+static int read_option (command *c, const char *name, int option, const char *word)
+{
+    if (!belongs_to (option, name)) return refuse (name, option, word);
     switch (option) {
     case 'h': return command_usage (stdout, name) ? PG_EXIT_DONE : PG_EXIT_USAGE;
     case 'o': c->folder = optarg; return -1;
@@ -125,10 +132,10 @@ static int read_option (command *c, const char *name, int option, const char *wo
     case 'm': return read_memory (c, optarg);
     case 'q': c->quiet = 1; return -1;
     case 'r': c->resume = 1; return -1;
-    case 'f': c->force = 1; return checks ? refuse (name, option, word) : -1;
-    case 'j': c->json = 1; return checks ? -1 : refuse (name, option, word);
-    case 'v': c->solve = 1; return checks ? -1 : refuse (name, option, word);
-    case 'w': c->spectrum = 1; return checks ? -1 : refuse (name, option, word);
+    case 'f': c->force = 1; return -1;
+    case 'j': c->json = 1; return -1;
+    case 'v': c->solve = 1; return -1;
+    case 'w': c->spectrum = 1; return -1;
     default: return refuse (name, option, word);
     }
 }

@@ -10,7 +10,7 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Prints a message and returns the exit code for wrong use. */
+/* Prints a message, whose format takes one text, and returns the exit code for wrong use. */
 static int complain (const char *format, const char *text)
 {
     fputs ("perigal compare: ", stderr);
@@ -34,7 +34,7 @@ static int read_shift (const char *text, double shift[3])
     return 0;
 }
 
-/* A unit of length, in m. */
+/* A unit of length, in m: "mm" is read as "1 mm". Returns 0 for anything else. */
 static int read_unit (const char *text, double *unit)
 {
     char one[64];
@@ -172,7 +172,8 @@ done:
     return status;
 }
 
-/* The rows are printed before the files are written: they are there even if the disk is full. */
+/* The rows are printed before the files are written: they are there even if the disk is full.
+ * With --json the file is printed instead. */
 int pg_cli_compare (int argc, char **argv)
 {
     pg_status status = PG_OK;

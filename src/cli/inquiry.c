@@ -51,6 +51,8 @@ static const char *of_solver (const char *n)
     return t ? t->summary : "";
 }
 
+/* The catalogues that scenes choose from: the key of the scene, the names, the line of
+ * description. */
 static const struct { const char *key; const char *(*names) (void); summary_of summary;
 } catalogues[] = {
     { "method.force", pg_force_names, of_force },
@@ -93,7 +95,8 @@ static void all_keys (void)
         for (size_t k = 0; k < table[t].n; k++) printf ("  %s\n", table[t].key[k].path);
 }
 
-/* A word is first looked for among the commands, then among the keys. */
+/* A word is first looked for among the commands, then among the keys; without one all keys are
+ * listed, and --manual prints doc/input.md. */
 int pg_cli_help (int argc, char **argv)
 {
     pg_status status = PG_OK;

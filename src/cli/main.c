@@ -58,7 +58,8 @@ static void settle_threads (int argc, char **argv)
     execv ("/proc/self/exe", argv);                    /* goes on below where this fails */
 }
 
-/* Only run and check (the first two commands) factor matrices and need that environment. */
+/* Finds the command, keeps freed memory in the process (pg_memory_keep) and runs it. Only run
+ * and check (the first two commands) factor matrices and need the changed environment. */
 int main (int argc, char **argv)
 {
     if (argc < 2) {

@@ -140,7 +140,7 @@ plan_times plan_times_of (const plan *p)
     return t;
 }
 
-/* Appends an entry unless the list is full. */
+/* Appends an entry unless the list is full; what it saves in seconds is not known beforehand. */
 static void add_skip (pg_skip *skip, size_t *n, size_t most, const char *what, const char *why)
 {
     if (*n == most) return;
@@ -160,15 +160,16 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     const pg_solver_options *o = p->options;
     int fails = p->problem->criterion->type != NULL, steps = (o->flags & PG_SOLVER_EXPLICIT) != 0;
     int relaxed = !steps && (o->flags & PG_SOLVER_STAGED), solves = !steps && !relaxed;
-    int matrix = solves && p->forecast->linear != NULL, iterates = solves && !matrix;
+    int by_events = solves && o->event, factors = p->forecast->linear != NULL;
+    int matrix = solves && factors, iterates = solves && !factors;
     int quasi_static = (o->flags & PG_SOLVER_QUASI_STATIC) != 0;
     const reason reasons[] = {
         { !fails, "bond failure", "there is no failure criterion" },
         { steps, "stiffness matrix and factorization", "explicit time steps need neither" },
         { relaxed, "stiffness matrix and factorization", "relaxation needs neither" },
-        { solves && !fails && o->event, "all solves but one",
+        { by_events && !fails, "all solves but one",
           "nothing can break: the answer is linear in the load factor" },
-        { solves && fails && o->event, "load increments in which nothing breaks",
+        { by_events && fails, "load increments in which nothing breaks",
           "event stepping goes from break to break in closed form" },
         { iterates && !quasi_static, "stiffness matrix and factorization",
           "small time step: the mass dominates, conjugate gradients need few iterations" },
@@ -305,7 +306,7 @@ static void print_factor (const pg_forecast *f)
             f->analysed ? "analysed: " : "estimate", f->analysed ? f->ordering : "");
 }
 
-/* Bytes with three digits and a unit. */
+/* Bytes with three digits in MB, GB or TB (powers of 1000); the limits avoid "1e+03 MB". */
 static void print_bytes (double bytes)
 {
     if (bytes < 999.5e6) printf ("%.3g MB", bytes * 1e-6);

@@ -40,8 +40,8 @@ static void print_elements (const pg_mesh_body *b)
     if (m->nblock > MOST) printf ("  %-18s  and %zu more\n", "blocks", m->nblock - MOST);
 }
 
-/* Names of sets that had to change, since keys of a scene allow fewer characters; a set of
- * nodes that a set of sides has named already is left out. */
+/* Names of sets that had to change, since keys of a scene allow fewer characters; users must
+ * write the changed name. A set of nodes that a set of sides has named already is left out. */
 static void print_renamed (const pg_mesh *m)
 {
     char clean[57];

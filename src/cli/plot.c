@@ -164,7 +164,8 @@ done:
     return status;
 }
 
-/* --magnify FACTOR of the displacements; negative ones are allowed. */
+/* --magnify FACTOR of the displacements; 0, the default, draws the undeformed body, and
+ * negative factors are allowed. */
 static pg_status read_magnify (plot_request *q, const char *text)
 {
     return read_number ("--magnify", text, -INFINITY, &q->style.magnify);
@@ -183,7 +184,8 @@ done:
     return status;
 }
 
-/* --unit mm: of the lengths in a mesh file. */
+/* --unit mm: of the lengths in a mesh file, which itself rarely says; axes have no unit
+ * without it. */
 static pg_status read_unit (plot_request *q, const char *text)
 {
     pg_status status = PG_OK;
@@ -214,7 +216,8 @@ static pg_status read_field (plot_request *q, const char *text)
 static pg_status read_component (plot_request *q, const char *text) { q->component = text; return PG_OK; }
 static pg_status read_out (plot_request *q, const char *text) { q->out = text; return PG_OK; }
 
-/* The options and their readers; three of them take no value. */
+/* The options and their readers. Those of --sets, --log and --list take no value; their
+ * readers ignore it. */
 static const struct { const char *name; pg_status (*read) (plot_request *q, const char *text);
 } options[] = {
     { "--field", read_field },     { "--component", read_component }, { "--step", read_step },

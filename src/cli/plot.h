@@ -28,7 +28,9 @@ typedef struct {
     int    all, panels, columns;
     /* 1: --above, --range were given. */
     int    limited, ranged;
+    /* 1: draw sets of a mesh; 1: list the steps. */
     int    sets, list;
+    /* View, section, range, magnification and the like. */
     pg_picture_style style;
 } plot_request;
 /* Draws fields of a result and prints the names of the files (plot_field.c). */

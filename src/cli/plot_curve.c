@@ -13,7 +13,8 @@
 #include <string.h>
 #include <unistd.h>
 
-/* Longest cell, longest path or list of names, and the largest number of curves. */
+/* Longest cell or label, longest path or list of names, and the largest number of curves in
+ * one picture. */
 enum { CELL = 256, LIST = 4096, MOST = 24 };
 
 /* What the command line asks for. */
@@ -226,7 +227,7 @@ static void quantity_of (const char *column, double value, char *out, size_t siz
     else snprintf (out, size, "%.4g%s%s", value, *unit ? " " : "", unit);
 }
 
-/* The last part of a path without slashes at its end. */
+/* The last part of a path without slashes at its end, which names a run in the legend. */
 static void name_of_folder (const char *path, char *out, size_t size)
 {
     size_t end = strlen (path);
@@ -284,7 +285,8 @@ static void change_signs (const request *q, run_curve *c)
 }
 
 /* ---- the picture --------------------------------------------------------------------------------------- */
-/* DIR/Y-X.png, with other characters than letters, digits, - and _ replaced by _. */
+/* DIR/Y-X.png of the first folder, with other characters than letters, digits, - and _
+ * replaced by _; beside a table the current folder. */
 static void name_picture (const request *q, char *path, size_t size)
 {
     char name[128];
@@ -399,6 +401,13 @@ done:
     return status;
 }
 
+static pg_status unknown_option (const char *name, const char *names)
+{
+    const char *near = pg_nearest_name (name, names);
+    return pg_error (PG_E_USAGE, PG_HERE, "unknown option %s beside --curve%s%s", name,
+                     near ? "; did you mean " : "", near ? near : "");
+}
+
 /* Reads one option; *used counts it with its values. */
 static pg_status read_option (request *q, const char *name, char **value, int left, int *used)
 {
@@ -407,10 +416,7 @@ static pg_status read_option (request *q, const char *name, char **value, int le
     static const int values[] = { 2, 1, 1, 1, 0, 0, 0 };
     pg_status status = PG_OK;
     int k = pg_plot_index (name, names), axes = left > 0 && is_axes (value[0]);
-    const char *near = k < 0 ? pg_nearest_name (name, names) : NULL;
-    if (k < 0)
-        PG_FAIL (PG_E_USAGE, "unknown option %s beside --curve%s%s", name, near ? "; did you mean " : "",
-                 near ? near : "");
+    if (k < 0) return unknown_option (name, names);
     *used = 1 + values[k];
     if (left < values[k])
         PG_FAIL (PG_E_USAGE, "%s needs %s", name, k == CURVE ? "two column names" : "a value");

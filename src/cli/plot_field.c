@@ -75,6 +75,19 @@ static int component_of (const char *wanted, const char *names, int m)
     return k >= 0 ? k : number_of (wanted, m);
 }
 
+/* "|displacement|", "stress_{yy}", "field 2": what the colour bar shows. */
+static void name_component (source *s, const char *field, const char *names)
+{
+    int m = s->components;
+    if (s->norm) snprintf (s->name, sizeof s->name, "|%.31s|", field);
+    else if (m == 1) snprintf (s->name, sizeof s->name, "%.31s", field);
+    else if (!names[0]) snprintf (s->name, sizeof s->name, "%.31s %d", field, s->component);
+    else {
+        for (int k = s->component; k > 0; k--) names += strcspn (names, "|") + 1;
+        snprintf (s->name, sizeof s->name, "%.31s_{%.*s}", field, (int) strcspn (names, "|"), names);
+    }
+}
+
 /* The component that is asked for by name or number; by default the magnitude of a vector and
  * xx of a tensor. Also the name on the colour bar. */
 static pg_status choose_component (const plot_request *q, source *s)
@@ -90,17 +103,13 @@ static pg_status choose_component (const plot_request *q, source *s)
         PG_FAIL (PG_E_USAGE, "field %s has no component %s: 0 to %d%s%s or magnitude", q->field, wanted,
                  m - 1, names[0] ? ", " : "", names);
     s->component = k;
-    if (s->norm) snprintf (s->name, sizeof s->name, "|%.31s|", q->field);
-    else if (m > 1 && names[0]) {
-        for (; k > 0; k--) names += strcspn (names, "|") + 1;
-        snprintf (s->name, sizeof s->name, "%.31s_{%.*s}", q->field, (int) strcspn (names, "|"), names);
-    } else snprintf (s->name, sizeof s->name, m > 1 ? "%.31s %d" : "%.31s", q->field, k);
+    name_component (s, q->field, names);
 done:
     return status;
 }
 
-/* Length of a vector, or Frobenius norm of a symmetric tensor; shears count twice, engineering
- * strains with half their value (shear = 0.5). */
+/* Length of a vector, or Frobenius norm of a symmetric tensor in Voigt order: shears count
+ * twice, engineering strains with half their value (shear = 0.5; stresses 1). */
 static double magnitude (const double *v, int dim, int m, double shear)
 {
     double sum = 0;
@@ -221,7 +230,7 @@ done:
     return status;
 }
 
-/* May be called for a result that was only half opened. */
+/* Frees everything; may be called for a result that was only half opened. */
 static void close_source (source *s)
 {
     pg_cracks_clear (&s->cracks);
@@ -306,7 +315,8 @@ static void name_picture (const plot_request *q, int number, char *path, size_t 
     snprintf (path, size, "%.2100s/%s%s.png", q->directory, name, count);
 }
 
-/* Extends the range of the colours by one step: all pictures of a series share it. */
+/* Extends the range of the colours by one step: all pictures of a series share it, so that
+ * they can be compared. *any: a finite value has been seen. */
 static pg_status widen_range (const plot_request *q, const source *s, const stage *g, pg_picture_style *style,
                               int *any)
 {
@@ -371,18 +381,19 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     int crack = style.view == PG_VIEW_CRACK, titled = n > 1 || s->cloud.dim == 1;
     PG_ALLOC (panel, n);
     for (size_t k = 0; k < n; k++) {
-        panel[k] = (pg_panel) { titled ? g[k].title : NULL, g[k].value, g[k].u, g[k].select, g[k].damage };
-        if (q->limited) panel[k].select = g[k].value;
+        const double *select = q->limited ? g[k].value : g[k].select;
+        panel[k] = (pg_panel) { titled ? g[k].title : NULL, g[k].value, g[k].u, select, g[k].damage };
     }
+    if (crack) style.by_depth = strcmp (q->field, "damage") == 0;
     if (crack && !q->limited) style.above = PG_CRACK_DAMAGE;
-    style.by_depth = crack && strcmp (q->field, "damage") == 0;
     write_title (q, s, &style, n == 1 ? g->title : NULL, title, sizeof title);
     write_label (s, &style, label, sizeof label);
     style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
     style.outline = s->outline.body || s->outline.mesh ? &s->outline : NULL;
     name_picture (q, number, path, sizeof path);
     style.u = panel->u, style.select = panel->select;
-    if (n == 1 && s->whole && s->part.mesh.n && pg_picture_on_elements (&s->part, &style))
+    int on_mesh = n == 1 && s->whole && s->part.mesh.n;
+    if (on_mesh && pg_picture_on_elements (&s->part, &style))
         PG_TRY (pg_picture_body (path, &s->part, &s->cloud, panel->value, &style));
     else PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));
     puts (path);

@@ -25,7 +25,7 @@ int pg_plot_is_file (const char *path)
     return stat (path, &about) == 0 && S_ISREG (about.st_mode);
 }
 
-/* The field of that name, or NULL. */
+/* The field of that name, or NULL if the file has none. */
 static const pg_mesh_field *find_field (const fem *f, const char *name)
 {
     for (size_t k = 0; k < f->nfield; k++) if (strcmp (f->field[k].name, name) == 0) return &f->field[k];
@@ -56,7 +56,8 @@ static double mises (const double *s)
     return sqrt (0.5 * d + 3 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
 }
 
-/* Length of a vector or Frobenius norm of a tensor. */
+/* Length of a vector or Frobenius norm of a tensor, whose shears (components 3 to 5) count
+ * twice. */
 static double size_of (const double *v, int m)
 {
     double sum = 0;

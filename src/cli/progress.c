@@ -8,7 +8,7 @@
 #include <unistd.h>
 
 /* Longest line; width of terminal below which its size is not believed; number of details at
- * most. */
+ * most, which are taken away one after the other. */
 enum { LINE = 400, NARROW = 20, FULL = 3 };
 
 /* Both marks of the pace begin at the start of the run. stderr is asked whether it is a
@@ -98,6 +98,14 @@ static void add_number (char *line, const char *format, double value)
     add (line, text);
 }
 
+/* How near the ends of event stepping are, as far as they are known. */
+static void add_ends (char *line, const pg_progress *at)
+{
+    if (at->event && isfinite (at->stiffness))
+        add_number (line, "stiffness %.3g of the initial one", at->stiffness);
+    if (isfinite (at->damage)) add_number (line, "damage in stop.set %.2g", at->damage);
+}
+
 /* The line with `full` details: 0 the least, FULL everything: share of the run, step, load
  * factor, stiffness and damage for stop conditions, broken bonds, residual, time. */
 static void compose (char *line, int full, const progress *p, const pg_progress *at, const pg_step *step,
@@ -108,9 +116,7 @@ static void compose (char *line, int full, const progress *p, const pg_progress 
     snprintf (line, LINE, at->event ? "%5.1f %% of %s" : "%5.1f %%", 100 * at->share, at->end);
     add_step (line, p, at, step, r, now, within);
     if (full > 0 && relaxes_or_solves && !within) add_number (line, "load factor %.4g", step->factor);
-    if (full > 2 && at->event && isfinite (at->stiffness))
-        add_number (line, "stiffness %.3g of the initial one", at->stiffness);
-    if (full > 2 && isfinite (at->damage)) add_number (line, "damage in stop.set %.2g", at->damage);
+    if (full > 2) add_ends (line, at);
     snprintf (text, sizeof text, "%ld bonds broken", r->broken + (within ? (long) step->nbroken : 0));
     if (full > 1) add (line, text);
     if (full > 2 && relaxes_or_solves) add_number (line, "residual %.1e", r->residual_max);
@@ -118,7 +124,7 @@ static void compose (char *line, int full, const progress *p, const pg_progress 
     add_time (line, p, at, now, within && step->nbroken && relaxes_or_solves);
 }
 
-/* Its columns; 80 if it does not say. */
+/* Columns of the terminal behind stderr; 80 if it does not say or is narrower than believable. */
 static size_t width_of_terminal (void)
 {
     struct winsize size;

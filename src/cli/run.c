@@ -60,7 +60,8 @@ static void print_counts (const pg_statistics *r, const pg_solver_options *o)
             r->energy_external, r->energy_strain, r->energy_kinetic, r->energy_damping, r->energy_dissipated);
 }
 
-/* Warnings that came during the run; those known before stand above the progress. */
+/* Warnings that came during the run; those known before stand above the progress, so they are
+ * worked out again and left out here. */
 static void print_warnings (const pg_statistics *r, const pg_problem *problem, const pg_solver_options *o)
 {
     pg_statistics before = { 0 };
@@ -116,7 +117,8 @@ typedef struct {
     int within;
 } watched;
 
-/* Writes a checkpoint; if that fails, the older one is better than no run at all. */
+/* Writes a checkpoint; if that fails, the older one is better than no run at all, so only a
+ * message says it. */
 static void keep_now (const watched *w)
 {
     if (pg_result_checkpoint (w->result, w->state) != PG_OK)
@@ -210,7 +212,8 @@ done:
 void openblas_set_num_threads (int threads);
 
 /* Two BLAS threads gain 7 % of a factorization with 4 000 unknowns on an idle machine, and
- * lose half the speed on a busy one: small problems take one. */
+ * lose half the speed on a busy one: below 50 000 unknowns in 2D and 10 000 in 3D one thread
+ * is used. */
 static void settle_blas (const pg_problem *p)
 {
     size_t unknowns = p->cloud.n * (size_t) pg_problem_unknowns (p), enough = p->dim == 3 ? 10000 : 50000;

@@ -4,8 +4,9 @@
  * Users have no need of these two options. */
 #include "cli.h"
 
-/* --row SCENE -o DIR ...: the words are those of `perigal run`. Memory is forecast unless the
- * scene fits any machine. */
+/* --row SCENE -o DIR ...: the words are those of `perigal run`, so argv[0] is changed to its
+ * name. Memory is forecast unless the scene fits any machine; the numbers of the trial go to
+ * stdout. */
 int pg_cli_trial (int argc, char **argv)
 {
     pg_status status = PG_OK;

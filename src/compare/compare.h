@@ -26,4 +26,7 @@ pg_status pg_compare_history (const char *folder, const char *key, double stamp,
 /* The material index of every quadrature point, that of the nearest evaluation point of the
  * problem (*which: q->n, to be freed with pg_free); stays NULL if there is one material only. */
 pg_status pg_compare_materials (const pg_problem *problem, const pg_quadrature *q, int **which);
+/* Samplers of points fit a plane by least squares with these entries, whatever the scene itself takes. */
+extern const pg_approx_type pg_approx_rkpm;
+extern const pg_kernel pg_kernel_cubic_spline;
 #endif

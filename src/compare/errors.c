@@ -148,7 +148,8 @@ static void json_norm (pg_json *j, const char *key, const pg_norm *n, int place)
     pg_json_shut (j);
 }
 
-/* The norms of one column of a table as a JSON object. */
+/* The norms of one column of a table as a JSON object, with the places of the largest absolute
+ * and relative difference. */
 static void json_line (pg_json *j, const pg_line_norms *l)
 {
     pg_json_open (j, NULL, '{');

@@ -134,6 +134,7 @@ done:
     return status;
 }
 
+/* Samplers of this kind are known by their function. */
 const pg_mesh *pg_sampler_mesh_of (const pg_sampler *sampler, size_t *outside, double *away)
 {
     const fem *f = sampler->sample == sample_fem ? sampler->context : NULL;

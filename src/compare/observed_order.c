@@ -22,7 +22,8 @@ static pg_observed none (double limit, double error, const char *why)
     return o;
 }
 
-/* (h1^p - h2^p) / (h2^p - h3^p), written with expm1, which keeps all digits for small p. */
+/* (h1^p - h2^p) / (h2^p - h3^p), written with expm1, which keeps all digits for small p. It
+ * grows with p, on which the bisection relies. */
 static double ratio (const double *h, double p)
 {
     if (p < 1e-9) return log (h[0] / h[1]) / log (h[1] / h[2]);

@@ -3,7 +3,7 @@
  * displacements that are known at points only, by moving least squares (RKPM with a linear
  * basis and the cubic spline kernel, radius of two spacings). The fit reproduces linear fields
  * exactly, so it adds an error of second order only, and its gradient gives the strain. */
-#include "perigal/compare.h"
+#include "compare.h"
 #include <math.h>
 #include <string.h>
 
@@ -43,7 +43,8 @@ static pg_status least_squares (pg_sampler *out, const pg_problem *problem, cons
     PG_ALLOC (u, 6 * problem->cloud.n);
     if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, u));
     if (components != problem->dim)
-        PG_FAIL (PG_E_USAGE, "the force %s has no displacement field: nothing to compare", force->method.name);
+        PG_FAIL (PG_E_USAGE, "the force %s has no displacement field: nothing to compare",
+                 force->method.name);
     PG_TRY (pg_sampler_points (out, problem, u, NULL));
 done:
     pg_free (u);
@@ -179,8 +180,8 @@ pg_status pg_sampler_points (pg_sampler *out, const pg_problem *problem, const d
     memset (out, 0, sizeof *out);
     PG_ALLOC (s, 1);
     s->problem = problem, s->bulk = problem->integration->at_nodes ? PG_NODES : PG_POINTS;
-    s->approx = (pg_approx){ .type = pg_approx_first (),
-                             .kernel = pg_kernel_entry (0),
+    s->approx = (pg_approx){ .type = &pg_approx_rkpm,
+                             .kernel = &pg_kernel_cubic_spline,
                              .order = 1,
                              .shape = PG_RADIAL,
                              .horizon = 2 * problem->cloud.h };

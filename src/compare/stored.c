@@ -65,7 +65,7 @@ done:
 
 /* ---- fields -------------------------------------------------------------------------------------------- */
 /* PG_E_FILE unless the points of result.e are those that the scene makes, to 1e-9 of the
- * spacing. */
+ * spacing. Number and times of the steps are read on the way. */
 static pg_status check_points (const pg_stored *s, const char *path, size_t *nstep, double **time)
 {
     pg_status status = PG_OK;

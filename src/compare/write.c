@@ -77,7 +77,8 @@ done:
     return status;
 }
 
-/* One row per row of the table; the reference columns are its own values in SI. */
+/* One row per row of the table; the reference columns are its own values in SI. A value that
+ * one side lacks is an empty cell. */
 pg_status pg_compare_line (const char *path, const pg_line *line, const pg_sampler *value)
 {
     pg_status status = PG_OK;

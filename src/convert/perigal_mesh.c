@@ -177,6 +177,17 @@ static void set_size (const request *w, int meshed)
     if (meshed) fprintf (stderr, "perigal-mesh: %s: has elements already; --size is not used\n", w->input);
 }
 
+/* A mesh cannot have more dimensions than the body; only a closed surface of triangles can be filled. 0:
+ * good. */
+static int check_dimension (const request *w, int dim, int want, int stl)
+{
+    if (dim < 1) return failed ("there is no body and no mesh in it", w->input);
+    if (want <= dim || stl) return 0;
+    fprintf (stderr, "perigal-mesh: %s: the body has dimension %d; a mesh of dimension %d cannot be made\n",
+             w->input, dim, want);
+    return 1;
+}
+
 /* Makes elements unless the file has some already, and sets their order. The dimension is that
  * of the body, or 3 for a closed surface; a mesh of a higher dimension than the body cannot be
  * made. Returns the exit code. */
@@ -188,13 +199,7 @@ static int make_mesh (const request *w)
                : stl  ? 3
                       : dim,
         fill = stl && want == 3;
-    if (dim < 1) return failed ("there is no body and no mesh in it", w->input);
-    if (want > dim && !stl) {
-        fprintf (stderr,
-                 "perigal-mesh: %s: the body has dimension %d; a mesh of dimension %d cannot be made\n",
-                 w->input, dim, want);
-        return 1;
-    }
+    if (check_dimension (w, dim, want, stl)) return 1;
     if (fill && fill_surface (w)) return 1;
     set_size (w, meshed && !stl);
     if ((!meshed || fill) && generate (w, want)) return 1;

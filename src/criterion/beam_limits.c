@@ -12,6 +12,8 @@
 
 enum { STRETCH, SHEAR, BENDING, ENERGY };
 
+/* From the fracture energy and the energy of a straight cut at unit stretch, shear and bending follow the
+ * three limits; INFINITY where a cut stores no such energy. */
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     double G0 = c->parameter[ENERGY] = pg_criterion_limit (scene, setting, "fracture_energy");
@@ -21,6 +23,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
+/* Elongation along the undeformed bond. */
 static double stretch_of (const pg_bond_measures *m, size_t b)
 {
     double rr = 0, re = 0;
@@ -29,6 +32,8 @@ static double stretch_of (const pg_bond_measures *m, size_t b)
     return re / rr;
 }
 
+/* `reach` is the support of the bond over the nominal horizon: limits from an energy go with its inverse
+ * root. */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     for (size_t b = 0; b < m->n; b++) {
@@ -40,6 +45,8 @@ static void utilisation (const pg_criterion *c, const pg_bond_measures *m, doubl
     }
 }
 
+/* All three shares are of degree 1 in the displacement, so that the factor is the inverse of the
+ * utilisation. */
 static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 {
     utilisation (c, m, f, NULL);

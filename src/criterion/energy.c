@@ -30,6 +30,7 @@ static double beyond (const pg_kernel *kernel, pg_mode mode, double z)
     return sum;
 }
 
+/* Outer integral over the distance z of a point from the cut, by the same Gauss points on panels. */
 double pg_state_cut_share (pg_mode mode, const char *name, double A, double B)
 {
     const pg_kernel *kernel = pg_kernel_find (name);
@@ -43,6 +44,7 @@ double pg_state_cut_share (pg_mode mode, const char *name, double A, double B)
     return sum;
 }
 
+/* `toughness` corrects theory by what the sums of a lattice consume in truth. */
 double pg_state_fracture_energy (const pg_criterion_setting *s, double s0)
 {
     double A, B;

@@ -26,6 +26,7 @@ static void own_map (char *map, const char *material)
     snprintf (map, PG_LIMITS, "materials.%.63s.failure", material);
 }
 
+/* A material's own limits come first, all or none of an either-or: else those of `failure`. */
 int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_criterion_setting *setting,
                          const char *need)
 {
@@ -76,12 +77,14 @@ static int need_of (const pg_criterion_type *type, size_t k, char need[NEED])
     return 1;
 }
 
+/* Is a table in a list of tables? */
 static int holds (pg_key_tables list, const pg_key_table *table)
 {
     while (*list && *list != table) list++;
     return *list != NULL;
 }
 
+/* Is it a table of this criterion? */
 static int owns (const pg_criterion_type *type, const pg_key_table *table)
 {
     return holds (type->limits, table) || holds (type->options, table);
@@ -102,6 +105,7 @@ static void tell_given (const pg_scene *scene, const pg_criterion_type *type, co
     }
 }
 
+/* Shared tables are looked at once, with the first criterion that has them. */
 static int owned_before (size_t entry, const pg_key_table *table)
 {
     for (size_t e = 0; e < entry; e++) if (owns (pg_criterion_entry (e), table)) return 1;
@@ -150,6 +154,7 @@ static void missing (const pg_scene *scene, const pg_criterion_type *type, const
     }
 }
 
+/* First what is given in vain, then what is missing. */
 void pg_criterion_check (const pg_scene *scene, const pg_criterion_type *type, size_t n,
                          const pg_criterion_setting *setting)
 {

@@ -16,6 +16,8 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
+/* The larger of the two: tension over the tensile strength, and the shear stress on the critical plane
+ * over what cohesion and friction bear. Compression in all directions gives a negative one, which is none. */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     double sine = sin (c->parameter[ANGLE]), bound = c->parameter[COHESION] * cos (c->parameter[ANGLE]);
@@ -28,6 +30,7 @@ static void utilisation (const pg_criterion *c, const pg_bond_measures *m, doubl
     }
 }
 
+/* Both are of degree 1 in the stress. */
 static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 {
     utilisation (c, m, f, NULL);

@@ -9,6 +9,7 @@
 
 enum { LIMIT, ENERGY, FACTOR };
 
+/* The limit of the energy density, wc_factor G0 / horizon. */
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     char map[PG_LIMITS];
@@ -25,6 +26,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
+/* A root, so that it is of degree 1 in the displacement: energy is of degree 2. */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     for (size_t i = 0; i < m->n; i++) {

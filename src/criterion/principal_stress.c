@@ -13,6 +13,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
+/* Compression never breaks a bond here. */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     for (size_t b = 0; b < m->n; b++) {
@@ -21,6 +22,7 @@ static void utilisation (const pg_criterion *c, const pg_bond_measures *m, doubl
     }
 }
 
+/* The stress is linear in the load factor. */
 static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 {
     for (size_t b = 0; b < m->n; b++) f[b] = m->s1[b] > 0 ? c->parameter[STRENGTH] / m->s1[b] : INFINITY;

@@ -11,6 +11,8 @@ enum { LIMIT, FINITE, ENERGY, FROM_ENERGY, GRADED, EXACT };
 
 #define EITHER "critical_stretch or fracture_energy"
 
+/* One of the two limits is given, the other follows. Forces that know only one measure of stretch decide
+ * between linear and finite. */
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     char map[PG_LIMITS], path[PG_LIMITS + 32];
@@ -51,12 +53,14 @@ static void products (int dim, const double *xi, const double *eta, double *rr, 
     }
 }
 
+/* Where spacings differ, a limit from an energy is that of the bond's own support. */
 static double limit_of (const pg_criterion *c, const pg_bond_measures *m, size_t b)
 {
     double limit = c->parameter[LIMIT];
     return m->reach && c->parameter[FROM_ENERGY] > 0 ? limit / sqrt (m->reach[b]) : limit;
 }
 
+/* finite: |xi + eta| / |xi| - 1, written without the difference of two nearly equal roots. */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
     double rr, re, ee;
@@ -79,6 +83,7 @@ static double finite_root (double A, double B, double C)
     return B >= 0 ? -C / (B + root) : (root - B) / A;
 }
 
+/* linear: of degree 1. finite: the root of a quadratic equation. */
 static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 {
     double rr, re, ee;

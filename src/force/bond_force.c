@@ -8,6 +8,8 @@
 static size_t ndof (const bond_force *b) { return b->n * (size_t) b->stride; }
 
 /* ---- one point ----------------------------------------------------------------------------------------- */
+/* The bonds of point i with their weights, in the share of the workspace that belongs to a thread: valid
+ * until the same thread asks for another point. */
 void point_bonds_at (const bond_force *b, size_t i, int thread, point_bonds *s)
 {
     double *workspace = b->workspace + (size_t) thread * b->widest * (size_t) (b->dim + 2);
@@ -18,6 +20,7 @@ void point_bonds_at (const bond_force *b, size_t i, int thread, point_bonds *s)
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
+/* Also of a force that was made in part only: all of it began as zeros. */
 void bond_force_free (void **self)
 {
     bond_force *b = *self;
@@ -44,6 +47,8 @@ static double limit_at (const pg_criterion *c, double ratio)
     return factor;
 }
 
+/* Limits of points by which the loop over bonds decides what breaks: energies, or critical stretches
+ * unless the theory has made limits of its own. */
 static pg_status make_limits (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -59,6 +64,8 @@ done:
     return status;
 }
 
+/* A loop over bonds with the constants of the theory. limit: critical stretches, NULL: nothing breaks in
+ * it. */
 static pg_status make_loop (bond_force *b, pg_bond_loop **out, const pg_sums *sums, const double *limit)
 {
     pg_bond_loop_setting *s = &b->setting;             /* constants: of the theory */
@@ -67,6 +74,7 @@ static pg_status make_loop (bond_force *b, pg_bond_loop **out, const pg_sums *su
     return pg_bond_loop_create (out, s);
 }
 
+/* The order matters: constants before the loop, the loop before weighted volumes, which it sums. */
 pg_status bond_force_make (void **self, const pg_problem *problem, const bond_theory *theory)
 {
     pg_status status = PG_OK;
@@ -99,6 +107,8 @@ done:
     return status;
 }
 
+/* K is that of small displacements: with finite stretch it needs a loop of its own, made when it is first
+ * asked for. */
 pg_status bond_force_tangent_loop (bond_force *b, pg_bond_loop **out)
 {
     pg_status status = PG_OK;
@@ -115,6 +125,7 @@ done:
     return status;
 }
 
+/* Displacement, and rotation where points have some; both as lengths in the vector of unknowns. */
 size_t bond_force_fields (const void *self, size_t max, pg_field *out)
 {
     const bond_force *b = self;
@@ -124,6 +135,7 @@ size_t bond_force_fields (const void *self, size_t max, pg_field *out)
 }
 
 /* ---- breaking ------------------------------------------------------------------------------------------ */
+/* Both ends of a dead bond have rows of K that change. */
 static void mark_stale (bond_force *b, const pg_changes *changes)
 {
     for (size_t c = 0; c < changes->n; c++) {
@@ -135,6 +147,7 @@ static void mark_stale (bond_force *b, const pg_changes *changes)
     b->revision += changes->n > 0;
 }
 
+/* Alive bits are borrowed from the state; caches follow those bonds that changed, or all. */
 pg_status bond_force_refresh (void *self, const pg_state *state, const pg_changes *changes)
 {
     bond_force *b = self;
@@ -155,6 +168,7 @@ static void finish (bond_force *b, double t, double *residual, double *reference
     boundary_add (&b->boundary, t, residual);
 }
 
+/* One loop over all bonds, then the loads. */
 pg_status bond_force_balance (void *self, double t, const double *d, double *residual, double *reference)
 {
     pg_status status = PG_OK;
@@ -165,6 +179,8 @@ done:
     return status;
 }
 
+/* Points that die by their energy go first, so that the same loop no longer sums their bonds; stretches
+ * are judged inside the loop. */
 pg_status bond_force_balance_and_break (void *self, double t, const double *d, double *residual,
                                         double *reference,
                       pg_changes *broken)
@@ -184,6 +200,7 @@ done:
     return status;
 }
 
+/* Loads alone, without supports. */
 pg_status bond_force_external (void *self, double t, double *P)
 {
     bond_force *b = self;
@@ -192,6 +209,7 @@ pg_status bond_force_external (void *self, double t, double *P)
     return PG_OK;
 }
 
+/* Of a bare problem, whose only load is a traction on the whole surface. */
 pg_status bond_force_surface (void *self, const double *stress, double *P)
 {
     const bond_force *b = self;
@@ -199,6 +217,8 @@ pg_status bond_force_surface (void *self, const double *stress, double *P)
 }
 
 /* ---- the rest ------------------------------------------------------------------------------------------ */
+/* Lumped: density times volume; a rotation has the moment of inertia of a cube of the local spacing, in
+ * the unit of its unknown. */
 pg_status bond_force_mass (void *self, double *mass)
 {
     const bond_force *b = self;
@@ -212,6 +232,7 @@ pg_status bond_force_mass (void *self, double *mass)
     return PG_OK;
 }
 
+/* Reactions are what the residual leaves at prescribed unknowns; inertia is part of it in motion. */
 pg_status bond_force_work_balance (void *self, double t, const double *d, const double *inertia,
                              pg_work_balance *out)
 {
@@ -229,6 +250,7 @@ unsigned long bond_force_revision (const void *self) { return ((const bond_force
 const pg_operator *bond_force_operator (void *self) { return &((bond_force *) self)->op; }
 const pg_sparse *bond_force_basis (void *self) { return boundary_basis (&((bond_force *) self)->boundary); }
 
+/* Prescribed unknowns take their values at t. */
 pg_status bond_force_impose (void *self, double t, double *d)
 {
     boundary_impose (&((bond_force *) self)->boundary, t, d);

@@ -18,6 +18,7 @@ static double limit_at (const pg_criterion *c, double ratio)
     return u > 0 ? 1 / (u * u) : INFINITY;
 }
 
+/* Limits of energy, where the criterion is one; points of excluded sets never die. */
 pg_status bond_force_energy_create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -41,6 +42,7 @@ void bond_force_energy_free (bond_force *b)
 }
 
 /* ---- breaking ------------------------------------------------------------------------------------------ */
+/* Entry of the bond from j back to i: families are sorted by node, so that bisection finds it. */
 static size_t back_of (const pg_family *f, size_t i, size_t j)
 {
     size_t low = f->start[j], high = f->start[j + 1];
@@ -78,6 +80,7 @@ done:
     return status;
 }
 
+/* Dying points are found once, before any bond of this step breaks: the order of points does not matter. */
 pg_status bond_force_energy_kill (bond_force *b, const double *d, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -97,6 +100,7 @@ done:
 typedef struct { const bond_force *b; const unsigned char *alive; double *utilisation,
                  *factor; char *kind; } judging;
 
+/* Utilisation grows with the root of the energy, as stretches do; of both ends the worse decides. */
 static void spread_points (void *context, size_t first, size_t last, int thread)
 {
     const judging *s = context;
@@ -112,6 +116,7 @@ static void spread_points (void *context, size_t first, size_t last, int thread)
         }
 }
 
+/* The largest over the bonds of a point is that of the point itself. */
 pg_status bond_force_energy_utilisation (bond_force *b, const pg_state *state, const double *d,
                                          double *utilisation,
                                    char *kind, double *factor)

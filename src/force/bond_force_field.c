@@ -22,42 +22,51 @@ typedef struct {
     int material[BATCH];
 } batch;
 
-/* Those of a batch whose law is that of the material; the weaker of two laws decides. */
+/* What bonds show against a law, into the results of the bonds `entry`: the larger utilisation and the
+ * smaller load factor of two laws decide. */
+static void take_worse (const judging *s, const pg_criterion *c, const pg_bond_measures *m,
+                        const size_t *entry)
+{
+    double out[BATCH];
+    char kind[BATCH];
+    if (s->utilisation) c->type->utilisation (c, m, out, kind);
+    for (size_t k = 0; s->utilisation && k < m->n; k++) {
+        if (out[k] < s->utilisation[entry[k]]) continue;
+        s->utilisation[entry[k]] = out[k];
+        if (s->kind) s->kind[entry[k]] = kind[k];
+    }
+    if (s->factor) c->type->factor (c, m, out);
+    for (size_t k = 0; s->factor && k < m->n; k++)
+        if (!(out[k] > s->factor[entry[k]])) s->factor[entry[k]] = out[k];
+}
+
+/* Those bonds of a batch whose law is that of the material. */
 static void judge_by (const judging *s, const batch *all, int material)
 {
     const pg_problem *p = s->b->problem;
-    const pg_criterion *c = &p->criterion[material];
     size_t dim = (size_t) p->dim, some[BATCH], n = 0;
-    double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH], shear[BATCH], bending[BATCH], out[BATCH];
-    char kind[BATCH];
+    double xi[3 * BATCH], eta[3 * BATCH], reach[BATCH], shear[BATCH], bending[BATCH];
     for (size_t k = 0; k < all->n; k++) {
         if (all->material[k] != material) continue;
-        memcpy (xi + n * dim, all->xi + k * dim, dim * sizeof *xi),
-            memcpy (eta + n * dim, all->eta + k * dim, dim * sizeof *eta);
+        memcpy (xi + n * dim, all->xi + k * dim, dim * sizeof *xi);
+        memcpy (eta + n * dim, all->eta + k * dim, dim * sizeof *eta);
         shear[n] = all->shear[k], bending[n] = all->bending[k];
         reach[n] = all->reach[k], some[n++] = all->entry[k];
     }
-    if (n == 0) return;
     pg_bond_measures m = { .n = n, .dim = p->dim, .xi = xi, .eta = eta, .reach = p->cloud.size ? reach : NULL,
                            .shear = s->b->theory->strain ? shear : NULL,
                            .bending = s->b->theory->strain ? bending : NULL };
-    if (s->utilisation) c->type->utilisation (c, &m, out, kind);
-    for (size_t k = 0; s->utilisation && k < n; k++) {
-        if (out[k] < s->utilisation[some[k]]) continue;
-        s->utilisation[some[k]] = out[k];
-        if (s->kind) s->kind[some[k]] = kind[k];
-    }
-    if (s->factor) c->type->factor (c, &m, out);
-    for (size_t k = 0; s->factor && k < n; k++)
-        if (!(out[k] > s->factor[some[k]])) s->factor[some[k]] = out[k];
+    if (n) take_worse (s, &p->criterion[material], &m, some);
 }
 
+/* Judges a full batch, or what is left of it, by the law of every material, and empties it. */
 static void judge (const judging *s, batch *all)
 {
     for (int m = 0; m < (int) s->b->problem->nmaterial; m++) judge_by (s, all, m);
     all->n = 0;
 }
 
+/* Adds what bond e of point i shows at the displacement at hand to the batch; a full batch is judged. */
 static void add (const judging *s, batch *all, size_t i, const point_bonds *star, size_t e, int material,
                  double ratio)
 {
@@ -73,6 +82,7 @@ static void add (const judging *s, batch *all, size_t i, const point_bonds *star
     if (all->n == BATCH) judge (s, all);
 }
 
+/* Bonds of two materials are judged by both laws. */
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
     const judging *s = context;
@@ -99,6 +109,7 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     judge (s, &all);
 }
 
+/* Of every bond; criteria of energies are asked for points instead. */
 pg_status bond_force_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
                             char *kind, double *factor)
 {
@@ -124,6 +135,7 @@ typedef struct {
     size_t components;
 } painting;
 
+/* One field at a range of points. */
 static void paint_points (void *context, size_t first, size_t last, int thread)
 {
     const painting *p = context;
@@ -134,6 +146,7 @@ static void paint_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Share of the partial volumes of the family whose bonds are dead. */
 static void damage_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
@@ -185,6 +198,7 @@ static void gradient_at (const bond_force *b, const unsigned char *alive, const 
     for (size_t a = 0; a < dim; a++) pg_dense_solve (b->dim, M, H + a * dim);
 }
 
+/* In Voigt order with engineering shears, from the gradient that fits the displacements of live bonds. */
 static void strain_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
@@ -196,6 +210,7 @@ static void strain_at (const bond_force *b, const unsigned char *alive, const do
         out[1] = H[4], out[2] = H[8], out[3] = H[1] + H[3], out[4] = H[5] + H[7], out[5] = H[2] + H[6];
 }
 
+/* In Voigt order: the symmetric part of the virial. */
 static void stress_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
@@ -208,6 +223,7 @@ static void stress_at (const bond_force *b, const unsigned char *alive, const do
         out[5] = 0.5 * (T[2] + T[6]);
 }
 
+/* Copies `count` unknowns of every point from the `first` on, times a scale. */
 static void take_parts (const bond_force *b, const double *d, int first, int count, double scale,
                         double *value)
 {
@@ -216,30 +232,33 @@ static void take_parts (const bond_force *b, const double *d, int first, int cou
             value[i * (size_t) count + k] = scale * d[i * (size_t) b->stride + (size_t) first + k];
 }
 
+/* Fields that are parts of the unknowns, or of the velocity: 1 when `name` is one of them. */
+static int take_unknowns (const bond_force *b, const pg_state *state, const double *d, const char *name,
+                          int *components, const char **unit, double *value)
+{
+    int velocity = strcmp (name, "velocity") == 0, rotations = b->stride - b->dim;
+    if (velocity || strcmp (name, "displacement") == 0 || strcmp (name, "coefficient") == 0) {
+        *components = b->dim, *unit = velocity ? "m/s" : "m";
+        take_parts (b, velocity ? state->v : d, 0, b->dim, 1, value);
+        return 1;
+    }
+    if (!rotations || strcmp (name, "rotation") != 0) return 0;
+    *components = rotations, *unit = "rad";
+    take_parts (b, d, b->dim, rotations, 1 / b->length, value);
+    return 1;
+}
+
 pg_status bond_force_field (void *self, const pg_state *state, const double *d, const char *name,
-                            int *components,
-                      const char **unit, double *value)
+                            int *components, const char **unit, double *value)
 {
     bond_force *b = self;
     painting p = { b, state->alive, d, value, NULL, 1 };
-    int vector = !strcmp (name, "displacement") || !strcmp (name, "coefficient")
-                 || !strcmp (name, "velocity"),
-        strain = !strcmp (name, "strain");
     *components = 0, *unit = "";
-    if (vector) {
-        *components = b->dim, *unit = *name == 'v' ? "m/s" : "m";
-        take_parts (b, *name == 'v' ? state->v : d, 0, b->dim, 1, value);
-        return PG_OK;
-    }
-    if (b->stride > b->dim && strcmp (name, "rotation") == 0) {
-        *components = b->stride - b->dim, *unit = "rad";
-        take_parts (b, d, b->dim, b->stride - b->dim, 1 / b->length, value);
-        return PG_OK;
-    }
+    if (take_unknowns (b, state, d, name, components, unit, value)) return PG_OK;
     if (strcmp (name, "damage") == 0) *components = 1, p.at = damage_at;
-    else if (strain || strcmp (name, "stress") == 0)
-        *components = pg_voigt_size (b->dim), *unit = strain ? "" : "Pa",
-        p.at = strain ? strain_at : stress_at;
+    else if (strcmp (name, "strain") == 0) *components = pg_voigt_size (b->dim), p.at = strain_at;
+    else if (strcmp (name, "stress") == 0)
+        *components = pg_voigt_size (b->dim), *unit = "Pa", p.at = stress_at;
     else return PG_OK;
     p.components = (size_t) *components;
     if (p.at == stress_at && dilatation_weigh (b) != PG_OK) return PG_E_MEMORY;
@@ -248,6 +267,7 @@ pg_status bond_force_field (void *self, const pg_state *state, const double *d, 
 }
 
 /* ---- at any place -------------------------------------------------------------------------------------- */
+/* A search among points, made when a place is first asked for. */
 static pg_status make_near (bond_force *b)
 {
     return b->near ? PG_OK : pg_nearest_create (&b->near, b->dim, b->n, b->problem->cloud.x);
@@ -256,6 +276,7 @@ static pg_status make_near (bond_force *b)
 /* Which points a place does not see: those behind a crack. */
 typedef struct { const pg_problem *problem; const pg_cracks *cracks; } view;
 
+/* Refuses points that a crack hides from the place (pg_refuse). */
 static int hidden (void *context, const double *place, size_t point)
 {
     const view *v = context;
@@ -283,6 +304,7 @@ static size_t expand (bond_force *b, const pg_state *state, const double *d, con
     return i;
 }
 
+/* 2D: the stress across the plane as the mode has it. */
 pg_status bond_force_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
                        double *u, double *stress)
 {
@@ -340,6 +362,7 @@ static void closing_points (void *context, size_t first, size_t last, int thread
     }
 }
 
+/* The largest over points. */
 double bond_force_overlap (void *self, const pg_state *state, const double *d)
 {
     bond_force *b = self;
@@ -350,6 +373,7 @@ double bond_force_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
+/* Parts of the body that live bonds hold together, by union of their ends. */
 void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
     bond_force *b = self;

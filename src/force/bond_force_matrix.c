@@ -9,6 +9,7 @@
 #include <string.h>
 
 typedef struct { double *y; int failed; } negation;
+/* y = - y, or not a number where the forces could not be had. */
 static void negate (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -50,6 +51,7 @@ static void own_block (const bond_force *b, size_t i, const point_bonds *s, int 
 }
 
 /* ---- rows of points that have all their bonds ---------------------------------------------------------- */
+/* Row of blocks of a point over its live bonds (all: over all), its own block last; returns their number. */
 static size_t row_of_star (const bond_force *b, size_t i, const point_bonds *s, int all, int *node,
                            double *value)
 {
@@ -88,6 +90,7 @@ static void find_whole (bond_force *b)
     if (b->whole) row_of_star (b, i, &s, 1, NULL, b->whole);
 }
 
+/* Has the point all its bonds, so that the shared row is its own?. */
 static int is_whole (void *context, size_t i)
 {
     const bond_force *b = context;
@@ -109,6 +112,7 @@ static void exact_block (const bond_force *b, size_t i, const point_bonds *s, do
         for (size_t c = 0; c < dim; c++) D[a * m + c] += state[a * dim + c];
 }
 
+/* Diagonals of the own blocks of a range of points. */
 static void diagonal_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -127,6 +131,7 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
     }
 }
 
+/* Kept until bonds change. */
 void bond_force_diagonal (void *context, double *d)
 {
     bond_force *b = context;
@@ -143,12 +148,14 @@ void bond_force_diagonal (void *context, double *d)
     if (b->diagonal) memcpy (b->diagonal, d, ndof * sizeof *d), b->diagonal_of = b->revision;
 }
 
+/* Adds the sums of |entries| over each row of a block. */
 static void add_sizes (size_t m, const double *block, double *sum)
 {
     for (size_t a = 0; a < m; a++)
         for (size_t c = 0; c < m; c++) sum[a] += fabs (block[a * m + c]);
 }
 
+/* Own block and all neighbours of a range of points, for Gershgorin's bound. */
 static void row_sum_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -168,6 +175,7 @@ static void row_sum_points (void *context, size_t first, size_t last, int thread
     }
 }
 
+/* With dilatations: of bonds alone that are at least as stiff, so that the bound holds. */
 pg_status bond_force_row_sums (void *self, double *sum)
 {
     bond_force *b = self;
@@ -200,6 +208,7 @@ static size_t couplings_of (void *context, size_t i, int thread, int *node, doub
     return row_of_star (b, i, &s, 0, node, value);
 }
 
+/* The longest component of any bond of a point, m. */
 static void farthest_points (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -217,6 +226,7 @@ static void farthest_points (void *context, size_t first, size_t last, int threa
     }
 }
 
+/* Rows of K for preconditioners; with dilatations their replacement within the bonds' reach. */
 pg_status bond_force_couplings (void *self, pg_couplings *out)
 {
     bond_force *b = self;
@@ -263,6 +273,7 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* In closed form from the intact body: breaking bonds never raises it, but where weighted volumes follow. */
 pg_status bond_force_bound (void *self, double *omega)
 {
     pg_status status = PG_OK;
@@ -291,6 +302,7 @@ static size_t lower (const bond_force *b, size_t i)
     return at - first;
 }
 
+/* The pattern of the upper triangle: every bond once, dead ones included, since they may have lived. */
 static pg_status create_matrix (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -314,6 +326,7 @@ done:
     return status;
 }
 
+/* Values of the columns of a range of points that have become stale. */
 static void make_columns (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -340,6 +353,7 @@ static void make_columns (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Only columns of points that lost a bond are made again. */
 pg_status bond_force_assemble (void *self)
 {
     pg_status status = PG_OK;
@@ -355,6 +369,7 @@ done:
 
 int bond_force_matrix_free (const void *self) { return ((const bond_force *) self)->dilatation != NULL; }
 
+/* NULL until it has been assembled. */
 const pg_sparse *bond_force_matrix (void *self)
 {
     bond_force *b = self;

@@ -47,7 +47,7 @@ static int is (const pg_scene *scene, const char *key, const char *word)
 
 /* ---- rule ---------------------------------------------------------------------------------------------- */
 /* Sums of forces that such a run asks for, about */
-static double sweeps_of (const pg_scene *scene)
+static double evaluations_of (const pg_scene *scene)
 {
     if (pg_scene_has (scene, "solver.time_steps"))
         return (double) pg_scene_integer (scene, "solver.time_steps");
@@ -55,6 +55,8 @@ static double sweeps_of (const pg_scene *scene)
     return 1000;
 }
 
+/* What the scene leaves open follows from points and kernel: overlaps of cells need a lattice, and
+ * corrections of surfaces do harm below a horizon of four spacings. */
 void bond_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                        double spacing, int lattice)
 {
@@ -80,9 +82,10 @@ void bond_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, co
                        : is (scene, evaluation, "list")  ? PG_EVALUATE_LIST
                        : is (scene, evaluation, "fft")   ? PG_EVALUATE_FFT
                                                          : PG_EVALUATE_AUTO;
-    rule->sweeps = sweeps_of (scene);
+    rule->evaluations = evaluations_of (scene);
 }
 
+/* Weighted volumes are those of the bonds at the start, or follow what lives. */
 void bond_force_rule_with_dilatation (pg_sum_rule *rule, const pg_scene *scene)
 {
     rule->state = 1;
@@ -100,6 +103,7 @@ void bond_force_refuse_matrix (const pg_problem *p, const pg_scene *scene, const
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
+/* Do the points lie on the sites of a lattice, which stencils and transforms need?. */
 static pg_status on_lattice (const pg_problem *p, int *yes)
 {
     pg_sites sites = { 0 };
@@ -109,6 +113,7 @@ static pg_status on_lattice (const pg_problem *p, int *yes)
     return status;
 }
 
+/* Faults of the scene are collected before any sum is made. */
 pg_status bond_force_read (pg_problem *p, const pg_scene *scene, bond_force_check check)
 {
     pg_status status = PG_OK;
@@ -149,6 +154,7 @@ done:
     return status;
 }
 
+/* Stencils and transforms sum all bonds of one offset with one constant: materials that differ need lists. */
 void bond_force_check_laws (const pg_problem *p, const pg_scene *scene)
 {
     pg_evaluation asked = p->sums->rule.evaluation;
@@ -173,6 +179,8 @@ void bond_force_check_laws (const pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- criteria and words -------------------------------------------------------------------------------- */
+/* The measured toughness lets a critical stretch from a fracture energy consume that energy on these
+ * points. */
 pg_status bond_force_limits (const pg_problem *p, size_t material, pg_criterion_setting *setting)
 {
     const pg_sum_rule *rule = &p->sums->rule;
@@ -184,6 +192,7 @@ pg_status bond_force_limits (const pg_problem *p, size_t material, pg_criterion_
     return PG_OK;
 }
 
+/* One line for the plan. */
 void bond_force_words (const pg_problem *p, char *text, size_t size)
 {
     snprintf (text, size, "force %s, %s kernel", p->method->name, p->approx.kernel->name);

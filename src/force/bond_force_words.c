@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* How bonds are summed, and why so. */
 static void say_sums (const bond_force *b, char *text, size_t size)
 {
     static const char *const partial[] = { "none", "linear", "overlap" }, *const surface[] = { "none",
@@ -20,6 +21,7 @@ static void say_sums (const bond_force *b, char *text, size_t size)
         pg_bond_loop_name (b->loop), *why ? " (" : "", why, *why ? ")" : "");
 }
 
+/* How the energy of a crack compares with that of theory. */
 static void say_toughness (const bond_force *b, char *text, size_t size)
 {
     const pg_sums *s = b->problem->sums;
@@ -39,6 +41,7 @@ static void say_toughness (const bond_force *b, char *text, size_t size)
                   "not calibrated for them");
 }
 
+/* The bound of the stable time step; 0: a material has no density. */
 static int say_step (const bond_force *b, char *text, size_t size)
 {
     double omega;
@@ -48,6 +51,7 @@ static int say_step (const bond_force *b, char *text, size_t size)
     return 1;
 }
 
+/* A line for each material, then sums, toughness, time step. */
 int bond_force_describe (const void *self, size_t line, char *text, size_t size)
 {
     const bond_force *b = self;
@@ -59,6 +63,7 @@ int bond_force_describe (const void *self, size_t line, char *text, size_t size)
     return 1;
 }
 
+/* Implicit solvers need forces that are linear in the displacement. */
 const char *bond_force_refuses (const pg_problem *problem, unsigned solver)
 {
     if ((solver & PG_SOLVER_IMPLICIT) && problem->sums && problem->sums->rule.finite)

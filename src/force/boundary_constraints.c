@@ -22,6 +22,7 @@ static void claim (const point_boundary *s, const unsigned char *idle, int *by)
                     (int) l;
 }
 
+/* Supports ascending by unknown, and T, whose columns are the unknowns that remain. */
 pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle)
 {
     pg_status status = PG_OK;
@@ -58,6 +59,7 @@ done:
     return status;
 }
 
+/* Separable loads are a stored pattern times a factor of t, others are evaluated anew. */
 double boundary_goal (const point_boundary *s, size_t k, double t)
 {
     if (s->support[k].load < 0) return 0;
@@ -70,12 +72,14 @@ double boundary_goal (const point_boundary *s, size_t k, double t)
 
 const pg_sparse *boundary_basis (const point_boundary *s) { return s->nsupport ? &s->T : NULL; }
 
+/* d at prescribed unknowns; the others stay as they are. */
 void boundary_impose (const point_boundary *s, double t, double *d)
 {
     for (size_t k = 0; k < s->nsupport; k++) d[s->support[k].dof] = boundary_goal (s, k, t);
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
+/* Supports first, then a list of the loads that are none. */
 pg_status boundary_create (point_boundary *s, const pg_problem *problem, int stride, double length,
                         const unsigned char *idle)
 {
@@ -92,6 +96,7 @@ done:
     return status;
 }
 
+/* Also of one that was made in part only. */
 void boundary_free (point_boundary *s)
 {
     for (size_t k = 0; k < s->nload; k++)

@@ -25,6 +25,7 @@ static void evaluate (const point_boundary *s, boundary_load *l, double t)
     l->time = t;
 }
 
+/* Shares of points; of a separable load the pattern replaces them for good. */
 pg_status boundary_make_load (point_boundary *s, boundary_load *l, int load)
 {
     pg_status status = PG_OK;
@@ -49,6 +50,7 @@ double boundary_bring_to (const point_boundary *s, boundary_load *l, double t)
     return 1;
 }
 
+/* Sums over the points of each load. */
 void boundary_add (point_boundary *s, double t, double *P)
 {
     size_t stride = (size_t) s->stride;
@@ -62,6 +64,7 @@ void boundary_add (point_boundary *s, double t, double *P)
     }
 }
 
+/* t = sigma n on every facet of a load, given to points as that load gives its own force. */
 pg_status boundary_surface (const point_boundary *s, int load, const double *stress, double *P)
 {
     pg_status status = PG_OK;

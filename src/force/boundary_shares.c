@@ -10,6 +10,7 @@
 /* index: of each point, -1: not yet */
 typedef struct { boundary_load *out; size_t cap, cap_point; int *index; } gathering;
 
+/* A share of a place for one point; the points of the load are collected, each once. */
 static pg_status add_part (gathering *g, int point, boundary_share part)
 {
     pg_status status = PG_OK;
@@ -29,6 +30,7 @@ done:
 static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
 /* ---- facets -------------------------------------------------------------------------------------------- */
+/* Between two places, m. */
 static double distance (const double *a, const double *b, int dim)
 {
     double sum = 0;
@@ -121,12 +123,14 @@ done:
     return status;
 }
 
+/* Frees what find_columns made. */
 static void clear_columns (columns *c)
 {
     pg_family_clear (&c->near);
     pg_free (c->below), pg_free (c->columns);
 }
 
+/* Points within the depth below each facet, and in how many columns each of them lies. */
 static pg_status find_columns (columns *out, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -156,6 +160,7 @@ done:
     return status;
 }
 
+/* Shares of points in every quadrature place of the facets. */
 static pg_status facet_parts (gathering *g, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -191,6 +196,7 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
+/* A total force: equal shares; a force per volume: shares by volume. */
 static pg_status point_parts (gathering *g, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -206,6 +212,7 @@ done:
     return status;
 }
 
+/* By what the load acts on: facets or points. */
 pg_status boundary_shares (boundary_load *out, const point_boundary *s, int load)
 {
     pg_status status = PG_OK;

@@ -24,6 +24,7 @@ enum { COUNT = sizeof entries / sizeof *entries };
 
 const pg_method *const *pg_force_methods (void) { return methods; }
 
+/* By its name in the scene; NULL: there is none. */
 const pg_force_type *pg_force_find (const char *name)
 {
     for (size_t i = 0; name && i < COUNT; i++)
@@ -31,12 +32,14 @@ const pg_force_type *pg_force_find (const char *name)
     return NULL;
 }
 
+/* The problem keeps the descriptor of the entry, which identifies it. */
 const pg_force_type *pg_force_of (const pg_problem *problem)
 {
     for (size_t i = 0; i < COUNT; i++) if (&entries[i]->method == problem->method) return entries[i];
     return NULL;
 }
 
+/* For choices of keys and messages: "galerkin|bond|...". */
 const char *pg_force_names (void)
 {
     static const char names[] = ""
@@ -67,11 +70,13 @@ static const pg_key keys[] = {
 const pg_key_table pg_keys_force = { "force", keys, sizeof keys / sizeof *keys };
 
 /* ---- problems ------------------------------------------------------------------------------------------ */
+/* Hands the descriptors of all forces down to the model. */
 pg_status pg_problem_prepare (pg_problem **out, const pg_scene *scene, int threads)
 {
     return pg_problem_prepare_with (out, scene, methods, threads);
 }
 
+/* Both halves at once, for programs that check nothing in between. */
 pg_status pg_problem_build (pg_problem **out, const pg_scene *scene, int threads)
 {
     pg_status status = PG_OK;

@@ -47,6 +47,7 @@ void dilatation_free (bond_force *b)
     b->dilatation = NULL;
 }
 
+/* Once for good, or after every break where weighted volumes follow. */
 pg_status dilatation_weigh (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -60,6 +61,7 @@ done:
     return status;
 }
 
+/* Energies of all points by the loop over bonds: there is no cheaper bound for them. */
 pg_status dilatation_dying (bond_force *b, const double *d, size_t *dying)
 {
     pg_status status = PG_OK;
@@ -94,6 +96,7 @@ void dilatation_pull (const bond_force *b, size_t i, const point_bonds *s, size_
             own[a * m + c] += kappa * xi[a] * xi[c], other[a * m + c] -= kappa * xi[a] * xi[c];
 }
 
+/* w of a bond, m^-1 times the kernel; rr: its squared length, m^2. */
 static double weight_of (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *rr)
 {
     size_t dim = (size_t) b->dim;

@@ -19,6 +19,7 @@ struct dilatation_rows {
     double *whole;                                     /* that row; NULL: there is none */
 };
 
+/* Also where there are none. */
 void dilatation_rows_free (bond_force *b)
 {
     dilatation_rows *r = b->dilatation->rows;
@@ -30,6 +31,7 @@ void dilatation_rows_free (bond_force *b)
 }
 
 /* ---- nearest points ------------------------------------------------------------------------------------ */
+/* Bond vector from point i to point j, m. */
 static void offset (const bond_force *b, size_t i, size_t j, double *xi)
 {
     for (size_t k = 0; k < (size_t) b->dim; k++)
@@ -82,6 +84,7 @@ static int is_narrow (const bond_force *b, const dilatation_rows *r, size_t i, s
     return 1;
 }
 
+/* Inverse of sum V xi x xi over the nearest points; 0: they do not spread in all directions. */
 static int invert (const bond_force *b, size_t i, size_t m, const int *node, double *out)
 {
     size_t dim = (size_t) b->dim;
@@ -102,6 +105,7 @@ static int invert (const bond_force *b, size_t i, size_t m, const int *node, dou
     return 1;
 }
 
+/* How many nearest points each point of a range has, and whether it lost a bond. */
 static void count_points (void *context, size_t first, size_t last, int thread)
 {
     bond_force *b = context;
@@ -115,6 +119,7 @@ static void count_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* The nearest points themselves, and whether the dilatation can be taken from them. */
 static void find_points (void *context, size_t first, size_t last, int thread)
 {
     bond_force *b = context;
@@ -190,6 +195,7 @@ static void add_dilatation (const bond_force *b, size_t i, size_t k, size_t n, c
     }
 }
 
+/* Blocks of one bond: what stands beside the dilatation, and a pull that makes it stiff enough. */
 static void pull_block (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own,
                         double *other)
 {
@@ -200,6 +206,7 @@ static void pull_block (const bond_force *b, size_t i, const point_bonds *s, siz
                      other);
 }
 
+/* Blocks of all live bonds, then what the dilatations of the point and of those around it add. */
 static size_t make_row (const bond_force *b, size_t i, int thread, int *node, double *value)
 {
     const dilatation_rows *r = b->dilatation->rows;
@@ -223,6 +230,7 @@ static size_t make_row (const bond_force *b, size_t i, int thread, int *node, do
     return m;
 }
 
+/* Row of a point, for pg_couplings; value NULL: its nodes alone. */
 static size_t row (void *context, size_t i, int thread, int *node, double *value)
 {
     const bond_force *b = context;
@@ -242,6 +250,7 @@ static size_t row (void *context, size_t i, int thread, int *node, double *value
     return m;
 }
 
+/* May the shared row serve this point?. */
 static int is_uniform (void *context, size_t i)
 {
     return ((const bond_force *) context)->dilatation->rows->uniform[i];
@@ -270,6 +279,7 @@ done:
     return status;
 }
 
+/* Made anew for every preconditioner, for the bonds that live then. */
 pg_status dilatation_couplings (bond_force *b, pg_couplings *out)
 {
     pg_status status = PG_OK;

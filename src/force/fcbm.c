@@ -3,6 +3,7 @@
  * by FFT and whose points die by energy unless the scene says otherwise. */
 #include "pairwise.h"
 
+/* By transforms, unless the scene says how. */
 static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                   double spacing,
                   int lattice)

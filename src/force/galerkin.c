@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Unknowns are coefficients of shape functions; what is recorded is the displacement they make. */
 static size_t galerkin_fields (const void *self, size_t max, pg_field *out)
 {
     const galerkin *g = self;
@@ -13,6 +14,7 @@ static size_t galerkin_fields (const void *self, size_t max, pg_field *out)
     return 1;
 }
 
+/* Also of a force that was made in part only. */
 static void galerkin_free (void **self)
 {
     galerkin *g = *self;
@@ -63,6 +65,7 @@ done:
     return status;
 }
 
+/* Rows of shape functions are filled by the first refresh. */
 static pg_status galerkin_create (void **self, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -100,6 +103,7 @@ static void touched_points (const galerkin *g, const pg_changes *changes, size_t
     }
 }
 
+/* Shape functions of points that lost a bond are evaluated anew, then all that depends on them. */
 static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes)
 {
     pg_status status = PG_OK;
@@ -132,6 +136,7 @@ done:
 }
 
 /* ---- balance ------------------------------------------------------------------------------------------- */
+/* Internal force by the measured stresses, then loads and boundary terms. */
 static pg_status galerkin_balance (void *self, double t, const double *d, double *residual, double *reference)
 {
     galerkin *g = self;
@@ -147,6 +152,7 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     return PG_OK;
 }
 
+/* Lumped: density times the volume of each node. */
 static pg_status galerkin_mass (void *self, double *mass)
 {
     galerkin *g = self;
@@ -159,6 +165,7 @@ static pg_status galerkin_mass (void *self, double *mass)
 
 static unsigned long galerkin_revision (const void *self) { return ((const galerkin *) self)->revision; }
 static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->op; }
+/* Boundary terms first; what elimination prescribes follows with its reactions. */
 static pg_status galerkin_work_balance (void *self, double t, const double *d, const double *inertia,
                                         pg_work_balance *out)
 {

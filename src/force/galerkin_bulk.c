@@ -4,6 +4,7 @@
 #include "galerkin.h"
 #include <string.h>
 
+/* Of a point of a bond set. */
 const pg_material *galerkin_material (const galerkin *g, int set, size_t p)
 {
     return &g->problem->material[g->material[set][p]];
@@ -21,6 +22,7 @@ static void add_strain (int dim, const double *q, const double *d, double *e)
     }
 }
 
+/* f_k = sum of sigma_kl dN/dx_l. */
 void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
 {
     if (dim == 1) f[0] = q[0] * s[0];
@@ -32,6 +34,7 @@ void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
     }
 }
 
+/* Strength at a point: none where it carries no stress. */
 static double stabilisation (const galerkin *g, size_t p)
 {
     const pg_material *m = galerkin_material (g, g->bulk, p);
@@ -87,6 +90,7 @@ static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
     add_blocks (g->dim, DB, m, r->dN + first * dim, out);
 }
 
+/* B_a' D B_b w of one point, and the stabilisation. */
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -97,6 +101,7 @@ void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *
     if (Gs > 0) pg_silling_add (r, &g->problem->cloud, p, a, m, Gs, r->weight[p], out);
 }
 
+/* The same for all points of a cell, whose shape functions are summed over it. */
 void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -139,12 +144,14 @@ static double silling_force (const galerkin *g, size_t p, const double *d, doubl
     return energy;
 }
 
+/* After galerkin_measure. */
 void galerkin_bulk_force (galerkin *g, const double *d, double *f)
 {
     galerkin_sum_stress (g, f);
     for (size_t p = 0; p < g->rows[g->bulk].n && g->options->silling > 0; p++) silling_force (g, p, d, f);
 }
 
+/* K x without K. */
 void galerkin_bulk_apply (galerkin *g, const double *x, double *y)
 {
     galerkin_sum_tangent (g, x, y);
@@ -152,6 +159,7 @@ void galerkin_bulk_apply (galerkin *g, const double *x, double *y)
     for (size_t p = 0; p < g->rows[g->bulk].n && g->options->silling > 0; p++) silling_force (g, p, x, y);
 }
 
+/* Half the work of stress on strain, and the energy of the stabilisation. */
 double galerkin_bulk_energy (const galerkin *g, const double *d)
 {
     const pg_rows *r = &g->rows[g->bulk];

@@ -22,6 +22,7 @@ static void damage (const galerkin *g, const pg_state *state, double *value)
     for (size_t i = 0; i < g->n; i++) value[i] = all[i] > 0 ? value[i] / all[i] : 0;
 }
 
+/* By name; displacement and velocity are those that the shape functions make, not their coefficients. */
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
                           int *components, const char **unit, double *value)
 {

@@ -7,6 +7,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Bisection in an ascending list. */
 static int member (const int *list, size_t n, int value)
 {
     size_t lo = 0, hi = n;
@@ -89,12 +90,14 @@ done:
     return status;
 }
 
+/* Constraints on facets, then on nodes. */
 pg_status galerkin_boundary_create (galerkin *g)
 {
     pg_status status = find_nitsche (g);
     return status == PG_OK ? find_penalties (g) : status;
 }
 
+/* Also of what was made in part only. */
 void galerkin_boundary_free (galerkin *g)
 {
     pg_free (g->nitsche), pg_free (g->nitsche_start), pg_free (g->penalty), pg_free (g->penalty_node),
@@ -138,6 +141,7 @@ static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
     }
 }
 
+/* Nitsche's terms of one facet point between two nodes, symmetric. */
 void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -161,6 +165,7 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
     }
 }
 
+/* Stiffness of the penalty of a node, N/m. */
 static double penalty (const galerkin *g, const constraint *q)
 {
     const pg_problem *p = g->problem;
@@ -170,6 +175,7 @@ static double penalty (const galerkin *g, const constraint *q)
            * p->cloud.volume[node];
 }
 
+/* Penalty of a node between two nodes that its displacement depends on. */
 void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -190,6 +196,7 @@ void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, doubl
 typedef void (*visitor) (void *context, int set, size_t point, int load, int k, double force,
                          double displacement);
 
+/* Traction less the penalty of the gap between displacement and prescribed value, Pa. */
 static double nitsche_traction (const galerkin *g, const constraint *q, double gap)
 {
     double Q[6], t = 0;
@@ -199,6 +206,7 @@ static double nitsche_traction (const galerkin *g, const constraint *q, double g
     return t - beta (g, q->point) * gap;
 }
 
+/* Calls `visit` with the force on every prescribed component. */
 static void visit_supports (galerkin *g, double t, visitor visit, void *context)
 {
     size_t dim = (size_t) g->dim;
@@ -223,6 +231,7 @@ static void visit_supports (galerkin *g, double t, visitor visit, void *context)
     }
 }
 
+/* Calls `visit` for a traction or pressure at every facet point of its set. */
 static void visit_facet_load (const galerkin *g, double t, int l, visitor visit, void *context)
 {
     const pg_load *load = &g->problem->load[l];
@@ -239,6 +248,7 @@ static void visit_facet_load (const galerkin *g, double t, int l, visitor visit,
     }
 }
 
+/* Calls `visit` for a total or body force at every point of its set. */
 static void visit_point_load (const galerkin *g, double t, int l, visitor visit, void *context)
 {
     const pg_load *load = &g->problem->load[l];
@@ -256,6 +266,7 @@ static void visit_point_load (const galerkin *g, double t, int l, visitor visit,
     }
 }
 
+/* By the kind of each load. */
 static void visit_loads (const galerkin *g, double t, visitor visit, void *context)
 {
     for (size_t l = 0; l < g->problem->nload; l++) {
@@ -390,6 +401,7 @@ static void count_pair (void *context, int set, size_t point, int load, int k, d
     ++*(size_t *) context;
 }
 
+/* How many pairs of force and displacement there are, by counting visits. */
 size_t galerkin_boundary_pairs (galerkin *g)
 {
     size_t n = 0;
@@ -409,6 +421,7 @@ static void write_pair (void *context, int set, size_t point, int load, int k, d
     w->out->reaction[load * 3 + k] += force;
 }
 
+/* Returns how many pairs were written. */
 size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out)
 {
     writing w = { out, 0 };

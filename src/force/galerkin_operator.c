@@ -5,6 +5,7 @@
 #include "galerkin.h"
 #include <string.h>
 
+/* K x: bulk, then supports. */
 void galerkin_apply (void *context, const double *x, double *y)
 {
     galerkin *g = context;
@@ -53,6 +54,7 @@ static void add_diagonal_blocks (galerkin *g, const pg_family *f, blocks make, d
         }
 }
 
+/* Most nodes of a point of a family. */
 static size_t widest (const pg_family *f)
 {
     size_t most = 0;
@@ -85,6 +87,7 @@ static int all_isotropic (const pg_problem *p)
     return 1;
 }
 
+/* Kept until bonds change. */
 void galerkin_diagonal (void *context, double *d)
 {
     galerkin *g = context;
@@ -104,12 +107,14 @@ void galerkin_diagonal (void *context, double *d)
 }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
+/* Rows of all nodes that a touched point sees become stale. */
 static void mark_family (galerkin *g, int set, size_t p)
 {
     const pg_family *f = set == g->bulk ? &g->sums.family : &g->rows[set].family;
     for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stale[f->node[e]] = 1;
 }
 
+/* Boundary points count where something is prescribed there. */
 void galerkin_mark_stale (galerkin *g, const size_t *count)
 {
     size_t marked = count[g->bulk] + (g->nnitsche ? count[PG_FACETS] : 0) + (g->npenalty ? count[PG_NODES]
@@ -122,6 +127,7 @@ void galerkin_mark_stale (galerkin *g, const size_t *count)
     g->revision += marked > 0;
 }
 
+/* Sources of blocks: bulk, facets, nodes under a penalty, patches of the dilatation. */
 static pg_status create_matrix (galerkin *g)
 {
     pg_assembly_source source[4];
@@ -138,6 +144,7 @@ static pg_status create_matrix (galerkin *g)
     return pg_assembly_create (&g->K, g->n, g->dim, n, source);
 }
 
+/* Only rows that broken bonds have changed are gathered again. */
 pg_status galerkin_assemble (void *self)
 {
     pg_status status = PG_OK;
@@ -158,6 +165,7 @@ done:
     return status;
 }
 
+/* NULL until it has been assembled. */
 const pg_sparse *galerkin_matrix (void *self)
 {
     galerkin *g = self;
@@ -175,6 +183,7 @@ static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *ou
     for (size_t b = 0; b < m; b++) out[b] = share * N[b];
 }
 
+/* Made once, of the bonds that live then: breaking moves no mass. */
 pg_status galerkin_mass_matrix (void *self, const pg_sparse **M)
 {
     pg_status status = PG_OK;

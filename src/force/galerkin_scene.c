@@ -35,6 +35,7 @@ static const pg_key keys[] = {
 };
 const pg_key_table galerkin_keys = { "force", keys, sizeof keys / sizeof *keys };
 
+/* Stabilisation is for nodal integration of an approximation that expands about the node. */
 pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -60,6 +61,7 @@ done:
     return status;
 }
 
+/* The word of the scene, or by whether there are facets. */
 static pg_essential essential_of (const char *how, int facets)
 {
     if (strcmp (how, "transformation") == 0) return PG_ESSENTIAL_TRANSFORMATION;
@@ -88,6 +90,7 @@ void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene
         load->penalty = fmin (o->penalty, o->nitsche);
 }
 
+/* The estimate knows Nitsche's terms; supports by a penalty are not in it. */
 double galerkin_support_stiffness (const pg_problem *p)
 {
     int any = 0;
@@ -104,6 +107,7 @@ pg_status galerkin_limits (const pg_problem *p, size_t material, pg_criterion_se
     return PG_OK;
 }
 
+/* One line for the plan. */
 void galerkin_words (const pg_problem *p, char *text, size_t size)
 {
     snprintf (text, size, "%s, %s basis, %s kernel, %s integration", p->approx.type->name,

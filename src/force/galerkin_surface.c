@@ -2,6 +2,7 @@
  * What a uniform stress does on the points of PG_FACETS: P = sum w N sigma n. */
 #include "galerkin.h"
 
+/* Components that a support on points bears are left out (pg_patch_probe). */
 pg_status galerkin_surface (void *self, const double *stress, double *P)
 {
     galerkin *g = self;

@@ -34,6 +34,7 @@ static int is (const pg_scene *scene, const char *key, const char *word)
 
 static int long_range (const pg_scene *scene) { return pg_scene_bool (scene, "method.volumetric"); }
 
+/* Bonds as beams; with volumetric: on a dilatation beside them. */
 static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                   double spacing,
                   int lattice)
@@ -113,6 +114,7 @@ static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule 
     check_materials (p, scene, rule);
 }
 
+/* Options first: the checks of the rule fill them. */
 static pg_status read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -142,6 +144,7 @@ done:
     return status;
 }
 
+/* Energies of a straight cut by stretch, shear and bending alone, with the share of the dilatation. */
 static pg_status limits (const pg_problem *p, size_t material, pg_criterion_setting *s)
 {
     pg_status status = PG_OK;
@@ -160,6 +163,7 @@ done:
     return status;
 }
 
+/* At the largest Poisson's ratio of micropolar bonds their shear stiffness vanishes. */
 static int bears_shear (const pg_problem *p, int material)
 {
     double E, nu, dilation;

@@ -3,6 +3,7 @@
 #include "state_based.h"
 #include <string.h>
 
+/* Corrections of surfaces are left out unless asked for: weighted volumes know incomplete families. */
 static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,
                   double spacing,
                   int lattice)
@@ -13,6 +14,7 @@ static void rule (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const p
     if (strcmp (pg_scene_text (scene, surface), "auto") == 0) out->surface = PG_SURFACE_NONE;
 }
 
+/* Always: the dilatation of a neighbour depends on its neighbours. */
 static int long_range (const pg_scene *scene)
 {
     (void) scene;

@@ -15,6 +15,8 @@ static const micropolar_options *options_of (const pg_problem *p) { return p->op
  * shear, 6 % at 0) */
 static double usual_poisson (pg_mode mode) { return mode == PG_PLANE_STRESS ? 0.25 : 0.2; }
 
+/* Beside a dilatation the bonds make the Poisson's ratio that is asked for, and the dilatation bears the
+ * rest. */
 void micropolar_split (const pg_problem *p, size_t material, double *E, double *nu, double *dilation)
 {
     const micropolar_options *o = options_of (p);
@@ -37,6 +39,7 @@ static double limit_at (const pg_criterion *c, double ratio, int which)
     return factor;
 }
 
+/* Limits of stretch, shear and bending of points; criteria of energies have none. */
 static pg_status make_limits (bond_force *b)
 {
     micropolar *own = (micropolar *) b;
@@ -56,6 +59,7 @@ done:
     return status;
 }
 
+/* Constants of beams of every point, and A of the dilatation beside them. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -87,6 +91,7 @@ done:
     return status;
 }
 
+/* What create made; the base frees its own. */
 static void destroy (bond_force *b)
 {
     micropolar *own = (micropolar *) b;
@@ -95,6 +100,7 @@ static void destroy (bond_force *b)
         pg_free (own->bending_limit);
 }
 
+/* A dilatation reaches further than one row of bonds: no sharing then. */
 static int alike (const bond_force *b, size_t k)
 {
     const micropolar *own = micropolar_of (b);
@@ -102,6 +108,7 @@ static int alike (const bond_force *b, size_t k)
 }
 
 /* ---- one bond ------------------------------------------------------------------------------------------ */
+/* The beam alone, without a dilatation. */
 static void beam (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     const double *xi = s->xi + e * (size_t) b->dim;
@@ -110,6 +117,7 @@ static void beam (const bond_force *b, size_t i, const point_bonds *s, size_t e,
     pg_beam_blocks (b->dim, xi, &bond, b->length, own, other ? other : spare);
 }
 
+/* The beam, and for a dilatation a pull that is at least as stiff. */
 static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     double spare[36];
@@ -120,6 +128,7 @@ static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t 
     dilatation_pull (b, i, s, e, stiff[i] + stiff[s->node[e]], own, other);
 }
 
+/* Of one bond, for criteria. */
 static void strain (const bond_force *b, const double *xi, const double *di, const double *dj, double *shear,
                     double *bending)
 {
@@ -141,6 +150,7 @@ static void add_virial (const bond_force *b, size_t i, const point_bonds *s, siz
     }
 }
 
+/* Of the dilatation, then of the beams. */
 static void virial (const bond_force *b, size_t i, const point_bonds *s, const unsigned char *alive,
                     const double *d, double *T)
 {
@@ -177,6 +187,7 @@ char micropolar_kind_of (void *self, const double *d, size_t entry)
 }
 
 /* ---- words --------------------------------------------------------------------------------------------- */
+/* Constants of the beams of a material. */
 static void words (const bond_force *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
@@ -217,6 +228,7 @@ static const bond_theory theory = { .size = sizeof (micropolar),
                                      .find_dying = dilatation_dying,
                                      .words = words };
 
+/* Entry of pg_force_type. */
 pg_status micropolar_create (void **self, const pg_problem *problem)
 {
     return bond_force_make (self, problem, &theory);

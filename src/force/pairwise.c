@@ -6,6 +6,7 @@
 #include <stdio.h>
 
 /* ---- one bond ------------------------------------------------------------------------------------------ */
+/* Between unlike points the harmonic mean of their constants, as of two springs in a row. */
 double pairwise_kappa (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *r)
 {
     size_t j = (size_t) s->node[e];
@@ -17,6 +18,7 @@ double pairwise_kappa (const bond_force *b, size_t i, const point_bonds *s, size
     return both * s->weight[e] * (V[i] * V[j]) / (rr * sqrt (rr));
 }
 
+/* kappa xi x xi, and its negative for the other end. */
 static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t e, double *own, double *other)
 {
     size_t dim = (size_t) b->dim;
@@ -45,6 +47,7 @@ static void add_virial (const bond_force *b, size_t i, const point_bonds *s, siz
         for (size_t c = 0; c < dim; c++) T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f[a] * xi[c];
 }
 
+/* Sum over live bonds. */
 static void virial (const bond_force *b, size_t i, const point_bonds *s, const unsigned char *alive,
                     const double *d, double *T)
 {
@@ -77,6 +80,7 @@ double pairwise_energy_at (const bond_force *b, size_t i, int thread, const doub
 }
 
 /* ---- constants ----------------------------------------------------------------------------------------- */
+/* Constants of points; neighbours in the list are often of one material. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -97,6 +101,7 @@ done:
     return status;
 }
 
+/* What create made, and the tiles of the search for dying points. */
 static void destroy (bond_force *b)
 {
     pairwise *own = (pairwise *) b;
@@ -104,11 +109,13 @@ static void destroy (bond_force *b)
     pairwise_tiles_free (&own->tiles);
 }
 
+/* One modulus for both points. */
 static int alike (const bond_force *b, size_t k)
 {
     return pairwise_of (b)->modulus[k] == pairwise_of (b)->modulus[0];
 }
 
+/* The constant of a material, calibrated or not. */
 static void words (const bond_force *b, size_t m, char *text, size_t size)
 {
     const pg_problem *p = b->problem;
@@ -134,6 +141,7 @@ static const bond_theory theory = { .size = sizeof (pairwise),
                                      .forget = pairwise_tiles_forget,
                                      .words = words };
 
+/* Entry of pg_force_type. */
 pg_status pairwise_create (void **self, const pg_problem *problem)
 {
     return bond_force_make (self, problem, &theory);
@@ -158,6 +166,7 @@ static void take_poisson (pg_problem *p, const pg_scene *scene, const pg_sum_rul
     }
 }
 
+/* Entry of pg_method. */
 pg_status pairwise_read (pg_problem *p, const pg_scene *scene)
 {
     return bond_force_read (p, scene, take_poisson);

@@ -33,6 +33,7 @@ struct pairwise_tiles {
     size_t  spent;                                     /* points looked at one by one since then */
 };
 
+/* Also where there are none. */
 void pairwise_tiles_free (pairwise_tiles **tiles)
 {
     pairwise_tiles *t = *tiles;
@@ -45,6 +46,7 @@ void pairwise_tiles_free (pairwise_tiles **tiles)
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
+/* The longest bond of the body, m: no tile is smaller. */
 static double longest_bond (const bond_force *b)
 {
     size_t dim = (size_t) b->dim;
@@ -60,6 +62,7 @@ static double longest_bond (const bond_force *b)
     return sqrt (top);
 }
 
+/* Number of the tile that holds point i. */
 static size_t tile_of (const pairwise_tiles *t, const pg_cloud *cloud, double edge, size_t i)
 {
     size_t at = 0;
@@ -122,6 +125,7 @@ done:
     return status;
 }
 
+/* Tiles no smaller than the longest bond, and what displacements can add to the energies in each. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -242,6 +246,7 @@ static void clear_tiles (void *context, size_t first, size_t last, int thread)
 }
 
 /* ---- looking ------------------------------------------------------------------------------------------- */
+/* By the plain sum over its own bonds, whatever the tiles say. */
 static int dies (const bond_force *b, size_t i, int thread, const double *d)
 {
     return isfinite (b->critical[i]) && pairwise_energy_at (b, i, thread, d) >= b->critical[i];
@@ -277,6 +282,7 @@ static void look_at_all (void *context, size_t first, size_t last, int thread)
 
 void pairwise_tiles_forget (bond_force *b) { if (pairwise_of (b)->tiles) pairwise_of (b)->tiles->fresh = 0; }
 
+/* Only tiles that may have reached a limit since the last full look are opened. */
 pg_status pairwise_tiles_look (bond_force *b, const double *d, size_t *dying)
 {
     pg_status status = PG_OK;

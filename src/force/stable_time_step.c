@@ -3,6 +3,7 @@
 #include "perigal/force.h"
 #include <math.h>
 
+/* Explicit steps are stable up to 2 over this frequency. */
 pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass,
                           double *workspace, double *omega, const char **from)
 {

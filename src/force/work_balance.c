@@ -4,6 +4,7 @@
 #include "point_boundary.h"
 #include <string.h>
 
+/* Arrays are sized on the first call; pairs of supports come first, those of loads follow. */
 pg_status boundary_work_balance (point_boundary *s, double t, const double *d, const double *residual,
                               pg_work_balance *out)
 {
@@ -39,6 +40,7 @@ done:
     return status;
 }
 
+/* May be called on one that was never filled. */
 void pg_work_balance_clear (pg_work_balance *work_balance)
 {
     pg_free (work_balance->force), pg_free (work_balance->displacement), pg_free (work_balance->reaction);

@@ -31,6 +31,7 @@ const pg_material_type *pg_material_find (const char *name)
 
 const char *pg_material_names (void) { return names + 1; }
 
+/* Its keys join those of the scene, which gathers them when the first scene is read. */
 pg_status pg_material_add (const pg_material_type *type)
 {
     pg_status status = PG_OK;
@@ -48,6 +49,7 @@ done:
 
 int pg_voigt_size (int dim) { return dim * (dim + 1) / 2; }
 
+/* The place of a stress component in Voigt order. */
 int pg_voigt_at (int dim, int i, int j)
 {
     static const int solid[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
@@ -92,6 +94,7 @@ static void check_keys (const pg_material *m, const pg_scene *scene)
                         reads);
 }
 
+/* Common keys here, the rest by the model; a constant that is not of this model is a fault. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode)
 {
     pg_status status = PG_OK;

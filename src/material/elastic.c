@@ -4,11 +4,14 @@
 #include "entries.h"
 #include <string.h>
 
+/* Components of stress in the mode. */
 static int size_of (pg_mode mode)
 {
     return mode == PG_SOLID ? 6 : mode == PG_LINE ? 1 : 3;
 }
 
+/* lambda tr (eps) 1 + 2 mu eps; in plane stress lambda is 2 lambda mu / (lambda + 2 mu), written in E and
+ * nu. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D)
 {
     int nv = size_of (mode), nn = nv == 6 ? 3 : nv == 3 ? 2 : 1;       /* components, normal ones */
@@ -21,6 +24,7 @@ void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D)
     if (mode == PG_LINE) D[0] = E;
 }
 
+/* Bulk modulus of the dimension, and the shear modulus, in the constants of state-based bonds. */
 void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation)
 {
     double mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), d = mode == PG_SOLID ? 3 : 2;
@@ -31,6 +35,7 @@ void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, doubl
     *deviation = mode == PG_LINE ? E : d * (d + 2) * mu;
 }
 
+/* All that follows from E and nu; forces that know only one Poisson's ratio set it by this as well. */
 void pg_elastic_set (pg_material *m, double E, double nu)
 {
     m->E = m->modulus = E, m->nu = nu, m->mu = E / (2 * (1 + nu));

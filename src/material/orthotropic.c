@@ -57,6 +57,7 @@ static const pg_key keys[] = {
 };
 static const pg_key_table table = { "material", keys, sizeof keys / sizeof *keys };
 
+/* Places a fault at a key of the material, or at the material where no key is to blame. */
 static void fault (const pg_scene *scene, const pg_material *m, const char *key, const char *why)
 {
     char path[160];
@@ -200,6 +201,7 @@ static void reduce (pg_material *m, const double D[36])
     }
 }
 
+/* Checks first, so that nothing is computed from constants that cannot be. */
 static pg_status read (pg_material *m, const pg_scene *scene)
 {
     double c[CONSTANTS], C[36], D[36], R[9];

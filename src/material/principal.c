@@ -4,6 +4,7 @@
 #include "perigal/material.h"
 #include <math.h>
 
+/* Descending. */
 static void sort3 (double *s)
 {
     double t;
@@ -12,6 +13,7 @@ static void sort3 (double *s)
     if (s[0] < s[1]) t = s[0], s[0] = s[1], s[1] = t;
 }
 
+/* Mohr's circle in the plane; the stress across it is the third. */
 static void plane (const double *s, double zz, double *principal)
 {
     double mean = (s[0] + s[1]) / 2, radius = hypot ((s[0] - s[1]) / 2, s[2]);
@@ -21,6 +23,8 @@ static void plane (const double *s, double zz, double *principal)
     sort3 (principal);
 }
 
+/* Roots of the characteristic polynomial by the cosine of a third of an angle (Smith 1961); nearly equal
+ * roots by Jacobi rotations, which keep their digits. */
 static void solid (const double *s, double *principal)
 {
     double mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;

@@ -3,6 +3,7 @@
 #include "perigal/material.h"
 #include <math.h>
 
+/* Bisection: the function is negative below the root and positive above it. */
 double pg_rayleigh_speed (double pressure, double shear)
 {
     double low = 1e-3, high = 1, q = shear * shear / (pressure * pressure);

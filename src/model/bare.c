@@ -55,6 +55,7 @@ done:
     return status;
 }
 
+/* Copies the struct and replaces what it does not share. */
 pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -88,6 +89,7 @@ done:
     return status;
 }
 
+/* Only what is its own. */
 void pg_problem_bare_free (pg_problem **bare)
 {
     pg_problem *b = *bare;

@@ -18,6 +18,7 @@ typedef struct { size_t n; entry *entry; } entries;
 
 static const char *const kind_of_points[PG_BOND_SETS] = { "nodes", "evaluation points", "boundary points" };
 
+/* Frees the entries. */
 static void clear (entries *e)
 {
     for (size_t k = 0; e->entry && k < e->n; k++) pg_expression_free (&e->entry[k].where);
@@ -47,6 +48,7 @@ static int block_named (const pg_problem *p, const pg_scene *scene, const char *
     return -1;
 }
 
+/* A condition, or a block number of the points' file or mesh. */
 static pg_status read_entry (entry *e, const pg_problem *p, const pg_scene *scene, size_t k)
 {
     pg_status status = PG_OK;
@@ -66,6 +68,7 @@ done:
     return status;
 }
 
+/* In the order of the scene: later ones win. */
 static pg_status read_entries (entries *out, const pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -77,6 +80,7 @@ done:
     return status;
 }
 
+/* What can be said before there are bonds. */
 pg_status pg_blocks_check (const pg_problem *p, const pg_scene *scene)
 {
     entries e = { 0 };
@@ -144,6 +148,7 @@ static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set,
                     p->rows[set].n, kind_of_points[set], place);
 }
 
+/* The last entry that claims a point decides its material. */
 static void claim_all (entries *e, pg_problem *p, const pg_scene *scene)
 {
     size_t first = 0;
@@ -205,6 +210,7 @@ static void by_number (pg_problem *p, const pg_scene *scene)
         }
 }
 
+/* A material that no point has is a fault. */
 static void check_used (const pg_problem *p, const pg_scene *scene)
 {
     for (size_t m = 0; m < p->nmaterial; m++) {
@@ -217,6 +223,7 @@ static void check_used (const pg_problem *p, const pg_scene *scene)
     }
 }
 
+/* Of nodes, points of evaluation and boundary points alike. */
 pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

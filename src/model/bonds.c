@@ -49,6 +49,7 @@ done:
     return status;
 }
 
+/* Nodes see each other through the shape functions at their own places. */
 static pg_status make_nodes (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -72,6 +73,7 @@ static int quadrature_order (const pg_problem *p)
     return p->approx.order + 1 + pg_mesh_body_halved (&p->part) * 2;
 }
 
+/* Points per direction of a cell: as the scene says, else what the basis needs. */
 static int gauss_order (const pg_problem *p, const pg_scene *scene)
 {
     return pg_scene_given (scene, "method.gauss_points")
@@ -86,6 +88,7 @@ static int facet_order (const pg_problem *p, const pg_scene *scene)
     return p->cells.cut && fine > order ? fine : order;
 }
 
+/* Points of evaluation with weights; the cells of consistent integration. */
 static pg_status make_points (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -148,6 +151,7 @@ static double distance2 (const pg_problem *p, const double *x, int node)
     return s;
 }
 
+/* Ties go to the first. */
 int pg_bonds_nearest (const pg_problem *p, int set, size_t point)
 {
     const pg_family *f = &p->rows[set].family;
@@ -158,6 +162,7 @@ int pg_bonds_nearest (const pg_problem *p, int set, size_t point)
     return nearest;
 }
 
+/* Only where spacings differ; else one number serves all. */
 static pg_status measure_spacing (pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -172,6 +177,7 @@ done:
     return status;
 }
 
+/* That of the nearest node where spacings differ. */
 double pg_problem_spacing (const pg_problem *p, int set, size_t point)
 {
     return p->spacing[set] ? p->spacing[set][point] : p->cloud.h;
@@ -286,6 +292,7 @@ static void count_eroded (pg_problem *p, const pg_scene *scene)
                      p->eroded, p->eroded == 1 ? " lies" : "s lie", p->eroded == 1 ? "s" : "", way);
 }
 
+/* Rows of all bond sets, then what needs them: spacings, blocks, dilatation, exempt points. */
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

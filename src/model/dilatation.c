@@ -10,6 +10,7 @@
 static const double stiff = 9;
 
 static double shear_of (const pg_material *m) { return m->D[m->mode == PG_SOLID ? 21 : 8]; }
+/* Poisson's ratio of 0.45 and more: lambda is nine times mu. */
 static int nearly_incompressible (const pg_material *m)
 {
     return m->lambda > 0 && m->lambda >= stiff * (1 - 1e-9) * shear_of (m);
@@ -37,12 +38,14 @@ static void warn (pg_problem *p, const char *mode)
     }
 }
 
+/* The points where the weak form is evaluated, and their bond set. */
 static const pg_rows *points_of (const pg_problem *p, int *set)
 {
     *set = p->integration->at_nodes ? PG_NODES : PG_POINTS;
     return &p->rows[*set];
 }
 
+/* Patches carry the lambda of the materials that need them; the rest of D stays at the points. */
 pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -5,6 +5,7 @@
 #include <math.h>
 #include <string.h>
 
+/* An expression in x, y, z; time has no place in it. */
 static pg_status read_component (pg_problem *p, const pg_scene *scene, int k)
 {
     pg_status status = PG_OK;
@@ -23,6 +24,7 @@ done:
     return status;
 }
 
+/* Ignored by quasi-static solvers, which know no velocity. */
 pg_status pg_initial_read (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -41,6 +43,7 @@ done:
     return status;
 }
 
+/* Component k at a place, m/s. */
 static double velocity_at (const pg_problem *p, const double *x, size_t k)
 {
     pg_place at = pg_place_of (p->dim, x, 0);

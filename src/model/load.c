@@ -13,20 +13,24 @@ static const struct { const char *key, *unit; pg_load_kind kind;
     { "rotation", "rad", PG_ROTATION },       { "moment", "N m", PG_MOMENT },
 };
 
+/* Supports, whatever quantity they prescribe. */
 int pg_load_prescribes (const pg_load *load)
 {
     return load->kind == PG_DISPLACEMENT || load->kind == PG_VELOCITY || load->kind == PG_ROTATION;
 }
 int pg_load_rotates (const pg_load *load) { return load->kind == PG_ROTATION || load->kind == PG_MOMENT; }
+/* Rotations and moments of the plane have one component, about z. */
 int pg_load_components (const pg_load *load, int dim)
 {
     return !pg_load_rotates (load) || dim == 3 ? dim : dim == 2;
 }
+/* For messages and columns. */
 char pg_load_axis (const pg_load *load, int dim, int k)
 {
     return "xyz"[pg_load_rotates (load) && dim < 3 ? 2 : k];
 }
 
+/* Linear between rows, constant beyond the first and last. */
 static double table_value (const pg_load *load, double t)
 {
     const double *row = load->table;
@@ -53,6 +57,7 @@ static double table_integral (const pg_load *load, double t)
     return t > last[0] ? sum + last[1] * (t - last[0]) : sum;
 }
 
+/* Of time alone: table, ramp or none. */
 static double factor_at (const pg_load *load, const pg_place *at)
 {
     if (!load->table) return pg_expression_value (load->ramp, at);
@@ -69,6 +74,7 @@ pg_place pg_place_of (int dim, const double *x, double t)
     return at;
 }
 
+/* Pattern in space times factor, where they separate; else the expression at (x, t). */
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
 {
     if (!load->value[k]) return 0;
@@ -80,6 +86,7 @@ double pg_load_value (const pg_load *load, int k, int dim, const double *x, doub
     return pg_expression_value (load->value[k], &at) * factor_at (load, &at);
 }
 
+/* Does any component change from place to place?. */
 static int depends_on_place (const pg_expression *e)
 {
     return e
@@ -87,6 +94,7 @@ static int depends_on_place (const pg_expression *e)
                || pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a'));
 }
 
+/* A component whose expression mixes x and t does not. */
 int pg_load_separates (const pg_load *load)
 {
     for (int k = 0; k < 3; k++) if (load->value[k] && pg_expression_uses (load->value[k], 't')) return 0;
@@ -133,6 +141,7 @@ done:
     return status;
 }
 
+/* Times must ascend. */
 static pg_status read_table (pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -152,6 +161,7 @@ done:
     return status;
 }
 
+/* Components beyond those of the body are faults. */
 static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, const char *key,
                               const char *unit)
 {
@@ -188,6 +198,14 @@ done:
     return status;
 }
 
+/* Does a load act on boundary facets, rather than on points? */
+static int acts_on_facets (const pg_load *load)
+{
+    return load->kind == PG_TRACTION || load->kind == PG_PRESSURE
+           || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
+}
+
+/* Its set must hold what it acts on. */
 static void check_place (const pg_problem *problem, const pg_load *load, const pg_scene *scene, size_t i)
 {
     char path[64];
@@ -197,8 +215,7 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
     /* told there */
     if (empty && (pg_scene_given (scene, "sets.%s", set->name) || pg_sets_empty_side (&problem->sets, set)))
         return;
-    int on_facets = load->kind == PG_TRACTION || load->kind == PG_PRESSURE
-                 || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
+    int on_facets = acts_on_facets (load);
     if (on_facets && problem->cells.n == 0)
         pg_scene_fault (scene, path, "%s needs boundary facets, and a body of explicit points has none",
                         load->kind == PG_TRACTION   ? "a traction"
@@ -256,13 +273,22 @@ static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene
     }
 }
 
+/* The name given, or that of its set without blanks ("polygon.edge 3"): it heads a column of history.csv. */
+static void name_load (pg_load *load, const pg_scene *scene, size_t i, const char *set)
+{
+    const char *name = pg_scene_text (scene, "boundary[%zu].name", i);
+    int given = name && *name;
+    snprintf (load->name, sizeof load->name, "%.63s", given ? name : set);
+    for (char *c = load->name; *c && !given; c++) if (*c == ' ') *c = '_';
+}
+
+/* Entry i of `boundary`. duration: end of the run, s (quasi-static: 1), for ramps over it. */
 static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i,
                             int is_static, double duration)
 {
     pg_status status = PG_OK;
     char path[64], names[160];
-    const char *set = pg_scene_text (scene, "boundary[%zu].set", i),
-               *name = pg_scene_text (scene, "boundary[%zu].name", i);
+    const char *set = pg_scene_text (scene, "boundary[%zu].set", i);
     size_t k = 0;
     while (k + 1 < sizeof kinds / sizeof *kinds
            && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key))
@@ -272,9 +298,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     if (pg_load_rotates (load) && !pg_problem_rotations (problem))
         pg_scene_fault (scene, path, "points of force: %s have no rotations, only those of force: %s",
                         problem->method->name, pg_methods_with_rotations (problem, names, sizeof names));
-    snprintf (load->name, sizeof load->name, "%.63s", name && *name ? name : set);
-    /* polygon.edge 3: a column of history.csv */
-    for (char *c = load->name; *c && !(name && *name); c++) if (*c == ' ') *c = '_';
+    name_load (load, scene, i, set);
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     load->set = pg_sets_named (&problem->sets, scene, path, set);
     if (!load->set) goto done;
@@ -310,6 +334,7 @@ static void name_apart (pg_problem *problem, const pg_scene *scene)
         }
 }
 
+/* Supports are checked against each other once all are there. */
 pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
 {
     pg_status status = PG_OK;

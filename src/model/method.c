@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* By method.force; NULL: the scene names none of them. */
 const pg_method *pg_method_of (const pg_method *const *methods, const pg_scene *scene)
 {
     const char *name = pg_scene_text (scene, "method.force");
@@ -12,12 +13,14 @@ const pg_method *pg_method_of (const pg_method *const *methods, const pg_scene *
     return NULL;
 }
 
+/* Shape functions, or only the reach and kernel of bonds between points. */
 pg_status pg_method_approx (pg_approx *out, const pg_method *method, const pg_scene *scene, double spacing)
 {
     if (method->shape_functions) return pg_approx_read (out, scene, spacing);
     return pg_approx_read_points (out, scene, spacing, method->kernel, method->horizon);
 }
 
+/* Thresholds are measured rates, see the descriptor. */
 int pg_method_iterates (const pg_method *method, int preconditioned, int dim, double dofs)
 {
     double most = method->iterate_above[preconditioned ? 0 : 1][dim];
@@ -68,6 +71,7 @@ const char *pg_methods_with_rotations (const pg_problem *p, char *out, size_t si
 }
 
 /* ---- keys ---------------------------------------------------------------------------------------------- */
+/* Keys of other forces, and essential conditions that bonds between points do not know. */
 void pg_method_note_ignored (pg_problem *p, const pg_scene *scene)
 {
     char path[PG_STRAY_PATH], text[200] = "";
@@ -89,6 +93,7 @@ void pg_method_note_ignored (pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- materials and criteria ---------------------------------------------------------------------------- */
+/* What a force cannot carry must never be replaced in silence. */
 pg_status pg_method_check_materials (const pg_problem *p, const pg_scene *scene)
 {
     char path[120], names[160];
@@ -124,23 +129,32 @@ static const char *measures_of (int needs, char *out, size_t size)
     return out;
 }
 
+/* The k-th criterion of the catalogue; NULL past the last. */
+static const pg_criterion_type *criterion_at (size_t k)
+{
+    const char *at = pg_criterion_names ();
+    char name[64];
+    for (; *at && k > 0; k--) {
+        at += strcspn (at, "|");
+        at += *at == '|';
+    }
+    snprintf (name, sizeof name, "%.*s", (int) strcspn (at, "|"), at);
+    return *name ? pg_criterion_find (name) : NULL;
+}
+
 /* "a, b": the criteria whose needs a force can show. */
 static const char *criteria_of (const pg_method *m, char *out, size_t size)
 {
+    const pg_criterion_type *type;
     size_t used = 0;
     out[0] = '\0';
-    for (const char *at = pg_criterion_names (); *at && used < size; at += *at == '|') {
-        char name[64];
-        size_t n = strcspn (at, "|");
-        snprintf (name, sizeof name, "%.*s", (int) n, at);
-        const pg_criterion_type *type = pg_criterion_find (name);
-        if (type && shows_all (m, type->needs))
-            used += (size_t) snprintf (out + used, size - used, "%s%s", used ? ", " : "", name);
-        at += n;
-    }
+    for (size_t k = 0; (type = criterion_at (k)) && used < size; k++)
+        if (shows_all (m, type->needs))
+            used += (size_t) snprintf (out + used, size - used, "%s%s", used ? ", " : "", type->name);
     return out;
 }
 
+/* Names criteria that go with this force, and forces that go with this criterion. */
 void pg_method_check_criterion (const pg_problem *p, const pg_scene *scene)
 {
     const pg_criterion_type *type = p->criterion->type;

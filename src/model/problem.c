@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Keys of another dimension are faults. */
 static pg_mode mode_of (const pg_scene *scene, int dim)
 {
     static const struct {
@@ -35,6 +36,7 @@ static void name_of (char *out, size_t size, const char *file)
     snprintf (out, size, "%.*s", (int) n, n ? base : "scene");
 }
 
+/* Cells at the surface keep the part inside the body; rays give the boundaries of sets. */
 static pg_status cut_cells (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -55,6 +57,7 @@ static pg_status pass (const pg_scene *scene, pg_status status)
     return status == PG_E_SCENE ? PG_OK : status;
 }
 
+/* Body, cracks, points, cells, sets. */
 static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -85,6 +88,7 @@ static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
     return given ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
 }
 
+/* Constants of criteria derive from the material and from what the force measures. */
 static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -111,6 +115,7 @@ done:
     return status;
 }
 
+/* Materials, then the approximation, then what the force reads of its keys. */
 static pg_status build_laws (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -132,6 +137,7 @@ done:
     return status;
 }
 
+/* Is any point within its horizon of the place?. */
 static int sees_points (const pg_problem *p, const double *x)
 {
     size_t dim = (size_t) p->dim;
@@ -145,6 +151,7 @@ static int sees_points (const pg_problem *p, const double *x)
     return 0;
 }
 
+/* A gauge on a crack would follow either face by chance. */
 static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -173,6 +180,7 @@ done:
     return status;
 }
 
+/* Faults that do not hinder later stages are passed by and told together at the end. */
 pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, const pg_method *const *methods,
                                    int threads)
 {
@@ -209,6 +217,7 @@ done:
     return status;
 }
 
+/* Only a scene without faults gets this far. */
 pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -223,6 +232,7 @@ done:
     return status;
 }
 
+/* Also of a problem that was built in part only. */
 void pg_problem_free (pg_problem **problem)
 {
     pg_problem *p = *problem;
@@ -246,6 +256,7 @@ void pg_problem_free (pg_problem **problem)
     *problem = NULL;
 }
 
+/* The last ones are dropped when there are too many. */
 void pg_problem_note (pg_problem *p, const char *format, ...)
 {
     va_list args;
@@ -255,6 +266,7 @@ void pg_problem_note (pg_problem *p, const char *format, ...)
     va_end (args);
 }
 
+/* Event stepping then scales one solution (solve/event_stepping.c). */
 int pg_problem_proportional (const pg_problem *p)
 {
     for (size_t i = 0; i < p->nload; i++) {
@@ -289,6 +301,7 @@ static int is_affine (const pg_load *load, int k, int dim, const double *x)
     return 1;
 }
 
+/* Event stepping then scales the difference of two solutions. */
 int pg_problem_affine (const pg_problem *p)
 {
     double middle[3] = { 0 };

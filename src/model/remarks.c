@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* On a lattice that of the body, whose surface lies beyond the outermost points. */
 void pg_problem_box (const pg_problem *p, double *low, double *high)
 {
     for (int k = 0; k < p->dim; k++)
@@ -13,6 +14,7 @@ void pg_problem_box (const pg_problem *p, double *low, double *high)
         high[k] = p->lattice.dim ? p->body.high[k] : p->cloud.high[k];
 }
 
+/* One cell across a body resolves nothing there. */
 void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
 {
     double asked, low[3], high[3];
@@ -30,6 +32,7 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */
+/* Does a crack of the start lie between two points?. */
 static int is_cut (const pg_problem *p, size_t i, size_t j)
 {
     size_t dim = (size_t) p->dim;
@@ -37,12 +40,14 @@ static int is_cut (const pg_problem *p, size_t i, size_t j)
                           1e-9 * p->cloud.h) != NULL;
 }
 
+/* Does a crack of the start pass through a point?. */
 static int on_a_crack (const pg_problem *p, size_t i)
 {
     return pg_cracks_touch (pg_state_cracks (p, NULL), p->dim, p->cloud.x + i * (size_t) p->dim,
                             1e-9 * p->cloud.h) != NULL;
 }
 
+/* "x, y, z" for messages. */
 static void write_place (const pg_problem *p, size_t i, char *out, size_t size)
 {
     size_t dim = (size_t) p->dim;
@@ -50,18 +55,12 @@ static void write_place (const pg_problem *p, size_t i, char *out, size_t size)
         used += (size_t) snprintf (out + used, size - used, "%s%.4g", k ? ", " : "", p->cloud.x[i * dim + k]);
 }
 
-/* Parts of several points that no bond joins, once the cracks are cut, and points without a bond (those on a
- * crack are told elsewhere); bonds between points tell. */
-pg_status pg_remark_parts (pg_problem *p)
+/* Which points hang together by bonds that no crack cuts: their sets (parent) and the size of each at its
+ * root. */
+static void join_points (const pg_problem *p, int *parent, int *size)
 {
-    pg_status status = PG_OK;
     const pg_family *f = &p->rows[PG_NODES].family;
-    int *parent = NULL, *size = NULL, largest = 0;
-    size_t n = p->cloud.n, parts = 0, beside = 0, at = 0, alone = 0, lonely = 0;
-    char place[80];
-    if (!p->cracks.n) return PG_OK;
-    PG_ALLOC (parent, n);
-    PG_ALLOC (size, n);
+    size_t n = p->cloud.n;
     pg_disjoint_start (parent, n);
     for (size_t i = 0; i < n; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
@@ -70,25 +69,53 @@ pg_status pg_remark_parts (pg_problem *p)
             if (!is_cut (p, i, j)) pg_disjoint_join (parent, (int) i, (int) j);
         }
     for (size_t i = 0; i < n; i++) size[pg_disjoint_root (parent, (int) i)]++;
+}
+
+/* Parts beside the largest one, their points, and points without any bond; a point of each kind. */
+typedef struct { size_t parts, beside, at, alone, lonely; } loose;
+
+/* One pass over the sets of joined points. */
+static loose find_loose (const pg_problem *p, int *parent, const int *size)
+{
+    loose l = { 0 };
+    size_t n = p->cloud.n;
+    int largest = 0;
     for (size_t i = 0; i < n; i++) if (size[i] > size[largest]) largest = (int) i;
     for (size_t i = 0; i < n; i++) {
         int r = pg_disjoint_root (parent, (int) i);
-        if (size[r] == 1 && n > 1 && !on_a_crack (p, i) && !alone++) lonely = i;
+        if (size[r] == 1 && n > 1 && !on_a_crack (p, i) && !l.alone++) l.lonely = i;
         if (r == largest || size[r] < 2) continue;
-        if (r == (int) i) parts++;
-        if (!beside++) at = i;
+        if (r == (int) i) l.parts++;
+        if (!l.beside++) l.at = i;
     }
-    if (parts) {
-        write_place (p, at, place, sizeof place);
+    return l;
+}
+
+/* Warns of parts of several points that no bond joins to the rest once the cracks are cut, and of points
+ * without a bond (those that lie on a crack have a remark of their own). Bonds between points decide,
+ * whatever the force. */
+pg_status pg_remark_parts (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    int *parent = NULL, *size = NULL;
+    size_t n = p->cloud.n;
+    char place[80];
+    if (!p->cracks.n) return PG_OK;
+    PG_ALLOC (parent, n);
+    PG_ALLOC (size, n);
+    join_points (p, parent, size);
+    loose l = find_loose (p, parent, size);
+    if (l.parts) {
+        write_place (p, l.at, place, sizeof place);
         pg_problem_note (p,
                          PG_WARNING "the cracks cut the body into %zu parts: %zu of its %zu points hang on "
                                     "the largest part by no bond, such as that at (%s) m",
-                         parts + 1, beside, n, place);
+                         l.parts + 1, l.beside, n, place);
     }
-    if (alone) {
-        write_place (p, lonely, place, sizeof place);
+    if (l.alone) {
+        write_place (p, l.lonely, place, sizeof place);
         pg_problem_note (p, PG_WARNING "the cracks leave %zu point%s without a bond, such as that at (%s) m",
-                         alone, alone == 1 ? "" : "s", place);
+                         l.alone, l.alone == 1 ? "" : "s", place);
     }
 done:
     pg_free (parent), pg_free (size);

@@ -3,6 +3,7 @@
 #include "model.h"
 #include <string.h>
 
+/* The arrays lie behind the struct, each after the other, so that one copy takes all. */
 static void place (pg_state *s)
 {
     char *base = (char *) s + (sizeof *s + 63) / 64 * 64;
@@ -12,6 +13,7 @@ static void place (pg_state *s)
     s->alive = (unsigned char *) (s->a + s->ndof);
 }
 
+/* One block of memory. */
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components)
 {
     pg_status status = PG_OK;
@@ -28,6 +30,7 @@ done:
     return status;
 }
 
+/* Both states must be of one problem. */
 pg_status pg_state_copy (pg_state *to, const pg_state *from)
 {
     if (to->ndof != from->ndof || to->nbond != from->nbond)

@@ -20,6 +20,7 @@ static int next_common (const held *a, const held *b, size_t *i, size_t *k)
     return 0;
 }
 
+/* How many items two ascending lists share. */
 static size_t common (const held *a, const held *b)
 {
     size_t i = 0, k = 0, n = 0;
@@ -52,6 +53,7 @@ static double time_of (const pg_load *a, const pg_load *b, double duration, size
 
 typedef struct { double here, there, t, x[3]; size_t differ; } conflict;
 
+/* At several times of the run and at the rows of both tables. */
 static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b, int k, int kind, held first,
                          held second, double duration)
 {
@@ -74,6 +76,7 @@ static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b
     return c;
 }
 
+/* As the scene spells it. */
 static const char *key_of (const pg_load *load)
 {
     return load->kind == PG_VELOCITY ? "velocity" : load->kind == PG_ROTATION ? "rotation" : "displacement";
@@ -110,12 +113,14 @@ static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int 
                          other);
 }
 
+/* Both prescribe component k of the same quantity. */
 static int comparable (const pg_load *a, const pg_load *b, int k)
 {
     return pg_load_prescribes (a) && pg_load_prescribes (b) && pg_load_rotates (a) == pg_load_rotates (b)
            && a->set && b->set && a->value[k] && b->value[k];
 }
 
+/* Every pair of supports; the first of them wins where both hold a point. */
 void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
 {
     for (size_t l = 1; l < p->nload; l++)

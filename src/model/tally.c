@@ -29,6 +29,7 @@ static void counter_clear (counter *c)
     pg_free (c->gauss);
 }
 
+/* Is the lattice cell part of the body?. */
 static int kept (const pg_lattice *l, int a, int b, int c)
 {
     if (a < 0 || b < 0 || c < 0 || a >= l->count[0] || b >= l->count[1] || c >= l->count[2]) return 0;
@@ -40,6 +41,7 @@ static size_t site_at (const counter *c, int x, int y, int z)
     return ((size_t) z * (size_t) c->size[1] + (size_t) y) * (size_t) c->size[0] + (size_t) x;
 }
 
+/* Is there a point at a site and a step from it?. */
 static int is_point (const counter *c, const int *at, const int *step)
 {
     int x = at[0] + step[0], y = at[1] + step[1], z = at[2] + step[2];
@@ -59,6 +61,7 @@ static int off_surface (const counter *c, int x, int y, int z, int f)
     return c->how->body->shape[shape].kind != PG_MESH && away > 1e-6 * l->step[f / 2];
 }
 
+/* Open faces of a cell, and those that lie off the true surface. */
 static void count_faces (const counter *c, pg_tally *t, int x, int y, int z)
 {
     for (int f = 0; f < 2 * c->l->dim; f++) {
@@ -133,6 +136,7 @@ done:
     return status;
 }
 
+/* Of a node and of every Gauss point of a cell. */
 static pg_status make_stencils (counter *c)
 {
     pg_status status = PG_OK;
@@ -154,6 +158,7 @@ done:
     return status;
 }
 
+/* Points of a stencil that exist, from one site. */
 static size_t seen (const counter *c, const int *at, const stencil *s)
 {
     size_t n = 0;
@@ -223,6 +228,7 @@ static size_t stride_for (double items, double visits_each)
     return (size_t) fmax (1, fmin (ceil (items * visits_each / most_visits), floor (items / 64)));
 }
 
+/* Bonds and couplings of nodes, on an even sample of them where there are many. */
 static void count_nodes (counter *c, pg_tally *t)
 {
     double work = c->how->bonds  ? (double) c->node.n
@@ -250,6 +256,7 @@ static void count_nodes (counter *c, pg_tally *t)
     t->pairs = npair ? 0.5 * (pairs * (t->points / (double) npair) + t->points) : 0;
 }
 
+/* Bonds of points of evaluation, likewise. */
 static void count_gauss (counter *c, pg_tally *t)
 {
     double work = 0, bonds = 0;
@@ -290,6 +297,7 @@ static int wide_open (const counter *c, pg_tally *t)
     return 1;
 }
 
+/* On the lattice given, which may be coarser than that of the scene. */
 pg_status pg_tally_count (pg_tally *out, const pg_counting *how)
 {
     pg_status status = PG_OK;

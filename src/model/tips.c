@@ -22,6 +22,7 @@ enum { ROWS = 5 };
 #define WORTH_A_WARNING 0.05                           /* of the opening */
 #define NODAL 0.25  /* evaluation at the points alone: +- 0.3 by where they lie */
 
+/* Linear between rows, constant beyond them. */
 static double interpolated (const row *r, double horizon)
 {
     size_t k = 1;
@@ -60,6 +61,7 @@ typedef struct {
     extent *extent;                                    /* of each crack */
 } surroundings;
 
+/* Local spacing at a place, m. */
 static double spacing_at (const surroundings *s, const double *x)
 {
     long i = s->p->cloud.size ? pg_nearest_find (s->near, x, NULL, NULL) : -1;
@@ -79,6 +81,7 @@ static int has_body (const surroundings *s, const double *x, double spacing)
     return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * spacing;
 }
 
+/* Does another crack pass through x?. */
 static int meets_other (const surroundings *s, size_t crack, const double *x)
 {
     const pg_problem *p = s->p;
@@ -161,12 +164,14 @@ static void add_front (const surroundings *s, size_t crack, const double *x, con
     e->front += length;
 }
 
+/* Scaled with the local spacing, m. */
 static double retreat_at (const surroundings *s, const double *x)
 {
     return s->offset * spacing_at (s, x) / s->p->cloud.h;
 }
 
 /* ---- kinds --------------------------------------------------------------------------------------------- */
+/* Both ends of a segment, each for itself; a short crack keeps half its length. */
 static void retreat_segment (const surroundings *s, size_t k, pg_crack *c, double *out)
 {
     double t[2] = { c->vertex[2] - c->vertex[0], c->vertex[3] - c->vertex[1] }, length = hypot (t[0], t[1]);
@@ -215,6 +220,7 @@ static void retreat_polygon (const surroundings *s, size_t k, pg_crack *c, doubl
     s->extent[k].size = area_inside (s, c);
 }
 
+/* The rim of a disc retreats as one. */
 static void retreat_disc (const surroundings *s, size_t k, const pg_crack *c, double *out)
 {
     double rim[3];
@@ -228,6 +234,7 @@ static void retreat_disc (const surroundings *s, size_t k, const pg_crack *c, do
 }
 
 /* ---- how well a tip is known --------------------------------------------------------------------------- */
+/* Do two cracks touch at a vertex of either?. */
 static int joined (const pg_problem *p, const pg_crack *a, const pg_crack *b)
 {
     size_t dim = (size_t) p->dim;
@@ -306,6 +313,7 @@ static void tell (pg_problem *p, const pg_scene *scene, extent *e)
                      length_of (&e[at], p->dim) / e[at].spacing, end, 100 * worst, end, spacings, remedy);
 }
 
+/* All tips are found before any crack is shortened: an end on another crack is no tip. */
 pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

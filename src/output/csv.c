@@ -91,7 +91,8 @@ done:
     return status;
 }
 
-/* The names point into the text, which therefore stays in memory. */
+/* The names point into the text, which therefore stays in memory. After a failure the table is
+ * empty. */
 pg_status pg_csv_read (pg_csv *csv, const char *path)
 {
     pg_status status = PG_OK;

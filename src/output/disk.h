@@ -5,7 +5,8 @@
 #define PERIGAL_OUTPUT_DISK_H
 #include "perigal/output.h"
 
-/* Writes `bytes` bytes at that offset, in as many system calls as it takes. */
+/* Writes `bytes` bytes at that offset, in as many system calls as it takes. After a failure
+ * some of them may be there; the caller cuts the file. */
 pg_status pg_disk_write (const char *path, int file, const void *data, size_t bytes, long offset);
 /* Shortens a file to that many bytes. */
 pg_status pg_disk_cut   (const char *path, int file, long bytes);

@@ -40,7 +40,8 @@ struct pg_exodus {
 };
 
 /* PG_E_USAGE: no points or more than a 32-bit count holds, a bad dimension, fields without a
- * name or with a bad number of components, or two of one name. */
+ * name or with a bad number of components, or two of one name, which readers could not tell
+ * apart. */
 static pg_status check_request (const char *path, const pg_cloud *cloud, size_t nfield,
                                 const pg_field_view *fields)
 {

@@ -147,8 +147,8 @@ done:
     return status;
 }
 
-/* The variables of a step. Their order in a record is the order of their definition, on which
- * exodus.c relies. */
+/* The variables of a step, with the field they belong to and their unit as attributes. Their
+ * order in a record is the order of their definition, on which exodus.c relies. */
 static pg_status define_fields (writer *w, int steps, int nodes, int name_dim)
 {
     pg_status status = PG_OK;
@@ -289,7 +289,7 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Finds the different block numbers of the points; one block if there are none. */
+/* Finds the different block numbers of the points, ascending; one block if the cloud has none. */
 static pg_status find_blocks (writer *w)
 {
     pg_status status = PG_OK;

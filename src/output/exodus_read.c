@@ -202,7 +202,8 @@ done:
     return status;
 }
 
-/* Reads a global attribute of m numbers; leaves the value as it is if there is none. */
+/* Reads a global attribute of m numbers; leaves the value as it is if there is none or it has
+ * another length. */
 static void numbers (int ncid, const char *name, size_t m, double *value)
 {
     size_t n;

@@ -122,7 +122,7 @@ void pg_json_open (pg_json *j, const char *key, char bracket)
     j->count[j->depth] = 0;
 }
 
-/* An empty list or object stays on one line. */
+/* An empty list or object stays on one line. One call too many is a fault of use. */
 void pg_json_shut (pg_json *j)
 {
     if (!j || j->misuse) return;

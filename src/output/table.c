@@ -32,7 +32,8 @@ done:
     return status;
 }
 
-/* Appends a cell, in quotes (and quotes doubled) if it contains commas, quotes or line ends. */
+/* Appends a cell; NULL is an empty one. It is put in quotes (and quotes in it doubled) if it
+ * contains commas, quotes or line ends. */
 static pg_status append_cell (pg_table *t, const char *text)
 {
     pg_status status = PG_OK;

@@ -336,6 +336,12 @@ static void free_plane_points (plane_points *p)
     pg_free (p->place), pg_free (p->shift), pg_free (p->damage), pg_free (p->size);
 }
 
+/* Coordinates of a vector in the plane of the picture, times a factor. */
+static void into_plane (const pg_eye *e, const double *x, int dim, double factor, double out[2])
+{
+    out[0] = factor * pg_along (e->right, x, dim), out[1] = factor * pg_along (e->up, x, dim);
+}
+
 /* Takes the points in sight over into the plane; d->index remembers which points they are. */
 static pg_status collect_points (drawing *d, size_t panel, pg_tiles *t, plane_points *p)
 {
@@ -354,12 +360,8 @@ static pg_status collect_points (drawing *d, size_t panel, pg_tiles *t, plane_po
         const double *x = c->x + i * dim;
         if (!d->seen[i] || !isfinite (x[0]) || !isfinite (x[1])) continue;
         size_t k = t->n++;
-        for (int a = 0; a < 2; a++) {
-            const double *direction = a ? e->up : e->right;
-            size_t at = 2 * k + (size_t) a;
-            p->place[at] = pg_along (direction, x, (int) dim);
-            if (u) p->shift[at] = d->style->magnify * pg_along (direction, u + i * dim, (int) dim);
-        }
+        into_plane (e, x, (int) dim, 1, p->place + 2 * k);
+        if (u) into_plane (e, u + i * dim, (int) dim, d->style->magnify, p->shift + 2 * k);
         if (damage) p->damage[k] = damage[i];
         if (size) p->size[k] = size[i];
         if (has_area) t->area += c->volume[i] / c->thickness;

@@ -91,7 +91,8 @@ void pg_result_averages_check (const pg_scene *scene, const pg_problem *problem)
     check_names (scene);
     for (size_t i = 0; i < pg_scene_count (scene, "output.averages"); i++) {
         snprintf (path, sizeof path, "output.averages[%zu].field", i);
-        check_field (scene, path, pg_scene_text (scene, "%s", path), problem->dim, pg_problem_rotations (problem));
+        check_field (scene, path, pg_scene_text (scene, "%s", path), problem->dim,
+                     pg_problem_rotations (problem));
         snprintf (path, sizeof path, "output.averages[%zu].set", i);
         const pg_set *set = pg_sets_named (&problem->sets, scene, path, pg_scene_text (scene, "%s", path));
         if (set && set->npoint == 0) pg_scene_fault (scene, path, "the set %s holds no point", set->name);

@@ -9,7 +9,8 @@
 #include <string.h>
 
 /* Writes the names of all pictures in this dimension as
- * "damage|displacement|displacement.x|...|stress.xx|...". */
+ * "damage|displacement|displacement.x|...|stress.xx|...". Vectors can be shown by their size,
+ * tensors by component only. */
 static void picture_names (int dim, int turns, char *out, size_t size)
 {
     static const char *const vector[] = { "displacement", "velocity" }, *const tensor[] = { "stress",
@@ -182,7 +183,8 @@ static void check_estimate (const pg_scene *scene, const pg_problem *problem)
         }
 }
 
-/* Checks the names of output.pictures and returns how many there are. */
+/* Checks the names of output.pictures and returns how many there are, which counts towards the
+ * largest number of pictures. */
 static size_t check_pictures (const pg_scene *scene, const char *names)
 {
     size_t count = 0;

@@ -186,7 +186,7 @@ static void tell_peak (const pg_result *r, char *out, size_t size)
     }
 }
 
-/* The new crack in words: its length in 2D, else its area. */
+/* The new crack in words: its length in 2D, else its area, and the dissipated energy per area. */
 static void tell_crack (const pg_result *r, char *out, size_t size)
 {
     const result_crack *c = &r->crack;

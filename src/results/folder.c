@@ -236,10 +236,11 @@ static pg_status must_not_be_the_users (const char *folder, const pg_scene *scen
     snprintf (path, sizeof path, "%s/scene.yaml", folder);
     if (same_file (path, pg_scene_file (scene))) {
         if (pg_scene_setting (scene, 0) || strstr (present, "\n# --set "))
-            PG_FAIL (PG_E_USAGE,
-                     "%s is the scene itself, in which a run would note its --set options: name another folder "
-                     "with -o",
-                     path);
+            PG_FAIL (
+                PG_E_USAGE,
+                "%s is the scene itself, in which a run would note its --set options: name another folder "
+                "with -o",
+                path);
         goto done;
     }
     if (strstr (present, copied)) goto done;

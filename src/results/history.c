@@ -81,7 +81,7 @@ static double mean_of (const pg_set *set, const double *u, int dim, int k)
 }
 
 /* Opening of a gauge: the relative displacement b - a of its ends along the line between them,
- * m. */
+ * m; positive when they move apart. */
 static double opening (const pg_gauge *g, int dim, const double *a, const double *b)
 {
     double length = 0, sum = 0;

@@ -174,7 +174,8 @@ static double time_within (const pg_result *r)
     return r->stamp + r->length * (double) r->rounds / ((double) r->rounds + 100);
 }
 
-/* If writing fails, the stage is due again after the next round. */
+/* The marks are taken before and after writing, so that a checkpoint in between knows how long
+ * the files are. If writing fails, the stage is due again after the next round. */
 pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *so_far)
 {
     pg_status status = PG_OK;

@@ -246,7 +246,8 @@ done:
     return status;
 }
 
-/* At most a tenth of the time goes into checkpoints, however short the interval. */
+/* At most a tenth of the time goes into checkpoints, however short the interval. An interval
+ * of 0 means none on the way. */
 int pg_result_due (const pg_result *r)
 {
     double passed = pg_seconds () - r->checkpoint_at;
@@ -254,7 +255,8 @@ int pg_result_due (const pg_result *r)
 }
 
 /* ---- going on ------------------------------------------------------------------------------------------ */
-/* Opens tables and result.e and cuts them to the marks. */
+/* Opens tables and result.e, cuts them to the marks, and takes over what the marks say of the
+ * last fields. */
 static pg_status open_files (pg_result *r, const result_marks *at)
 {
     pg_status status = PG_OK;

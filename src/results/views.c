@@ -80,7 +80,8 @@ done:
     return status;
 }
 
-/* Pictures beyond the largest number have been reported by pg_result_check. */
+/* Names of output.pictures first, then output.views. Pictures beyond the largest number have
+ * been reported by pg_result_check. */
 pg_status pg_result_views_read (pg_result *r, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -6,6 +6,8 @@
 #include <math.h>
 #include <string.h>
 
+/* Makes the linear system behind the loop. The arrays of a look at all bonds come with break_loop_ready,
+ * so that a run in which nothing can break never has them. */
 pg_status break_loop_create (break_loop *b)
 {
     pg_status status = PG_OK;
@@ -14,6 +16,8 @@ done:
     return status;
 }
 
+/* Room for the utilisation of every bond, the load factor at which each reaches its limit, and the kind of
+ * failure: 17 bytes a bond. */
 pg_status break_loop_ready (break_loop *b)
 {
     pg_status status = PG_OK;
@@ -36,6 +40,8 @@ void break_loop_free (break_loop *b)
     pg_free (b->damage);
 }
 
+/* Finds the bond set of a broken bond and its middle, half way between the point that owns it and the node
+ * it sees. */
 static void locate (const pg_problem *p, pg_broken *out)
 {
     size_t point, dim = (size_t) p->dim;
@@ -45,6 +51,7 @@ static void locate (const pg_problem *p, pg_broken *out)
     for (size_t k = 0; k < dim; k++) out->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
+/* Appends to the bonds that have died in this step; the caller clears the alive bit. */
 pg_status break_loop_log (break_loop *b, size_t bond, char kind, double utilisation, double t)
 {
     pg_status status = PG_OK;
@@ -56,6 +63,8 @@ done:
     return status;
 }
 
+/* One round of breaking. The bonds that die are listed twice: in `changes` for the force, which updates
+ * what they touched, and in `broken` for the results. */
 pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
                            double t)
 {
@@ -80,6 +89,8 @@ static double largest (const double *a, size_t n)
     return top;
 }
 
+/* Counts bonds that live although they are over their limit, a tie counting as at the limit: 0 in every
+ * state that the loop accepts. */
 long break_loop_over (const break_loop *b, const pg_state *state, double scale, double *top)
 {
     long over = 0;
@@ -93,6 +104,10 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
     return over;
 }
 
+/* The loop: equilibrium, utilisation of all bonds, breaking of those over the limit as solver.break has
+ * it, update, and again. Work is accounted before the first break and after the last: between them loads
+ * and supports stay. The caller may look in between the rounds and stop the step; it then goes on where it
+ * was. */
 pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn,
                        pg_step *step)
 {
@@ -142,6 +157,8 @@ done:
     return status;
 }
 
+/* solver.stop: compares the damage of the points of a set with the one that counts as arrival, and
+ * remembers the largest for the progress of the run. */
 pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double *d, int *arrived)
 {
     pg_status status = PG_OK;

@@ -21,6 +21,8 @@ const pg_solver_type *pg_solver_find (const char *name)
     return NULL;
 }
 
+/* What lower folders ask; without a kind the first of the list is meant, which is the default of
+ * solver.kind. */
 unsigned pg_solver_flags (const char *kind)
 {
     const pg_solver_type *type = kind ? pg_solver_find (kind) : entries[0];
@@ -36,6 +38,7 @@ static void append (char *text, size_t size, const char *joint, const char *name
     snprintf (text + used, size - used, "%s%s", used ? joint : "", name);
 }
 
+/* The names are joined once, when they are first asked for. */
 const char *pg_solver_names (void)
 {
     static char names[256];

@@ -24,6 +24,8 @@ pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper 
     return status;
 }
 
+/* All of a state: counts, times, displacement, velocity, acceleration and the alive bit of every bond.
+ * `name` tells the state at hand from that at the start of the step. */
 static pg_status keep_state (pg_state *s, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -71,6 +73,7 @@ done:
     return status;
 }
 
+/* A list of broken bonds as two arrays, whole numbers and numbers: the file has no structs. */
 pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_broken *broken,
                           const pg_keeper *k)
 {
@@ -194,6 +197,7 @@ done:
     return status;
 }
 
+/* Does the force offer K x without a matrix? */
 static int operates (const pg_system *s) { return s->force->operator_ && s->force->operator_ (s->self); }
 
 /* The multilevel preconditioner and the factor of an earlier K are caches: what is kept is which bonds lived
@@ -258,6 +262,8 @@ done:
     return status;
 }
 
+/* What the solver object itself carries: where it is among levels and rounds, energies, what it has warned
+ * of, statistics, work balances. */
 static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -318,6 +324,8 @@ done:
     return status;
 }
 
+/* One walk for both directions: what is written in this order is read back in it. A solver that has not
+ * begun is started first, so that its arrays exist. */
 pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -5,6 +5,8 @@
 #include "solve.h"
 #include <string.h>
 
+/* Asks the force for the work balance of the state (t, d) and adds the work since the last one. With
+ * motion the reactions contain inertia and damping, which `dyn` adds. */
 pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale)
 {
     pg_status status = PG_OK;
@@ -22,6 +24,8 @@ done:
     return status;
 }
 
+/* Trapezoids: the work between two states is the mean force times the change of displacement, pair by
+ * pair. The balance at hand becomes the last one. */
 pg_status break_loop_book (break_loop *b, double scale)
 {
     pg_status status = PG_OK;

@@ -9,6 +9,8 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The displacement at load factor 1 of the intact body; with affine loads that at 0 as well. A run that
+ * goes on from a state begins with what it has. */
 pg_status event_start (pg_solver *s, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -62,6 +64,8 @@ static double secant (const break_loop *b)
     return sum;
 }
 
+/* No equilibrium after a break is no error yet: the event itself is a result. The reason is kept and told
+ * by the step that cannot be made. */
 int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status now)
 {
     event_stepping *e = events_of (s);
@@ -72,6 +76,9 @@ int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status n
     return 1;
 }
 
+/* The two natural ends of a run: the crack arrives at a set of points, or the body bears (almost) nothing
+ * any more, seen from the work per squared load factor. Under forces that is a compliance, which grows
+ * instead of falling. */
 pg_status event_stops (pg_solver *s, const pg_state *state, double factor, double secant)
 {
     pg_status status = PG_OK;
@@ -97,6 +104,7 @@ done:
     return status;
 }
 
+/* solver.max_events, for runs that would break bond after bond. */
 void event_limit (pg_solver *s, const pg_state *state, double factor)
 {
     if (state->events < s->options.max_events) return;
@@ -154,6 +162,8 @@ done:
     return status;
 }
 
+/* One step: the smallest load factor at which a bond reaches its limit, or the next level that the user
+ * wants, whichever comes first; the state there; then what breaks there. */
 static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -212,6 +222,7 @@ void event_free (pg_solver *s)
     pg_free (e->unit), pg_free (e->base);
 }
 
+/* Event stepping may end at full load, at max_events or at a damage: the nearest end tells the progress. */
 void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
 {
     const pg_solver_options *o = &s->options;
@@ -227,6 +238,8 @@ void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
         progress_offer (out, (b->nearest - b->nearest0) / (o->stop_damage - b->nearest0), "stop.damage", 0);
 }
 
+/* The reason of an end that was found already, the displacement at load factor 1 (and 0), the first
+ * stiffness. */
 pg_status event_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -13,6 +13,7 @@
 static const double close = 1e-12;                     /* of utilisation to its limit */
 enum { MOST_LOOKS = 80, MOST_THIRDS = 40 };
 
+/* The displacement at a load factor, linear between those at 0 and at 1. */
 static void move_to (const pg_solver *s, pg_state *state, double factor)
 {
     event_stepping *e = events_of (s);
@@ -138,6 +139,7 @@ done:
     return status;
 }
 
+/* Both equilibria for the bonds that live now: one factorization, two solves. */
 pg_status affine_solve (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -169,6 +171,8 @@ done:
     return status;
 }
 
+/* Breaks the bonds at their limit (and ties) at this load factor, solves both equilibria anew and accounts
+ * the work at an unchanged load. */
 static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -195,6 +199,8 @@ done:
     return status;
 }
 
+/* One step: to the next break or level, in either direction; at load factor 0 first, where the constant
+ * part acts alone. */
 pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;

@@ -32,6 +32,7 @@ done:
     return status;
 }
 
+/* Is there a load that is a force, not a motion? */
 static int has_forces (const pg_problem *p)
 {
     for (size_t l = 0; l < p->nload; l++) if (!pg_load_prescribes (&p->load[l])) return 1;
@@ -46,6 +47,9 @@ static int has_springs (const pg_problem *p)
     return 0;
 }
 
+/* Finds the prescribed unknowns, allocates, and chooses how work is measured: by velocities at every step
+ * where the loads are known as nodal forces, else by the work balance of the force, which costs an
+ * evaluation. */
 pg_status explicit_create (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -78,12 +82,15 @@ void explicit_free (pg_solver *s)
         pg_free (m->sum);
 }
 
+/* Prescribed unknowns do not take part in the loops over all unknowns: without velocity the loops leave
+ * them where they are. */
 void explicit_release (pg_solver *s, pg_state *state)
 {
     const motion *m = motion_of (s);
     for (size_t k = 0; k < m->nprescribed; k++) state->v[m->prescribed[k]] = state->a[m->prescribed[k]] = 0;
 }
 
+/* The prescribed displacements at time t, taken out of a full vector. */
 static pg_status gather (pg_solver *s, double t, double *out)
 {
     pg_status status = PG_OK;
@@ -96,6 +103,8 @@ done:
     return status;
 }
 
+/* Three instants of the supports, t_n-1, t_n and t_n+1, give their velocity and acceleration by
+ * differences. In step after step two of them are at hand already. */
 pg_status explicit_follow (pg_solver *s, double before, double now, double next)
 {
     pg_status status = PG_OK;
@@ -148,6 +157,8 @@ done:
     return status;
 }
 
+/* One evaluation of the force, with breaking. Some forces break bonds within the evaluation; with others
+ * utilisation is measured, bonds are broken, and the force is evaluated again where some were. */
 pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking, double *reference)
 {
     pg_status status = PG_OK;
@@ -173,6 +184,7 @@ done:
     return status;
 }
 
+/* Blocks are summed in order, whatever thread had them: the same bits for any number of threads. */
 void explicit_total (const pg_solver *s, double *sum)
 {
     const motion *m = motion_of (s);
@@ -182,6 +194,7 @@ void explicit_total (const pg_solver *s, double *sum)
     }
 }
 
+/* Names the first point whose displacement is not finite. */
 pg_status explicit_lost (const pg_solver *s, const pg_state *state, double t)
 {
     const pg_problem *p = s->problem;
@@ -211,6 +224,8 @@ static long rows_of (const pg_solver_options *o, long total)
 /* Step at which row j of n ends. */
 static long row_end (long j, long n, long total) { return (j * total + n - 1) / n; }
 
+/* Explicit runs have far more time steps than anybody wants rows: steps of the solver are rows, each many
+ * time steps. */
 long explicit_row (const pg_solver *s, long total, long now)
 {
     long n = rows_of (&s->options, total), j = now * n / total;
@@ -220,6 +235,7 @@ long explicit_row (const pg_solver *s, long total, long now)
     return end;
 }
 
+/* Levels end with rows, so that fields and history belong together. */
 int explicit_level (pg_solver *s, long total, long now)
 {
     int reached = 0;
@@ -247,6 +263,7 @@ done:
     return status;
 }
 
+/* Energy taken by damping, reactions of the supports. Their motion is evaluated anew after reading back. */
 pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

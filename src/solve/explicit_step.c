@@ -9,6 +9,7 @@
 
 enum { BLOCK = 2048 };
 
+/* Always in the same order: sums round alike with every instruction set. */
 double lane_sum (const double *s)
 {
     return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
@@ -23,6 +24,7 @@ double lane_dot (const double *a, const double *b, size_t first, size_t last)
     return lane_sum (s);
 }
 
+/* 0 * x is 0 for every finite x and NaN otherwise: a sum tells all at once, without a branch. */
 double lane_not_finite (const double *d, size_t first, size_t last)
 {
     double s[8] = { 0 };
@@ -51,6 +53,7 @@ done:
     return status;
 }
 
+/* Settles the time step and the number of steps before the run begins, so that plans can show them. */
 pg_status explicit_prepare (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -61,12 +64,14 @@ done:
     return status;
 }
 
+/* Brings the caches of the force in line with the state. */
 pg_status explicit_start (pg_solver *s, pg_state *state)
 {
     s->next_level = 1;
     return system_refresh (&s->break_loop.system, state, NULL);
 }
 
+/* The last step ends exactly at solver.end. */
 static double time_at (const pg_solver *s, long n)
 {
     return n == s->options.time_steps ? s->options.end : (double) n * s->options.dt;
@@ -75,6 +80,8 @@ static double time_at (const pg_solver *s, long n)
 /* ---- half kicks of all unknowns ------------------------------------------------------------------------ */
 typedef struct { half_kicks w; kick_range range; size_t ndof; double *sum; } kicking;
 
+/* One block of unknowns for one thread: the work of loads before and after, the half kicks, a look whether
+ * all is finite. */
 static void work_on_blocks (void *context, size_t first, size_t last, int thread)
 {
     const kicking *c = context;
@@ -99,6 +106,8 @@ static double push_work (const pg_solver *s, double loads, const double *from, c
     return 0.5 * sum;
 }
 
+/* Half kicks of all unknowns, closing, opening or both, and what they mean for energies: work of loads and
+ * supports, energy taken by damping, kinetic energy. */
 static pg_status move (pg_solver *s, pg_state *state, kick_range range, int closing, int opening)
 {
     pg_status status = PG_OK;
@@ -187,6 +196,7 @@ static void inertia (pg_solver *s, const pg_state *state, int staggered, double 
         out[m->prescribed[k]] = -sys->mass[m->prescribed[k]] * state->a[m->prescribed[k]];
 }
 
+/* The work balance of the force at the state; inertia belongs to the reactions. */
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
 {
     pg_status status = PG_OK;
@@ -238,6 +248,7 @@ done:
     return status;
 }
 
+/* The caller looks at a state in the middle of a step, between rows, and may end the step there. */
 static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
 {
     break_loop *b = &s->break_loop;
@@ -269,6 +280,7 @@ done:
     return status;
 }
 
+/* What a row shows: energies and what breaking has taken, reactions, whether a level or an end is reached. */
 static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long n, int staggered)
 {
     pg_status status = PG_OK;
@@ -295,6 +307,8 @@ done:
     return status;
 }
 
+/* A row of history.csv: many time steps. Half kicks are joined into one pass over memory wherever nobody
+ * looks at the state in between. */
 pg_status explicit_step (pg_solver *s, pg_state *state, pg_step *step, kick_range range, int staggered)
 {
     pg_status status = PG_OK;
@@ -330,6 +344,7 @@ done:
     return status;
 }
 
+/* The row is taken back: what was summed in it too. */
 void explicit_refused (pg_solver *s)
 {
     motion *m = motion_of (s);

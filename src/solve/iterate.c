@@ -38,12 +38,15 @@ static void diagonal_combined (void *context, double *d)
     }
 }
 
+/* The factor of an earlier K as preconditioner: breaking changes K a little, so that a few iterations make
+ * up for it. */
 static pg_status by_factor_of_before (void *context, const double *r, double *z)
 {
     pg_system *s = context;
     return s->linear->solve (s->factor, 1, r, z);
 }
 
+/* Conjugate gradients on the reduced unknowns, from zero; counts what they cost. */
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit,
                           size_t *used)
 {

@@ -4,6 +4,7 @@
 #include "solve.h"
 #include <string.h>
 
+/* Asks the force for its consistent mass once; lumped masses are there from the start. */
 pg_status system_mass (pg_system *s, int consistent)
 {
     pg_status status = PG_OK;
@@ -16,6 +17,8 @@ done:
     return status;
 }
 
+/* Lumped: a product by unknown. Consistent: the upper triangle of a symmetric matrix of nodes, used for
+ * both triangles and for every component. */
 void system_add_mass (const pg_system *s, double factor, const double *x, double *y)
 {
     size_t m = (size_t) s->components;
@@ -30,6 +33,7 @@ void system_add_mass (const pg_system *s, double factor, const double *x, double
         }
 }
 
+/* The last entry of a column of an upper triangle is its diagonal. */
 void system_add_mass_diagonal (const pg_system *s, double factor, double *d)
 {
     size_t m = (size_t) s->components;

@@ -15,6 +15,7 @@
 
 typedef struct { double b[8]; } coefficients;
 
+/* b0 to b7 of the head of this file; the last two predict velocities. */
 static coefficients coefficients_of (const pg_solver_options *o)
 {
     const pg_newmark_options *own = PG_OWN (pg_newmark_options, o);
@@ -86,6 +87,8 @@ static const dynamics *newmark_dynamics (pg_solver *s)
     return &newmark_of (s)->dyn;
 }
 
+/* One time step: a guess for the displacement, equilibrium with inertia and breaking at its end, velocity
+ * and acceleration that belong to it, energies. */
 static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -127,6 +130,7 @@ static void newmark_free (pg_solver *s)
     pg_free (n->support), pg_free (n->force0);
 }
 
+/* With alpha the residual at the end of the last step enters the next. */
 static pg_status newmark_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

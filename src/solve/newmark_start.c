@@ -43,6 +43,7 @@ done:
     return status;
 }
 
+/* 1/2 v M v. */
 double newmark_kinetic (pg_solver *s, const double *v)
 {
     const pg_system *sys = &s->break_loop.system;
@@ -77,6 +78,7 @@ done:
     return status;
 }
 
+/* Where the supports have changed with breaking their motion is found anew. */
 void newmark_follow (pg_solver *s, double t, double *v, double *a)
 {
     newmark *own = newmark_of (s);
@@ -102,6 +104,7 @@ static void apply_mass (void *context, const double *x, double *y)
     if (T) pg_sparse_multiply_transposed (T, z, y);
 }
 
+/* The diagonal of T' M T preconditions the system for the first acceleration. */
 static void diagonal_mass (void *context, double *d)
 {
     const pg_system *sys = context;
@@ -153,6 +156,8 @@ done:
     return status;
 }
 
+/* Allocates and finds the acceleration at the start from the loads, the resistance and the motion of the
+ * supports; a run that goes on has it already. */
 pg_status newmark_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;

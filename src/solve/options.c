@@ -10,6 +10,7 @@ enum { MOST_STEPS = 1000000000 };
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 static int given (const pg_scene *scene, const char *key) { return pg_scene_given (scene, "%s", key); }
 
+/* Without the key 0, also where the key has a default. */
 double options_number (const pg_scene *scene, const char *key)
 {
     return given (scene, key) ? pg_scene_number (scene, "%s", key) : 0;
@@ -26,6 +27,7 @@ static int breaks_in_passing (const pg_solver_type *type, const void *unused)
     return (type->flags & PG_SOLVER_STAGED) != 0;
 }
 
+/* How bonds break between solves, and what ends a run early. */
 static void read_breaking (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const char *mode = pg_scene_text (scene, "solver.break"),
@@ -59,6 +61,7 @@ static int stands_still (const pg_problem *p, const pg_load *load)
     return pg_load_prescribes (load);
 }
 
+/* A linear ramp has no slope where the end of the run is not known. */
 static void need_end (const pg_problem *problem, const pg_scene *scene)
 {
     char path[64];
@@ -151,6 +154,7 @@ static void check_force (const pg_solver_options *o, const pg_problem *problem, 
     pg_scene_fault (scene, "solver.kind", "%s%s%s", why, *others ? ", or solver.kind: " : "", others);
 }
 
+/* The common part here, then that of the method; then what goes with nothing. */
 pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     memset (o, 0, sizeof *o);

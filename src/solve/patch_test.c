@@ -37,6 +37,8 @@ static double dot (size_t n, const double *a, const double *b)
     return s;
 }
 
+/* Centre of volume, and the root of the mean square distance from it: by these motions of different kinds
+ * are scaled alike. */
 static void find_middle (probe *t)
 {
     double all = 0, square = 0;
@@ -232,6 +234,7 @@ static double measure_softness (probe *t)
     return energy / size;
 }
 
+/* Square of a displacement, integrated over the body. */
 static double size_of (const probe *t, const double *f)
 {
     double s = 0;
@@ -357,6 +360,8 @@ static void count_defects (probe *t)
     if (t->force->census) t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments);
 }
 
+/* Measures the error under each stress; with supports on points that bear on facets a second time with
+ * them. The worst counts. */
 pg_status pg_patch_probe (pg_problem *problem)
 {
     pg_status status = PG_OK;

@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Voigt order; in two dimensions the third is xy. */
 const char *pg_patch_state (const pg_problem *p)
 {
     static const char *const names[] = { "xx", "yy", "zz", "xy", "yz", "zx" };
@@ -18,6 +19,7 @@ static double percent (double share)
     return isfinite (value) ? round (value / unit) * unit : value;
 }
 
+/* One sentence: the error, and by how much the body is too soft or too stiff where that is most of it. */
 void pg_patch_words (const pg_problem *p, char *out, size_t size)
 {
     const pg_patch *t = &p->patch;
@@ -52,6 +54,8 @@ static int ends_smoothly (const pg_kernel *kernel)
     return fabs (dw[0]) < 1e-6 && fabs (w[1]) < 1e-6 && fabs (dw[1]) < 1e-6;
 }
 
+/* The change that helps most: bonds want more points, shape functions consistent integration or exact
+ * derivatives. */
 void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 {
     double reach = p->approx.horizon / p->cloud.h, across = thinnest (p);
@@ -87,6 +91,7 @@ void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
     else snprintf (out, size, "use a smaller spacing%s", exact ? "" : ", or approximation: rkpm");
 }
 
+/* Too large an error is refused unless the scene accepts it; too few neighbours always. */
 pg_status pg_patch_refuse (const pg_problem *p, const pg_scene *scene)
 {
     const pg_patch *t = &p->patch;

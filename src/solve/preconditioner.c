@@ -27,6 +27,7 @@ done:
     return status;
 }
 
+/* Static systems of forces that know the rows of K, with supports that prescribe single unknowns. */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;
@@ -39,6 +40,7 @@ done:
     return status;
 }
 
+/* The number of unknowns of each level, for the report. */
 static void tell (pg_system *s)
 {
     pg_multilevel_info info;
@@ -51,6 +53,7 @@ static void tell (pg_system *s)
     if (at < workspace) snprintf (text + at, workspace - at, " unknowns");
 }
 
+/* Made from the rows of K of the bonds that live now; what it costs is counted as a factor would be. */
 pg_status system_make_multilevel (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -74,6 +77,7 @@ done:
     return status;
 }
 
+/* K x with prescribed unknowns left out: they stay zero. */
 static void apply_free (void *context, const double *x, double *y)
 {
     const pg_system *s = context;
@@ -98,6 +102,8 @@ static pg_status iterate (pg_system *s, double tolerance, size_t *used)
     return status;
 }
 
+/* An old preconditioner serves as long as it does not cost more iterations than a new one would; where it
+ * fails a new one is made and tried once. */
 pg_status system_iterate_multilevel (pg_system *s, double tolerance)
 {
     pg_status status = PG_OK;

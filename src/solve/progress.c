@@ -11,6 +11,7 @@ void progress_offer (pg_progress *p, double share, const char *end, int even)
     p->share = fmin (1, fmax (0, share)), p->end = end, p->even = even;
 }
 
+/* Of methods without a progress of their own: steps done of all steps. */
 void pg_solver_progress (const pg_solver *s, const pg_state *state, pg_progress *out)
 {
     const pg_solver_options *o = &s->options;

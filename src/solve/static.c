@@ -53,6 +53,7 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
 /* ---- the entry ----------------------------------------------------------------------------------------- */
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 
+/* event where it can be: loads that are proportional to the load factor make it exact and cheap. */
 static void static_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const char *stepping = pg_scene_text (scene, "solver.stepping");

@@ -4,6 +4,7 @@
 #include <stdarg.h>
 #include <stdio.h>
 
+/* Warnings beyond the room for them are dropped: the first are the ones that matter. */
 void pg_statistics_warn (pg_statistics *report, const char *format, ...)
 {
     if (report->nwarning >= sizeof report->warning / sizeof *report->warning) return;

@@ -25,6 +25,7 @@ void system_free (pg_system *s)
     pg_free (s->fixed);
 }
 
+/* A force may have a matrix in general, yet none for the options of this problem. */
 int system_has_matrix (const pg_system *s)
 {
     if (!s->force->matrix || (s->force->matrix_free && s->force->matrix_free (s->self))) return 0;
@@ -35,6 +36,7 @@ static const pg_operator *operator_of (const pg_system *s)
     return s->force->operator_ ? s->force->operator_ (s->self) : NULL;
 }
 
+/* By the operator where there is one, which needs no assembly. */
 void system_multiply (const pg_system *s, const double *x, double *y)
 {
     const pg_operator *op = operator_of (s);
@@ -42,6 +44,7 @@ void system_multiply (const pg_system *s, const double *x, double *y)
     else pg_sparse_multiply (s->force->matrix (s->self), x, y);
 }
 
+/* Asks the force for its unknowns, its masses and its constraints, and chooses the linear solver. */
 pg_status system_create (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -86,6 +89,7 @@ static void mark_touched (pg_system *s, const pg_state *state)
     }
 }
 
+/* The force updates what broken bonds have touched. Where that left K as it was, the factor stays. */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes)
 {
     double t0 = pg_seconds ();
@@ -145,6 +149,7 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
     }
 }
 
+/* Assembles K, adds mass and shift, and takes out what constraints eliminate. */
 static pg_status build_matrix (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -170,6 +175,7 @@ done:
     return status;
 }
 
+/* Ordering and symbolic factor, once: breaking only removes entries. */
 static pg_status analyse (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -250,6 +256,7 @@ static const double worth_keeping = 15;
  * a run must not depend on the clock. */
 static double factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
 static double solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
+/* Visits of bonds times a stored rate. */
 static double apply_cost (const pg_system *s)
 {
     const pg_problem *p = s->problem;
@@ -259,6 +266,8 @@ static double apply_cost (const pg_system *s)
                        - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
 }
 
+/* Factor where K has changed, two triangular solves. A factor that is dear against its solves is kept as a
+ * preconditioner from then on. */
 static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -297,6 +306,7 @@ done:
     return status;
 }
 
+/* Would conjugate gradients with sums over bonds be cheaper than a factor? */
 static int by_bond_loops (const pg_system *s, int can)
 {
     const pg_problem *p = s->problem;
@@ -334,6 +344,7 @@ done:
 
 enum { FEW_ITERATIONS = 40 };
 
+/* Says what was spared, and why. */
 static void tell_small_step (pg_system *s, size_t used)
 {
     char why[160];
@@ -371,6 +382,7 @@ done:
     return status;
 }
 
+/* One linear solve by the way that was chosen; a trial decides between iterations and a factor. */
 static pg_status solve_once (pg_system *s, const dynamics *dyn, double tolerance)
 {
     pg_status status = PG_OK;
@@ -413,6 +425,7 @@ static double force_of_rounding (const pg_system *s, const double *d)
     return 1e-14 / s->options->tolerance * sqrt (sum);
 }
 
+/* The out-of-balance force of the state, from the force itself, and what it is measured against. */
 static pg_status measure_residual (pg_system *s, double t, const double *d, const dynamics *dyn,
                                    double *relative)
 {
@@ -473,6 +486,7 @@ static size_t worst_unknown (const pg_system *s, const pg_sparse *T)
     return (size_t) T->row[T->start[worst]];
 }
 
+/* The message for a state that is not in equilibrium: how far off, where, and what may be the cause. */
 static pg_status refuse (pg_system *s, double residual, double restless)
 {
     const pg_problem *p = s->problem;
@@ -518,6 +532,8 @@ done:
     return status;
 }
 
+/* Iterative refinement: solve, add, measure. It ends when the residual is small enough or no longer falls;
+ * then the state is judged. */
 pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;

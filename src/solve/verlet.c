@@ -45,6 +45,7 @@ static void range (const half_kicks *w, size_t first, size_t last, double *sum)
     }
 }
 
+/* Velocities of the state are those of its displacements (not staggered). */
 static pg_status step (pg_solver *s, pg_state *state, pg_step *out)
 {
     return explicit_step (s, state, out, range, 0);

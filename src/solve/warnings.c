@@ -57,6 +57,7 @@ static int may_turn (const pg_problem *p)
     return value[n - 1] < 1e-12 * value[0];
 }
 
+/* Rigid motions that nothing prevents, and bodies without a load. */
 static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     int moving = 0, everywhere = 1;
@@ -116,6 +117,7 @@ static void doubt_inner (pg_statistics *report, const pg_problem *p)
 
 static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (PG_WARNING)) == 0; }
 
+/* What the patch test has found: an error worth a warning, points without strain, parts of the body. */
 static void doubt_patch (pg_statistics *report, const pg_problem *p)
 {
     char words[240], remedy[240];
@@ -142,6 +144,7 @@ static void doubt_patch (pg_statistics *report, const pg_problem *p)
     pg_statistics_warn (report, "%s; %s", words, remedy);
 }
 
+/* All warnings before the first step; notes of the model that are warnings among them. */
 void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     doubt_supports (report, p, o);
@@ -157,6 +160,7 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
                             p->part.mesh.element_id[p->part.worst], p->part.quality);
 }
 
+/* Notes of the model first, then keys of other solvers. */
 int pg_solver_note (const pg_problem *p, const pg_solver_options *o, size_t k, char *out, size_t size)
 {
     for (size_t i = 0; i < p->nnote; i++) {

@@ -58,7 +58,8 @@ static void tell_error (FILE *out, const char *name, double error)
     else fprintf (out, "  %s %9.2e", name, error);
 }
 
-/* One line per case: what it is and what it gave, or why it did not run. */
+/* One line per case: its scene and method, and its unknowns, errors, CPU seconds and memory,
+ * or why it did not run. */
 static void tell (FILE *out, const pg_bench_case *c)
 {
     const double *v = c->best.value;

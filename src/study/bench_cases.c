@@ -62,7 +62,8 @@ static void put (pg_bench_case *c, const char *key, const char *value)
 }
 
 /* The horizon follows the basis where only the basis is asked to change: 2 spacings for the
- * linear one, 2.5 for the quadratic one; NULL if the scene's own suits. */
+ * linear one, 2.5 for the quadratic one. NULL if the user gave a horizon, or the scene has one
+ * for this basis. */
 static const char *horizon_for (const pg_bench_base *b, const pg_bench_request *q, const char *basis)
 {
     for (size_t k = 0; k < q->nset; k++) if (strncmp (q->set[k], "method.horizon=", 15) == 0) return NULL;

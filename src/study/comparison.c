@@ -86,7 +86,8 @@ done:
     return status;
 }
 
-/* Against the reference of the scene, at the time of the step. */
+/* Against the reference of the scene, at the time of the step; PG_E_USAGE if the scene has
+ * none. */
 static pg_status against_scene (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;

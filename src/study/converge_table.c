@@ -35,7 +35,7 @@ static double largest (const pg_study *s, const char *unit)
 }
 
 /* 1 if a quantity is rounding beside those of its unit; forces also beside energy over
- * displacement, for a run may have no other force. */
+ * displacement, for a run may have no other force. Errors are never noise. */
 static int is_noise (const pg_study *s, const pg_quantity *q)
 {
     double most = largest (s, q->unit), way = largest (s, "m");
@@ -123,7 +123,7 @@ typedef struct {
 } chart;
 
 /* Adds an error, or of a value with an order its distance from Richardson's extrapolated
- * value, relative to that. */
+ * value, relative to that; values without an order have nothing to show. */
 static void add_curve (chart *c, const pg_study *s, const pg_quantity *q, int several)
 {
     pg_observed o = pg_study_order (s, q, s->n);

@@ -16,7 +16,7 @@ static size_t worst_bond (const pg_first_break *b, size_t n, const double *facto
     return worst;
 }
 
-/* Bond set and middle of a bond. */
+/* Bond set and middle of a bond, between its evaluation point and its node. */
 static void locate (pg_first_break *b, const pg_problem *p, size_t bond)
 {
     size_t point, dim = (size_t) p->dim;

@@ -44,7 +44,7 @@ static void become (const char *program, char *const argv[], const char *folder,
 }
 
 /* Reads until the other end closes; what exceeds the text is read and dropped, so that the
- * child never waits. */
+ * child never waits. Returns the bytes kept. */
 static size_t drain (int from, char *text, size_t size)
 {
     char rest[4096];

@@ -3,8 +3,8 @@
 #include "trial.h"
 #include <math.h>
 
-/* The error of all tables together: root of the summed squares over that of the reference.
- * Displacements only, since these have one unit. */
+/* The error of all tables together: root of the summed squares over that of the reference; NAN
+ * without a reference above zero. Displacements only, since these have one unit. */
 static double of_lines (const pg_errors *e)
 {
     double difference = 0, reference = 0;

@@ -21,7 +21,7 @@ static double peak_now (void)
     return isnan (kilobytes) ? (double) pg_memory_process_peak () : 1024 * kilobytes;
 }
 
-/* CPU seconds of all threads so far. */
+/* CPU seconds of all threads so far, those in the system included. */
 static double cpu_now (void)
 {
     struct rusage used;

@@ -37,7 +37,8 @@ static pg_status sample (void *context, size_t n, const double *x, double *u, do
     return PG_OK;
 }
 
-/* Gauss points of all elements with their weights, m and m3. */
+/* Gauss points of all elements with their weights, m and m3 (plane elements times the
+ * thickness); fabs because some programs number nodes clockwise. */
 static pg_status places_of (pg_quadrature *q, const solution *s, double thickness)
 {
     pg_status status = PG_OK;

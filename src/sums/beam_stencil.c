@@ -15,6 +15,7 @@ typedef struct {
     uint32_t *over;
 } beams;
 
+/* Are the values of the points not all the same? */
 static int differs (const double *a, size_t n)
 {
     for (size_t i = 1; a && i < n; i++) if (a[i] != a[0]) return 1;
@@ -46,6 +47,7 @@ static double share (double limit, double unit)
     return limit > 0 && isfinite (limit) ? 1 / (unit * limit * limit) : 0;
 }
 
+/* The numbers of each bond of the stencil: stiffnesses, and shares of the limits that a unit of strain is */
 static void set_terms (beams *s)
 {
     stencil *b = &s->base;
@@ -96,6 +98,7 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 /* ---- sums ---------------------------------------------------------------------------------------------- */
 typedef struct { beams *s; const double *u; } pass;
 
+/* Displacements and rotations of some blocks to their padded places */
 static void spread_blocks (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -116,6 +119,7 @@ static void spread (beams *s, const double *u)
     pg_parallel_heavy (pg_stencil_loop_threads (&s->base), s->base.nblock, spread_blocks, &(pass) { s, u });
 }
 
+/* The bonds of a block that beam_over found at their limit die and are noted. */
 static pg_status kill (stencil *b, size_t k, pg_changes *found)
 {
     pg_status status = PG_OK;
@@ -133,6 +137,7 @@ done:
     return status;
 }
 
+/* Looks through some blocks; only in those that have a bond at its limit each bond is asked. */
 static void break_blocks (void *context, size_t first, size_t last, int thread)
 {
     beams *s = context;

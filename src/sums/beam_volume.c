@@ -79,6 +79,7 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
 /* ---- sums ---------------------------------------------------------------------------------------------- */
 typedef struct { both *s; const double *d; double *f; } pass;
 
+/* Displacements without the rotations, which dilatation does not read */
 static void take_points (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -87,6 +88,7 @@ static void take_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) memcpy (s->u + i * s->dim, p->d + i * s->m, s->dim * sizeof *s->u);
 }
 
+/* Forces of dilatation to those of the beams */
 static void add_points (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;

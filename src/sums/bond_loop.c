@@ -35,6 +35,7 @@ int pg_instructions_here (pg_instructions set)
 #endif
 }
 
+/* The instructions asked for, or the best that this machine has */
 static pg_status choose_instructions (pg_instructions *out, const char *name)
 {
     pg_status status = PG_OK;
@@ -64,6 +65,8 @@ static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_lo
     snprintf (reason, size, "auto: about %.2g ns a point by transforms, %.2g by stencil", fast, direct);
 }
 
+/* The first kind of loop that is made for the theory (bonds alone, state-based, beams, both) and does not
+ * refuse. */
 static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_setting *setting)
 {
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL,
@@ -111,54 +114,54 @@ done:
     return status;
 }
 
-void pg_bond_loop_free (pg_bond_loop **sweep)
+void pg_bond_loop_free (pg_bond_loop **loop)
 {
-    if (!sweep || !*sweep) return;
-    if ((*sweep)->kind) (*sweep)->kind->free ((*sweep)->self);
-    pg_free (*sweep);
-    *sweep = NULL;
+    if (!loop || !*loop) return;
+    if ((*loop)->kind) (*loop)->kind->free ((*loop)->self);
+    pg_free (*loop);
+    *loop = NULL;
 }
 
-const char *pg_bond_loop_name (const pg_bond_loop *sweep) { return sweep->name; }
+const char *pg_bond_loop_name (const pg_bond_loop *loop) { return loop->name; }
 
-const char *pg_bond_loop_reason (const pg_bond_loop *sweep) { return sweep->reason; }
+const char *pg_bond_loop_reason (const pg_bond_loop *loop) { return loop->reason; }
 
-void pg_bond_loop_counted (const pg_bond_loop *sweep, pg_bond_loop_counts *out)
+void pg_bond_loop_counted (const pg_bond_loop *loop, pg_bond_loop_counts *out)
 {
     *out = (pg_bond_loop_counts) { 0 };
-    if (sweep->kind->counts) sweep->kind->counts (sweep->self, out);
+    if (loop->kind->counts) loop->kind->counts (loop->self, out);
 }
 
-void pg_bond_loop_bytes (const pg_bond_loop *sweep, double *per_bond, double *per_point)
+void pg_bond_loop_bytes (const pg_bond_loop *loop, double *per_bond, double *per_point)
 {
-    sweep->kind->bytes (sweep->self, per_bond, per_point);
+    loop->kind->bytes (loop->self, per_bond, per_point);
 }
 
-void pg_bond_loop_update (pg_bond_loop *sweep, const unsigned char *alive, const pg_changes *changes)
+void pg_bond_loop_update (pg_bond_loop *loop, const unsigned char *alive, const pg_changes *changes)
 {
-    sweep->kind->update (sweep->self, alive, changes);
+    loop->kind->update (loop->self, alive, changes);
 }
 
-pg_status pg_bond_loop_force (pg_bond_loop *sweep, const double *u, double *f, pg_changes *broken)
+pg_status pg_bond_loop_force (pg_bond_loop *loop, const double *u, double *f, pg_changes *broken)
 {
-    return sweep->kind->force (sweep->self, u, f, broken);
+    return loop->kind->force (loop->self, u, f, broken);
 }
 
-double pg_bond_loop_energy (pg_bond_loop *sweep, const double *u)
+double pg_bond_loop_energy (pg_bond_loop *loop, const double *u)
 {
-    return sweep->kind->energy (sweep->self, u);
+    return loop->kind->energy (loop->self, u);
 }
 
-pg_status pg_bond_loop_energies (pg_bond_loop *sweep, const double *u, double *W)
+pg_status pg_bond_loop_energies (pg_bond_loop *loop, const double *u, double *W)
 {
-    return sweep->kind->energies (sweep->self, u, W);
+    return loop->kind->energies (loop->self, u, W);
 }
 
-pg_status pg_bond_loop_dilatation (pg_bond_loop *sweep, const double *u, double *theta, double *q)
+pg_status pg_bond_loop_dilatation (pg_bond_loop *loop, const double *u, double *theta, double *q)
 {
-    if (!sweep->kind->dilatation)
+    if (!loop->kind->dilatation)
         return pg_error (PG_E_USAGE, PG_HERE, "a dilatation is known to state-based sums only");
-    return sweep->kind->dilatation (sweep->self, u, theta, q);
+    return loop->kind->dilatation (loop->self, u, theta, q);
 }
 
 static int ascending (const void *a, const void *b)

@@ -13,6 +13,7 @@ static int ascending (const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Position of an item in an ascending list; n: it is not there. */
 static size_t find (const int *list, size_t n, int item)
 {
     size_t a = 0, b = n;
@@ -51,6 +52,7 @@ static int inside (const walk *w, int site)
     return all;
 }
 
+/* Neighbours of point i, written to node unless that is NULL; returns how many. */
 static size_t visit (const walk *w, size_t i, int *node)
 {
     const pg_sites *s = &w->sums->sites;
@@ -83,6 +85,7 @@ static void fill_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) visit (w, i, w->out->node + w->out->start[i]);
 }
 
+/* On a lattice: counted first, then filled, both by threads */
 static pg_status by_stencil (pg_family *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;
@@ -164,6 +167,7 @@ done:
     return status;
 }
 
+/* Without one: pairs within the larger horizon of both ends, both ways round */
 static pg_status by_search (pg_family *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;

@@ -427,7 +427,7 @@ done:
  * less. */
 static int worth_timing (const pg_bond_loop_setting *setting)
 {
-    return setting->sums->rule.sweeps * (double) setting->sums->cloud->n > 2e8;
+    return setting->sums->rule.evaluations * (double) setting->sums->cloud->n > 2e8;
 }
 
 static pg_status create_convolution (void **self, const pg_bond_loop_setting *setting, pg_instructions set)

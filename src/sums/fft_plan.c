@@ -122,39 +122,26 @@ static void clear_plans (fft_box *b)
     }
 }
 
-pg_status pg_fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure)
+/* Sites along each axis of the box (rows first; the only other axis of a plane is the last) and how many
+ * places each transform has, so that no bond reaches round it. */
+static void set_axis (fft_box *b, int k, const size_t *n, const size_t *reach)
 {
-    pg_status status = PG_OK;
-    fft_box *b = out;
-    double *workspace = NULL;
-    size_t most = 0;
-    *b = (fft_box){ .dim = dim,
-                    .n = { n[0], dim == 3 ? n[1] : 1,
-                           dim == 3   ? n[2]
-                           : dim == 2 ? n[1]
-                                      : 1 },
-                    .measured = measure };
-    for (int k = 0; k < 3; k++) {
-        size_t far = k == 0     ? reach[0]
-                     : k == 1   ? (dim == 3 ? reach[1] : 0)
-                     : dim == 3 ? reach[2]
-                     : dim == 2 ? reach[1]
-                                : 0;
-        b->T[k] = k == 0 || dim == 3 || (dim == 2 && k == 2) ? pg_fft_size (b->n[k] + far, k == 0) : 1;
-        if (b->T[k] > 1u << 26)
-            PG_FAIL (PG_E_LIMIT, "transforms of %zu places are too long; try evaluation: stencil", b->T[k]);
-        most = b->T[k] > most ? b->T[k] : most;
-    }
-    b->C = (b->T[0] / 2 + 1 + FFT_WIDE - 1) / FFT_WIDE * FFT_WIDE;
-    PG_ALLOC (workspace, 4 * FFT_WIDE * (most + 8));
-    double *x = (double *) (((uintptr_t) workspace + 63) / 64 * 64), *y = x + 2 * FFT_WIDE * (most + 2);
-    pthread_mutex_lock (&planner);
+    const int dim = b->dim, from = k == 0 ? 0 : dim == 3 ? k : dim == 2 && k == 2 ? 1 : -1;
+    b->n[k] = from < 0 ? 1 : n[from];
+    b->T[k] = from < 0 ? 1 : pg_fft_size (b->n[k] + reach[from], k == 0);
+}
+
+/* Plans on two workspaces, timed ones from what is remembered where all of them are. The planner's memory is
+ * the process's: what others have in it is put back afterwards. Returns whether there are plans. */
+static int find_plans (fft_box *b, double *x, double *y, int measure)
+{
     char path[4096];
     copy theirs = { NULL, 0, 0 };
+    pthread_mutex_lock (&planner);
     fftw_export_wisdom (add_letter, &theirs);
     fftw_forget_wisdom ();
     if (measure && wisdom_path (path, sizeof path, 0)) fftw_import_wisdom_from_filename (path);
-    int known = measure && make_plans (b, x, y, FFTW_MEASURE | FFTW_WISDOM_ONLY), made = known;
+    int made = measure && make_plans (b, x, y, FFTW_MEASURE | FFTW_WISDOM_ONLY);
     if (!made) {
         clear_plans (b);
         made = make_plans (b, x, y, measure ? FFTW_MEASURE : FFTW_ESTIMATE);
@@ -165,7 +152,26 @@ pg_status pg_fft_box_create (fft_box *out, int dim, const size_t *n, const size_
     if (theirs.text) fftw_import_wisdom_from_string (theirs.text);
     pg_free (theirs.text);
     pthread_mutex_unlock (&planner);
-    if (!made) PG_FAIL (PG_E_MEMORY, "no memory for the plan of a transform");
+    return made;
+}
+
+pg_status pg_fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure)
+{
+    pg_status status = PG_OK;
+    fft_box *b = out;
+    double *workspace = NULL;
+    size_t most = 0;
+    *b = (fft_box) { .dim = dim, .measured = measure };
+    for (int k = 0; k < 3; k++) {
+        set_axis (b, k, n, reach);
+        if (b->T[k] > 1u << 26)
+            PG_FAIL (PG_E_LIMIT, "transforms of %zu places are too long; try evaluation: stencil", b->T[k]);
+        most = b->T[k] > most ? b->T[k] : most;
+    }
+    b->C = (b->T[0] / 2 + 1 + FFT_WIDE - 1) / FFT_WIDE * FFT_WIDE;
+    PG_ALLOC (workspace, 4 * FFT_WIDE * (most + 8));
+    double *x = (double *) (((uintptr_t) workspace + 63) / 64 * 64), *y = x + 2 * FFT_WIDE * (most + 2);
+    if (!find_plans (b, x, y, measure)) PG_FAIL (PG_E_MEMORY, "no memory for the plan of a transform");
 done:
     pg_free (workspace);
     return status;

@@ -19,6 +19,7 @@ static int sort_of (const bond_list *list, size_t i, size_t j)
     return list->before[i] < list->before[j] ? 0 : -1;
 }
 
+/* A slice has as many slots of a sort as the point of it with the most bonds of that sort. */
 static void count_slots (bond_list *list)
 {
     const pg_family *family = list->family;
@@ -128,6 +129,7 @@ done:
     return status;
 }
 
+/* What a sort of bonds needs, once its slots are counted */
 static pg_status alloc_slots (bond_slots *slots, size_t slices, int terms)
 {
     pg_status status = PG_OK;

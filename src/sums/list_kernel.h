@@ -10,6 +10,26 @@
  *   lanes. */
 #define OF_LAW(what) GLUE (LAW, what)
 
+/* Bonds of a slot at or over their limit die; returns the bits of those that live on. */
+INLINE unsigned OF_LAW (_break) (const bond_slots *slots, size_t k, unsigned shift, unsigned live,
+                                 const V *own,
+                                 const V *other, const double *limit, const double *constant, const int dim,
+                                 int *broke)
+{
+#if LAW_BREAKS
+    unsigned over = OF_LAW (_over) (dim, own, other, V_LOAD (limit + shift), constant) & live;
+    if (__builtin_expect (over != 0, 0)) {
+        slots->alive[k] ^= (unsigned char) (over << shift);
+        slots->lost[k] |= (unsigned char) (over << shift);
+        live ^= over, *broke = 1;
+    }
+#else
+    (void) slots, (void) k, (void) shift, (void) own, (void) other, (void) limit, (void) constant, (void) dim;
+    (void) broke;
+#endif
+    return live;
+}
+
 /* Slots of one slice and one sort. */
 INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, size_t slice, const double *from,
                              const double *constant, double *sum, lanes *lane, const int dim, const int check,
@@ -20,7 +40,7 @@ INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, siz
     const size_t end = slots->start[slice + 1], step = check ? slots->limit_step[slice] : 0;
     const uint16_t *restrict near = slots->near;
     const uint32_t *restrict far = slots->far;
-    unsigned char *restrict alive = slots->alive;
+    const unsigned char *alive = slots->alive;
     const double *restrict terms[LIST_TERMS];
     UNROLL for (int t = 0; t < OF_LAW (_terms); t++) terms[t] = slots->term[OF_LAW (_first) + t];
     for (size_t k = slots->start[slice]; k < end; k++) {
@@ -37,18 +57,8 @@ INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, siz
             if (gives) FETCH (from, near + at, OF_LAW (_columns) (dim, check), other);
             else FETCH (from, far + at, OF_LAW (_columns) (dim, check), other);
             UNROLL for (int t = 0; t < OF_LAW (_terms); t++) term[t] = V_LOAD (terms[t] + at);
-#if LAW_BREAKS
-            if (check) {
-                unsigned over = OF_LAW (_over) (dim, l->own, other, V_LOAD (limit + shift), constant) & live;
-                if (__builtin_expect (over != 0, 0)) {
-                    alive[k] ^= (unsigned char) (over << shift);
-                    slots->lost[k] |= (unsigned char) (over << shift);
-                    live ^= over, *broke = 1;
-                }
-            }
-#else
-            (void) broke;
-#endif
+            if (check) live = OF_LAW (_break) (slots, k, shift, live, l->own, other, limit, constant, dim,
+                                               broke);
             OF_LAW (_add) (dim, l->own, other, term, live, constant, out);
             UNROLL for (int c = 0; c < OF_LAW (_sums) (dim); c++) l->sum[c] = l->sum[c] + out[c];
             if (gives) GIVE (sum, near + at, dim, out);

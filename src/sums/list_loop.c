@@ -52,6 +52,7 @@ static size_t chunk_size (const bond_list *list)
     return (c + LIST_LANES - 1) / LIST_LANES * LIST_LANES;
 }
 
+/* What does not depend on how many bonds there are */
 static pg_status allocate (bond_list *list)
 {
     pg_status status = PG_OK;
@@ -120,6 +121,7 @@ size_t pg_list_owner (const pg_family *family, size_t entry)
 
 typedef struct { bond_list *list; const unsigned char *alive; } update;
 
+/* Bits of some slices, from the live bonds of the family; NULL: all live. */
 static void read_bits (void *context, size_t first, size_t last, int thread)
 {
     const update *g = context;
@@ -217,6 +219,7 @@ static void warm_records (const bond_list *list, size_t first, size_t last)
     (void) unused;
 }
 
+/* Each chunk is the work of one thread: what order its sums have does not depend on their number. */
 static void run_chunks (void *context, size_t first, size_t last, int thread)
 {
     const run *g = context;

@@ -59,6 +59,7 @@ static void weigh_all (state *s)
     pg_parallel_heavy (pg_stencil_loop_threads (&s->base), s->base.setting.sums->cloud->n, weigh_points, s);
 }
 
+/* A block that has lost bonds weighs its points anew. */
 static void weigh_block (stencil *b, size_t k)
 {
     for (uint32_t left = b->block[k].present; left; left &= left - 1)
@@ -148,6 +149,7 @@ done:
     return status;
 }
 
+/* Stored energy, J; the energy densities of the points in W unless that is NULL */
 static double sum_energies (state *s, const double *u, double *W)
 {
     stencil *b = &s->base;

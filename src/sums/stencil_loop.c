@@ -34,6 +34,8 @@ void pg_stencil_loop_free (void *self)
 }
 
 /* ---- places -------------------------------------------------------------------------------------------- */
+/* Padded place of a site (x, y, z). A halo as wide as the bonds reach lies about the sites, so that a
+ * neighbour is always `jump` places away, whether there is a point or not. */
 static size_t place_of (const stencil *s, const size_t *at)
 {
     return ((at[2] + (size_t) s->reach[2]) * s->rows + at[1] + (size_t) s->reach[1]) * s->pitch
@@ -127,6 +129,7 @@ static size_t bond_of (const stencil *s, ptrdiff_t jump, size_t from)
     return low < n && s->jump[low] == jump ? low : n;
 }
 
+/* How many padded places lie between the ends of an entry of the family */
 static ptrdiff_t jump_of (const stencil *s, size_t i, size_t entry)
 {
     return (ptrdiff_t) s->place[s->setting.family->node[entry]] - (ptrdiff_t) s->place[i];
@@ -162,6 +165,7 @@ typedef struct {
     size_t lost[MAX_THREADS];
 } renewal;
 
+/* All bits of some blocks, from the live bonds of the family */
 static void renew_blocks (void *context, size_t first, size_t last, int thread)
 {
     renewal *r = context;
@@ -210,6 +214,7 @@ void pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_ch
     }
 }
 
+/* The numbers of each bond of the stencil, the same for all points: see pg_block_job. */
 static pg_status set_terms (stencil *s)
 {
     pg_status status = PG_OK;

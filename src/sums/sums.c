@@ -34,6 +34,7 @@ done:
     return status;
 }
 
+/* Are points numbered as their sites are? Then neighbours ascend as the stencil does. */
 static void check_order (pg_sums *s)
 {
     s->ordered = 1;
@@ -122,6 +123,7 @@ static double median_of_whole (size_t n, const double *volume, const double *val
     return m == 0 ? 0 : m % 2 ? work[m / 2] : 0.5 * (work[m / 2 - 1] + work[m / 2]);
 }
 
+/* Without a lattice calibration and full family volume are medians over the points whose family is whole. */
 static pg_status from_cloud (pg_sums *s)
 {
     pg_status status = PG_OK;

@@ -404,7 +404,7 @@ static void timed_plans_are_kept (void **state)
     double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g),
            *plain = pg_calloc (values, sizeof *plain);
     body_plain (&b, 0, plain, NULL);
-    b.sums->rule.sweeps = 1e9;
+    b.sums->rule.evaluations = 1e9;
     for (int round = 0; round < 3; round++) {
         pg_bond_loop *s = NULL;
         setenv ("XDG_CACHE_HOME", round < 2 ? folder : "/dev/null/nowhere", 1);
