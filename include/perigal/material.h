@@ -26,7 +26,7 @@ typedef struct {
     double  D[36];                                     /* tangent, nv x nv row-major, Pa */
     double  out_of_plane[6];  /* sigma_zz = out_of_plane . strain (plane strain), Pa */
     /* Pa: stress = lambda (trace of strain) 1 + what the rest of D and of out_of_plane makes of the strain,
-     * the rest positive definite; 0: no such part is told (plane stress, a bar) */
+     * the rest positive definite; 0: there is no such part (plane stress, a bar) */
     double  lambda;
     double  modulus;  /* the largest Young's modulus: the scale of stiffness, Pa */
 } pg_material;

@@ -14,7 +14,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
 {
     char map[PG_LIMITS];
     c->parameter[ENERGY] = pg_criterion_limit (scene, setting, "fracture_energy");
-    if (!(c->parameter[ENERGY] > 0)) return PG_OK;     /* missing: told already */
+    if (!(c->parameter[ENERGY] > 0)) return PG_OK;     /* missing: a fault already */
     pg_criterion_holder (map, scene, setting, "wc_factor");
     c->parameter[FACTOR] = pg_scene_number (scene, "%s.wc_factor", map);
     c->parameter[LIMIT] = c->parameter[FACTOR] * c->parameter[ENERGY] / setting->horizon;

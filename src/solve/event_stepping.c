@@ -64,7 +64,7 @@ static double secant (const break_loop *b)
     return sum;
 }
 
-/* No equilibrium after a break is no error yet: the event itself is a result. The reason is kept and told
+/* No equilibrium after a break is no error yet: the event itself is a result. The reason is kept and given
  * by the step that cannot be made. */
 int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status now)
 {
@@ -141,9 +141,9 @@ done:
     return status;
 }
 
-/* Utilisation of the accepted state, from the sweep of the unit displacement: independent of the closed form
+/* Utilisation of the accepted state, from that of the unit displacement: independent of the closed form
  * that gave the factor. Where a measure is not linear (finite stretch) and seems over its limit, the state
- * itself is measured. *scale belongs to the sweep kept. */
+ * itself is measured. *scale belongs to the utilisation kept. */
 static pg_status look_over (pg_solver *s, const pg_state *state, double factor, double *scale, pg_step *step)
 {
     pg_status status = PG_OK;

@@ -100,7 +100,7 @@ typedef struct {
 } break_loop;
 pg_status break_loop_create (break_loop *b);
 void      break_loop_free   (break_loop *b);
-/* The arrays of a sweep of utilisation, when they are first needed. */
+/* The arrays for the utilisation of all bonds, when they are first needed. */
 pg_status break_loop_ready  (break_loop *b);
 /* Notes a bond that died at time (or load factor) t. */
 pg_status break_loop_log    (break_loop *b, size_t bond, char kind, double utilisation, double t);
@@ -110,7 +110,7 @@ pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure
 /* Solve, break, update, solve ... at time t until no bond is over its limit; d is left in equilibrium. */
 pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn,
                        pg_step *step);
-/* Live bonds over their limit (and its ties) in the last sweep, measured utilisation times scale; *top: the
+/* Live bonds over their limit (and its ties) by the utilisation last measured, times scale; *top: the
  * largest. */
 long      break_loop_over   (const break_loop *b, const pg_state *state, double scale, double *top);
 /* The work_balance of (t, d), and with it the work done between the last accounted state and this one (loads

@@ -138,7 +138,7 @@ static void doubt_patch (pg_statistics *report, const pg_problem *p)
                             "displacements may be wrong there; points that nearly "
                             "coincide, or modes without energy of nodal integration, do this",
                             t->softness);
-    if (t->error <= PG_PATCH_TOLD) return;
+    if (t->error <= PG_PATCH_WARNED) return;
     pg_patch_words (p, words, sizeof words);
     pg_patch_remedy (p, remedy, sizeof remedy);
     pg_statistics_warn (report, "%s; %s", words, remedy);
