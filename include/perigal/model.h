@@ -261,7 +261,8 @@ typedef struct {
     /* without shape functions: bonds are summed by lists of neighbours, on a lattice or off it */
     int    by_list;
     int    counted, analysed;  /* 1: the counts, the factor are exact, not estimates */
-    const struct pg_linear_type *linear;               /* what will factor K; NULL: conjugate gradients, no matrix */
+    /* what will factor K; NULL: conjugate gradients, no matrix */
+    const struct pg_linear_type *linear;
     int    automatic, dynamic;                         /* solver.linear: auto; newmark */
     double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
     char   ordering[16];                               /* of an analysed factor */

@@ -94,6 +94,15 @@ static double difference (double u, double v)
     return fabs (u - v) <= 1e-14 * (fabs (u) + fabs (v)) ? 0 : u - v;
 }
 
+/* What resultant gives where both conics are linear in z. */
+static int linear_resultant (const conic *p, const conic *q, double *R)
+{
+    for (int k = 0; k < 4; k++) R[k] = 0;
+    for (int i = 0; i < 2; i++)
+        for (int k = 0; k < 3; k++) R[i + k] += p->B[i] * q->C[k] - q->B[i] * p->C[k];
+    return 3;
+}
+
 /* Polynomial R (y) whose roots include all y at which both conics have a z in common; returns its degree.
  * With both linear in z: B_p C_q - B_q C_p. Otherwise z^2 is eliminated first, which leaves B z + C = 0
  * with B = a_p B_q - a_q B_p and C alike, and R = a_p C^2 - B_p B C + C_p B^2. Where B vanishes the conics
@@ -102,12 +111,7 @@ static int resultant (const conic *p, const conic *q, double *R)
 {
     double B[2], C[3], scale = 0;
     if (fabs (p->a) < fabs (q->a)) { const conic *t = p; p = q, q = t; }
-    if (fabs (p->a) < flat) {                              /* both are linear in z */
-        for (int k = 0; k < 4; k++) R[k] = 0;
-        for (int i = 0; i < 2; i++)
-            for (int k = 0; k < 3; k++) R[i + k] += p->B[i] * q->C[k] - q->B[i] * p->C[k];
-        return 3;
-    }
+    if (fabs (p->a) < flat) return linear_resultant (p, q, R);
     for (int k = 0; k < 2; k++) B[k] = difference (p->a * q->B[k], q->a * p->B[k]);
     for (int k = 0; k < 3; k++) {
         C[k] = difference (p->a * q->C[k], q->a * p->C[k]);

@@ -82,12 +82,12 @@ void cells_parts_list (const pg_body *body, char *out, size_t size)
         const pg_shape *s = &body->shape[i];
         const char *generic[] = { "rim", "side", "hole" }, *name = s->boundary,
                    *parts = parts_of (s, body->dim);
-        int told = 0;
+        int listed = 0;
         for (int k = 0; k < 3; k++)
             if (!strcmp (name, generic[k]) && !(k == 2 && s->kind != PG_MESH)) name = pg_shape_kind (s);
         for (size_t j = 0; j < i; j++)
-            told |= body->shape[j].kind == s->kind && !strcmp (body->shape[j].boundary, s->boundary);
-        if (parts && !told)
+            listed |= body->shape[j].kind == s->kind && !strcmp (body->shape[j].boundary, s->boundary);
+        if (parts && !listed)
             used += (size_t) snprintf (out + used, size - used, "%s%s.%s", used ? ", " : "", name, parts);
     }
 }

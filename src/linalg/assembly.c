@@ -131,7 +131,8 @@ done:
 }
 
 /* Copies the sources and inverts their lists; no pattern yet. */
-static pg_status create (pg_assembly **out, size_t n, int block, size_t nsource, const pg_assembly_source *sources)
+static pg_status create (pg_assembly **out, size_t n, int block, size_t nsource,
+                         const pg_assembly_source *sources)
 {
     pg_status status = PG_OK;
     pg_assembly *K = NULL;

@@ -97,16 +97,15 @@ static int solid_side (pg_element kind, int number)
 /* The edges of shells are E1, E2 ..., or S3, S4 ... behind their two faces. */
 int abaqus_side (pg_element kind, int shell, const char *face)
 {
-    int letter = toupper ((unsigned char) face[0]), second = toupper ((unsigned char) (letter ? face[1] : 0));
-    int number = second - '1';
+    int letter = toupper ((unsigned char) face[0]), second = letter ? toupper ((unsigned char) face[1]) : 0;
+    int number = second - '1', ordinary = number >= 0 && number <= 5 && !face[2];
     if (letter == 'S' && (second == 'P' || second == 'N')) return shell ? -2 : -1;     /* SPOS, SNEG */
-    if (!letter || !strchr ("SPE", letter) || number < 0 || number > 5 || face[2]) return -1;
+    if (!ordinary || !strchr ("SPE", letter)) return -1;
     /* S1 and S2 are the two faces of a shell, S3 and on its edges; edges are also E1 and on. */
     if (shell && letter != 'E') {
         if (number < 2) return -2;
         number -= 2;
     }
     if (number >= pg_element_types[kind].faces) return -1;
-    if (pg_element_types[kind].dim < 3) return number;
-    return solid_side (kind, number);
+    return pg_element_types[kind].dim < 3 ? number : solid_side (kind, number);
 }

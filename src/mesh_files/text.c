@@ -92,6 +92,16 @@ static const char *read_digits (const char *p, const char *last, digits *d)
     return p;
 }
 
+/* An exponent such as e-3 or D+02, if there is one. Returns the place behind it; NULL: a letter without a
+ * number. */
+static const char *read_exponent (const char *p, const char *last, long *exponent)
+{
+    if (p >= last || !*p || !strchr ("eEdD", *p)) return p;
+    const char *q = p + 1;
+    if (q >= last || *q == ' ' || *q == '\t' || !mesh_whole (&q, last, exponent)) return NULL;
+    return q;
+}
+
 /* Where the digits fit 2^53 and the power of ten is at most 10^22, both are exact in binary and one
  * rounding remains: the result is the nearest double (Clinger 1990). */
 int mesh_real (const char **at, const char *last, double *value)
@@ -106,11 +116,8 @@ int mesh_real (const char **at, const char *last, double *value)
     p += p < last && (*p == '-' || *p == '+');
     p = read_digits (p, last, &d);
     if (d.count == 0) return 0;
-    if (p < last && strchr ("eEdD", *p) && *p) {
-        const char *q = p + 1;
-        if (q >= last || *q == ' ' || *q == '\t' || !mesh_whole (&q, last, &exponent)) return 0;
-        p = q;
-    }
+    p = read_exponent (p, last, &exponent);
+    if (!p) return 0;
     *at = p;
     exponent -= d.behind_point;
     /* Too many digits or too large a power for one exact operation. */

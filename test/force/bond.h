@@ -34,7 +34,8 @@ static inline bonded bonded_with (const char *text, int threads, size_t nset, co
     check_ok (pg_state_create (&b.state, b.problem, pg_problem_unknowns (b.problem)));
     check_ok (b.force->create (&b.self, b.problem));
     check_ok (b.force->refresh (b.self, b.state, NULL));
-    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim, b.stride = b.dim + (size_t) pg_problem_rotations (b.problem),
+    b.n = b.problem->cloud.n, b.dim = (size_t) b.problem->dim,
+    b.stride = b.dim + (size_t) pg_problem_rotations (b.problem),
     b.ndof = b.n * b.stride;
     return b;
 }

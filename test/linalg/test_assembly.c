@@ -38,7 +38,10 @@ static random_source random_points (size_t npoint, size_t n, double share, int b
     return s;
 }
 
-static void random_free (random_source *s) { pg_free (s->family.start), pg_free (s->family.node), pg_free (s->factor); }
+static void random_free (random_source *s)
+{
+    pg_free (s->family.start), pg_free (s->family.node), pg_free (s->factor);
+}
 
 static void entry (const random_source *s, size_t p, size_t i, size_t j, int alpha, int beta, double *out)
 {
@@ -76,7 +79,8 @@ static pg_assembly *gathered (size_t n, int block, size_t nsource, random_source
 {
     pg_assembly_source list[3];
     pg_assembly *K = NULL;
-    for (size_t s = 0; s < nsource; s++) list[s] = (pg_assembly_source) { &sources[s].family, &sources[s], blocks };
+    for (size_t s = 0; s < nsource; s++)
+        list[s] = (pg_assembly_source) { &sources[s].family, &sources[s], blocks };
     check_ok (pg_assembly_create (&K, n, block, nsource, list));
     check_ok (pg_assembly_gather (K, n, NULL, threads));
     return K;
