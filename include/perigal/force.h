@@ -84,8 +84,8 @@ typedef struct {
     /* Explicit methods: as balance at (t, d), but bonds at or over their limit at d are dead in it and in the
      * caches from now on; they are appended to `broken`, ascending; the caller clears their alive bits and
      * does not refresh. reference may be NULL. NULL entry: utilisation, refresh, balance do. */
-    pg_status (*balance_and_break) (void *self, double t, const double *d, double *residual, double *reference,
-                        pg_changes *broken);
+    pg_status (*balance_and_break) (void *self, double t, const double *d, double *residual,
+                                    double *reference, pg_changes *broken);
     /* Loads at t as nodal forces, N (ndof); supports are not among them. NULL: balance at d = 0 tells. */
     pg_status (*external) (void *self, double t, double *P);
     /* An upper bound, in closed form, of the largest eigenfrequency of K x = omega^2 M x, rad/s, intact

@@ -125,7 +125,8 @@ static pg_status beam_impose (void *self, double t, double *d)
 
 #define FORCE(name_, refresh_, mass_, operator__, matrix_) \
     { \
-        .method = { .name = name_, .summary = "a beam" }, .create = beam_create, .free = beam_free, .fields = beam_fields, \
+        .method = { .name = name_, .summary = "a beam" }, \
+        .create = beam_create, .free = beam_free, .fields = beam_fields, \
         .refresh = refresh_, .balance = beam_balance, .mass = mass_, .operator_ = operator__, \
         .matrix = matrix_, .basis = beam_basis, .impose = beam_impose \
     }

@@ -176,6 +176,7 @@ static double cut_energy (const bonded *b, int axis, int mode)
         if (far[0] < far[1] - 1e-9 * h) middle = i;
     }
     double weight[400], *all = pg_calloc (400 * 3, sizeof *all);
+    double bending = ((const micropolar_options *) p->options)->bending;
     double plane = x[middle * b->dim + (size_t) axis] + 0.5 * h;
     for (size_t i = 0; i < b->n; i++) {
         int column = x[i * b->dim + (size_t) axis] < plane;
@@ -192,7 +193,7 @@ static double cut_energy (const bonded *b, int axis, int mode)
             r = sqrt (r);
             if (mode == 0) sum += 0.5 * axial * r * limit[0] * limit[0] * V;
             if (mode == 1) sum += 6 * shear / r * limit[1] * limit[1] * V;
-            if (mode == 2) sum += 0.5 * ((const micropolar_options *) p->options)->bending * shear / r * limit[2] * limit[2] * V;
+            if (mode == 2) sum += 0.5 * bending * shear / r * limit[2] * limit[2] * V;
         }
     }
     pg_free (all);

@@ -235,7 +235,8 @@ static pg_bond_loop *sweep_of (const bonded *b, double **room)
         check_ok (pg_beam_moduli (&c[i], &c[b->n + i], p->mode, rule->kernel, rule->horizon, E, nu,
                                   p->cloud.thickness));
         c[i] *= p->sums->calibration, c[b->n + i] *= sums.calibration;
-        c[2 * b->n + i] = ((const micropolar_options *) p->options)->bending * c[b->n + i], c[3 * b->n + i] = A;
+        c[2 * b->n + i] = ((const micropolar_options *) p->options)->bending * c[b->n + i];
+        c[3 * b->n + i] = A;
     }
     law = (pg_beam_law) { .shear = c + b->n, .bending = c + 2 * b->n, .length = p->cloud.h };
     pg_bond_loop_setting s = { .sums = p->sums,

@@ -136,8 +136,8 @@ static double damage_near (const run *r, const double *damage, double x, double 
     return damage[point_at (&r->problem->cloud, x, y)];
 }
 
-/* Drawn until it breaks, one iteration per stage: straight through both ligaments, mirrored in both axes; bits
- * do not depend on threads or on how the forces are summed by lists or by a stencil. */
+/* Drawn until it breaks, one iteration per stage: straight through both ligaments, mirrored in both axes;
+ * bits do not depend on threads or on how the forces are summed by lists or by a stencil. */
 static void broken_through (void **state)
 {
     (void) state;
