@@ -4,28 +4,7 @@
  * seconds, which depend less on what else the machine does than the time on the clock. */
 #include "bench.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
-
-/* Order of doubles for qsort. */
-static int ascending (const void *a, const void *b)
-{
-    double p = *(const double *) a, q = *(const double *) b;
-    return (p > q) - (p < q);
-}
-
-/* Least, median and largest CPU seconds of the repeats of a case; NAN if none came to an end. */
-void pg_bench_spread (const pg_bench_case *c, double *least, double *median, double *largest)
-{
-    double sorted[PG_BENCH_REPEATS];
-    size_t n = (size_t) (c->runs < PG_BENCH_REPEATS ? c->runs : PG_BENCH_REPEATS);
-    *least = *median = *largest = NAN;
-    if (n == 0) return;
-    memcpy (sorted, c->cpu, n * sizeof *sorted);
-    qsort (sorted, n, sizeof *sorted, ascending);
-    *least = sorted[0], *largest = sorted[n - 1];
-    *median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
-}
 
 /* All runs use one folder, one after the other: only the numbers are kept. */
 static pg_status make_folders (const pg_bench_request *q)

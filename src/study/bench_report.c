@@ -5,6 +5,7 @@
 #include "perigal/picture.h"
 #include "bench.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Columns of text before the numbers, all columns, and the largest number of curves in a
@@ -16,6 +17,26 @@ static double error_of (const pg_bench_case *c)
 {
     double l2 = c->best.value[PG_TRIAL_L2];
     return isnan (l2) ? c->best.value[PG_TRIAL_LINES] : l2;
+}
+
+/* Order of doubles for qsort. */
+static int ascending (const void *a, const void *b)
+{
+    double p = *(const double *) a, q = *(const double *) b;
+    return (p > q) - (p < q);
+}
+
+/* Least, median and largest CPU seconds of the repeats of a case; NAN if none came to an end. */
+void pg_bench_spread (const pg_bench_case *c, double *least, double *median, double *largest)
+{
+    double sorted[PG_BENCH_REPEATS];
+    size_t n = (size_t) (c->runs < PG_BENCH_REPEATS ? c->runs : PG_BENCH_REPEATS);
+    *least = *median = *largest = NAN;
+    if (n == 0) return;
+    memcpy (sorted, c->cpu, n * sizeof *sorted);
+    qsort (sorted, n, sizeof *sorted, ascending);
+    *least = sorted[0], *largest = sorted[n - 1];
+    *median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
 }
 
 /* Numbers of a row behind its words: those of the best run, the spread of all runs, how many there were. */
