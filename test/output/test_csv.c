@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables read back: names with their units, quoted cells, missing values, rows that are too short or too long. */
+ * Tables read back: names with their units, quoted cells, missing values, rows that are too short or too
+ * long. */
 #include "check.h"
 #include "sample.h"
 #include <math.h>
@@ -29,7 +30,10 @@ static void what_a_table_wrote_is_read (void **state)
     assert_int_equal (csv.ncolumn, 3);
     assert_int_equal (csv.nrow, 2);
     for (int c = 0; c < 3; c++) assert_string_equal (csv.name[c], columns[c]);
-    for (int k = 0; k < 6; k++) assert_true (isnan (row[k / 3][k % 3]) ? isnan (csv.value[k]) : csv.value[k] == row[k / 3][k % 3]);
+    for (int k = 0; k < 6; k++) {
+        double wanted = row[k / 3][k % 3];
+        assert_true (isnan (wanted) ? isnan (csv.value[k]) : csv.value[k] == wanted);
+    }
     pg_csv_clear (&csv);
 }
 
@@ -50,7 +54,8 @@ static void rows_need_not_be_whole (void **state)
 {
     (void) state;
     pg_csv csv;
-    check_ok (pg_csv_read (&csv, write_text ("rows.csv", "a,b\r\n1,2\r\n3\n\n4,word,9\n\"5\",\"6\n7\"\n8,9")));
+    const char *text = "a,b\r\n1,2\r\n3\n\n4,word,9\n\"5\",\"6\n7\"\n8,9";
+    check_ok (pg_csv_read (&csv, write_text ("rows.csv", text)));
     assert_int_equal (csv.nrow, 5);
     assert_true (csv.value[1] == 2);                   /* the carriage return is no part of the cell */
     assert_true (csv.value[2] == 3 && isnan (csv.value[3]));
