@@ -136,7 +136,7 @@ void bond_force_diagonal (void *context, double *d)
 {
     bond_force *b = context;
     size_t ndof = b->n * (size_t) b->stride;
-    if (b->diagonal && b->diagonal_of == b->revision) {
+    if (b->diagonal_of == b->revision) {
         memcpy (d, b->diagonal, ndof * sizeof *d);
         return;
     }
@@ -144,8 +144,8 @@ void bond_force_diagonal (void *context, double *d)
     find_whole (b);
     dilatation_weigh (b);
     pg_parallel (b->threads, b->n, diagonal_points, &w);
-    if (!b->diagonal) b->diagonal = pg_calloc (ndof, sizeof *d);  /* kept where there is workspace for it */
-    if (b->diagonal) memcpy (b->diagonal, d, ndof * sizeof *d), b->diagonal_of = b->revision;
+    memcpy (b->diagonal, d, ndof * sizeof *d);
+    b->diagonal_of = b->revision;
 }
 
 /* Adds the sums of |entries| over each row of a block. */

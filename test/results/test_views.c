@@ -101,7 +101,7 @@ static void what_is_wrong_in_a_view_is_named (void **state)
     check_contains (faults_of (SOLID, "{range: [1]}"), "must be two ascending numbers");
     check_contains (faults_of (SOLID, "{range: [2, 1]}"), "must be two ascending numbers");
     check_contains (faults_of (SOLID, "{name: a/b}"),
-                    "output.views[0].name = a/b: a file name of at most 60 letters");
+                    "output.views[0].name = a/b: must be a file name of at most 60 letters");
     check_contains (faults_of (SOLID, "{name: load_displacement}"),
                     "another picture is called load_displacement.png");
     check_contains (faults_of (SOLID, "{view: back}, {view: back, magnify: 2}"),
