@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Bond-based peridynamics: forces straight between points, by the sweeps of direct sums (Silling 2000;
- * Silling and Askari 2005; theory A). */
+ * Forces that bonds between points carry, whatever the theory: life cycle, balance of forces by a loop over
+ * bonds, breaking, mass, work. */
 #include "dilatation.h"
 #include <math.h>
 #include <string.h>

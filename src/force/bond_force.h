@@ -136,7 +136,7 @@ void      bond_force_census (void *self, size_t *degenerate, size_t *isolated, s
 /* points that die by their energy */
 pg_status bond_force_energy_create (bond_force *b);  /* NULL unless the criterion needs energies */
 void      bond_force_energy_free   (bond_force *b);
-/* Appends the bonds of points at or over their limit at d, both directions, ascending; the sweeps know of
+/* Appends the bonds of points at or over their limit at d, both directions, ascending; the loops know of
  * them from now on. */
 pg_status bond_force_energy_kill   (bond_force *b, const double *d, pg_changes *broken);
 /* Of each bond that of its worse end. */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * K of the bonds for small displacements: K_ij = - kappa xi x xi, K_ii = sum_j kappa xi x xi over live bonds,
- * as a product by the sweep, as a sparse matrix whose columns are made again when a bond of their point
+ * as a product by the loop over bonds, as a sparse matrix whose columns are made again when a bond of their point
  * breaks, its diagonal and row sums, and the bound omega^2 <= 2 lambda_max (P_i) / rho_i, P_i = sum_j kappa
  * xi x xi / V_i (theory A4). */
 #include "dilatation.h"
@@ -19,7 +19,7 @@ static void negate (void *context, size_t first, size_t last, int thread)
     else for (size_t i = first; i < last; i++) y[i] = -y[i];
 }
 
-/* K x = - forces at displacement x. A sweep does not fail without breaking; making that of finite stretch
+/* K x = - forces at displacement x. A loop does not fail without breaking; making that of finite stretch
  * may: then K x is not a number. */
 void bond_force_apply (void *context, const double *x, double *y)
 {

@@ -7,14 +7,14 @@
  * and bonds that died meanwhile only lower it. Points lie in square tiles wider than any bond: the box of
  *     delta over a tile and those around it
  * bounds the last factor. Points that this does not clear are looked at one by one; when these have cost as
- *     much as a sweep, it tells all energies again.
+ *     much as a loop, it tells all energies again.
  * What is decided does not depend on any of this. */
 #include "pairwise.h"
 #include <math.h>
 #include <string.h>
 
-static const double margin = 1e-6;                     /* of the limit: far more than rounding of any sweep */
-/* spacings of a tile; a point alone costs as much as so many in a sweep */
+static const double margin = 1e-6;                     /* of the limit: far more than rounding of any loop */
+/* spacings of a tile; a point alone costs as much as so many in a loop */
 enum { EDGE = 8, DEAR = 3, LANES = 8 };
 
 typedef struct { size_t first, n; } run;               /* points one after the other */

@@ -182,7 +182,7 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
     f->eliminated += (masters > 0 ? slaves * slaves : 0) + 3 * slaves * masters;
 }
 
-/* As the sweep decides under `auto`, which takes a stencil where one law serves all points. */
+/* As the loop over bonds decides under `auto`, which takes a stencil where one law serves all points. */
 static int summed_by_list (const pg_problem *p)
 {
     const pg_sum_rule *rule = &p->sums->rule;
