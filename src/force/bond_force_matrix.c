@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K of the bonds for small displacements: K_ij = - kappa xi x xi, K_ii = sum_j kappa xi x xi over live bonds,
- * as a product by the loop over bonds, as a sparse matrix whose columns are made again when a bond of their point
- * breaks, its diagonal and row sums, and the bound omega^2 <= 2 lambda_max (P_i) / rho_i, P_i = sum_j kappa
- * xi x xi / V_i (theory A4). */
+ * K of the bonds for small displacements: K_ij = - kappa xi x xi, K_ii = sum_j kappa xi x xi over live
+ * bonds, as a product by the loop over bonds, as a sparse matrix whose columns are made again when a bond
+ * of their point breaks, its diagonal and row sums, and the bound omega^2 <= 2 lambda_max (P_i) / rho_i,
+ * P_i = sum_j kappa xi x xi / V_i (theory A4). */
 #include "dilatation.h"
 #include <math.h>
 #include <stdint.h>
