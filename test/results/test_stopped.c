@@ -260,7 +260,7 @@ static void a_new_run_leaves_no_old_checkpoint_or_report (void **state)
     run r = prepare (1, scenes[2].text);
     long rows = size_of (inside (where, "history.csv")), kept = size_of (inside (where, "checkpoint.nc"));
     check_fails (pg_result_open (&result, where, r.scene, r.problem, r.solver), PG_E_USAGE);
-    check_contains (pg_last_error (), "holds a run that is not finished");
+    check_contains (pg_last_error (), "holds an unfinished run");
     assert_int_equal (size_of (inside (where, "history.csv")), rows);
     assert_int_equal (size_of (inside (where, "checkpoint.nc")), kept);
     check_ok (pg_result_discard (where));
