@@ -134,9 +134,20 @@ double pg_dense_det    (int n, const double *A);
 /* Sets of 0 .. n - 1 as trees: parent[i] leads from a member towards the root of its set; two members
  * belong to the same set if their roots are equal. At the start every member is a set of its own. */
 void pg_disjoint_start (int *parent, size_t n);
-/* The root of i; shortens the path on the way. */
-int  pg_disjoint_root  (int *parent, int i);
-/* Unites the sets of a and b; the root of b becomes that of both and is returned. */
-int  pg_disjoint_join  (int *parent, int a, int b);
+/* The root of i. Path halving (every other node on the path comes to point to its grandparent) keeps the
+ * trees flat without ranks. Defined here, for it runs once for every bond. */
+static inline int pg_disjoint_root (int *parent, int i)
+{
+    while (parent[i] != i) i = parent[i] = parent[parent[i]];
+    return i;
+}
+/* Unites the sets of a and b; the root of b becomes that of both and is returned, so that a caller can keep
+ * data at that root. */
+static inline int pg_disjoint_join (int *parent, int a, int b)
+{
+    int below = pg_disjoint_root (parent, a), root = pg_disjoint_root (parent, b);
+    parent[below] = root;
+    return root;
+}
 PG_API_END
 #endif

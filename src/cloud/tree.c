@@ -6,19 +6,21 @@
 #include <string.h>
 
 /* ---- sorting ------------------------------------------------------------------------------------------- */
-/* What is sorted: numbers of points, by the coordinates x (n x dim) of the points. */
-typedef struct { size_t *item; const double *x; size_t dim; } sorter;
+/* What is sorted: points x (n x dim) and their numbers together, so that a range under work is one block
+ * of memory. */
+typedef struct { size_t *item; double *x; size_t dim; } sorter;
 
 /* Coordinate of the point at a place of the order along an axis. */
-static double along (const sorter *s, size_t place, size_t axis)
-{
-    return s->x[s->item[place] * s->dim + axis];
-}
+static double along (const sorter *s, size_t place, size_t axis) { return s->x[place * s->dim + axis]; }
 
-static void swap (size_t *a, size_t *b)
+static void swap (const sorter *s, size_t a, size_t b)
 {
-    size_t c = *a;
-    *a = *b, *b = c;
+    size_t item = s->item[a];
+    s->item[a] = s->item[b], s->item[b] = item;
+    for (size_t k = 0; k < s->dim; k++) {
+        double x = s->x[a * s->dim + k];
+        s->x[a * s->dim + k] = s->x[b * s->dim + k], s->x[b * s->dim + k] = x;
+    }
 }
 
 /* Quickselect: puts at `middle` the item that a sorted range first .. last - 1 would have there, smaller
@@ -31,8 +33,8 @@ static void part (sorter *s, size_t first, size_t last, size_t middle, size_t ax
         size_t less = first, more = last, i = first;
         while (i < more) {
             double v = along (s, i, axis);
-            if (v < pivot) swap (&s->item[i++], &s->item[less++]);
-            else if (v > pivot) swap (&s->item[i], &s->item[--more]);
+            if (v < pivot) swap (s, i++, less++);
+            else if (v > pivot) swap (s, i, --more);
             else i++;
         }
         if (middle < less) last = less;
@@ -51,7 +53,6 @@ static void halve (sorter *s, size_t first, size_t last, size_t axis)
     halve (s, middle + 1, last, next);
 }
 
-/* First the order alone, then the coordinates are copied into it. */
 pg_status pg_tree_build (pg_tree *out, int dim, size_t n, const double *x)
 {
     pg_status status = PG_OK;
@@ -60,8 +61,8 @@ pg_status pg_tree_build (pg_tree *out, int dim, size_t n, const double *x)
     PG_ALLOC (out->item, n);
     PG_ALLOC (out->x, n * d);
     for (size_t i = 0; i < n; i++) out->item[i] = i;
-    halve (&(sorter) { out->item, x, d }, 0, n, 0);
-    for (size_t i = 0; i < n; i++) memcpy (out->x + i * d, x + out->item[i] * d, d * sizeof *x);
+    memcpy (out->x, x, n * d * sizeof *x);
+    halve (&(sorter) { out->item, out->x, d }, 0, n, 0);
 done:
     if (status != PG_OK) pg_tree_clear (out);
     return status;
