@@ -53,14 +53,14 @@ static pg_status measure (pg_trial *t, const pg_bench_case *c, const pg_bench_re
     pg_status status = PG_OK;
     pg_process *child = NULL;
     char result[4200], log[4200], text[512];
-    char *argv[2 * PG_TRIAL_SETS + 16] = { "perigal",   "bench",
-                                        "--fem-row", (char *) q->scene[c->scene],
-                                        result,      (char *) pg_bench_body_find (c->name)->unit };
+    const char *argv[2 * PG_TRIAL_SETS + 16] = { "perigal",   "bench",
+                                        "--fem-row", q->scene[c->scene],
+                                        result,      pg_bench_body_find (c->name)->unit };
     size_t n = 6;
     PG_ALLOC (child, 1);
     snprintf (result, sizeof result, "%s.frd", job);
     snprintf (log, sizeof log, "%s.log", job);
-    for (size_t k = 0; k < q->nset; k++) argv[n++] = "--set", argv[n++] = (char *) q->set[k];
+    for (size_t k = 0; k < q->nset; k++) argv[n++] = "--set", argv[n++] = q->set[k];
     PG_TRY (pg_process_run (child, NULL, argv, NULL, log, 1));
     pg_process_complaint (log, text, sizeof text);
     if (child->code != 0)
@@ -81,7 +81,7 @@ pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q)
     pg_process *child = NULL;
     pg_trial t;
     char folder[4096], job[4160], name[64], log[4200];
-    char *argv[] = { "ccx", name, NULL };
+    const char *argv[] = { "ccx", name, NULL };
     struct stat made;
     PG_ALLOC (child, 1);
     snprintf (folder, sizeof folder, "%s/fem", q->folder);

@@ -8,6 +8,7 @@
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <stdint.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -29,7 +30,7 @@ static void settle_environment (int threads)
 
 /* The new process becomes the program; never returns. stdin is empty, stdout goes to the
  * parent, stderr to the log. 127: could not be started. */
-static void become (const char *program, char *const argv[], const char *folder, const char *log, int to,
+static void become (const char *program, const char *const argv[], const char *folder, const char *log, int to,
                     int threads)
 {
     int errors = open (log ? log : "/dev/null", O_WRONLY | O_CREAT | O_TRUNC, 0666),
@@ -38,8 +39,10 @@ static void become (const char *program, char *const argv[], const char *folder,
     if (dup2 (nothing, 0) < 0 || dup2 (to, 1) < 0 || dup2 (errors, 2) < 0 || (folder && chdir (folder) != 0))
         _exit (127);
     if (!program) pg_memory_large_pages ();
-    if (program) execvp (program, argv);
-    else execv ("/proc/self/exe", argv);
+    /* POSIX: exec changes no argument, though its declaration cannot say so */
+    char *const *arguments = (char *const *) (uintptr_t) argv;
+    if (program) execvp (program, arguments);
+    else execv ("/proc/self/exe", arguments);
     _exit (127);
 }
 
@@ -66,7 +69,7 @@ static double seconds_of (const struct timeval *t) { return (double) t->tv_sec +
 /* The output of the child is read to its end before its exit is waited for: a full pipe would
  * block both. All streams are flushed before the fork: otherwise their buffers would be
  * written twice. */
-pg_status pg_process_run (pg_process *out, const char *program, char *const argv[], const char *folder,
+pg_status pg_process_run (pg_process *out, const char *program, const char *const argv[], const char *folder,
                      const char *log, int threads)
 {
     pg_status status = PG_OK;

@@ -21,7 +21,7 @@ typedef struct {
  * it in messages. folder: where it runs, NULL: here. log: file for stderr, overwritten; NULL:
  * dropped. Its libraries get `threads` threads (at least one). PG_E_FILE: cannot be started;
  * PG_E_INTERRUPTED: it was interrupted (SIGINT). */
-pg_status pg_process_run (pg_process *out, const char *program, char *const argv[], const char *folder,
+pg_status pg_process_run (pg_process *out, const char *program, const char *const argv[], const char *folder,
                      const char *log, int threads);
 /* 1 if a program of that name is in PATH. */
 int       pg_process_finds (const char *program);

@@ -39,15 +39,15 @@ pg_status pg_trial_run (pg_trial *out, const pg_trial_request *q)
     pg_status status = PG_OK;
     pg_process *child = NULL;
     char threads[16], log[4096], complaint[2048];
-    char *argv[2 * PG_TRIAL_SETS + 16] = { "perigal",          "bench",     "--row", (char *) q->scene, "-o",
-                                        (char *) q->folder, "--threads", threads, "--quiet" };
+    const char *argv[2 * PG_TRIAL_SETS + 16] = { "perigal",          "bench",     "--row", q->scene, "-o",
+                                        q->folder, "--threads", threads, "--quiet" };
     size_t n = 9;
     pg_trial_read (out, "");
     PG_ALLOC (child, 1);
     snprintf (threads, sizeof threads, "%d", q->threads);
     snprintf (log, sizeof log, "%s.log", q->folder);
     for (size_t k = 0; k < q->nset && k < PG_TRIAL_SETS; k++)
-        argv[n++] = "--set", argv[n++] = (char *) q->set[k];
+        argv[n++] = "--set", argv[n++] = q->set[k];
     PG_TRY (pg_process_run (child, NULL, argv, NULL, log, q->threads));
     if (child->code != PG_EXIT_DONE) {
         pg_process_complaint (log, complaint, sizeof complaint);
