@@ -66,9 +66,9 @@ pg_status pg_bench_mesh_make (const pg_bench_case *c, const pg_bench_request *q)
     pg_status status = PG_OK;
     pg_process *child = NULL;
     char script[4096], number[24], name[64], folder[4096], input[4200], log[4200], text[512];
-    const char *argv[] = { "python3", script, pg_bench_body_find (c->name)->mesh, 
-                     c->element, number,
-                     input,     NULL };
+    const char *argv[] = { "python3",  script, pg_bench_body_find (c->name)->mesh,
+                           c->element, number, input,
+                           NULL };
     PG_ALLOC (child, 1);
     pg_bench_mesh_name (c, name, sizeof name);
     snprintf (folder, sizeof folder, "%s/fem", q->folder);

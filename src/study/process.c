@@ -30,8 +30,8 @@ static void settle_environment (int threads)
 
 /* The new process becomes the program; never returns. stdin is empty, stdout goes to the
  * parent, stderr to the log. 127: could not be started. */
-static void become (const char *program, const char *const argv[], const char *folder, const char *log, int to,
-                    int threads)
+static void become (const char *program, const char *const argv[], const char *folder,
+                    const char *log, int to, int threads)
 {
     int errors = open (log ? log : "/dev/null", O_WRONLY | O_CREAT | O_TRUNC, 0666),
         nothing = open ("/dev/null", O_RDONLY);
