@@ -21,6 +21,9 @@ static pg_status run_once (pg_bench_case *c, const pg_bench_request *q, pg_trial
     char folder[4096];
     pg_trial_request run = { .scene = q->scene[c->scene], .folder = folder, .threads = q->threads };
     snprintf (folder, sizeof folder, "%s/run", q->folder);
+    if (q->nset + c->nset + 1 > PG_TRIAL_SETS)
+        PG_FAIL (PG_E_USAGE, "%zu values are set, and a trial takes at most %d with the %zu of its method",
+                 q->nset, PG_TRIAL_SETS, c->nset + 1);
     for (size_t k = 0; k < q->nset; k++) run.set[run.nset++] = q->set[k];
     for (size_t k = 0; k < c->nset; k++) run.set[run.nset++] = c->set[k];
     if (c->element[0] && !c->mesh[0]) PG_TRY (pg_bench_mesh_set (c, q));
