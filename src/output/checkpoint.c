@@ -15,6 +15,9 @@
 #include <stdio.h>
 #include <string.h>
 
+/* What a checkpoint whose sum is right, but whose pieces are others, must be. */
+#define OTHER_VERSION "another version of the program wrote it, and only that one can continue the run"
+
 /* A checkpoint that is being written or read. open: the netCDF file is open; defining: this
  * visit defines variables and writes nothing yet; sum: the hash so far. */
 typedef struct { const char *path; int ncid, open, defining, reading; uint64_t sum; } checkpoint;
@@ -52,10 +55,12 @@ static pg_status find (const checkpoint *c, const char *name, size_t n, nc_type 
     nc_type found;
     int ndim, dim[NC_MAX_VAR_DIMS];
     size_t m = 0;
-    if (nc_inq_varid (c->ncid, name, var) != NC_NOERR) PG_FAIL (PG_E_FILE, "%s lacks '%s'", c->path, name);
+    if (nc_inq_varid (c->ncid, name, var) != NC_NOERR)
+        PG_FAIL (PG_E_FILE, "%s lacks '%s': " OTHER_VERSION, c->path, name);
     NC_TRY (c->path, nc_inq_var (c->ncid, *var, NULL, &found, &ndim, dim, NULL));
     if (ndim == 1) NC_TRY (c->path, nc_inq_dimlen (c->ncid, dim[0], &m));
-    if (m != n || found != type) PG_FAIL (PG_E_FILE, "%s: '%s' has %zu values, not %zu", c->path, name, m, n);
+    if (m != n || found != type)
+        PG_FAIL (PG_E_FILE, "%s: '%s' has %zu values, not %zu: " OTHER_VERSION, c->path, name, m, n);
 done:
     return status;
 }
