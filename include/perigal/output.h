@@ -70,6 +70,9 @@ pg_status pg_folder_make (const char *path);
 /* Creates a file for writing, to be closed with fclose. A file or a symbolic link in its place
  * is removed first, so that nothing is ever written through a link. PG_E_FILE. */
 pg_status pg_file_create (FILE **out, const char *path);
+/* Reads a whole file, also a pipe, into *text, which ends in a zero byte and is to be freed with pg_free;
+ * *size (unless NULL): its bytes without that one. NULL on failure. PG_E_FILE. */
+pg_status pg_file_text (char **text, size_t *size, const char *path);
 
 /* ---- tables -------------------------------------------------------------------------------------------- */
 /* CSV (RFC 4180): a header with "name [unit]" per column, then rows of numbers with 17 digits,

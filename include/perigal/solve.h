@@ -33,7 +33,9 @@ typedef struct {
     /* that they were read from: pg_solver_create places there what it finds wrong; NULL: none */
     const pg_scene *scene;
 } pg_solver_options;
-#define PG_OWN(type, options) ((type *) (void *) (options)->own.byte)
+/* Options of a type that does not fit do not compile. */
+#define PG_OWN(type, options) \
+    ((type *) (void *) ((options)->own.byte + 0 * sizeof (char[sizeof (type) <= PG_SOLVER_OWN ? 1 : -1])))
 #define PG_ALIAS __attribute__ ((may_alias))
 typedef struct {                                       /* equilibria by linear systems */
     int    affine;                                     /* event stepping: loads have a constant part */
@@ -81,9 +83,8 @@ enum {
     PG_SECONDS_SOLVE,
     PG_SECONDS_FORCE,
     PG_SECONDS_BREAK,
-    /* update: shapes and rows that breaks have touched */
     PG_SECONDS_ASSEMBLE,
-    PG_SECONDS_UPDATE,
+    PG_SECONDS_UPDATE,  /* shapes and rows that breaks have touched */
     PG_SECONDS_COUNT
 };
 typedef struct { char what[96], why[160]; double seconds_saved; } pg_skip;

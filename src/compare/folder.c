@@ -4,7 +4,6 @@
  * folder and appends comment lines with its origin and with the --set options; both are taken
  * off here and applied again. */
 #include "compare.h"
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -13,25 +12,14 @@
 /* Largest number of --set options that are read back. */
 enum { MOST_SETTINGS = 64 };
 
-/* Read in pieces, because the length of a pipe is not known before. A zero byte would hide the
- * rest of the text from the string functions, so it is refused. */
+/* A zero byte would hide the rest of the text from the string functions, so it is refused. */
 pg_status pg_compare_load_text (const char *path, char **text)
 {
     pg_status status = PG_OK;
-    size_t size = 0, cap = 0, got = 0;
-    FILE *f = fopen (path, "rb");
-    *text = NULL;
-    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    do {
-        PG_GROW (*text, cap, size + 65537);
-        got = fread (*text + size, 1, 65536, f);
-        if (memchr (*text + size, 0, got)) PG_FAIL (PG_E_FILE, "%s is not a text file", path);
-        size += got;
-    } while (got > 0);
-    if (ferror (f)) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    (*text)[size] = 0;
+    size_t size;
+    PG_TRY (pg_file_text (text, &size, path));
+    if (memchr (*text, 0, size)) PG_FAIL (PG_E_FILE, "%s is not a text file", path);
 done:
-    if (f) fclose (f);
     if (status != PG_OK) pg_free (*text), *text = NULL;
     return status;
 }

@@ -2,30 +2,10 @@
  * Tables read back: CSV by RFC 4180, a header of names and rows of numbers. The text is cut in place:
  * quotes are taken off the cells, and each cell ends in a zero byte where its comma was. */
 #include "perigal/output.h"
-#include <errno.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Reads the whole file in pieces, since the length of a pipe is not known before. */
-static pg_status read_text (const char *path, char **text)
-{
-    pg_status status = PG_OK;
-    size_t n = 0, cap = 0, got;
-    FILE *f = fopen (path, "rb");
-    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    do {
-        PG_GROW (*text, cap, n + 65537);
-        got = fread (*text + n, 1, 65536, f);
-        n += got;
-        (*text)[n] = 0;
-    } while (got > 0);
-    if (ferror (f)) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-done:
-    if (f) fclose (f);
-    return status;
-}
 
 /* The cell at *at, cut out of the text, which is stepped over. Returns what ended it: ',' when another
  * cell of the row follows, '\n' at the end of the row, 0 at the end of the text. */
@@ -97,7 +77,7 @@ pg_status pg_csv_read (pg_csv *csv, const char *path)
 {
     pg_status status = PG_OK;
     memset (csv, 0, sizeof *csv);
-    PG_TRY (read_text (path, &csv->text));
+    PG_TRY (pg_file_text (&csv->text, NULL, path));
     if (!csv->text[0]) PG_FAIL (PG_E_FILE, "%s is empty", path);
     char *at = csv->text;
     PG_TRY (read_header (csv, &at));

@@ -71,6 +71,28 @@ pg_status pg_file_create (FILE **out, const char *path)
     return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
 }
 
+/* Read in pieces, because the length of a pipe is not known before. */
+pg_status pg_file_text (char **text, size_t *size, const char *path)
+{
+    pg_status status = PG_OK;
+    size_t n = 0, cap = 0, got;
+    FILE *f = fopen (path, "rb");
+    *text = NULL;
+    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    do {
+        PG_GROW (*text, cap, n + 65537);
+        got = fread (*text + n, 1, 65536, f);
+        n += got;
+    } while (got > 0);
+    if (ferror (f)) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    (*text)[n] = 0;
+    if (size) *size = n;
+done:
+    if (f) fclose (f);
+    if (status != PG_OK) pg_free (*text), *text = NULL;
+    return status;
+}
+
 /* Syncing a folder is not supported everywhere; EINVAL and ENOTSUP therefore count as success. */
 pg_status pg_disk_sync (const char *path)
 {

@@ -158,22 +158,10 @@ done:
     return status;
 }
 
-/* Reads a whole file; *text stays NULL if there is none. */
+/* Reads a whole file; *text stays NULL if there is none that can be opened. */
 static pg_status read_text (const char *path, char **text)
 {
-    pg_status status = PG_OK;
-    size_t n = 0, cap = 0, got;
-    FILE *f = fopen (path, "rb");
-    if (!f) return PG_OK;
-    do {
-        PG_GROW (*text, cap, n + 65537);
-        got = fread (*text + n, 1, 65536, f);
-        n += got;
-        (*text)[n] = 0;
-    } while (got > 0);
-done:
-    if (f) fclose (f);
-    return status;
+    return access (path, R_OK) == 0 ? pg_file_text (text, NULL, path) : PG_OK;
 }
 
 /* 1 if both paths lead to the same file, by its number on its device. */

@@ -323,20 +323,13 @@ done:
 /* Looks for the hash of the scene and the outcome in report.json, which is as long as its lists of files. */
 int pg_result_finished (const char *folder, const pg_scene *scene)
 {
-    char path[4096], hash[128], *text = NULL;
-    int finished = 0;
+    char path[4096], hash[128], *text;
     snprintf (path, sizeof path, "%s/checkpoint.nc", folder);
     if (access (path, F_OK) == 0) return 0;
     snprintf (path, sizeof path, "%s/report.json", folder);
-    FILE *file = fopen (path, "r");
-    if (!file) return 0;
-    long size = fseek (file, 0, SEEK_END) == 0 ? ftell (file) : -1;
-    rewind (file);
-    if (size > 0) text = pg_calloc ((size_t) size + 1, 1);
-    size_t length = text ? fread (text, 1, (size_t) size, file) : 0;
-    fclose (file);
+    if (pg_file_text (&text, NULL, path) != PG_OK) return 0;
     snprintf (hash, sizeof hash, "\"scene_sha256\": \"%s\"", pg_scene_hash (scene));
-    finished = length > 0 && strstr (text, hash) && strstr (text, "\"outcome\": \"done\"");
+    int finished = strstr (text, hash) && strstr (text, "\"outcome\": \"done\"");
     pg_free (text);
     return finished;
 }

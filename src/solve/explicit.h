@@ -73,6 +73,13 @@ pg_status explicit_step    (pg_solver *s, pg_state *state, pg_step *step, kick_r
 int       explicit_done    (const pg_solver *s, const pg_state *state);
 void      explicit_refused (pg_solver *s);
 double    explicit_progress (const pg_solver *s, const pg_state *state);
+/* What every explicit method shares; its name, summary and step (explicit_step with its own half kicks) make
+ * it whole. */
+#define EXPLICIT_ENTRIES \
+    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY, .keys = { &solver_keys_step, &solver_keys_time }, \
+    .read = explicit_read, .prepare = explicit_prepare, .start = explicit_start, .done = explicit_done, \
+    .refused = explicit_refused, .free = explicit_free, .keep = explicit_keep, .own_size = sizeof (motion), \
+    .stable = explicit_bound, .progress = explicit_progress
 double    lane_sum     (const double *s);             /* of 8 lanes */
 double    lane_dot     (const double *a, const double *b, size_t first, size_t last);
 /* 0, or NaN when one is not finite */

@@ -48,4 +48,10 @@ int       relaxation_breaks  (const pg_solver *s);
 pg_status relaxation_stages  (pg_solver *s);           /* how many stages and steps; after masses and dt */
 void      relaxation_read    (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
 const char *relaxation_manner (const pg_solver_options *o);
+/* What both methods of relaxation share; name, summary, flags, keys, read and prepare are their own. */
+#define RELAXATION_ENTRIES \
+    .start = relaxation_start, .step = relaxation_step, .done = relaxation_done, \
+    .refused = relaxation_refused, .free = relaxation_free, .keep = relaxation_keep, \
+    .own_size = sizeof (motion), .stable = explicit_bound, .progress = relaxation_progress, \
+    .manner = relaxation_manner
 #endif

@@ -54,17 +54,6 @@ static pg_status step (pg_solver *s, pg_state *state, pg_step *out)
 const pg_solver_type pg_solver_verlet = {
     .name = "verlet",
     .summary = "explicit dynamics, velocity Verlet",
-    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY,
-    .keys = { &solver_keys_step, &solver_keys_time },
-    .read = explicit_read,
-    .prepare = explicit_prepare,
-    .start = explicit_start,
     .step = step,
-    .done = explicit_done,
-    .refused = explicit_refused,
-    .free = explicit_free,
-    .keep = explicit_keep,
-    .own_size = sizeof (motion),
-    .stable = explicit_bound,
-    .progress = explicit_progress,
+    EXPLICIT_ENTRIES,
 };

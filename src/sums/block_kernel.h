@@ -11,12 +11,7 @@
  *   zip (out, a, b), unzip (in, &a, &b): pairs in memory from and to two vectors. */
 #include "block.h"
 
-#ifdef __clang__
-#define UNROLL _Pragma ("unroll")
-#else
-#define UNROLL _Pragma ("GCC unroll 32")
-#endif
-#define INLINE static inline __attribute__ ((always_inline)) TARGET
+#include "inline.h"
 
 typedef double vec_loose __attribute__ ((vector_size (8 * LANES), aligned (8), may_alias));
 #define LOAD(p) (*(const vec_loose *) (p))

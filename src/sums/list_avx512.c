@@ -76,22 +76,6 @@ static inline __attribute__ ((always_inline)) TARGET void every_other (__m512d a
         if ((columns) > 8) FETCH4 ((record) + 8, o, (out) + 8); \
     } while (0)
 
-#define PLACE(sum, o, k) (double *) (void *) ((char *) (sum) + 4 * (size_t) (o)[k])
-#define TAKE2(sum, o, k, v) \
-    do { \
-        double *p_ = PLACE (sum, o, k); \
-        _mm_store_pd (p_, _mm_sub_pd (_mm_load_pd (p_), v)); \
-    } while (0)
-#define TAKE4(sum, o, k, v) \
-    do { \
-        double *p_ = PLACE (sum, o, k); \
-        _mm256_store_pd (p_, _mm256_sub_pd (_mm256_load_pd (p_), v)); \
-    } while (0)
-/* In the order of the lanes: two of them may meet at one point. */
-#define GIVE1(sum, o, f) \
-    do { \
-        for (int k_ = 0; k_ < 8; k_++) *PLACE (sum, o, k_) -= (f)[0][k_]; \
-    } while (0)
 #define GIVE2(sum, o, f) \
     do { \
         const __m512d even_ = _mm512_unpacklo_pd ((f)[0], (f)[1]); \
@@ -126,13 +110,8 @@ static inline __attribute__ ((always_inline)) TARGET void every_other (__m512d a
         TAKE4 (sum, o, 6, _mm512_extractf64x4_pd (b_, 1)); \
         TAKE4 (sum, o, 7, _mm512_extractf64x4_pd (d_, 1)); \
     } while (0)
-#define GIVE(sum, o, dim, f) \
-    do { \
-        if ((dim) == 1) GIVE1 (sum, o, f); \
-        else if ((dim) == 2) GIVE2 (sum, o, f); \
-        else GIVE3 (sum, o, f); \
-    } while (0)
 
+#include "list_give.h"
 #include "list_instances.h"
 #else
 const list_kernels pg_list_avx512;

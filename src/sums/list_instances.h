@@ -11,12 +11,7 @@
  *   GIVE (sum, o, dim, f)            subtracts f[0 .. dim - 1] from sums at half these offsets, lane after
  * lane No operation is contracted and the order is the same for every WIDTH: all instruction sets give the
  * same bits. */
-#ifdef __clang__
-#define UNROLL _Pragma ("unroll")
-#else
-#define UNROLL _Pragma ("GCC unroll 32")
-#endif
-#define INLINE static inline __attribute__ ((always_inline)) TARGET
+#include "inline.h"
 
 /* a . b */
 INLINE V vec_dot (int dim, const V *a, const V *b)
