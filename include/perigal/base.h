@@ -105,6 +105,13 @@ typedef struct {
     pg_status (*counts)  (void *context, const char *name, size_t n, long *value);
     pg_status (*bytes)   (void *context, const char *name, size_t n, void *value);
 } pg_keeper;
+/* What is read back must lie where the rest of the program may rely on it. */
+#define PG_KEEP_BOUND(k, name, value, low, high) \
+    do { \
+        if ((k)->reading && ((value) < (low) || (value) > (high))) \
+            PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), \
+                     (long) (value), (long) (low), (long) (high)); \
+    } while (0)
 
 /* ---- clock and threads --------------------------------------------------------------------------------- */
 /* Monotonic wall clock, s. */

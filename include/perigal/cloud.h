@@ -205,11 +205,11 @@ long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_
 /* Positions no further apart than this part of the local spacing are at one place. */
 #define PG_NO_LENGTH 1e-6
 
-/* ---- pre-cracks ---------------------------------------------------------------------------------------- */
-/* Kinds of pre-cracks. */
+/* ---- cracks -------------------------------------------------------------------------------------------- */
+/* Kinds of cracks. */
 enum { PG_CRACK_SEGMENT, PG_CRACK_POLYGON, PG_CRACK_DISC };
 
-/* A pre-crack: a segment in 2D, a plane polygon or a disc in 3D. */
+/* A crack: a segment in 2D, a plane polygon or a disc in 3D. */
 typedef struct {
     int    kind;
     /* Segment: 2 x 2; polygon: n x 3; disc: a regular polygon of 64 vertices, for pictures. m. */
@@ -217,18 +217,34 @@ typedef struct {
     /* Centre and radius of a disc, m; unit normal of any kind. */
     double centre[3], normal[3], radius;
     /* How far from its tip or front the crack cuts no bonds, m: for the two ends of a segment, the edges of
-     * a polygon (edge i from vertex i to the next), the rim of a disc; NULL: 0. */
+     * a polygon (edge i from vertex i to the next), the rim of a disc; NULL: 0. Of a segment also negative:
+     * so far beyond its end it cuts, where that lies on the surface of the body. */
     double *retreat;
+    /* 1, segments only: a place within `width` (m) of its line counts as on its left, the side that the
+     * normal points to, so that points on the line keep their bonds to that side. 0: such points lose the
+     * bonds to both sides. Cracks that grow are sided, cracks of the scene are not. */
+    int    sided;
+    double width;
 } pg_crack;
-/* All pre-cracks of a scene. */
-typedef struct { int dim; pg_crack *crack; size_t n; } pg_cracks;
+/* Several cracks. box: of each segment, as far as it cuts, low x, low y, high x, high y (n x 4, m); group:
+ * the same of PG_CRACK_GROUP segments that follow each other. With these (pg_cracks_index), questions to many
+ * segments in the plane look only at those near by; the answers are the same. NULL: without. */
+enum { PG_CRACK_GROUP = 8 };
+typedef struct { int dim; pg_crack *crack; size_t n; double *box, *group; } pg_cracks;
 /* Reads `cracks`. Each must meet the body; what is wrong is a fault of the scene. */
 pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
 void      pg_cracks_clear (pg_cracks *cracks);
+/* Fills box and group, which hold 4 n values each at least (2D); for cracks in 3D nothing. To be called again
+ * when a segment was added or changed. */
+void      pg_cracks_fill_index (pg_cracks *cracks);
+/* Makes room for them first. */
+pg_status pg_cracks_index (pg_cracks *cracks);
+/* Unit normal of a segment, on the left of the direction from its first vertex to the second. */
+void      pg_crack_orient (pg_crack *segment);
 /* Does the bond x - y meet the crack, less the strips along its tips and fronts that `retreat` gives? A
  * touch within `tolerance` (m) counts. The answer for y - x is the same. */
 int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
-/* Does x lie on the crack, within the tolerance? */
+/* Does x lie on the crack, within the tolerance, whichever side it counts to? */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);
 /* The same for several cracks: the first of them that the bond meets, or that x lies on; NULL: none. */
 const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,

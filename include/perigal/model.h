@@ -132,6 +132,16 @@ int pg_method_iterates (const pg_method *method, int preconditioned, int dim, do
 /* The entry of a catalogue (ends with NULL) that the scene asks for. */
 const pg_method *pg_method_of (const pg_method *const *methods, const pg_scene *scene);
 
+/* An end of a crack in the plane, from which it may grow. */
+typedef struct {
+    long   id;                                         /* 1, 2, ... as they came into being; stays with it */
+    size_t segment; int end;  /* cracks.crack[segment] ends there: 0: with its first vertex, 1: the second */
+    int    open;  /* 0: met a boundary or another crack, or was stopped: grows no more */
+    double x[3];                                       /* m */
+    double offset;                                     /* bonds are cut only so far behind x, m */
+    double grown;                                      /* length since the start, m */
+} pg_tip;
+
 struct pg_problem {
     char     title[256], name[64];                     /* name: of the scene's folder or file */
     int      dim, threads;
@@ -142,6 +152,9 @@ struct pg_problem {
     pg_criterion *criterion;  /* per material, all of one type; type NULL: nothing breaks */
     int          *block[PG_BOND_SETS];                 /* material of every point of a bond set */
     pg_approx     approx;
+    pg_tip  *tip;  size_t ntip;                        /* 2D: the tips of the pre-cracks */
+    double   tip_offset;  /* of a tip where the local spacing is cloud.h, m (method.tip_offset) */
+    struct pg_body_search *search;                     /* where the body is, 2D; else NULL */
     const pg_integration_type *integration;
     pg_consistency *consistency;                       /* integration: consistent; else NULL */
     /* dilatation of patches where Poisson's ratio is near 1/2; NULL: at the points everywhere */
@@ -218,7 +231,30 @@ int       pg_problem_proportional (const pg_problem *problem);  /* every load is
 /* every load is a constant pattern and t times another, t from 0 to 1 */
 int       pg_problem_affine (const pg_problem *problem);
 
-/* ---- state: one block, copyable, comparable, savable --------------------------------------------------- */
+/* ---- cracks that grow (2D) ----------------------------------------------------------------------------- */
+/* The cracks that exist in a state: those of the scene first, then the facets that grew, straight pieces
+ * which follow each other. All pieces of a path run in the same direction, so that its left side is one
+ * face. Where a crack of the scene grows, the part of it that cut no bonds yet becomes a piece of its own,
+ * sided like the facets: points on it keep their bonds to one side. */
+typedef struct pg_crack_paths {
+    pg_cracks cracks;  size_t capacity, nfirst;        /* nfirst: how many are the scene's */
+    size_t *parent;  /* per piece: the one that it continues (they share a vertex); SIZE_MAX: none */
+    size_t *path;  /* per piece: number of its path; pieces of a path hang together by their vertices */
+    long   *owner;  /* per piece: id of the tip that made it; 0: cracks of the scene, and new cracks */
+    double *store;  /* vertices and retreats of the pieces (6 each), to which their pointers lead */
+    pg_tip *tip;  size_t ntip, tip_capacity;
+    double  length;                                    /* grown since the start, m */
+    double  nothing;                                   /* places no further apart are one, m */
+} pg_crack_paths;
+/* Parts of pg_state_create, pg_state_copy, pg_state_free and of checkpoints. Copying to paths that once held
+ * as many pieces cannot fail. */
+pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *problem);
+pg_status pg_crack_paths_copy   (pg_crack_paths *to, const pg_crack_paths *from);
+void      pg_crack_paths_free   (pg_crack_paths **paths);
+pg_status pg_crack_paths_keep   (pg_crack_paths *paths, const pg_problem *problem, const char *name,
+                                 const pg_keeper *keeper);
+
+/* ---- state: one block and the paths of its cracks; copyable, comparable, savable ----------------------- */
 typedef struct {
     size_t  ndof, nbond, bytes;
     double  time;                                      /* s; static: load factor of the last report */
@@ -227,15 +263,51 @@ typedef struct {
     double  work;                                      /* external work so far, J */
     double *d, *v, *a;  /* coefficients, velocity, acceleration (ndof): m, m/s, m/s^2 */
     unsigned char *alive;                              /* 1: the bond lives (nbond) */
+    pg_crack_paths *paths;                             /* 2D; NULL: cracks do not grow */
 } pg_state;
 /* At rest, or with the problem's initial velocity; pre-cracks cut. */
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components /* dofs per node */);
 pg_status pg_state_copy   (pg_state *to, const pg_state *from);
 void      pg_state_free   (pg_state **state);
 /* The cracks that exist in a state (NULL: at the start), for all who ask whether one lies between two
- * places: bonds, sampling, gauges, pictures. So far these are the pre-cracks of the scene, whatever the
- * state; damage is not among them. */
+ * places: bonds, sampling, gauges, pictures. Damage is not among them. */
 const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state);
+
+/* Grows tip number `tip` in a straight line to `to` (m): adds a facet, moves the tip, and lets the path cut
+ * up to its offset behind the tip. All live bonds that the path now cuts, of every bond set, are added to
+ * `cut`, which stays ascending and names each once; their alive bits are left to the caller. close: 1: the
+ * tip ends there, on the surface or on another crack, and the path cuts to its end, on the surface a spacing
+ * further; a tip of another crack whose offset is not shorter than the distance to `to` ends with it.
+ * PG_E_USAGE: no such open tip, or no length. Nothing is changed by a call that fails, except `cut`. */
+pg_status pg_crack_grow  (pg_state *state, const pg_problem *problem, size_t tip, const double *to, int close,
+                          pg_changes *cut);
+/* A new crack; bit 0, 1 of open: its end `from`, `to` is a tip. Other ends lie on the surface or on another
+ * crack. */
+pg_status pg_crack_start (pg_state *state, const pg_problem *problem, const double *from, const double *to,
+                          int open, pg_changes *cut);
+/* The tip grows no more, and its path cuts to its end. */
+pg_status pg_tip_close   (pg_state *state, const pg_problem *problem, size_t tip, pg_changes *cut);
+/* The place `back` (m) behind a tip along its path, at most the path's other end, and the unit vector from
+ * there to the tip (2 each). */
+void      pg_tip_chord    (const pg_state *state, size_t tip, double back, double *from, double *direction);
+/* Distance along the path behind a tip to the first turn by more than `angle` (rad), m; INFINITY: none. */
+double    pg_tip_straight (const pg_state *state, size_t tip, double angle);
+/* Length of the path behind a tip up to its other end, or `limit` if that is less, m. */
+double    pg_tip_behind   (const pg_state *state, size_t tip, double limit);
+/* Is there body at x? Points of a file have no surface: a place is in the body if a point is near. */
+int       pg_problem_has_body (const pg_problem *problem, const double *x);
+/* Local spacing at x: that of the nearest point, m. */
+double    pg_problem_spacing_at (const pg_problem *problem, const double *x);
+enum { PG_MEETS_NOTHING, PG_MEETS_SURFACE, PG_MEETS_CRACK };
+/* How far from a tip in a direction (unit vector) the body ends, or a crack lies across, m; *what says
+ * which. At most `limit`. Gaps in the body of less than an eighth of the spacing may be missed. */
+double    pg_tip_ahead (const pg_problem *problem, const pg_state *state, size_t tip, const double *direction,
+                        double limit, int *what);
+/* Distance from a tip to the nearest place of the surface, of another path, or of another open tip, m; at
+ * most `limit`. place (2) and what may be NULL. */
+double    pg_tip_nearest (const pg_problem *problem, const pg_state *state, size_t tip, double limit,
+                          double *place, int *what);
+double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t tip, double limit);
 
 /* ---- forecast: sizes and memory of a run before anything large is allocated ---------------------------- */
 enum {

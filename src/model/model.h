@@ -14,8 +14,13 @@ void      pg_loads_clear (pg_problem *problem);
 pg_status pg_initial_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_initial_set   (const pg_problem *problem, double *v);
 void      pg_initial_clear (pg_problem *problem);
-/* method.tip_offset: how far behind its tips and fronts each pre-crack cuts. */
+/* method.tip_offset: how far behind its tips and fronts each pre-crack cuts; the tips in the plane. */
 pg_status pg_tips_retreat (pg_problem *problem, const pg_scene *scene);
+/* Where the body is (body_search.c): for a body in the plane, or one with cracks. */
+pg_status pg_body_search_create (pg_problem *problem);
+void      pg_body_search_free   (pg_problem *problem);
+/* crack_paths_memory.c: room for n pieces of cracks in all. */
+pg_status pg_crack_paths_reserve (pg_crack_paths *paths, size_t n);
 pg_status pg_bonds_build (pg_problem *problem, const pg_scene *scene);
 /* What is asked of the descriptor of the force (method.c): keys of other forces are noted; what it cannot
  * carry or show becomes a fault. */

@@ -203,6 +203,7 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     PG_TRY (build_geometry (p, scene));
     if (pg_scene_partial (scene)) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (build_laws (p, scene));
+    PG_TRY (pg_body_search_create (p));
     PG_TRY (pg_tips_retreat (p, scene));
     PG_TRY (pg_loads_read (p, scene));
     for (size_t l = 0; l < p->nload; l++) if (!p->load[l].set) PG_TRY (pg_scene_conclude (scene));
@@ -250,6 +251,7 @@ void pg_problem_free (pg_problem **problem)
     pg_cloud_clear (&p->cloud);
     pg_lattice_clear (&p->lattice);
     pg_cracks_clear (&p->cracks);
+    pg_free (p->tip), pg_body_search_free (p);
     pg_mesh_body_clear (&p->part);
     pg_body_clear (&p->body);
     pg_free (p);

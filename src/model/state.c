@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The state: displacement coefficients, velocity, acceleration, alive bits, in one block. */
+ * The state: displacement coefficients, velocity, acceleration, alive bits, in one block; and the paths of
+ * its cracks, which grow, in memory of their own (crack_paths.c). */
 #include "model.h"
 #include <string.h>
 
@@ -23,27 +24,38 @@ pg_status pg_state_create (pg_state **out, const pg_problem *problem, int compon
     if (!s) PG_FAIL (PG_E_MEMORY, "no memory for a state of %zu bytes", bytes);
     s->ndof = ndof, s->nbond = nbond, s->bytes = bytes;
     place (s);
+    if (problem->dim == 2) PG_TRY (pg_crack_paths_create (&s->paths, problem));
     pg_bonds_cut (problem, s->alive);
     if (components == pg_problem_unknowns (problem)) pg_initial_set (problem, s->v);
     *out = s;
+    s = NULL;
+done:
+    pg_state_free (&s);
+    return status;
+}
+
+/* Both states must be of one problem. Paths first: this may fail. */
+pg_status pg_state_copy (pg_state *to, const pg_state *from)
+{
+    pg_status status = PG_OK;
+    pg_crack_paths *paths = to->paths;
+    if (to->ndof != from->ndof || to->nbond != from->nbond || !paths != !from->paths)
+        PG_FAIL (PG_E_USAGE, "the states belong to different problems");
+    if (paths) PG_TRY (pg_crack_paths_copy (paths, from->paths));
+    memcpy (to, from, from->bytes);
+    place (to);
+    to->paths = paths;
 done:
     return status;
 }
 
-/* Both states must be of one problem. */
-pg_status pg_state_copy (pg_state *to, const pg_state *from)
-{
-    if (to->ndof != from->ndof || to->nbond != from->nbond)
-        return pg_error (PG_E_USAGE, PG_HERE, "the states belong to different problems");
-    memcpy (to, from, from->bytes);
-    place (to);
-    return PG_OK;
-}
-
 const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state)
 {
-    (void) state;                                      /* pre-cracks do not change */
-    return &problem->cracks;
+    return state && state->paths ? &state->paths->cracks : &problem->cracks;
 }
 
-void pg_state_free (pg_state **state) { pg_free (*state), *state = NULL; }
+void pg_state_free (pg_state **state)
+{
+    if (*state) pg_crack_paths_free (&(*state)->paths);
+    pg_free (*state), *state = NULL;
+}

@@ -54,38 +54,16 @@ typedef struct {
 } extent;
 
 typedef struct {
-    const pg_problem *p;
-    pg_mesh_locator *locator;                            /* of a body that is a mesh */
-    pg_nearest *near;
+    pg_problem *p;
     double offset;                                     /* where the local spacing is the nominal one, m */
     extent *extent;                                    /* of each crack */
 } surroundings;
-
-/* Local spacing at a place, m. */
-static double spacing_at (const surroundings *s, const double *x)
-{
-    long i = s->p->cloud.size ? pg_nearest_find (s->near, x, NULL, NULL) : -1;
-    return i >= 0 ? s->p->cloud.size[i] : s->p->cloud.h;
-}
-
-/* Points of a file have no surface: a place beyond it has none nearer than those of a lattice lie at most. */
-static int has_body (const surroundings *s, const double *x, double spacing)
-{
-    const pg_problem *p = s->p;
-    double xi[3], d = 0;
-    if (p->body.n) return pg_body_inside (&p->body, x, 0);
-    if (s->locator) return pg_mesh_locator_find (s->locator, x, xi, NULL) >= 0;
-    long i = pg_nearest_find (s->near, x, NULL, NULL);
-    for (int k = 0; i >= 0 && k < p->dim; k++)
-        d = hypot (d, p->cloud.x[(size_t) i * (size_t) p->dim + (size_t) k] - x[k]);
-    return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * spacing;
-}
 
 /* Does another crack pass through x?. */
 static int meets_other (const surroundings *s, size_t crack, const double *x)
 {
     const pg_problem *p = s->p;
-    double reach = fmax (s->offset, 1e-6 * p->cloud.h) * spacing_at (s, x) / p->cloud.h;
+    double reach = fmax (s->offset, 1e-6 * p->cloud.h) * pg_problem_spacing_at (s->p, x) / p->cloud.h;
     for (size_t c = 0; c < p->cracks.n; c++)
         if (c != crack && pg_crack_touches (&p->cracks.crack[c], p->dim, x, reach)) return 1;
     return 0;
@@ -95,10 +73,10 @@ static int meets_other (const surroundings *s, size_t crack, const double *x)
 static int is_tip (const surroundings *s, size_t crack, const double *x, const double *ahead)
 {
     const pg_problem *p = s->p;
-    double h = spacing_at (s, x), place[3] = { 0, 0, 0 };
+    double h = pg_problem_spacing_at (s->p, x), place[3] = { 0, 0, 0 };
     if (meets_other (s, crack, x)) return 0;
-    for (int k = 0; k < p->dim; k++) place[k] = x[k] + (p->body.n || s->locator ? 0.5 : 1) * h * ahead[k];
-    if (has_body (s, place, h)) return 1;
+    for (int k = 0; k < p->dim; k++) place[k] = x[k] + (p->body.n || p->part.mesh.n ? 0.5 : 1) * h * ahead[k];
+    if (pg_problem_has_body (s->p, place)) return 1;
     s->extent[crack].open = 1;
     return 0;
 }
@@ -111,7 +89,7 @@ static double length_inside (const surroundings *s, const double *a, const doubl
     for (size_t q = 0; q < PLACES; q++) {
         double t = (0.5 + (double) q) / PLACES,
                x[3] = { a[0] + t * (b[0] - a[0]), a[1] + t * (b[1] - a[1]), 0 };
-        in += (size_t) has_body (s, x, spacing_at (s, x));
+        in += (size_t) pg_problem_has_body (s->p, x);
     }
     return hypot (b[0] - a[0], b[1] - a[1]) * (double) in / PLACES;
 }
@@ -142,7 +120,7 @@ static double area_inside (const surroundings *s, const pg_crack *c)
             double r = (0.5 + a / PLACES) / PLACES, t = (0.5 + a % PLACES) / PLACES, x[3];
             for (int k = 0; k < 3; k++) x[k] = o[k] + r * ((1 - t) * (u[k] - o[k]) + t * (v[k] - o[k]));
             all += r;
-            if (has_body (s, x, spacing_at (s, x))) in += r;
+            if (pg_problem_has_body (s->p, x)) in += r;
         }
         area += triangle_area (c, i) * in / all;
     }
@@ -155,10 +133,10 @@ static void add_front (const surroundings *s, size_t crack, const double *x, con
 {
     enum { FAR = 200 };
     extent *e = &s->extent[crack];
-    double h = spacing_at (s, x), place[3] = { 0 };
+    double h = pg_problem_spacing_at (s->p, x), place[3] = { 0 };
     int steps = 0;
     do for (int k = 0; k < s->p->dim; k++) place[k] = x[k] + (0.25 + 0.5 * steps) * h * ahead[k];
-    while (has_body (s, place, h) && ++steps < FAR);
+    while (pg_problem_has_body (s->p, place) && ++steps < FAR);
     e->ligament = e->front > 0 ? fmin (e->ligament, 0.5 * h * steps) : 0.5 * h * steps;
     e->spacing = fmax (e->spacing, h);
     e->front += length;
@@ -167,7 +145,7 @@ static void add_front (const surroundings *s, size_t crack, const double *x, con
 /* Scaled with the local spacing, m. */
 static double retreat_at (const surroundings *s, const double *x)
 {
-    return s->offset * spacing_at (s, x) / s->p->cloud.h;
+    return s->offset * pg_problem_spacing_at (s->p, x) / s->p->cloud.h;
 }
 
 /* ---- kinds --------------------------------------------------------------------------------------------- */
@@ -181,7 +159,11 @@ static void retreat_segment (const surroundings *s, size_t k, pg_crack *c, doubl
         const double *x = c->vertex + 2 * end;
         int tip = is_tip (s, k, x, ahead);
         out[end] = tip ? fmin (retreat_at (s, x), 0.25 * length) : 0;
-        if (tip) add_front (s, k, x, ahead, 1);
+        if (!tip) continue;
+        add_front (s, k, x, ahead, 1);
+        s->p->tip[s->p->ntip] = (pg_tip) { .id = (long) s->p->ntip + 1, .segment = k, .end = end, .open = 1,
+                                           .x = { x[0], x[1] }, .offset = out[end] };
+        s->p->ntip++;
     }
 }
 
@@ -319,11 +301,10 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     surroundings s = { .p = p };
     double *out = NULL, **made = NULL;
+    s.offset = p->tip_offset = offset_of (p, scene);
     if (p->cracks.n == 0) return PG_OK;
-    s.offset = offset_of (p, scene);
-    if (!p->method->shape_functions && !(s.offset > 0)) return PG_OK;
-    if (p->part.mesh.n) PG_TRY (pg_mesh_locator_create (&s.locator, &p->part.mesh));
-    PG_TRY (pg_nearest_create (&s.near, p->dim, p->cloud.n, p->cloud.x));
+    if (p->dim == 2) PG_ALLOC (p->tip, 2 * p->cracks.n);
+    if (p->dim == 3 && !p->method->shape_functions && !(s.offset > 0)) return PG_OK;
     PG_ALLOC (made, p->cracks.n);
     PG_ALLOC (s.extent, p->cracks.n);
     /* all before any: an end on another crack is none of its own */
@@ -342,7 +323,5 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
 done:
     for (size_t k = 0; made && k < p->cracks.n; k++) pg_free (made[k]);
     pg_free (made), pg_free (out), pg_free (s.extent);
-    pg_nearest_free (&s.near);
-    pg_mesh_locator_free (&s.locator);
     return status;
 }

@@ -24,9 +24,9 @@ pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper 
     return status;
 }
 
-/* All of a state: counts, times, displacement, velocity, acceleration and the alive bit of every bond.
+/* All of a state: counts, times, displacement, velocity, acceleration, the alive bit of every bond, cracks.
  * `name` tells the state at hand from that at the start of the step. */
-static pg_status keep_state (pg_state *s, const char *name, const pg_keeper *k)
+static pg_status keep_state (pg_state *s, const pg_problem *p, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     char part[64];
@@ -46,6 +46,7 @@ static pg_status keep_state (pg_state *s, const char *name, const pg_keeper *k)
         PG_TRY (k->numbers (k->context, strcat (part, vectors[v]), s->ndof, vector[v]));
     }
     PG_TRY (keep_flags (PART (".alive"), s->nbond, s->alive, k));
+    if (s->paths) PG_TRY (pg_crack_paths_keep (s->paths, p, PART (".paths"), k));
 #undef PART
 done:
     return status;
@@ -331,8 +332,8 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     pg_status status = PG_OK;
     if (k->reading && !s->started) PG_TRY (s->type->start (s, state));
     s->started = 1;
-    PG_TRY (keep_state (state, "state", k));
-    PG_TRY (keep_state (s->backup, "backup", k));
+    PG_TRY (keep_state (state, s->problem, "state", k));
+    PG_TRY (keep_state (s->backup, s->problem, "backup", k));
     PG_TRY (keep_solver (s, k));
     PG_TRY (keep_system (&s->break_loop.system, (s->type->flags & PG_SOLVER_IMPLICIT) != 0, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));

@@ -165,13 +165,6 @@ struct pg_solver {
 void progress_offer (pg_progress *p, double share, const char *end, int even);
 
 /* ---- checkpoint.c -------------------------------------------------------------------------------------- */
-/* What is read back must lie where the rest of the program may rely on it. */
-#define PG_KEEP_BOUND(k, name, value, low, high) \
-    do { \
-        if ((k)->reading && ((value) < (low) || (value) > (high))) \
-            PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), \
-                     (long) (value), (long) (low), (long) (high)); \
-    } while (0)
 /* A text in an array of fixed size, ended whatever was read. */
 pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k);
 #endif

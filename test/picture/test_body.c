@@ -94,7 +94,7 @@ static void points_where_elements_will_not_do (void **state)
     (void) state;
     made m = make (&block, 0);
     pg_crack crack = { .kind = PG_CRACK_DISC, .normal = { 1, 0, 0 }, .radius = 1 };
-    pg_cracks cracks = { 3, &crack, 1 };
+    pg_cracks cracks = { .dim = 3, .crack = &crack, .n = 1 };
     pg_picture_style style = plain;
     assert_true (pg_picture_on_elements (&m.body, &style));
     assert_false (pg_picture_on_elements (NULL, &style));

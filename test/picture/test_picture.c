@@ -154,7 +154,7 @@ static void cracks_are_black_lines (void **state)
     pg_cloud c;
     double *value, vertex[] = { -0.02, -0.02, 0.02, 0.02 };
     pg_crack crack = { .kind = PG_CRACK_SEGMENT, .vertex = vertex, .nvertex = 2 };
-    pg_cracks cracks = { 2, &crack, 1 };
+    pg_cracks cracks = { .dim = 2, .crack = &crack, .n = 1 };
     image with, without;
     make_disk (&c, &value);
     const char *a = file_at ("without.png"), *b = file_at ("with.png");

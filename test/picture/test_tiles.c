@@ -218,7 +218,7 @@ static void only_cracks_open (void **state)
     (void) state;
     double vertex[] = { -1.1, 0.01, 1.1, 0.01 };
     pg_crack crack = { .kind = PG_CRACK_SEGMENT, .vertex = vertex, .nvertex = 2, .normal = { 0, 1 } };
-    pg_cracks cracks = { 2, &crack, 1 };
+    pg_cracks cracks = { .dim = 2, .crack = &crack, .n = 1 };
     for (int kind = 0; kind < 3; kind++) {
         thing t;
         image m;
@@ -308,7 +308,7 @@ static void points_on_a_crack_are_shown (void **state)
     image m;
     double ends[] = { -0.55, 0, 0.55, 0 };
     pg_crack crack = { .kind = PG_CRACK_SEGMENT, .vertex = ends, .nvertex = 2, .normal = { 0, 1, 0 } };
-    pg_cracks cracks = { 2, &crack, 1 };
+    pg_cracks cracks = { .dim = 2, .crack = &crack, .n = 1 };
     make (&t, 0, 0, 1, 1);
     draw (&t, (pg_picture_style) { .label = "v" }, &m);
     double size = m.box[1] + 1 - m.box[0], cell = size * size / 400;

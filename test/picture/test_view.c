@@ -111,7 +111,7 @@ static void a_crack_that_is_not_there_leaves_the_outline (void **state)
     double *value = make_body (&c),
            vertex[] = { 0, 3e-3, 5e-3, 4e-3, 3e-3, 5e-3, 4e-3, 6e-3, 9e-3, 0, 6e-3, 9e-3 };
     pg_crack crack = { .kind = PG_CRACK_POLYGON, .vertex = vertex, .nvertex = 4 };
-    pg_cracks cracks = { 3, &crack, 1 };
+    pg_cracks cracks = { .dim = 3, .crack = &crack, .n = 1 };
     pg_picture_style style = {
         .view = PG_VIEW_CRACK, .select = value, .above = PG_CRACK_DAMAGE, .by_depth = 1
     };

@@ -1,0 +1,411 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Cracks that grow in the plane, as part of a state: straight pieces that follow each other from the cracks
+ * of the scene, or from where a crack began, up to the tips.
+ *
+ * A path cuts the bonds that cross it, but only up to a distance o behind an open tip, along the path: shape
+ * functions of points beside a tip that lost some of their neighbours follow the crack further than the bonds
+ * were cut (tips.c has o). When the tip moves on, what it has left behind is cut as well. So the part of a
+ * crack of the scene that cut nothing yet must become sided when it grows; it is split off as a piece of its
+ * own, and both pieces together are what the crack was.
+ *
+ * Bonds are looked for among the points whose reach meets the box of the pieces that changed: one pass over
+ * the points costs less than one substitution of the solve that follows. */
+#include "model.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Of a tip, in parts of the length of its path, at most. */
+#define OFFSET_OF_PATH 0.25
+/* Cells that a lattice rim may lie outside the surface, spacings. */
+#define BEYOND_SURFACE 1.0
+
+/* Do two places lie at one? */
+static int same_place (const pg_crack_paths *w, const double *a, const double *b)
+{
+    return hypot (a[0] - b[0], a[1] - b[1]) <= w->nothing;
+}
+
+/* ---- walking along a path ------------------------------------------------------------------------------ */
+/* A piece, and the end at which it is entered; the walk leaves at the other. */
+typedef struct { const pg_crack_paths *w; size_t piece; int end; double length; } walk;
+
+static const double *vertex_of (const pg_crack_paths *w, size_t piece, int end)
+{
+    return w->cracks.crack[piece].vertex + 2 * end;
+}
+
+static double length_of (const pg_crack_paths *w, size_t piece)
+{
+    const double *a = vertex_of (w, piece, 0);
+    return hypot (a[2] - a[0], a[3] - a[1]);
+}
+
+static walk walk_from (const pg_crack_paths *w, const pg_tip *t)
+{
+    return (walk) { w, t->segment, t->end, length_of (w, t->segment) };
+}
+
+/* On to piece j if it begins where the last one ends. */
+static int walk_onto (walk *at, size_t j)
+{
+    const double *x = vertex_of (at->w, at->piece, 1 - at->end);
+    for (int end = 0; end < 2; end++) {
+        /* all pieces of a path run in one direction, but for cracks of the scene */
+        int e = end ? 1 - at->end : at->end;
+        if (j == at->piece || !same_place (at->w, vertex_of (at->w, j, e), x)) continue;
+        *at = (walk) { at->w, j, e, length_of (at->w, j) };
+        return 1;
+    }
+    return 0;
+}
+
+/* On to what the piece continues, else to any that hangs on its end: a path that grows at both ends is
+ * followed to the other one. 0: the path ends. */
+static int walk_on (walk *at)
+{
+    const pg_crack_paths *w = at->w;
+    size_t from = at->piece, parent = w->parent[from];
+    if (parent < w->cracks.n && walk_onto (at, parent)) return 1;
+    for (size_t j = 0; j < w->cracks.n; j++)
+        if (w->path[j] == w->path[from] && j != parent && walk_onto (at, j)) return 1;
+    return 0;
+}
+
+void pg_tip_chord (const pg_state *state, size_t tip, double back, double *from, double *direction)
+{
+    const pg_crack_paths *w = state->paths;
+    const pg_tip *t = &w->tip[tip];
+    walk at = walk_from (w, t);
+    size_t left = w->cracks.n;
+    while (back > at.length && --left) {
+        double passed = at.length;
+        if (!walk_on (&at)) break;
+        back -= passed;
+    }
+    const double *a = vertex_of (w, at.piece, at.end), *b = vertex_of (w, at.piece, 1 - at.end);
+    double share = fmin (back / at.length, 1), d[2];
+    for (int k = 0; k < 2; k++) from[k] = a[k] + share * (b[k] - a[k]), d[k] = t->x[k] - from[k];
+    double size = hypot (d[0], d[1]);
+    for (int k = 0; k < 2; k++) direction[k] = d[k] / size;
+}
+
+/* Unit vector along a piece, against the walk: towards the tip. */
+static void heading (const walk *at, double *e)
+{
+    const double *a = vertex_of (at->w, at->piece, at->end), *b = vertex_of (at->w, at->piece, 1 - at->end);
+    for (int k = 0; k < 2; k++) e[k] = (a[k] - b[k]) / at->length;
+}
+
+double pg_tip_straight (const pg_state *state, size_t tip, double angle)
+{
+    const pg_crack_paths *w = state->paths;
+    walk at = walk_from (w, &w->tip[tip]);
+    double passed = at.length, e[2], f[2];
+    for (size_t left = w->cracks.n; left > 0; left--, passed += at.length) {
+        heading (&at, e);
+        if (!walk_on (&at)) break;
+        heading (&at, f);
+        if (fabs (atan2 (e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1])) > angle) return passed;
+    }
+    return INFINITY;
+}
+
+double pg_tip_behind (const pg_state *state, size_t tip, double limit)
+{
+    const pg_crack_paths *w = state->paths;
+    walk at = walk_from (w, &w->tip[tip]);
+    double passed = at.length;
+    for (size_t left = w->cracks.n; left > 0 && passed < limit && walk_on (&at); left--) passed += at.length;
+    return fmin (passed, limit);
+}
+
+/* ---- pieces -------------------------------------------------------------------------------------------- */
+/* Appends a sided piece; there is room. */
+static size_t append (pg_crack_paths *w, const pg_problem *p, const double *from, const double *to,
+                      size_t parent, long owner)
+{
+    size_t k = w->cracks.n++;
+    pg_crack *c = &w->cracks.crack[k];
+    double *store = w->store + 6*k;
+    memset (c, 0, sizeof *c);
+    *c = (pg_crack) { .kind = PG_CRACK_SEGMENT, .vertex = store, .nvertex = 2, .retreat = store + 4,
+                      .sided = 1, .width = PG_NO_LENGTH * pg_problem_spacing_at (p, to) };
+    memcpy (store, from, 2 * sizeof *store), memcpy (store + 2, to, 2 * sizeof *store);
+    store[4] = store[5] = 0;
+    pg_crack_orient (c);
+    w->parent[k] = parent, w->path[k] = parent < k ? w->path[parent] : k, w->owner[k] = owner;
+    return k;
+}
+
+/* A crack of the scene begins to grow: what it has not cut becomes a piece of its own. */
+static void split_first (pg_crack_paths *w, const pg_problem *p, pg_tip *t)
+{
+    pg_crack *c = &w->cracks.crack[t->segment];
+    double length = length_of (w, t->segment), *end = c->vertex + 2 * t->end, at[2];
+    const double *other = c->vertex + 2 * (1 - t->end);
+    if (c->sided || !(c->retreat[t->end] > w->nothing)) return;
+    for (int k = 0; k < 2; k++) at[k] = end[k] + c->retreat[t->end] / length * (other[k] - end[k]);
+    memcpy (end, at, sizeof at);
+    c->retreat[t->end] = 0;
+    size_t k = t->end ? append (w, p, at, t->x, t->segment, 0) : append (w, p, t->x, at, t->segment, 0);
+    t->segment = k;
+}
+
+/* Of a path at its tip, m: scaled with the local spacing, and no more than a share of the path. */
+static double offset_at (const pg_state *state, const pg_problem *p, size_t tip)
+{
+    double o = p->tip_offset * pg_problem_spacing_at (p, state->paths->tip[tip].x) / p->cloud.h;
+    return fmin (o, OFFSET_OF_PATH * pg_tip_behind (state, tip, o / OFFSET_OF_PATH));
+}
+
+/* How far a path that ends at x, going in direction e, cuts beyond: on the surface as far as points may lie
+ * outside of it, but not into body that follows; elsewhere not at all. */
+static double beyond (const pg_problem *p, const double *x, const double *e)
+{
+    enum { PARTS = 8 };
+    double h = pg_problem_spacing_at (p, x), place[3] = { 0 };
+    int free = 0;
+    for (int part = 1; part <= PARTS; part++) {
+        for (int k = 0; k < 2; k++) place[k] = x[k] + BEYOND_SURFACE * h * part / PARTS * e[k];
+        int body = pg_problem_has_body (p, place);
+        if (body && free) return BEYOND_SURFACE * h * (part - 1) / PARTS;
+        free |= !body;
+    }
+    return free ? BEYOND_SURFACE * h : 0;
+}
+
+/* Where the path of a tip cuts no bonds: up to `offset` behind it; negative: so far beyond it. Pieces up to
+ * `far` behind the tip are brought in line and marked. */
+static void set_retreats (pg_crack_paths *w, const pg_tip *t, double offset, double far,
+                          unsigned char *changed)
+{
+    walk at = walk_from (w, t);
+    double passed = 0;
+    for (size_t left = w->cracks.n; left > 0; left--) {
+        double rest = offset - passed, *retreat = &w->cracks.crack[at.piece].retreat[at.end];
+        /* a piece that lies wholly within the offset cuts nothing at all */
+        *retreat = passed == 0 && rest < 0 ? rest : rest >= at.length ? 2 * at.length : fmax (rest, 0);
+        changed[at.piece] = 1;
+        passed += at.length;
+        if (passed > far || !w->cracks.crack[at.piece].sided || !walk_on (&at)) break;
+    }
+}
+
+/* ---- bonds --------------------------------------------------------------------------------------------- */
+/* The box of all pieces that changed, wider by the reach of a bond. */
+static void box_of_changes (const pg_problem *p, const pg_crack_paths *w, const unsigned char *changed,
+                            double *box)
+{
+    double reach = p->approx.horizon, largest = 1;
+    for (size_t i = 0; p->cloud.size && i < p->cloud.n; i++)
+        largest = fmax (largest, pg_cloud_ratio (&p->cloud, i));
+    reach *= largest;
+    /* partial volumes reach half a cell further */
+    for (int k = 0; k < 2; k++) reach = fmax (reach, p->approx.horizon * largest + p->cloud.step[k]);
+    box[0] = box[1] = INFINITY, box[2] = box[3] = -INFINITY;
+    for (size_t c = 0; c < w->cracks.n; c++)
+        for (int k = 0; k < 2 && changed[c]; k++)
+            box[k] = fmin (box[k], w->cracks.box[4 * c + (size_t) k] - reach),
+            box[2 + k] = fmax (box[2 + k], w->cracks.box[4 * c + 2 + (size_t) k] + reach);
+}
+
+/* Does one of the pieces that changed cut the bond? */
+static int is_cut (const pg_crack_paths *w, const unsigned char *changed, const double *x, const double *y,
+                   double tolerance)
+{
+    for (size_t c = 0; c < w->cracks.n; c++)
+        if (changed[c] && pg_crack_cuts (&w->cracks.crack[c], 2, x, y, tolerance)) return 1;
+    return 0;
+}
+
+static int ascending (const void *a, const void *b)
+{
+    size_t p = *(const size_t *) a, q = *(const size_t *) b;
+    return (p > q) - (p < q);
+}
+
+/* Several facets may be grown before the bonds die: those that two of them cut are listed once. */
+static void sort_changes (pg_changes *cut)
+{
+    size_t n = 0;
+    qsort (cut->bond, cut->n, sizeof *cut->bond, ascending);
+    for (size_t i = 0; i < cut->n; i++)
+        if (n == 0 || cut->bond[i] != cut->bond[n - 1]) cut->bond[n++] = cut->bond[i];
+    cut->n = n;
+}
+
+/* Adds the live bonds that the changed pieces cut. */
+static pg_status find_cut (const pg_state *s, const pg_problem *p, const pg_crack_paths *w,
+                           const unsigned char *changed, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    double box[4];
+    size_t before = cut->n;
+    box_of_changes (p, w, changed, box);
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_rows *r = &p->rows[set];
+        for (size_t q = 0; q < r->n; q++) {
+            const double *x = r->x + 2*q;
+            if (!(x[0] >= box[0] && x[0] <= box[2] && x[1] >= box[1] && x[1] <= box[3])) continue;
+            for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {
+                size_t bond = p->first_bond[set] + e;
+                int j = r->family.node[e];
+                if (!s->alive[bond] || j == r->own[q]
+                    || !is_cut (w, changed, x, p->cloud.x + 2 * (size_t) j, 1e-9 * p->cloud.h))
+                    continue;
+                PG_GROW (cut->bond, cut->cap, cut->n + 1);
+                cut->bond[cut->n++] = bond;
+            }
+        }
+    }
+    if (before) sort_changes (cut);
+done:
+    return status;
+}
+
+/* ---- growing ------------------------------------------------------------------------------------------- */
+/* The change is made on a copy of the paths, with room for more pieces, which takes their place when all has
+ * gone well. */
+typedef struct { pg_crack_paths *fresh; unsigned char *changed; } change;
+
+static pg_status begin (change *c, const pg_state *s, size_t pieces)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (c->fresh, 1);
+    c->fresh->cracks.dim = 2;
+    PG_TRY (pg_crack_paths_reserve (c->fresh, s->paths->cracks.n + pieces));
+    PG_GROW (c->fresh->tip, c->fresh->tip_capacity, s->paths->ntip + 2);
+    PG_TRY (pg_crack_paths_copy (c->fresh, s->paths));
+    PG_ALLOC (c->changed, s->paths->cracks.n + pieces);
+done:
+    return status;
+}
+
+/* Boxes, bonds; then the fresh paths are the state's. */
+static pg_status finish (change *c, pg_state *s, const pg_problem *p, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    pg_cracks_fill_index (&c->fresh->cracks);
+    PG_TRY (find_cut (s, p, c->fresh, c->changed, cut));
+    pg_crack_paths *old = s->paths;
+    s->paths = c->fresh, c->fresh = old;
+done:
+    return status;
+}
+
+static void end (change *c)
+{
+    pg_crack_paths_free (&c->fresh);
+    pg_free (c->changed);
+}
+
+/* Moves the tip to the end of a facet of its own. */
+static void move (pg_crack_paths *w, const pg_problem *p, pg_tip *t, const double *to, double length)
+{
+    t->segment = t->end ? append (w, p, t->x, to, t->segment, t->id)
+                        : append (w, p, to, t->x, t->segment, t->id);
+    t->x[0] = to[0], t->x[1] = to[1];
+    t->grown += length, w->length += length;
+}
+
+/* The path of tip `tip` cuts up to its end, and a little further so that rounding leaves nothing. */
+static void close_tip (pg_crack_paths *w, const pg_problem *p, size_t tip, unsigned char *changed)
+{
+    pg_tip *t = &w->tip[tip];
+    walk at = walk_from (w, t);
+    double e[2], before = t->offset;
+    heading (&at, e);
+    t->open = 0, t->offset = 0;
+    set_retreats (w, t, -fmax (w->nothing, beyond (p, t->x, e)), before + w->nothing, changed);
+}
+
+/* Tips of other paths that the place belongs to end with it. */
+static void close_met (pg_crack_paths *w, const pg_problem *p, size_t tip, unsigned char *changed)
+{
+    const pg_tip *own = &w->tip[tip];
+    for (size_t i = 0; i < w->ntip; i++) {
+        pg_tip *t = &w->tip[i];
+        if (i == tip || !t->open || hypot (t->x[0] - own->x[0], t->x[1] - own->x[1]) > t->offset + w->nothing)
+            continue;
+        split_first (w, p, t);
+        close_tip (w, p, i, changed);
+    }
+}
+
+pg_status pg_crack_grow (pg_state *s, const pg_problem *p, size_t tip, const double *to, int close,
+                         pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    change c = { 0 };
+    if (!s->paths || tip >= s->paths->ntip || !s->paths->tip[tip].open)
+        PG_FAIL (PG_E_USAGE, "there is no open tip %zu", tip + 1);
+    const pg_tip *now = &s->paths->tip[tip];
+    double length = hypot (to[0] - now->x[0], to[1] - now->x[1]), before = now->offset;
+    if (!(length > s->paths->nothing) && !close) PG_FAIL (PG_E_USAGE, "a crack cannot grow by %g m", length);
+    PG_TRY (begin (&c, s, 2 + s->paths->ntip));        /* other tips that end here are split, too */
+    pg_state view = *s;                                /* the walks ask a state for its paths */
+    view.paths = c.fresh;
+    pg_tip *t = &c.fresh->tip[tip];
+    split_first (c.fresh, p, t);
+    if (length > c.fresh->nothing) move (c.fresh, p, t, to, length);
+    if (close) {
+        t->offset = length + before;
+        close_tip (c.fresh, p, tip, c.changed);
+        close_met (c.fresh, p, tip, c.changed);
+    } else {
+        t->offset = offset_at (&view, p, tip);
+        set_retreats (c.fresh, t, t->offset, length + before + t->offset, c.changed);
+    }
+    PG_TRY (finish (&c, s, p, cut));
+done:
+    end (&c);
+    return status;
+}
+
+/* A tip of a new crack, piece k. */
+static void add_tip (pg_crack_paths *w, size_t k, int at)
+{
+    const double *x = vertex_of (w, k, at);
+    long id = 1;
+    for (size_t i = 0; i < w->ntip; i++) if (w->tip[i].id >= id) id = w->tip[i].id + 1;
+    w->tip[w->ntip++] = (pg_tip) { .id = id, .segment = k, .end = at, .open = 1, .x = { x[0], x[1] } };
+}
+
+pg_status pg_crack_start (pg_state *s, const pg_problem *p, const double *from, const double *to, int open,
+                          pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    change c = { 0 };
+    double length = hypot (to[0] - from[0], to[1] - from[1]);
+    if (!s->paths) PG_FAIL (PG_E_USAGE, "cracks begin in the plane only");
+    if (!(length > s->paths->nothing)) PG_FAIL (PG_E_USAGE, "a crack cannot begin with %g m", length);
+    PG_TRY (begin (&c, s, 1));
+    pg_crack_paths *w = c.fresh;
+    pg_state view = *s;
+    view.paths = w;
+    size_t k = append (w, p, from, to, SIZE_MAX, 0);
+    w->length += length, c.changed[k] = 1;
+    for (int at = 0; at < 2; at++) {
+        double e[2] = { at ? to[0] - from[0] : from[0] - to[0], at ? to[1] - from[1] : from[1] - to[1] };
+        double *retreat = &w->cracks.crack[k].retreat[at];
+        if (open & 1 << at) {
+            add_tip (w, k, at);
+            pg_tip *t = &w->tip[w->ntip - 1];
+            *retreat = t->offset = offset_at (&view, p, w->ntip - 1);
+        } else {
+            for (int m = 0; m < 2; m++) e[m] /= length;
+            *retreat = -fmax (w->nothing, beyond (p, vertex_of (w, k, at), e));
+        }
+    }
+    PG_TRY (finish (&c, s, p, cut));
+done:
+    end (&c);
+    return status;
+}
+
+pg_status pg_tip_close (pg_state *s, const pg_problem *p, size_t tip, pg_changes *cut)
+{
+    return pg_crack_grow (s, p, tip, s->paths && tip < s->paths->ntip ? s->paths->tip[tip].x : NULL, 1, cut);
+}

@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Memory of the paths of growing cracks (crack_paths.c): made with a state, copied with it, kept in its
+ * checkpoints. */
+#include "model.h"
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Vertices and retreats of the pieces lie in one block, and move with it. */
+static void point_into_store (pg_crack_paths *w)
+{
+    for (size_t k = 0; k < w->cracks.n; k++)
+        w->cracks.crack[k].vertex = w->store + 6*k, w->cracks.crack[k].retreat = w->store + 6*k + 4;
+}
+
+#define GROW_TO(p, n) \
+    do { \
+        void *more_ = pg_resize ((p), (n), sizeof *(p)); \
+        if (!more_) PG_FAIL (PG_E_MEMORY, "no memory for %zu pieces of a crack", (size_t) (n)); \
+        (p) = more_; \
+    } while (0)
+
+/* Room for n pieces in all arrays. */
+pg_status pg_crack_paths_reserve (pg_crack_paths *w, size_t n)
+{
+    pg_status status = PG_OK;
+    if (n <= w->capacity) return PG_OK;
+    size_t most = 2 * n + 16;
+    GROW_TO (w->cracks.crack, most);
+    GROW_TO (w->cracks.box, 4 * most);
+    GROW_TO (w->cracks.group, 4 * most);
+    GROW_TO (w->parent, most);
+    GROW_TO (w->path, most);
+    GROW_TO (w->owner, most);
+    GROW_TO (w->store, 6 * most);
+    w->capacity = most;
+done:
+    if (w->store) point_into_store (w);
+    return status;
+}
+
+/* Do two places lie at one? */
+static int same_place (const pg_crack_paths *w, const double *a, const double *b)
+{
+    return hypot (a[0] - b[0], a[1] - b[1]) <= w->nothing;
+}
+
+/* Pieces k and j share a vertex. */
+static int hang_together (const pg_crack_paths *w, size_t k, size_t j)
+{
+    const double *a = w->cracks.crack[k].vertex, *b = w->cracks.crack[j].vertex;
+    return same_place (w, a, b) || same_place (w, a, b + 2) || same_place (w, a + 2, b)
+           || same_place (w, a + 2, b + 2);
+}
+
+/* Cracks of the scene that share vertices are one path, named after its first piece. */
+static void name_paths (pg_crack_paths *w)
+{
+    for (size_t k = 0; k < w->cracks.n; k++) {
+        w->path[k] = k;
+        for (size_t j = 0; j < k; j++) {
+            size_t from = w->path[k] > w->path[j] ? w->path[k] : w->path[j],
+                   to = w->path[k] > w->path[j] ? w->path[j] : w->path[k];
+            if (from == to || !hang_together (w, k, j)) continue;
+            for (size_t i = 0; i <= k; i++) if (w->path[i] == from) w->path[i] = to;
+        }
+    }
+}
+
+/* The cracks and tips of the scene. */
+pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_crack_paths *w = NULL;
+    PG_ALLOC (w, 1);
+    w->cracks.dim = 2, w->nothing = PG_NO_LENGTH * p->cloud.h;
+    PG_TRY (pg_crack_paths_reserve (w, p->cracks.n));
+    PG_GROW (w->tip, w->tip_capacity, p->ntip);
+    w->cracks.n = w->nfirst = p->cracks.n, w->ntip = p->ntip;
+    for (size_t k = 0; k < w->cracks.n; k++) {
+        const pg_crack *c = &p->cracks.crack[k];
+        double *store = w->store + 6*k;
+        w->cracks.crack[k] = *c, w->parent[k] = SIZE_MAX, w->owner[k] = 0;
+        memcpy (store, c->vertex, 4 * sizeof *store);
+        store[4] = c->retreat ? c->retreat[0] : 0, store[5] = c->retreat ? c->retreat[1] : 0;
+    }
+    if (w->store) point_into_store (w);
+    if (w->ntip) memcpy (w->tip, p->tip, w->ntip * sizeof *w->tip);
+    name_paths (w);
+    if (w->cracks.n) pg_cracks_fill_index (&w->cracks);
+    *out = w;
+    w = NULL;
+done:
+    pg_crack_paths_free (&w);
+    return status;
+}
+
+pg_status pg_crack_paths_copy (pg_crack_paths *to, const pg_crack_paths *from)
+{
+    pg_status status = PG_OK;
+    size_t n = from->cracks.n;
+    PG_TRY (pg_crack_paths_reserve (to, n));
+    PG_GROW (to->tip, to->tip_capacity, from->ntip);
+    to->cracks.n = n, to->nfirst = from->nfirst, to->ntip = from->ntip;
+    to->length = from->length, to->nothing = from->nothing;
+    if (n) {
+        memcpy (to->cracks.crack, from->cracks.crack, n * sizeof *to->cracks.crack);
+        memcpy (to->parent, from->parent, n * sizeof *to->parent);
+        memcpy (to->path, from->path, n * sizeof *to->path);
+        memcpy (to->owner, from->owner, n * sizeof *to->owner);
+        memcpy (to->store, from->store, 6 * n * sizeof *to->store);
+        point_into_store (to);
+        pg_cracks_fill_index (&to->cracks);
+    }
+    if (from->ntip) memcpy (to->tip, from->tip, from->ntip * sizeof *to->tip);
+done:
+    return status;
+}
+
+void pg_crack_paths_free (pg_crack_paths **paths)
+{
+    pg_crack_paths *w = *paths;
+    if (!w) return;
+    pg_free (w->cracks.crack), pg_free (w->cracks.box), pg_free (w->cracks.group), pg_free (w->parent);
+    pg_free (w->path), pg_free (w->owner), pg_free (w->store), pg_free (w->tip);
+    pg_free (w);
+    *paths = NULL;
+}
+
+/* ---- checkpoints --------------------------------------------------------------------------------------- */
+/* Pieces: four whole numbers and seven numbers each. */
+static pg_status keep_pieces (pg_crack_paths *w, size_t n, const char *name, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    enum { COUNTS = 4, NUMBERS = 7 };
+    char part[80];
+    long *count = NULL;
+    double *number = NULL;
+    PG_ALLOC (count, COUNTS * n + 1);
+    PG_ALLOC (number, NUMBERS * n + 1);
+    for (size_t i = 0; !k->reading && i < n; i++) {
+        const pg_crack *c = &w->cracks.crack[i];
+        const long whole[COUNTS] = { c->sided, w->parent[i] == SIZE_MAX ? -1 : (long) w->parent[i],
+                                     (long) w->path[i], w->owner[i] };
+        memcpy (count + COUNTS * i, whole, sizeof whole);
+        memcpy (number + NUMBERS * i, w->store + 6*i, 6 * sizeof *number), number[NUMBERS * i + 6] = c->width;
+    }
+    snprintf (part, sizeof part, "%s.pieces", name);
+    PG_TRY (k->counts (k->context, part, COUNTS * n, count));
+    snprintf (part, sizeof part, "%s.places", name);
+    PG_TRY (k->numbers (k->context, part, NUMBERS * n, number));
+    for (size_t i = 0; k->reading && i < n; i++) {
+        const long *c = count + COUNTS * i;
+        PG_KEEP_BOUND (k, "the sides of a crack", c[0], 0, 1);
+        PG_KEEP_BOUND (k, "the parent of a crack", c[1], -1, (long) n - 1);
+        PG_KEEP_BOUND (k, "the path of a crack", c[2], 0, (long) n - 1);
+        w->cracks.crack[i] = (pg_crack) { .kind = PG_CRACK_SEGMENT, .nvertex = 2, .sided = (int) c[0],
+                                          .width = number[NUMBERS * i + 6] };
+        w->parent[i] = c[1] < 0 ? SIZE_MAX : (size_t) c[1], w->path[i] = (size_t) c[2], w->owner[i] = c[3];
+        memcpy (w->store + 6*i, number + NUMBERS * i, 6 * sizeof *number);
+    }
+done:
+    pg_free (count), pg_free (number);
+    return status;
+}
+
+/* Tips: four whole numbers and four numbers each. */
+static pg_status keep_tips (pg_crack_paths *w, size_t n, const char *name, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    enum { EACH = 4 };
+    char part[80];
+    long *count = NULL;
+    double *number = NULL;
+    PG_ALLOC (count, EACH * n + 1);
+    PG_ALLOC (number, EACH * n + 1);
+    for (size_t i = 0; !k->reading && i < n; i++) {
+        const pg_tip *t = &w->tip[i];
+        const long whole[EACH] = { t->id, (long) t->segment, t->end, t->open };
+        const double real[EACH] = { t->x[0], t->x[1], t->offset, t->grown };
+        memcpy (count + EACH * i, whole, sizeof whole), memcpy (number + EACH * i, real, sizeof real);
+    }
+    snprintf (part, sizeof part, "%s.tips", name);
+    PG_TRY (k->counts (k->context, part, EACH * n, count));
+    snprintf (part, sizeof part, "%s.tip_places", name);
+    PG_TRY (k->numbers (k->context, part, EACH * n, number));
+    for (size_t i = 0; k->reading && i < n; i++) {
+        const long *c = count + EACH * i;
+        const double *x = number + EACH * i;
+        PG_KEEP_BOUND (k, "the piece of a tip", c[1], 0, (long) w->cracks.n - 1);
+        PG_KEEP_BOUND (k, "the end of a tip", c[2], 0, 1);
+        PG_KEEP_BOUND (k, "whether a tip is open", c[3], 0, 1);
+        w->tip[i] = (pg_tip) { .id = c[0], .segment = (size_t) c[1], .end = (int) c[2], .open = (int) c[3],
+                               .x = { x[0], x[1] }, .offset = x[2], .grown = x[3] };
+    }
+done:
+    pg_free (count), pg_free (number);
+    return status;
+}
+
+/* The counts first: arrays of that length follow. A facet has cut one bond at least. */
+pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const char *name, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    long most = (long) (p->cracks.n + p->ntip + p->first_bond[PG_BOND_SETS]);
+    char part[80];
+    long count[2] = { (long) w->cracks.n, (long) w->ntip };
+    snprintf (part, sizeof part, "%s.counts", name);
+    PG_TRY (k->counts (k->context, part, 2, count));
+    PG_KEEP_BOUND (k, "the number of cracks", count[0], (long) p->cracks.n, most);
+    PG_KEEP_BOUND (k, "the number of tips", count[1], 0, 2 * count[0]);
+    snprintf (part, sizeof part, "%s.length", name);
+    PG_TRY (k->numbers (k->context, part, 1, &w->length));
+    if (k->reading) {
+        PG_TRY (pg_crack_paths_reserve (w, (size_t) count[0]));
+        PG_GROW (w->tip, w->tip_capacity, (size_t) count[1]);
+        w->cracks.n = w->ntip = 0;                     /* what fails below leaves none of them half read */
+    }
+    PG_TRY (keep_pieces (w, (size_t) count[0], name, k));
+    w->cracks.n = (size_t) count[0];
+    PG_TRY (keep_tips (w, (size_t) count[1], name, k));
+    w->ntip = (size_t) count[1];
+    if (!k->reading) goto done;
+    point_into_store (w);
+    for (size_t i = 0; i < w->cracks.n; i++) pg_crack_orient (&w->cracks.crack[i]);
+    if (w->cracks.n) pg_cracks_fill_index (&w->cracks);
+done:
+    if (status != PG_OK && k->reading) w->cracks.n = w->ntip = 0;
+    return status;
+}
