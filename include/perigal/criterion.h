@@ -11,7 +11,8 @@ enum {
     PG_NEEDS_STRETCH = 1,
     PG_NEEDS_STRESS = 2,
     PG_NEEDS_ENERGY = 4,
-    PG_NEEDS_BEAMS = 8
+    PG_NEEDS_BEAMS = 8,
+    PG_NEEDS_FACETS = 16                               /* judges the tips of cracks, not bonds */
 };
 
 typedef struct pg_criterion_type pg_criterion_type;

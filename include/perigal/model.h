@@ -227,6 +227,8 @@ enum {
 unsigned  pg_solver_flags (const char *kind);
 /* 1: it has all of these flags. */
 int       pg_solver_is (const char *kind, unsigned flags);
+/* 1: its cracks grow by facets: the criterion judges their tips (2D). */
+int       pg_problem_grows (const pg_problem *problem);
 int       pg_problem_proportional (const pg_problem *problem);  /* every load is a constant pattern times t */
 /* every load is a constant pattern and t times another, t from 0 to 1 */
 int       pg_problem_affine (const pg_problem *problem);

@@ -95,6 +95,7 @@ typedef struct {                                       /* of the run so far */
     double utilisation_max, residual_max, overlap_max; /* over accepted steps; m */
     /* J; dissipated: by breaking, the rest */
     double energy_strain, energy_kinetic, energy_external, energy_damping, energy_dissipated;
+    double energy_fracture;  /* J: what cracks that grew should have taken: fracture energy times new area */
     double seconds[PG_SECONDS_COUNT];
     double factor_entries, factor_flops;
     char   ordering[16], solver[16], preconditioner[128];
@@ -123,6 +124,15 @@ typedef struct {  /* of one step: a user level, a time step or an event */
     const double *reaction;  /* force on the body per load, N (nload x 3), borrowed */
     double dissipated;                                 /* J, in this step */
 } pg_step;
+
+/* What was measured last at a tip, in the state of the last step. NAN: not measured. */
+typedef struct {
+    long   id;                                         /* of the tip */
+    double x[2];                                       /* m */
+    double J, K[3], T;  /* J/m^2, Pa m^(1/2) of mode I, II, III, Pa; J and K at the load of the state */
+    double uncertainty;                                /* of J, relative: by two domains */
+    double utilisation;                                /* energy that growth releases over what it takes */
+} pg_tip_values;
 
 /* ---- solver -------------------------------------------------------------------------------------------- */
 typedef struct pg_solver pg_solver;
@@ -200,6 +210,8 @@ typedef struct pg_progress {
     double      damage;  /* largest damage in solver.stop.set; NAN: none, or not looked at yet */
 } pg_progress;
 void      pg_solver_progress (const pg_solver *solver, const pg_state *state, pg_progress *out);
+/* What the solver has measured at the tip of that id; NULL: nothing. */
+const pg_tip_values *pg_solver_tip (const pg_solver *solver, long id);
 /* with a fresh census and overlap */
 const pg_statistics *pg_solver_report (pg_solver *solver, const pg_state *state);
 const pg_statistics *pg_solver_report_now (const pg_solver *solver);  /* counts and energies only */

@@ -268,6 +268,11 @@ void pg_problem_note (pg_problem *p, const char *format, ...)
     va_end (args);
 }
 
+int pg_problem_grows (const pg_problem *p)
+{
+    return p->dim == 2 && p->criterion && p->criterion->type && (p->criterion->type->needs & PG_NEEDS_FACETS);
+}
+
 /* Event stepping then scales one solution (solve/event_stepping.c). */
 int pg_problem_proportional (const pg_problem *p)
 {

@@ -106,29 +106,30 @@ static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
                             &r->updates, &r->solves,           &r->preconditioners };
     size_t *const size[6] = { &r->cg_iterations, &r->degenerate_points, &r->isolated_nodes,
                               &r->fragments,     &r->nskipped,          &r->nwarning };
-    double *const value[10] = { &r->utilisation_max, &r->residual_max,      &r->overlap_max,
+    double *const value[] = { &r->utilisation_max, &r->residual_max,      &r->overlap_max,
                                 &r->energy_strain,   &r->energy_kinetic,    &r->energy_external,
                                 &r->energy_damping,  &r->energy_dissipated, &r->factor_entries,
-                                &r->factor_flops };
+                                &r->factor_flops,    &r->energy_fracture };
     enum {
+        VALUES = sizeof value / sizeof *value,
         SKIPS = sizeof r->skipped / sizeof *r->skipped,
         WARNINGS = sizeof r->warning / sizeof *r->warning
     };
     long count[15];
-    double number[10 + PG_SECONDS_COUNT], saved[SKIPS];
+    double number[VALUES + PG_SECONDS_COUNT], saved[SKIPS];
     for (int i = 0; i < 9; i++) count[i] = *word[i];
     for (int i = 0; i < 6; i++) count[9 + i] = (long) *size[i];
-    for (int i = 0; i < 10; i++) number[i] = *value[i];
-    memcpy (number + 10, r->seconds, sizeof r->seconds);
+    for (int i = 0; i < VALUES; i++) number[i] = *value[i];
+    memcpy (number + VALUES, r->seconds, sizeof r->seconds);
     PG_TRY (k->counts (k->context, "report.counts", 15, count));
-    PG_TRY (k->numbers (k->context, "report.numbers", 10 + PG_SECONDS_COUNT, number));
+    PG_TRY (k->numbers (k->context, "report.numbers", VALUES + PG_SECONDS_COUNT, number));
     for (int i = 0; i < 13; i++) PG_KEEP_BOUND (k, "a count of the report", count[i], 0, most);
     PG_KEEP_BOUND (k, "the number of skipped things", count[13], 0, SKIPS);
     PG_KEEP_BOUND (k, "the number of warnings", count[14], 0, WARNINGS);
     for (int i = 0; i < 9; i++) *word[i] = count[i];
     for (int i = 0; i < 6; i++) *size[i] = (size_t) count[9 + i];
-    for (int i = 0; i < 10; i++) *value[i] = number[i];
-    memcpy (r->seconds, number + 10, sizeof r->seconds);
+    for (int i = 0; i < VALUES; i++) *value[i] = number[i];
+    memcpy (r->seconds, number + VALUES, sizeof r->seconds);
     PG_TRY (keep_text ("report.ordering", sizeof r->ordering, r->ordering, k));
     PG_TRY (keep_text ("report.solver", sizeof r->solver, r->solver, k));
     PG_TRY (keep_text ("report.preconditioner", sizeof r->preconditioner, r->preconditioner, k));
@@ -285,6 +286,7 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
     PG_TRY (keep_broken (b, s->problem, k));
+    PG_TRY (solver_keep_tips (s, k));
     if (k->reading) PG_TRY (count_pairs (s, &pairs));
     PG_TRY (keep_work_balance (&b->work_balance, "work_balance", nload, pairs, 1, k));
     PG_TRY (keep_work_balance (&b->before, "before", nload, pairs, 0, k));

@@ -157,8 +157,14 @@ struct pg_solver {
     long      next_level;                              /* next level to report: next_level / levels */
     pg_state *backup;                                  /* last accepted state, for refused steps */
     double   *reaction;
+    pg_tip_values *tip; size_t ntip, cap_tip;          /* what was measured at tips */
     void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */
 };
+
+/* ---- tip_values.c -------------------------------------------------------------------------------------- */
+/* Notes what was measured at a tip, in the place of what was known of it. */
+pg_status solver_note_tip  (pg_solver *s, const pg_tip_values *values);
+pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k);
 
 /* ---- progress.c ---------------------------------------------------------------------------------------- */
 /* One of the ends that a run may come to, and how far it has come towards it: the nearest counts. */
