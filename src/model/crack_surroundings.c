@@ -121,7 +121,7 @@ double pg_tip_nearest (const pg_problem *p, const pg_state *s, size_t tip, doubl
 {
     const pg_crack_paths *w = s->paths;
     const pg_tip *t = &w->tip[tip];
-    double best = limit, at[2] = { t->x[0], t->x[1] }, try[2], from[2], e[2];
+    double best = limit, at[2] = { t->x[0], t->x[1] }, try[2] = { 0 }, from[2], e[2];
     int met = PG_MEETS_NOTHING;
     for (size_t c = 0; c < w->cracks.n; c++) {
         const double *a = w->cracks.crack[c].vertex;
