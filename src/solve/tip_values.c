@@ -38,8 +38,8 @@ pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k)
     PG_ALLOC (number, NUMBERS * (size_t) n + 1);
     for (long i = 0; !k->reading && i < n; i++) {
         const pg_tip_values *t = &s->tip[i];
-        const double value[NUMBERS] = { t->x[0], t->x[1], t->J, t->K[0], t->K[1], t->K[2], t->T, t->uncertainty,
-                                        t->utilisation };
+        const double value[NUMBERS] = { t->x[0], t->x[1], t->J, t->K[0], t->K[1],
+                                        t->K[2], t->T, t->uncertainty, t->utilisation };
         id[i] = t->id;
         for (int m = 0; m < NUMBERS; m++) number[NUMBERS * i + m] = value[m];
     }

@@ -250,6 +250,89 @@ static void a_bond_that_ends_just_before_the_crack_lives (void **state)
     assert_false (pg_crack_cuts (&c, 2, (double[]) {1 + 1.1e-9, 1}, (double[]) {1 + 1.1e-9, -1}, 1e-9));
 }
 
+/* ---- sided segments ------------------------------------------------------------------------------------ */
+/* On the left is what the line passes on its left or through; a bond between the sides is cut where it leaves
+ * the left one, if that is within the segment. */
+static int sided_meets (whole p, whole q, whole a, whole b)
+{
+    long tu = q.u - p.u, tv = q.v - p.v, d = tu * (a.v - p.v) - tv * (a.u - p.u),
+         e = tu * (b.v - p.v) - tv * (b.u - p.u), i = tu * (a.u - p.u) + tv * (a.v - p.v),
+         j = tu * (b.u - p.u) + tv * (b.v - p.v);
+    if ((d >= 0) == (e >= 0)) return 0;
+    long at = i * -e + j * d, m = d - e;                 /* along the line, times m */
+    if (m < 0) at = -at, m = -m;
+    return at >= 0 && at <= (tu * tu + tv * tv) * m;
+}
+
+static void sided_segments_agree_with_integers (void **state)
+{
+    (void) state;
+    int cut = 0, unlike = 0;
+    for (int k = 0; k < 200000; k++) {
+        whole p = { pick (4), pick (4), 0 }, q = { pick (4), pick (4), 0 }, a = { pick (4), pick (4), 0 },
+              b = { pick (4), pick (4), 0 };
+        if (p.u == q.u && p.v == q.v) continue;
+        double v[4] = { (double) p.u, (double) p.v, (double) q.u, (double) q.v },
+               x[2] = { (double) a.u, (double) a.v }, y[2] = { (double) b.u, (double) b.v };
+        pg_crack c;
+        segment (&c, v);
+        c.sided = 1, c.width = 1e-6;
+        compare (&c, 2, x, y, sided_meets (p, q, a, b));
+        /* whichever side it counts to, it lies on the crack */
+        assert_int_equal (pg_crack_touches (&c, 2, x, 1e-9), on (p, q, a));
+        cut += sided_meets (p, q, a, b), unlike += sided_meets (p, q, a, b) != meet (p, q, a, b);
+        pg_crack again = c;
+        pg_crack_orient (&again);
+        assert_true (again.normal[0] == c.normal[0] && again.normal[1] == c.normal[1]);
+    }
+    assert_true (cut > 10000 && unlike > 2000);
+}
+
+static void the_width_of_a_sided_segment_is_its_left (void **state)
+{
+    (void) state;
+    double v[] = {-1, 0, 1, 0}, over[] = {0, -0.5};
+    pg_crack c;
+    segment (&c, v);
+    c.sided = 1, c.width = 1e-6;
+    compare (&c, 2, (double[]) {0, -0.9e-6}, (double[]) {0, 1}, 0);
+    compare (&c, 2, (double[]) {0, -0.9e-6}, (double[]) {0, -1}, 1);
+    compare (&c, 2, (double[]) {0, -1.1e-6}, (double[]) {0, 1}, 1);
+    compare (&c, 2, (double[]) {0, -1.1e-6}, (double[]) {0, -1}, 0);
+    compare (&c, 2, (double[]) {1.3, -1}, (double[]) {1.3, 1}, 0);
+    c.retreat = over;                                    /* so far beyond its second end */
+    compare (&c, 2, (double[]) {1.3, -1}, (double[]) {1.3, 1}, 1);
+    compare (&c, 2, (double[]) {1.6, -1}, (double[]) {1.6, 1}, 0);
+}
+
+/* Boxes only save time: with them and without the first crack that is cut is the same. */
+static void boxes_change_no_answer (void **state)
+{
+    (void) state;
+    enum { MANY = 61 };
+    double v[4 * MANY], over[2 * MANY];
+    pg_crack c[MANY];
+    size_t found = 0;
+    for (size_t k = 0; k < MANY; k++) {
+        for (int i = 0; i < 4; i++) v[4*k + (size_t) i] = 5 * real ();
+        v[4*k + 2] = v[4*k] + 0.3 * real (), v[4*k + 3] = v[4*k + 1] + 0.3 * real ();
+        segment (&c[k], v + 4*k);
+        over[2*k] = 0.2 * real (), over[2*k + 1] = 0.2 * real ();
+        c[k].sided = k % 2, c[k].retreat = over + 2*k;
+    }
+    pg_cracks plain = { .dim = 2, .crack = c, .n = MANY }, boxed = plain;
+    check_ok (pg_cracks_index (&boxed));
+    for (int k = 0; k < 100000; k++) {
+        double x[2] = { 5 * real (), 5 * real () }, y[2] = { x[0] + real (), x[1] + real () };
+        const pg_crack *first = pg_cracks_cut (&plain, 2, x, y, 1e-9);
+        assert_ptr_equal (pg_cracks_cut (&boxed, 2, x, y, 1e-9), first);
+        assert_ptr_equal (pg_cracks_touch (&boxed, 2, x, 1e-2), pg_cracks_touch (&plain, 2, x, 1e-2));
+        found += first != NULL;
+    }
+    assert_true (found > 1000);
+    pg_free (boxed.box), pg_free (boxed.group);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -261,6 +344,9 @@ int main (void)
         cmocka_unit_test (a_point_on_the_crack_loses_both_sides),
         cmocka_unit_test (mirrored_and_turned_bonds_and_cracks_agree),
         cmocka_unit_test (a_bond_that_ends_just_before_the_crack_lives),
+        cmocka_unit_test (sided_segments_agree_with_integers),
+        cmocka_unit_test (the_width_of_a_sided_segment_is_its_left),
+        cmocka_unit_test (boxes_change_no_answer),
     };
     return cmocka_run_group_tests_name ("cloud/crack", tests, NULL, NULL);
 }
