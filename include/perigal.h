@@ -30,6 +30,7 @@
 #include "perigal/sums.h"
 #include "perigal/model.h"
 #include "perigal/force.h"
+#include "perigal/fracture.h"
 #include "perigal/symbol.h"
 #include "perigal/solve.h"
 #include "perigal/output.h"

@@ -72,12 +72,14 @@ typedef struct {
      * component. It is that of the bonds alive when it is first asked for, and stays: breaking moves no mass.
      * NULL: lumped mass only. */
     pg_status (*mass_matrix) (void *self, const pg_sparse **M);
-    /* Displacement (m) and stress (Pa; NULL: not wanted) at any n places by the force's own shape functions,
-     * the bonds being those of the last refresh: places on the two sides of a crack keep their own values. x:
-     * n x dim; u: n x 3, 0 beyond dim; stress: n x 6, always xx yy zz xy yz zx (2D: zz as the mode has it).
-     * Outside the body: continued from the nearest point. NULL: least squares (perigal/compare.h). */
+    /* Displacement (m), stress (Pa) and displacement gradient (the last two NULL: not wanted) at any n places
+     * by the force's own shape functions, the bonds being those of the last refresh: places on the two sides
+     * of a crack keep their own values. x: n x dim; u: n x 3, 0 beyond dim; stress: n x 6, always xx yy zz xy
+     * yz zx (2D: zz as the mode has it); gradient: n x 9, of which H[c * dim + k] = du_c/dx_k at the front,
+     * by the derivatives of the shape functions. Outside the body: continued from the nearest point. NULL:
+     * least squares (perigal/compare.h). */
     pg_status (*sample) (void *self, const pg_state *state, const double *d, size_t n, const double *x,
-                         double *u, double *stress);
+                         double *u, double *stress, double *gradient);
     /* NULL: none. value: NULL, or the root of E times the mean of (s* - s) C (s* - s) around each node, Pa
      * (n). */
     pg_status (*estimate) (void *self, const double *d, pg_estimate *out, double *value);

@@ -10,6 +10,7 @@
 #ifndef PERIGAL_STUDY_H
 #define PERIGAL_STUDY_H
 #include "perigal/compare.h"
+#include "perigal/fracture.h"
 #include "perigal/results.h"
 #include <stdio.h>
 
@@ -163,6 +164,7 @@ pg_status pg_comparison_write (const pg_comparison *c, const pg_comparison_reque
 void      pg_comparison_clear (pg_comparison *c);
 
 /* ---- the first bond to break -------------------------------------------------------------------------- */
+enum { PG_FIRST_TIPS = 16 };
 /* What one solve at load factor 1, in which nothing may break, and then the criterion say
  * about the first break. */
 typedef struct {
@@ -180,6 +182,12 @@ typedef struct {
     char   kind;  int set;
     /* Relative residual of the solve, and largest displacement, m. */
     double residual, displacement;
+    /* The open tips of cracks in the plane: how many there are, their numbers, and what is measured of the
+     * first of them. refused: why it is not; else NULL. */
+    size_t       ntip;
+    long         id[PG_FIRST_TIPS];
+    pg_tip_field tip[PG_FIRST_TIPS];
+    const char  *refused;
 } pg_first_break;
 pg_status pg_first_break_find (pg_first_break *out, const pg_problem *p, const pg_solver_options *o);
 #endif

@@ -328,6 +328,34 @@ static void print_memory (const plan *p)
     }
 }
 
+/* Of every open tip in the plane: stress intensity factors and energy release rate under the
+ * full load, and how well the latter is known by two rings. */
+static void print_tips (const plan *p)
+{
+    const pg_first_break *b = p->first;
+    const double one = 1;
+    if (!b->solved || b->ntip == 0) return;
+    if (b->refused) printf ("  %-18s  no stress intensity factors: %s\n", "crack tips", b->refused);
+    for (size_t t = 0; !b->refused && t < b->ntip && t < PG_FIRST_TIPS; t++) {
+        const pg_tip_field *f = &b->tip[t];
+        char name[32];
+        snprintf (name, sizeof name, "crack tip %ld", b->id[t]);
+        printf ("  %-18s  at (%.4g, %.4g) m: ", name, f->x[0], f->x[1]);
+        if (isnan (f->near)) {
+            printf ("no stress intensity factors: a ring of 1.5 spacings needs %.3g m, there is room for %.3g m\n",
+                    1.5 * f->h, f->room);
+            continue;
+        }
+        printf ("K_I %.5g, K_II %.4g Pa m^(1/2), J %.5g J/m^2", f->K[0][0], f->K[1][0], f->J[0][0]);
+        double off = pg_tip_uncertainty (f, 1, &one);
+        if (isnan (off)) printf (" (one ring of %.2g spacings)", f->near / f->h);
+        else printf (" (+-%.2g %%, rings of %.2g and %.2g spacings)", 100 * off, f->near / f->h, f->wide / f->h);
+        printf (", T %.4g Pa\n", f->T[0]);
+    }
+    if (b->ntip > PG_FIRST_TIPS && !b->refused)
+        printf ("  %-18s  %zu more tips\n", "crack tips", b->ntip - PG_FIRST_TIPS);
+}
+
 /* What --solve found. A load factor above 1 means that nothing breaks under the full load,
  * which is warned of, as is a criterion that no load can reach. */
 static void print_first_break (const plan *p)
@@ -400,4 +428,5 @@ void plan_print_long (const plan *p)
     print_memory (p);
     plan_doubts (q, p->options);
     print_first_break (p);
+    print_tips (p);
 }

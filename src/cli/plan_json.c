@@ -136,6 +136,31 @@ static void first (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
+/* What the tips of cracks bear under the full load; null where there is no room for a ring. */
+static void tips (pg_json *j, const plan *p)
+{
+    const pg_first_break *b = p->first;
+    const double one = 1;
+    if (!b->solved || b->ntip == 0 || b->refused) return;
+    pg_json_open (j, "crack_tips", '[');
+    for (size_t t = 0; t < b->ntip && t < PG_FIRST_TIPS; t++) {
+        const pg_tip_field *f = &b->tip[t];
+        pg_json_open (j, NULL, '{');
+        pg_json_number (j, "tip", (double) b->id[t]);
+        pg_json_number (j, "x", f->x[0]);
+        pg_json_number (j, "y", f->x[1]);
+        pg_json_number (j, "K_I", f->K[0][0]);
+        pg_json_number (j, "K_II", f->K[1][0]);
+        pg_json_number (j, "J", f->J[0][0]);
+        pg_json_number (j, "J_uncertainty", pg_tip_uncertainty (f, 1, &one));
+        pg_json_number (j, "T", f->T[0]);
+        pg_json_number (j, "near", f->near);
+        pg_json_number (j, "wide", f->wide);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+}
+
 /* Warnings and notes that are known before the run. */
 static void doubts (pg_json *j, const plan *p)
 {
@@ -166,6 +191,7 @@ static pg_status write_plan (const plan *p, const char *path)
     if (p->problem->patch.measured) pg_json_number (j, "patch_error", p->problem->patch.error);
     memory (j, p);
     first (j, p);
+    tips (j, p);
     if (p->waves) spectrum_json (j, p->waves);
     pg_json_open (j, "skipped", '[');
     for (size_t k = 0; k < n; k++) {

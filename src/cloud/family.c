@@ -21,6 +21,8 @@ typedef struct {
     size_t *next;
     /* Members of all families; NULL in the counting pass. */
     int    *node;
+    /* Box of the centres, m: points beyond their reach of it see none. */
+    double  low[3], high[3];
     /* The point whose turn it is: its position and number. */
     const double *x;  int j;
 } search;
@@ -49,6 +51,15 @@ static void join (void *context, size_t first, size_t last)
     }
 }
 
+/* Can the visiting point be within its reach of a centre? Few centres, such as the places around the tip of a
+ * crack, are then found without a walk down the tree for every point of the body. */
+static inline int meets_box (const search *s, int dim)
+{
+    for (int k = 0; k < dim; k++)
+        if (s->x[k] < s->low[k] - s->reach || s->x[k] > s->high[k] + s->reach) return 0;
+    return 1;
+}
+
 /* The points visit the centres one after the other, so that each family comes out in ascending order; the
  * reach of a point follows its spacing. */
 static void visit_points (const search *all, const pg_cloud *cloud, double reach)
@@ -61,6 +72,7 @@ static void visit_points (const search *all, const pg_cloud *cloud, double reach
             s.reach = all->reach * pg_cloud_ratio (cloud, j);
             s.limit = s.shape == PG_RADIAL ? far * far : far;
         }
+        if (!meets_box (&s, cloud->dim)) continue;
         pg_tree_near (s.tree, s.x, s.reach, join, &s);
     }
 }
@@ -96,6 +108,13 @@ pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, cons
                  .limit = shape == PG_RADIAL ? far * far : far };
     memset (out, 0, sizeof *out);
     PG_TRY (check_input (cloud, n, centre, reach));
+    for (int k = 0; k < cloud->dim; k++) {
+        s.low[k] = INFINITY, s.high[k] = -INFINITY;
+        for (size_t i = 0; i < n; i++) {
+            s.low[k] = fmin (s.low[k], centre[i * (size_t) cloud->dim + (size_t) k]);
+            s.high[k] = fmax (s.high[k], centre[i * (size_t) cloud->dim + (size_t) k]);
+        }
+    }
     PG_TRY (pg_tree_build (&tree, cloud->dim, n, centre));
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (s.next, n);

@@ -28,7 +28,7 @@ typedef struct { const pg_force_type *force; void *self; const pg_state *state; 
 static pg_status sample_solution (void *context, size_t n, const double *x, double *u, double *stress)
 {
     const solution *s = context;
-    return s->force->sample (s->self, s->state, s->state->d, n, x, u, stress);
+    return s->force->sample (s->self, s->state, s->state->d, n, x, u, stress, NULL);
 }
 
 /* For forces without shape functions: the fit through the displacements that they show at the

@@ -130,7 +130,7 @@ pg_status bond_force_field (void *self, const pg_state *state, const double *d, 
                             int *components,
                       const char **unit, double *value);
 pg_status bond_force_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
-                       double *u, double *stress);
+                             double *u, double *stress, double *gradient);
 double    bond_force_overlap (void *self, const pg_state *state, const double *d);
 void      bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 /* points that die by their energy */

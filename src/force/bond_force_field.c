@@ -285,16 +285,17 @@ static int hidden (void *context, const double *place, size_t point)
                           1e-9 * p->cloud.h) != NULL;
 }
 
-/* First-order expansion about the nearest point on the same side of the pre-cracks; returns that point. */
+/* First-order expansion about the nearest point on the same side of the cracks, with the gradient there (H: 9
+ * numbers, dim x dim used); returns that point. */
 static size_t expand (bond_force *b, const pg_state *state, const double *d, const double *x, point_bonds *s,
-                      double *u)
+                      double *u, double *H)
 {
     size_t dim = (size_t) b->dim;
-    double H[9];
     view v = { b->problem, pg_state_cracks (b->problem, state) };
     long found = pg_nearest_find (b->near, x, v.cracks->n ? hidden : NULL, &v);
     size_t i = (size_t) (found >= 0 ? found : pg_nearest_find (b->near, x, NULL, NULL));
     point_bonds_at (b, i, 0, s);
+    memset (H, 0, 9 * sizeof *H);
     gradient_at (b, state->alive, d, i, s, H);
     memset (u, 0, 3 * sizeof *u);
     for (size_t a = 0; a < dim; a++) {
@@ -306,15 +307,16 @@ static size_t expand (bond_force *b, const pg_state *state, const double *d, con
 
 /* 2D: the stress across the plane as the mode has it. */
 pg_status bond_force_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
-                       double *u, double *stress)
+                             double *u, double *stress, double *gradient)
 {
     pg_status status = PG_OK;
     bond_force *b = self;
     point_bonds s;
     PG_TRY (make_near (b));
     for (size_t k = 0; k < n; k++) {
-        double v[6], *out = stress ? stress + 6 * k : NULL;
-        size_t i = expand (b, state, d, x + k * (size_t) b->dim, &s, u + 3 * k);
+        double v[6], H[9], *out = stress ? stress + 6 * k : NULL;
+        size_t i = expand (b, state, d, x + k * (size_t) b->dim, &s, u + 3 * k, H);
+        if (gradient) memcpy (gradient + 9 * k, H, sizeof H);
         if (!out) continue;
         stress_at (b, state->alive, d, i, &s, v);
         memset (out, 0, 6 * sizeof *out);

@@ -170,7 +170,7 @@ pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, doub
 /* surface */
 pg_status galerkin_surface (void *self, const double *stress, double *P);
 pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
-                           double *u, double *stress);
+                           double *u, double *stress, double *gradient);
 
 /* Four numbers at a time; the same operations in the same order with and without AVX. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));

@@ -161,8 +161,8 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     for (size_t g = 0; g < p->ngauge; g++) {
         double a[3] = { NAN, NAN, NAN }, b[3] = { NAN, NAN, NAN };
         if (force->sample) {
-            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].from, a, NULL));
-            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].to, b, NULL));
+            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].from, a, NULL, NULL));
+            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].to, b, NULL, NULL));
         }
         r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
     }

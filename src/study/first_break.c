@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Why does no bond break? One static solve at load factor 1 in which nothing may break, then
- * the criterion on what it shows: the load factor and the place of the first break. Also the
- * largest frequency, which bounds explicit time steps. */
+ * the criterion on what it shows: the load factor and the place of the first break. Also what
+ * the tips of cracks bear, and the largest frequency, which bounds explicit time steps. */
 #include "perigal/study.h"
 #include <math.h>
 #include <string.h>
@@ -50,6 +50,26 @@ done:
     return status;
 }
 
+/* J and stress intensity factors at the tips, under the full load. */
+static pg_status measure_tips (pg_first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    void *self;
+    const pg_force_type *force = pg_solver_force (solver, &self);
+    const double one = 1, *const d = state->d;
+    for (size_t t = 0; state->paths && t < state->paths->ntip; t++) {
+        if (!state->paths->tip[t].open) continue;
+        b->refused = pg_tip_refuses (p, force);
+        if (!b->refused && b->ntip < PG_FIRST_TIPS) {
+            b->id[b->ntip] = state->paths->tip[t].id;
+            PG_TRY (pg_tip_measure (&b->tip[b->ntip], p, force, self, state, t, 1, &d, &one));
+        }
+        b->ntip++;
+    }
+done:
+    return status;
+}
+
 /* 1 if every material has a density. */
 static int all_dense (const pg_problem *p)
 {
@@ -83,6 +103,7 @@ pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_
     for (size_t i = 0; i < state->ndof; i++) b->displacement = fmax (b->displacement, fabs (state->d[i]));
     bare.criterion = p->criterion;
     PG_TRY (judge (b, &bare, solver, state));
+    PG_TRY (measure_tips (b, &bare, solver, state));
     b->solved = 1;
 done:
     pg_state_free (&state);

@@ -28,7 +28,7 @@ static void sample (const run *r, const double *d, size_t n, const double *x, do
 {
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    check_ok (force->sample (self, r->state, d ? d : r->state->d, n, x, u, s));
+    check_ok (force->sample (self, r->state, d ? d : r->state->d, n, x, u, s, NULL));
 }
 
 /* At nodes and evaluation points sampling is what the method itself finds there. */

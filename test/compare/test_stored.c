@@ -43,7 +43,7 @@ static double difference (const run *r, pg_stored *s, double *stress_off)
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     for (size_t i = 0; i < N; i++)
         x[2 * i] = (double) (i * 37 % N) / N, x[2 * i + 1] = 0.8 * (double) (i * 113 % N) / N;
-    check_ok (force->sample (self, r->state, r->state->d, N, x, u, a));
+    check_ok (force->sample (self, r->state, r->state->d, N, x, u, a, NULL));
     check_ok (s->sampler.sample (s->sampler.context, N, x, v, b));
     *stress_off = largest_difference (a, b, 6*N) / largest_of (a, 6*N);
     return largest_difference (u, v, 3*N) / largest_of (u, 3*N);

@@ -155,7 +155,7 @@ static void test_hydrostatic (void **unused)
             double *u = linear_field (&b, H), exact[6];
             pg_stress_of_gradient (b.problem->material, b.problem->dim, H, exact);
             memcpy (b.state->d, u, b.ndof * sizeof *u);
-            check_ok (b.force->sample (b.self, b.state, u, 1, place, v, s));
+            check_ok (b.force->sample (b.self, b.state, u, 1, place, v, s, NULL));
             /* cell means by quadrature */
             for (int c = 0; c < 6; c++) check_scaled (s[c], exact[c], 1e-6, 0.01);
             for (size_t c = 0; c < b.dim; c++) check_relative (v[c], 0.5e-3, 1e-12);

@@ -15,7 +15,7 @@ static double *principals (const bonded *b, const double *d, size_t n, const dou
 {
     double *u = pg_calloc (3 * n, sizeof *u), *s = pg_calloc (6 * n, sizeof *s),
            *out = pg_calloc (2 * n, sizeof *out);
-    check_ok (b->force->sample (b->self, b->state, d, n, x, u, s));
+    check_ok (b->force->sample (b->self, b->state, d, n, x, u, s, NULL));
     for (size_t i = 0; i < n; i++) {
         const double *v = s + 6 * i, A[9] = { v[0], v[3], v[5], v[3], v[1], v[4], v[5], v[4], v[2] };
         double lambda[3];

@@ -105,7 +105,7 @@ static double strained (bonded *b, const double *H, double *worst_stress)
     check_ok (pg_bond_loop_create (&sweep, &setting));
     check_ok (pg_bond_loop_energies (sweep, u, W));
     pg_bond_loop_free (&sweep);
-    check_ok (b->force->sample (b->self, b->state, u, 1, place, v, s));
+    check_ok (b->force->sample (b->self, b->state, u, 1, place, v, s, NULL));
     pg_stress_of_gradient (m, (int) b->dim, H, exact);
     for (size_t a = 0; a < b->dim; a++)
         for (size_t c = 0; c < b->dim; c++) energy += 0.5 * exact[voigt[a][c]] * H[a * b->dim + c];

@@ -269,7 +269,7 @@ static double strained (bonded *b, const double *H, double *worst)
         if (far[0] < far[1] - 1e-9 * cloud->h) middle = i;
     }
     check_ok (pg_bond_loop_energies (sweep, u, W));
-    check_ok (b->force->sample (b->self, b->state, u, 1, cloud->x + middle * b->dim, v, s));
+    check_ok (b->force->sample (b->self, b->state, u, 1, cloud->x + middle * b->dim, v, s, NULL));
     pg_stress_of_gradient (b->problem->material, (int) b->dim, H, exact);
     for (size_t a = 0; a < b->dim; a++)
         for (size_t c = 0; c < b->dim; c++) energy += 0.5 * exact[voigt[a][c]] * H[a * b->dim + c];

@@ -23,7 +23,7 @@ static void solve (const char *text, size_t n, const double *x, double *u)
     check_ok (pg_state_create (&at, b.problem, pg_solver_components (solver)));
     check_ok (pg_solver_step (solver, at, &step));
     const pg_force_type *force = pg_solver_force (solver, &self);
-    check_ok (force->sample (self, at, at->d, n, x, u, NULL));
+    check_ok (force->sample (self, at, at->d, n, x, u, NULL, NULL));
     pg_state_free (&at), pg_solver_free (&solver), unbuild (&b);
 }
 

@@ -93,7 +93,7 @@ static void the_galerkin_force_carries_it (void **state)
         check_ok (pg_state_create (&at, b.problem, pg_solver_components (solver)));
         check_ok (pg_solver_step (solver, at, &step));
         const pg_force_type *force = pg_solver_force (solver, &self);
-        check_ok (force->sample (self, at, at->d, 1, x, u, NULL));
+        check_ok (force->sample (self, at, at->d, 1, x, u, NULL, NULL));
         check_relative (u[axis], axis ? 2e-3 : 1e-3, 1e-9);
         pg_state_free (&at), pg_solver_free (&solver), unbuild (&b);
     }

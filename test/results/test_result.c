@@ -34,8 +34,8 @@ static void keep_step (void)
     const pg_force_type *force = pg_solver_force (r.solver, &self);
     double a[3], b[3];
     assert_true (nstep < MOST);
-    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->gauge[0].from, a, NULL));
-    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->gauge[0].to, b, NULL));
+    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->gauge[0].from, a, NULL, NULL));
+    check_ok (force->sample (self, r.state, r.state->d, 1, r.problem->gauge[0].to, b, NULL, NULL));
     opening[nstep] = b[1] - a[1];
     memcpy (reaction[nstep], r.step.reaction, sizeof reaction[nstep]);
     nbroken += r.step.nbroken;

@@ -374,7 +374,7 @@ static void places_have_the_pressure_of_their_patches (void **state)
         double *d = pg_calloc (r.state->ndof, sizeof *d), u[12], stress[24];
         for (size_t i = 0; i < r.problem->cloud.n; i++) stretched (r.problem->cloud.x + 2 * i, d + 2 * i);
         refresh (&r, NULL);
-        check_ok (force->sample (self, r.state, d, 4, places, u, stress));
+        check_ok (force->sample (self, r.state, d, 4, places, u, stress, NULL));
         for (int q = 0; q < 4; q++) {
             check_relative (stress[6*q], lambda * volume + 2 * mu * 2e-3, 1e-9);
             check_relative (stress[6*q + 1], lambda * volume - 2 * mu * 1e-3, 1e-9);

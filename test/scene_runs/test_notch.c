@@ -27,8 +27,8 @@ static double opening (int n, const double *by, const char *method)
                   h, by[0], by[1], 1 - 1.01 * h, 1.01 * h, method);
     to_the_end (&r);
     const pg_force_type *force = pg_solver_force (r.solver, &self);
-    check_ok (force->sample (self, r.state, r.state->d, 1, low, a, NULL));
-    check_ok (force->sample (self, r.state, r.state->d, 1, high, b, NULL));
+    check_ok (force->sample (self, r.state, r.state->d, 1, low, a, NULL, NULL));
+    check_ok (force->sample (self, r.state, r.state->d, 1, high, b, NULL, NULL));
     clear (&r);
     return (b[1] - a[1]) / OPENING;
 }

@@ -34,7 +34,7 @@ static void first_mode (dynamic *r, double amplitude)
 static double tip (dynamic *r)
 {
     double u[3], end = 1;
-    check_ok (r->force->sample (r->self, r->state, r->state->d, 1, &end, u, NULL));
+    check_ok (r->force->sample (r->self, r->state, r->state->d, 1, &end, u, NULL, NULL));
     return u[0];
 }
 

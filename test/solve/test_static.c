@@ -275,7 +275,7 @@ static void gauges_see_linear_fields_exactly (void **state)
         }
         for (int k = 0; k < 50; k++) {
             double x[3] = { 0.01 + 0.0197 * k, 0.499 - 0.0098 * k, 0 }, u[3];
-            check_ok (force->sample (self, r.state, r.state->d, 1, x, u, NULL));
+            check_ok (force->sample (self, r.state, r.state->d, 1, x, u, NULL, NULL));
             check_absolute (u[0], 1 + 2 * x[0] - 3 * x[1], 1e-12);
             check_absolute (u[1], -4 + 5 * x[0] + x[1], 1e-12);
             assert_true (u[2] == 0);

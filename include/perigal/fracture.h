@@ -1,0 +1,67 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * fracture.h: what a displacement field says of the tip of a crack in the plane: energy release rate J, stress
+ * intensity factors K_I and K_II, the stress T along the crack, and where the crack goes next.
+ *
+ * All are integrals over a ring around the tip (Rice 1968; as integrals over an area Moran and Shih 1987,
+ * interaction integrals Yau, Wang and Corten 1980; doc/method.md, "The tip of a crack"), so that what happens
+ * within a spacing of the tip, where no discretisation is right, does not enter. The frame of a tip: axis 1
+ * (e) ahead of the crack, axis 2 to its left; K_I > 0 opens the crack, K_II > 0 moves its left face ahead. */
+#ifndef PERIGAL_FRACTURE_H
+#define PERIGAL_FRACTURE_H
+#include "perigal/force.h"
+
+PG_API_BEGIN
+
+/* The tip of a crack under the displacement sum_a l_a d_a of one or two fields (affine loads: the constant
+ * part and the part that grows with the load factor). */
+typedef struct {
+    /* Energy release rate of the sum: sum_ab l_a l_b J[a][b], J/m^2. Stress intensity factors of modes I, II,
+     * III (0 in the plane): sum_a l_a K[m][a], Pa m^(1/2). J is taken from the wide ring, for it is the
+     * magnitude that counts there; K from the near one, for it tells the direction. */
+    double J[2][2], K[3][2];
+    /* The other ring of each: the differences show how well both are known (pg_tip_uncertainty). */
+    double K_wide[3][2], J_near[2][2];
+    double T[2];                                       /* stress along e beside the singular part, Pa */
+    double x[3], e[3];                                 /* tip, m; unit vector ahead: the chord of the last 1.5 h */
+    double h, r1, near, wide;                          /* local spacing; rings r1..near and r1..wide, m */
+    double room;                                       /* distance to what a ring must not hold, m */
+    double modulus;                                    /* E' = E, in plane strain E / (1 - nu^2), Pa */
+} pg_tip_field;
+
+/* Why tips of this problem have no K and J by integrals: a sentence, static text; NULL: they have. */
+const char *pg_tip_refuses (const pg_problem *p, const pg_force_type *force);
+
+/* Measures tip number `tip` of the state. d: nfield fields of coefficients (ndof each). t: load factor, or
+ * time (s), of each, for body forces; the second field has those of t[1] less those of t[0], as it has with
+ * affine loads for t = 0, 1. Where state->d itself is the one field and is in motion, kinetic terms are
+ * added. near = NAN: there is no room for a ring, nothing else but x, e, h and room is known. */
+pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
+                          const pg_state *state, size_t tip, int nfield, const double *const *d,
+                          const double *t);
+
+/* The sums for the factors l (nfield numbers): J (J/m^2), K (3, Pa m^(1/2)) and T (Pa); outputs may be
+ * NULL. */
+void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double *J, double *K, double *T);
+/* How well J is known, relative: by the two rings; NAN: there is only one. */
+double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l);
+
+/* The facet of length l (m) to come. Angle from e (rad, positive to the left) of the largest hoop stress
+ * (Erdogan and Sih 1963), its intensity factor there, and what advancing there releases: G_theta = J
+ * K_theta^2 / (K_I^2 + K_II^2). T: stress along the crack where that is compression to be regarded (wings of
+ * closed cracks: K_I in the direction is raised by 3.19 max (0, -T) sqrt (l)); 0 or NAN: it is not. 0: no
+ * direction is in tension. */
+int pg_kink (double J, double K_I, double K_II, double T, double l, double *angle, double *K_theta,
+             double *G_theta);
+
+/* The field around a tip, in its frame: displacement u (2, m) and its gradient H[2 c + k] = du_c/dx_k, stress
+ * (11, 22, 12, Pa), at radius r (m) and angle theta (-pi .. pi) from e. mode 0, 1: the singular field of K_I,
+ * K_II = 1 Pa m^(1/2) (Williams 1957); 2: of a force of 1 N per thickness (m) on the tip along e, whose
+ * interaction integral gives T. mu: shear modulus, Pa; kappa: 3 - 4 nu in plane strain, (3 - nu) / (1 + nu)
+ * in plane stress. Outputs may be NULL. */
+enum { PG_TIP_OPENING, PG_TIP_SLIDING, PG_TIP_FORCE, PG_TIP_FIELDS };
+void pg_tip_near_field (int mode, double mu, double kappa, double r, double theta, double *u, double *H,
+                        double *stress);
+/* kappa of a mode (PG_PLANE_STRESS, PG_PLANE_STRAIN), and E' = 8 mu / (kappa + 1), Pa. */
+double pg_tip_kappa (pg_mode mode, double nu);
+PG_API_END
+#endif

@@ -1,0 +1,57 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * tip.h: the parts of the measurement of a tip. Files: tip_domain.c (frame, rings and the room for them),
+ * tip_grid.c (places of the integrals, and the fields there), tip_integrals.c (the integrals), tip_measure.c
+ * (all of it for one tip), williams.c (exact fields), kink.c (direction). */
+#ifndef PG_FRACTURE_TIP_H
+#define PG_FRACTURE_TIP_H
+#include "perigal/fracture.h"
+
+enum { TIP_FIELDS = 2 };                               /* most displacement fields at a time */
+
+/* The material at a tip. */
+typedef struct {
+    double mu, kappa, modulus;                         /* shear modulus, E', Pa; pg_tip_kappa */
+    double density;                                    /* kg/m^3 */
+    const pg_material *law;
+    /* Pa: the dilatation that carries the pressure is a mean over patches (pg_patches), and lambda its
+     * modulus; 0: the stress is that of the strain */
+    double lambda;
+} tip_material;
+
+/* One displacement field at the places of a grid, in the frame of the tip. */
+typedef struct {
+    double *H;                                         /* H[2 c + k] = du_c/dx_k (n x 4) */
+    double *stress;                                    /* 11, 22, 12, Pa (n x 3) */
+    double *excess;                                    /* stress above that of the strain, Pa (n); NULL: 0 */
+    double *load;                                      /* b - rho a, N/m^3 (n x 2); NULL: none */
+    /* in motion, else NULL: rho v_i v_i,1, N/m^3, and kinetic energy, J/m^3 (n) */
+    double *kinetic, *moving;
+} tip_sample;
+
+/* Places around a tip in polar coordinates about e, ring after ring: r in (0, wide). */
+typedef struct {
+    size_t n, nfield;
+    double *r, *theta, *area;                          /* m, rad, r dr dtheta (m^2) (n each) */
+    double *x;                                         /* the same in the scene, m (n x 2) */
+    tip_sample field[TIP_FIELDS];
+} tip_grid;
+
+/* Frame, spacing, room and radii of a tip (out: x, e, h, room, r1, near, wide), and the node nearest to
+ * it. */
+pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip,
+                      size_t *node);
+
+/* core: 1: places within r1 too, where terms without derivatives of the weight are to be summed. */
+pg_status tip_grid_create (tip_grid *out, const pg_tip_field *tip, int core);
+void      tip_grid_clear  (tip_grid *grid);
+/* One field from the force into grid->field[at]. */
+pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, const tip_material *material,
+                           const pg_force_type *force, void *self, const pg_state *state, const double *d);
+/* A vector in the frame of the tip. */
+void      tip_turn (const double *e, const double *v, double *out);
+
+/* Over the ring r1 .. r2: J (2 x 2) and, for each field, the interaction integrals with the three exact
+ * fields of pg_tip_near_field, of which K_I, K_II and T follow; NULL: not wanted. */
+void tip_integrals (const tip_grid *grid, const tip_material *material, double r1, double r2, double J[2][2],
+                    double I[PG_TIP_FIELDS][2]);
+#endif

@@ -1,0 +1,102 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * How large a ring around a tip may be. It must hold nothing but one material and the two faces of its own
+ * crack: no surface of the body, no other crack (pg_tip_room), no support or load on points, no interface, and
+ * not the other end of its own crack. Body forces may act in it, if they do everywhere.
+ *
+ * Radii, in local spacings h: both rings begin at 1, where the shape functions see the tip no more. The near
+ * one, which gives the ratio of K_II to K_I and with it the direction, ends at 3: behind a kink the field of a
+ * larger one is not yet that of the new facet. The wide one, which gives the magnitude, ends at 8, but not far
+ * beyond the last turn of the crack, for J is independent of the ring only where the crack is straight.
+ * Measured on cracks that grew (doc/accuracy.md); below 1.5 a ring knows nothing. */
+#include "tip.h"
+#include <math.h>
+#include <string.h>
+
+#define INNER 1.0                                      /* all in local spacings */
+#define LEAST 1.5
+#define NEAR  3.0
+#define WIDE  8.0
+#define CHORD 1.5
+#define TURN  0.2                                      /* rad: a turn that counts */
+
+static double distance (const pg_problem *p, size_t node, const double *x)
+{
+    return hypot (p->cloud.x[2 * node] - x[0], p->cloud.x[2 * node + 1] - x[1]);
+}
+
+static size_t nearest_node (const pg_problem *p, const double *x)
+{
+    size_t nearest = 0;
+    for (size_t i = 1; i < p->cloud.n; i++)
+        if (distance (p, i, x) < distance (p, nearest, x)) nearest = i;
+    return nearest;
+}
+
+/* Is a node in a set? Its points are ascending. */
+static int member (const pg_set *set, size_t node)
+{
+    size_t low = 0, high = set->npoint;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if ((size_t) set->point[middle] < node) low = middle + 1;
+        else high = middle;
+    }
+    return low < set->npoint && (size_t) set->point[low] == node;
+}
+
+/* Least distance to a node on which a support or a force acts. */
+static double room_of_loads (const pg_problem *p, const double *x, double room)
+{
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_set *set = p->load[l].set;
+        if (p->load[l].kind == PG_BODY_FORCE) continue;
+        for (size_t i = 0; i < set->npoint; i++) room = fmin (room, distance (p, (size_t) set->point[i], x));
+    }
+    return room;
+}
+
+/* Does another material than at `here` fill node i, or another body force act on it? */
+static int differs (const pg_problem *p, size_t i, size_t here)
+{
+    if (p->block[PG_NODES][i] != p->block[PG_NODES][here]) return 1;
+    for (size_t l = 0; l < p->nload; l++)
+        if (p->load[l].kind == PG_BODY_FORCE
+            && member (p->load[l].set, i) != member (p->load[l].set, here))
+            return 1;
+    return 0;
+}
+
+/* To the interface, which lies in the middle between nodes of the two sides. */
+static double room_of_interfaces (const pg_problem *p, const double *x, size_t here, double room)
+{
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double away = distance (p, i, x) - 0.5 * pg_problem_spacing (p, PG_NODES, i);
+        if (away < room && differs (p, i, here)) room = fmax (0, away);
+    }
+    return room;
+}
+
+pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip, size_t *node)
+{
+    pg_status status = PG_OK;
+    double from[3] = { 0 }, back[3] = { 0 }, none[3];
+    memset (out, 0, sizeof *out);
+    if (!state->paths || tip >= state->paths->ntip)
+        PG_FAIL (PG_E_USAGE, "tip %zu of %zu is asked for", tip, state->paths ? state->paths->ntip : 0);
+    memcpy (out->x, state->paths->tip[tip].x, 2 * sizeof *out->x);
+    *node = nearest_node (p, out->x);
+    double h = out->h = pg_problem_spacing (p, PG_NODES, *node), room;
+    pg_tip_chord (state, tip, CHORD * h, from, out->e);
+    out->e[2] = 0;
+    room = pg_tip_room (p, state, tip, WIDE * h);
+    pg_tip_chord (state, tip, WIDE * h, back, none);   /* the other end, where the crack is shorter */
+    room = fmin (room, hypot (back[0] - out->x[0], back[1] - out->x[1]));
+    room = room_of_loads (p, out->x, room);
+    out->room = room = room_of_interfaces (p, out->x, *node, room);
+    out->r1 = INNER * h;
+    out->near = room < LEAST * h ? NAN : fmin (NEAR * h, room);
+    out->wide = fmin (fmin (WIDE * h, room), fmax (NEAR * h, pg_tip_straight (state, tip, TURN)));
+    if (isnan (out->near)) out->wide = NAN;
+done:
+    return status;
+}

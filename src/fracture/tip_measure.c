@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * J, K_I, K_II and T of one tip: its rings, the fields there, the integrals. */
+#include "tip.h"
+#include <math.h>
+#include <string.h>
+
+const char *pg_tip_refuses (const pg_problem *p, const pg_force_type *force)
+{
+    if (p->dim != 2) return "they are known for cracks in the plane only: set dimension to 2";
+    if (!force->sample) return "the force shows no stress between its points: take another method.force";
+    for (size_t m = 0; m < p->nmaterial; m++)
+        if (!(p->material[m].type->can & PG_MATERIAL_ISOTROPIC))
+            return "their fields are those of an isotropic material: give youngs_modulus and poissons_ratio "
+                   "to all materials";
+    return NULL;
+}
+
+static tip_material material_at (const pg_problem *p, size_t node)
+{
+    int block = p->block[PG_NODES][node];
+    const pg_material *m = &p->material[block];
+    double kappa = pg_tip_kappa (m->mode, m->nu);
+    return (tip_material){ .mu = m->mu,
+                           .kappa = kappa,
+                           .modulus = 8 * m->mu / (kappa + 1),
+                           .density = m->density,
+                           .law = m,
+                           .lambda = p->patches ? p->patches->lambda[block] : 0 };
+}
+
+/* ---- what acts inside the rings ------------------------------------------------------------------------ */
+/* Does load l act on the body around the node? */
+static int acts (const pg_load *load, size_t node)
+{
+    if (load->kind != PG_BODY_FORCE) return 0;
+    for (size_t i = 0; i < load->set->npoint; i++)
+        if ((size_t) load->set->point[i] == node) return 1;
+    return 0;
+}
+
+static int any_body_force (const pg_problem *p, size_t node)
+{
+    for (size_t l = 0; l < p->nload; l++) if (acts (&p->load[l], node)) return 1;
+    return 0;
+}
+
+/* b of field `at`: that of factor t[at], less that of t[0] for the second. */
+static pg_status add_body_force (tip_grid *grid, int at, const pg_tip_field *tip, const pg_problem *p,
+                                 size_t node, const double *t)
+{
+    pg_status status = PG_OK;
+    tip_sample *f = &grid->field[at];
+    if (!f->load) PG_ALLOC (f->load, 2 * grid->n);
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (!acts (load, node)) continue;
+        for (size_t k = 0; k < grid->n; k++) {
+            double b[2], turned[2];
+            for (int c = 0; c < 2; c++) {
+                b[c] = pg_load_value (load, c, 2, grid->x + 2*k, t[at]);
+                if (at > 0) b[c] -= pg_load_value (load, c, 2, grid->x + 2*k, t[0]);
+            }
+            tip_turn (tip->e, b, turned);
+            f->load[2*k] += turned[0], f->load[2*k + 1] += turned[1];
+        }
+    }
+done:
+    return status;
+}
+
+static int moves (const pg_state *state)
+{
+    for (size_t i = 0; i < state->ndof; i++) if (state->v[i] != 0 || state->a[i] != 0) return 1;
+    return 0;
+}
+
+/* - rho a into the loads, rho v_i v_i,1, and the kinetic energy into the term of W: W and T stand together,
+ * so that the gradient of the weight sees both. */
+static pg_status add_inertia (tip_grid *grid, const pg_tip_field *tip, const tip_material *m,
+                              const pg_force_type *force, void *self, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    tip_sample *f = &grid->field[0];
+    size_t n = grid->n;
+    double *v = NULL, *gradient = NULL;
+    PG_ALLOC (v, 3 * n);
+    PG_ALLOC (gradient, 9 * n);
+    PG_ALLOC (f->kinetic, n);
+    PG_ALLOC (f->moving, n);
+    if (!f->load) PG_ALLOC (f->load, 2 * n);
+    PG_TRY (force->sample (self, state, state->v, n, grid->x, v, NULL, gradient));
+    for (size_t k = 0; k < n; k++) {
+        const double *H = gradient + 9*k, *u = v + 3*k;
+        /* v_i v_i,1, the derivative being along e */
+        f->kinetic[k] = m->density * (u[0] * (H[0] * tip->e[0] + H[1] * tip->e[1])
+                                      + u[1] * (H[2] * tip->e[0] + H[3] * tip->e[1]));
+        f->moving[k] = 0.5 * m->density * (u[0] * u[0] + u[1] * u[1]);
+    }
+    PG_TRY (force->sample (self, state, state->a, n, grid->x, v, NULL, NULL));
+    for (size_t k = 0; k < n; k++) {
+        double a[2];
+        tip_turn (tip->e, v + 3*k, a);
+        f->load[2*k] -= m->density * a[0], f->load[2*k + 1] -= m->density * a[1];
+    }
+done:
+    pg_free (v), pg_free (gradient);
+    return status;
+}
+
+/* ---- one tip ------------------------------------------------------------------------------------------- */
+static void unknown (pg_tip_field *out)
+{
+    for (int a = 0; a < 2; a++) {
+        for (int b = 0; b < 2; b++) out->J[a][b] = out->J_near[a][b] = NAN;
+        for (int m = 0; m < 3; m++) out->K[m][a] = out->K_wide[m][a] = NAN;
+        out->T[a] = NAN;
+    }
+}
+
+/* The integrals of both rings into the numbers of the tip. */
+static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_material *m)
+{
+    double I[PG_TIP_FIELDS][2];
+    tip_integrals (grid, m, out->r1, out->near, out->J_near, I);
+    for (int a = 0; a < 2; a++)
+        for (int k = 0; k < 2; k++) out->K[k][a] = 0.5 * m->modulus * I[k][a];
+    tip_integrals (grid, m, out->r1, out->wide, out->J, I);
+    for (int a = 0; a < 2; a++) {
+        for (int k = 0; k < 2; k++) out->K_wide[k][a] = 0.5 * m->modulus * I[k][a];
+        out->T[a] = m->modulus * I[PG_TIP_FORCE][a];
+    }
+}
+
+pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
+                          const pg_state *state, size_t tip, int nfield, const double *const *d,
+                          const double *t)
+{
+    pg_status status = PG_OK;
+    tip_grid grid = { 0 };
+    size_t node;
+    const char *refused = pg_tip_refuses (p, force);
+    memset (out, 0, sizeof *out);
+    if (refused) PG_FAIL (PG_E_USAGE, "no stress intensity factors: %s", refused);
+    if (nfield < 1 || nfield > TIP_FIELDS)
+        PG_FAIL (PG_E_USAGE, "%d displacement fields at a tip: 1 or 2 can be measured", nfield);
+    PG_TRY (tip_domain (out, p, state, tip, &node));
+    tip_material m = material_at (p, node);
+    out->modulus = m.modulus;
+    unknown (out);
+    if (isnan (out->near)) goto done;
+    int forced = any_body_force (p, node), moving = nfield == 1 && d[0] == state->d && m.density > 0 && moves (state);
+    PG_TRY (tip_grid_create (&grid, out, forced || moving));
+    grid.nfield = (size_t) nfield;
+    for (int a = 0; a < nfield; a++) {
+        PG_TRY (tip_grid_sample (&grid, a, out, &m, force, self, state, d[a]));
+        if (forced) PG_TRY (add_body_force (&grid, a, out, p, node, t));
+    }
+    if (moving) PG_TRY (add_inertia (&grid, out, &m, force, self, state));
+    integrate (out, &grid, &m);
+done:
+    tip_grid_clear (&grid);
+    return status;
+}
+
+/* ---- sums of the fields -------------------------------------------------------------------------------- */
+void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double *J, double *K, double *T)
+{
+    if (J) *J = 0;
+    if (T) *T = 0;
+    for (int m = 0; K && m < 3; m++) K[m] = 0;
+    for (int a = 0; a < nfield; a++) {
+        for (int b = 0; J && b < nfield; b++) *J += l[a] * l[b] * f->J[a][b];
+        for (int m = 0; K && m < 3; m++) K[m] += l[a] * f->K[m][a];
+        if (T) *T += l[a] * f->T[a];
+    }
+}
+
+double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l)
+{
+    double J = 0, near = 0;
+    if (!(f->wide > f->near)) return NAN;
+    for (int a = 0; a < nfield; a++)
+        for (int b = 0; b < nfield; b++) J += l[a] * l[b] * f->J[a][b], near += l[a] * l[b] * f->J_near[a][b];
+    return fabs (J - near) / fabs (J);
+}
