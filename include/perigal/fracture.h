@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * fracture.h: what a displacement field says of the tip of a crack in the plane: energy release rate J, stress
- * intensity factors K_I and K_II, the stress T along the crack, and where the crack goes next.
+ * fracture.h: what a displacement field says of the tip of a crack in the plane: energy release rate J,
+ * stress intensity factors K_I and K_II, the stress T along the crack, and where the crack goes next.
  *
  * All are integrals over a ring around the tip (Rice 1968; as integrals over an area Moran and Shih 1987,
  * interaction integrals Yau, Wang and Corten 1980; doc/method.md, "The tip of a crack"), so that what happens
@@ -22,7 +22,7 @@ typedef struct {
     /* The other ring of each: the differences show how well both are known (pg_tip_uncertainty). */
     double K_wide[3][2], J_near[2][2];
     double T[2];                                       /* stress along e beside the singular part, Pa */
-    double x[3], e[3];                                 /* tip, m; unit vector ahead: the chord of the last 1.5 h */
+    double x[3], e[3];  /* tip, m; unit vector ahead: the chord of the last 1.5 h */
     double h, r1, near, wide;                          /* local spacing; rings r1..near and r1..wide, m */
     double room;                                       /* distance to what a ring must not hold, m */
     double modulus;                                    /* E' = E, in plane strain E / (1 - nu^2), Pa */

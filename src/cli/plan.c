@@ -342,14 +342,16 @@ static void print_tips (const plan *p)
         snprintf (name, sizeof name, "crack tip %ld", b->id[t]);
         printf ("  %-18s  at (%.4g, %.4g) m: ", name, f->x[0], f->x[1]);
         if (isnan (f->near)) {
-            printf ("no stress intensity factors: a ring of 1.5 spacings needs %.3g m, there is room for %.3g m\n",
+            printf ("no stress intensity factors: a ring needs %.3g m, there is room for %.3g m\n",
                     1.5 * f->h, f->room);
             continue;
         }
         printf ("K_I %.5g, K_II %.4g Pa m^(1/2), J %.5g J/m^2", f->K[0][0], f->K[1][0], f->J[0][0]);
         double off = pg_tip_uncertainty (f, 1, &one);
         if (isnan (off)) printf (" (one ring of %.2g spacings)", f->near / f->h);
-        else printf (" (+-%.2g %%, rings of %.2g and %.2g spacings)", 100 * off, f->near / f->h, f->wide / f->h);
+        else
+            printf (" (+-%.2g %%, rings of %.2g and %.2g spacings)", 100 * off, f->near / f->h,
+                    f->wide / f->h);
         printf (", T %.4g Pa\n", f->T[0]);
     }
     if (b->ntip > PG_FIRST_TIPS && !b->refused)

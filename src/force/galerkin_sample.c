@@ -5,7 +5,6 @@
  * evaluation point has, its first-order expansion u_q + grad u_q (x - x_q) and its stress hold. So the two
  * faces of a crack stay apart. */
 #include "galerkin.h"
-#include <math.h>
 #include <string.h>
 
 enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory */
@@ -14,9 +13,6 @@ typedef struct {
     galerkin *g;
     const pg_state *state;
     const double *d;
-    /* cracks that may lie between the places, or what they see; all cracks of the state */
-    pg_cracks near;  const pg_cracks *cracks, *all;
-    double  reach;                                     /* of shape functions, at most, along an axis, m */
     pg_rows rows;                                      /* of the places at hand */
     unsigned char *alive;
     size_t *at;                                        /* nearest evaluation point */
@@ -28,7 +24,7 @@ typedef struct {
 static int cut (const sampling *s, const double *x, const double *y)
 {
     const pg_problem *p = s->g->problem;
-    return pg_cracks_cut (s->cracks, p->dim, x, y, 1e-9 * p->cloud.h) != NULL;
+    return pg_cracks_cut (pg_state_cracks (p, s->state), p->dim, x, y, 1e-9 * p->cloud.h) != NULL;
 }
 
 static const double *node_at (const galerkin *g, int node)
@@ -90,46 +86,29 @@ static int sees (const sampling *s, size_t q, size_t i, int lost /* i has lost b
 }
 
 /* The nearest that no pre-crack hides, else the nearest. */
-static size_t nearest_seen (const sampling *s, const pg_nearest *grid, const double *x, pg_refuse refuse)
+static size_t nearest_seen (sampling *s, const pg_nearest *grid, const double *x, pg_refuse refuse)
 {
-    long found = pg_nearest_find (grid, x, s->cracks->n ? refuse : NULL, (void *) s);
+    long found = pg_nearest_find (grid, x, pg_state_cracks (s->g->problem, s->state)->n ? refuse : NULL, s);
     return (size_t) (found >= 0 ? found : pg_nearest_find (grid, x, NULL, NULL));
-}
-
-/* Is y within the reach of x? */
-static int within (const sampling *s, const double *x, const double *y)
-{
-    for (int k = 0; k < s->g->dim; k++) if (!(fabs (x[k] - y[k]) <= s->reach)) return 0;
-    return 1;
-}
-
-/* The bonds of place p. 0: what it is judged by lies so far away that all cracks must be asked. */
-static int find_bonds_of (const sampling *s, size_t p)
-{
-    const galerkin *g = s->g;
-    const pg_family *f = &s->rows.family;
-    size_t dim = (size_t) g->dim;
-    const double *x = s->rows.x + p * dim;
-    size_t q = s->at[p] = nearest_seen (s, g->near_point, x, point_hidden);
-    size_t i = g->bulk == PG_NODES ? q : nearest_seen (s, g->near_node, x, node_hidden);
-    if (s->cracks != s->all
-        && (!within (s, x, g->rows[g->bulk].x + q * dim) || !within (s, x, node_at (g, (int) i))))
-        return 0;
-    int lost = hurt (s, PG_NODES, i);
-    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
-        int j = f->node[e];
-        s->alive[e] = j == s->rows.own[p] || (!cut (s, x, node_at (g, j)) && sees (s, q, i, lost, j));
-    }
-    return 1;
 }
 
 static void find_bonds (void *context, size_t first, size_t last, int thread)
 {
-    const sampling *s = context;
-    sampling far = *s;
-    far.cracks = s->all;
+    sampling *s = context;
+    const galerkin *g = s->g;
+    const pg_family *f = &s->rows.family;
     (void) thread;
-    for (size_t p = first; p < last; p++) if (!find_bonds_of (s, p)) find_bonds_of (&far, p);
+    for (size_t p = first; p < last; p++) {
+        const double *x = s->rows.x + p * (size_t) g->dim;
+        size_t q = s->at[p] = nearest_seen (s, g->near_point, x, point_hidden);
+        size_t i = g->bulk == PG_NODES ? q : nearest_seen (s, g->near_node, x, node_hidden);
+        int lost = hurt (s, PG_NODES, i);
+        for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
+            int j = f->node[e];
+            s->alive[e] = j == s->rows.own[p]
+                          || (!cut (s, x, node_at (g, j)) && sees (s, q, i, lost, j));
+        }
+    }
 }
 
 /* u and its gradient H[c * dim + k] = du_c/dx_k from row `at` of r */
@@ -210,48 +189,11 @@ static void find_nodes (const galerkin *g, size_t n, const double *x, int *own)
     }
 }
 
-/* Does a crack come within `margin` of the box of the places? */
-static int comes_near (const pg_crack *c, int dim, const double *low, const double *high, double margin)
-{
-    for (int k = 0; k < dim; k++) {
-        double from = INFINITY, to = -INFINITY;
-        for (size_t v = 0; v < c->nvertex; v++) {
-            from = fmin (from, c->vertex[v * (size_t) dim + (size_t) k]);
-            to = fmax (to, c->vertex[v * (size_t) dim + (size_t) k]);
-        }
-        /* the vertices of a disc lie on its rim, the arc between them a little farther out */
-        if (from - 0.01 * c->radius > high[k] + margin || to + 0.01 * c->radius < low[k] - margin) return 0;
-    }
-    return 1;
-}
-
-/* The cracks near n places. A place sees nodes within the reach; that these, or the points that it is judged
- * by, have lost bonds is asked within three times as much. */
-static pg_status find_cracks (sampling *s, size_t n, const double *x)
-{
-    pg_status status = PG_OK;
-    int dim = s->g->dim;
-    double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY };
-    s->cracks = &s->near, s->near.n = 0;
-    for (size_t p = 0; p < n * (size_t) dim; p++) {
-        low[p % (size_t) dim] = fmin (low[p % (size_t) dim], x[p]);
-        high[p % (size_t) dim] = fmax (high[p % (size_t) dim], x[p]);
-    }
-    if (s->all->n && !s->near.crack) PG_ALLOC (s->near.crack, s->all->n);
-    for (size_t c = 0; c < s->all->n; c++)
-        if (comes_near (&s->all->crack[c], dim, low, high, 3 * s->reach))
-            s->near.crack[s->near.n++] = s->all->crack[c];
-    if (s->near.n == s->all->n) s->cracks = s->all;
-done:
-    return status;
-}
-
 static pg_status sample_chunk (sampling *s, size_t n, const double *x, int *own)
 {
     pg_status status = PG_OK;
     const pg_problem *p = s->g->problem;
     find_nodes (s->g, n, x, own);
-    PG_TRY (find_cracks (s, n, x));
     PG_TRY (pg_rows_create (&s->rows, &p->approx, &p->cloud, n, x, NULL, own, NULL));
     PG_ALLOC (s->alive, s->rows.family.start[n]);
     pg_parallel (s->g->threads, n, find_bonds, s);
@@ -269,11 +211,8 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     pg_status status = PG_OK;
     galerkin *g = self;
     const pg_rows *bulk = &g->rows[g->bulk];
-    sampling s = { .g = g, .state = state, .d = d, .all = pg_state_cracks (g->problem, state) };
+    sampling s = { .g = g, .state = state, .d = d };
     int *own = NULL;
-    s.near.dim = g->dim, s.reach = g->problem->approx.horizon;
-    for (size_t i = 0; g->problem->cloud.size && i < g->n; i++)
-        s.reach = fmax (s.reach, g->problem->approx.horizon * pg_cloud_ratio (&g->problem->cloud, i));
     if (!g->near_point) PG_TRY (pg_nearest_create (&g->near_point, g->dim, bulk->n, bulk->x));
     if (!g->near_node) PG_TRY (pg_nearest_create (&g->near_node, g->dim, g->n, g->problem->cloud.x));
     PG_ALLOC (s.at, CHUNK);
@@ -285,6 +224,6 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
         PG_TRY (sample_chunk (&s, n - first < CHUNK ? n - first : CHUNK, x + first * (size_t) g->dim, own));
     }
 done:
-    pg_free (s.at), pg_free (own), pg_free (s.near.crack);
+    pg_free (s.at), pg_free (own);
     return status;
 }

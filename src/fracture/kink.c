@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where a crack goes: across the direction of the largest hoop stress around its tip (Erdogan and Sih 1963, On
- * the crack extension in plates under plane loading and transverse shear). There K_I sin theta + K_II (3 cos
- * theta - 1) = 0, whose root in tension is
+ * Where a crack goes: across the direction of the largest hoop stress around its tip (Erdogan and Sih 1963,
+ * On the crack extension in plates under plane loading and transverse shear). There K_I sin theta + K_II (3
+ * cos theta - 1) = 0, whose root in tension is
  *
  *   tan (theta / 2) = - 2 K_II / (K_I + sqrt (K_I^2 + 8 K_II^2)),
  *

@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * How large a ring around a tip may be. It must hold nothing but one material and the two faces of its own
- * crack: no surface of the body, no other crack (pg_tip_room), no support or load on points, no interface, and
- * not the other end of its own crack. Body forces may act in it, if they do everywhere.
+ * How large a ring around a tip may be. It must hold nothing but one material and the two faces of its
+ * own crack: no surface of the body, no other crack or tip (pg_tip_room), no support or load on points and no
+ * interface. Body forces may act in it, if they do everywhere.
  *
- * Radii, in local spacings h: both rings begin at 1, where the shape functions see the tip no more. The near
- * one, which gives the ratio of K_II to K_I and with it the direction, ends at 3: behind a kink the field of a
- * larger one is not yet that of the new facet. The wide one, which gives the magnitude, ends at 8, but not far
- * beyond the last turn of the crack, for J is independent of the ring only where the crack is straight.
- * Measured on cracks that grew (doc/accuracy.md); below 1.5 a ring knows nothing. */
+ * Radii, in local spacings h: both rings begin at 1, where the shape functions see the tip no more. The
+ * near one, which gives the ratio of K_II to K_I and with it the direction, ends at 3: behind a kink the
+ * field of a larger one is not yet that of the new facet. The wide one, which gives the magnitude, ends at 8,
+ * but not far beyond the last turn of the crack, for J is independent of the ring only where the crack is
+ * straight. Measured on cracks that grew (doc/accuracy.md); below 1.5 a ring knows nothing. */
 #include "tip.h"
 #include <math.h>
 #include <string.h>
@@ -79,7 +79,7 @@ static double room_of_interfaces (const pg_problem *p, const double *x, size_t h
 pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip, size_t *node)
 {
     pg_status status = PG_OK;
-    double from[3] = { 0 }, back[3] = { 0 }, none[3];
+    double from[2];
     memset (out, 0, sizeof *out);
     if (!state->paths || tip >= state->paths->ntip)
         PG_FAIL (PG_E_USAGE, "tip %zu of %zu is asked for", tip, state->paths ? state->paths->ntip : 0);
@@ -87,10 +87,7 @@ pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *st
     *node = nearest_node (p, out->x);
     double h = out->h = pg_problem_spacing (p, PG_NODES, *node), room;
     pg_tip_chord (state, tip, CHORD * h, from, out->e);
-    out->e[2] = 0;
     room = pg_tip_room (p, state, tip, WIDE * h);
-    pg_tip_chord (state, tip, WIDE * h, back, none);   /* the other end, where the crack is shorter */
-    room = fmin (room, hypot (back[0] - out->x[0], back[1] - out->x[1]));
     room = room_of_loads (p, out->x, room);
     out->room = room = room_of_interfaces (p, out->x, *node, room);
     out->r1 = INNER * h;

@@ -87,7 +87,8 @@ void tip_integrals (const tip_grid *grid, const tip_material *m, double r1, doub
                       g[2] = { slope * cos (grid->theta[k]), slope * sin (grid->theta[k]) };
         if (q <= 0) continue;
         for (size_t a = 0; a < grid->nfield; a++)
-            for (size_t b = 0; b <= a; b++) J[a][b] += grid->area[k] * energy_release (grid, m, a, b, k, g, q);
+            for (size_t b = 0; b <= a; b++)
+                J[a][b] += grid->area[k] * energy_release (grid, m, a, b, k, g, q);
         for (int i = 0; I && i < PG_TIP_FIELDS; i++) {
             double A[4], s[3];
             pg_tip_near_field (i, m->mu, m->kappa, grid->r[k], grid->theta[k], NULL, A, s);

@@ -148,7 +148,8 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
     out->modulus = m.modulus;
     unknown (out);
     if (isnan (out->near)) goto done;
-    int forced = any_body_force (p, node), moving = nfield == 1 && d[0] == state->d && m.density > 0 && moves (state);
+    int forced = any_body_force (p, node),
+        moving = nfield == 1 && d[0] == state->d && m.density > 0 && moves (state);
     PG_TRY (tip_grid_create (&grid, out, forced || moving));
     grid.nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {

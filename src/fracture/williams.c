@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Exact fields around the tip of a crack with free faces in an isotropic plane: the singular terms of modes I
- * and II (Williams 1957, On the stress distribution at the base of a stationary crack), and a force on the tip
- * along the crack (the wedge of Michell 1902 with the angle 2 pi). They are the auxiliary fields of the
+ * and II (Williams 1957, On the stress distribution at the base of a stationary crack), and a force on the
+ * tip along the crack (the wedge of Michell 1902 with the angle 2 pi). They are the auxiliary fields of the
  * interaction integrals.
  *
  * Modes I and II: u = sqrt (r / 2 pi) / (2 mu) f (theta), so that u,r = u / 2r, and u,theta follows from f'.

@@ -51,7 +51,8 @@ done:
 }
 
 /* J and stress intensity factors at the tips, under the full load. */
-static pg_status measure_tips (pg_first_break *b, const pg_problem *p, pg_solver *solver, const pg_state *state)
+static pg_status measure_tips (pg_first_break *b, const pg_problem *p, pg_solver *solver,
+                               const pg_state *state)
 {
     pg_status status = PG_OK;
     void *self;

@@ -13,10 +13,10 @@ typedef struct {
     const pg_state *state;
     pg_mode mode;
     double E, nu, density;
-    double x[2], angle;                                /* tip, direction of the crack */
-    double K[2][2], T[2];                              /* of the fields d[0], d[1] */
-    double b;                                          /* body force along the crack, N/m^3 */
-    double acceleration[2], spin;                      /* in motion: m/s^2; v = spin (x1, x1 + x2), 1/s */
+    double x[2], angle;           /* tip, direction of the crack */
+    double K[2][2], T[2];         /* of the fields d[0], d[1] */
+    double b;                     /* body force along the crack, N/m^3 */
+    double acceleration[2], spin; /* in motion: m/s^2; v = spin (x1, x1 + x2), 1/s */
     const double *d[2];
 } exact;
 
@@ -45,9 +45,9 @@ static void turn_back (double angle, const double *a, double *out)
     double R[2][2] = { { cos (angle), -sin (angle) }, { sin (angle), cos (angle) } };
     for (int i = 0; i < 2; i++)
         for (int j = 0; j < 2; j++) {
-            out[2*i + j] = 0;
+            out[2 * i + j] = 0;
             for (int k = 0; k < 2; k++)
-                for (int l = 0; l < 2; l++) out[2*i + j] += R[i][k] * a[2*k + l] * R[j][l];
+                for (int l = 0; l < 2; l++) out[2 * i + j] += R[i][k] * a[2 * k + l] * R[j][l];
         }
 }
 
@@ -57,23 +57,31 @@ static pg_status sample (void *self, const pg_state *state, const double *d, siz
     const exact *m = self;
     double c = cos (m->angle), s = sin (m->angle);
     for (size_t k = 0; k < n; k++) {
-        double X = x[2*k] - m->x[0], Y = x[2*k + 1] - m->x[1], p = c * X + s * Y, q = c * Y - s * X, v[2],
+        double X = x[2 * k] - m->x[0], Y = x[2 * k + 1] - m->x[1], p = c * X + s * Y, q = c * Y - s * X, v[2],
                H[4], t[3];
-        if (d == state->v) v[0] = m->spin * p, v[1] = m->spin * (p + q), H[0] = H[2] = H[3] = m->spin, H[1] = 0;
-        else if (d == state->a) v[0] = m->acceleration[0], v[1] = m->acceleration[1], memset (H, 0, sizeof H);
-        else field_at (m, d == m->d[1], p, q, v, H, t);
-        u[3*k] = c * v[0] - s * v[1], u[3*k + 1] = s * v[0] + c * v[1], u[3*k + 2] = 0;
-        if (gradient) turn_back (m->angle, H, gradient + 9*k);
+        if (d == state->v)
+            v[0] = m->spin * p, v[1] = m->spin * (p + q), H[0] = H[2] = H[3] = m->spin, H[1] = 0;
+        else if (d == state->a)
+            v[0] = m->acceleration[0], v[1] = m->acceleration[1], memset (H, 0, sizeof H);
+        else
+            field_at (m, d == m->d[1], p, q, v, H, t);
+        u[3 * k] = c * v[0] - s * v[1], u[3 * k + 1] = s * v[0] + c * v[1], u[3 * k + 2] = 0;
+        if (gradient) turn_back (m->angle, H, gradient + 9 * k);
         if (!stress) continue;
         double full[4] = { t[0], t[2], t[2], t[1] }, turned[4];
         turn_back (m->angle, full, turned);
-        memset (stress + 6*k, 0, 6 * sizeof *stress);
-        stress[6*k] = turned[0], stress[6*k + 1] = turned[3], stress[6*k + 3] = turned[1];
+        memset (stress + 6 * k, 0, 6 * sizeof *stress);
+        stress[6 * k] = turned[0], stress[6 * k + 1] = turned[3], stress[6 * k + 3] = turned[1];
     }
     return PG_OK;
 }
 
-typedef struct { pg_scene *scene; pg_problem *problem; pg_state *state; pg_force_type force; } tested;
+typedef struct {
+    pg_scene *scene;
+    pg_problem *problem;
+    pg_state *state;
+    pg_force_type force;
+} tested;
 
 /* A square of 40 spacings around a crack of 2 x 10 spacings from its middle at an angle; unit: its half
  * width, m. */
@@ -82,13 +90,14 @@ static tested make (exact *m, double unit, double angle, const char *more)
     tested t = { 0 };
     char text[2000];
     double c = 0.5 * unit * cos (angle), s = 0.5 * unit * sin (angle);
-    snprintf (text, sizeof text,
-              "dimension: 2\nthickness: 0.7\nplane: %s\nbody: [{add: {box: {low: [%.17g, %.17g], high: [%.17g, "
-              "%.17g]}}}]\nspacing: %.17g\nmaterials: {a: {youngs_modulus: %g, poissons_ratio: %g, density: "
-              "%g}}\ncracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n%s",
-              m->mode == PG_PLANE_STRAIN ? "strain" : "stress", -unit, -unit, unit, unit, unit / 20, m->E, m->nu,
-              m->density > 0 ? m->density : 1, -c, -s, c, s,
-              more ? more : "boundary: [{set: bottom, displacement: {x: 0, y: 0}}]\n");
+    snprintf (
+        text, sizeof text,
+        "dimension: 2\nthickness: 0.7\nplane: %s\nbody: [{add: {box: {low: [%.17g, %.17g], high: [%.17g, "
+        "%.17g]}}}]\nspacing: %.17g\nmaterials: {a: {youngs_modulus: %g, poissons_ratio: %g, density: "
+        "%g}}\ncracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n%s",
+        m->mode == PG_PLANE_STRAIN ? "strain" : "stress", -unit, -unit, unit, unit, unit / 20, m->E, m->nu,
+        m->density > 0 ? m->density : 1, -c, -s, c, s,
+        more ? more : "boundary: [{set: bottom, displacement: {x: 0, y: 0}}]\n");
     check_ok (pg_scene_parse (&t.scene, text, "test.yaml"));
     check_ok (pg_problem_build (&t.problem, t.scene, 1));
     check_ok (pg_state_create (&t.state, t.problem, 2));
@@ -119,20 +128,20 @@ static void check_field (exact *m, double unit, double angle, const char *more, 
     tested t = make (m, unit, angle, more);
     size_t tip = end_tip (&t, angle);
     pg_tip_field f;
-    const double *d = m->density > 0 ? t.state->d : t.state->d, factor = 1, E = m->mode == PG_PLANE_STRAIN
-                          ? m->E / (1 - m->nu * m->nu)
-                          : m->E,
+    const double *d = m->density > 0 ? t.state->d : t.state->d, factor = 1,
+                 E = m->mode == PG_PLANE_STRAIN ? m->E / (1 - m->nu * m->nu) : m->E,
                  K = hypot (m->K[0][0], m->K[0][1]), scale = K / sqrt (pi * unit);
     m->angle = angle, m->x[0] = 0.5 * unit * cos (angle), m->x[1] = 0.5 * unit * sin (angle);
     m->d[0] = d, m->d[1] = NULL;
-    if (m->density > 0) t.state->v[0] = 1;             /* the state moves: the stand-in says how */
+    if (m->density > 0) t.state->v[0] = 1; /* the state moves: the stand-in says how */
     check_ok (pg_tip_measure (&f, t.problem, &t.force, m, t.state, tip, 1, &d, &factor));
     check_relative (f.modulus, E, 1e-12);
     check_relative (f.h, unit / 20, 1e-9);
     check_scaled (f.e[0], cos (angle), 1e-9, 1), check_scaled (f.e[1], sin (angle), 1e-9, 1);
     check_relative (f.near / f.h, 3, 1e-9), check_relative (f.wide / f.h, 8, 1e-9);
     check_scaled (f.K[0][0], m->K[0][0], tolerance, K), check_scaled (f.K[1][0], m->K[0][1], tolerance, K);
-    check_scaled (f.K_wide[0][0], m->K[0][0], tolerance, K), check_scaled (f.K_wide[1][0], m->K[0][1], tolerance, K);
+    check_scaled (f.K_wide[0][0], m->K[0][0], tolerance, K),
+        check_scaled (f.K_wide[1][0], m->K[0][1], tolerance, K);
     check_relative (f.J[0][0], K * K / E, tolerance), check_relative (f.J_near[0][0], K * K / E, tolerance);
     check_scaled (f.T[0], m->T[0], 10 * tolerance, scale);
     check_below (pg_tip_uncertainty (&f, 1, &factor), 2 * tolerance);
@@ -166,19 +175,22 @@ static void lengths_of_any_size (void **state)
     }
 }
 
-/* sigma_11 = - b x_1 bears a body force b along the crack and has no J: without the term of the force, or with
- * its other sign, J and K would be off by b sqrt (r) r. */
+/* sigma_11 = - b x_1 bears a body force b along the crack and has no J: without the term of the force, or
+ * with its other sign, J and K would be off by b sqrt (r) r. */
 static void body_forces_do_not_count_as_energy (void **state)
 {
     (void) state;
     for (int k = 0; k < 2; k++) {
         char more[300];
         double angle = k ? 0.6 : 0, b = 2e6;
-        exact m = { .mode = k ? PG_PLANE_STRAIN : PG_PLANE_STRESS, .E = 3e9, .nu = 0.3, .K = { { 1e6, 4e5 } }, .b = b };
-        snprintf (more, sizeof more,
-                  "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: all, body_force: {x: %.17g, y: "
-                  "%.17g}}]\n",
-                  b * cos (angle), b * sin (angle));
+        exact m = {
+            .mode = k ? PG_PLANE_STRAIN : PG_PLANE_STRESS, .E = 3e9, .nu = 0.3, .K = { { 1e6, 4e5 } }, .b = b
+        };
+        snprintf (
+            more, sizeof more,
+            "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: all, body_force: {x: %.17g, y: "
+            "%.17g}}]\n",
+            b * cos (angle), b * sin (angle));
         check_field (&m, 1, angle, more, 1e-3);
     }
 }
@@ -192,8 +204,13 @@ static void motion_does_not_count_as_release (void **state)
     double angle = 0.3, density = 2000, a[2] = { 3000, -1000 };
     double b[2] = { density * (a[0] * cos (angle) - a[1] * sin (angle)),
                     density * (a[0] * sin (angle) + a[1] * cos (angle)) };
-    exact m = { .mode = PG_PLANE_STRESS, .E = 3e9, .nu = 0.3, .K = { { 1e6, 4e5 } }, .density = density,
-                .acceleration = { a[0], a[1] }, .spin = 50 };
+    exact m = { .mode = PG_PLANE_STRESS,
+                .E = 3e9,
+                .nu = 0.3,
+                .K = { { 1e6, 4e5 } },
+                .density = density,
+                .acceleration = { a[0], a[1] },
+                .spin = 50 };
     snprintf (more, sizeof more,
               "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: all, body_force: {x: %.17g, y: "
               "%.17g}}]\n",
@@ -205,8 +222,12 @@ static void motion_does_not_count_as_release (void **state)
 static void affine_fields (void **state)
 {
     (void) state;
-    exact m = { .mode = PG_PLANE_STRESS, .E = 3e9, .nu = 0.3, .K = { { 1e6, 2e5 }, { -3e5, 6e5 } },
-                .T = { 1e5, -2e5 }, .x = { 0.5, 0 } };
+    exact m = { .mode = PG_PLANE_STRESS,
+                .E = 3e9,
+                .nu = 0.3,
+                .K = { { 1e6, 2e5 }, { -3e5, 6e5 } },
+                .T = { 1e5, -2e5 },
+                .x = { 0.5, 0 } };
     tested t = make (&m, 1, 0, NULL);
     double second[1] = { 0 }, factor[2] = { 0, 1 }, J, K[3], T;
     const double *d[2] = { t.state->d, second };
@@ -241,9 +262,12 @@ static void fields_are_solutions (void **state)
                 pg_tip_near_field (k, mu, kappa, r, theta, NULL, H, s);
                 for (int c = 0; c < 2; c++) {
                     double y[2] = { x[0], x[1] };
-                    y[c] = x[c] + e, pg_tip_near_field (k, mu, kappa, hypot (y[0], y[1]), atan2 (y[1], y[0]), high, NULL, NULL);
-                    y[c] = x[c] - e, pg_tip_near_field (k, mu, kappa, hypot (y[0], y[1]), atan2 (y[1], y[0]), low, NULL, NULL);
-                    for (int i = 0; i < 2; i++) check_scaled (H[2*i + c], (high[i] - low[i]) / (2 * e), 1e-8, 1);
+                    y[c] = x[c] + e, pg_tip_near_field (k, mu, kappa, hypot (y[0], y[1]), atan2 (y[1], y[0]),
+                                                        high, NULL, NULL);
+                    y[c] = x[c] - e,
+                    pg_tip_near_field (k, mu, kappa, hypot (y[0], y[1]), atan2 (y[1], y[0]), low, NULL, NULL);
+                    for (int i = 0; i < 2; i++)
+                        check_scaled (H[2 * i + c], (high[i] - low[i]) / (2 * e), 1e-8, 1);
                 }
                 check_scaled (s[0], lambda * (H[0] + H[3]) + 2 * mu * H[0], 1e-12, 1);
                 check_scaled (s[1], lambda * (H[0] + H[3]) + 2 * mu * H[3], 1e-12, 1);
@@ -254,8 +278,10 @@ static void fields_are_solutions (void **state)
                 check_scaled (s[1], 0, 1e-12, 1), check_scaled (s[2], 0, 1e-12, 1);
             }
             pg_tip_near_field (k, mu, kappa, r, 0, NULL, NULL, s);
-            if (k < 2) check_relative (s[k == 0 ? 1 : 2], 1 / sqrt (2 * pi * r), 1e-12);
-            else check_relative (s[0], -1 / (pi * r), 1e-12);
+            if (k < 2)
+                check_relative (s[k == 0 ? 1 : 2], 1 / sqrt (2 * pi * r), 1e-12);
+            else
+                check_relative (s[0], -1 / (pi * r), 1e-12);
         }
     }
 }
@@ -280,7 +306,8 @@ static void kinks_go_where_the_hoop_stress_is_largest (void **state)
             if (hoop > best) best = hoop, at = th;
         }
         assert_int_equal (pg_kink (2, K_I, K_II, 0, 1, &angle, &K, &G), 1);
-        check_absolute (angle, at, 2e-4), check_relative (K, best, 1e-6), check_relative (G, 2 * best * best, 1e-6);
+        check_absolute (angle, at, 2e-4), check_relative (K, best, 1e-6),
+            check_relative (G, 2 * best * best, 1e-6);
     }
     /* a stress along the crack in compression turns it less, one in tension does not count */
     double with, without;
