@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Displacement, its gradient and stress at any place, by the method's own shape functions evaluated there. Which bonds live
- * at a place: those that no pre-crack cuts, and whose node the nearest evaluation point and the nearest node
- * on the same side of the pre-cracks have not lost since. Where that leaves a poorer basis than the
+ * Displacement, its gradient and stress at any place, by the method's own shape functions evaluated there.
+ * Which bonds live at a place: those that no crack cuts, and whose node the nearest evaluation point and the
+ * nearest node on the same side of the cracks have not lost since. Where that leaves a poorer basis than the
  * evaluation point has, its first-order expansion u_q + grad u_q (x - x_q) and its stress hold. So the two
  * faces of a crack stay apart. */
 #include "galerkin.h"

@@ -50,8 +50,9 @@ pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, cons
 /* A vector in the frame of the tip. */
 void      tip_turn (const double *e, const double *v, double *out);
 
-/* Over the ring r1 .. r2: J (2 x 2) and, for each field, the interaction integrals with the three exact
- * fields of pg_tip_near_field, of which K_I, K_II and T follow; NULL: not wanted. */
-void tip_integrals (const tip_grid *grid, const tip_material *material, double r1, double r2, double J[2][2],
-                    double I[PG_TIP_FIELDS][2]);
+/* J of two fields, J/m^2, and for each the interaction integrals with the exact fields of
+ * pg_tip_near_field, of which K_I, K_II and T follow. */
+typedef struct { double J[2][2], I[PG_TIP_FIELDS][2]; } tip_sums;
+/* Over the ring r1 .. r2. */
+void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *material, double r1, double r2);
 #endif

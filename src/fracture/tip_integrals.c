@@ -21,6 +21,7 @@
  * lambda): with x = p - lambda tr eps, 1/2 eps D eps + x tr eps + x^2 / (2 lambda). */
 #include "tip.h"
 #include <math.h>
+#include <string.h>
 
 /* The weight at r, and its slope, 1/m: q = 1 - z^2 (3 - 2 z). */
 static double weight (double r, double r1, double r2, double *slope)
@@ -76,25 +77,22 @@ static double interaction (const tip_sample *f, size_t k, const double *A, const
     return sum;
 }
 
-void tip_integrals (const tip_grid *grid, const tip_material *m, double r1, double r2, double J[2][2],
-                    double I[PG_TIP_FIELDS][2])
+void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *m, double r1, double r2)
 {
-    for (size_t a = 0; a < 2; a++)
-        for (size_t b = 0; b < 2; b++) J[a][b] = 0;
-    for (size_t i = 0; I && i < PG_TIP_FIELDS; i++) I[i][0] = I[i][1] = 0;
+    memset (out, 0, sizeof *out);
     for (size_t k = 0; k < grid->n; k++) {
         double slope, q = weight (grid->r[k], r1, r2, &slope),
                       g[2] = { slope * cos (grid->theta[k]), slope * sin (grid->theta[k]) };
         if (q <= 0) continue;
         for (size_t a = 0; a < grid->nfield; a++)
             for (size_t b = 0; b <= a; b++)
-                J[a][b] += grid->area[k] * energy_release (grid, m, a, b, k, g, q);
-        for (int i = 0; I && i < PG_TIP_FIELDS; i++) {
+                out->J[a][b] += grid->area[k] * energy_release (grid, m, a, b, k, g, q);
+        for (int i = 0; i < PG_TIP_FIELDS; i++) {
             double A[4], s[3];
             pg_tip_near_field (i, m->mu, m->kappa, grid->r[k], grid->theta[k], NULL, A, s);
             for (size_t a = 0; a < grid->nfield; a++)
-                I[i][a] += grid->area[k] * interaction (&grid->field[a], k, A, s, g, q);
+                out->I[i][a] += grid->area[k] * interaction (&grid->field[a], k, A, s, g, q);
         }
     }
-    J[0][1] = J[1][0];
+    out->J[0][1] = out->J[1][0];
 }

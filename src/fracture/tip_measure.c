@@ -120,14 +120,16 @@ static void unknown (pg_tip_field *out)
 /* The integrals of both rings into the numbers of the tip. */
 static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_material *m)
 {
-    double I[PG_TIP_FIELDS][2];
-    tip_integrals (grid, m, out->r1, out->near, out->J_near, I);
-    for (int a = 0; a < 2; a++)
-        for (int k = 0; k < 2; k++) out->K[k][a] = 0.5 * m->modulus * I[k][a];
-    tip_integrals (grid, m, out->r1, out->wide, out->J, I);
+    tip_sums near, wide;
+    tip_integrals (&near, grid, m, out->r1, out->near);
+    tip_integrals (&wide, grid, m, out->r1, out->wide);
     for (int a = 0; a < 2; a++) {
-        for (int k = 0; k < 2; k++) out->K_wide[k][a] = 0.5 * m->modulus * I[k][a];
-        out->T[a] = m->modulus * I[PG_TIP_FORCE][a];
+        for (int b = 0; b < 2; b++) out->J_near[a][b] = near.J[a][b], out->J[a][b] = wide.J[a][b];
+        for (int k = 0; k < 2; k++)
+            out->K[k][a] = 0.5 * m->modulus * near.I[k][a],
+            out->K_wide[k][a] = 0.5 * m->modulus * wide.I[k][a];
+        out->K[2][a] = out->K_wide[2][a] = 0;
+        out->T[a] = m->modulus * wide.I[PG_TIP_FORCE][a];
     }
 }
 

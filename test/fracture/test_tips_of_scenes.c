@@ -49,8 +49,10 @@ static pg_tip_field solved (const layer *l)
     run r =
         scene_of (1,
                   "dimension: 2\nplane: %s\nthickness: %.17g\nbody: [{add: {box: {low: [%.17g, %.17g], high: "
-                  "[%.17g, %.17g]}}}]\nspacing: %.17g\ncracks: [{from: [%.17g, %.17g], to: [0, 0]}]\n"
-                  "materials: {m: {youngs_modulus: 1, poissons_ratio: %.17g}}\nboundary: [{set: boundary, "
+                  "[%.17g, %.17g]}}}]\nspacing: %.17g\nlattice: cells\n"
+                  "cracks: [{from: [%.17g, %.17g], to: [0, 0]}]\n"
+                  "materials: {m: {youngs_modulus: 1, poissons_ratio: %.17g}}\n"
+                  "sets: {rim: {boundary: side}}\nboundary: [{set: rim, "
                   "displacement: {x: \"%.17g*(%s)-%.17g*(%s)\", y: \"%.17g*(%s)+%.17g*(%s)\"}}]\n"
                   "method: {%s}\nsolver: {kind: static}\noutput: {at: {levels: 1}}\n",
                   l->strain ? "strain" : "stress", u, -u, -u, u, u, u / 20, -2 * c * u, -2 * s * u, l->nu, c,
@@ -70,11 +72,10 @@ static void check_layer (const layer *l, double tolerance)
         l->angle * 180 / pi, l->nu, l->method, f.J[0][0] * E / (K * K), (f.K[0][0] - l->K_I) / K,
         (f.K[1][0] - l->K_II) / K, (f.K_wide[0][0] - l->K_I) / K, (f.K_wide[1][0] - l->K_II) / K,
         f.T[0] - l->T, pg_tip_uncertainty (&f, 1, &one));
-    check_relative (f.J[0][0], K * K / E, 2 * tolerance);
     check_relative (sqrt (f.J[0][0] * E), K, tolerance);
-    check_scaled (f.K_wide[0][0], l->K_I, 2 * tolerance, K),
-        check_scaled (f.K_wide[1][0], l->K_II, 2 * tolerance, K);
-    check_scaled (f.K[0][0], l->K_I, 3 * tolerance, K), check_scaled (f.K[1][0], l->K_II, 3 * tolerance, K);
+    check_scaled (f.K_wide[0][0], l->K_I, tolerance, K), check_scaled (f.K_wide[1][0], l->K_II, tolerance, K);
+    check_scaled (f.K[0][0], l->K_I, 0.04, K), check_scaled (f.K[1][0], l->K_II, 0.04, K);
+    check_scaled (f.T[0], l->T, 0.03, K / sqrt (l->unit));
 }
 
 static void the_field_on_the_outline_comes_back (void **state)
@@ -83,21 +84,21 @@ static void the_field_on_the_outline_comes_back (void **state)
     static const char *const method[] = { "integration: gauss", "integration: consistent" };
     for (int k = 0; k < 2; k++) {
         check_layer (&(layer){ 1, 0, 0, 0.3, 0, 1, 0, method[k] }, 0.01);
-        check_layer (&(layer){ 0, 1, 0, 0.3, 0, 1, 0, method[k] }, 0.01);
+        check_layer (&(layer){ 0, 1, 0, 0.3, 0, 1, 0, method[k] }, 0.02);
         check_layer (&(layer){ 1, -0.5, 0, 0.3, 0.5, 1, 1, method[k] }, 0.01);
         check_layer (&(layer){ 1, 0.3, 0, 0.3, -2.2, 1e-3, 0, method[k] }, 0.01);
     }
-    check_layer (&(layer){ 1, 0, 0, 0.3, 0, 1, 0, "basis: quadratic, horizon: 3 spacing" }, 0.01);
-    check_layer (&(layer){ 0.5, 1, 0, 0.3, 0.5, 1, 0, "basis: quadratic, horizon: 3 spacing" }, 0.01);
+    check_layer (&(layer){ 1, 0, 0, 0.3, 0, 1, 0, "basis: quadratic, horizon: 3 spacing" }, 0.015);
+    check_layer (&(layer){ 0.5, 1, 0, 0.3, 0.5, 1, 0, "basis: quadratic, horizon: 3 spacing" }, 0.015);
 }
 
 static void near_incompressible_too (void **state)
 {
     (void) state;
-    check_layer (&(layer){ 1, 0, 0, 0.45, 0, 1, 1, "integration: gauss" }, 0.01);
-    check_layer (&(layer){ 1, 0, 0, 0.49, 0, 1, 1, "integration: gauss" }, 0.01);
-    check_layer (&(layer){ 1, 0.5, 0, 0.499, 0.5, 1, 1, "integration: gauss" }, 0.01);
-    check_layer (&(layer){ 1, 0.5, 0, 0.4999, 0.5, 1, 1, "integration: consistent" }, 0.01);
+    check_layer (&(layer){ 1, 0, 0, 0.45, 0, 1, 1, "integration: gauss" }, 0.012);
+    check_layer (&(layer){ 1, 0, 0, 0.49, 0, 1, 1, "integration: gauss" }, 0.012);
+    check_layer (&(layer){ 1, 0.5, 0, 0.499, 0.5, 1, 1, "integration: gauss" }, 0.012);
+    check_layer (&(layer){ 1, 0.5, 0, 0.4999, 0.5, 1, 1, "integration: consistent" }, 0.012);
 }
 
 /* Single edge notch, half the width deep, 20 spacings: K = stress sqrt (pi a) F (Tada, Paris and Irwin, The
