@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long stress fresh fuzz mutate compilers lint doc accuracy bench install clean
+# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long stress fresh fuzz mutate compilers lint doc accuracy fracture bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -153,6 +153,10 @@ bench: packages      ## measures the tables of doc/benchmarks.md with the spread
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs
 	$(Q)bench/run $(BUILD) $(if $(REPEAT),--repeat $(REPEAT)) $(T)
 
+fracture: packages   ## grows cracks of known load and rewrites the tables of doc/accuracy*.md about them (T="group group": of some)
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
+	$(Q)bench/fracture $(BUILD) -j $(JOBS) $(T)
+
 accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites them (T="group group": of some)
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs $(ACCURACY:%=$(BUILD)/test/%)
 	$(Q)bench/accuracy $(BUILD) -j $(JOBS) $(T)
@@ -184,6 +188,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy bench bench-programs install clean
+.PHONY: FORCE all perigal packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -1,0 +1,540 @@
+"""The bodies of bench/fracture: plates and beams with cracks whose load of growth is known, laid on a lattice in any way.
+
+A body is written down once, in its own axes, by the vertices of its outline. `text` writes it as a scene: shifted against the lattice
+(lattice_offset), turned (the body and its loads turn, the lattice stays), or on points moved at random (perturb). Loads are tractions or
+whole displacement vectors of edges of the outline, so that they turn with the body; the body is held at two points far from the crack, where
+the forces vanish.
+
+Closed forms: theory (a) is the load factor at which a crack of length a grows, from its energy release rate G and the fracture energy G0.
+The full load of every scene is FULL times the load of first growth, so that theory (first length) = 1/FULL.
+
+Sources of the closed forms
+  edge notch in tension      H. Tada, P. C. Paris, G. R. Irwin, The Stress Analysis of Cracks Handbook: within 0.5 %
+                             (2.8266 at half the width; A. C. Kaya, F. Erdogan 1987 give 2.8246)
+  three-point bend           J. E. Srawley, Int. J. Fracture 12 (1976) 475: span 4 widths, within 0.5 %
+  double cantilever          A. D. Foote, V. T. Buchwald, Int. J. Fracture 29 (1985) 125: K sqrt (h) / P = sqrt (12) (a/h + 0.673)
+  clamped strips             exact: the energy of the intact strip per length, of which nothing is left behind the tip
+  centre crack               the secant of C. E. Feddersen 1966: within 0.3 % up to 0.8 of the width
+  coupled criterion          D. Leguillon, Eur. J. Mech. A 21 (2002) 61: stress over the strength along the new crack and mean energy release
+                             over the fracture energy, whichever needs more; its length is where that is least
+  inclined crack             J. Eftis, H. Liebowitz 1972 and earlier: K_I = s sqrt (pi a) sin^2, K_II = s sqrt (pi a) sin cos in a wide plate;
+                             direction and load by the largest hoop stress, F. Erdogan, G. C. Sih, J. Basic Eng. 85 (1963) 519
+"""
+import math
+
+E, NU, G0 = 70e9, 0.22, 8.0            # glass: Pa, -, J/m2; other Poisson's ratios by the caller
+FULL = 3.0                             # full load over the load of first growth
+
+
+# ---- materials -------------------------------------------------------------------------------------------------------
+class Material:
+    """Elastic constants of the plane, and the fracture energy."""
+
+    def __init__(self, nu=NU, plane="stress", modulus=E, energy=G0):
+        self.nu, self.plane, self.modulus, self.energy = nu, plane, modulus, energy
+
+    def prime(self):
+        """E' of G = K^2 / E', Pa."""
+        return self.modulus / (1 - self.nu ** 2) if self.plane == "strain" else self.modulus
+
+    def shear(self):
+        return self.modulus / (2 * (1 + self.nu))
+
+    def held(self):
+        """Stress over strain of a strip that cannot contract along its length, Pa."""
+        if self.plane == "stress":
+            return self.modulus / (1 - self.nu ** 2)
+        return self.modulus * (1 - self.nu) / ((1 + self.nu) * (1 - 2 * self.nu))
+
+    def toughness(self):
+        return math.sqrt(self.prime() * self.energy)
+
+
+# ---- bodies ----------------------------------------------------------------------------------------------------------
+class Body:
+    """One test in its own axes. Lengths in units of `width`, m.
+
+    outline    vertices, counterclockwise; edge k runs from vertex k to the next (k from 0)
+    cracks     pairs of places; an end outside the body is its mouth
+    loads      (edge, "traction" | "displacement", (x, y)) at full load, in Pa or m
+    pins       two places that hold the body; none: loads hold it
+    start      length of the crack at the start; theory (length) is the load factor at which it grows
+    growth     length it may grow, over all tips
+    path       facets follow this polyline (imposed); None: free
+    straight   the crack should run along `along` (a unit vector)
+    kink       degrees from the crack to the first facet, counterclockwise; None: not asked
+    """
+    holes = ()
+    cracks = ()
+    loads = ()
+    pins = ()
+    path = None
+    along = None
+    kink = None
+    tips = 1
+    materials = ()                       # (name, fracture energy, (distance, normal) of the half plane beyond which it is); none: one
+    strength = None                      # tensile strength, Pa: cracks may come into being
+
+    def __init__(self, material, width=0.1):
+        self.material, self.width = material, width
+        self.build()
+
+    def build(self):
+        raise NotImplementedError
+
+    def theory(self, a):
+        """Load factor; a in units of width."""
+        raise NotImplementedError
+
+    def scale(self, unit):
+        """Full load for a body whose factor of first growth is `unit` under a unit load."""
+        return FULL * unit
+
+
+class Strip(Body):
+    """A strip of height 1 between two rigid grips that move apart: G is what the intact strip stores per length."""
+    name, title = "strip", "Clamped strip, its grips moved apart"
+
+    def build(self):
+        self.start, self.growth, length = 1.25, 1.0, 3.5
+        self.outline = [(0, -0.5), (length, -0.5), (length, 0.5), (0, 0.5)]
+        self.cracks = [((-0.2, 0), (self.start, 0))]
+        self.along = (1, 0)
+        # G = held (2 u)^2 / (2 height)
+        u = FULL * 0.5 * math.sqrt(2 * self.material.energy * self.width / self.material.held())
+        self.loads = [(0, "displacement", (0, -u)), (2, "displacement", (0, u))]
+
+    def theory(self, a):
+        return 1 / FULL
+
+
+class ShearStrip(Strip):
+    """The same strip, its grips moved along each other: mode II. A free crack would kink, so its path is imposed."""
+    name, title = "shear_strip", "Clamped strip in shear, path imposed"
+
+    def build(self):
+        super().build()
+        self.path = [(self.start, 0), (3.5, 0)]
+        # G = mu (2 u)^2 / (2 height)
+        u = FULL * 0.5 * math.sqrt(2 * self.material.energy * self.width / self.material.shear())
+        self.loads = [(0, "displacement", (-u, 0)), (2, "displacement", (u, 0))]
+
+
+class EdgeNotch(Body):
+    """A plate of width 1 and height 3 with an edge crack across it, drawn at both ends by dead tractions."""
+    name, title = "edge_notch", "Edge notch in tension"
+    notch = 0.4
+
+    def build(self):
+        self.start, self.growth = self.notch, 0.3
+        self.outline = [(0, -1.5), (1, -1.5), (1, 1.5), (0, 1.5)]
+        self.cracks = [((-0.2, 0), (self.start, 0))]
+        self.along = (1, 0)
+        self.unit = self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
+        s = FULL * self.unit
+        self.loads = [(0, "traction", (0, -s)), (2, "traction", (0, s))]
+        self.pins = [(0.02, 0.4), (0.02, 1.3)]
+
+    @staticmethod
+    def shape(a):
+        """K / (stress sqrt (width)) (Tada, Paris, Irwin)."""
+        half = math.pi * a / 2
+        return math.sqrt(math.pi * a) * math.sqrt(math.tan(half) / half) * (
+            0.752 + 2.02 * a + 0.37 * (1 - math.sin(half)) ** 3) / math.cos(half)
+
+    def theory(self, a):
+        return self.shape(self.start) / self.shape(a) / FULL
+
+
+class Bend(Body):
+    """A beam on two supports, span 4 depths, pressed in the middle; forces spread over a tenth of the depth."""
+    name, title = "bend", "Three-point bend"
+    patch, span = 0.1, 4.0
+
+    def build(self):
+        self.start, self.growth = 0.4, 0.3
+        half, w, end = self.span / 2, self.patch / 2, self.span / 2 + 0.2
+        self.outline = [(-end, 0), (-half - w, 0), (-half + w, 0), (half - w, 0), (half + w, 0), (end, 0),
+                        (end, 1), (w, 1), (-w, 1), (-end, 1)]
+        self.cracks = [((0, -0.2), (0, self.start))]
+        self.along = (0, 1)
+        p = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))      # force / (thickness width), Pa
+        self.loads = [(7, "traction", (0, -p / self.patch)), (1, "traction", (0, p / 2 / self.patch)),
+                      (3, "traction", (0, p / 2 / self.patch))]
+        self.pins = [(-end + 0.05, 0.95), (end - 0.05, 0.95)]
+
+    def shape(self, a):
+        """K sqrt (width) thickness / force (Srawley 1976); the spread of the middle force takes w/(2 S) off the moment."""
+        f = 3 * math.sqrt(a) * (1.99 - a * (1 - a) * (2.15 - 3.93 * a + 2.7 * a * a)) / (2 * (1 + 2 * a) * (1 - a) ** 1.5)
+        return self.span * f * (1 - self.patch / (2 * self.span))
+
+    def theory(self, a):
+        return self.shape(self.start) / self.shape(a) / FULL
+
+
+class DoubleCantilever(Body):
+    """Two arms of height 1/2, drawn apart at their ends. A free crack leaves the middle (T-stress > 0): its path is imposed."""
+    name, title = "double_cantilever", "Double cantilever, path imposed"
+
+    def build(self):
+        self.start, self.growth, length = 2.0, 0.5, 4.5
+        self.outline = [(0, -0.5), (length, -0.5), (length, 0.5), (0, 0.5), (0, 0)]
+        self.cracks = [((-0.2, 0), (self.start, 0))]
+        self.path = [(self.start, 0), (length, 0)]
+        self.along = (1, 0)
+        p = FULL * self.material.toughness() * math.sqrt(self.width) / self.shape(self.start)        # force / thickness, N/m
+        t = p / (0.5 * self.width)
+        self.loads = [(4, "traction", (0, -t)), (3, "traction", (0, t))]
+        self.pins = [(length - 0.1, -0.35), (length - 0.1, 0.35)]
+
+    @staticmethod
+    def shape(a):
+        """K thickness sqrt (width) / force; arm height 1/2."""
+        return math.sqrt(12) * (a / 0.5 + 0.673) / math.sqrt(0.5)
+
+    def theory(self, a):
+        return self.shape(self.start) / self.shape(a) / FULL
+
+
+def hoop(k1, k2):
+    """(angle, K of that direction) of the largest hoop stress ahead of a tip (Erdogan, Sih 1963), rad, counterclockwise."""
+    if k2 == 0:
+        return 0.0, k1
+    r = k1 / k2
+    angle = 2 * math.atan((r - math.copysign(math.sqrt(r * r + 8), k2)) / 4)
+    half = math.cos(angle / 2)
+    return angle, half * (k1 * half * half - 1.5 * k2 * math.sin(angle))
+
+
+class Inclined(Body):
+    """A crack of half length 1 at an angle to the load, in a plate of 6 x 6: kinks at both tips."""
+    degrees = 45
+    tips = 2
+    # K_I, K_II / (stress sqrt (pi a)) over those of a wide plate: data/fracture_fem/intensity.csv
+    finite = {30: (1.0, 1.0), 45: (1.0, 1.0), 60: (1.0, 1.0)}
+
+    def build(self):
+        self.name = "inclined_%d" % self.degrees
+        self.title = "Centre crack at %d degrees to the load" % self.degrees
+        self.start, self.growth = 2.0, 0.6
+        b = math.radians(self.degrees)
+        self.outline = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
+        c, s = math.sin(b), math.cos(b)                    # the load is along y
+        self.cracks = [((-c, -s), (c, s))]
+        k1, k2 = self.intensity()
+        angle, k = hoop(k1, k2)
+        self.kink = math.degrees(angle)
+        stress = FULL * self.material.toughness() / (k * math.sqrt(self.width))
+        self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
+        self.pins = [(-2.9, 0), (2.9, 0)]
+
+    def intensity(self):
+        """K_I, K_II of the tip at the upper right, over stress and the root of the half length; K_II < 0 kinks counterclockwise."""
+        b = math.radians(self.degrees)
+        f1, f2 = self.finite[self.degrees]
+        root = math.sqrt(math.pi)
+        return root * f1 * math.sin(b) ** 2, root * f2 * math.sin(b) * math.cos(b)
+
+    def theory(self, a):
+        return 1 / FULL if a <= self.start + 1e-9 else math.nan
+
+
+class Inclined30(Inclined):
+    degrees = 30
+
+
+class Inclined60(Inclined):
+    degrees = 60
+
+
+class Slanted(Body):
+    """An edge crack at 45 degrees in a plate of 1 x 2.5 in tension: its path bends across the plate. Reference: data/fracture_fem."""
+    name, title = "slanted", "Slanted edge crack"
+    curve = None                        # rows (x, y, length, K of the direction of growth) of data/fracture_fem/slanted.csv
+
+    def build(self):
+        self.start, self.growth = 0.35 * math.sqrt(2), 0.35
+        self.outline = [(0, -1.25), (1, -1.25), (1, 1.25), (0, 1.25)]
+        self.cracks = [((-0.1, -0.3), (0.35, 0.15))]
+        stress = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
+        self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
+        self.pins = [(0.02, 0.6), (0.02, 1.2)]
+
+    def shape(self, a):
+        """K of the direction of growth / (stress sqrt (width)), from the table."""
+        rows = self.curve or [(0, 0, 0, 1.8)]
+        for low, high in zip(rows, rows[1:]):
+            if a <= high[2]:
+                share = (a - low[2]) / (high[2] - low[2])
+                return low[3] + share * (high[3] - low[3])
+        return rows[-1][3]
+
+    def theory(self, a):
+        return self.shape(self.start) / self.shape(a) / FULL
+
+
+class Centre(Body):
+    """A centre crack across the load in a plate of half width 1: both tips grow."""
+    name, title, tips = "centre_crack", "Centre crack in tension, two tips", 2
+
+    def build(self):
+        self.start, self.growth = 0.8, 0.6
+        self.outline = [(-1, -2), (1, -2), (1, 2), (-1, 2)]
+        self.cracks = [((-0.4, 0), (0.4, 0))]
+        self.along = (1, 0)
+        stress = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
+        self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
+        self.pins = [(-0.1, 0.12), (-0.1, 1.2)]
+
+    @staticmethod
+    def shape(a):
+        """K / (stress sqrt (width)); a: the whole length."""
+        return math.sqrt(math.pi * a / 2 / math.cos(math.pi * a / 4))
+
+    def theory(self, a):
+        return self.shape(self.start) / self.shape(a) / FULL
+
+
+class TwoEnergies(Strip):
+    """The clamped strip of two materials that differ in their fracture energy alone: across their boundary the load grows by the root of 2."""
+    name, title = "across", "Strip, crack across an interface to twice the fracture energy"
+    border, ratio = 1.75, 2.0
+
+    def build(self):
+        super().build()
+        m = self.material
+        self.materials = [("glass", m.energy, None), ("tough", self.ratio * m.energy, (self.border, (1, 0)))]
+
+    def theory(self, a):
+        return (1 if a < self.border - 1e-9 else math.sqrt(self.ratio)) / FULL
+
+
+class Offset(Body):
+    """Two edge cracks from opposite sides, one a little higher: they pass each other and join."""
+    name, title, tips = "offset", "Two offset edge cracks", 2
+
+    def build(self):
+        self.start, self.growth = 0.5, 1.2
+        self.outline = [(0, -1), (1, -1), (1, 1), (0, 1)]
+        self.cracks = [((-0.1, 0.1), (0.25, 0.1)), ((1.1, -0.1), (0.75, -0.1))]
+        stress = FULL * self.material.toughness() / math.sqrt(math.pi * 0.25 * self.width) / 1.12
+        self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
+        self.pins = [(0.02, 0.9), (0.98, 0.9)]
+
+    def theory(self, a):
+        return math.nan
+
+
+class IntoHole(Body):
+    """An edge crack that passes below a hole and is drawn into it."""
+    name, title = "into_hole", "Edge crack into a hole"
+
+    def build(self):
+        self.start, self.growth = 0.3, 0.5
+        self.outline = [(0, -1), (1, -1), (1, 1), (0, 1)]
+        self.holes = [((0.6, 0.12), 0.1)]
+        self.cracks = [((-0.1, 0), (self.start, 0))]
+        stress = FULL * self.material.toughness() / math.sqrt(math.pi * 0.3 * self.width) / 1.66
+        self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
+        self.pins = [(0.02, 0.3), (0.02, 0.9)]
+
+    def theory(self, a):
+        return math.nan
+
+
+# ---- initiation ------------------------------------------------------------------------------------------------------
+def coupled(stress, release, strength, energy, longest, steps=4000):
+    """(load, length) of the coupled criterion. stress (l): at the end of a crack to come of length l under unit load; release (l): its energy
+    release rate G under unit load; the least over l of the load that meets both."""
+    best, total, before = (math.inf, 0.0), 0.0, 0.0
+    for k in range(1, steps + 1):
+        l = longest * k / steps
+        middle = 0.5 * (l + before)
+        total += release(middle) * (l - before)
+        before = l
+        if stress(l) <= 0:
+            break
+        need = max(strength / stress(l), math.sqrt(energy * l / total))
+        if need < best[0]:
+            best = (need, l)
+    return best
+
+
+class Beam(Bend):
+    """The bend beam without a notch: the load at which a crack comes into being."""
+    name, title = "beam", "Beam without a notch"
+    length = 0.5                         # E' G0 / strength^2 over the depth
+
+    def build(self):
+        super().build()
+        self.start, self.growth, self.cracks, self.along = 0.0, 0.2, [], None
+        m, w = self.material, self.width
+        self.strength = math.sqrt(m.prime() * m.energy / (self.length * w))
+        # outer fibre stress of force 1 per width and thickness
+        moment = 6 * (self.span / 4 - self.patch / 8)
+        self.first, self.least = coupled(lambda l: moment * (1 - 2 * l),
+                                         lambda l: (moment * self.bending(l)) ** 2 * w / m.prime(),
+                                         self.strength, m.energy, 0.45)
+        p = FULL * self.first
+        self.loads = [(7, "traction", (0, -p / self.patch)), (1, "traction", (0, p / 2 / self.patch)), (3, "traction", (0, p / 2 / self.patch))]
+
+    @staticmethod
+    def bending(a):
+        """K / (outer fibre stress sqrt (width)), pure bending (Tada, Paris, Irwin)."""
+        half = math.pi * a / 2
+        return math.sqrt(math.pi * a) * math.sqrt(math.tan(half) / half) * (0.923 + 0.199 * (1 - math.sin(half)) ** 4) / math.cos(half)
+
+    def theory(self, a):
+        return 1 / FULL if a == 0 else math.nan
+
+
+class Hole(Body):
+    """A plate with a hole in tension, without a crack: initiation between the strength of a point and that of a plate without a hole."""
+    name, title, tips = "hole", "Plate with a hole, no crack", 2
+    radius, length = 0.1, 0.2
+
+    def build(self):
+        self.start, self.growth = 0.0, 0.2
+        self.outline = [(-0.6, -0.9), (0.6, -0.9), (0.6, 0.9), (-0.6, 0.9)]
+        self.holes = [((0, 0), self.radius)]
+        m, w, r = self.material, self.width, self.radius
+        self.strength = math.sqrt(m.prime() * m.energy / (self.length * w))
+        def shape(l):
+            """K / (stress sqrt (pi l)), a crack on each side of the hole (Tada, Paris, Irwin)."""
+            s = l / (r + l)
+            return 0.5 * (3 - s) * (1 + 1.243 * (1 - s) ** 3)
+        self.first, self.least = coupled(lambda l: 0.5 * (2 + (r / (r + l)) ** 2 + 3 * (r / (r + l)) ** 4),
+                                         lambda l: shape(l) ** 2 * math.pi * l * w / m.prime(), self.strength, m.energy, 0.3)
+        s = FULL * self.first
+        self.loads = [(0, "traction", (0, -s)), (2, "traction", (0, s))]
+        self.pins = [(-0.59, 0), (0.59, 0)]
+
+    def theory(self, a):
+        return 1 / FULL if a == 0 else math.nan
+
+
+# ---- lattices --------------------------------------------------------------------------------------------------------
+class Lattice:
+    """How the points lie: shift against the body in spacings, angle by which the body is turned, degrees, random moves in spacings."""
+
+    def __init__(self, name, shift=(0, 0), turn=0, perturb=0, seed=1):
+        self.name, self.shift, self.turn, self.perturb, self.seed = name, shift, turn, perturb, seed
+
+    def offset(self, body):
+        """A crack at 45 degrees would run through points of a lattice that is not shifted: half a spacing along x, as a centred crack is."""
+        diagonal = any(abs(abs(b[0] - a[0]) - abs(b[1] - a[1])) < 1e-9 for a, b in body.cracks)
+        return (0.5, 0) if diagonal and not self.turn and not any(self.shift) else self.shift
+
+
+LATTICES = [
+    Lattice("centred"),
+    Lattice("shifted .37, .21", (0.37, 0.21)),
+    Lattice("shifted .37, .40", (0.37, 0.40)),
+    Lattice("shifted .10, -.45", (0.10, -0.45)),
+    Lattice("turned 15", (0.13, 0.29), 15),
+    Lattice("turned 30", (0.13, 0.29), 30),
+    Lattice("turned 45", (0.13, 0.29), 45),
+    Lattice("moved .2, seed 1", perturb=0.2, seed=1),
+    Lattice("moved .2, seed 2", perturb=0.2, seed=2),
+    Lattice("moved .2, seed 3", perturb=0.2, seed=3),
+]
+
+
+class Frame:
+    """Turns the axes of a body into those of a scene."""
+
+    def __init__(self, body, lattice):
+        xs, ys = [v[0] for v in body.outline], [v[1] for v in body.outline]
+        self.centre = (0.5 * (min(xs) + max(xs)), 0.5 * (min(ys) + max(ys)))
+        self.c, self.s = math.cos(math.radians(lattice.turn)), math.sin(math.radians(lattice.turn))
+        self.width = body.width
+
+    def vector(self, v):
+        return (self.c * v[0] - self.s * v[1], self.s * v[0] + self.c * v[1])
+
+    def place(self, v):
+        x, y = self.vector((v[0] - self.centre[0], v[1] - self.centre[1]))
+        return (self.width * (x + self.centre[0]), self.width * (y + self.centre[1]))
+
+    def back(self, x):
+        """From a place of the scene, m, to the axes of the body, in widths."""
+        u, v = x[0] / self.width - self.centre[0], x[1] / self.width - self.centre[1]
+        return (self.c * u + self.s * v + self.centre[0], -self.s * u + self.c * v + self.centre[1])
+
+
+# ---- scenes as text --------------------------------------------------------------------------------------------------
+METHODS = {
+    "gauss linear": "integration: gauss",
+    "gauss linear 2.5": "integration: gauss, horizon: 2.5 spacing",
+    "consistent linear": "integration: consistent",
+    "gauss quadratic": "integration: gauss, basis: quadratic, horizon: 3 spacing",
+    "consistent quadratic": "integration: consistent, basis: quadratic, horizon: 3 spacing",
+}
+
+
+def numbers(values, digits=12):
+    return "[" + ", ".join("%.*g" % (digits, v) for v in values) + "]"
+
+
+def component(v, largest):
+    """Rounding of a turned vector is no load."""
+    return 0.0 if abs(v) < 1e-12 * largest else v
+
+
+def text(body, lattice, n, method="gauss linear", single=False, events=None):
+    """The scene: n spacings in a width; single: breaks single bonds instead of growing facets."""
+    frame, m, h = Frame(body, lattice), body.material, body.width / n
+    lines = ["title: %s" % body.title, "dimension: 2", "plane: %s" % m.plane, "thickness: 1",
+             "body:", "  - add: {polygon: {vertices: [%s]}}" % ", ".join(numbers(frame.place(v)) for v in body.outline)]
+    for centre, radius in body.holes:
+        lines += ["  - subtract: {disk: {center: %s, radius: %.12g}}" % (numbers(frame.place(centre)), radius * body.width)]
+    lines += ["spacing: %.12g" % h, "lattice: cells"]
+    if any(lattice.offset(body)):
+        lines += ["lattice_offset: %s" % numbers(lattice.offset(body))]
+    if lattice.perturb:
+        lines += ["perturb: {amount: %g, seed: %d}" % (lattice.perturb, lattice.seed)]
+    if body.cracks:
+        lines += ["cracks:"] + ["  - {from: %s, to: %s}" % (numbers(frame.place(a)), numbers(frame.place(b))) for a, b in body.cracks]
+    lines += ["materials:"]
+    for name, energy, _ in body.materials or [("glass", None, None)]:
+        own = ", failure: {fracture_energy: %g}" % energy if energy else ""
+        lines += ["  %s: {youngs_modulus: %.12g, poissons_ratio: %g%s}" % (name, m.modulus, m.nu, own)]
+    if body.materials:
+        lines += ["blocks:", "  - {material: %s, where: x == x}" % body.materials[0][0]]
+        for name, _, (far, normal) in body.materials[1:]:
+            along, p = frame.vector(normal), frame.place((far * normal[0], far * normal[1]))
+            lines += ["  - {material: %s, where: %.12g * (x - %.12g) + %.12g * (y - %.12g) > 0}" % (name, along[0], p[0], along[1], p[1])]
+    lines += ["failure: {criterion: %s, fracture_energy: %g%s}" % (
+        "stretch" if single else "energy_release", m.energy, ", tensile_strength: %.12g" % body.strength if body.strength and not single else "")]
+    if body.pins:
+        lines += ["sets:"] + ["  pin_%d: {where: hypot (x - %.12g, y - %.12g) < %.12g}" % (k, *frame.place(p), 0.75 * h)
+                              for k, p in enumerate(body.pins, 1)]
+    lines += ["boundary:"]
+    for k, (edge, kind, vector) in enumerate(body.loads):
+        size = math.hypot(*vector)
+        x, y = (component(v, size) for v in frame.vector(vector))
+        lines += ["  - {name: load_%d, set: polygon.edge %d, %s: {x: %.12g, y: %.12g}}" % (k + 1, edge + 1, kind, x, y)]
+    if body.pins:
+        first, second = (frame.place(p) for p in body.pins)
+        other = "x" if abs(second[1] - first[1]) > abs(second[0] - first[0]) else "y"       # across the line between the two
+        lines += ["  - {name: pin_1, set: pin_1, displacement: {x: 0, y: 0}, essential: penalty}",
+                  "  - {name: pin_2, set: pin_2, displacement: {%s: 0}, essential: penalty}" % other]
+    lines += ["method: {%s}" % METHODS[method]]
+    solver = "kind: static"
+    if body.path and not single:
+        solver += ", path: [%s]" % ", ".join(numbers(frame.place(v)) for v in body.path)
+    if events is None:
+        events = round(body.growth * n) * (60 if single else 1)
+    lines += ["solver: {%s, max_events: %d}" % (solver, events)]
+    lines += ["output: {at: {levels: 1}, pictures: [damage]}", ""]
+    return "\n".join(lines)
+
+
+class HalfNotch(EdgeNotch):
+    """The edge notch of half the width: K itself."""
+    name, title, notch = "half_notch", "Edge notch of half the width", 0.5
+
+
+BODIES = [Strip, EdgeNotch, Bend, Slanted, Inclined30, Inclined, Inclined60, ShearStrip, DoubleCantilever]
+MORE = [Centre, TwoEnergies, Offset, IntoHole]       # several tips, two materials, boundaries met on the way
+BEGIN = [Beam, Hole]                                 # no crack at the start
