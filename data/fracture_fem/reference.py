@@ -173,7 +173,7 @@ def solve(nodes, triangles, sides, loads, pins):
             for n, share in ((a, 1 / 6), (b, 1 / 6), (m, 2 / 3)):
                 old = force.get(n, (0, 0))
                 force[n] = (old[0] + share * length * thick * tx, old[1] + share * length * thick * ty)
-    text = ["*NODE, NSET=ALL"] + ["%d, %.12g, %.12g, 0" % (n, *x) for n, x in sorted(nodes.items())]
+    text = ["*NODE, NSET=ALL"] + ["%d, %.11g, %.11g, 0" % (n, *x) for n, x in sorted(nodes.items())]
     text += ["*ELEMENT, TYPE=CPE6, ELSET=BODY"]
     text += ["%d, %s" % (k + 1, ", ".join(map(str, t))) for k, t in enumerate(triangles)]
     text += ["*MATERIAL, NAME=M", "*ELASTIC", "1, %g" % NU, "*SOLID SECTION, ELSET=BODY, MATERIAL=M", "%g" % thick, "*STEP", "*STATIC", "*BOUNDARY"]
@@ -182,7 +182,7 @@ def solve(nodes, triangles, sides, loads, pins):
         text.append("%d, %d, %d" % (n, k, k))
     text.append("*CLOAD")
     for n, f in sorted(force.items()):
-        text += ["%d, %d, %.15g" % (n, k + 1, f[k]) for k in (0, 1) if f[k]]
+        text += ["%d, %d, %.9g" % (n, k + 1, f[k]) for k in (0, 1) if f[k]]
     text += ["*NODE FILE, OUTPUT=2D", "U", "*END STEP", ""]
     with tempfile.TemporaryDirectory() as folder:
         with open(folder + "/body.inp", "w", encoding="utf-8") as file:
@@ -320,19 +320,15 @@ def path():
     first = math.hypot(0.35, 0.35)
     for k in range(26):
         outer = 0.08 if k == 0 else 0.9 * step
-        (j, k1, k2), nodes, u = measure(SLANTED, (), [crack], TENSION, HELD, outer, 0.07 * outer, 0.06)
+        (j, k1, k2), nodes, u = measure(SLANTED, (), [crack], TENSION, HELD, outer, 0.001, 0.05)
         angle, kt = hoop(k1, k2)
         rows.append(tuple("%.6g" % v for v in (*crack[-1], first + grown, k1, k2, kt, math.sqrt(j * PRIME), PRIME * opening(nodes, u, crack[0]))))
-        print(*rows[-1], "%.2f degrees" % math.degrees(angle), len(triangles_of(nodes)), flush=True)
+        print(*rows[-1], "%.2f degrees" % math.degrees(angle), len(nodes), flush=True)
         a, b = crack[-2], crack[-1]
         t = math.atan2(b[1] - a[1], b[0] - a[0]) + angle
         crack.append((b[0] + step * math.cos(t), b[1] + step * math.sin(t)))
         grown += step
     write("slanted.csv", rows)
-
-
-def triangles_of(nodes):
-    return nodes
 
 
 def write(name, rows):
@@ -342,20 +338,20 @@ def write(name, rows):
 
 def notch(a):
     outline = [(0, -1.5), (1, -1.5), (1, 1.5), (0, 1.5)]
-    return measure(outline, (), [[(0.0, 0.0), (a, 0.0)]], TENSION, HELD, 0.15, 0.008, 0.06)[0]
+    return measure(outline, (), [[(0.0, 0.0), (a, 0.0)]], TENSION, HELD, 0.15, 0.001, 0.06)[0]
 
 
 def bend(a):
     """Force 1 per width and thickness on a tenth of the depth in the middle, half of it on each support."""
     outline = [(-2.2, 0), (-2.05, 0), (-1.95, 0), (1.95, 0), (2.05, 0), (2.2, 0), (2.2, 1), (0.05, 1), (-0.05, 1), (-2.2, 1)]
     loads = {8: (0, -10), 2: (0, 5), 4: (0, 5)}
-    return measure(outline, (), [[(0.0, 0.0), (0.0, a)]], loads, [((-2.2, 1), 1), ((-2.2, 1), 2), ((2.2, 1), 2)], 0.15, 0.008, 0.06)[0]
+    return measure(outline, (), [[(0.0, 0.0), (0.0, a)]], loads, [((-2.2, 1), 1), ((-2.2, 1), 2), ((2.2, 1), 2)], 0.15, 0.001, 0.06)[0]
 
 
 def cantilever(a):
     """Force 1 per width and thickness on the end of each arm of height 1/2."""
     outline = [(0, -0.5), (4.5, -0.5), (4.5, 0.5), (0, 0.5), (0, 0)]
-    return measure(outline, (), [[(0, 0), (a, 0.0)]], {5: (0, -2), 4: (0, 2)}, [((4.5, 0), 1), ((4.5, 0), 2), ((4.5, 0.5), 1)], 0.2, 0.012, 0.06)[0]
+    return measure(outline, (), [[(0, 0), (a, 0.0)]], {5: (0, -2), 4: (0, 2)}, [((4.5, 0), 1), ((4.5, 0), 2), ((4.5, 0.5), 1)], 0.2, 0.001, 0.06)[0]
 
 
 def inclined(degrees):
@@ -363,7 +359,7 @@ def inclined(degrees):
     b = math.radians(degrees)
     c, s = math.sin(b), math.cos(b)
     outline = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
-    j, k1, k2 = measure(outline, (), [[(-c, -s), (0.0, 0.0), (c, s)]], TENSION, [((-3, 0), 1), ((-3, 0), 2), ((3, 0), 2)], 0.5, 0.025, 0.2)[0]
+    j, k1, k2 = measure(outline, (), [[(-c, -s), (0.0, 0.0), (c, s)]], TENSION, [((-3, 0), 1), ((-3, 0), 2), ((3, 0), 2)], 0.5, 0.002, 0.15)[0]
     root = math.sqrt(math.pi)
     return j, k1 / root, k2 / root
 
