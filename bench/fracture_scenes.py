@@ -2,8 +2,7 @@
 
 A body is written down once, in its own axes, by the vertices of its outline. `text` writes it as a scene: shifted against the lattice
 (lattice_offset), turned (the body and its loads turn, the lattice stays), or on points moved at random (perturb). Loads are tractions or
-whole displacement vectors of edges of the outline, so that they turn with the body; the body is held at two points far from the crack, where
-the forces vanish.
+whole displacement vectors of edges of the outline, so that they turn with the body; the body is held by a few points where stresses vanish.
 
 Closed forms: theory (a) is the load factor at which a crack of length a grows, from its energy release rate G and the fracture energy G0.
 The full load of every scene is FULL times the load of first growth, so that theory (first length) = 1/FULL.
@@ -57,7 +56,7 @@ class Body:
     outline    vertices, counterclockwise; edge k runs from vertex k to the next (k from 0)
     cracks     pairs of places; an end outside the body is its mouth
     loads      (edge, "traction" | "displacement", (x, y)) at full load, in Pa or m
-    pins       two places that hold the body; none: loads hold it
+    pin        place where stresses vanish and the body is held; None: its loads hold it
     start      length of the crack at the start; theory (length) is the load factor at which it grows
     growth     length it may grow, over all tips
     path       facets follow this polyline (imposed); None: free
@@ -67,7 +66,7 @@ class Body:
     holes = ()
     cracks = ()
     loads = ()
-    pins = ()
+    pin = None
     path = None
     along = None
     kink = None
@@ -133,7 +132,7 @@ class EdgeNotch(Body):
         self.unit = self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
         s = FULL * self.unit
         self.loads = [(0, "traction", (0, -s)), (2, "traction", (0, s))]
-        self.pins = [(0.02, 0.4), (0.02, 1.3)]
+        self.pin = (0.02, 0.4)
 
     @staticmethod
     def shape(a):
@@ -147,21 +146,26 @@ class EdgeNotch(Body):
 
 
 class Bend(Body):
-    """A beam on two supports, span 4 depths, pressed in the middle; forces spread over a tenth of the depth."""
+    """A beam on two supports, span 4 depths, pressed in the middle; forces act on pads of a tenth of the depth."""
     name, title = "bend", "Three-point bend"
-    patch, span = 0.1, 4.0
+    patch, pad, span = 0.1, 0.05, 4.0
 
     def build(self):
         self.start, self.growth = 0.4, 0.3
         half, w, end = self.span / 2, self.patch / 2, self.span / 2 + 0.2
-        self.outline = [(-end, 0), (-half - w, 0), (-half + w, 0), (half - w, 0), (half + w, 0), (end, 0),
-                        (end, 1), (w, 1), (-w, 1), (-end, 1)]
+        self.outline = [(-end, 0)]
+        for x in (-half, half):
+            self.outline += [(x - w, 0), (x - w, -self.pad), (x + w, -self.pad), (x + w, 0)]
+        self.outline += [(end, 0), (end, 1), (w, 1), (w, 1 + self.pad), (-w, 1 + self.pad), (-w, 1), (-end, 1)]
         self.cracks = [((0, -0.2), (0, self.start))]
         self.along = (0, 1)
         p = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))      # force / (thickness width), Pa
-        self.loads = [(7, "traction", (0, -p / self.patch)), (1, "traction", (0, p / 2 / self.patch)),
-                      (3, "traction", (0, p / 2 / self.patch))]
-        self.pins = [(-end + 0.05, 0.95), (end - 0.05, 0.95)]
+        self.loads = self.forces(p)
+        self.pin = (-end + 0.05, 0.95)
+
+    def forces(self, p):
+        """On the pads: the force p in the middle, half of it on each support."""
+        return [(12, "traction", (0, -p / self.patch)), (2, "traction", (0, p / 2 / self.patch)), (6, "traction", (0, p / 2 / self.patch))]
 
     def shape(self, a):
         """K sqrt (width) thickness / force (Srawley 1976); the spread of the middle force takes w/(2 S) off the moment."""
@@ -178,14 +182,14 @@ class DoubleCantilever(Body):
 
     def build(self):
         self.start, self.growth, length = 2.0, 0.5, 4.5
-        self.outline = [(0, -0.5), (length, -0.5), (length, 0.5), (0, 0.5), (0, 0)]
+        self.outline = [(0, -0.5), (length, -0.5), (length, 0.5), (0, 0.5), (0, 0.05), (0.1, 0), (0, -0.05)]
         self.cracks = [((-0.2, 0), (self.start, 0))]
         self.path = [(self.start, 0), (length, 0)]
         self.along = (1, 0)
         p = FULL * self.material.toughness() * math.sqrt(self.width) / self.shape(self.start)        # force / thickness, N/m
-        t = p / (0.5 * self.width)
-        self.loads = [(4, "traction", (0, -t)), (3, "traction", (0, t))]
-        self.pins = [(length - 0.1, -0.35), (length - 0.1, 0.35)]
+        t = p / (0.45 * self.width)
+        self.loads = [(6, "traction", (0, -t)), (3, "traction", (0, t))]
+        self.pin = (length - 0.1, -0.35)
 
     @staticmethod
     def shape(a):
@@ -226,7 +230,7 @@ class Inclined(Body):
         self.kink = math.degrees(angle)
         stress = FULL * self.material.toughness() / (k * math.sqrt(self.width))
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
-        self.pins = [(-2.9, 0), (2.9, 0)]
+        self.pin = (-2.9, 0)
 
     def intensity(self):
         """K_I, K_II of the tip at the upper right, over stress and the root of the half length; K_II < 0 kinks counterclockwise."""
@@ -258,7 +262,7 @@ class Slanted(Body):
         self.cracks = [((-0.1, -0.3), (0.35, 0.15))]
         stress = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
-        self.pins = [(0.02, 0.6), (0.02, 1.2)]
+        self.pin = (0.02, 0.6)
 
     def shape(self, a):
         """K of the direction of growth / (stress sqrt (width)), from the table."""
@@ -284,7 +288,7 @@ class Centre(Body):
         self.along = (1, 0)
         stress = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
-        self.pins = [(-0.1, 0.12), (-0.1, 1.2)]
+        self.pin = (-0.1, 0.12)
 
     @staticmethod
     def shape(a):
@@ -319,7 +323,7 @@ class Offset(Body):
         self.cracks = [((-0.1, 0.1), (0.25, 0.1)), ((1.1, -0.1), (0.75, -0.1))]
         stress = FULL * self.material.toughness() / math.sqrt(math.pi * 0.25 * self.width) / 1.12
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
-        self.pins = [(0.02, 0.9), (0.98, 0.9)]
+        self.pin = (0.02, 0.16)
 
     def theory(self, a):
         return math.nan
@@ -336,7 +340,7 @@ class IntoHole(Body):
         self.cracks = [((-0.1, 0), (self.start, 0))]
         stress = FULL * self.material.toughness() / math.sqrt(math.pi * 0.3 * self.width) / 1.66
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
-        self.pins = [(0.02, 0.3), (0.02, 0.9)]
+        self.pin = (0.02, 0.06)
 
     def theory(self, a):
         return math.nan
@@ -376,7 +380,7 @@ class Beam(Bend):
                                          lambda l: (moment * self.bending(l)) ** 2 * w / m.prime(),
                                          self.strength, m.energy, 0.45)
         p = FULL * self.first
-        self.loads = [(7, "traction", (0, -p / self.patch)), (1, "traction", (0, p / 2 / self.patch)), (3, "traction", (0, p / 2 / self.patch))]
+        self.loads = self.forces(p)
 
     @staticmethod
     def bending(a):
@@ -407,7 +411,7 @@ class Hole(Body):
                                          lambda l: shape(l) ** 2 * math.pi * l * w / m.prime(), self.strength, m.energy, 0.3)
         s = FULL * self.first
         self.loads = [(0, "traction", (0, -s)), (2, "traction", (0, s))]
-        self.pins = [(-0.59, 0), (0.59, 0)]
+        self.pin = (-0.55, -0.85)
 
     def theory(self, a):
         return 1 / FULL if a == 0 else math.nan
@@ -506,19 +510,15 @@ def text(body, lattice, n, method="gauss linear", single=False, events=None):
             lines += ["  - {material: %s, where: %.12g * (x - %.12g) + %.12g * (y - %.12g) > 0}" % (name, along[0], p[0], along[1], p[1])]
     lines += ["failure: {criterion: %s, fracture_energy: %g%s}" % (
         "stretch" if single else "energy_release", m.energy, ", tensile_strength: %.12g" % body.strength if body.strength and not single else "")]
-    if body.pins:
-        lines += ["sets:"] + ["  pin_%d: {where: hypot (x - %.12g, y - %.12g) < %.12g}" % (k, *frame.place(p), 0.75 * h)
-                              for k, p in enumerate(body.pins, 1)]
+    if body.pin:
+        lines += ["sets:", '  pin: {where: "hypot (x - %.12g, y - %.12g) < %.12g"}' % (*frame.place(body.pin), 1.1 * h)]
     lines += ["boundary:"]
     for k, (edge, kind, vector) in enumerate(body.loads):
         size = math.hypot(*vector)
         x, y = (component(v, size) for v in frame.vector(vector))
         lines += ["  - {name: load_%d, set: polygon.edge %d, %s: {x: %.12g, y: %.12g}}" % (k + 1, edge + 1, kind, x, y)]
-    if body.pins:
-        first, second = (frame.place(p) for p in body.pins)
-        other = "x" if abs(second[1] - first[1]) > abs(second[0] - first[0]) else "y"       # across the line between the two
-        lines += ["  - {name: pin_1, set: pin_1, displacement: {x: 0, y: 0}, essential: penalty}",
-                  "  - {name: pin_2, set: pin_2, displacement: {%s: 0}, essential: penalty}" % other]
+    if body.pin:
+        lines += ["  - {name: pin, set: pin, displacement: {x: 0, y: 0}, essential: penalty}"]
     lines += ["method: {%s}" % METHODS[method]]
     solver = "kind: static"
     if body.path and not single:
