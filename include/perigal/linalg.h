@@ -155,6 +155,10 @@ pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditi
  * failed yet. A later success does not reset it. */
 long pg_linear_failed_row (void);
 
+/* Solves A X = B for a dense general matrix, column-major (n x n, n x nrhs): A becomes its factors, b the
+ * solution. PG_E_SINGULAR, PG_E_MEMORY. */
+pg_status pg_dense_lu (size_t n, double *A, size_t nrhs, double *b);
+
 /* ---- multilevel preconditioner ------------------------------------------------------------------------- */
 /* Rows of a matrix of nodes, or of one like it with fewer couplings: it must have the same rigid motions,
  * and its energies must agree within a small factor. The multilevel preconditioner is built from these. */

@@ -176,6 +176,13 @@ void      pg_solver_free   (pg_solver **solver);
 int       pg_solver_components (const pg_solver *solver);  /* dofs per node, for pg_state_create */
 /* Advances by one step. On a numerical failure the state is that of the last accepted step. */
 pg_status pg_solver_step   (pg_solver *solver, pg_state *state, pg_step *step);
+/* The potential energy, J, that n stages of a cut would set free at fixed loads: stage k cuts the bonds of the
+ * stages before it and those of cut[k], which live in the state, ascending, each once. d: one displacement in
+ * equilibrium at load factor t, or two (affine loads); release (n x 3): of d[0], mixed, of d[1], so that
+ * sum_a w_a d_a releases w_0^2 r[0] + 2 w_0 w_1 r[1] + w_1^2 r[2]. anew: 1: by solving the cut body every
+ * time; 0: by columns of the inverse at hand where there is a factor. The state stays as it is. */
+pg_status pg_solver_release (pg_solver *solver, const pg_state *state, int nfield, const double *const *d,
+                             const double *t, size_t n, const pg_changes *cut, int anew, double *release);
 /* Called between the break rounds of a step, with the state and the step so far. A status other than PG_OK
  * ends pg_solver_step with it; the state is then one in the middle of the step, from which pg_solver_step
  * goes on when it is called again. */

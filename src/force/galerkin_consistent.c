@@ -46,16 +46,42 @@ static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell
     return 1;
 }
 
-/* The cell and those beside it are no longer whole; those that were before are appended to list. */
-static size_t open_around (galerkin *g, size_t cell, size_t *list, size_t n)
+/* The cell and those beside it are no longer whole. */
+static void open_around (galerkin *g, size_t cell)
 {
     const pg_faces *f = &g->problem->consistency->faces;
     for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++)
         for (int side = 0; side < 2; side++) {
             int beside = f->cell[2 * f->face[k] + side];
-            if (beside < 0 || !g->whole[beside]) continue;
-            g->whole[beside] = 0;
-            if (list) list[n++] = (size_t) beside;
+            if (beside >= 0) g->whole[beside] = 0;
+        }
+}
+
+/* Are the cell and all beside it complete? */
+static int complete_around (const galerkin *g, const pg_state *state, size_t cell)
+{
+    const pg_faces *f = &g->problem->consistency->faces;
+    for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++)
+        for (int side = 0; side < 2; side++) {
+            int beside = f->cell[2 * f->face[k] + side];
+            if (beside >= 0 && !bonds_complete (g, state, (size_t) beside)) return 0;
+        }
+    return 1;
+}
+
+/* The cell has changed: it and those beside it are whole, or no longer whole, by the bonds that live now (those
+ * of a trial live again afterwards). Those that change are appended to list. */
+static size_t judge_around (galerkin *g, const pg_state *state, size_t cell, size_t *list, size_t n)
+{
+    const pg_faces *f = &g->problem->consistency->faces;
+    for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++)
+        for (int side = 0; side < 2; side++) {
+            int beside = f->cell[2 * f->face[k] + side];
+            if (beside < 0) continue;
+            int now = complete_around (g, state, (size_t) beside);
+            if (now == g->whole[beside]) continue;
+            g->whole[beside] = (unsigned char) now;
+            list[n++] = (size_t) beside;
         }
     return n;
 }
@@ -66,8 +92,8 @@ static int compare (const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Cells of the touched points and those that they open, each once, ascending. */
-static pg_status changed_cells (galerkin *g, size_t count, size_t **out, size_t *n)
+/* Cells of the touched points and those that change with them, each once, ascending. */
+static pg_status changed_cells (galerkin *g, const pg_state *state, size_t count, size_t **out, size_t *n)
 {
     pg_status status = PG_OK;
     const pg_rows *r = &g->rows[g->bulk];
@@ -76,7 +102,7 @@ static pg_status changed_cells (galerkin *g, size_t count, size_t **out, size_t 
     *n = 0;
     for (size_t k = 0; k < count; k++) {
         size_t cell = (size_t) r->cell[g->list[g->bulk][k]];
-        *n = open_around (g, cell, list, *n);
+        *n = judge_around (g, state, cell, list, *n);
         list[(*n)++] = cell;
     }
     qsort (list, *n, sizeof *list, compare);
@@ -95,12 +121,12 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
     if (all) {
         memset (g->whole, 1, c->cells->n);
         for (size_t cell = 0; cell < c->cells->n; cell++)
-            if (!bonds_complete (g, state, cell)) open_around (g, cell, NULL, 0);
+            if (!bonds_complete (g, state, cell)) open_around (g, cell);
         PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, 0, NULL, g->threads));
         return PG_OK;
     }
     if (*count == 0) return PG_OK;
-    PG_TRY (changed_cells (g, *count, &cells, &n));
+    PG_TRY (changed_cells (g, state, *count, &cells, &n));
     PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, n, cells, g->threads));
     *count = 0;
     for (size_t k = 0; k < n; k++)
