@@ -69,8 +69,8 @@ static int complete_around (const galerkin *g, const pg_state *state, size_t cel
     return 1;
 }
 
-/* The cell has changed: it and those beside it are whole, or no longer whole, by the bonds that live now (those
- * of a trial live again afterwards). Those that change are appended to list. */
+/* The cell has changed: it and those beside it are whole, or no longer whole, by the bonds that live now
+ * (those of a trial live again afterwards). Those that change are appended to list. */
 static size_t judge_around (galerkin *g, const pg_state *state, size_t cell, size_t *list, size_t n)
 {
     const pg_faces *f = &g->problem->consistency->faces;

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: trial facets in the plane. A facet is tried on a copy of the state; what counts is the potential
- * energy that it would release at fixed loads. Files: trial_release.c (that energy, for bonds that are given),
- * trial_facet.c (facets at tips and across the body), initiation.c (new cracks by strength and energy
- * together). */
+ * Private: trial facets in the plane. A facet is tried on a copy of the state; what counts is the
+ * potential energy that it would release at fixed loads. Files: trial_release.c (that energy, for bonds
+ * that are given), trial_facet.c (facets at tips and across the body), initiation.c (new cracks by
+ * strength and energy together). */
 #ifndef PG_TRIAL_FACET_H
 #define PG_TRIAL_FACET_H
 #include "solve.h"
@@ -11,7 +11,8 @@
  * proportional, u (lambda) = lambda d. Two: affine loads, u (lambda) = (1 - lambda) d_0 + lambda d_1. */
 typedef struct { int n; const double *d[2]; double t[2]; } trial_fields;
 
-/* A quadratic form of the weights w_a of the fields: sum_ab w_a w_b value (00, 01, 11), 01 counted twice, J. */
+/* A quadratic form of the weights w_a of the fields: sum_ab w_a w_b value (00, 01, 11), 01 counted twice,
+ * J. */
 typedef struct { double value[3]; } trial_form;
 /* The same as c[0] + c[1] lambda + c[2] lambda^2. */
 void trial_polynomial (const trial_fields *f, const trial_form *form, double *c);

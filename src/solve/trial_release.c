@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The potential energy that a cut releases at fixed loads. The body is linear: Pi (u) = u.K u/2 - f.u, least at
- * K u = f. A cut makes K' = K + dK and f' = f + df, which differ from K and f in the few unknowns A beside it.
- * With the residual of the old displacement in the cut body, r = f' - K' u (zero outside A),
+ * The potential energy that a cut releases at fixed loads. The body is linear: Pi (u) = u.K u/2 - f.u,
+ * least at K u = f. A cut makes K' = K + dK and f' = f + df, which differ from K and f in the few unknowns
+ * A beside it. With the residual of the old displacement in the cut body, r = f' - K' u (zero outside A),
  *
  *     Pi - Pi' = u.(r + df)/2 + r.x/2,    K' x = r,
  *
- * and (K'^-1)_AA = H (I + dK H)^-1 with H = (K^-1)_AA (Woodbury): the factor of the uncut body, one solve with a
- * right-hand side for every unknown of A, and a dense system of that order for each length of the facet. For
- * df = 0 this is -u_A.(I + dK H)^-1 dK u_A/2. All terms are local, so that nothing is lost by cancellation.
- * Where there is no factor of K (conjugate gradients, supports by elimination) the cut body is solved anew, and
- * the release is the work of the loads less the change of the strain energy, which is also what tests compare
- * with. */
+ * and (K'^-1)_AA = H (I + dK H)^-1 with H = (K^-1)_AA (Woodbury): the factor of the uncut body, one solve
+ * with a right-hand side for every unknown of A, and a dense system of that order for each length of the
+ * facet. For df = 0 this is -u_A.(I + dK H)^-1 dK u_A/2. All terms are local, so that nothing is lost by
+ * cancellation. Where there is no factor of K (conjugate gradients, supports by elimination) the cut body
+ * is solved anew, and the release is the work of the loads less the change of the strain energy, which is
+ * also what tests compare with. */
 #include "trial_facet.h"
 #include <math.h>
 #include <stdlib.h>
@@ -383,7 +383,8 @@ static double released (const pg_work_balance *before, const pg_work_balance *af
 {
     double work = 0;
     for (size_t k = 0; k < after->npair; k++)
-        work += 0.5 * (before->force[k] + after->force[k]) * (after->displacement[k] - before->displacement[k]);
+        work += 0.5 * (before->force[k] + after->force[k])
+                * (after->displacement[k] - before->displacement[k]);
     return work - (after->strain - before->strain);
 }
 
