@@ -15,11 +15,17 @@ enum {
     PG_NEEDS_FACETS = 16                               /* judges the tips of cracks, not bonds */
 };
 
+/* Energy that a crack consumes which grows bond by bond, over that of a straight cut through bonds all at
+ * their limit: mean over directions of growth, least and most of single lattices, as measured by
+ * bench/single_bonds (doc/method.md A1). mean 0: not measured. */
+typedef struct { double mean, least, most; } pg_growth;
+
 typedef struct pg_criterion_type pg_criterion_type;
 typedef struct {
     const pg_criterion_type *type;
     int    single;  /* beam_limits: any one of the limits breaks a bond, not all together */
     int    never;                                      /* 1: bonds that end in this material never break */
+    pg_growth growth;  /* how limits from an energy allow for the way cracks grow; mean 0: they do not */
     double parameter[8];                               /* of the type */
 } pg_criterion;
 
@@ -47,6 +53,7 @@ typedef struct {  /* what the criterion may need to derive its constants */
     int     graded;  /* 1: spacings differ, the horizon is that of the nominal one */
     /* energy of a unit of crack over that of theory at the same stretch; 0: not known, 1 */
     double  toughness;
+    pg_growth growth;  /* of cracks in such bonds; mean 0: not measured, limits are those of a straight cut */
     const char *stretch;  /* "linear", "finite": as the force measures it; NULL: as failure.stretch says */
     int     state;                                     /* 1: state-based forces; 0: those of bonds alone */
     /* bonds that bear shear: energy of a straight cut (J/m^2) whose bonds all have s = 1, gamma = 1, kappa =

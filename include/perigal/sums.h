@@ -8,6 +8,7 @@
 #include "perigal/cloud.h"
 #include "perigal/kernel.h"
 #include "perigal/material.h"
+#include "perigal/criterion.h"
 
 PG_API_BEGIN
 
@@ -113,6 +114,9 @@ void      pg_sums_free   (pg_sums **sums);
 /* Energy of a straight crack along the lattice over that of theory at the same stretch, mean of the axes:
  * `toughness`, or with rule.state that of a material (E, Pa; nu). 1 without a lattice. */
 double    pg_sums_toughness (const pg_sums *sums, double E, double nu);
+/* How much more than such a straight cut a crack consumes that grows bond by bond (growth.c); mean 0: not
+ * measured for these bonds. */
+pg_growth pg_sums_growth (const pg_sums *sums);
 /* Neighbours of every point, ascending, itself excluded; i sees j if and only if j sees i. */
 pg_status pg_sums_family (pg_family *out, const pg_sums *sums);
 /* Of the bonds of point i in `family`: xi (m x dim, m; on a lattice the stencil's own), weight k beta g_ij

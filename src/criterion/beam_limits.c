@@ -18,8 +18,9 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
 {
     double G0 = c->parameter[ENERGY] = pg_criterion_limit (scene, setting, "fracture_energy");
     c->single = strcmp (pg_scene_text (scene, "failure.modes"), "single") == 0;
+    double growth = pg_criterion_calibration (c, scene, setting);
     for (int k = 0; k < 3; k++)
-        c->parameter[k] = setting->beam[k] > 0 ? sqrt (G0 / setting->beam[k]) : INFINITY;
+        c->parameter[k] = setting->beam[k] > 0 ? sqrt (G0 / (growth * setting->beam[k])) : INFINITY;
     return PG_OK;
 }
 
@@ -55,11 +56,14 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
+    char growth[200];
+    pg_criterion_say_growth (c, growth, sizeof growth);
     snprintf (
         text, size,
-        "bonds as beams: stretch %.6g, shear %.6g, bending %.6g rad, %s; fracture energy %.6g J/m2 (given)",
+        "bonds as beams: stretch %.6g, shear %.6g, bending %.6g rad, %s; fracture energy %.6g J/m2 (given)%s",
         c->parameter[STRETCH], c->parameter[SHEAR], c->parameter[BENDING],
-        c->single ? "any one of them" : "together by energy", c->parameter[ENERGY]);
+        c->single ? "any one of them" : "together by energy", c->parameter[ENERGY],
+        growth);
 }
 
 static const pg_key option_keys[] = {
@@ -77,7 +81,7 @@ const pg_criterion_type pg_criterion_beam_limits = {
     .summary = "stretch, shear and bending of a bond (gmpd), each by fracture energy, together or singly",
     .needs = PG_NEEDS_BEAMS,
     .limits = { &criterion_keys_energy },
-    .options = { &options },
+    .options = { &options, &criterion_keys_calibration },
     .read = read,
     .utilisation = utilisation,
     .factor = factor,

@@ -11,6 +11,15 @@ const pg_criterion_type *pg_criterion_entry (size_t i);                /* NULL p
 
 /* Limits that several criteria share (keys.c): fracture_energy; tensile_strength. */
 extern const pg_key_table criterion_keys_energy, criterion_keys_tension;
+/* An option that criteria of bonds with a fracture energy share (keys.c): calibration. */
+extern const pg_key_table criterion_keys_calibration;
+/* What failure.calibration makes of the setting: c->growth is filled, and the factor of the energy of a
+ * straight cut is returned, 1 where limits are those of theory. A calibration that is asked for and was not
+ * measured is a fault of the scene. */
+double pg_criterion_calibration (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
+/* ", ..." for describe: how limits allow for growth, or that they do not; "" for forces that know nothing
+ * of it. */
+void   pg_criterion_say_growth (const pg_criterion *c, char *text, size_t size);
 
 enum { PG_LIMITS = 96 };                               /* bytes of a path such as materials.NAME.failure */
 /* The map that gives a need ("limit", or "limit or other") to the setting's material: its own, else

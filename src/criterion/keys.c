@@ -53,6 +53,18 @@ static const pg_key energy[] = {
 };
 const pg_key_table criterion_keys_energy = { "criterion", energy, sizeof energy / sizeof *energy };
 
+static const pg_key calibration[] = {
+    { .path = "failure.calibration",
+      .kind = PG_NAME,
+      .fallback = "measured",
+      .choices = "measured|theory",
+      .doc = "Limits from fracture_energy: measured: so that a crack which grows bond by bond consumes that "
+             "energy, mean over directions of growth (plane lattices, constant kernel, horizons of 3 to 5 "
+             "spacings; else as theory); theory: as a straight cut through bonds that are all at their limit "
+             "would, which is the formula of the literature; a growing crack consumes more." },
+};
+const pg_key_table criterion_keys_calibration = { "criterion", calibration, 1 };
+
 static const pg_key tension[] = {
     { .path = "failure.tensile_strength",
       .kind = PG_NUMBER,

@@ -50,6 +50,35 @@ int pg_criterion_never (const pg_scene *scene, const pg_criterion_setting *setti
     return setting->material && pg_scene_bool (scene, "materials.%s.failure.never", setting->material);
 }
 
+/* ---- calibration --------------------------------------------------------------------------------------- */
+double pg_criterion_calibration (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
+{
+    static const char key[] = "failure.calibration";
+    c->growth = (pg_growth) { 0 };
+    if (strcmp (pg_scene_text (scene, key), "measured") != 0) return 1;
+    if (!(setting->growth.mean > 0)) {
+        if (pg_scene_given (scene, key))
+            pg_scene_fault (scene, key,
+                            "how much a growing crack consumes was not measured for these bonds, but for "
+                            "force: bond, lps and gmpd on plane lattices with the constant kernel and a "
+                            "horizon of 3 to 5 spacings: use theory");
+        return 1;
+    }
+    c->growth = setting->growth;
+    return setting->growth.mean;
+}
+
+void pg_criterion_say_growth (const pg_criterion *c, char *text, size_t size)
+{
+    const pg_growth *g = &c->growth;
+    *text = '\0';
+    if (g->mean > 0)
+        snprintf (text, size,
+                  "; limits by measured growth, which consumes %.3g times a straight cut: this energy on the "
+                  "mean over directions, %+.0f to %+.0f %% on single lattices",
+                  g->mean, 100 * (g->least / g->mean - 1), 100 * (g->most / g->mean - 1));
+}
+
 /* ---- keys of a criterion ------------------------------------------------------------------------------- */
 static const char *last_word (const pg_key *key) { return strrchr (key->path, '.') + 1; }
 

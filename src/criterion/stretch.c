@@ -29,8 +29,11 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     c->parameter[EXACT] = setting->stretch != NULL;
     c->parameter[LIMIT] = pg_scene_number (scene, "%s.critical_stretch", map);
     c->parameter[ENERGY] = pg_scene_number (scene, "%s.fracture_energy", map);
-    if (energy) c->parameter[LIMIT] = pg_stretch_from_energy (setting, c->parameter[ENERGY]);
-    else c->parameter[ENERGY] = pg_energy_from_stretch (setting, c->parameter[LIMIT]);
+    pg_criterion_setting grown = *setting;
+    grown.toughness = (setting->toughness > 0 ? setting->toughness : 1)
+                      * pg_criterion_calibration (c, scene, setting);
+    if (energy) c->parameter[LIMIT] = pg_stretch_from_energy (&grown, c->parameter[ENERGY]);
+    else c->parameter[ENERGY] = pg_energy_from_stretch (&grown, c->parameter[LIMIT]);
     if (!(c->parameter[LIMIT] > 0) || !isfinite (c->parameter[LIMIT])) {
         snprintf (path, sizeof path, "%s.fracture_energy", map);
         if (isnan (setting->modulus))
@@ -100,13 +103,15 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     int energy = c->parameter[FROM_ENERGY] > 0;
+    char growth[200];
     if (isnan (c->parameter[ENERGY])) {
         snprintf (text, size,
                   "%s stretch >= %.6g (given), fracture energy not known: it depends on the direction",
                   c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT]);
         return;
     }
-    snprintf (text, size, "%s stretch >= %.6g (%s%s), fracture energy %.6g J/m2 (%s)",
+    pg_criterion_say_growth (c, growth, sizeof growth);
+    snprintf (text, size, "%s stretch >= %.6g (%s%s), fracture energy %.6g J/m2 (%s)%s",
               c->parameter[FINITE] > 0 ? "finite" : "linear", c->parameter[LIMIT],
               energy ? "derived" : "given",
               c->parameter[GRADED] > 0 && energy
@@ -115,7 +120,8 @@ static void describe (const pg_criterion *c, char *text, size_t size)
               c->parameter[ENERGY],
               energy                    ? "given"
               : c->parameter[EXACT] > 0 ? "derived"
-                                        : "derived: estimate of bond-based theory");
+                                        : "derived: estimate of bond-based theory",
+              growth);
 }
 
 static const pg_key limit_keys[] = {
@@ -141,7 +147,7 @@ const pg_criterion_type pg_criterion_stretch = {
     .summary = "elongation of the bond reaches the critical stretch",
     .needs = PG_NEEDS_STRETCH,
     .limits = { &limits, &criterion_keys_energy },
-    .options = { &options },
+    .options = { &options, &criterion_keys_calibration },
     .read = read,
     .utilisation = utilisation,
     .factor = factor,

@@ -187,6 +187,7 @@ pg_status bond_force_limits (const pg_problem *p, size_t material, pg_criterion_
     const pg_material *m = &p->material[material];
     setting->graded = 0;
     setting->toughness = rule->calibrate ? pg_sums_toughness (p->sums, m->modulus, m->nu) : 0;
+    setting->growth = pg_sums_growth (p->sums);
     setting->stretch = rule->finite ? "finite" : "linear";
     setting->state = rule->state && !rule->beams;
     return PG_OK;

@@ -1,0 +1,149 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The displacement gradient for forces without shape functions: moving least squares (Lancaster and
+ * Salkauskas 1981) through the displacements of the points that a place sees.
+ *
+ * A place x sees the nearest point i that no crack hides from it, and those of i's neighbours whose bond with
+ * i lives and that no crack hides from x either: so neither a crack that is geometry nor one that is only
+ * broken bonds is looked across. In z = (x_j - x) / R, R three local spacings, the polynomial sum_a c_a p_a
+ * (z) with p = 1, z_k, z_k z_l minimises sum_j w_j (u_j - p (z_j) c)^2 with w = (1 - |z|^2)^2; the gradient
+ * at x is c_k / R. The quadratic basis is exact for quadratic fields; where too few points are left (a
+ * corner between crack faces) the linear one serves, and where even these lie on a line there is no
+ * gradient. */
+#include "gradient_fit.h"
+#include <math.h>
+#include <string.h>
+
+/* Terms of the quadratic basis in 3D, and the radius of the fit in local spacings: 28 points of a plane
+ * lattice, about 14 beside a crack, for the six terms of the plane. */
+enum { MOST_TERMS = 10, MOST_FIELDS = 2 };
+static const double reach = 3;
+/* Pivots of the normal equations below this share of their diagonal entry: the points do not determine
+ * the term. */
+static const double flat[3] = { 0, 1e-4, 1e-6 };
+
+struct gradient_fit {
+    const pg_problem *problem;
+    const pg_state *state;
+    pg_nearest *near;
+};
+
+pg_status gradient_fit_create (gradient_fit **out, const pg_problem *problem, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    gradient_fit *fit = NULL;
+    *out = NULL;
+    PG_ALLOC (fit, 1);
+    fit->problem = problem, fit->state = state;
+    PG_TRY (pg_nearest_create (&fit->near, problem->dim, problem->cloud.n, problem->cloud.x));
+    *out = fit, fit = NULL;
+done:
+    gradient_fit_free (&fit);
+    return status;
+}
+
+void gradient_fit_free (gradient_fit **fit)
+{
+    if (!*fit) return;
+    pg_nearest_free (&(*fit)->near);
+    pg_free (*fit), *fit = NULL;
+}
+
+/* What hides points from a place. */
+typedef struct { const pg_problem *problem; const pg_cracks *cracks; } view;
+
+/* 1: a crack lies between the place and the point (pg_refuse). */
+static int hidden (void *context, const double *place, size_t point)
+{
+    const view *v = context;
+    const pg_problem *p = v->problem;
+    return pg_cracks_cut (v->cracks, p->dim, place, p->cloud.x + point * (size_t) p->dim, 1e-9 * p->cloud.h)
+           != NULL;
+}
+
+/* The basis at z: 1, z_k, then z_k z_l with k <= l; returns the number of terms up to the degree. */
+static int basis (int dim, int degree, const double *z, double *term)
+{
+    int n = 0;
+    term[n++] = 1;
+    for (int k = 0; k < dim; k++) term[n++] = z[k];
+    for (int k = 0; degree > 1 && k < dim; k++) for (int l = k; l < dim; l++) term[n++] = z[k] * z[l];
+    return n;
+}
+
+/* Sums of one fit: the moments (terms x terms), and for each field and component the right-hand side. */
+typedef struct {
+    int terms, degree;
+    double radius, moment[MOST_TERMS * MOST_TERMS], side[MOST_FIELDS * 3 * MOST_TERMS];
+} sums;
+
+/* Adds point j to the sums, unless it lies beyond the radius. */
+static void add_point (const gradient_fit *fit, sums *s, const double *x, size_t j, size_t n,
+                       const double *const *d)
+{
+    const pg_problem *p = fit->problem;
+    size_t dim = (size_t) p->dim, stride = (size_t) pg_problem_unknowns (p), m = (size_t) s->terms;
+    double z[3] = { 0 }, term[MOST_TERMS], rr = 0;
+    for (size_t k = 0; k < dim; k++) {
+        z[k] = (p->cloud.x[j * dim + k] - x[k]) / s->radius;
+        rr += z[k] * z[k];
+    }
+    if (rr >= 1) return;
+    double w = (1 - rr) * (1 - rr);
+    basis (p->dim, s->degree, z, term);
+    for (size_t a = 0; a < m; a++)
+        for (size_t b = 0; b < m; b++) s->moment[a * m + b] += w * term[a] * term[b];
+    for (size_t f = 0; f < n; f++)
+        for (size_t c = 0; c < dim; c++)
+            for (size_t a = 0; a < m; a++)
+                s->side[(f * dim + c) * m + a] += w * term[a] * d[f][j * stride + c];
+}
+
+/* The sums over what x sees from point i. */
+static void add_all (const gradient_fit *fit, view *v, sums *s, const double *x, size_t i, size_t n,
+                     const double *const *d)
+{
+    const pg_problem *p = fit->problem;
+    const pg_family *family = &p->rows[PG_NODES].family;
+    const unsigned char *alive = fit->state->alive + p->first_bond[PG_NODES];
+    add_point (fit, s, x, i, n, d);
+    for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
+        size_t j = (size_t) family->node[e];
+        if (j == i || !alive[e] || (v->cracks->n && hidden (v, x, j))) continue;
+        add_point (fit, s, x, j, n, d);
+    }
+}
+
+/* The quadratic fit, else the linear one. */
+int gradient_fit_at (const gradient_fit *fit, const double *x, size_t n, const double *const *d, double *u,
+                     double *gradient)
+{
+    const pg_problem *p = fit->problem;
+    size_t dim = (size_t) p->dim;
+    view v = { p, pg_state_cracks (p, fit->state) };
+    long found = pg_nearest_find (fit->near, x, v.cracks->n ? hidden : NULL, &v);
+    size_t i = (size_t) (found >= 0 ? found : pg_nearest_find (fit->near, x, NULL, NULL));
+    for (int degree = 2; degree > 0; degree--) {
+        double none[3] = { 0 }, term[MOST_TERMS];
+        sums s = { .degree = degree, .terms = basis (p->dim, degree, none, term),
+                   .radius = reach * pg_problem_spacing (p, PG_NODES, i) };
+        size_t m = (size_t) s.terms;
+        add_all (fit, &v, &s, x, i, n, d);
+        if (pg_dense_cholesky (s.terms, s.moment, flat[degree])) continue;
+        for (size_t f = 0; f < n; f++) {
+            if (u) memset (u + 3 * f, 0, 3 * sizeof *u);
+            for (size_t c = 0; c < dim; c++) {
+                double *coefficient = s.side + (f * dim + c) * m;
+                pg_dense_solve (s.terms, s.moment, coefficient);
+                if (u) u[3 * f + c] = coefficient[0];
+                for (size_t k = 0; k < dim; k++)
+                    gradient[9 * f + c * dim + k] = coefficient[1 + k] / s.radius;
+            }
+        }
+        return degree;
+    }
+    for (size_t f = 0; f < n; f++) {
+        for (size_t c = 0; u && c < 3; c++) u[3 * f + c] = NAN;
+        for (size_t k = 0; k < 9; k++) gradient[9 * f + k] = NAN;
+    }
+    return 0;
+}

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What a crack consumes that grows bond by bond, over a straight cut through bonds that are all at their limit
+ * (calibration.c). It is more: a bond that breaks releases not only what it stores but also what its
+ * neighbours give while the gap that it leaves opens, and a crack that has to leave the rows of its lattice
+ * breaks bonds beside its path.
+ *
+ * Measured, not derived: strips clamped along both edges, cracked bond by bond, four directions of growth
+ * under the lattice (0, 15, 30, 45 degrees), two shifts of each, by bench/single_bonds (doc/method.md A1). The
+ * mean is over directions; least and most are single lattices. */
+#include "perigal/sums.h"
+#include <math.h>
+
+/* By horizon in spacings. */
+typedef struct { double horizon; pg_growth growth; } row;
+enum { ROWS = 3 };
+static const row alone[ROWS] = { { 3.015, { 0 } }, { 4.015, { 0 } }, { 5.015, { 0 } } };
+static const row state[ROWS] = { { 3.015, { 0 } }, { 4.015, { 0 } }, { 5.015, { 0 } } };
+static const row beams[ROWS] = { { 3.015, { 0 } }, { 4.015, { 0 } }, { 5.015, { 0 } } };
+/* Beyond the rows by this much the nearest one still serves, in spacings. */
+static const double beyond = 0.26;
+
+/* 1: the same at every distance within the horizon. */
+static int is_flat (const pg_kernel *kernel)
+{
+    static const double place[4] = { 0.05, 0.35, 0.7, 0.999 };
+    double w[4];
+    kernel->value (4, place, w, NULL);
+    return w[0] == w[1] && w[1] == w[2] && w[2] == w[3];
+}
+
+static double between (double a, double b, double share) { return a + share * (b - a); }
+
+pg_growth pg_sums_growth (const pg_sums *sums)
+{
+    const pg_sum_rule *rule = &sums->rule;
+    const row *r = rule->beams ? beams : rule->state ? state : alone;
+    pg_growth none = { 0 };
+    if (!rule->calibrate || sums->stencil.n == 0 || sums->sites.dim != 2 || !is_flat (rule->kernel))
+        return none;
+    double horizon = rule->horizon / sqrt (sums->stencil.cell);
+    if (horizon < r[0].horizon - beyond || horizon > r[ROWS - 1].horizon + beyond) return none;
+    size_t k = 1;
+    while (k + 1 < ROWS && horizon > r[k].horizon) k++;
+    const pg_growth *a = &r[k - 1].growth, *b = &r[k].growth;
+    double share = (horizon - r[k - 1].horizon) / (r[k].horizon - r[k - 1].horizon);
+    share = fmin (1, fmax (0, share));
+    return (pg_growth) { between (a->mean, b->mean, share), between (a->least, b->least, share),
+                         between (a->most, b->most, share) };
+}
