@@ -54,7 +54,7 @@ int pg_criterion_never (const pg_scene *scene, const pg_criterion_setting *setti
 double pg_criterion_calibration (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     static const char key[] = "failure.calibration";
-    c->growth = (pg_growth) { 0 };
+    c->growth = (pg_growth) { 0, 0, 0 };
     if (strcmp (pg_scene_text (scene, key), "measured") != 0) return 1;
     if (!(setting->growth.mean > 0)) {
         if (pg_scene_given (scene, key))

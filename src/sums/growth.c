@@ -13,9 +13,9 @@
 /* By horizon in spacings. */
 typedef struct { double horizon; pg_growth growth; } row;
 enum { ROWS = 3 };
-static const row alone[ROWS] = { { 3.015, { 0 } }, { 4.015, { 0 } }, { 5.015, { 0 } } };
-static const row state[ROWS] = { { 3.015, { 0 } }, { 4.015, { 0 } }, { 5.015, { 0 } } };
-static const row beams[ROWS] = { { 3.015, { 0 } }, { 4.015, { 0 } }, { 5.015, { 0 } } };
+static const row alone[ROWS] = { { 3.015, { 0, 0, 0 } }, { 4.015, { 0, 0, 0 } }, { 5.015, { 0, 0, 0 } } };
+static const row state[ROWS] = { { 3.015, { 0, 0, 0 } }, { 4.015, { 0, 0, 0 } }, { 5.015, { 0, 0, 0 } } };
+static const row beams[ROWS] = { { 3.015, { 0, 0, 0 } }, { 4.015, { 0, 0, 0 } }, { 5.015, { 0, 0, 0 } } };
 /* Beyond the rows by this much the nearest one still serves, in spacings. */
 static const double beyond = 0.26;
 
@@ -34,7 +34,7 @@ pg_growth pg_sums_growth (const pg_sums *sums)
 {
     const pg_sum_rule *rule = &sums->rule;
     const row *r = rule->beams ? beams : rule->state ? state : alone;
-    pg_growth none = { 0 };
+    pg_growth none = { 0, 0, 0 };
     if (!rule->calibrate || sums->stencil.n == 0 || sums->sites.dim != 2 || !is_flat (rule->kernel))
         return none;
     double horizon = rule->horizon / sqrt (sums->stencil.cell);

@@ -118,7 +118,8 @@ static void opening (const double *x, double *u)
     u[0] = 0, u[1] = sqrt (r) * sin (a / 2);
 }
 
-/* Its gradient at three spacings from the tip within 4 %, all around. */
+/* Its gradient at three spacings from the tip, within 2 %; beside the faces, whose points are on one side
+ * only, 8 %. */
 static void the_field_of_a_tip_is_found (void **state)
 {
     enum { PLACES = 24 };
@@ -132,8 +133,8 @@ static void the_field_of_a_tip_is_found (void **state)
         double a = acos (-1) * (2 * (k + 0.5) / PLACES - 1), R = 0.3, H[9],
                x[2] = { 1 + R * cos (a), 0.5 + R * sin (a) }, size = 0.5 / sqrt (R);
         assert_true (gradient_fit_at (fit, x, 1, &d, NULL, H) > 0);
-        assert_true (fabs (H[2] + size * sin (a / 2)) < 0.04 * size);
-        assert_true (fabs (H[3] - size * cos (a / 2)) < 0.04 * size);
+        double error = fmax (fabs (H[2] + size * sin (a / 2)), fabs (H[3] - size * cos (a / 2)));
+        assert_true (error < (fabs (a) < 2.6 ? 0.02 : 0.08) * size);
     }
     gradient_fit_free (&fit);
     clear (&r);
