@@ -81,6 +81,12 @@ typedef struct {
     /* Least number of Gauss points per direction in cut cells and on cut facets, whatever a caller asks
      * for. */
     int     cut_order;
+    /* How well volumes of cut cells and areas of cut facets are known: the largest change of one of them by
+     * the last raise of the order, over the volume of a whole cell or the area of its largest face; 0: all
+     * changed by less than 1e-13. given_up: searches for corners that found too many places (where surfaces
+     * share a curve, which does no harm, or where they are nearly tangent). */
+    double  unsettled;
+    size_t  given_up;
 } pg_cells;
 /* Allocates all arrays, zeroed, for n cells with nx nodes together and nfacet facets with nfx nodes
  * together, and sets dim and thickness. PG_E_LIMIT where a number exceeds the range of int; on failure

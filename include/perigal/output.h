@@ -80,9 +80,9 @@ pg_status pg_file_text (char **text, size_t *size, const char *path);
 typedef struct pg_table pg_table;
 /* Creates a table with n columns of these names. */
 pg_status pg_table_create (pg_table **out, const char *path, size_t n, const char *const *columns);
-/* Opens a table in order to append to it: keeps the header and `rows` rows, and cuts off the
- * later ones. PG_E_FILE if the file has fewer rows. */
-pg_status pg_table_open   (pg_table **out, const char *path, size_t n, long rows);
+/* Opens a table of these n columns in order to append to it: keeps the header and `rows` rows, and cuts off
+ * the later ones. PG_E_FILE if the file has other columns or fewer rows; it stays as it was then. */
+pg_status pg_table_open   (pg_table **out, const char *path, size_t n, const char *const *columns, long rows);
 /* Rows in the file, the header not counted. */
 long      pg_table_rows   (const pg_table *table);
 /* Waits until the system has put the file on the disk. */

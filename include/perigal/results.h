@@ -7,8 +7,8 @@
  * A folder belongs to one run at a time and is never overwritten silently: an unfinished run,
  * and a scene that the user put there, are protected. Everything written so far is readable
  * whatever ends the run. */
-#ifndef PERIGAL_REPORT_H
-#define PERIGAL_REPORT_H
+#ifndef PERIGAL_RESULTS_H
+#define PERIGAL_RESULTS_H
 #include "perigal/compare.h"
 #include "perigal/output.h"
 #include "perigal/solve.h"

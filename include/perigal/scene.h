@@ -204,6 +204,9 @@ void      pg_expression_free    (pg_expression **e);
 /* ---- inquiry ------------------------------------------------------------------------------------------- */
 /* The key tables of all folders. */
 const pg_key_table *pg_scene_tables (size_t *n);
+/* The limit of src/scene/tables.c that the tables of this build exceed, "MOST_TABLES"; NULL: they fit. Scenes
+ * are not read then (PG_E_LIMIT), as keys would be missing. */
+const char *pg_scene_tables_fault (void);
 /* Writes what is known of a key, given by its full path or last word; PG_E_USAGE: unknown, names the
  * nearest. */
 pg_status pg_scene_help     (FILE *to, const char *key);

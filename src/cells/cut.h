@@ -73,8 +73,11 @@ int  cut_roots (int degree, const double *c, double low, double high, double *ro
 void cut_gauss (int n, double *x, double *w);
 
 /* ---- surfaces ------------------------------------------------------------------------------------------ */
-/* At most so many dividing half-planes take part in one cell; any more there are ignored. */
+/* At most so many dividing half-planes take part in one cell. Where more come near, its facets are not
+ * divided by all of them, and sets that take some of these facets by their angle are refused (sets.c). */
 enum { CUT_HALF_PLANES = 4 };
+/* The number of dividing half-planes near the cell of a facet; 0 without cut cells. */
+size_t cut_half_planes_near (const pg_cells *cells, size_t facet);
 /* Fills cut->surface from the shapes of the body, followed by one dividing half-plane for each ray. */
 pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattice *lattice, size_t nray,
                         const pg_ray *ray);
@@ -94,8 +97,8 @@ int    cut_meets (const cut_quadric *q, const double *centre, const double *half
 /* At most so many points are returned by cut_solve. */
 enum { CUT_MEETINGS = 24 };
 /* All points in [-reach, reach]^3 where the three quadrics q[0..2] vanish (x: n x 3). Returns n, at most
- * CUT_MEETINGS; only isolated solutions are meant. */
-int cut_solve (const cut_quadric *q, double reach, double *x);
+ * CUT_MEETINGS; only isolated solutions are meant. given_up: 1: there are more, or they are not isolated. */
+int cut_solve (const cut_quadric *q, double reach, double *x, int *given_up);
 
 /* A growing list of coordinates. */
 typedef struct { double *at; size_t n, capacity; } cut_list;
@@ -124,6 +127,8 @@ typedef struct {
     double at[3];
     /* First failure on the way (memory). */
     pg_status status;
+    /* Searches by cut_solve that were given up. */
+    size_t given_up;
 } cut_slices;
 /* Fills level[k].hard and .soft, k < dim - 1: the values of x[axis[k]] between which the intersections of
  * the surfaces with the slice keep their number and order. */
@@ -150,4 +155,10 @@ typedef struct { double size, centre[3], normal[3]; } cut_piece;
 /* These of the body in the cell, or of one part of a surface, by raising the order until the size changes
  * by less than 1e-13 of the cell. */
 pg_status cut_work_piece  (cut_work *w, int surface, int part, cut_piece *piece);
+/* Of all pieces so far that did not settle: the largest change of a size by the last raise of the order (27
+ * to 40 points), over that of a whole cell (of its largest face); 0: all have settled. */
+double    cut_work_unsettled (const cut_work *w);
+/* How often the search for places where three surfaces meet was given up (cut_solve). Surfaces that share a
+ * curve meet along all of it, and nothing is lost there; lost corners show in cut_work_unsettled. */
+size_t    cut_work_given_up (const cut_work *w);
 #endif

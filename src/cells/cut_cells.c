@@ -235,6 +235,16 @@ done:
     return status;
 }
 
+/* Half-planes come last in the list of each cell. */
+size_t cut_half_planes_near (const pg_cells *cells, size_t facet)
+{
+    const struct pg_cut *cut = cells->cut;
+    if (!cut) return 0;
+    size_t c = (size_t) cells->facet_cell[facet], first = cut->start[c], end = cut->start[c + 1], k = end;
+    while (k > first && cut->surface[cut->near[k - 1]].shape < 0) k--;
+    return end - k;
+}
+
 /* ---- from the builder to the cells --------------------------------------------------------------------- */
 /* Corners in the order of Exodus, as steps along x, y, z. */
 static const unsigned char corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
@@ -333,7 +343,12 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
     for (size_t c = 0; c < m.n; c++) if (m.state[c] != NONE) PG_TRY (find_facets (&m, c, cell++));
     for (size_t f = 0; f < m.nfacet; f++) other |= m.facet[f].face < 0;
     if (m.ncut == 0 && !other) status = pg_cells_from_lattice (out, lattice, thickness);
-    else status = fill (out, &m, thickness);
+    else {
+        double unsettled = cut_work_unsettled (m.cut->work);
+        size_t given_up = cut_work_given_up (m.cut->work);
+        PG_TRY (fill (out, &m, thickness));
+        out->unsettled = unsettled, out->given_up = given_up;
+    }
 done:
     cut_free (m.cut);
     pg_free (m.start), pg_free (m.near), pg_free (m.state), pg_free (m.aligned), pg_free (m.volume),

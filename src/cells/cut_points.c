@@ -39,6 +39,8 @@ struct cut_work {
     size_t real, all;
     /* Receives the points. */
     pg_cut_points *out;
+    /* How far cut_work_piece has been from settling, over all calls: see cut_work_unsettled. */
+    double unsettled;
     /* Gauss points and weights on [0, 1] of all orders up to RULE, one behind the other. */
     double *x, *w;
 };
@@ -425,6 +427,9 @@ pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
     return s->status;
 }
 
+double cut_work_unsettled (const cut_work *w) { return w->unsettled; }
+size_t cut_work_given_up (const cut_work *w) { return w->slices.given_up; }
+
 /* ---- to rounding --------------------------------------------------------------------------------------- */
 /* Sum of weights, their centroid and the integral of the normal. */
 static cut_piece sum_up (const pg_cut_points *p, size_t dim)
@@ -447,7 +452,7 @@ pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
     static const int orders[] = {3, 5, 8, 12, 18, 27, 40};
     pg_status status = PG_OK;
     pg_cut_points p = {0};
-    double whole = w->thickness, before = NAN;
+    double whole = w->thickness, before = NAN, change = NAN;
     for (int k = 0; k < w->cut->dim; k++) whole *= 2 * w->half[k];
     if (surface >= 0)
         whole /= 2
@@ -457,9 +462,11 @@ pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
         p.n = 0;
         PG_TRY (cut_work_points (w, surface, part, orders[i], &p));
         *piece = sum_up (&p, (size_t) w->cut->dim);
-        if (fabs (piece->size - before) <= 1e-13 * whole) break;
+        change = fabs (piece->size - before);
+        if (change <= 1e-13 * whole) break;
         before = piece->size;
     }
+    if (!(change <= 1e-13 * whole)) w->unsettled = fmax (w->unsettled, change / whole);
 done:
     pg_cut_points_clear (&p);
     return status;

@@ -11,8 +11,8 @@
  * the curve could ever be discarded. */
 enum { BOXES = 4000 };
 /* The three quadrics, the solutions so far (n x 3), half the edge of the cube, number of solutions and
- * boxes. */
-typedef struct { const cut_quadric *q; double *x, reach; int n, boxes; } search;
+ * boxes; full: a solution found no room. */
+typedef struct { const cut_quadric *q; double *x, reach; int n, boxes, full; } search;
 
 /* Newton's method by Cramer's rule, from x. 1: converged (step below 1e-15, or values below 1e-12 after 20
  * steps) without moving more than `reach` in any coordinate; a singular Jacobian ends it. */
@@ -52,6 +52,7 @@ static void keep (search *s, const double *x)
         if (d < 1e-9) return;
     }
     if (s->n < CUT_MEETINGS) memcpy (s->x + 3 * s->n++, x, 3 * sizeof *x);
+    else s->full = 1;
 }
 
 /* Visits the box around `centre` with half edge `half`. */
@@ -72,9 +73,10 @@ static void halve (search *s, const double *centre, double half)
     }
 }
 
-int cut_solve (const cut_quadric *q, double reach, double *x)
+int cut_solve (const cut_quadric *q, double reach, double *x, int *given_up)
 {
-    search s = {q, x, reach, 0, 0};
+    search s = {q, x, reach, 0, 0, 0};
     halve (&s, (double[]) {0, 0, 0}, reach);
+    *given_up = s.full || s.boxes > BOXES;
     return s.n;
 }

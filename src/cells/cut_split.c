@@ -207,7 +207,8 @@ static void split_points (cut_slices *s, cut_level *out, const cut_quadric *thre
                           int number, int x)
 {
     double at[3 * CUT_MEETINGS];
-    int n = cut_solve (three, number == 2 ? 1.6 : 1, at);
+    int given_up, n = cut_solve (three, number == 2 ? 1.6 : 1, at, &given_up);
+    s->given_up += (size_t) given_up;
     for (int r = 0; r < n; r++) {
         int in = 1;
         for (int k = 0; k < 3; k++) s->at[k] = at[3*r + k], in &= fabs (at[3*r + k]) <= near_box;

@@ -4,6 +4,7 @@
  * NAME.top, ... A set of the scene begins with its boundary, or with everything, and its other conditions
  * take points and facets away. Faults of the user are collected: one wrong set does not hide the faults of
  * the next. */
+#include "cut.h"
 #include "mark.h"
 #include <math.h>
 #include <stdio.h>
@@ -170,6 +171,22 @@ static int in_ranges (const pg_marks *m, const double *x, const void *context)
     return 0;
 }
 
+/* Appends the ray at this angle unless there is one already, to the tolerance of in_ranges: ranges that
+ * adjoin share an end. */
+static pg_status add_ray (pg_ray **out, size_t *n, size_t *capacity, const pg_body *body, double angle)
+{
+    pg_status status = PG_OK;
+    double x = cos (angle), y = sin (angle);
+    for (size_t k = 0; k < *n; k++)
+        if (hypot ((*out)[k].direction[0] - x, (*out)[k].direction[1] - y) <= 1e-9) return PG_OK;
+    PG_GROW (*out, *capacity, *n + 1);
+    pg_ray *ray = *out + (*n)++;
+    for (int a = 0; a < 2; a++) ray->centre[a] = 0.5 * (body->low[a] + body->high[a]);
+    ray->direction[0] = x, ray->direction[1] = y;
+done:
+    return status;
+}
+
 /* Ranges that are no pairs are passed over here; keep_angles reports them. */
 pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body)
 {
@@ -183,15 +200,27 @@ pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg
             /* a fault, found later */
             if (pg_scene_count (scene, "sets.%s.angle[%zu]", name, k) != 2) continue;
             pg_scene_vector (scene, 2, v, "sets.%s.angle[%zu]", name, k);
-            PG_GROW (*out, capacity, *n + 2);
-            for (int e = 0; e < 2; e++) {
-                pg_ray *ray = *out + (*n)++;
-                for (int a = 0; a < 2; a++) ray->centre[a] = 0.5 * (body->low[a] + body->high[a]);
-                ray->direction[0] = cos (v[e]), ray->direction[1] = sin (v[e]);
-            }
+            for (int e = 0; e < 2; e++) PG_TRY (add_ray (out, n, &capacity, body, v[e]));
         }
 done:
     return status;
+}
+
+/* A fault where a marked facet lies in a cell that more rays come near than can divide it: it would be inside
+ * and outside of a range at once. This needs a surface within a cell's size of the centre, where all rays
+ * begin. */
+static void check_rays (const builder *b, const char *at)
+{
+    const pg_cells *c = b->marks.cells;
+    for (size_t f = 0; f < c->nfacet; f++) {
+        const double *x = c->facet_centre + f * (size_t) c->dim;
+        size_t n = b->marks.facet[f] ? cut_half_planes_near (c, f) : 0;
+        if (n <= CUT_HALF_PLANES) continue;
+        pg_scene_fault (b->scene, at,
+                        "%zu ends of ranges meet in one cell, at the surface near (%.4g, %.4g) m: at most "
+                        "%d can; take a smaller spacing, or fewer ranges", n, x[0], x[1], CUT_HALF_PLANES);
+        return;
+    }
 }
 
 /* Reads the ranges of a set and applies them. [350 deg, 10 deg] passes through 0; a span of a full turn or
@@ -219,6 +248,7 @@ static pg_status keep_angles (builder *b, const char *name)
         else span = turn;
         r.range[2*i] = v[0], r.range[2*i + 1] = span;
     }
+    check_rays (b, at);
     if (b->marks.cloud->dim > 1) pg_marks_keep (&b->marks, in_ranges, &r);
 done:
     pg_free (r.range);

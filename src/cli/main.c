@@ -39,6 +39,22 @@ static void usage (FILE *to)
                  "            files), 130 interrupted\n");
 }
 
+/* The number that --threads gives, 0: none, or one for each processor. getopt_long, which reads the options
+ * later, takes "--threads N", "--threads=N" and every shorter beginning of the word that is no beginning of
+ * another option; of two the last one counts. */
+static long threads_given (int argc, char **argv)
+{
+    static const char word[] = "--threads";
+    long n = 0;
+    for (int k = 2; k < argc && strcmp (argv[k], "--") != 0; k++) {
+        size_t length = strcspn (argv[k], "=");
+        if (length < 3 || length >= sizeof word || strncmp (argv[k], word, length) != 0) continue;
+        if (argv[k][length] == '=') n = atol (argv[k] + length + 1);
+        else if (k + 1 < argc) n = atol (argv[++k]);
+    }
+    return n > 0 ? n : 0;
+}
+
 /* Starts the program again with an environment that limits OpenMP to one thread: the OpenMP
  * threads of CHOLMOD only slow it down beside a threaded BLAS, and only the environment at the
  * start of the process limits them. If OMP_THREAD_LIMIT is set already, by the user or by this
@@ -48,8 +64,7 @@ static void settle_threads (int argc, char **argv)
     char count[16];
     long n = sysconf (_SC_NPROCESSORS_ONLN);
     if (getenv ("OMP_THREAD_LIMIT")) return;
-    for (int k = 1; k + 1 < argc; k++)
-        if (strcmp (argv[k], "--threads") == 0 && atol (argv[k + 1]) > 0) n = atol (argv[k + 1]);
+    if (threads_given (argc, argv) > 0) n = threads_given (argc, argv);
     snprintf (count, sizeof count, "%ld", n < 1 ? 1 : n > 64 ? 64 : n);
     setenv ("OMP_THREAD_LIMIT", "1", 1);
     setenv ("OMP_WAIT_POLICY", "passive", 1);

@@ -25,26 +25,86 @@ done:
 }
 
 /* ---- scene --------------------------------------------------------------------------------------------- */
-/* Value of a text key of report.json at any level, "" if there is none or no such file. This
- * is no JSON reader: it relies on the form that our own writer gives ("key": "value") and
- * takes escaped characters as they are. */
+/* Four hexadecimal digits, as behind \u; -1: they are none. */
+static long four_digits (const char *s)
+{
+    long value = 0;
+    for (int k = 0; k < 4; k++) {
+        const char *digits = "0123456789abcdef", *found = s[k] ? strchr (digits, s[k] | 0x20) : NULL;
+        if (!found) return -1;
+        value = 16 * value + (found - digits);
+    }
+    return value;
+}
+
+/* Writes a code point in UTF-8 (RFC 3629); returns the number of bytes, 1 to 4. */
+static size_t put_code (char *out, long code)
+{
+    size_t n = code < 0x80 ? 1 : code < 0x800 ? 2 : code < 0x10000 ? 3 : 4;
+    static const unsigned char first[] = { 0, 0x00, 0xc0, 0xe0, 0xf0 };
+    for (size_t k = n; k-- > 1; code >>= 6) out[k] = (char) (0x80 | (code & 0x3f));
+    out[0] = (char) (first[n] | code);
+    return n;
+}
+
+/* The code point that an escape of JSON (RFC 8259 section 7) means, *s being behind its backslash and moved
+ * behind the escape: \n, \u00e9, or two \u that are a surrogate pair. -1: JSON has no such escape. */
+static long escape (const char **s)
+{
+    static const char letters[] = "\"\\/bfnrt", meant[] = "\"\\/\b\f\n\r\t";
+    char letter = *(*s)++;
+    const char *found = letter ? strchr (letters, letter) : NULL;
+    if (found) return meant[found - letters];
+    long code = letter == 'u' ? four_digits (*s) : -1;
+    if (code < 0) return -1;
+    *s += 4;
+    if (code < 0xd800 || code > 0xdfff) return code;
+    long low = (*s)[0] == '\\' && (*s)[1] == 'u' ? four_digits (*s + 2) : -1;
+    if (code > 0xdbff || low < 0xdc00 || low > 0xdfff) return -1;
+    *s += 6;
+    return 0x10000 + ((code - 0xd800) << 10) + (low - 0xdc00);
+}
+
+/* The content of a JSON string that begins at s, behind its quote. 0: it is none, holds a zero byte, or does
+ * not fit. */
+static int unescape (const char *s, char *out, size_t size)
+{
+    size_t n = 0;
+    while (*s != '"') {
+        long code = -1;
+        if (*s != '\\') code = (unsigned char) *s;
+        if (code == 0 || n + 5 > size) return 0;
+        if (code > 0) {
+            out[n++] = *s++;                           /* UTF-8 passes byte by byte */
+            continue;
+        }
+        s++;
+        code = escape (&s);
+        if (code <= 0) return 0;
+        n += put_code (out + n, code);
+    }
+    out[n] = 0;
+    return 1;
+}
+
+/* Value of a text key of report.json at any level, "" if there is none or no such file. This is no JSON
+ * reader: it relies on the form that our own writer gives ("key": "value"). A quote inside a string has a
+ * backslash before it, so that no text of the report looks like a key. */
 static pg_status report_text (const char *folder, const char *key, char *out, size_t size)
 {
+    pg_status status = PG_OK;
     char path[4096], wanted[64], *text = NULL;
-    size_t n = 0;
     out[0] = 0;
     snprintf (path, sizeof path, "%s/report.json", folder);
-    pg_status status = pg_compare_load_text (path, &text);
+    status = pg_compare_load_text (path, &text);
     if (status != PG_OK) return status == PG_E_FILE ? PG_OK : status;
     snprintf (wanted, sizeof wanted, "\"%s\": \"", key);
     const char *s = strstr (text, wanted);
-    for (s = s ? s + strlen (wanted) : ""; *s && *s != '"' && n + 1 < size; s++) {
-        if (*s == '\\' && s[1]) s++;
-        out[n++] = *s;
-    }
-    out[n] = 0;
+    if (s && !unescape (s + strlen (wanted), out, size))
+        PG_FAIL (PG_E_FILE, "%s: the text of \"%s\" is no text of JSON, or too long", path, key);
+done:
     pg_free (text);
-    return PG_OK;
+    return status;
 }
 
 /* If the last line of the text begins with the mark, cuts it off the text and returns what

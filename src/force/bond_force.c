@@ -220,9 +220,8 @@ pg_status bond_force_surface (void *self, const double *stress, double *P)
 /* ---- the rest ------------------------------------------------------------------------------------------ */
 /* Lumped: density times volume; a rotation has the moment of inertia of a cube of the local spacing, in
  * the unit of its unknown. */
-pg_status bond_force_mass (void *self, double *mass)
+void bond_force_masses (const bond_force *b, double *mass)
 {
-    const bond_force *b = self;
     const pg_problem *p = b->problem;
     for (size_t i = 0; i < b->n; i++) {
         double own = p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i], across = 0;
@@ -230,6 +229,11 @@ pg_status bond_force_mass (void *self, double *mass)
         for (size_t k = 0; k < (size_t) b->stride; k++)  /* a cube of the spacing's size turns: theory G4 */
             mass[i * (size_t) b->stride + k] = k < (size_t) b->dim ? own : own * across * across / 6;
     }
+}
+
+pg_status bond_force_mass (void *self, double *mass)
+{
+    bond_force_masses (self, mass);
     return PG_OK;
 }
 

@@ -100,6 +100,7 @@ void bond_force_free (void **self);
 size_t bond_force_fields (const void *self, size_t max, pg_field *out);
 pg_status bond_force_refresh (void *self, const pg_state *state, const pg_changes *changes);
 pg_status bond_force_balance (void *self, double t, const double *d, double *residual, double *reference);
+void      bond_force_masses (const bond_force *b, double *mass);
 pg_status bond_force_mass (void *self, double *mass);
 const pg_operator *bond_force_operator (void *self);
 const pg_sparse *bond_force_basis (void *self);
@@ -122,6 +123,7 @@ const pg_sparse *bond_force_matrix (void *self);
 int       bond_force_matrix_free (const void *self);  /* 1: dilatations reach further than bonds do */
 pg_status bond_force_row_sums (void *self, double *sum);
 pg_status bond_force_couplings (void *self, pg_couplings *out);
+pg_status bond_force_omega (const bond_force *b, double *omega);
 pg_status bond_force_bound (void *self, double *omega);
 /* fields */
 pg_status bond_force_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,

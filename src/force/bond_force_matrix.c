@@ -90,13 +90,15 @@ static void find_whole (bond_force *b)
     if (b->whole) row_of_star (b, i, &s, 1, NULL, b->whole);
 }
 
-/* Has the point all its bonds, so that the shared row is its own?. */
-static int is_whole (void *context, size_t i)
+/* Has the point all its bonds, so that the shared row is its own? */
+static int is_whole (const bond_force *b, size_t i)
 {
-    const bond_force *b = context;
     size_t first = b->family->start[i], m = family_size (b, i);
     return b->whole && m == b->problem->sums->stencil.n && !(b->alive && memchr (b->alive + first, 0, m));
 }
+
+/* The same for pg_couplings.alike. */
+static int has_shared_row (void *context, size_t i) { return is_whole (context, i); }
 
 typedef struct { const bond_force *b; double *out; const double *mass; } job;
 
@@ -121,7 +123,7 @@ static void diagonal_points (void *context, size_t first, size_t last, int threa
     double D[MOST];
     for (size_t i = first; i < last; i++) {
         const double *own = D;
-        if (is_whole ((void *) (uintptr_t) w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
+        if (is_whole (w->b, i)) own = w->b->whole + family_size (w->b, i) * dim * dim;
         else {
             point_bonds_at (w->b, i, thread, &s);
             if (!w->b->dilatation) own_block (w->b, i, &s, 0, 0, D);
@@ -196,7 +198,7 @@ static size_t couplings_of (void *context, size_t i, int thread, int *node, doub
         node[m++] = (int) i;
         return m;
     }
-    if (is_whole (context, i)) {
+    if (is_whole (b, i)) {
         m = family_size (b, i);
         memcpy (node, b->family->node + b->family->start[i], m * sizeof *node);
         memcpy (value, b->whole, (m + 1) * bb * sizeof *value);
@@ -236,7 +238,7 @@ pg_status bond_force_couplings (void *self, pg_couplings *out)
     *out = (pg_couplings) { .context = b, .widest = b->widest + 1, .row = couplings_of };
     find_whole (b);
     if (b->dilatation) PG_TRY (dilatation_couplings (b, out));
-    if (b->whole) out->alike = is_whole;
+    if (b->whole) out->alike = has_shared_row;
     for (int k = 0; b->whole && k < b->dim; k++) out->lattice[k] = b->problem->sums->sites.step[k];
     if (t->n) for (size_t e = 0; e < t->n * (size_t) t->dim; e++) far = fmax (far, fabs (t->xi[e]));
     else {
@@ -274,17 +276,16 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
 }
 
 /* In closed form from the intact body: breaking bonds never raises it, but where weighted volumes follow. */
-pg_status bond_force_bound (void *self, double *omega)
+pg_status bond_force_omega (const bond_force *b, double *omega)
 {
     pg_status status = PG_OK;
-    bond_force *b = self;
     double top = 0, *mass = NULL;
     for (size_t m = 0; m < b->problem->nmaterial; m++)
         if (!(b->problem->material[m].density > 0))
             return pg_error (PG_E_USAGE, PG_HERE, "material %s has no density: there is no frequency",
                              b->problem->material[m].name);
     PG_ALLOC (mass, b->n * (size_t) b->stride);
-    PG_TRY (bond_force_mass (b, mass));
+    bond_force_masses (b, mass);
     pg_parallel (b->threads, b->n, bound_points, &(job) { b, b->work, mass });
     for (size_t i = 0; i < b->n; i++) top = fmax (top, b->work[i]);
     *omega = sqrt (top);
@@ -292,6 +293,8 @@ done:
     pg_free (mass);
     return status;
 }
+
+pg_status bond_force_bound (void *self, double *omega) { return bond_force_omega (self, omega); }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
 /* Bonds of point i to points before it. */

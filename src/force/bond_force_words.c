@@ -46,7 +46,7 @@ static int say_step (const bond_force *b, char *text, size_t size)
 {
     double omega;
     for (size_t m = 0; m < b->problem->nmaterial; m++) if (!(b->problem->material[m].density > 0)) return 0;
-    if (bond_force_bound ((void *) b, &omega) != PG_OK) return 0;
+    if (bond_force_omega (b, &omega) != PG_OK) return 0;
     snprintf (text, size, "explicit steps stable up to %.6g s at least (closed form)", 2 / omega);
     return 1;
 }

@@ -212,6 +212,7 @@ static pg_status chol_solve (void *self, size_t nrhs, const double *b, double *x
     chol *c = self;
     size_t n = c->L->n;
     cholmod_dense B = { 0 };
+    /* CHOLMOD only reads B, but its struct has one kind of pointer for what it reads and what it writes. */
     B.nrow = n, B.ncol = nrhs, B.nzmax = n * nrhs, B.d = n, B.x = (void *) (uintptr_t) b;
     B.xtype = CHOLMOD_REAL, B.dtype = CHOLMOD_DOUBLE;
     if (!cholmod_l_solve2 (CHOLMOD_A, c->L, &B, NULL, &c->X, NULL, &c->Y, &c->E, &c->common))

@@ -22,8 +22,10 @@ typedef struct {
     int     dim, block, threads, corners;
     /* Numbers of nodes and of unknowns. */
     size_t  n, ndof;
-    /* Positions of the nodes, m (n x dim); on the finest level borrowed. */
-    double *x;
+    /* Positions of the nodes, m (n x dim): the caller's on the finest level, on coarse levels those of
+     * `places`, which are the level's own. */
+    const double *x;
+    double *places;
     /* No coupling goes further than this along each axis, m. */
     double  reach[3];
     /* The matrix: on the finest level an operator, with the rows of the caller; on coarse levels rows of

@@ -127,13 +127,14 @@ static pg_status make_pattern (level *c, const level *f)
     }
     PG_ALLOC (c->node, c->start[c->n]);
     PG_ALLOC (c->value, c->start[c->n] * bb);
-    PG_ALLOC (c->x, c->n * (size_t) c->dim);
+    PG_ALLOC (c->places, c->n * (size_t) c->dim);
+    c->x = c->places;
     for (size_t h = 0; h < f->nhat; h++) {
         level_hat_place (f, h, at);
         for (size_t p = f->first[h]; p < f->first[h + 1]; p++) {
             neighbours_of (f, at, reach, c->node + c->start[p]);
             for (int k = 0; k < c->dim; k++)
-                c->x[p * (size_t) c->dim + (size_t) k] = f->low[k] + at[k] * f->step[k];
+                c->places[p * (size_t) c->dim + (size_t) k] = f->low[k] + at[k] * f->step[k];
         }
     }
 done:

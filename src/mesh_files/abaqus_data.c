@@ -173,8 +173,12 @@ static pg_status surface_line (reader *r)
     char word[ABAQUS_WORD], face[ABAQUS_WORD] = "";
     abaqus_surface *surface = &r->data.surface[r->surface];
     abaqus_face f = { .line = now (r)->c.line, .set = -1 };
-    /* A line without a first word means all free faces in Abaqus: it names none here. */
-    if (!next_word (r, &s, end, word) || !word[0]) goto done;
+    /* In Abaqus an empty first field means all free faces of the model, which nobody has counted when this
+     * line is read; a scene has a name for them. */
+    if (!next_word (r, &s, end, word) || !word[0])
+        PG_TRY (ABAQUS_WRONG (r, "surface '%s' names no element: a line without one means all free faces, "
+                                 "which scenes call `all`; write an element or element set before the face",
+                              surface->name));
     next_word (r, &s, end, face);
     if (!face[0])
         PG_TRY (ABAQUS_WRONG (r, "surface '%s' names no face of '%.40s': write S1 ... S6 behind it",

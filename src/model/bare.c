@@ -41,6 +41,7 @@ static pg_status make_load (pg_problem *out, const pg_problem *p)
     PG_ALLOC (out->load, 1);
     out->nload = 1;
     PG_ALLOC (all, 1);
+    out->sets.set = all, out->sets.n = 1;
     out->load->set = all;
     PG_ALLOC (all->facet, p->cells.nfacet);
     all->nfacet = p->cells.nfacet;
@@ -69,7 +70,9 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     for (int s = 0; s < PG_BOND_SETS; s++) b->block[s] = NULL, b->exempt[s] = NULL;
     b->spacing[PG_FACETS] = NULL, b->borne = NULL;
     for (int k = 0; k < 3; k++) b->initial[k] = NULL;
-    b->material = (pg_material *) stiffest (p), b->nmaterial = 1;
+    b->material = NULL, b->nmaterial = 1, b->sets.set = NULL, b->sets.n = 0;
+    PG_ALLOC (b->material, 1);
+    *b->material = *stiffest (p);
     PG_ALLOC (b->criterion, 1);
     if (p->method->shape_functions) PG_TRY (make_surface (b, p));
     else b->rows[PG_FACETS] = p->rows[PG_FACETS];
@@ -90,7 +93,7 @@ done:
     return status;
 }
 
-/* Only what is its own. */
+/* Only what is its own: the facets' points, bond marks, the one load with its set, the one material. */
 void pg_problem_bare_free (pg_problem **bare)
 {
     pg_problem *b = *bare;
@@ -100,13 +103,10 @@ void pg_problem_bare_free (pg_problem **bare)
         pg_free (b->facet_normal);
     }
     for (int s = 0; s < PG_BOND_SETS; s++) pg_free (b->block[s]), pg_free (b->exempt[s]);
-    pg_free (b->spacing[PG_FACETS]), pg_free (b->criterion), pg_free (b->borne);
-    if (b->load) {
-        pg_set *all = (pg_set *) b->load->set;
-        if (all) pg_free (all->facet);
-        pg_free (all);
-        pg_expression_free (&b->load->ramp);
-    }
+    pg_free (b->spacing[PG_FACETS]), pg_free (b->material), pg_free (b->criterion), pg_free (b->borne);
+    if (b->sets.set) pg_free (b->sets.set->facet);
+    pg_free (b->sets.set);
+    if (b->load) pg_expression_free (&b->load->ramp);
     pg_free (b->load), pg_free (b);
     *bare = NULL;
 }

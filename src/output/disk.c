@@ -5,6 +5,7 @@
 #include "disk.h"
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -104,13 +105,19 @@ pg_status pg_disk_sync (const char *path)
     return bad ? pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (reason)) : PG_OK;
 }
 
-/* Goes through the path and makes every folder on the way. */
+/* Goes through the path and makes every folder on the way. Files are put into it under names of up to
+ * NAME_MAX bytes, and the system takes paths of less than PATH_MAX bytes: a longer folder is refused before
+ * anything is made, as its files would be cut to names of something else. */
 pg_status pg_folder_make (const char *path)
 {
     pg_status status = PG_OK;
-    char part[4096];
-    snprintf (part, sizeof part, "%s", path);
-    for (char *p = part + 1;; p++) {
+    char *part = NULL;
+    if (strlen (path) + NAME_MAX + 2 > PATH_MAX)
+        PG_FAIL (PG_E_FILE, "the folder %.40s... has a path of %zu bytes, more than the %d that leave room "
+                            "for the names of files in it", path, strlen (path), PATH_MAX - NAME_MAX - 2);
+    part = pg_strdup (path);
+    if (!part) PG_FAIL (PG_E_MEMORY, "no memory for a path");
+    for (char *p = part + !!*part;; p++) {
         if (*p && *p != '/') continue;
         char keep = *p;
         *p = 0;
@@ -120,5 +127,6 @@ pg_status pg_folder_make (const char *path)
         if (!keep) break;
     }
 done:
+    pg_free (part);
     return status;
 }

@@ -129,15 +129,49 @@ done:
     return status;
 }
 
-/* The header of the existing file is not compared with the columns; resume.c makes sure that
- * it belongs to the same run. */
-pg_status pg_table_open (pg_table **out, const char *path, size_t n, long rows)
+/* Collects a row of texts; NULL is an empty cell. */
+static pg_status collect (pg_table *t, const char *const *values)
+{
+    pg_status status = PG_OK;
+    for (size_t k = 0; k < t->n; k++) {
+        if (k) PG_TRY (append (t, ",", 1));
+        PG_TRY (append_cell (t, values[k]));
+    }
+done:
+    return status;
+}
+
+/* Compares the first bytes of the file with the header that these columns would have. Rows of other columns
+ * behind it would be read under wrong names. */
+static pg_status check_header (pg_table *t, const char *const *columns)
+{
+    pg_status status = PG_OK;
+    char *found = NULL;
+    size_t n = 0;
+    ssize_t got;
+    PG_TRY (collect (t, columns));
+    PG_TRY (append (t, "\n", 1));
+    PG_ALLOC (found, t->length);
+    while (n < t->length && (got = pread (t->file, found + n, t->length - n, (off_t) n)) > 0)
+        n += (size_t) got;
+    if (n < t->length || memcmp (found, t->text, n) != 0)
+        PG_FAIL (PG_E_FILE, "the columns of %s are not those that this run writes (%zu, the first is %s): it "
+                            "was changed since, or is of another run", t->path, t->n, columns[0]);
+done:
+    pg_free (found);
+    t->length = 0;
+    return status;
+}
+
+/* Nothing is cut off before header and rows have been found to be right. */
+pg_status pg_table_open (pg_table **out, const char *path, size_t n, const char *const *columns, long rows)
 {
     pg_status status = PG_OK;
     pg_table *t = NULL;
     *out = NULL;
     PG_TRY (prepare (&t, path, 0));
     t->n = n;
+    PG_TRY (check_header (t, columns));
     PG_TRY (skip_rows (t, rows));
     PG_TRY (pg_disk_cut (path, t->file, t->bytes));
     if (lseek (t->file, t->bytes, SEEK_SET) < 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
@@ -171,10 +205,7 @@ done:
 pg_status pg_table_line (pg_table *t, const char *const *values)
 {
     pg_status status = PG_OK;
-    for (size_t k = 0; k < t->n; k++) {
-        if (k) PG_TRY (append (t, ",", 1));
-        PG_TRY (append_cell (t, values[k]));
-    }
+    PG_TRY (collect (t, values));
     PG_TRY (end_row (t));
     t->rows++;
 done:

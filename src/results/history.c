@@ -57,7 +57,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     PG_ALLOC (r->row, n);
     PG_ALLOC (r->u, p->cloud.n * 6);
     snprintf (path, sizeof path, "%s/history.csv", r->folder);
-    PG_TRY (from ? pg_table_open (&r->history, path, n, from->history)
+    PG_TRY (from ? pg_table_open (&r->history, path, n, column, from->history)
                  : pg_table_create (&r->history, path, n, column));
     static const char *const event_columns[] = {
         "step [1]",      "load_factor [1]", "time [s]",        "x [m]",
@@ -65,7 +65,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
         "bond_code [1]", "kind_code [1]",   "bond [name]",     "kind [name]"
     };
     snprintf (path, sizeof path, "%s/events.csv", r->folder);
-    PG_TRY (from ? pg_table_open (&r->events, path, EVENT_COLUMNS, from->events)
+    PG_TRY (from ? pg_table_open (&r->events, path, EVENT_COLUMNS, event_columns, from->events)
                  : pg_table_create (&r->events, path, EVENT_COLUMNS, event_columns));
 done:
     pg_free (name), pg_free (column);

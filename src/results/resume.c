@@ -27,7 +27,8 @@ typedef struct {
     /* Seconds that the run has taken so far. */
     double     seconds;
     pg_step    pending;
-    /* Broken bonds and reactions of the pending step, when read back. */
+    /* Broken bonds (pending.nbroken) and reactions, N (nload x 3), of the pending step: own memory, since
+     * the same calls that write them also read them, and a step lends its arrays as constant. */
     pg_broken *broken;  double *reaction;
 } memory;
 
@@ -146,17 +147,18 @@ static pg_status keep_pending (memory *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     pg_step *s = &m->pending;
-    size_t nload = m->r->problem->nload;
+    size_t nreaction = s->reaction || k->reading ? 3 * m->r->problem->nload : 0;
     long count[5] = { s->number, s->iterations, s->level, s->event, (long) s->nbroken };
     double number[6] = { s->stamp, s->time, s->factor, s->residual, s->utilisation, s->dissipated };
     if (!m->is_pending) goto done;
     PG_TRY (k->counts (k->context, "pending.counts", 5, count));
     PG_TRY (k->numbers (k->context, "pending.numbers", 6, number));
-    if (k->reading) {
-        if (count[4] < 0 || count[4] > (long) m->r->problem->first_bond[PG_BOND_SETS])
-            PG_FAIL (PG_E_FILE, "%s is not of this run: %ld bonds broken in a step", m->path, count[4]);
-        PG_ALLOC (m->broken, (size_t) count[4]);
-        PG_ALLOC (m->reaction, 3 * nload);
+    if (k->reading && (count[4] < 0 || count[4] > (long) m->r->problem->first_bond[PG_BOND_SETS]))
+        PG_FAIL (PG_E_FILE, "%s is not of this run: %ld bonds broken in a step", m->path, count[4]);
+    /* A checkpoint is walked through twice when it is written. */
+    if (!m->broken) PG_ALLOC (m->broken, (size_t) count[4]);
+    if (!m->reaction) PG_ALLOC (m->reaction, nreaction);
+    if (k->reading)
         *s = (pg_step){ .number = count[0],
                         .iterations = count[1],
                         .level = (int) count[2],
@@ -170,9 +172,12 @@ static pg_status keep_pending (memory *m, const pg_keeper *k)
                         .residual = number[3],
                         .utilisation = number[4],
                         .dissipated = number[5] };
+    else {
+        if (s->nbroken) memcpy (m->broken, s->broken, s->nbroken * sizeof *s->broken);
+        if (nreaction) memcpy (m->reaction, s->reaction, nreaction * sizeof *s->reaction);
     }
-    PG_TRY (pg_broken_keep (m->r->problem, "pending.broken", s->nbroken, (pg_broken *) s->broken, k));
-    PG_TRY (k->numbers (k->context, "pending.reaction", s->reaction ? 3 * nload : 0, (double *) s->reaction));
+    PG_TRY (pg_broken_keep (m->r->problem, "pending.broken", s->nbroken, m->broken, k));
+    PG_TRY (k->numbers (k->context, "pending.reaction", nreaction, m->reaction));
 done:
     return status;
 }
@@ -223,7 +228,10 @@ static memory memory_of (pg_result *r, pg_state *state, const char *path)
 pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper)
 {
     memory m = memory_of (r, state, "the checkpoint");
-    return keeper->reading ? pg_error (PG_E_USAGE, PG_HERE, "pg_result_resume reads") : keep_all (&m, keeper);
+    if (keeper->reading) return pg_error (PG_E_USAGE, PG_HERE, "pg_result_resume reads");
+    pg_status status = keep_all (&m, keeper);
+    pg_free (m.broken), pg_free (m.reaction);
+    return status;
 }
 
 /* The files are synced first: marks on the disk must not be ahead of the rows that they count. */
@@ -240,6 +248,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     PG_TRY (pg_exodus_sync (r->file));
     PG_TRY (pg_checkpoint_write (path, keep_all, &m));
 done:
+    pg_free (m.broken), pg_free (m.reaction);
     r->checkpoint_at = pg_seconds ();
     r->checkpoint_cost = r->checkpoint_at - t0;
     r->seconds += r->checkpoint_cost;

@@ -106,12 +106,28 @@ pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const 
     return read_some (out, text, length, name, nset, set, table, ntable, 0);
 }
 
+/* The key tables of all folders, if all of them are there. */
+static pg_status all_tables (const pg_key_table **table, size_t *n)
+{
+    const char *limit = pg_scene_tables_fault ();
+    *table = pg_scene_tables (n);
+    return !limit ? PG_OK
+                  : pg_error (PG_E_LIMIT, PG_HERE,
+                              "this build has more keys than their tables hold: raise %s in "
+                              "src/scene/tables.c", limit);
+}
+
 pg_status pg_scene_parse_with (pg_scene **out, const char *text, const char *name, size_t nset,
                                const char *const *set)
 {
+    pg_status status = PG_OK;
     size_t n;
-    const pg_key_table *table = pg_scene_tables (&n);
-    return pg_scene_read (out, text, strlen (text), name, nset, set, table, n);
+    const pg_key_table *table;
+    *out = NULL;
+    PG_TRY (all_tables (&table, &n));
+    PG_TRY (pg_scene_read (out, text, strlen (text), name, nset, set, table, n));
+done:
+    return status;
 }
 
 pg_status pg_scene_parse (pg_scene **out, const char *text, const char *name)
@@ -151,8 +167,9 @@ static pg_status load (pg_scene **out, const char *path, size_t nset, const char
     pg_status status = PG_OK;
     char *text = NULL;
     size_t length = 0, n;
-    const pg_key_table *table = pg_scene_tables (&n);
+    const pg_key_table *table;
     *out = NULL;
+    PG_TRY (all_tables (&table, &n));
     PG_TRY (read_file (&text, &length, path));
     PG_TRY (read_some (out, text, length, path, nset, set, table, n, some));
 done:

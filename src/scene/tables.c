@@ -11,7 +11,8 @@
 #undef PG_KEYS
 #undef PG_ENTRY_KEYS
 
-/* Most tables and copied rows; lengths of their texts. */
+/* Most tables and copied rows; lengths of their texts. What does not fit is a fault of the build, which every
+ * reading of a scene reports (pg_scene_tables_fault): raise the number that it names. */
 enum { MOST_TABLES = 96, MOST_TWINS = 64, NAMES = 240, TWIN_PATH = 96, TWIN_DOC = 160 };
 
 /* Whose the table of the same number is: the rows as their entry declares them, its catalogue, and the names
@@ -32,16 +33,25 @@ static struct {
     size_t       ntwin;
     pg_key       twin[MOST_TWINS];
     struct { char path[TWIN_PATH], doc[TWIN_DOC]; } twin_text[MOST_TWINS];
+    const char  *fault;                                /* the limit that was too small; NULL: none */
 } all = { .once = PTHREAD_ONCE_INIT };
 
-/* Beyond MOST_TABLES tables are dropped. */
+/* Notes the first limit that a number or a length of a text exceeds; 1: it does. */
+static int exceeds (size_t value, size_t limit, const char *name)
+{
+    if (value <= limit) return 0;
+    if (!all.fault) all.fault = name;
+    return 1;
+}
+
+/* A table and whose it is. */
 static void add_table (const pg_key_table *table, const pg_key *declared, const pg_key_catalogue *catalogue,
                        const char *name)
 {
-    if (all.ntable == MOST_TABLES) return;
+    if (exceeds (all.ntable + 1, MOST_TABLES, "MOST_TABLES")) return;
     table_owner *owner = &all.owner[all.ntable];
     owner->declared = declared, owner->catalogue = catalogue;
-    snprintf (owner->names, NAMES, "%s", name);
+    exceeds ((size_t) snprintf (owner->names, NAMES, "%s", name), NAMES - 1, "NAMES");
     all.table[all.ntable++] = *table;
 }
 
@@ -50,11 +60,14 @@ static void add_table (const pg_key_table *table, const pg_key *declared, const 
 static pg_key_table twins_of (const pg_key_table *table, const pg_key_catalogue *catalogue)
 {
     size_t first = all.ntwin;
-    for (size_t k = 0; k < table->n && all.ntwin < MOST_TWINS; k++, all.ntwin++) {
+    for (size_t k = 0; k < table->n && !exceeds (all.ntwin + 1, MOST_TWINS, "MOST_TWINS"); k++, all.ntwin++) {
         pg_key *twin = &all.twin[all.ntwin];
         char *path = all.twin_text[all.ntwin].path, *doc = all.twin_text[all.ntwin].doc;
-        snprintf (path, TWIN_PATH, "%s%s", catalogue->also, table->key[k].path);
-        snprintf (doc, TWIN_DOC, "As %s, %s.", table->key[k].path, catalogue->also_doc);
+        const char *declared = table->key[k].path;
+        int length = snprintf (path, TWIN_PATH, "%s%s", catalogue->also, declared);
+        exceeds ((size_t) length, TWIN_PATH - 1, "TWIN_PATH");
+        length = snprintf (doc, TWIN_DOC, "As %s, %s.", declared, catalogue->also_doc);
+        exceeds ((size_t) length, TWIN_DOC - 1, "TWIN_DOC");
         *twin = table->key[k];
         twin->path = path, twin->doc = doc;
     }
@@ -69,7 +82,8 @@ static int share_table (const pg_key_table *table, const char *name)
     for (size_t t = 0; t < all.ntable; t++) {
         if (all.owner[t].declared != table->key) continue;
         size_t used = strlen (all.owner[t].names);
-        snprintf (all.owner[t].names + used, NAMES - used, "|%s", name);
+        int more = snprintf (all.owner[t].names + used, NAMES - used, "|%s", name);
+        exceeds (used + (size_t) more, NAMES - 1, "NAMES");
         shared = 1;
     }
     return shared;
@@ -113,6 +127,12 @@ const pg_key_table *pg_scene_tables (size_t *n)
     pthread_once (&all.once, gather);
     *n = all.ntable;
     return all.table;
+}
+
+const char *pg_scene_tables_fault (void)
+{
+    pthread_once (&all.once, gather);
+    return all.fault;
 }
 
 /* By the address of the row: rows are unique. */

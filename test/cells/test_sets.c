@@ -406,6 +406,47 @@ static void the_rim_of_a_cylinder_is_round (void **state)
     drop (&m);
 }
 
+/* A hole within one cell about the centre, where all rays begin: two ranges are divided, three that adjoin
+ * have four ends, three apart are refused. */
+static void more_rays_than_divide_a_cell_are_refused (void **state)
+{
+    static const struct { const char *angle; double share; const char *fault; } cases[] = {
+        { "[[10 deg, 40 deg], [100 deg, 190 deg]]", 120.0 / 360, NULL },
+        { "[[0 deg, 90 deg], [90 deg, 180 deg], [180 deg, 225 deg]]", 225.0 / 360, NULL },
+        { "[[10 deg, 40 deg], [100 deg, 190 deg], [200 deg, 230 deg]]", 0,
+          "sets.holes.angle: 6 ends of ranges meet in one cell" },
+    };
+    (void) state;
+    for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
+        char text[500];
+        model m = { 0 };
+        pg_ray *ray;
+        size_t n;
+        double length = 0;
+        snprintf (text, sizeof text,
+                  "dimension: 2\nlattice: cells\nspacing: 0.2\nbody: [{add: {box: {low: [-1.1, -1.1], high: "
+                  "[1.1, 1.1]}}}, {subtract: {disk: {center: [0, 0], radius: 0.05}}}]\n"
+                  "sets: {holes: {boundary: hole, angle: %s}}\n", cases[k].angle);
+        check_ok (pg_scene_parse (&m.scene, text, "test.yaml"));
+        check_ok (pg_body_read (&m.body, m.scene));
+        check_ok (pg_cloud_build (&m.cloud, &m.lattice, &m.body, m.scene));
+        check_ok (pg_sets_rays (&ray, &n, m.scene, &m.body));
+        check_ok (pg_cells_cut (&m.cells, &m.body, &m.lattice, 1, n, ray));
+        pg_free (ray);
+        pg_status status = pg_sets_build (&m.sets, m.scene, &m.body, &m.lattice, &m.cloud, &m.cells);
+        if (cases[k].fault) {
+            assert_int_equal (status, PG_E_SCENE);
+            check_contains (pg_last_error (), cases[k].fault);
+        } else {
+            check_ok (status);
+            const pg_set *s = pg_sets_find (&m.sets, "holes");
+            for (size_t f = 0; f < s->nfacet; f++) length += m.cells.area[s->facet[f]];
+            check_relative (length, 2 * acos (-1) * 0.05 * cases[k].share, 1e-10);
+        }
+        drop (&m);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -431,6 +472,7 @@ int main (void)
         cmocka_unit_test (all_faulty_sets_are_reported_together),
         cmocka_unit_test (any_allocation_may_fail),
         cmocka_unit_test (the_rim_of_a_cylinder_is_round),
+        cmocka_unit_test (more_rays_than_divide_a_cell_are_refused),
     };
     return cmocka_run_group_tests_name ("cells/sets", tests, NULL, NULL);
 }

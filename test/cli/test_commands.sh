@@ -31,6 +31,19 @@ expect "check: a path that is none"           65 '' 'is not a path' check plate.
 expect "a body that nothing holds is doubted"  0 'nothing holds the body along x' '' check plate.yaml --set 'boundary[1].displacement={y: 0}'
 expect "a body that nothing loads is doubted"  0 'nothing loads the body' '' check plate.yaml --set 'boundary[0].displacement={y: 0}'
 expect "loads without a name are told apart"   0 'boundary top_4 ' '' check plate.yaml --set 'boundary[2]={set: top, traction: {x: 1 Pa}}' --set 'boundary[3]={set: top, traction: {x: 2 Pa}}'
+# The number of threads reaches the libraries, which read it from the environment when they are loaded: /proc shows it.
+started_with() {   # value of OPENBLAS_NUM_THREADS in a run with these options, ended as soon as it is known
+    local pid k value=
+    env -u OMP_THREAD_LIMIT -u OPENBLAS_NUM_THREADS "$perigal" run plate.yaml -o "$work/threads" --force --quiet --set spacing='0.1 mm' "$@" \
+        > /dev/null 2>&1 & pid=$!
+    for k in $(seq 200); do
+        value=$(tr '\0' '\n' < /proc/$pid/environ 2> /dev/null | sed -n 's/^OPENBLAS_NUM_THREADS=//p')
+        [ -n "$value" ] && break; sleep 0.02
+    done
+    kill -9 $pid; wait $pid 2> /dev/null; echo "$value"
+}
+[ "$(started_with --threads 3)" = 3 ] && [ "$(started_with --threads=3)" = 3 ] && [ "$(started_with --thr=5)" = 5 ] \
+    && [ "$(started_with --threads 2 --threads=4)" = 4 ]; verdict "--threads reaches the libraries, in every spelling" $?
 
 out=$work/deep/er/result
 expect "run makes the folder and its parents"  0 'results in' '*' run plate.yaml -o "$out" --threads 1 --set solver.max_events=3
@@ -44,6 +57,9 @@ expect "the copy is a scene"                   0 'the scene is valid' '' check "
 expect "run --quiet is quiet"                  0 '' '' run plate.yaml -o "$work/quiet" --quiet --threads 1 --set 'failure={criterion: none}'
 expect "a run ends where a wrong scene does"  65 '' 'unknown key' run wrong/unknown_key.yaml -o "$work/none"
 [ ! -e "$work/none" ]; verdict "a wrong scene leaves no folder" $?
+long=$work/long; for k in $(seq 20); do long=$long/$(printf 'x%.0s' $(seq 200)); done
+expect "a folder with too long a path"        70 '' 'has a path of .* bytes, more than' run plate.yaml -o "$long"
+[ ! -e "$work/long" ]; verdict "nothing of it is made" $?
 
 expect "plot draws a field"                    0 '/stress.yy.png$' '' plot "$out" --field stress --component yy
 expect "plot names fields as output.pictures"  0 '/stress.yy.png$' '' plot "$out" --field stress.yy

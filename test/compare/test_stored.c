@@ -167,6 +167,52 @@ static void no_memory (void **state)
     pg_stored_free (&s);
 }
 
+/* The scene that report.json names is found again, whatever JSON does to its name. */
+static void names_survive_json (void **state)
+{
+    (void) state;
+    static const char *const names[] = { "/a \"quoted\" \\ folder/scene.yaml",
+                                         "/tab\tline\n\001\x7f/scene.yaml",
+                                         "/\xc3\xa9t\xc3\xa9 \xe6\xbc\xa2 \xf0\x9f\x98\x80/s.yaml",
+                                         "/plain.yaml" };
+    static const struct { const char *text, *name; } texts[] = {
+        { "\\u002fx\\u00E9\\ud83d\\ude00\\u6f22\\/\\b\\f\\r",
+          "/x\xc3\xa9\xf0\x9f\x98\x80\xe6\xbc\xa2/\b\f\r" },
+        { "\\q", NULL }, { "\\u12g4", NULL }, { "\\ud83d", NULL }, { "\\ud83d\\u0041", NULL },
+        { "\\ude00", NULL }, { "\\u0000", NULL }, { "\\", NULL },
+    };
+    char file[200];
+    pg_scene *s = NULL;
+    snprintf (file, sizeof file, "%s", inside (folder, "scene.yaml"));
+    FILE *f = fopen (file, "w");
+    assert_non_null (f);
+    fputs (PLATE, f);
+    fclose (f);
+    snprintf (file, sizeof file, "%s", inside (folder, "report.json"));
+    for (size_t k = 0; k < sizeof names / sizeof *names; k++) {
+        pg_json *j;
+        check_ok (pg_json_create (&j, file));
+        pg_json_text (j, "title", "\"scene\": \"wrong");   /* its quotes are escaped: no key */
+        pg_json_text (j, "scene", names[k]);
+        check_ok (pg_json_close (&j));
+        check_ok (pg_stored_scene (&s, folder));
+        assert_string_equal (pg_scene_file (s), names[k]);
+        pg_scene_free (&s);
+    }
+    for (size_t k = 0; k < sizeof texts / sizeof *texts; k++) {
+        f = fopen (file, "w");
+        assert_non_null (f);
+        fprintf (f, "{\n  \"scene\": \"%s\"\n}\n", texts[k].text);
+        fclose (f);
+        pg_status status = pg_stored_scene (&s, folder);
+        assert_int_equal (status, texts[k].name ? PG_OK : PG_E_FILE);
+        if (texts[k].name) assert_string_equal (pg_scene_file (s), texts[k].name);
+        else check_contains (pg_last_error (), "report.json: the text of \"scene\"");
+        pg_scene_free (&s);
+    }
+    unlink (file), unlink (inside (folder, "scene.yaml"));
+}
+
 static int make (void **state) { (void) state, make_folder (folder); return 0; }
 static int drop (void **state) { (void) state, remove_folder (folder); return 0; }
 
@@ -175,6 +221,7 @@ int main (void)
     const struct CMUnitTest tests[] = { cmocka_unit_test (a_folder_gives_its_run_back),
                                         cmocka_unit_test (least_squares_where_coefficients_are_missing),
                                         cmocka_unit_test (broken_bonds_are_told),
-                                        cmocka_unit_test (wrong_folders), cmocka_unit_test (no_memory) };
+                                        cmocka_unit_test (wrong_folders), cmocka_unit_test (no_memory),
+                                        cmocka_unit_test (names_survive_json) };
     return cmocka_run_group_tests (tests, make, drop);
 }

@@ -325,6 +325,8 @@ static void faults_name_their_line (void **state)
     wrong (SQUARES TWO "*ELSET,ELSET=q,GENERATE\n1,2,0\n", "line 13: a set by GENERATE");
     wrong (SQUARES TWO "*SURFACE,NAME=q\nA,S5\n", "line 13: surface 'q': element 1 (quad4) has no face 'S5'");
     wrong (SQUARES TWO "*SURFACE,NAME=q\nA\n", "line 13: surface 'q' names no face of 'A'");
+    wrong (SQUARES TWO "*SURFACE,NAME=q\n,S1\n", "line 13: surface 'q' names no element");
+    wrong (SQUARES TWO "*SURFACE,NAME=q\nA,S1\n , \n", "line 14: surface 'q' names no element");
     wrong (SQUARES TWO "*SURFACE,NAME=q\nnone,S1\n", "line 13: there is no element set 'none'");
     wrong (SQUARES TWO "*SURFACE,NAME=q\n9,S1\n", "line 13: element 9 of set 'q' is not there");
     wrong (SQUARES "*NGEN\n", "line 8: *NGEN is not read");

@@ -175,6 +175,8 @@ static void tables_of_all_folders_are_sound (void **state)
     pg_schema s = { 0 };
     const pg_key_table *table = pg_scene_tables (&n);
     assert_true (n > 0 && table[0].n > 0);
+    if (pg_scene_tables_fault ()) print_error ("%s of src/scene/tables.c\n", pg_scene_tables_fault ());
+    assert_null (pg_scene_tables_fault ());
     check_ok (pg_schema_create (&s, table, n));
     for (size_t k = 0; k < s.n; k++) {
         const pg_key *row = s.row[k];
