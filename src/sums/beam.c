@@ -9,17 +9,22 @@
 
 static const double pi = 3.14159265358979323846264338327950288;
 
+/* The ratio at which bonds that bear no shear are enough: 1/3 in plane stress, 1/4 in plane strain and
+ * space (theory A). Above it the shear stiffness of a beam would be negative. */
 double pg_beam_poisson (pg_mode mode)
 {
     return mode == PG_LINE ? 0 : mode == PG_PLANE_STRESS ? 1.0 / 3 : 0.25;
 }
 
+/* int_0^horizon k (r / horizon) r^n dr, m^(n + 1). */
 static double moment (const pg_kernel *kernel, double horizon, int n)
 {
     return pow (horizon, n + 1) * pg_kernel_moment (kernel, n);
 }
 
-/* Of the sum of shear stiffnesses: int k r^(dim - 2) dr */
+/* int_0^horizon k r^(dim - 2) dr, m^(dim - 1): what the sum of the shear stiffnesses, which fall with 1 /
+ * r, tends to. In a plane the integrand is k itself, which must be bounded at r = 0 for a value that does
+ * not depend on the shortest bonds. */
 static pg_status shear_moment (double *out, const pg_kernel *kernel, double horizon, int dim)
 {
     pg_status status = PG_OK;
@@ -33,6 +38,11 @@ done:
     return status;
 }
 
+/* Axial modulus c_n and shear modulus c_t of bonds, whose stiffnesses are c_n k V V / r and 12 c_t k V V
+ * / r^3. They follow from the energy of a body in uniform strain without rotation, which must be that of
+ * E and nu: two equations, one from the dilatation and one from the shear (Chen 2022, with the
+ * corrections of theory G1). The denominators vanish where the plane or solid modulus has no bound. At nu
+ * = pg_beam_poisson the shear modulus is zero, and made exactly so. */
 pg_status pg_beam_moduli (double *axial, double *shear, pg_mode mode, const pg_kernel *kernel, double horizon,
                           double E, double nu, double thickness)
 {
@@ -60,6 +70,9 @@ done:
     return status;
 }
 
+/* A body of E and nu as one of bonds with another ratio beside an energy of the dilatation: both have the
+ * shear modulus E / (2 (1 + nu)), from which the modulus of the bonds follows; what their bulk modulus
+ * lacks is the dilatation's part, Pa (theory G3). */
 void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double E, double nu,
                     double bond_poisson)
 {
@@ -71,13 +84,18 @@ void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double
 }
 
 /* ---- points at hand ------------------------------------------------------------------------------------ */
+/* For qsort; the comparison must not overflow, hence no difference. */
 static int ascending (const void *a, const void *b)
 {
     double x = *(const double *) a, y = *(const double *) b;
     return (x > y) - (x < y);
 }
 
-/* sum of k beta V / r about a point whose family is whole, m^(dim - 1), by thickness; median */
+/* The sum of k beta V / r over the bonds of a point inside the body, m^(dim - 1) for points of unit
+ * thickness: the discrete counterpart of shear_moment times the unit circle or sphere. Irregular points
+ * have no stencil to take it from, so it is the median over the points whose family is whole (at least
+ * 0.8 of the largest family's volume), which a few odd points do not move. Families of points of other
+ * sizes are scaled to the spacing h of the cloud by `ratio`. */
 static pg_status shear_of_cloud (double *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;
@@ -107,7 +125,10 @@ done:
     return status;
 }
 
-/* Of each bond towards +axis as many cross a cut of one cell's width as it has sites along the axis. */
+/* Sums over the bonds that cross a straight cut, for the energy that a crack along the lattice takes. Of
+ * each bond that leads towards +axis as many cross a cut of one cell's width as it has sites along the
+ * axis: their number is xi_axis / step, each with the weight of a cell, averaged over the axes. along:
+ * sum of k beta r, for stretched bonds; across: of k beta / r, for sheared ones. */
 static void lattice_cuts (pg_beam_sums *out, const pg_stencil *s, double thickness)
 {
     for (int axis = 0; axis < s->dim; axis++)
@@ -119,6 +140,10 @@ static void lattice_cuts (pg_beam_sums *out, const pg_stencil *s, double thickne
         }
 }
 
+/* What the sums of this lattice or cloud are, beside the integrals of theory: `calibration` scales the
+ * shear stiffness so that a uniform shear has the energy that it should; along and across are the
+ * integrals over a cut, or with calibration the sums over it, so that a critical energy release rate
+ * becomes a limit of the bonds at hand. */
 pg_status pg_beam_measure (pg_beam_sums *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;
@@ -146,12 +171,16 @@ done:
 }
 
 /* ---- one bond ------------------------------------------------------------------------------------------ */
+/* Harmonic mean of a constant of two points, as of springs in series; 0 where one end has none. */
 static double between (const double *c, size_t i, size_t j)
 {
     double a = c[i], b = c[j];
     return a == b ? a : a + b > 0 ? 2 * a * b / (a + b) : 0;
 }
 
+/* Stiffnesses of one bond, N/m: along c_n k beta V V / r, shear 12 c_t k beta V V / r^3, bending over
+ * length^2. In a graded cloud shear and bending are of a bond in the unit of the local spacing, hence the
+ * square of `ratio`. */
 pg_beam pg_beam_between (const pg_bond_loop_setting *s, size_t i, size_t j, const double *xi, double weight)
 {
     const pg_cloud *cloud = s->sums->cloud;
@@ -175,6 +204,10 @@ static void lever_matrix (int dim, const double *xi, double X[3][3])
     }
 }
 
+/* The rows of the stiffness matrix that belong to one end of a bond: `own` against that end, `other`
+ * against the far one, both m x m with m unknowns of a point (dim displacements, then rotations times the
+ * length). Seen from the far end `other` is its transpose, bit by bit, so that K is symmetric to the last
+ * digit. */
 void pg_beam_blocks (int dim, const double *xi, const pg_beam *b, double length, double *own, double *other)
 {
     int m = beam_unknowns (dim), turns = m - dim;
@@ -199,6 +232,8 @@ void pg_beam_blocks (int dim, const double *xi, const pg_beam *b, double length,
         }
 }
 
+/* Shear angle gamma, and bending curvature times the length, of one bond; both are >= 0 (fields of
+ * results). */
 void pg_beam_strain (int dim, const double *xi, double length, const double *di, const double *dj,
                      double *shear, double *bending)
 {

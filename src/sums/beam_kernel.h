@@ -9,7 +9,10 @@
 #define LARGER(a, b) \
     ((vec) (((__typeof__ ((a) > (b))) (a) & ((a) > (b))) | ((__typeof__ ((a) > (b))) (b) & ~((a) > (b)))))
 
-/* Motion of one bond at `at` places of both ends: w, q_j - q_i */
+/* Motion of one bond at `at` places of both ends: w = eta - lever (q_i + q_j) x xi, the relative
+ * displacement less what a rigid turn of the bond about its middle with the mean rotation of its ends
+ * would give it, m; turn = q_j - q_i, by how much the ends turn against each other, times the length, m.
+ * jump: padded places from the own end to the other one; t: the numbers of the bond (PG_TERMS). */
 INLINE void beam_motion (const pg_block_job *job, size_t at, ptrdiff_t jump, int dim, const double *t, vec *w,
                          vec *turn)
 {
@@ -33,6 +36,7 @@ INLINE void beam_motion (const pg_block_job *job, size_t at, ptrdiff_t jump, int
     }
 }
 
+/* xi . v of n components, m^2: what of v lies along the bond, times its length. */
 INLINE vec beam_along (int n, const double *t, const vec *v)
 {
     vec sum = ALL (t[PG_AT_XI]) * v[0];
@@ -40,13 +44,17 @@ INLINE vec beam_along (int n, const double *t, const vec *v)
     return sum;
 }
 
-/* Less what is along the bond */
+/* Takes from `turn` what is along the bond: a bond has no stiffness against twist, only against bending. */
 INLINE void beam_across (const double *t, vec *turn)
 {
     vec twist = beam_along (3, t, turn) * ALL (t[PG_AT_BEAM_INVERSE]);
     UNROLL for (int k = 0; k < 3; k++) turn[k] = vec_fuse (-twist, ALL (t[PG_AT_XI + k]), turn[k]);
 }
 
+/* Forces and moments on the points of one stride of block k, `stride` being its first site. The loop runs
+ * over bonds outside and over sites in the lanes inside, so that all numbers of a bond are read once for
+ * the whole stride. out: dim forces, then the moments over the length, each PG_BLOCK sites apart, N.
+ * weighted: every sum is times the weights p of both ends (partial volumes, surface correction). */
 INLINE void beam_stride (const pg_block_job *job, size_t k, int stride, int dim, int weighted, double *out)
 {
     const int vecs = BEAM_VECS (dim), turns = dim == 2 ? 1 : 3;
@@ -62,6 +70,8 @@ INLINE void beam_stride (const pg_block_job *job, size_t k, int stride, int dim,
         const vec x = ALL (t[PG_AT_XI]), y = ALL (t[PG_AT_XI + 1]), z = ALL (t[PG_AT_XI + 2]);
         UNROLL for (int v = 0; v < vecs; v++) {
             const size_t at = base + (size_t) (v * LANES);
+            /* Dead bonds lose their stiffness, not their motion: lanes without a point hold zeros and add
+             * nothing. */
             const uint32_t live = alive[j] >> (stride + v * LANES);
             vec w[3], turn[3], f[3], kt = ALL (t[PG_AT_KT]), kb = ALL (t[PG_AT_KB]), g = ALL (t[PG_AT_KG]);
             vec_keep (kt, live);
@@ -97,6 +107,7 @@ INLINE void beam_stride (const pg_block_job *job, size_t k, int stride, int dim,
     }
 }
 
+/* All blocks of a range: strides that have no point are left out, and their part of `out` is not read. */
 INLINE void beam_force_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     const int width = BEAM_VECS (dim) * LANES, m = dim == 2 ? 3 : 6;
@@ -114,7 +125,9 @@ INLINE void beam_force_loop (const pg_block_job *job, size_t first, size_t last,
     }
 }
 
-/* Share of its limit, squared; 0 where the bond is dead or may not break */
+/* How much of its limit a bond has used up, squared: (s / s0)^2 for a stretch s > 0, (gamma / gamma0)^2
+ * and (kappa / kappa0)^2, the largest of the three (job->single) or their sum (Chen 2022). A bond breaks
+ * where this reaches 1; 0 where it is dead or may not break. */
 INLINE vec beam_share (const pg_block_job *job, size_t at, size_t j, int dim, uint32_t live)
 {
     const double *t = job->term + j * PG_TERMS;
@@ -140,7 +153,8 @@ INLINE vec beam_share (const pg_block_job *job, size_t at, size_t j, int dim, ui
     return all;
 }
 
-/* Blocks with a bond at its limit */
+/* Sets job->hit for blocks in which a bond is at its limit. Few blocks are, so that this loop notes no
+ * bonds: beam_over_loop is asked for these blocks alone. */
 INLINE void beam_look_loop (const pg_block_job *job, size_t first, size_t last, int dim)
 {
     for (size_t k = first; k < last; k++) {
@@ -155,7 +169,7 @@ INLINE void beam_look_loop (const pg_block_job *job, size_t first, size_t last, 
     }
 }
 
-/* Which: bits in job->over */
+/* Which bonds of a block these are: one bit per site and bond in job->over, as in job->alive. */
 INLINE void beam_over_loop (const pg_block_job *job, size_t first, size_t last, int dim)
 {
     double lane[LANES];
@@ -171,6 +185,10 @@ INLINE void beam_over_loop (const pg_block_job *job, size_t first, size_t last, 
         }
 }
 
+/* Twice the energy of the bonds of every point, J: kn s^2 r^2 + kt gamma^2 r^2 + kb turn^2, written with
+ * g = (kn - kt) / r^2 as kt w.w + g (xi.w)^2 + kb turn.turn. Each bond is met from both ends, so that the
+ * sum over all blocks is four times the energy of the body. job->energy: sum of a block, in the order of
+ * its lanes; job->energies, where it is wanted: that of each point. */
 INLINE void beam_energy_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     const int turns = dim == 2 ? 1 : 3;
@@ -207,6 +225,8 @@ INLINE void beam_energy_loop (const pg_block_job *job, size_t first, size_t last
     }
 }
 
+/* One function for each dimension and for bonds with and without weights: the compiler sees both as
+ * constants and leaves no question in the loops. */
 #define BEAM(D, W) \
     static TARGET void beam_force_##D##W (const pg_block_job *job, size_t first, size_t last) \
     { \

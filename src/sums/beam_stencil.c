@@ -22,6 +22,8 @@ static int differs (const double *a, size_t n)
     return 0;
 }
 
+/* Why these bonds cannot be summed by a stencil, NULL if they can: one number per bond of the stencil
+ * needs the same moduli and limits everywhere. */
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
     const pg_beam_law *law = setting->beams;
@@ -34,6 +36,7 @@ static const char *refusal (const pg_bond_loop_setting *setting)
     return pg_stencil_loop_refusal (setting);
 }
 
+/* Also of an object that was never completed. */
 static void release (void *self)
 {
     beams *s = self;
@@ -42,12 +45,16 @@ static void release (void *self)
     pg_stencil_loop_free (s);
 }
 
+/* 1 / (unit limit^2): with which factor a squared measure becomes a squared share of its limit; 0 where
+ * there is no limit. `unit` turns the measure of the loops (m^2) into one without a unit. */
 static double share (double limit, double unit)
 {
     return limit > 0 && isfinite (limit) ? 1 / (unit * limit * limit) : 0;
 }
 
-/* The numbers of each bond of the stencil: stiffnesses, and shares of the limits that a unit of strain is */
+/* The numbers of each bond of the stencil, the same for all points: stiffnesses kt, g = (kn - kt) / r^2
+ * and kb, and the shares of the limits that a unit of the loops' measures is. The loops know w_perp in m,
+ * hence r^2 in the share of the shear, and q in m, hence length^2 in those of the bending. */
 static void set_terms (beams *s)
 {
     stencil *b = &s->base;
@@ -68,6 +75,8 @@ static void set_terms (beams *s)
     }
 }
 
+/* Padded rotations beside the padded displacements of the stencil; in a plane all three pointers are the
+ * one rotation about z, so that loops need not ask. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -88,6 +97,7 @@ done:
     return status;
 }
 
+/* A loop reads and writes m numbers of a point where bonds without rotations read dim. */
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const beams *s = self;
@@ -114,6 +124,7 @@ static void spread_blocks (void *context, size_t first, size_t last, int thread)
         }
 }
 
+/* All blocks, by threads. */
 static void spread (beams *s, const double *u)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&s->base), s->base.nblock, spread_blocks, &(pass) { s, u });
@@ -152,6 +163,7 @@ static void break_blocks (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Kills the bonds at their limit before forces are summed, so that a bond that breaks pulls no more. */
 static pg_status break_bonds (beams *s, pg_changes *broken)
 {
     stencil *b = &s->base;
@@ -160,6 +172,8 @@ static pg_status break_bonds (beams *s, pg_changes *broken)
     return pg_changes_collect (broken, threads, b->found, b->failed);
 }
 
+/* Forces and moments at the unknowns u (n x m); with `broken` bonds over their limit die first and are
+ * appended to it. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -173,6 +187,7 @@ done:
     return status;
 }
 
+/* Energy of the body, J; W: that of each point, four times, unless NULL. */
 static double sum_energies (beams *s, const double *u, double *W)
 {
     stencil *b = &s->base;
@@ -183,6 +198,7 @@ static double sum_energies (beams *s, const double *u, double *W)
 
 static double energy (void *self, const double *u) { return sum_energies (self, u, NULL); }
 
+/* Energy density of the points, J/m^3: a quarter of the loops' sum, over the volume of the point. */
 static pg_status energies (void *self, const double *u, double *W)
 {
     const beams *s = self;

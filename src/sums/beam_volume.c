@@ -22,6 +22,7 @@ static const char *refusal (const pg_bond_loop_setting *setting)
     return NULL;
 }
 
+/* Each part frees what is its own. */
 static void release (void *self)
 {
     both *s = self;
@@ -31,7 +32,9 @@ static void release (void *self)
     pg_free (s);
 }
 
-/* Families that are not whole have a q of their own: factors of surfaces are for the bonds. */
+/* The same setting twice: for the beams without the dilatation, and for the dilatation without bonds of
+ * its own stiffness (deviation 0). Surface factors belong to the bonds: families at the surface have a
+ * weighted volume q of their own, by which their dilatation is right already. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -58,8 +61,10 @@ done:
     return status;
 }
 
+/* Which two loops these are. */
 static const char *remark (const void *self) { return ((const both *) self)->remark; }
 
+/* Both loops, and the displacements and forces that pass between them: read and written once each. */
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const both *s = self;
@@ -69,6 +74,7 @@ static void bytes (const void *self, double *per_bond, double *per_point)
     *per_bond += bond, *per_point += point + 4 * (double) s->dim * sizeof (double);
 }
 
+/* Both must know the same bonds as alive. */
 static void update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     both *s = self;
@@ -98,11 +104,14 @@ static void add_points (void *context, size_t first, size_t last, int thread)
         for (size_t k = 0; k < s->dim; k++) p->f[i * s->m + k] += s->f[i * s->dim + k];
 }
 
+/* All points, by threads. */
 static void take (both *s, const double *d)
 {
     pg_parallel (s->threads, s->n, take_points, &(pass){ s, d, NULL });
 }
 
+/* The beams decide what breaks; the dilatation is told of it before it is summed, so that both parts of
+ * the force are of the same bonds. */
 static pg_status force (void *self, const double *d, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -137,6 +146,7 @@ done:
     return status;
 }
 
+/* Dilatation (no unit) and weighted volume of the points; the beams have neither. */
 static pg_status dilatation (void *self, const double *d, double *theta, double *q)
 {
     both *s = self;

@@ -18,7 +18,8 @@ typedef double vec_loose __attribute__ ((vector_size (8 * LANES), aligned (8), m
 #define STORE(p, v) (*(vec_loose *) (p) = (v))
 #define ALL(x) ((x) - (vec) { 0 })                     /* x in every lane (x - 0: keeps -0) */
 
-/* Sums of a block to f of its points */
+/* Sums of a block, component by component (PG_BLOCK apart), to f of its points (points x dim). A block
+ * without gaps whose points have consecutive numbers is stored as a run, the others point by point. */
 INLINE void gather (const pg_block_job *job, const pg_block *b, int dim, const double *out)
 {
     if (b->present == UINT32_MAX && b->first >= 0) {
@@ -39,6 +40,8 @@ INLINE void gather (const pg_block_job *job, const pg_block *b, int dim, const d
     }
 }
 
+/* The other way round: displacements u (points x dim) of some blocks to the padded arrays of the
+ * components. Places without a point stay 0. */
 static TARGET void spread (const pg_block_job *job, const double *u, size_t first, size_t last)
 {
     const int dim = job->dim;
@@ -70,6 +73,7 @@ static TARGET void spread (const pg_block_job *job, const double *u, size_t firs
 #include "state_kernel.h"
 #include "beam_kernel.h"
 
+/* The tables of the functions made above, by dimension, strain measure, check and weighting. */
 #define ROW(D, F) \
     { \
         { force_##D##F##00, force_##D##F##01 }, { force_##D##F##10, force_##D##F##11 }, \

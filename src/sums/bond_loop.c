@@ -12,6 +12,8 @@ struct pg_bond_loop {
     char  name[32], reason[160];
 };
 
+/* All kinds of loops, each in a file of its own; of those that suit a theory the first that does not
+ * refuse is taken, so that lattices come before lists. */
 static const pg_bond_loop_kind *const kinds[] = { &pg_bond_loop_stencil,      &pg_bond_loop_list,
                                                   &pg_bond_loop_fft,          &pg_bond_loop_state_stencil,
                                                   &pg_bond_loop_state_list,   &pg_bond_loop_state_fft,
@@ -22,6 +24,7 @@ static const char *const set_name[PG_INSTRUCTION_SETS] = { "scalar", "avx2", "av
 
 const char *pg_instructions_name (pg_instructions set) { return set_name[set]; }
 
+/* Asked of the processor when the program runs, so that one program serves all machines. */
 int pg_instructions_here (pg_instructions set)
 {
     if (set == PG_SCALAR) return 1;
@@ -35,7 +38,8 @@ int pg_instructions_here (pg_instructions set)
 #endif
 }
 
-/* The instructions asked for, or the best that this machine has */
+/* The instructions asked for, or the best that this machine has. Asked for and missing is a fault:
+ * results by other instructions may differ in last digits, and tests compare them. */
 static pg_status choose_instructions (pg_instructions *out, const char *name)
 {
     pg_status status = PG_OK;
@@ -54,7 +58,8 @@ done:
     return status;
 }
 
-/* Transforms, where they save at least a fifth of the stencil's time: cracks will cost some of it. */
+/* Takes transforms where their estimated time is below 0.8 of the stencil's: the estimates are of intact
+ * bodies, and cracks cost some of what is saved. reason: both times in ns a point, for the plan. */
 static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_loop_setting *setting,
                                 pg_instructions set, char *reason, size_t size)
 {
@@ -89,6 +94,8 @@ done:
     return status;
 }
 
+/* Chooses instructions and kind and makes the loop; name and reason are kept as text for plans and
+ * reports. */
 pg_status pg_bond_loop_create (pg_bond_loop **out, const pg_bond_loop_setting *setting)
 {
     pg_status status = PG_OK;
@@ -122,6 +129,7 @@ void pg_bond_loop_free (pg_bond_loop **loop)
     *loop = NULL;
 }
 
+/* What follows hands calls on to the kind: callers know one door whatever sums their bonds. */
 const char *pg_bond_loop_name (const pg_bond_loop *loop) { return loop->name; }
 
 const char *pg_bond_loop_reason (const pg_bond_loop *loop) { return loop->reason; }
@@ -164,12 +172,15 @@ pg_status pg_bond_loop_dilatation (pg_bond_loop *loop, const double *u, double *
     return loop->kind->dilatation (loop->self, u, theta, q);
 }
 
+/* For qsort: of numbers without a sign, so no difference. */
 static int ascending (const void *a, const void *b)
 {
     size_t x = *(const size_t *) a, y = *(const size_t *) b;
     return x < y ? -1 : x > y;
 }
 
+/* Broken bonds are appended in ascending order, whatever order threads found them in: the files of a run
+ * do not depend on its threads. */
 pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond)
 {
     pg_status status = PG_OK;
@@ -182,6 +193,8 @@ done:
     return status;
 }
 
+/* Gathers the lists of all threads into the first one, and from there into `to`. A thread that had no
+ * memory left its status in `failed`: the sums are not to be used then. */
 pg_status pg_changes_collect (pg_changes *to, int threads, pg_changes *found, pg_status *failed)
 {
     pg_status status = PG_OK;

@@ -26,6 +26,8 @@ static size_t find (const int *list, size_t n, int item)
 }
 
 /* ---- on a lattice -------------------------------------------------------------------------------------- */
+/* The point at a site plus an offset (3 whole numbers), -1 beyond the box of sites or where there is
+ * none. */
 int pg_sums_neighbour (const pg_sites *s, int site, const int *offset)
 {
     int x = site % s->count[0] + offset[0], rest = site / s->count[0], y = rest % s->count[1] + offset[1],
@@ -52,7 +54,9 @@ static int inside (const walk *w, int site)
     return all;
 }
 
-/* Neighbours of point i, written to node unless that is NULL; returns how many. */
+/* Neighbours of point i, written to node unless that is NULL; returns how many. Inside the box a
+ * neighbour is `jump` sites away without further questions; near its faces each offset is tested. Where
+ * points are numbered as sites are, the list ascends by itself. */
 static size_t visit (const walk *w, size_t i, int *node)
 {
     const pg_sites *s = &w->sums->sites;
@@ -113,6 +117,7 @@ done:
 }
 
 /* ---- without a lattice --------------------------------------------------------------------------------- */
+/* Distance of two points, m. */
 static double distance (const pg_cloud *cloud, size_t i, size_t j)
 {
     double r2 = 0;
@@ -123,6 +128,10 @@ static double distance (const pg_cloud *cloud, size_t i, size_t j)
     return sqrt (r2);
 }
 
+/* Length r (m), partial volume beta and weight k beta of the bond of two points. In a graded cloud the
+ * horizon is that of the mean of both local spacings (ratio: local spacing over h), and the weight falls
+ * with ratio^(dim + 1), so that a whole family always sums up to the same moment. beta 0: there is no
+ * bond. */
 sums_bond pg_sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j)
 {
     sums_bond b = {.r = distance (cloud, i, j)};
@@ -136,8 +145,9 @@ sums_bond pg_sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, 
     return b;
 }
 
-/* Pairs (i, j) with j within its own reach of i, both ways round; node NULL: counted into next[i + 1], else
- * written at next[i]. */
+/* Pairs (i, j) with j within its own reach of i, both ways round: in a graded cloud one end may reach the
+ * other and not be reached. node NULL: counts into next[i + 1]; else writes at next[i]. Points that
+ * coincide are a fault, as their bond has no direction. */
 static pg_status spread (const pg_sums *sums, const pg_family *near, size_t *next, int *node)
 {
     pg_status status = PG_OK;
@@ -167,7 +177,8 @@ done:
     return status;
 }
 
-/* Without one: pairs within the larger horizon of both ends, both ways round */
+/* Without a lattice: pairs within the larger horizon of both ends, both ways round. Partial volumes count
+ * cells that the horizon only cuts, so that the search goes half a spacing farther then. */
 static pg_status by_search (pg_family *out, const pg_sums *sums)
 {
     pg_status status = PG_OK;
@@ -191,6 +202,7 @@ done:
     return status;
 }
 
+/* Bonds of all points, each point's neighbours ascending. */
 pg_status pg_sums_family (pg_family *out, const pg_sums *sums)
 {
     memset (out, 0, sizeof *out);
@@ -211,6 +223,8 @@ static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, d
     if (beta) beta[e] = t->beta[b];
 }
 
+/* Bonds of point i from the stencil. node lists its n neighbours as the family has them, which may be
+ * fewer than the stencil has: entries are found by their number, in line where both ascend. */
 static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_t i, double *xi,
                            double *weight, double *beta)
 {
@@ -227,6 +241,9 @@ static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_
     }
 }
 
+/* Vector xi (m, dim each), weight k beta (times the surface factor) and partial volume of all bonds of
+ * point i, in the order of its family; arrays that are NULL are not wanted. On a lattice the numbers come
+ * from the stencil, so that equal bonds have equal bits. */
 void pg_sums_bonds (const pg_sums *sums, const pg_family *family, size_t i, double *xi, double *weight,
                     double *beta)
 {

@@ -16,6 +16,7 @@ static int extremes (int dim) { return dim + 2 * dim * (dim - 1); }
 enum { STRIP = 4 };                                    /* rows taken together */
 typedef struct { transformer *t; const double *from; double *to; int axis; } slider;
 
+/* Sites along an axis; strips of STRIP rows along y. */
 static size_t rows_along (const transformer *t, int axis)
 {
     return (size_t) t->s->setting.sums->sites.count[axis];
@@ -23,7 +24,8 @@ static size_t rows_along (const transformer *t, int axis)
 static size_t strips_along (const transformer *t) { return (rows_along (t, 1) + STRIP - 1) / STRIP; }
 
 /* ---- what does not change ------------------------------------------------------------------------------ */
-/* Blocks whose box has a site without a point, by sums over missing sites of each row */
+/* Blocks whose box has a site without a point: nothing bounds u between there and its neighbours. First
+ * the rows, whose halo along x is looked at once, then the rows about each block. */
 static pg_status find_ragged (transformer *t)
 {
     pg_status status = PG_OK;
@@ -51,6 +53,7 @@ done:
     return status;
 }
 
+/* Two copies of all extremes, as the maximum along each axis is written beside what it is taken from. */
 pg_status pg_fft_bound_create (transformer *t)
 {
     pg_status status = PG_OK;
@@ -63,7 +66,8 @@ done:
 }
 
 /* ---- extremes ------------------------------------------------------------------------------------------ */
-/* Which of a block's sites and their neighbours along an axis both have points */
+/* Which of the 32 sites of a block and their neighbours along an axis both have points, one bit each; the
+ * last site of a block has its neighbour in the next one. */
 static uint32_t pairs_of (const transformer *t, size_t row, size_t j, int axis)
 {
     const stencil *s = t->s;
@@ -80,7 +84,9 @@ static uint32_t pairs_of (const transformer *t, size_t row, size_t j, int axis)
     return next >= 0 ? b->present & s->block[next].present : 0;
 }
 
-/* A strip: the blocks of STRIP rows that follow each other along y. Strips are numbered as blocks are. */
+/* The extremes of the changes G_ab of the displacement over one step, for each strip: the blocks of STRIP
+ * rows that follow each other along y. Strips are numbered as blocks are. Largest G_ab, and for a != b
+ * also largest -G_ab, per step of the lattice: no unit. */
 static void edges_of_strips (void *context, size_t first, size_t last, int thread)
 {
     const slider *g = context;
@@ -110,9 +116,11 @@ static void edges_of_strips (void *context, size_t first, size_t last, int threa
     }
 }
 
+/* fmax without its care for NAN, which the compiler turns into one instruction. */
 static double larger (double a, double b) { return a > b ? a : b; }
 
-/* The largest of the strips within reach along an axis */
+/* The largest of the strips within reach along one axis; after all axes each strip knows the extremes in
+ * the box about it. */
 static void slide_strips (void *context, size_t first, size_t last, int thread)
 {
     const slider *g = context;
@@ -145,7 +153,9 @@ static void slide_strips (void *context, size_t first, size_t last, int thread)
         }
 }
 
-/* The most stretch that such extremes allow (value: one every `apart`), rounding included */
+/* The largest stretch that such extremes allow (value: one every `apart`): the largest eigenvalue of the
+ * symmetric matrix of G_aa and C_ab / 2 in a plane, its bound by Gershgorin's circles in space; and a
+ * little for rounding. */
 static double most_stretch (int dim, const double *value, size_t apart)
 {
     double G[3][3], minus[3][3], C[3][3] = { { 0 } }, size = 0, most = -INFINITY;
@@ -168,6 +178,7 @@ static double most_stretch (int dim, const double *value, size_t apart)
 
 typedef struct { transformer *t; const double *from; double limit; } judge;
 
+/* NAN counts as risky, hence the negation. */
 static void judge_strips (void *context, size_t first, size_t last, int thread)
 {
     const judge *g = context;
@@ -178,8 +189,9 @@ static void judge_strips (void *context, size_t first, size_t last, int thread)
         t->risky[k] = !(most_stretch (t->dim, g->from + k, all) < g->limit);
 }
 
-/* Blocks that may have a bond at its limit, and those with cut bonds: written to list, ascending; how
- * many. */
+/* Blocks that may have a bond at its limit, and those with cut bonds: written to list, ascending; returns
+ * how many. Most steps of a run are far from any limit: then the extremes of the whole body say so at
+ * once, and no box is looked at. */
 size_t pg_fft_bound_suspects (transformer *t, double limit, int *list)
 {
     const stencil *s = t->s;

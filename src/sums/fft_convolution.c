@@ -5,12 +5,15 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Why transforms cannot sum these bonds, NULL if they can: what a stencil refuses, and finite stretch, as
+ * a convolution is linear in u. */
 static const char *fft_refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "finite stretch is not linear in the displacement";
     return pg_stencil_loop_refusal (setting);
 }
 
+/* Also of an object that was never completed. */
 static void fft_free (void *self)
 {
     transformer *t = self;
@@ -25,7 +28,8 @@ static void fft_free (void *self)
 }
 
 /* ---- what follows from the bits ------------------------------------------------------------------------ */
-/* Weight of point i at its place, unless no bond of it lives. */
+/* Weight chi of point i at its place, 0 once no bond of it lives: such a point takes part in no sum, so
+ * that a body of debris does not force every block about it to be summed bond by bond. */
 static void weigh_point (transformer *t, size_t i)
 {
     const stencil *s = t->s;
@@ -37,7 +41,8 @@ static void weigh_point (transformer *t, size_t i)
     t->chi[place] = any >> bit & 1 ? (s->p ? s->p[place] : 1) : 0;
 }
 
-/* Sums of K_ab and K_ab xi_c over the neighbours' weights */
+/* Sums of K_ab and K_ab xi_c over the neighbours' weights: what D and the third moments of a point with
+ * missing neighbours are. `terms` is a constant in each call, so that the inner loop is unrolled. */
 static inline __attribute__ ((always_inline)) void sum_terms (const transformer *t, const double *chi,
                                                               const size_t terms, double *sum)
 {
@@ -48,6 +53,9 @@ static inline __attribute__ ((always_inline)) void sum_terms (const transformer 
     }
 }
 
+/* D_ab = sum_j K_ab chi_j of point i, the factor of its own displacement. A point whose neighbours all
+ * weigh 1 has the sums of the whole stencil; of any other one they are summed anew, and its third moments
+ * kept, by which the uniform strain that was taken off is put back. */
 static void sum_D (transformer *t, size_t i)
 {
     const stencil *s = t->s;
@@ -68,6 +76,8 @@ static void sum_D (transformer *t, size_t i)
     for (int p = 0; p < t->pairs; p++) t->D[(size_t) p * all + at] = sum[p];
 }
 
+/* A block is cut where a dead bond joins two points that both still take part: the convolution would sum
+ * it. A dead bond of a point without weight does no harm. */
 static void judge_block (transformer *t, size_t k)
 {
     const stencil *s = t->s;
@@ -83,6 +93,7 @@ static void judge_block (transformer *t, size_t k)
         }
 }
 
+/* All points or blocks of a range, for pg_parallel. */
 static void weigh_points (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -101,12 +112,14 @@ static void judge_blocks (void *context, size_t first, size_t last, int thread)
     for (size_t k = first; k < last; k++) judge_block (context, k);
 }
 
+/* Points without a live bond, for reports. */
 static void count_gone (transformer *t)
 {
     t->gone = 0;
     for (size_t i = 0; i < t->s->setting.sums->cloud->n; i++) t->gone += t->chi[t->s->place[i]] == 0;
 }
 
+/* Point i lacks neighbours from now on: it is listed once, with its block, for add_strain. */
 static void join_rim (transformer *t, size_t i)
 {
     unsigned bit;
@@ -114,6 +127,7 @@ static void join_rim (transformer *t, size_t i)
     t->rim[t->nrim++] = (fft_rim) { (int) i, (int) block };
 }
 
+/* Everything that follows from the bits, from scratch: at the start and after a checkpoint. */
 static void renew (transformer *t)
 {
     size_t n = t->s->setting.sums->cloud->n;
@@ -126,6 +140,7 @@ static void renew (transformer *t)
     count_gone (t);
 }
 
+/* Notes the block of a place, once. */
 static void touch_block (transformer *t, size_t place, size_t *blocks)
 {
     unsigned bit;
@@ -134,8 +149,9 @@ static void touch_block (transformer *t, size_t place, size_t *blocks)
     t->seen_block[k] = 1, t->list[(*blocks)++] = (int) k;
 }
 
-/* Bonds that died (their bits say so already): points whose last one it was lose their weight, and those
- * about them renew D. */
+/* Bonds that died (their bits say so already). Points whose last bond it was lose their weight, and those
+ * about them renew D; all blocks with such a point are judged anew. Costs what the dead bonds touch, not
+ * what the body has. OWNER: lost a bond; AROUND: a neighbour lost its weight. */
 static void lose_bonds (transformer *t, size_t n, const size_t *bond)
 {
     enum { OWNER = 1, AROUND = 2 };
@@ -175,6 +191,7 @@ static void lose_bonds (transformer *t, size_t n, const size_t *bond)
     }
 }
 
+/* Bits first, then what follows from them. changes NULL: `alive` is another state altogether. */
 static void fft_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     transformer *t = self;
@@ -184,7 +201,7 @@ static void fft_update (void *self, const unsigned char *alive, const pg_changes
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* Displacements of a row less the motion, times a weight */
+/* Displacements of component d along a row less the motion (fft_motion.c), times a weight. */
 static void still_row (const transformer *t, size_t row, int d, const double *weight, double *x)
 {
     double from, by;
@@ -193,13 +210,16 @@ static void still_row (const transformer *t, size_t row, int d, const double *we
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
+/* Row of chi u_d, which is transformed. */
 static void fill_force (void *context, size_t row, int field, double *x)
 {
     const transformer *t = context;
     still_row (t, row, field, t->chi + fft_row_base (t, row), x);
 }
 
-/* Values of a row to their points, except those of blocks with cut bonds */
+/* Values of a row to their points (out: points x fields), except those of blocks with cut bonds, which
+ * the loop over bonds fills. Blocks without gaps whose points have consecutive numbers are copied without
+ * looking points up. */
 static void hand_out (const transformer *t, size_t row, int fields, double *const *x, double *out)
 {
     const stencil *s = t->s;
@@ -225,6 +245,8 @@ static void hand_out (const transformer *t, size_t row, int fields, double *cons
     }
 }
 
+/* What comes back of a row: f_a = chi (q_a - sum_b D_ab u_b), q_a = sum_b K_ab * (chi u_b), for all
+ * points of it but those of cut blocks. */
 static void take_force (void *context, size_t row, double *const *q, double *spare)
 {
     const transformer *t = context;
@@ -246,6 +268,8 @@ static void take_force (void *context, size_t row, double *const *q, double *spa
  * 2 xz, 2 yz, zz */
 typedef struct { transformer *t; double e[6]; } strain;
 
+/* The uniform strain that was taken off, from the slopes per lattice step; shears are the engineering
+ * ones. */
 static strain strain_of (transformer *t)
 {
     const double *step = t->s->setting.sums->sites.step, *G = t->slope;
@@ -256,6 +280,10 @@ static strain strain_of (transformer *t)
     return s;
 }
 
+/* Puts the strain back for the points of the rim. Inside a whole family a uniform strain makes no force,
+ * so that only points that lack neighbours need this: T_abc = sum_j K_ab xi_c chi_j of sum_D. third:
+ * which of the stored moments (a symmetric tensor of third order) is the one of component a and of strain
+ * p. */
 static inline __attribute__ ((always_inline)) void add_to (const strain *s, size_t first, size_t last,
                                                            const int dim, const int terms)
 {
@@ -284,7 +312,8 @@ static void add_strain (void *context, size_t first, size_t last, int thread)
     else add_to (s, first, last, 3, 6);
 }
 
-/* Forces of blocks by their bonds where some are cut or might break, of the others by transforms. */
+/* Forces of blocks by their bonds where some are cut or might break (fft_bound.c), of the others by
+ * transforms. Where all blocks are cut nothing is transformed. */
 static pg_status fft_force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -311,6 +340,7 @@ done:
 }
 
 /* ---- energies ------------------------------------------------------------------------------------------ */
+/* W = u . D u - 2 u . q along a row, for the energy of each point. */
 static void take_work (void *context, size_t row, double *const *q, double *spare)
 {
     const transformer *t = context;
@@ -327,6 +357,7 @@ static void take_work (void *context, size_t row, double *const *q, double *spar
         }
 }
 
+/* Row of chi u_a u_b; `field` numbers the pairs a <= b. */
 static void fill_squares (void *context, size_t row, int field, double *x)
 {
     const transformer *t = context;
@@ -337,6 +368,8 @@ static void fill_squares (void *context, size_t row, int field, double *x)
     still_row (t, row, a + b, x, x);
 }
 
+/* chi (W + S) with S = sum_ab K_ab * (chi u_a u_b): twice the energy that the bonds of a point store,
+ * seen from it. */
 static void take_squares (void *context, size_t row, double *const *S, double *spare)
 {
     const transformer *t = context;
@@ -346,8 +379,9 @@ static void take_squares (void *context, size_t row, double *const *S, double *s
     hand_out (t, row, 1, x, t->f_out);
 }
 
-/* Energy of a point times its volume, as the loops over bonds leave it, four times: chi (S - 2 u.q + u.D
- * u) */
+/* Energy density of the points, J/m^3. Each bond stores (u_j - u_i) K (u_j - u_i), which multiplied out
+ * is chi (S - 2 u.q + u.D u): three convolutions instead of a loop. Rounding may leave a small negative
+ * number where a point is at rest: it is cut to 0. */
 static pg_status fft_energies (void *self, const double *u, double *W)
 {
     pg_status status = PG_OK;
@@ -371,7 +405,8 @@ done:
     return status;
 }
 
-/* Half the work of the forces on the way there, less the rigid motion, on which they do none */
+/* Half the work of the forces on the way there, J. The rigid motion that fits u best is taken off first:
+ * forces do no work on it, and what is left of u is small, so that little is rounded. */
 static double fft_energy (void *self, const double *u)
 {
     transformer *t = self;
@@ -394,12 +429,15 @@ static double fft_energy (void *self, const double *u)
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
+/* K of a pair of axes and a bond, as fft.h asks for it. */
 static double kernel_value (const void *context, int pair, size_t entry)
 {
     const transformer *t = context;
     return t->K[entry * (size_t) (t->pairs + t->thirds) + (size_t) pair];
 }
 
+/* Of every bond of the stencil K_ab = a xi_a xi_b (N/m) and K_ab xi_c (N), and the sums of K over all
+ * bonds: D of a point whose family is whole. */
 static pg_status set_kernels (transformer *t)
 {
     pg_status status = PG_OK;
@@ -424,12 +462,14 @@ done:
 }
 
 /* Timing plans takes about as long as twenty transforms of a hundred thousand places each: a second or
- * less. */
+ * less. Worth it where points times evaluations of the run are many. */
 static int worth_timing (const pg_bond_loop_setting *setting)
 {
     return setting->sums->rule.evaluations * (double) setting->sums->cloud->n > 2e8;
 }
 
+/* A stencil of bonds, which keeps the bits and serves cut blocks, and beside it kernels, plans and what
+ * follows from the bits. */
 static pg_status create_convolution (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
@@ -470,6 +510,8 @@ done:
     return status;
 }
 
+/* Bytes that one sum moves, by the point: fields in and out, D, rim, and the transformed fields four
+ * times (rows and columns, forth and back). Bonds cost nothing. */
 static void fft_bytes (const void *self, double *per_bond, double *per_point)
 {
     const transformer *t = self;
@@ -484,9 +526,9 @@ static void fft_bytes (const void *self, double *per_bond, double *per_point)
                  / n;
 }
 
-/* From bench/sums_rate fcbm on one thread of an AMD EPYC (280^2 to 1024^2 and 50^3 to 140^3 places, AVX-512;
- * plans between guessed and timed ones): a pair of transforms takes 0.3 ns (in space 0.4) times places times
- * their binary logarithm, all the rest 6 (15) ns a point and 20 us. */
+/* Estimate of one sum, ns. From bench/sums_rate fcbm on one thread of an AMD EPYC (280^2 to 1024^2 and
+ * 50^3 to 140^3 places, AVX-512; plans between guessed and timed ones): a pair of transforms takes 0.3 ns
+ * (in space 0.4) times places times their binary logarithm, all the rest 6 (15) ns a point and 20 us. */
 static double fft_time (const pg_bond_loop_setting *setting, pg_instructions set)
 {
     const pg_sums *sums = setting->sums;

@@ -5,7 +5,8 @@
 #include "fft_rows.h"
 #include <math.h>
 
-/* x[k] = (u[k] - shift - (from + by k)) chi[k], n rounded up to a vector; a large shift goes off exactly */
+/* x[k] = (u[k] - shift - (from + by k)) chi[k] of a row of n places, n rounded up to a vector. The shift
+ * goes off first and alone: where it is large, u - shift is exact, and what follows is small. */
 static TARGET void still (size_t n, const double *u, double shift, double from, double by, const double *chi,
                           double *x)
 {
@@ -15,6 +16,8 @@ static TARGET void still (size_t n, const double *u, double shift, double from, 
         STORE (x + k, ((LOAD (u + k) - start) - (first + slope * at)) * LOAD (chi + k));
 }
 
+/* f_a = chi (q_a - sum_b D_ab u_b) of the 32 sites from k on, u less the motion. out: component by
+ * component, PG_BLOCK apart. */
 INLINE void block_force (const fft_row *r, size_t k, int dim, double *out)
 {
     for (size_t v = 0; v < PG_BLOCK; v += LANES) {
@@ -35,6 +38,7 @@ INLINE void block_force (const fft_row *r, size_t k, int dim, double *out)
     }
 }
 
+/* All blocks of a row that have points and no cut bond. */
 INLINE void row_force (const pg_block_job *job, const fft_row *r, int dim)
 {
     double out[3 * PG_BLOCK] __attribute__ ((aligned (64)));
@@ -49,7 +53,8 @@ static TARGET void row_force_1 (const pg_block_job *job, const fft_row *r) { row
 static TARGET void row_force_2 (const pg_block_job *job, const fft_row *r) { row_force (job, r, 2); }
 static TARGET void row_force_3 (const pg_block_job *job, const fft_row *r) { row_force (job, r, 3); }
 
-/* Kernel of FFT_WIDE columns, each value twice, for real and imaginary parts */
+/* Kernel of FFT_WIDE columns at one place, each value twice, for real and imaginary parts: kernels are
+ * real, fields are complex. */
 INLINE void load_kernel (const double *K, double sign, vec *k)
 {
     for (int v = 0; v < FFT_WIDE / LANES; v++) {
@@ -60,6 +65,9 @@ INLINE void load_kernel (const double *K, double sign, vec *k)
     }
 }
 
+/* y_a = sum_b K_ab x_b at every place of FFT_WIDE columns. Kernels are even, so that only the first half
+ * of the places is stored: place l beyond the middle takes the values of places - l, with the sign of the
+ * pair's parity along this axis (sign[1]). */
 INLINE void product (int dim, size_t places, const double *const *K, const double (*sign)[6],
                      double *const *z)
 {
@@ -101,6 +109,8 @@ static TARGET void product_3 (size_t places, const double *const *K, const doubl
     product (3, places, K, sign, z);
 }
 
+/* Smallest and largest change of u over `jump` places within some rows of a block; sites: which of the 32
+ * sites of each row have a point at both ends. */
 static TARGET void range (const double *u, size_t pitch, size_t rows, ptrdiff_t jump, const uint32_t *sites,
                           double *low, double *high)
 {

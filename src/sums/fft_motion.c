@@ -10,6 +10,8 @@
  * these */
 typedef struct { double centre[3], shift[3], rr[9], vr[9]; } moments;
 
+/* At most 1024 points, spread by the golden ratio, so that they lie on no line or row of the lattice;
+ * those without live bonds are left out, as they may fly anywhere. */
 static moments sample (const transformer *t, const double *u)
 {
     enum { SAMPLES = 1024 };
@@ -34,7 +36,8 @@ static moments sample (const transformer *t, const double *u)
     return m;
 }
 
-/* Gradient of the best rotation: turn x r */
+/* Gradient of the best rotation turn x r by least squares: J turn = sum r x v, J the tensor of inertia of
+ * the sample. Singular for points on a line, which leaves no rotation. */
 static void fit_turn (const moments *m, int dim, double *G)
 {
     double J[9], turn[3], all = m->rr[0] + m->rr[4] + m->rr[8];
@@ -54,7 +57,8 @@ static void fit_turn (const moments *m, int dim, double *G)
     }
 }
 
-/* Of the best uniform gradient; points in a line or plane: of the rotation */
+/* The best uniform gradient: G sum r r = sum v r, row by row; points in a line or plane, whose sum r r is
+ * singular, have that of the rotation. */
 static void fit_strain (const moments *m, int dim, double *G)
 {
     double J[9];
@@ -98,7 +102,7 @@ void pg_fft_fit_motion (transformer *t, const double *u, int strained)
     }
 }
 
-/* That motion along a row: shift + (from + k * by) at its site k */
+/* The motion along a row: shift + (from + k by) at its site k. Rows are numbered y first. */
 void pg_fft_motion_of (const transformer *t, size_t row, int d, double *from, double *by)
 {
     size_t ny = (size_t) t->s->setting.sums->sites.count[1];

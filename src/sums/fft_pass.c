@@ -7,7 +7,9 @@
 #include <string.h>
 
 enum { BATCH = 2 * FFT_WIDE };                         /* doubles of a place in a batch of columns */
+/* The first address from x on that is a multiple of 64 bytes. */
 static double *level (double *x) { return (double *) (((uintptr_t) x + 63) / 64 * 64); }
+/* Number of the pair of axes a <= b: xx | xx xy yy | xx xy xz yy yz zz. */
 static int pair_of (int dim, int a, int b) { return dim == 3 ? a * (5 - a) / 2 + b : dim == 2 ? a + b : 0; }
 
 /* ---- columns ------------------------------------------------------------------------------------------- */
@@ -20,17 +22,20 @@ static void gather (double *restrict workspace, const double *restrict from, siz
     if (T > n) memset (workspace + n * BATCH, 0, (T - n) * BATCH * sizeof *workspace);
 }
 
+/* The other way round; only n places are kept. */
 static void scatter (double *restrict to, const double *restrict workspace, size_t n, size_t stride)
 {
     for (size_t k = 0; k < n; k++) memcpy (to + k * stride, workspace + k * BATCH, BATCH * sizeof *workspace);
 }
 
+/* Axes of one place have no plan, and nothing to do. */
 static void transform (fftw_plan plan, double *x)
 {
     if (plan) fftw_execute_dft (plan, (fftw_complex *) x, (fftw_complex *) x);
 }
 
-/* The columns of a plane along the middle axis, in place */
+/* The columns of a plane along the middle axis (3D only), in place. Forward only the n[1] rows that were
+ * filled are read, and back only those are written. */
 static void middle_columns (const fft *f, double *plane, int back, double *workspace)
 {
     const fft_box *b = &f->box;
@@ -43,7 +48,8 @@ static void middle_columns (const fft *f, double *plane, int back, double *works
     }
 }
 
-/* Of a place: sum over pairs of K z, on FFT_WIDE columns. sign: of the kernel's mirror image */
+/* At one place, on FFT_WIDE columns: z_0 = sum over pairs a <= b of K_ab z_ab, pairs of two axes counted
+ * twice. sign: of the kernel's mirror image at this place. */
 static inline void contract (int dim, const double *const *K, const double *sign, double *const *z, size_t at,
                              size_t k)
 {
@@ -63,11 +69,14 @@ static inline void contract (int dim, const double *const *K, const double *sign
 /* ---- passes -------------------------------------------------------------------------------------------- */
 typedef struct { fft *f; const fft_job *job; } pass;
 
+/* The workspace of a thread. */
 static double *room_of (const fft *f, int thread)
 {
     return level (f->workspaces) + (size_t) thread * f->workspace;
 }
 
+/* Rows of some planes: filled by the job, transformed real to complex, then the columns within the plane.
+ * Places beyond the sites are zero: the padding that keeps bonds from reaching round the box. */
 static void forward_slabs (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -86,6 +95,10 @@ static void forward_slabs (void *context, size_t first, size_t last, int thread)
         }
 }
 
+/* Tasks: batches of FFT_WIDE columns along the last axis, gathered into the workspace, transformed,
+ * multiplied by the kernels, transformed back and written to where they came from. The kernel of a
+ * mirrored column (m beyond the middle) is that of its mirror image, with a change of sign where it is
+ * odd. */
 static void columns (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -123,6 +136,8 @@ static void columns (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Columns within the planes and rows back; `take` gets all fields of a row together, so that no field is
+ * stored untransformed. */
 static void backward_slabs (void *context, size_t first, size_t last, int thread)
 {
     const pass *p = context;
@@ -142,6 +157,8 @@ static void backward_slabs (void *context, size_t first, size_t last, int thread
     }
 }
 
+/* Three passes, each of independent tasks that one thread does as a whole: the same bits for any number
+ * of threads. */
 void pg_fft_convolve (fft *f, const fft_job *job)
 {
     pass p = { f, job };
@@ -152,8 +169,9 @@ void pg_fft_convolve (fft *f, const fft_job *job)
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* One kernel's transform by plain passes over a whole box [T2][T1][T0]: real and even (or odd in two axes),
- * so only a quarter is kept. */
+/* The transform of one kernel, by a plain transform of a whole box [T2][T1][T0]. A kernel is real and
+ * even along every axis, or odd in the two axes of its pair, so that its transform is real and has the
+ * same symmetry: a quarter of the box is kept, divided by the number of places. */
 static pg_status make_kernel (fft *f, int pair, size_t n, const int *offset,
                               double (*value) (const void *, int, size_t), const void *context, double *box)
 {
@@ -186,6 +204,8 @@ done:
     return status;
 }
 
+/* Box, plans and transforms of all kernels for bonds `offset` (n x 3, whole steps). The box is longer
+ * than the sites by the bonds' reach along each axis. One box is borrowed for all kernels and freed. */
 pg_status pg_fft_create (fft *out, int dim, const size_t *sites, size_t n, const int *offset,
                       double (*value) (const void *context, int pair, size_t entry), const void *context,
                       const fft_kernels *kernels, int threads, int measure)
@@ -214,6 +234,8 @@ done:
     return status;
 }
 
+/* Fields are parts of one block, each on a boundary of 64 bytes; asking for more of them frees the former
+ * ones, whose content is lost. */
 pg_status pg_fft_fields (fft *f, int fields)
 {
     pg_status status = PG_OK;
@@ -228,6 +250,7 @@ done:
     return status;
 }
 
+/* May be called for an fft of zeros. */
 void pg_fft_clear (fft *f)
 {
     pg_fft_box_clear (&f->box);

@@ -30,6 +30,8 @@ static double time_of (size_t n)
     return n == 1 ? sum : INFINITY;
 }
 
+/* The size from `least` on, up to twice that, whose transform is estimated to be fastest; even sizes for
+ * rows, whose real values are transformed as half as many complex ones. */
 size_t pg_fft_size (size_t least, int even)
 {
     size_t best = 0;
@@ -42,6 +44,7 @@ size_t pg_fft_size (size_t least, int even)
     return best;
 }
 
+/* 2.5 n log2 n operations, the usual count for real transforms. */
 double pg_fft_work (const fft_box *box)
 {
     double n = 1;
@@ -50,7 +53,8 @@ double pg_fft_work (const fft_box *box)
 }
 
 /* ---- what the planner knows ---------------------------------------------------------------------------- */
-/* Path of the file of wisdom; 0: there is no place for it. */
+/* Path of the file of wisdom, $XDG_CACHE_HOME/perigal/fftw_wisdom or below ~/.cache; folders on the way
+ * are made where `make` says so. 0: there is no place for it, which costs time and nothing else. */
 static int wisdom_path (char *path, size_t size, int make)
 {
     const char *cache = getenv ("XDG_CACHE_HOME"), *home = getenv ("HOME");
@@ -70,6 +74,7 @@ static int wisdom_path (char *path, size_t size, int make)
 
 typedef struct { char *text; size_t n, cap; } copy;
 
+/* FFTW hands its text out letter by letter. */
 static void add_letter (char letter, void *context)
 {
     copy *c = context;
@@ -81,6 +86,7 @@ static void add_letter (char letter, void *context)
     c->text[c->n++] = letter, c->text[c->n] = 0;
 }
 
+/* Written beside the file and renamed, so that two programs that end together leave a whole one. */
 static void keep_wisdom (void)
 {
     char path[4096], fresh[4096 + 32];
@@ -90,12 +96,14 @@ static void keep_wisdom (void)
 }
 
 /* ---- plans --------------------------------------------------------------------------------------------- */
+/* FFT_WIDE complex columns side by side, in place. */
 static fftw_plan columns (size_t T, double *x, int sign, unsigned how)
 {
     fftw_iodim along = { (int) T, FFT_WIDE, FFT_WIDE }, side = { FFT_WIDE, 1, 1 };
     return fftw_plan_guru_dft (1, &along, 1, &side, (fftw_complex *) x, (fftw_complex *) x, sign, how);
 }
 
+/* All plans of a box on the workspaces x and y; 0: at least one could not be made. */
 static int make_plans (fft_box *b, double *x, double *y, unsigned how)
 {
     int all = 1;
@@ -113,6 +121,7 @@ static int make_plans (fft_box *b, double *x, double *y, unsigned how)
     return all;
 }
 
+/* Plans that do not exist are NULL. */
 static void clear_plans (fft_box *b)
 {
     fftw_plan *all[] = { &b->row[0], &b->row[1], &b->middle[0], &b->middle[1], &b->last[0], &b->last[1] };
@@ -155,6 +164,8 @@ static int find_plans (fft_box *b, double *x, double *y, int measure)
     return made;
 }
 
+/* Sizes and plans. Measured plans may differ from machine to machine and run to run in last bits; guessed
+ * ones do not, so that short runs and tests repeat exactly. */
 pg_status pg_fft_box_create (fft_box *out, int dim, const size_t *n, const size_t *reach, int measure)
 {
     pg_status status = PG_OK;
@@ -184,6 +195,7 @@ void pg_fft_box_clear (fft_box *box)
     pthread_mutex_unlock (&planner);
 }
 
+/* Plans of a whole box for state_fft.c and the kernels, guessed. */
 fftw_plan pg_fft_plan_box (const int *T, double *x)
 {
     pthread_mutex_lock (&planner);

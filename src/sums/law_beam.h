@@ -9,6 +9,8 @@
  * bonds can break; the numbers of a bond are kt, kn, kb (N/m). A bond breaks at a limit of either end. */
 typedef struct { V xi[3], w[3], diff[3], inverse; } beam_motion;       /* inverse: 1 / r^2 */
 
+/* xi, w and diff of a bond of each lane; constants hold the lever and, on a lattice, the steps by which
+ * whole places become m. */
 INLINE beam_motion beam_move (int dim, const V *own, const V *other, const double *constant)
 {
     beam_motion b;
@@ -66,10 +68,12 @@ INLINE unsigned beam_at_limit (const V *share, V s, V shear, V bend, V limit, in
     return V_LEAST (a + b + c, limit);
 }
 
+/* What the loops read and sum: unknowns of both ends, and the shares of the limits where bonds can break. */
 INLINE int beam_force_columns (int dim, int check) { return beam_known (dim) + (check ? 3 : 0); }
 INLINE int beam_force_sums (int dim) { return dim == 2 ? 3 : 6; }
 enum { beam_force_first = 0, beam_force_terms = 3, beam_force_shared = 0 };
 
+/* Lanes in which the bond is at a limit of its own end or of the other one. */
 INLINE unsigned beam_force_over (int dim, const V *own, const V *other, V limit, const double *constant)
 {
     const beam_motion b = beam_move (dim, own, other, constant);
@@ -82,6 +86,7 @@ INLINE unsigned beam_force_over (int dim, const V *own, const V *other, V limit,
          | beam_at_limit (other + beam_known (dim), s, shear, bend, limit, single);
 }
 
+/* Force and moment on the own end, 0 in dead lanes. */
 INLINE void beam_force_add (int dim, const V *own, const V *other, const V *term, unsigned live,
                             const double *constant, V *out)
 {
@@ -100,10 +105,12 @@ INLINE void beam_force_add (int dim, const V *own, const V *other, const V *term
     UNROLL for (int c = 0; c < sums; c++) out[c] = V_KEEP (out[c], live);
 }
 
+/* The same for energies, which need no limits. */
 INLINE int beam_store_columns (int dim, int check) { (void) check; return beam_known (dim); }
 INLINE int beam_store_sums (int dim) { (void) dim; return 1; }
 enum { beam_store_first = 0, beam_store_terms = 3, beam_store_shared = 0 };
 
+/* Twice the energy of the bond, J. */
 INLINE void beam_store_add (int dim, const V *own, const V *other, const V *term, unsigned live,
                             const double *constant, V *out)
 {

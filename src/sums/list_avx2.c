@@ -16,6 +16,7 @@
 #define V_KEEP(v, bits)  keep (v, bits)
 #define V_LEAST(a, b)    ((unsigned) _mm256_movemask_pd (_mm256_cmp_pd (a, b, _CMP_GE_OQ)))
 
+/* v in lanes whose bit is set, 0 in the others. */
 static inline __attribute__ ((always_inline)) TARGET __m256d keep (__m256d v, unsigned bits)
 {
     const __m256i bit = _mm256_set_epi64x (8, 4, 2, 1);
@@ -33,6 +34,7 @@ static inline __attribute__ ((always_inline)) TARGET void turn (__m256d r0, __m2
     out[2] = _mm256_permute2f128_pd (low, low2, 0x31), out[3] = _mm256_permute2f128_pd (high, high2, 0x31);
 }
 
+/* Rows of four or two numbers of the record whose offset is o[k]. */
 #define ROW(record, o, k) _mm256_load_pd ((record) + (o)[k])
 #define HALF(record, o, k) _mm_load_pd ((record) + (o)[k])
 #define TURN(record, o, out) \
@@ -54,6 +56,8 @@ static inline __attribute__ ((always_inline)) TARGET void turn (__m256d r0, __m2
         if ((columns) > 8) TURN ((record) + 8, o, (out) + 8); \
     } while (0)
 
+/* Adds what a slot gives to the sums of the other ends, one after the other, as two lanes may have the
+ * same end. */
 #define GIVE2(sum, o, f) \
     do { \
         const __m256d l_ = _mm256_unpacklo_pd ((f)[0], (f)[1]), h_ = _mm256_unpackhi_pd ((f)[0], (f)[1]); \

@@ -25,6 +25,8 @@ static inline __attribute__ ((always_inline)) TARGET __m512d load (const double 
     return v;
 }
 
+/* Quarters of two vectors; below: rows of records, or pairs and quads of half rows, that FETCH turns into
+ * columns. */
 #define LANES(a, b, choice) _mm512_shuffle_f64x2 (a, b, choice)
 #define ROW(record, o, k) _mm512_load_pd ((record) + (o)[k])
 #define PAIR(record, o, i, j) \
@@ -76,6 +78,8 @@ static inline __attribute__ ((always_inline)) TARGET void every_other (__m512d a
         if ((columns) > 8) FETCH4 ((record) + 8, o, (out) + 8); \
     } while (0)
 
+/* Adds what a slot gives to the sums of the other ends, one after the other, as two lanes may have the
+ * same end. */
 #define GIVE2(sum, o, f) \
     do { \
         const __m512d even_ = _mm512_unpacklo_pd ((f)[0], (f)[1]); \

@@ -67,6 +67,8 @@ static void fill_lane (const filler *g, size_t p, double *xi, double *weight)
     }
 }
 
+/* All lanes of some slices point to themselves first, so that a lane without a bond reads something
+ * harmless. */
 static void fill_slices (void *context, size_t first, size_t last, int thread)
 {
     const filler *g = context;
@@ -145,6 +147,8 @@ done:
     return status;
 }
 
+/* Counts, allocates, fills by threads (each slice is the work of one), then limits, whose places depend
+ * on those before. */
 pg_status pg_list_fill (bond_list *list)
 {
     pg_status status = PG_OK;

@@ -98,6 +98,8 @@ INLINE void OF_LAW (_slice) (const bond_list *list, const double *first, const s
     }
 }
 
+/* All slices of a chunk, in order; returns whether a bond died. Sums of shared laws are added to by both
+ * ends and start at zero. */
 INLINE int OF_LAW (_chunk) (const bond_list *list, size_t chunk, double *sum, const int dim, const int check)
 {
     const size_t first = chunk * list->chunk / LIST_LANES, end = (chunk + 1) * list->chunk / LIST_LANES;

@@ -27,6 +27,7 @@ static void place_records (bond_list *list)
     }
 }
 
+/* Also of a list that was never completed. */
 void pg_list_free (void *self)
 {
     bond_list *list = self;
@@ -67,6 +68,8 @@ done:
     return status;
 }
 
+/* A list for one law: order of the points, records, slots. `bytes` are those of the struct of the law,
+ * which begins with the list; prepare may set units before terms are asked for. */
 pg_status pg_list_create (void **self, size_t bytes, const pg_bond_loop_setting *setting, pg_instructions set,
                           const list_law *law, list_prepare prepare)
 {
@@ -97,6 +100,7 @@ done:
 }
 
 /* ---- bonds of the family and bits of the list ---------------------------------------------------------- */
+/* Entry of the family for the bond from i to j, which must exist; neighbours ascend. */
 size_t pg_list_entry (const pg_family *family, size_t i, size_t j)
 {
     size_t low = family->start[i], high = family->start[i + 1];
@@ -108,6 +112,7 @@ size_t pg_list_entry (const pg_family *family, size_t i, size_t j)
     return low;
 }
 
+/* The point whose family has this entry, by bisection. */
 size_t pg_list_owner (const pg_family *family, size_t entry)
 {
     size_t low = 0, high = family->n;
@@ -152,6 +157,8 @@ static void clear_bond (bond_list *list, bond_slots *slots, size_t p, size_t q)
             slots->alive[slot] &= (unsigned char) ~(1u << lane);
 }
 
+/* A bond that died stands in the family of both ends; in the list it is stored by one of them where it is
+ * shared, else by both. */
 static void clear_changed (bond_list *list, const pg_changes *changes)
 {
     const pg_family *family = list->family;
@@ -163,6 +170,7 @@ static void clear_changed (bond_list *list, const pg_changes *changes)
     }
 }
 
+/* changes NULL: all bits anew, from the live bonds of the family. */
 void pg_list_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     bond_list *list = self;
@@ -190,6 +198,7 @@ static inline __attribute__ ((always_inline)) void copy_unknowns (const run *g, 
     }
 }
 
+/* The number of unknowns is a constant in each branch. */
 static void read_points (void *context, size_t first, size_t last, int thread)
 {
     const run *g = context;
@@ -202,6 +211,7 @@ static void read_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Unknowns u (n x m, the points' own order) to the records, in the list's order and unit. */
 void pg_list_read (bond_list *list, const double *u)
 {
     pg_parallel (list->threads, list->n, read_points, &(run) { .list = list, .u = u });
@@ -235,6 +245,8 @@ static void run_chunks (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* One loop of the law over all chunks; `take` gets the sums of each chunk's points while they are in the
+ * cache. */
 void pg_list_run (bond_list *list, int loop, int check, list_take take, void *context)
 {
     run g = { .list = list, .kernel = list->kernels->loop[loop][list->dim - 1][check], .take = take,
@@ -262,6 +274,7 @@ static void collect (collector *g, const bond_slots *slots, size_t slice, size_t
 
 enum { COLLECT, FORGET, RESTORE };
 
+/* Slots of one slice in which bonds died: noted, forgotten or brought back to life. */
 static void walk_slots (bond_slots *slots, size_t slice, int what, collector *found)
 {
     for (size_t slot = slots->start[slice]; slot < slots->start[slice + 1]; slot++) {
@@ -272,6 +285,7 @@ static void walk_slots (bond_slots *slots, size_t slice, int what, collector *fo
     }
 }
 
+/* The same in all chunks that have lost any. */
 static void walk_lost (bond_list *list, int what, collector *found)
 {
     for (size_t chunk = 0; chunk < list->chunks; chunk++) {
@@ -284,6 +298,8 @@ static void walk_lost (bond_list *list, int what, collector *found)
     }
 }
 
+/* Appends what died in the last loop. Counted first, so that memory is asked for once; without memory the
+ * bonds live again, as nobody has been told of their end. */
 pg_status pg_list_lost (bond_list *list, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -301,6 +317,7 @@ done:
 }
 
 /* ---- what it costs ------------------------------------------------------------------------------------- */
+/* Bytes that one loop moves. Lanes without a bond cost as much as bonds do. */
 void pg_list_bytes (const void *self, double *per_bond, double *per_point)
 {
     const bond_list *list = self;

@@ -12,12 +12,14 @@ typedef struct { double key; int point; } item;
 /* bonds of a point to other chunks and to later points of its own one */
 typedef struct { int out, in, point, rank; } load;
 
+/* Along an axis; equal places by number, so that the order never depends on the sort. */
 static int by_key (const void *a, const void *b)
 {
     const item *p = a, *q = b;
     return p->key < q->key ? -1 : p->key > q->key ? 1 : (p->point > q->point) - (p->point < q->point);
 }
 
+/* Most bonds out of the chunk first, then most within it, then the order of the tile. */
 static int by_load (const void *a, const void *b)
 {
     const load *p = a, *q = b;
@@ -65,6 +67,8 @@ static void cut_all (item *items, size_t n, const pg_cloud *cloud, size_t chunk)
     }
 }
 
+/* Of each point of a chunk: bonds that leave it, and bonds to later points of it, which the point stores
+ * for both. */
 static void count_bonds (load *loads, const bond_list *list, size_t first, size_t last)
 {
     const pg_family *family = list->family;
@@ -80,6 +84,9 @@ static void count_bonds (load *loads, const bond_list *list, size_t first, size_
     }
 }
 
+/* Fills point (old number by new one), rank (the other way round) and before, the order before the points
+ * of a tile were sorted by load: of two ends of a shared bond the one that comes earlier there stores it,
+ * which spreads them evenly. */
 pg_status pg_list_order (bond_list *list)
 {
     pg_status status = PG_OK;

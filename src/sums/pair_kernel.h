@@ -6,7 +6,8 @@
  *           force a r^2 s y / (|y| (|y| + r)),          stored a r^2 s^2 / (|y| + r)^2.
  * Bonds over their limit set a flag of the block: which they are is found bond by bond, afterwards. */
 
-/* What is compared with the limit: xi . eta, or s and, in y, the place moved to */
+/* What is compared with the limit: linear xi . eta; finite s = |y|^2 - r^2 and, in y, the place moved to.
+ * s as eta . (xi + y) loses no digits, where |y|^2 - r^2 of a small stretch would lose most of them. */
 INLINE vec pair_measure (const vec *xi, const vec *eta, vec *y, int dim, int finite)
 {
     vec s;
@@ -32,7 +33,9 @@ INLINE void pair_store (vec (*sum)[8], const double *p, int vecs, int dim, int w
     }
 }
 
-/* Sums of one stride of a block, `stride` its first site: out[k * PG_BLOCK + site] */
+/* Sums of one stride of a block, `stride` being its first site: out[k * PG_BLOCK + site], N. Bonds run
+ * outside, sites in the lanes. The finite force a r^2 s y / (|y| (|y| + r)) has one root and one quotient
+ * a bond. */
 INLINE void sum_stride (const pg_block_job *job, size_t k, int stride, int dim, int finite, int check,
                         int weighted, double *out, hits *over)
 {
@@ -72,6 +75,7 @@ INLINE void sum_stride (const pg_block_job *job, size_t k, int stride, int dim, 
     pair_store (sum, p, vecs, dim, weighted, out + stride);
 }
 
+/* All strides of a range of blocks that have points; hits are noted by the block. */
 INLINE void force_loop (const pg_block_job *job, size_t first, size_t last, int dim, int finite, int check,
                         int weighted)
 {
@@ -88,7 +92,8 @@ INLINE void force_loop (const pg_block_job *job, size_t first, size_t last, int 
     }
 }
 
-/* Linear: a (xi.eta)^2; finite: a r^2 q^2 / (|y| + r)^2 */
+/* Twice the energy of each bond, seen from both ends: linear a (xi.eta)^2; finite a r^2 q^2 / (|y| + r)^2
+ * with q = |y|^2 - r^2, which is a r^2 (|y| - r)^2 without a difference of near numbers. */
 INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int dim, int finite,
                          int weighted)
 {
@@ -124,6 +129,7 @@ INLINE void energy_loop (const pg_block_job *job, size_t first, size_t last, int
     }
 }
 
+/* One function for each dimension, strain measure, check and weighting: all constants to the compiler. */
 #define FORCE(D, F, C, W) \
     static TARGET void force_##D##F##C##W (const pg_block_job *job, size_t first, size_t last) \
     { \

@@ -14,6 +14,7 @@ typedef struct {
 
 static const char *refusal (const pg_bond_loop_setting *setting) { (void) setting; return NULL; }
 
+/* Also of an object that was never completed. */
 static void release (void *self)
 {
     pair_list *s = self;
@@ -29,6 +30,8 @@ static double pair_modulus (const double *c, size_t i, size_t j)
     return c[i] + c[j] > 0 ? 2 * (c[i] * c[j]) / (c[i] + c[j]) : 0;
 }
 
+/* On a lattice of equal steps places are whole numbers of steps, exact in every bond; `unit` is a step
+ * then. Displacements of finite stretch are scaled to the same unit. */
 static void prepare (bond_list *list)
 {
     pair_list *s = (pair_list *) list;
@@ -48,6 +51,8 @@ static void term (const bond_list *list, size_t i, size_t j, const double *xi, d
     out[0] = s->finite ? pull * s->unit : pull / rr * (s->unit * s->unit);
 }
 
+/* The limit as law_pair.h compares it: of the smaller critical stretch of both ends, in the unit of the
+ * records. */
 static double limit (const bond_list *list, size_t i, size_t j)
 {
     const pair_list *s = (const pair_list *) list;
@@ -55,6 +60,7 @@ static double limit (const bond_list *list, size_t i, size_t j)
     return s->finite ? s0 * (2 + s0) : s0 * s->unit;
 }
 
+/* Bonds within a chunk are shared: stored once, and summed for both ends. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -69,6 +75,8 @@ done:
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
+/* Sums of a chunk to the points' own numbers, N. `dim` is a constant in each call; sums of three
+ * components lie four apart. */
 static inline __attribute__ ((always_inline)) void copy_forces (double *f, const bond_list *list,
                                                                 size_t first, size_t last,
                                                                 const double *sum, const size_t dim)
@@ -81,6 +89,7 @@ static inline __attribute__ ((always_inline)) void copy_forces (double *f, const
     }
 }
 
+/* One copy of the loop per dimension. */
 static void take_forces (void *f, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     switch (list->dim) {
@@ -90,6 +99,7 @@ static void take_forces (void *f, const bond_list *list, size_t first, size_t la
     }
 }
 
+/* Forces of all points, N; with `broken` bonds over their limit die on the way. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pair_list *s = self;
@@ -152,6 +162,7 @@ static void sum_energies (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Energy of the body, J: chunks are added in their order, whatever thread summed them. */
 static double energy (void *self, const double *u)
 {
     pair_list *s = self;
@@ -184,6 +195,7 @@ static void share_energies (void *context, size_t first, size_t last, int thread
     }
 }
 
+/* Energy density of the points, J/m^3. */
 static pg_status energies (void *self, const double *u, double *W)
 {
     pair_list *s = self;

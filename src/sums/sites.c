@@ -10,6 +10,7 @@
 static const double off_site = 1e-6;                   /* of a step */
 static const double sparse   = 8;  /* sites per point beyond which a found lattice is none */
 
+/* The box of all points, m. */
 static void bounds (const pg_cloud *cloud, double *low, double *high)
 {
     for (int k = 0; k < cloud->dim; k++) {
@@ -21,6 +22,7 @@ static void bounds (const pg_cloud *cloud, double *low, double *high)
     }
 }
 
+/* Do all points have the spacing h of the cloud? Graded points are no lattice, whatever their places. */
 static int alike (const pg_cloud *cloud)
 {
     for (size_t i = 0; cloud->size && i < cloud->n; i++)
@@ -28,13 +30,16 @@ static int alike (const pg_cloud *cloud)
     return 1;
 }
 
+/* For qsort. */
 static int ascending (const void *a, const void *b)
 {
     double x = *(const double *) a, y = *(const double *) b;
     return (x > y) - (x < y);
 }
 
-/* Steps from the points alone; found = 0: there is an axis without any, or the box has too many sites. */
+/* Steps of a lattice from the points alone: the smallest gap between two coordinates along each axis that
+ * is no rounding (1e-3 h). found = 0: an axis without any gap, or a box with more than 8 sites a point:
+ * those are irregular points that happen to have small gaps. */
 static pg_status find_steps (const pg_cloud *cloud, double *step, int *found)
 {
     pg_status status = PG_OK;
@@ -84,6 +89,8 @@ static int site_of (const pg_sites *s, const double *x, const double *low)
     return site;
 }
 
+/* The site of every point and the point of every site, -1 for none. Any point that is on no site, or on
+ * one that is taken, makes the whole cloud irregular: *out is empty then, which is no failure. */
 pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
@@ -113,6 +120,7 @@ done:
     return status;
 }
 
+/* May be called for sites of zeros. */
 void pg_sites_clear (pg_sites *sites)
 {
     pg_free (sites->site);

@@ -34,13 +34,16 @@ typedef struct {
     pg_bond_loop_counts count;
 } convolver;
 
+/* Number of a pair of axes in either order. */
 static int pair_of (int dim, int a, int b) { return a > b ? fft_pair (dim, b, a) : fft_pair (dim, a, b); }
 
+/* What the stencil of this theory refuses; it is linear in u already. */
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
     return pg_bond_loop_state_stencil.refusal (setting);
 }
 
+/* Also of an object that was never completed. */
 static void release (void *self)
 {
     convolver *c = self;
@@ -60,8 +63,10 @@ static void release (void *self)
 typedef void (*rows_of) (convolver *c, size_t row, size_t place);
 typedef struct { convolver *c; rows_of work; } rowing;
 
+/* Rows of sites in the box. */
 static size_t rows (const convolver *c) { return c->n[1] * c->n[2]; }
 
+/* Hands each row of a range to the work, with the padded place where it begins. */
 static void do_rows (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -75,6 +80,7 @@ static void do_rows (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* All rows, by threads. */
 static void each_row (convolver *c, rows_of work)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), rows (c), do_rows, &(rowing) { c, work });
@@ -89,6 +95,7 @@ static double *row_of (const convolver *c, int field, size_t row)
 /* ---- transforms ---------------------------------------------------------------------------------------- */
 typedef struct { convolver *c; int first, back; } transforming;
 
+/* Some fields, each transformed whole and in place by one thread. */
 static void transform_fields (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -100,6 +107,7 @@ static void transform_fields (void *context, size_t first, size_t last, int thre
     }
 }
 
+/* n fields from `first` on, forth or back; counted for reports. */
 static void transform (convolver *c, int first, int n, int back)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), (size_t) n, transform_fields,
@@ -107,11 +115,13 @@ static void transform (convolver *c, int first, int n, int back)
     *(back ? &c->count.back : &c->count.forward) += n;
 }
 
+/* Places without a site must be zero before a field is transformed. */
 static void clear_field (convolver *c, int k) { memset (c->field[k], 0, 2 * c->complexes * sizeof (double)); }
 
 typedef void (*places_of) (convolver *c, size_t first, size_t last);
 typedef struct { convolver *c; places_of work; } multiplying;
 
+/* A range of the transformed places. */
 static void do_places (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -119,13 +129,14 @@ static void do_places (void *context, size_t first, size_t last, int thread)
     m->work (m->c, first, last);
 }
 
+/* All transformed places, by threads. */
 static void each_place (convolver *c, places_of work)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&c->base.base), c->complexes, do_places,
                        &(multiplying) { c, work });
 }
 
-/* alpha = sum_a i S_a u_a */
+/* alpha = sum_a i S_a u_a at each place: g_a is odd, so that its transform is i times a real S_a. */
 static void multiply_dilatation (convolver *c, size_t first, size_t last)
 {
     double *out = c->field[2 * c->dim];
@@ -137,7 +148,8 @@ static void multiply_dilatation (convolver *c, size_t first, size_t last)
     }
 }
 
-/* u = R, beta u = Q */
+/* R_a = sum_b C_ab u_b takes the place of u_a, Q_a = i S_a alpha + sum_b C_ab (beta u_b) that of beta
+ * u_a. part: real, imaginary; i turns one into the other. */
 static void multiply_forces (convolver *c, size_t first, size_t last)
 {
     int d = c->dim;
@@ -159,6 +171,7 @@ static void multiply_forces (convolver *c, size_t first, size_t last)
 }
 
 /* ---- what does not change with the displacement -------------------------------------------------------- */
+/* Where an offset stands in the box of a kernel: negative ones at its end, as convolutions go round. */
 static size_t place_in_box (const convolver *c, const int *offset)
 {
     size_t at[3];
@@ -166,8 +179,8 @@ static size_t place_in_box (const convolver *c, const int *offset)
     return (at[2] * c->T[1] + at[1]) * c->wide + at[0];
 }
 
-/* Transform of one kernel: its real part (even), or minus the imaginary one (odd), over the number of
- * places */
+/* Transform of one kernel over the number of places: the real part of an even C_ab (b >= 0), or minus the
+ * imaginary one of an odd g_a (b < 0). The other part is zero by symmetry. */
 static void make_kernel (convolver *c, double *out, int a, int b)
 {
     const pg_stencil *st = &c->base.base.setting.sums->stencil;
@@ -185,11 +198,13 @@ static void make_kernel (convolver *c, double *out, int a, int b)
         out[k] = (b < 0 ? -c->field[0][2 * k + 1] : c->field[0][2 * k]) / (double) places;
 }
 
+/* Row of chi, the weights of the points. */
 static void fill_chi (convolver *c, size_t row, size_t place)
 {
     memcpy (row_of (c, 2 * c->dim, row), c->chi + place, c->n[0] * sizeof (double));
 }
 
+/* Row of chi beta, which follows broken bonds where weighted volumes do. */
 static void fill_chi_beta (convolver *c, size_t row, size_t place)
 {
     double *x = row_of (c, 2 * c->dim, row);
@@ -197,6 +212,7 @@ static void fill_chi_beta (convolver *c, size_t row, size_t place)
     for (size_t k = 0; k < c->n[0]; k++) x[k] = chi[k] * beta[k];
 }
 
+/* From the box of the transforms to the padded places of the loops. */
 static void copy_rows (convolver *c, double *out)
 {
     const stencil *s = &c->base.base;
@@ -220,6 +236,7 @@ static void convolve_one (convolver *c, const double *kernel, int odd, double *o
     copy_rows (c, out);
 }
 
+/* H_ab = C_ab * (chi beta), anew after beta has changed. */
 static void renew_beta (convolver *c)
 {
     clear_field (c, 2 * c->dim);
@@ -229,6 +246,7 @@ static void renew_beta (convolver *c)
     c->stale = 0;
 }
 
+/* Kernels and the sums G and D of the intact body, once. */
 static void make_fixed (convolver *c)
 {
     for (int a = 0; a < c->dim; a++) make_kernel (c, c->S[a], a, -1);
@@ -243,6 +261,7 @@ static void make_fixed (convolver *c)
 }
 
 /* ---- cut blocks ---------------------------------------------------------------------------------------- */
+/* How many bonds of a block live. */
 static int bits_of (const stencil *s, size_t block)
 {
     int sum = 0;
@@ -250,12 +269,14 @@ static int bits_of (const stencil *s, size_t block)
     return sum;
 }
 
+/* The cut blocks in their order. */
 static void list_cut (convolver *c)
 {
     c->ncut = 0;
     for (size_t k = 0; k < c->base.base.nblock; k++) if (c->is_cut[k]) c->cut[c->ncut++] = (int) k;
 }
 
+/* A block is cut if fewer of its bonds live than at first. */
 static void look_at_blocks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -263,6 +284,7 @@ static void look_at_blocks (void *context, size_t first, size_t last, int thread
     for (size_t k = first; k < last; k++) c->is_cut[k] = bits_of (&c->base.base, k) != c->bits[k];
 }
 
+/* From a whole new state (changes NULL), or the blocks whose bonds have died. */
 static void mark_cut (convolver *c, const pg_changes *changes)
 {
     const stencil *s = &c->base.base;
@@ -281,6 +303,7 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
+/* Fields of 2 dim + 1 transforms, and what is kept for padded places. */
 static pg_status allocate (convolver *c)
 {
     pg_status status = PG_OK;
@@ -305,6 +328,8 @@ done:
     return status;
 }
 
+/* A stencil of bonds with its weighted volumes, and beside it the box: longer than the sites by the reach
+ * of the bonds, as for the other transforms. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const fft_kernels *const kernels[] = { &pg_fft_scalar, &pg_fft_avx2, &pg_fft_avx512 };
@@ -336,6 +361,8 @@ done:
     return status;
 }
 
+/* Bytes of one sum by the point: each field is read and written about six times on its way there and
+ * back. */
 static void bytes (const void *self, double *per_bond, double *per_point)
 {
     const convolver *c = self;
@@ -345,6 +372,8 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
+/* The mean displacement of all points, m. Convolutions round by the size of u; forces depend on
+ * differences alone. */
 static void take_mean (convolver *c, const double *u)
 {
     size_t n = c->base.base.setting.sums->cloud->n, dim = (size_t) c->dim;
@@ -369,6 +398,7 @@ static void fill_displacements (convolver *c, size_t row, size_t place)
     }
 }
 
+/* alpha = factor [sum_a g_a * (chi u_a) - sum_a u_a G_a] along a row. */
 static void take_dilatation (convolver *c, size_t row, size_t place)
 {
     const double *x = row_of (c, 2 * c->dim, row), *factor = c->base.base.job.factor + place;
@@ -380,12 +410,14 @@ static void take_dilatation (convolver *c, size_t row, size_t place)
     }
 }
 
+/* Row of chi alpha. */
 static void fill_dilatation (convolver *c, size_t row, size_t place)
 {
     double *x = row_of (c, 2 * c->dim, row);
     for (size_t k = 0; k < c->n[0]; k++) x[k] = c->chi[place + k] * c->base.alpha[place + k];
 }
 
+/* f_a = V chi {Q_a + alpha G_a + beta R_a - sum_b u_b (H_ab + beta D_ab)} of the points of a row, N. */
 static void take_forces (convolver *c, size_t row, size_t place)
 {
     const stencil *s = &c->base.base;
@@ -406,11 +438,13 @@ static void take_forces (convolver *c, size_t row, size_t place)
     }
 }
 
+/* Cut blocks once more, bond by bond: what the transforms left there is overwritten. */
 static void redo_cut (convolver *c, pg_block_loop loop)
 {
     if (c->ncut) pg_stencil_loop_run_some (&c->base.base, loop, NULL, NULL, (size_t) c->ncut, c->cut, NULL);
 }
 
+/* All fields of displacements, before rows are filled. */
 static void clear_margins (convolver *c)
 {
     for (int k = 0; k < 2 * c->dim; k++) clear_field (c, k);

@@ -5,6 +5,9 @@
  *   pull    f_i     = V_i sum_j w V_j [alpha_i + alpha_j + (beta_i + beta_j) e / r^2] xi
  *   store   W_i     = 1/2 [factor_i (sum_j w e V_j)^2 + beta_i sum_j w e^2 / r^2 V_j] */
 
+/* alpha of the points of one stride of block k: sum over bonds of w V e, times the factor of each point.
+ * check: bonds over their limit set `over` (PG_CHECK_SOME: only those that may break); weighted: V is
+ * times the neighbour's share p. */
 INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int dim, int check, int weighted,
                            hits *over)
 {
@@ -40,6 +43,8 @@ INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int di
         STORE (job->alpha + base + v * LANES, sum[v] * LOAD (job->factor + base + v * LANES));
 }
 
+/* Forces of one stride, N: sum over bonds of w V V [alpha_i + alpha_j + (beta_i + beta_j) e / r^2] xi. In
+ * space a stride of many vectors needs more registers than there are, and is done in two halves. */
 INLINE void pull_stride (const pg_block_job *job, size_t k, int stride, int dim, int weighted, double *out)
 {
     const int vecs = dim == 3 && VECS (dim) > 1 ? VECS (dim) / 2 : VECS (dim);
@@ -81,6 +86,7 @@ INLINE void pull_stride (const pg_block_job *job, size_t k, int stride, int dim,
     }
 }
 
+/* All strides of a range of blocks that have points; job->hit of blocks with a bond over its limit. */
 INLINE void dilate_loop (const pg_block_job *job, size_t first, size_t last, int dim, int check, int weighted)
 {
     const int width = VECS (dim) * LANES;
@@ -94,6 +100,7 @@ INLINE void dilate_loop (const pg_block_job *job, size_t first, size_t last, int
     }
 }
 
+/* The same for forces, which go to job->f. */
 INLINE void pull_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     const int width = VECS (dim) * LANES;
@@ -106,6 +113,8 @@ INLINE void pull_loop (const pg_block_job *job, size_t first, size_t last, int d
     }
 }
 
+/* Energy density of every point, J/m^3, to job->energies where that is wanted, and the energy of each
+ * block, J. */
 INLINE void store_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     double lane[LANES];
@@ -142,6 +151,7 @@ INLINE void store_loop (const pg_block_job *job, size_t first, size_t last, int 
     }
 }
 
+/* One function for each dimension, check and weighting, all of which the compiler sees as constants. */
 #define DILATE(D, C, W) \
     static TARGET void dilate_##D##C##W (const pg_block_job *job, size_t first, size_t last) \
     { \

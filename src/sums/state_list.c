@@ -14,6 +14,7 @@ typedef struct {
     double *factor, *alpha;                            /* in that of the list: A d / q^2, sum w V p (n) */
 } state_list;
 
+/* Also of an object that was never completed. */
 static void release (void *self)
 {
     state_list *s = self;
@@ -21,6 +22,7 @@ static void release (void *self)
     pg_list_free (s);
 }
 
+/* r^2, m^2. */
 static double squared_length (int dim, const double *xi)
 {
     double rr = 0;
@@ -65,6 +67,7 @@ static void weigh (state_list *s, size_t i, const unsigned char *counts)
 
 typedef struct { state_list *s; const unsigned char *counts; } weighing;
 
+/* A range of points, for pg_parallel. */
 static void weigh_points (void *context, size_t first, size_t last, int thread)
 {
     const weighing *w = context;
@@ -72,6 +75,7 @@ static void weigh_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) weigh (w->s, i, w->counts);
 }
 
+/* All points: at the start, and after another state was read. */
 static void weigh_all (state_list *s, const unsigned char *counts)
 {
     pg_parallel_heavy (s->list.threads, s->list.n, weigh_points, &(weighing) { s, counts });
@@ -88,6 +92,7 @@ static void weigh_some (state_list *s, size_t n, const size_t *bond)
     }
 }
 
+/* Weighted volumes follow the live bonds only where the rule says so; else they are those of the start. */
 static void update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     state_list *s = self;
@@ -98,6 +103,8 @@ static void update (void *self, const unsigned char *alive, const pg_changes *ch
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
+/* The numbers of one bond: w V_j for the dilatation, w V_i V_j for the force, w for the weighted volume;
+ * w = k beta / r. */
 static void term (const bond_list *list, size_t i, size_t j, const double *unused, double weight, double *out)
 {
     const double *V = list->sums->cloud->volume;
@@ -108,11 +115,13 @@ static void term (const bond_list *list, size_t i, size_t j, const double *unuse
     out[DILATE] = w * V[j], out[PULL] = w * (V[i] * V[j]), out[WEIGHT] = w;
 }
 
+/* A bond breaks at the smaller limit of its ends. */
 static double limit (const bond_list *list, size_t i, size_t j)
 {
     return fmin (list->setting.limit[i], list->setting.limit[j]);
 }
 
+/* Records of 8 numbers: place, displacement, alpha and beta. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -143,6 +152,8 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
+/* alpha of the points of a chunk, from the sums of their bonds, to where the loop for the forces reads
+ * it. */
 static void take_dilatations (void *context, const bond_list *list, size_t first, size_t last,
                               const double *sum)
 {
@@ -156,6 +167,7 @@ static void take_dilatations (void *context, const bond_list *list, size_t first
 
 typedef struct { state_list *s; double *out; } pass;
 
+/* Sums to the points' own numbers, N. */
 static void take_forces (void *f, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     int dim = list->dim;
@@ -165,6 +177,8 @@ static void take_forces (void *f, const bond_list *list, size_t first, size_t la
     }
 }
 
+/* Bonds over their limit die in the first loop, before their dilatation is summed; where weighted volumes
+ * follow them, those of their ends are renewed before forces are. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;
@@ -191,6 +205,7 @@ static void take_energies (void *context, const bond_list *list, size_t first, s
     }
 }
 
+/* Energy density of the points, J/m^3. */
 static pg_status energies (void *self, const double *u, double *W)
 {
     state_list *s = self;
@@ -199,6 +214,7 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
+/* Energy of the body, J: points in their own order, so that threads do not show. */
 static double energy (void *self, const double *u)
 {
     state_list *s = self;
@@ -218,6 +234,7 @@ static void take_theta (void *context, const bond_list *list, size_t first, size
     }
 }
 
+/* Dilatation (no unit) and weighted volume; either may be NULL. */
 static pg_status dilatation (void *self, const double *u, double *theta, double *q)
 {
     state_list *s = self;

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <string.h>
 
+/* What holds for lists, stencils and transforms of this theory alike. */
 const char *pg_state_loop_refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite)
@@ -23,6 +24,7 @@ static const char *refusal (const pg_bond_loop_setting *setting)
     return why ? why : pg_stencil_loop_refusal (setting);
 }
 
+/* Also of an object that was never completed. */
 void pg_state_loop_free (void *self)
 {
     state *s = self;
@@ -32,7 +34,8 @@ void pg_state_loop_free (void *self)
 }
 
 /* ---- q ------------------------------------------------------------------------------------------------- */
-/* Of a point by the bits of its bonds */
+/* Weighted volume q = sum w r^2 V_j of a point by the bits of its bonds, and what follows from it: factor
+ * A d / q^2 and beta B / q, which the loops read at padded places. */
 static void weigh (state *s, size_t i)
 {
     const stencil *b = &s->base;
@@ -48,12 +51,14 @@ static void weigh (state *s, size_t i)
     s->factor[place] = state_factor (&b->setting, i, q), s->beta[place] = state_beta (&b->setting, i, q);
 }
 
+/* A range of points, for pg_parallel. */
 static void weigh_points (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
     for (size_t i = first; i < last; i++) weigh (context, i);
 }
 
+/* All points, by threads. */
 static void weigh_all (state *s)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (&s->base), s->base.setting.sums->cloud->n, weigh_points, s);
@@ -66,11 +71,14 @@ static void weigh_block (stencil *b, size_t k)
         weigh ((state *) b, (size_t) b->job.point[b->block[k].site + (size_t) __builtin_ctz (left)]);
 }
 
+/* What is to be done about a block that has lost bonds; NULL: nothing, weighted volumes stay those of the
+ * start. */
 stencil_lost pg_state_loop_lost (const stencil *s)
 {
     return s->setting.sums->rule.follow ? weigh_block : NULL;
 }
 
+/* Bits first, then the weighted volumes that follow them. */
 void pg_state_loop_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     state *s = self;
@@ -82,6 +90,7 @@ void pg_state_loop_update (void *self, const unsigned char *alive, const pg_chan
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
+/* w V, w V^2 and 1 / r^2 of each bond of the stencil, w = k beta / r. */
 static void set_terms (state *s)
 {
     stencil *b = &s->base;
@@ -93,6 +102,8 @@ static void set_terms (state *s)
     }
 }
 
+/* `counted`: bonds by which the weighted volumes are to be taken, for example without those of
+ * pre-cracks; the bits are set to these while volumes are summed, and back. */
 pg_status pg_state_loop_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
                                 size_t bytes)
 {
@@ -115,6 +126,7 @@ done:
     return status;
 }
 
+/* The theory needs nothing beside this. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     return pg_state_loop_create (self, setting, set, sizeof (state));
@@ -129,6 +141,8 @@ static void bytes (const void *self, double *per_bond, double *per_point)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
+/* Two passes: dilatations, in which bonds over their limit die, and forces from the dilatations of both
+ * ends. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     pg_status status = PG_OK;

@@ -7,8 +7,10 @@
 #include <math.h>
 #include <string.h>
 
+/* A horizon of so many points is a mistake of units, not a scene. */
 static const double most_offsets = 2e8;
 
+/* All offsets of equal sizes of components: length (m), partial volume, weight k beta. */
 typedef struct { double r, beta, weight; } shell;
 
 typedef struct {
@@ -18,6 +20,7 @@ typedef struct {
     shell *of;  /* by sizes of components, x fastest; beta 0: no bond */
 } shells;
 
+/* A kernel at one place, q = r / horizon. */
 static double value (const pg_kernel *kernel, double q)
 {
     double w;
@@ -25,6 +28,8 @@ static double value (const pg_kernel *kernel, double q)
     return w;
 }
 
+/* The kernel at a bond's length. Open kernels end before the horizon itself; bonds that only their cell's
+ * part brings in (partial volumes) have q > 1 and the value that the kernel has there. */
 double pg_sums_kernel (const pg_sum_rule *rule, double r, double horizon)
 {
     double q = r / horizon;
@@ -32,7 +37,10 @@ double pg_sums_kernel (const pg_sum_rule *rule, double r, double horizon)
     return value (rule->kernel, rule->partial == PG_PARTIAL_NONE ? fmin (q, 1) : q);
 }
 
-/* n: sizes of components, in canonical order */
+/* Length, partial volume and weight of the offset n (sizes of its components, in canonical order).
+ * Partial volumes by `overlap` are exact intersections of the cell with the ball about the point; the
+ * others go by distance, with the width of a cell along the bond. Where the kernel ends at the horizon,
+ * overlap takes its mean over the part of the cell instead of its value at the centre. */
 static shell shell_at (const shells *s, const int *n)
 {
     const pg_sum_rule *rule = s->rule;
@@ -61,6 +69,7 @@ static shell shell_at (const shells *s, const int *n)
     return out;
 }
 
+/* Number of an offset of sizes n in the table, x fastest. */
 static size_t place (const shells *s, const int *n)
 {
     return (size_t) n[0]
@@ -101,6 +110,7 @@ done:
     return status;
 }
 
+/* Computes each canonical offset once; the rest of the table is never read. */
 static pg_status fill (shells *s)
 {
     pg_status status = PG_OK;
@@ -138,6 +148,9 @@ static size_t list (const shells *s, pg_stencil *out)
     return b;
 }
 
+/* All bonds of a point inside a lattice, in the order z, y, x of their offsets: offset (whole steps), xi
+ * (m), length r, partial volume, weight. The order is that of site numbers, by which families of ordered
+ * points need no sort. */
 pg_status pg_stencil_build (pg_stencil *out, const pg_sum_rule *rule, int dim, const double *step)
 {
     pg_status status = PG_OK;
@@ -168,6 +181,7 @@ done:
     return status;
 }
 
+/* May be called for a stencil of zeros. */
 void pg_stencil_clear (pg_stencil *stencil)
 {
     pg_free (stencil->offset);

@@ -7,6 +7,8 @@
 #include <string.h>
 
 
+/* One set of numbers per bond of the stencil serves all points, so that nothing may differ from point to
+ * point but the weights. */
 const char *pg_stencil_loop_refusal (const pg_bond_loop_setting *setting)
 {
     const pg_sums *sums = setting->sums;
@@ -22,6 +24,7 @@ const char *pg_stencil_loop_refusal (const pg_bond_loop_setting *setting)
     return NULL;
 }
 
+/* Also of an object that was never completed. */
 void pg_stencil_loop_free (void *self)
 {
     stencil *s = self;
@@ -50,6 +53,9 @@ size_t pg_stencil_loop_block (const stencil *s, size_t place, unsigned *bit)
     return (size_t) s->block_at[row * s->row_blocks + x / PG_BLOCK];
 }
 
+/* The padded box: reach of the bonds along each axis; rows begin at a multiple of 8 places and end after
+ * whole blocks of 32, so that vectors never cross a row; jump: padded places from a point to each
+ * neighbour, the same for all points. */
 static pg_status lay_out (stencil *s)
 {
     pg_status status = PG_OK;
@@ -179,6 +185,7 @@ static void renew_blocks (void *context, size_t first, size_t last, int thread)
         }
 }
 
+/* Small bodies are done by one thread: starting others costs more than they save. */
 int pg_stencil_loop_threads (const stencil *s)
 {
     int t = s->setting.threads;
@@ -186,6 +193,7 @@ int pg_stencil_loop_threads (const stencil *s)
     return t < MAX_THREADS ? t : MAX_THREADS;
 }
 
+/* The point whose family has this entry, by bisection of the starts. */
 size_t pg_stencil_loop_owner (const stencil *s, size_t entry)
 {
     const size_t *start = s->setting.family->start;
@@ -198,6 +206,7 @@ size_t pg_stencil_loop_owner (const stencil *s, size_t entry)
     return low;
 }
 
+/* changes NULL: all bits anew, from the live bonds of the family; else the bits of these bonds alone. */
 void pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_changes *changes)
 {
     stencil *s = self;
@@ -214,7 +223,8 @@ void pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_ch
     }
 }
 
-/* The numbers of each bond of the stencil, the same for all points: see pg_block_job. */
+/* The numbers of each bond of the stencil, the same for all points (pg_block_job): xi, the pull a xi or a
+ * r^2, the limit as it is compared, r and r^2, what is stored. a = c V^2 k beta / r^3, N/m^3. */
 static pg_status set_terms (stencil *s)
 {
     pg_status status = PG_OK;
@@ -239,6 +249,7 @@ done:
     return status;
 }
 
+/* Padded places of the box, with a halo before the first row. */
 size_t pg_stencil_loop_places (const stencil *s) { return s->pitch * s->rows * s->planes + (size_t) s->left; }
 
 /* Weights of points, where not all are 1: share of a cell's volume over the root of how full the family is */
@@ -259,6 +270,8 @@ done:
     return status;
 }
 
+/* The steps in the order in which each needs the former ones. A bond of the family that the stencil has
+ * not is found by some thread; its message is made again on this one, as messages belong to threads. */
 pg_status pg_stencil_loop_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
                                   size_t bytes)
 {
@@ -294,11 +307,13 @@ done:
     return status;
 }
 
+/* Bond-based theory needs nothing beside the stencil. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     return pg_stencil_loop_create (self, setting, set, sizeof (stencil));
 }
 
+/* Bytes that a sum moves: bits by the bond; unknowns, forces and padded copies by the point. */
 void pg_stencil_loop_bytes (const void *self, double *per_bond, double *per_point)
 {
     const stencil *s = self;
@@ -312,6 +327,7 @@ void pg_stencil_loop_bytes (const void *self, double *per_bond, double *per_poin
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
+/* The entry of the family for a bond given by place and number; the family's neighbours ascend. */
 size_t pg_stencil_loop_entry (const stencil *s, int i, size_t place, size_t b)
 {
     const pg_family *family = s->setting.family;
@@ -327,7 +343,8 @@ size_t pg_stencil_loop_entry (const stencil *s, int i, size_t place, size_t b)
     return low;
 }
 
-/* What the loops compare with the limit, operation by operation */
+/* xi.eta, or the finite 2 xi.eta + eta.eta, of one bond: what the loops compare with the limit, operation
+ * by operation, so that a bond dies here if and only if its lane said so. */
 static double measure (const stencil *s, size_t place, size_t b)
 {
     const double *t = s->term + b * PG_TERMS;
@@ -372,6 +389,7 @@ typedef struct {
     const int *list;
 } pass;
 
+/* Displacements to their padded places. */
 static void spread_blocks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -379,6 +397,8 @@ static void spread_blocks (void *context, size_t first, size_t last, int thread)
     p->s->kernels->spread (&p->s->job, p->u, first, last);
 }
 
+/* Forces of some blocks. A block that says `hit` has bonds over their limit: they die, and the block is
+ * summed once more without them. */
 static void force_blocks (void *context, size_t first, size_t last, int thread)
 {
     pass *p = context;
@@ -396,11 +416,13 @@ static void force_blocks (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* All blocks, by threads. */
 void pg_stencil_loop_spread (stencil *s, const double *u)
 {
     pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, spread_blocks, &(pass) { .s = s, .u = u });
 }
 
+/* One pass over p->n blocks; bonds that died are collected in the order of the family. */
 static pg_status run (stencil *s, pass *p, pg_changes *broken)
 {
     int threads = pg_stencil_loop_threads (s);
@@ -422,6 +444,7 @@ pg_status pg_stencil_loop_run_some (stencil *s, pg_block_loop loop, pg_block_loo
                 broken);
 }
 
+/* The loop of this dimension, strain measure and check; with weights or without. */
 pg_status pg_stencil_loop_force_some (stencil *s, size_t n, const int *list, double *f, pg_changes *broken)
 {
     int finite = s->setting.sums->rule.finite != 0, weighted = s->p != NULL;
@@ -434,6 +457,7 @@ pg_status pg_stencil_loop_force_some (stencil *s, size_t n, const int *list, dou
     return run (s, &p, broken);
 }
 
+/* Forces of all points, N. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     stencil *s = self;
@@ -441,6 +465,7 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
     return pg_stencil_loop_force_some (s, s->nblock, NULL, f, broken);
 }
 
+/* What the bonds of some blocks store. */
 static void energy_blocks (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -461,6 +486,7 @@ void pg_stencil_loop_energies_some (stencil *s, size_t n, const int *list, doubl
     s->job.energies = NULL;
 }
 
+/* Sums of blocks are added in their order, whatever thread made them. */
 double pg_stencil_loop_stored (stencil *s, pg_block_loop loop, double *W)
 {
     double sum = 0;
@@ -472,6 +498,7 @@ double pg_stencil_loop_stored (stencil *s, pg_block_loop loop, double *W)
     return sum;
 }
 
+/* Energy of the body, J. */
 static double energy (void *self, const double *u)
 {
     stencil *s = self;
@@ -482,6 +509,7 @@ static double energy (void *self, const double *u)
            / 4;
 }
 
+/* Energy density of the points, J/m^3. */
 static pg_status energies (void *self, const double *u, double *W)
 {
     stencil *s = self;
@@ -492,8 +520,8 @@ static pg_status energies (void *self, const double *u, double *W)
     return PG_OK;
 }
 
-/* Bonds a nanosecond by instruction set, in a plane and in space: bench/sums_rate bond, square_400_m6 and
- * cube_64, one thread of an AMD EPYC. */
+/* Estimate of one sum, ns: bonds over bonds a nanosecond, by instruction set, in a plane and in space.
+ * From bench/sums_rate bond, square_400_m6 and cube_64, one thread of an AMD EPYC. */
 static double time_of (const pg_bond_loop_setting *setting, pg_instructions set)
 {
     static const double rate[][2] = { { 1.7, 0.8 }, { 3.9, 2.1 }, { 7.3, 3.7 } };

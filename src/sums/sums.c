@@ -9,6 +9,7 @@
 
 static const double whole_family = 0.8;                /* of the largest family's volume */
 
+/* What would divide by zero or sum over the wrong dimension is refused before anything is summed. */
 pg_status pg_sums_check_rule (const pg_sum_rule *rule, int dim)
 {
     pg_status status = PG_OK;
@@ -22,6 +23,8 @@ done:
 }
 
 /* ---- on a lattice -------------------------------------------------------------------------------------- */
+/* Volume of each point as a share of a cell's, where they are not all whole (cut cells, files with
+ * volumes): the weights of lattice loops. NULL where they are all 1, which the loops do without. */
 static pg_status find_shares (pg_sums *s, double cell)
 {
     pg_status status = PG_OK;
@@ -41,6 +44,9 @@ static void check_order (pg_sums *s)
     for (size_t i = 1; i < s->cloud->n; i++) s->ordered &= s->sites.site[i - 1] < s->sites.site[i];
 }
 
+/* On a lattice: the stencil; the factor that makes the energy of uniform strain exact for a point inside
+ * (calibration); how the energy of a straight crack along the axes compares with theory at the same
+ * critical stretch (toughness); the volume of a whole family, m^3. */
 static pg_status from_lattice (pg_sums *s)
 {
     pg_status status = PG_OK;
@@ -62,8 +68,10 @@ done:
     return status;
 }
 
-/* With I_l = the part of q beyond a plane that lies l - 1/2 layers off: G = h s0^2 sum_l [A d (I_l / q)^2 + B
- * I_l / q]; here for h = s0 = 1 */
+/* Energy of a straight cut along the lattice under state-based theory, for step and critical stretch 1.
+ * I_l: the part of the weighted volume q of a point l - 1/2 layers from the cut that lies beyond it.
+ * Points lose A d (I_l / q)^2 by their dilatation and B I_l / q by the rest, and all layers on one side
+ * add up: G = h s0^2 sum_l [A d (I_l / q)^2 + B I_l / q]. */
 static double cut_energy (const pg_stencil *t, double A, double B, int axis)
 {
     double q = 0, sum = 0, inside = 1;
@@ -77,6 +85,9 @@ static double cut_energy (const pg_stencil *t, double A, double B, int axis)
     return sum;
 }
 
+/* How the energy of a crack along the lattice compares with that of theory at the same critical stretch:
+ * 1 where nothing is known. State-based bonds share their energy between dilatation and deviation, so
+ * that the ratio depends on nu. */
 double pg_sums_toughness (const pg_sums *sums, double E, double nu)
 {
     const pg_sum_rule *rule = &sums->rule;
@@ -94,6 +105,7 @@ double pg_sums_toughness (const pg_sums *sums, double E, double nu)
     return G / pg_state_fracture_energy (&s, 1);
 }
 
+/* The energy, J/m^2 at critical stretch 1, that a straight cut takes from the dilatation beside beams. */
 double pg_beam_cut_dilatation (const pg_sums *sums, double dilation)
 {
     const pg_sum_rule *rule = &sums->rule;
@@ -106,13 +118,15 @@ double pg_beam_cut_dilatation (const pg_sums *sums, double dilation)
 }
 
 /* ---- without a lattice --------------------------------------------------------------------------------- */
+/* For qsort. */
 static int ascending (const void *a, const void *b)
 {
     double x = *(const double *) a, y = *(const double *) b;
     return (x > y) - (x < y);
 }
 
-/* Of the values whose volume is nearly the largest; values are sorted in place. */
+/* Median of the values of those points whose family's volume is nearly the largest (whole_family of it):
+ * points inside the body. work holds n numbers. */
 static double median_of_whole (size_t n, const double *volume, const double *value, double *work)
 {
     double most = 0;
@@ -161,6 +175,8 @@ done:
     return status;
 }
 
+/* A rule brought together with the points at hand. The cloud is borrowed; a lattice, or NULL, says which
+ * steps the points were made with. */
 pg_status pg_sums_create (pg_sums **out, const pg_sum_rule *rule, const pg_cloud *cloud,
                           const pg_lattice *lattice)
 {
@@ -182,6 +198,7 @@ done:
     return status;
 }
 
+/* NULL inside is allowed. */
 void pg_sums_free (pg_sums **sums)
 {
     pg_sums *s = *sums;
