@@ -32,7 +32,7 @@ static double smallest_stretch (const pg_problem *p)
 static pg_status limit_stages (pg_solver *s)
 {
     pg_status status = PG_OK;
-    pg_stages_options *own = stages_of (s);
+    pg_stages_options *own = PG_OWN (pg_stages_options, &s->options);
     motion *m = motion_of (s);
     const struct relaxation *x = m->relaxation;
     double most = 0;

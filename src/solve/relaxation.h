@@ -22,7 +22,7 @@ struct relaxation {
      * break of the stage and not booked; bonds broke at the last residual */
     int    armed, resting, pending, broke;
 };
-static inline pg_stages_options *stages_of (const pg_solver *s)
+static inline const pg_stages_options *stages_of (const pg_solver *s)
 {
     return PG_OWN (pg_stages_options, &s->options);
 }

@@ -181,7 +181,7 @@ static void names_survive_json (void **state)
         { "\\q", NULL }, { "\\u12g4", NULL }, { "\\ud83d", NULL }, { "\\ud83d\\u0041", NULL },
         { "\\ude00", NULL }, { "\\u0000", NULL }, { "\\", NULL },
     };
-    char file[200];
+    char file[300];
     pg_scene *s = NULL;
     snprintf (file, sizeof file, "%s", inside (folder, "scene.yaml"));
     FILE *f = fopen (file, "w");

@@ -117,10 +117,10 @@ static void an_opened_table_goes_on_after_the_rows_kept (void **state)
 {
     (void) state;
     const char *path = file_at ("goes_on.csv");
-    static const char *const columns[] = { "a", "two\nlines" }, *const others[] = { "a", "two lines" };
+    static const char *const header[] = { "a", "two\nlines" }, *const others[] = { "a", "two lines" };
     char text[1000];
     pg_table *t;
-    check_ok (pg_table_create (&t, path, 2, columns));
+    check_ok (pg_table_create (&t, path, 2, header));
     for (int k = 0; k < 4; k++)
         check_ok (pg_table_line (t, (const char *const[]){ k == 1 ? "x\ny" : "x", "\"" }));
     assert_int_equal (pg_table_rows (t), 4);
@@ -128,24 +128,24 @@ static void an_opened_table_goes_on_after_the_rows_kept (void **state)
     FILE *file = fopen (path, "a");
     fputs ("x,half a ro", file);                       /* as a killed run may leave it */
     fclose (file);
-    check_ok (pg_table_open (&t, path, 2, columns, 2));
+    check_ok (pg_table_open (&t, path, 2, header, 2));
     assert_int_equal (pg_table_rows (t), 2);
     check_ok (pg_table_row (t, (double[]) { 1, 2 }));
     pg_table_close (&t);
     slurp (path, text, sizeof text);
     assert_string_equal (text, "a,\"two\nlines\"\nx,\"\"\"\"\n\"x\ny\",\"\"\"\"\n1,2\n");
-    check_ok (pg_table_open (&t, path, 2, columns, 0));
+    check_ok (pg_table_open (&t, path, 2, header, 0));
     pg_table_close (&t);
     slurp (path, text, sizeof text);
     assert_string_equal (text, "a,\"two\nlines\"\n");
-    check_fails (pg_table_open (&t, path, 2, columns, 1), PG_E_FILE);
+    check_fails (pg_table_open (&t, path, 2, header, 1), PG_E_FILE);
     check_contains (pg_last_error (), "goes_on.csv has 0 rows of the 1");
     assert_null (t);
-    check_fails (pg_table_open (&t, file_at ("absent.csv"), 2, columns, 0), PG_E_FILE);
+    check_fails (pg_table_open (&t, file_at ("absent.csv"), 2, header, 0), PG_E_FILE);
     /* other names, fewer and more columns: refused, the file as it was */
     check_fails (pg_table_open (&t, path, 2, others, 0), PG_E_FILE);
     check_contains (pg_last_error (), "the columns of");
-    check_fails (pg_table_open (&t, path, 1, columns, 0), PG_E_FILE);
+    check_fails (pg_table_open (&t, path, 1, header, 0), PG_E_FILE);
     check_fails (pg_table_open (&t, path, 2, (const char *const[]) { "b", "two\nlines" }, 0), PG_E_FILE);
     check_fails (pg_table_open (&t, path, 3, (const char *const[]) { "a", "two\nlines", "c" }, 0), PG_E_FILE);
     assert_null (t);
