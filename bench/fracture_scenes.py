@@ -1,7 +1,7 @@
 """The bodies of bench/fracture: plates and beams with cracks whose load of growth is known, laid on a lattice in any way.
 
-A body is written down once, in its own axes, by the vertices of its outline. `text` writes it as a scene: shifted against the lattice
-(lattice_offset), turned (the body and its loads turn, the lattice stays), or on points moved at random (perturb). Loads are tractions or
+A body is written down once, in its own axes, by the vertices of its outline. `text` writes it as a scene: its crack shifted against the
+lattice, all of it turned (the body and its loads turn, the lattice stays), or on points moved at random (perturb). Loads are tractions or
 whole displacement vectors of edges of the outline, so that they turn with the body; the body is held by a few points where stresses vanish.
 
 Closed forms: theory (a) is the load factor at which a crack of length a grows, from its energy release rate G and the fracture energy G0.
@@ -69,13 +69,17 @@ class Body:
     pin = None
     path = None
     along = None
+    diagonal = False                     # a crack at 45 degrees would run through points if nothing were shifted
     kink = None
     tips = 1
     materials = ()                       # (name, fracture energy, (distance, normal) of the half plane beyond which it is); none: one
     strength = None                      # tensile strength, Pa: cracks may come into being
 
-    def __init__(self, material, width=0.1):
+    def __init__(self, material, lattice=None, n=20, width=0.1):
         self.material, self.width = material, width
+        lattice = lattice or LATTICES[0]
+        shift = (0.5, 0) if self.diagonal and not lattice.turn and not any(lattice.shift) else lattice.shift
+        self.dx, self.dy = (v / n for v in (shift if not lattice.turn else (0, 0)))
         self.build()
 
     def build(self):
@@ -95,9 +99,9 @@ class Strip(Body):
     name, title = "strip", "Clamped strip, its grips moved apart"
 
     def build(self):
-        self.start, self.growth, length = 1.25, 1.0, 3.5
+        self.start, self.growth, length = 1.25 + self.dx, 1.0, 3.5
         self.outline = [(0, -0.5), (length, -0.5), (length, 0.5), (0, 0.5)]
-        self.cracks = [((-0.2, 0), (self.start, 0))]
+        self.cracks = [((-0.2, self.dy), (self.start, self.dy))]
         self.along = (1, 0)
         # G = held (2 u)^2 / (2 height)
         u = FULL * 0.5 * math.sqrt(2 * self.material.energy * self.width / self.material.held())
@@ -113,7 +117,7 @@ class ShearStrip(Strip):
 
     def build(self):
         super().build()
-        self.path = [(self.start, 0), (3.5, 0)]
+        self.path = [(self.start, self.dy), (3.5, self.dy)]
         # G = mu (2 u)^2 / (2 height)
         u = FULL * 0.5 * math.sqrt(2 * self.material.energy * self.width / self.material.shear())
         self.loads = [(0, "displacement", (-u, 0)), (2, "displacement", (u, 0))]
@@ -125,9 +129,9 @@ class EdgeNotch(Body):
     notch = 0.4
 
     def build(self):
-        self.start, self.growth = self.notch, 0.3
+        self.start, self.growth = self.notch + self.dx, 0.3
         self.outline = [(0, -1.5), (1, -1.5), (1, 1.5), (0, 1.5)]
-        self.cracks = [((-0.2, 0), (self.start, 0))]
+        self.cracks = [((-0.2, self.dy), (self.start, self.dy))]
         self.along = (1, 0)
         self.unit = self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
         s = FULL * self.unit
@@ -151,13 +155,14 @@ class Bend(Body):
     patch, pad, span = 0.1, 0.05, 4.0
 
     def build(self):
-        self.start, self.growth = 0.4, 0.3
+        self.start, self.growth = 0.4 + self.dy, 0.3
         half, w, end = self.span / 2, self.patch / 2, self.span / 2 + 0.2
         self.outline = [(-end, 0)]
-        for x in (-half, half):
+        for x in (self.dx - half, self.dx + half):
             self.outline += [(x - w, 0), (x - w, -self.pad), (x + w, -self.pad), (x + w, 0)]
-        self.outline += [(end, 0), (end, 1), (w, 1), (w, 1 + self.pad), (-w, 1 + self.pad), (-w, 1), (-end, 1)]
-        self.cracks = [((0, -0.2), (0, self.start))]
+        self.outline += [(end, 0), (end, 1), (self.dx + w, 1), (self.dx + w, 1 + self.pad), (self.dx - w, 1 + self.pad),
+                         (self.dx - w, 1), (-end, 1)]
+        self.cracks = [((self.dx, -0.2), (self.dx, self.start))]
         self.along = (0, 1)
         p = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))      # force / (thickness width), Pa
         self.loads = self.forces(p)
@@ -181,20 +186,19 @@ class DoubleCantilever(Body):
     name, title = "double_cantilever", "Double cantilever, path imposed"
 
     def build(self):
-        self.start, self.growth, length = 2.0, 0.5, 4.5
-        self.outline = [(0, -0.5), (length, -0.5), (length, 0.5), (0, 0.5), (0, 0.05), (0.1, 0), (0, -0.05)]
-        self.cracks = [((-0.2, 0), (self.start, 0))]
-        self.path = [(self.start, 0), (length, 0)]
+        self.start, self.growth, length, d = 2.0 + self.dx, 0.5, 4.5, self.dy
+        self.outline = [(0, -0.5), (length, -0.5), (length, 0.5), (0, 0.5), (0, d + 0.05), (0.1, d), (0, d - 0.05)]
+        self.cracks = [((-0.2, d), (self.start, d))]
+        self.path = [(self.start, d), (length, d)]
         self.along = (1, 0)
         p = FULL * self.material.toughness() * math.sqrt(self.width) / self.shape(self.start)        # force / thickness, N/m
-        t = p / (0.45 * self.width)
-        self.loads = [(6, "traction", (0, -t)), (3, "traction", (0, t))]
+        self.loads = [(6, "traction", (0, -p / ((0.45 + d) * self.width))), (3, "traction", (0, p / ((0.45 - d) * self.width)))]
         self.pin = (length - 0.1, -0.35)
 
-    @staticmethod
-    def shape(a):
-        """K thickness sqrt (width) / force; arm height 1/2."""
-        return math.sqrt(12) * (a / 0.5 + 0.673) / math.sqrt(0.5)
+    def shape(self, a):
+        """sqrt (E' G) thickness sqrt (width) / force; arm height 1/2. A crack off the middle: the bending of two unequal arms."""
+        uneven = ((1 - 2 * self.dy) ** -3 + (1 + 2 * self.dy) ** -3) / 2
+        return math.sqrt(12 * uneven) * (a / 0.5 + 0.673) / math.sqrt(0.5)
 
     def theory(self, a):
         return self.shape(self.start) / self.shape(a) / FULL
@@ -212,7 +216,7 @@ def hoop(k1, k2):
 
 class Inclined(Body):
     """A crack of half length 1 at an angle to the load, in a plate of 6 x 6: kinks at both tips."""
-    degrees = 45
+    degrees, diagonal = 45, True
     tips = 2
     # K_I, K_II / (stress sqrt (pi a)) over those of a wide plate: data/fracture_fem/intensity.csv
     finite = {30: (1.0, 1.0), 45: (1.0, 1.0), 60: (1.0, 1.0)}
@@ -224,7 +228,7 @@ class Inclined(Body):
         b = math.radians(self.degrees)
         self.outline = [(-3, -3), (3, -3), (3, 3), (-3, 3)]
         c, s = math.sin(b), math.cos(b)                    # the load is along y
-        self.cracks = [((-c, -s), (c, s))]
+        self.cracks = [((self.dx - c, self.dy - s), (self.dx + c, self.dy + s))]
         k1, k2 = self.intensity()
         angle, k = hoop(k1, k2)
         self.kink = math.degrees(angle)
@@ -244,22 +248,25 @@ class Inclined(Body):
 
 
 class Inclined30(Inclined):
-    degrees = 30
+    degrees, diagonal = 30, False
 
 
 class Inclined60(Inclined):
-    degrees = 60
+    degrees, diagonal = 60, False
 
 
 class Slanted(Body):
     """An edge crack at 45 degrees in a plate of 1 x 2.5 in tension: its path bends across the plate. Reference: data/fracture_fem."""
     name, title = "slanted", "Slanted edge crack"
+    diagonal = True
     curve = None                        # rows (x, y, length, K of the direction of growth) of data/fracture_fem/slanted.csv
 
     def build(self):
         self.start, self.growth = 0.35 * math.sqrt(2), 0.35
         self.outline = [(0, -1.25), (1, -1.25), (1, 1.25), (0, 1.25)]
-        self.cracks = [((-0.1, -0.3), (0.35, 0.15))]
+        # along the edge alone, so that the length stays
+        self.rise = self.dy - self.dx
+        self.cracks = [((-0.1, -0.3 + self.rise), (0.35, 0.15 + self.rise))]
         stress = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
         self.pin = (0.02, 0.6)
@@ -284,7 +291,7 @@ class Centre(Body):
     def build(self):
         self.start, self.growth = 0.8, 0.6
         self.outline = [(-1, -2), (1, -2), (1, 2), (-1, 2)]
-        self.cracks = [((-0.4, 0), (0.4, 0))]
+        self.cracks = [((self.dx - 0.4, self.dy), (self.dx + 0.4, self.dy))]
         self.along = (1, 0)
         stress = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
@@ -320,7 +327,7 @@ class Offset(Body):
     def build(self):
         self.start, self.growth = 0.5, 1.2
         self.outline = [(0, -1), (1, -1), (1, 1), (0, 1)]
-        self.cracks = [((-0.1, 0.1), (0.25, 0.1)), ((1.1, -0.1), (0.75, -0.1))]
+        self.cracks = [((-0.1, 0.1 + self.dy), (0.25 + self.dx, 0.1 + self.dy)), ((1.1, -0.1 + self.dy), (0.75 + self.dx, -0.1 + self.dy))]
         stress = FULL * self.material.toughness() / math.sqrt(math.pi * 0.25 * self.width) / 1.12
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
         self.pin = (0.02, 0.16)
@@ -334,10 +341,10 @@ class IntoHole(Body):
     name, title = "into_hole", "Edge crack into a hole"
 
     def build(self):
-        self.start, self.growth = 0.3, 0.5
+        self.start, self.growth = 0.3 + self.dx, 0.5
         self.outline = [(0, -1), (1, -1), (1, 1), (0, 1)]
-        self.holes = [((0.6, 0.12), 0.1)]
-        self.cracks = [((-0.1, 0), (self.start, 0))]
+        self.holes = [((0.6, 0.12 + self.dy), 0.1)]
+        self.cracks = [((-0.1, self.dy), (self.start, self.dy))]
         stress = FULL * self.material.toughness() / math.sqrt(math.pi * 0.3 * self.width) / 1.66
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
         self.pin = (0.02, 0.06)
@@ -419,15 +426,11 @@ class Hole(Body):
 
 # ---- lattices --------------------------------------------------------------------------------------------------------
 class Lattice:
-    """How the points lie: shift against the body in spacings, angle by which the body is turned, degrees, random moves in spacings."""
+    """How the points lie: shift of the crack against them in spacings (of a turned body: of the lattice against it), angle by which the
+    body is turned, degrees, random moves in spacings."""
 
     def __init__(self, name, shift=(0, 0), turn=0, perturb=0, seed=1):
         self.name, self.shift, self.turn, self.perturb, self.seed = name, shift, turn, perturb, seed
-
-    def offset(self, body):
-        """A crack at 45 degrees would run through points of a lattice that is not shifted: half a spacing along x, as a centred crack is."""
-        diagonal = any(abs(abs(b[0] - a[0]) - abs(b[1] - a[1])) < 1e-9 for a, b in body.cracks)
-        return (0.5, 0) if diagonal and not self.turn and not any(self.shift) else self.shift
 
 
 LATTICES = [
@@ -493,8 +496,8 @@ def text(body, lattice, n, method="gauss linear", single=False, events=None):
     for centre, radius in body.holes:
         lines += ["  - subtract: {disk: {center: %s, radius: %.12g}}" % (numbers(frame.place(centre)), radius * body.width)]
     lines += ["spacing: %.12g" % h, "lattice: cells"]
-    if any(lattice.offset(body)):
-        lines += ["lattice_offset: %s" % numbers(lattice.offset(body))]
+    if lattice.turn:
+        lines += ["lattice_offset: %s" % numbers(lattice.shift)]
     if lattice.perturb:
         lines += ["perturb: {amount: %g, seed: %d}" % (lattice.perturb, lattice.seed)]
     if body.cracks:
