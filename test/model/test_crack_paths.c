@@ -245,8 +245,8 @@ static void surfaces_of_any_shape (void **state)
 {
     (void) state;
     growing g = begin ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {subtract: {disk: "
-                       "{center: [0.7, 0.5], radius: 0.1}}}]\nspacing: 0.05\ncells: cut\nmaterials: {m: {youngs_modulus: 1, "
-                       "poissons_ratio: 0.2}}\ncracks: [{from: [0.2, 0.45], to: [0.5, 0.45]}]\n");
+                       "{center: [0.7, 0.5], radius: 0.1}}}]\nspacing: 0.05\ncells: cut\nmaterials: {m: "
+                       "{youngs_modulus: 1, poissons_ratio: 0.2}}\ncracks: [{from: [0.2, 0.45], to: [0.5, 0.45]}]\n");
     double place[2];
     int what;
     check_relative (pg_tip_ahead (g.p, g.s, 1, (double[]) { 1, 0 }, 1, &what), 0.2 - sqrt (0.0075), 1e-11);
@@ -268,7 +268,8 @@ static void cracks_that_meet_end (void **state)
     assert_true (!g.s->paths->tip[0].open && !g.s->paths->tip[1].open && g.s->paths->tip[2].open);
     check_mask (&g);
     const pg_crack whole = { .kind = PG_CRACK_SEGMENT, .vertex = (double[]) { -0.1, 0.26, 0.8, 0.26 },
-                             .nvertex = 2, .normal = { 0, 1 }, .retreat = (double[]) { 0, g.s->paths->tip[2].offset } };
+                             .nvertex = 2, .normal = { 0, 1 },
+                             .retreat = (double[]) { 0, g.s->paths->tip[2].offset } };
     const pg_family *f = &g.p->rows[PG_NODES].family;
     const double *x = g.p->cloud.x;
     for (size_t q = 0; q < g.p->cloud.n; q++)
