@@ -12,7 +12,9 @@ enum {
     PG_NEEDS_STRESS = 2,
     PG_NEEDS_ENERGY = 4,
     PG_NEEDS_BEAMS = 8,
-    PG_NEEDS_FACETS = 16                               /* judges the tips of cracks, not bonds */
+    /* Judges tips of cracks, not bonds: utilisation and factor are NULL, nothing asks bonds what they show;
+     * cracks grow by facets (solver.break: facet), and `fracture` tells what a facet takes. */
+    PG_NEEDS_FACETS = 16
 };
 
 /* Energy that a crack consumes which grows bond by bond, over that of a straight cut through bonds all at
@@ -27,7 +29,12 @@ typedef struct {
     int    never;                                      /* 1: bonds that end in this material never break */
     pg_growth growth;  /* how limits from an energy allow for the way cracks grow; mean 0: they do not */
     double parameter[8];                               /* of the type */
+    void  *own;                                        /* what else the type keeps; its `clear` frees it */
 } pg_criterion;
+/* 1: there is a criterion, and it judges bonds. */
+int pg_criterion_of_bonds (const pg_criterion *c);
+/* 1: there is a criterion, and it judges tips. */
+int pg_criterion_of_tips (const pg_criterion *c);
 
 /* What a batch of bonds shows, or of points with PG_NEEDS_ENERGY; arrays the criterion did not ask for are
  * NULL. */
@@ -62,9 +69,19 @@ typedef struct {  /* what the criterion may need to derive its constants */
     const char *usual;  /* criterion where the scene has `failure` without one; NULL: it must say */
 } pg_criterion_setting;
 
+/* What a new crack takes at a place, in a direction of growth. */
+typedef struct {
+    double energy;                                     /* opening, J/m^2 of crack */
+    double shear;                                      /* sliding, J/m^2; NAN: not given */
+    /* largest tension a sound place bears, Pa; NAN: not given */
+    double strength;
+} pg_fracture_limits;
+
 struct pg_criterion_type {
     const char *name, *summary;
     int needs;                                         /* PG_NEEDS_... */
+    /* Of the tables of `limits` only the first so many hold limits that must be given; 0: all. */
+    int needed;
     /* Its keys: limits (failure.KEY, which a material may have of its own in materials.NAME.failure) and
      * options (of failure alone), each a list of tables that ends with NULL. A limit without a default is
      * needed; of several in one group any one. */
@@ -76,6 +93,13 @@ struct pg_criterion_type {
     /* Load factor (> 0; INFINITY: never) at which each bond reaches its limit when the measures are those of
      * load factor 1 and all loads are proportional (events, section 4). */
     void (*factor) (const pg_criterion *c, const pg_bond_measures *m, double *factor);
+    /* Criteria of tips: the limits at x (m) for growth at `angle` from the x axis (rad). */
+    void (*fracture) (const pg_criterion *c, const double *x, double angle, pg_fracture_limits *out);
+    /* Criteria of tips: 1: the limits depend on place or angle, so that directions have to be compared. */
+    int  (*uneven)   (const pg_criterion *c);
+    /* Criteria of tips: the path that cracks are held to, m (*n x 2); NULL: none. */
+    const double *(*path) (const pg_criterion *c, size_t *n);
+    void (*clear)    (pg_criterion *c);                /* frees c->own; NULL: there is nothing in it */
     /* One line for logs and reports: constants given and derived. */
     void (*describe) (const pg_criterion *c, char *text, size_t size);
 };
@@ -88,6 +112,8 @@ const char *pg_criterion_by_need (int needs);
  * ignore. */
 pg_status pg_criterion_read (pg_criterion *out, size_t n, const pg_scene *scene,
                              const pg_criterion_setting *setting /* n */);
+/* Frees what n criteria keep (not the array). */
+void      pg_criterion_clear (pg_criterion *c, size_t n);
 /* One line for logs and reports. */
 void      pg_criterion_describe (const pg_criterion *c, char *text, size_t size);
 /* Critical stretch from fracture energy G0 (J/m^2) and back: theory A1, by quadrature of the kernel

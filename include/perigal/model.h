@@ -220,6 +220,7 @@ enum {
     PG_SOLVER_STAGED = 8,  /* stages of the load, each relaxed by the force alone */
     PG_SOLVER_EVENTS = 16,                             /* knows event stepping */
     PG_SOLVER_NEEDS_DENSITY = 32,
+    PG_SOLVER_FACETS = 64,                             /* lets cracks grow by facets */
     PG_SOLVER_STATIC = PG_SOLVER_QUASI_STATIC | PG_SOLVER_IMPLICIT     /* equilibria by linear systems */
 };
 /* The flags of solver.kind (NULL: of the first in the list, the default); 0: unknown. Defined with the

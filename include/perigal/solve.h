@@ -3,12 +3,13 @@
  * Catalogue: src/solve/<name>.c + one line in list.h. Cui 2022 section 3.2; theory F5, F6. */
 #ifndef PERIGAL_SOLVE_H
 #define PERIGAL_SOLVE_H
-#include "perigal/force.h"
+#include "perigal/fracture.h"
 
 PG_API_BEGIN
 
-/* PASSING (stages): at any iteration once the stage's load has come to act, not only in balance. */
-typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL, PG_BREAK_PASSING } pg_break;
+/* PASSING (stages): at any iteration once the stage's load has come to act, not only in balance. FACET: tips
+ * are judged, not bonds, and all bonds that a facet crosses break at once. */
+typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL, PG_BREAK_PASSING, PG_BREAK_FACET } pg_break;
 /* Options common to all methods. What one method or family of methods knows alone is a struct of its own in
  * `own`: PG_OWN (pg_newmark_options, options)->alpha. */
 enum { PG_SOLVER_OWN = 64 };
@@ -19,6 +20,7 @@ typedef struct {
     int      event;                                    /* steps go from break to break (PG_SOLVER_EVENTS) */
     pg_break break_mode;
     double   break_fraction, tie;  /* bonds within this share of the worst break with it */
+    double   facet;  /* break: facet: length of a facet, m; 0: the local spacing */
     double   tolerance;                                /* of the residual, relative to the reference force */
     /* steps: calls of pg_solver_step up to the end; 0: the solver finds it when it is made */
     long     steps, max_iterations, max_events;
@@ -183,11 +185,12 @@ void      pg_solver_free   (pg_solver **solver);
 int       pg_solver_components (const pg_solver *solver);  /* dofs per node, for pg_state_create */
 /* Advances by one step. On a numerical failure the state is that of the last accepted step. */
 pg_status pg_solver_step   (pg_solver *solver, pg_state *state, pg_step *step);
-/* The potential energy, J, that n stages of a cut would set free at fixed loads: stage k cuts the bonds of the
- * stages before it and those of cut[k], which live in the state, ascending, each once. d: one displacement in
- * equilibrium at load factor t, or two (affine loads); release (n x 3): of d[0], mixed, of d[1], so that
- * sum_a w_a d_a releases w_0^2 r[0] + 2 w_0 w_1 r[1] + w_1^2 r[2]. anew: 1: by solving the cut body every
- * time; 0: by columns of the inverse at hand where there is a factor. The state stays as it is. */
+/* The potential energy, J, that n stages of a cut would set free at fixed loads: stage k cuts the bonds
+ * of the stages before it and those of cut[k], which live in the state, ascending, each once. d: one
+ * displacement in equilibrium at load factor t, or two (affine loads); release (n x 3): of d[0], mixed,
+ * of d[1], so that sum_a w_a d_a releases w_0^2 r[0] + 2 w_0 w_1 r[1] + w_1^2 r[2]. anew: 1: by solving
+ * the cut body every time; 0: by columns of the inverse at hand where there is a factor. The state stays
+ * as it is. */
 pg_status pg_solver_release (pg_solver *solver, const pg_state *state, int nfield, const double *const *d,
                              const double *t, size_t n, const pg_changes *cut, int anew, double *release);
 /* Called between the break rounds of a step, with the state and the step so far. A status other than PG_OK

@@ -76,6 +76,20 @@ done:
     return status;
 }
 
+int pg_criterion_of_tips (const pg_criterion *c)
+{
+    return c && c->type && (c->type->needs & PG_NEEDS_FACETS);
+}
+int pg_criterion_of_bonds (const pg_criterion *c)
+{
+    return c && c->type && !(c->type->needs & PG_NEEDS_FACETS);
+}
+
+void pg_criterion_clear (pg_criterion *c, size_t n)
+{
+    for (size_t i = 0; c && i < n; i++) if (c[i].type && c[i].type->clear) c[i].type->clear (&c[i]);
+}
+
 void pg_criterion_describe (const pg_criterion *c, char *text, size_t size)
 {
     if (!c->type) snprintf (text, size, "none: nothing breaks");

@@ -18,20 +18,22 @@ static const pg_key keys[] = {
       .choices_of = names_or_none,
       .doc =
           "When a bond breaks; without `failure`, and with none, nothing breaks. Without it: the criterion "
-          "that is usual with the force, else stretch where `failure` has critical_stretch or "
+          "that is usual with the force; else, with a fracture_energy in a static run in the plane with "
+          "shape "
+          "functions, energy_release; else stretch where `failure` has critical_stretch or "
           "fracture_energy; else it is needed." },
     { .path = "failure.exclude",
       .kind = PG_NAMES,
       .fallback = "",
       .choices = "sets.{}|left|right|bottom|top|back|front|all",
-      .doc =
-          "Sets of nodes whose bonds never break, such as grips; with a criterion of points these never "
-          "fail (but their bonds to points that do break)." },
+      .doc = "Sets of nodes whose bonds never break, such as grips; with a criterion of points these never "
+             "fail (but their bonds to points that do break)." },
     { .path = "materials.{}.failure",
       .kind = PG_MAP,
       .fallback = "",
-      .doc = "Limits of this material in place of those of failure; one criterion serves all. The weaker end "
-             "decides for a bond between two materials." },
+      .doc =
+          "Limits of this material in place of those of failure; one criterion serves all. The weaker end "
+          "decides for a bond between two materials." },
     { .path = "materials.{}.failure.never",
       .kind = PG_BOOL,
       .fallback = "off",
@@ -42,14 +44,15 @@ const pg_key_table pg_keys_criterion = { "criterion", keys, sizeof keys / sizeof
 
 static const pg_key energy[] = {
     { .path = "failure.fracture_energy",
-      .kind = PG_NUMBER,
+      .kind = PG_EXPRESSION,
       .unit = "J/m2",
       .range = "(0, inf)",
       .fallback = "",
       .group = "limit:most",
       .doc = "Energy per new crack area, from which the limits follow: those of bonds with horizon, kernel "
              "and the "
-             "material's Young's modulus, that of points with the horizon alone." },
+             "material's Young's modulus, that of points with the horizon alone. Where tips are judged an "
+             "expression of place and of `angle`, the direction of growth from the x axis, will do." },
 };
 const pg_key_table criterion_keys_energy = { "criterion", energy, sizeof energy / sizeof *energy };
 

@@ -2,6 +2,7 @@
  * The limits of a criterion: those of materials.NAME.failure before those of failure; which are missing,
  * which would be ignored. */
 #include "entries.h"
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -40,9 +41,15 @@ int pg_criterion_holder (char map[PG_LIMITS], const pg_scene *scene, const pg_cr
 
 double pg_criterion_limit (const pg_scene *scene, const pg_criterion_setting *setting, const char *limit)
 {
-    char map[PG_LIMITS];
-    return pg_criterion_holder (map, scene, setting, limit) ? pg_scene_number (scene, "%s.%s", map, limit)
-                                                            : 0;
+    char map[PG_LIMITS], path[PG_LIMITS + WORD];
+    if (!pg_criterion_holder (map, scene, setting, limit)) return 0;
+    double value = pg_scene_number (scene, "%s.%s", map, limit);
+    snprintf (path, sizeof path, "%s.%s", map, limit);
+    if (isnan (value))
+        pg_scene_fault (scene, path,
+                        "must be one number here: an expression of place and direction goes with criterion: "
+                        "%s", pg_criterion_by_need (PG_NEEDS_FACETS));
+    return value;
 }
 
 int pg_criterion_never (const pg_scene *scene, const pg_criterion_setting *setting)
@@ -89,6 +96,14 @@ static const pg_key *limit_of (const pg_criterion_type *type, size_t k)
     return NULL;
 }
 
+/* Is the k-th limit in one of the tables of which none needs to be given? */
+static int may_lack (const pg_criterion_type *type, size_t k)
+{
+    size_t n = 0;
+    for (int t = 0; t < type->needed && type->limits[t]; t++) n += type->limits[t]->n;
+    return type->needed && k >= n;
+}
+
 /* What the k-th limit makes needed: "a", or "a or b" for the first of a group; "": nothing. 0: past the last
  * limit. */
 static int need_of (const pg_criterion_type *type, size_t k, char need[NEED])
@@ -96,7 +111,7 @@ static int need_of (const pg_criterion_type *type, size_t k, char need[NEED])
     const pg_key *key = limit_of (type, k), *other;
     need[0] = '\0';
     if (!key) return 0;
-    if (!key->fallback || *key->fallback) return 1;
+    if (!key->fallback || *key->fallback || may_lack (type, k)) return 1;
     for (size_t j = 0; key->group && j < k; j++)
         if ((other = limit_of (type, j))->group && strcmp (other->group, key->group) == 0) return 1;
     size_t used = (size_t) snprintf (need, NEED, "%s", last_word (key));

@@ -28,13 +28,14 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     c->parameter[GRADED] = setting->graded;
     c->parameter[EXACT] = setting->stretch != NULL;
     c->parameter[LIMIT] = pg_scene_number (scene, "%s.critical_stretch", map);
-    c->parameter[ENERGY] = pg_scene_number (scene, "%s.fracture_energy", map);
+    c->parameter[ENERGY] = energy ? pg_criterion_limit (scene, setting, "fracture_energy") : 0;
     pg_criterion_setting grown = *setting;
     grown.toughness = (setting->toughness > 0 ? setting->toughness : 1)
                       * pg_criterion_calibration (c, scene, setting);
     if (energy) c->parameter[LIMIT] = pg_stretch_from_energy (&grown, c->parameter[ENERGY]);
     else c->parameter[ENERGY] = pg_energy_from_stretch (&grown, c->parameter[LIMIT]);
-    if (!(c->parameter[LIMIT] > 0) || !isfinite (c->parameter[LIMIT])) {
+    int passed = isnan (c->parameter[ENERGY]) && energy;     /* no number at all */
+    if (!passed && (!(c->parameter[LIMIT] > 0) || !isfinite (c->parameter[LIMIT]))) {
         snprintf (path, sizeof path, "%s.fracture_energy", map);
         if (isnan (setting->modulus))
             pg_scene_fault (scene, path,

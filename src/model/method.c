@@ -116,6 +116,7 @@ static const char *measures_of (int needs, char *out, size_t size)
         { PG_NEEDS_BEAMS, "shear and bending" },
         { PG_NEEDS_STRESS, "stress" },
         { PG_NEEDS_ENERGY, "energy" },
+        { PG_NEEDS_FACETS, "displacement gradient" },
     };
     size_t used = 0;
     out[0] = '\0';
@@ -159,6 +160,10 @@ void pg_method_check_criterion (const pg_problem *p, const pg_scene *scene)
 {
     const pg_criterion_type *type = p->criterion->type;
     char lacks[80], shows[80], criteria[160], forces[160];
+    if (pg_criterion_of_tips (p->criterion) && p->dim != 2)
+        pg_scene_fault (scene, "failure.criterion",
+                        "%s grows cracks in the plane so far, and dimension is %d: use another one",
+                        type->name, p->dim);
     if (!type || shows_all (p->method, type->needs)) return;
     names_of (p, shows_all, type->needs, forces, sizeof forces);
     pg_scene_fault (scene, "failure.criterion",

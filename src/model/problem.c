@@ -96,13 +96,28 @@ done:
     return status;
 }
 
-/* The criterion where `failure` names none: the force's own, or that of a limit which the scene gives. */
+/* Is a limit given for all materials, or for one? */
+static int limit_given (const pg_problem *p, const pg_scene *scene, const char *limit)
+{
+    int given = pg_scene_given (scene, "failure.%s", limit);
+    for (size_t m = 0; m < p->nmaterial; m++)
+        given |= pg_scene_given (scene, "materials.%s.failure.%s", p->material[m].name, limit);
+    return given;
+}
+
+/* The criterion where `failure` names none: the force's own, or that of a limit which the scene gives:
+ * with an energy tips are judged where that can be, unless the scene says how bonds break. */
 static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
 {
     if (p->method->judged_by) return pg_criterion_by_need (p->method->judged_by);
-    int given = pg_scene_given (scene, "failure.fracture_energy")
-                || pg_scene_given (scene, "failure.critical_stretch");
-    return given ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
+    int energy = pg_scene_given (scene, "failure.fracture_energy"),
+        tips = p->dim == 2 && p->method->shape_functions && (p->method->shows & PG_NEEDS_FACETS)
+               && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_FACETS)
+               && (!pg_scene_given (scene, "solver.break")
+                   || strcmp (pg_scene_text (scene, "solver.break"), "facet") == 0);
+    if (tips && limit_given (p, scene, "fracture_energy")) return pg_criterion_by_need (PG_NEEDS_FACETS);
+    return energy || pg_scene_given (scene, "failure.critical_stretch")
+               ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
 }
 
 /* Constants of criteria derive from the material and from what the force measures. */
@@ -262,6 +277,7 @@ void pg_problem_free (pg_problem **problem)
     pg_sums_free (&p->sums);
     pg_free (p->options);
     pg_loads_clear (p), pg_initial_clear (p);
+    pg_criterion_clear (p->criterion, p->nmaterial);
     pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
     pg_cells_clear (&p->cells);

@@ -99,12 +99,12 @@ static pg_status event_rows (pg_result *r, const pg_step *step)
 {
     pg_status status = PG_OK;
     static const char *const set_name[] = { "node-node", "point-node", "facet-node" }, *const kind_name[] = {
-        "tension", "shear", "bending", "energy"
+        "tension", "shear", "bending", "energy", "facet"
     };
     for (size_t i = 0; i < step->nbroken; i++) {
         const pg_broken *b = &step->broken[i];
         char text[EVENT_NUMBERS][40];
-        int kind = b->kind == 's' ? 1 : b->kind == 'b' ? 2 : b->kind == 'e' ? 3 : 0;
+        int kind = b->kind == 's' ? 1 : b->kind == 'b' ? 2 : b->kind == 'e' ? 3 : b->kind == 'f' ? 4 : 0;
         const char *cell[EVENT_COLUMNS];
         double factor = b->time == step->time || !(step->time > 0) ? step->factor
                                                                    : step->factor * b->time / step->time;

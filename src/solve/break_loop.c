@@ -2,7 +2,7 @@
  * The break loop (Cui 2022 section 3.2, corrected in theory F5): solve, break the bonds over their limit,
  * update what they touched, solve again, until no bond is over its limit and the residual is small. Shared by
  * static and newmark. */
-#include "solve.h"
+#include "facet_growth.h"
 #include <math.h>
 #include <string.h>
 
@@ -12,6 +12,7 @@ pg_status break_loop_create (break_loop *b)
 {
     pg_status status = PG_OK;
     PG_TRY (system_create (&b->system));
+    PG_TRY (facet_create (b));
 done:
     return status;
 }
@@ -32,12 +33,18 @@ done:
 
 void break_loop_free (break_loop *b)
 {
+    facet_free (b);
     system_free (&b->system);
     pg_free (b->utilisation), pg_free (b->factor), pg_free (b->kind);
     pg_free (b->changes.bond), pg_free (b->broken);
     pg_work_balance_clear (&b->work_balance);
     pg_work_balance_clear (&b->before);
     pg_free (b->damage);
+}
+
+int break_loop_judges (const break_loop *b)
+{
+    return b->system.force->utilisation && pg_criterion_of_bonds (b->system.problem->criterion);
 }
 
 /* Finds the bond set of a broken bond and its middle, half way between the point that owns it and the node
@@ -126,7 +133,13 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
         PG_TRY (system_solve (s, t, d, dyn, &step->residual));
         /* later rounds: loads and goals stay */
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
-        if (!s->force->utilisation || !s->problem->criterion->type) break;
+        if (b->growth) {
+            int over;
+            PG_TRY (facet_round (b, state, t, d, step, &over));
+            if (!over) break;
+            continue;
+        }
+        if (!break_loop_judges (b)) break;
         double t0 = pg_seconds ();
         PG_TRY (break_loop_ready (b));
         PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));

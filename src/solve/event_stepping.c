@@ -5,6 +5,7 @@
  * wants are reported as they are passed. This file: loads proportional to lambda, and what both kinds share;
  * event_stepping_affine.c: loads with a constant part as well. */
 #include "event_stepping.h"
+#include "facet_growth.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -15,22 +16,42 @@ pg_status event_start (pg_solver *s, const pg_state *state)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
-    double residual;
     int affine = PG_OWN (pg_static_options, &s->options)->affine;
     if (!e->unit) PG_ALLOC (e->unit, state->ndof);
     if (affine && !e->base) PG_ALLOC (e->base, state->ndof);
     if (affine) {
         memcpy (e->unit, state->d, state->ndof * sizeof *e->unit);
         memcpy (e->base, state->d, state->ndof * sizeof *e->base);
-        PG_TRY (affine_solve (s));
-    } else {
+    } else
         for (size_t i = 0; state->factor != 0 && i < state->ndof; i++)
             e->unit[i] = state->d[i] / state->factor;
-        PG_TRY (system_solve (&s->break_loop.system, 1, e->unit, NULL, &residual));
-        e->unit_residual = residual;
-    }
+    PG_TRY (event_solve (s));
 done:
     return status;
+}
+
+/* Affine loads: one factorization, two solves. */
+pg_status event_solve (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    double first = 0, second;
+    pg_system *sys = &s->break_loop.system;
+    if (e->base) PG_TRY (system_solve (sys, 0, e->base, NULL, &first));
+    PG_TRY (system_solve (sys, 1, e->unit, NULL, &second));
+    e->unit_residual = fmax (first, second);
+done:
+    return status;
+}
+
+/* Linear between those at 0 and at 1. */
+void event_move (const pg_solver *s, pg_state *state, double factor)
+{
+    event_stepping *e = events_of (s);
+    for (size_t i = 0; i < state->ndof; i++)
+        state->d[i] = !e->base      ? factor * e->unit[i]
+                      : factor == 1 ? e->unit[i]
+                                    : e->base[i] + factor * (e->unit[i] - e->base[i]);
 }
 
 static double smallest (const double *a, size_t n)
@@ -45,7 +66,7 @@ static pg_status go_to (pg_solver *s, pg_state *state, double factor)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
-    for (size_t i = 0; i < state->ndof; i++) state->d[i] = factor * e->unit[i];
+    event_move (s, state, factor);
     state->factor = state->time = factor;
     if (!e->balance_fresh) PG_TRY (break_loop_account (&s->break_loop, 1, e->unit, NULL, factor));
     else PG_TRY (break_loop_book (&s->break_loop, factor));
@@ -55,13 +76,25 @@ done:
     return status;
 }
 
-/* Work per squared load factor: a stiffness under prescribed displacements, a compliance under forces. */
-static double secant (const break_loop *b)
+/* Proportional loads: that of the balance at hand, which is that of `unit`. Affine ones: of the differences
+ * between load factors 1 and 0. */
+pg_status event_secant (pg_solver *s, double *out)
 {
-    double sum = 0;
-    for (size_t k = 0; k < b->work_balance.npair; k++)
-        sum += b->work_balance.force[k] * b->work_balance.displacement[k];
-    return sum;
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    pg_system *sys = &s->break_loop.system;
+    const pg_work_balance *b = &s->break_loop.work_balance;
+    pg_work_balance zero = { 0 }, one = { 0 };
+    *out = 0;
+    for (size_t k = 0; !e->base && k < b->npair; k++) *out += b->force[k] * b->displacement[k];
+    if (!e->base || !sys->force->work_balance) return PG_OK;
+    PG_TRY (sys->force->work_balance (sys->self, 0, e->base, NULL, &zero));
+    PG_TRY (sys->force->work_balance (sys->self, 1, e->unit, NULL, &one));
+    for (size_t k = 0; k < one.npair; k++)
+        *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
+done:
+    pg_work_balance_clear (&zero), pg_work_balance_clear (&one);
+    return status;
 }
 
 /* No equilibrium after a break is no error yet: the event itself is a result. The reason is kept and given
@@ -121,7 +154,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
-    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, residual;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, stiff;
     /* utilisation here */
     for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;
     PG_TRY (break_loop_kill (b, state, b->factor, 1 - width, scale, factor));
@@ -129,14 +162,14 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
-    pg_status now = system_solve (&b->system, 1, e->unit, NULL, &residual);
+    pg_status now = event_solve (s);
     if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
-    e->unit_residual = residual;
     PG_TRY (break_loop_account (b, 1, e->unit, NULL, factor));
     s->report.energy_strain = factor * factor * b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
-    PG_TRY (event_stops (s, state, factor, secant (b)));
+    PG_TRY (event_secant (s, &stiff));
+    PG_TRY (event_stops (s, state, factor, stiff));
 done:
     return status;
 }
@@ -149,7 +182,11 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     *scale = factor;
-    if (!s->problem->criterion->type || !b->system.force->utilisation) return PG_OK;
+    if (b->growth) {
+        step->utilisation = facet_utilisation (b, state, factor);
+        return facet_show (s, state, factor);
+    }
+    if (!break_loop_judges (b)) return PG_OK;
     long over = break_loop_over (b, state, *scale, &step->utilisation);
     if (over) {
         *scale = 1;
@@ -173,7 +210,8 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
            t0 = pg_seconds ();
     b->nbroken = 0;
     step->iterations = 1;
-    if (s->problem->criterion->type && b->system.force->utilisation) {
+    if (b->growth) PG_TRY (facet_next (s, state, &next));
+    else if (break_loop_judges (b)) {
         PG_TRY (break_loop_ready (b));
         PG_TRY (b->system.force->utilisation (b->system.self, state, e->unit, b->utilisation, b->kind,
                                               b->factor));
@@ -185,11 +223,12 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
     e->top_factor = fmax (e->top_factor, factor);
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
-    if (e->secant0 == 0) e->secant0 = secant (b);
+    if (e->secant0 == 0) PG_TRY (event_secant (s, &e->secant0));
     step->factor = step->time = factor;
     step->residual = e->unit_residual;
     PG_TRY (look_over (s, state, factor, &scale, step));
-    if (next <= level) PG_TRY (break_at (s, state, factor, scale, step));
+    if (next <= level && b->growth) PG_TRY (facet_event (s, state, factor, step));
+    else if (next <= level) PG_TRY (break_at (s, state, factor, scale, step));
     if (!(level > factor)) {
         step->level = 1;
         if (s->next_level++ >= s->options.levels) {
@@ -220,6 +259,13 @@ void event_free (pg_solver *s)
 {
     event_stepping *e = events_of (s);
     pg_free (e->unit), pg_free (e->base);
+}
+
+/* What was measured on the way is not that of the state that is gone back to. */
+void event_refused (pg_solver *s)
+{
+    facet_growth *g = s->break_loop.growth;
+    if (g) g->fresh = 0, g->needed = s->report.energy_fracture = g->needed0;
 }
 
 /* Event stepping may end at full load, at max_events or at a damage: the nearest end tells the progress. */
@@ -255,6 +301,7 @@ pg_status event_keep (pg_solver *s, const pg_keeper *k)
     PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
     if (count[2] && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
     if (e->base) PG_TRY (k->numbers (k->context, "event_stepping.base", ndof, e->base));
+    PG_TRY (facet_keep (&s->break_loop, k));
 done:
     return status;
 }

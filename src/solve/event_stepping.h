@@ -21,12 +21,27 @@ static inline event_stepping *events_of (const pg_solver *s) { return s->own; }
 pg_status event_start (pg_solver *s, const pg_state *state);
 pg_status event_step  (pg_solver *s, pg_state *state, pg_step *step);
 void      event_free  (pg_solver *s);
+void      event_refused (pg_solver *s);
 pg_status event_keep  (pg_solver *s, const pg_keeper *k);
 void      event_ends  (const pg_solver *s, const pg_state *state, pg_progress *out);
 
-/* Both equilibria of affine loads; one event or level of them. */
-pg_status affine_solve (pg_solver *s);
+/* The equilibria for the bonds that live now: at load factor 1, of affine loads also at 0. */
+pg_status event_solve  (pg_solver *s);
+/* The displacement at a load factor. */
+void      event_move   (const pg_solver *s, pg_state *state, double factor);
+/* Work per squared load factor, of what grows with it: a stiffness under displacements, a compliance under
+ * forces. After break_loop_account of the equilibria at hand. */
+pg_status event_secant (pg_solver *s, double *out);
+
+/* Affine loads: one event or level; facets: where the next one grows, *end, at most at full load. */
 pg_status affine_step  (pg_solver *s, pg_state *state, pg_step *step);
+pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end);
+
+/* break: facet (facet_events.c): the measurement of tips is that of the equilibria at hand; proportional
+ * loads: the load factor of the next growth (INFINITY: none); one event. */
+pg_status facet_ready  (pg_solver *s, const pg_state *state);
+pg_status facet_next   (pg_solver *s, const pg_state *state, double *next);
+pg_status facet_event  (pg_solver *s, pg_state *state, double factor, pg_step *step);
 /* What the equilibrium after an event came to: 1: there is none, and the next step says why. */
 int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_status now);
 /* Ends the run when the crack has arrived at stop.set, or the body has separated. */

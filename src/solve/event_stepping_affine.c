@@ -7,27 +7,24 @@
  * left: then the constant part drives the crack, the factor is held and the worst bonds break one after the
  * other. */
 #include "event_stepping.h"
+#include "facet_growth.h"
 #include <math.h>
 #include <string.h>
 
 static const double close = 1e-12;                     /* of utilisation to its limit */
 enum { MOST_LOOKS = 80, MOST_THIRDS = 40 };
 
-/* The displacement at a load factor, linear between those at 0 and at 1. */
-static void move_to (const pg_solver *s, pg_state *state, double factor)
-{
-    event_stepping *e = events_of (s);
-    for (size_t i = 0; i < state->ndof; i++)
-        state->d[i] = factor == 1 ? e->unit[i] : e->base[i] + factor * (e->unit[i] - e->base[i]);
-}
-
-/* Utilisation of every bond at this factor; *top the largest. */
+/* Utilisation of every bond at this factor; *top the largest. Of facets the largest alone. */
 static pg_status look (pg_solver *s, pg_state *state, double factor, double *utilisation, double *top)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     double t0 = pg_seconds ();
-    move_to (s, state, factor);
+    event_move (s, state, factor);
+    if (b->growth) {
+        *top = facet_utilisation (b, state, factor);
+        goto done;
+    }
     PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, utilisation, b->kind, NULL));
     *top = 0;
     for (size_t i = 0; i < state->nbond; i++) if (utilisation[i] > *top) *top = utilisation[i];
@@ -58,7 +55,7 @@ static pg_status way_out (pg_solver *s, pg_state *state, double in, double out, 
     PG_TRY (look (s, state, in, b->factor, &low));
     PG_TRY (look (s, state, out, b->utilisation, &high));
     low -= 1, high -= 1;
-    double at = first_chord (s, state, in, out);
+    double at = b->growth ? in - low / (high - low) * (out - in) : first_chord (s, state, in, out);
     for (int k = 0, side = 0; k < MOST_LOOKS; k++) {
         *factor = at;
         PG_TRY (look (s, state, at, b->utilisation, &top));
@@ -109,8 +106,9 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     double now = state->factor, top, there, in;
     int found = 1;
     *breaks = 0, *factor = state->step == 0 ? now : level;
-    if (!s->problem->criterion->type || !b->system.force->utilisation) goto done;
-    PG_TRY (break_loop_ready (b));
+    if (!b->growth && !break_loop_judges (b)) goto done;
+    if (b->growth) PG_TRY (facet_ready (s, state));
+    else PG_TRY (break_loop_ready (b));
     PG_TRY (look (s, state, now, b->utilisation, &top));
     if (top <= 1 + close) {
         if (state->step == 0) goto done;
@@ -139,35 +137,18 @@ done:
     return status;
 }
 
-/* Both equilibria for the bonds that live now: one factorization, two solves. */
-pg_status affine_solve (pg_solver *s)
+/* From a place where something is over its limit the way is back, if there is one; it ends here else. */
+pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end)
 {
     pg_status status = PG_OK;
-    event_stepping *e = events_of (s);
-    double first, second;
-    pg_system *sys = &s->break_loop.system;
-    PG_TRY (system_solve (sys, 0, e->base, NULL, &first));
-    PG_TRY (system_solve (sys, 1, e->unit, NULL, &second));
-    e->unit_residual = fmax (first, second);
+    double now = state->factor, here, there;
+    *end = now;
+    PG_TRY (look (s, state, now, s->break_loop.factor, &here));
+    PG_TRY (look (s, state, here > 1 ? 0 : 1, s->break_loop.factor, &there));
+    if (here <= 1 && there <= 1) *end = fmax (now, 1);
+    else if (here <= 1) PG_TRY (way_out (s, state, now, 1, end));
+    else if (there <= 1) PG_TRY (way_out (s, state, 0, now, end));
 done:
-    return status;
-}
-
-/* Work of the part that grows, per squared factor. */
-static pg_status secant (pg_solver *s, double *out)
-{
-    pg_status status = PG_OK;
-    event_stepping *e = events_of (s);
-    pg_system *sys = &s->break_loop.system;
-    pg_work_balance zero = { 0 }, one = { 0 };
-    *out = 0;
-    if (!sys->force->work_balance) return PG_OK;
-    PG_TRY (sys->force->work_balance (sys->self, 0, e->base, NULL, &zero));
-    PG_TRY (sys->force->work_balance (sys->self, 1, e->unit, NULL, &one));
-    for (size_t k = 0; k < one.npair; k++)
-        *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
-done:
-    pg_work_balance_clear (&zero), pg_work_balance_clear (&one);
     return status;
 }
 
@@ -186,14 +167,14 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
-    pg_status solved = affine_solve (s);
+    pg_status solved = event_solve (s);
     if (event_ended (s, state, factor, solved)) goto done;
     PG_TRY (solved);
-    move_to (s, state, factor);
+    event_move (s, state, factor);
     PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
-    PG_TRY (secant (s, &now));
+    PG_TRY (event_secant (s, &now));
     PG_TRY (event_stops (s, state, factor, now));
 done:
     return status;
@@ -212,21 +193,25 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     step->iterations = 1;
     PG_TRY (choose (s, state, level, &factor, &breaks));
     if (breaks && factor > level) factor = level;
-    move_to (s, state, factor);
+    event_move (s, state, factor);
     state->factor = state->time = step->factor = step->time = factor;
     e->top_factor = fmax (e->top_factor, factor);
     PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
     s->report.energy_strain = b->work_balance.strain;
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
-    if (start) PG_TRY (secant (s, &e->secant0));
+    if (start) PG_TRY (event_secant (s, &e->secant0));
     step->residual = e->unit_residual;
-    if (s->problem->criterion->type && b->system.force->utilisation) {
+    if (b->growth) {
+        step->utilisation = facet_utilisation (b, state, factor);
+        PG_TRY (facet_show (s, state, factor));
+    } else if (break_loop_judges (b)) {
         long over = break_loop_over (b, state, 1, &step->utilisation);
         /* at a held factor they are about to break */
         if (!e->constant_events || !breaks) s->report.bonds_over_limit += over;
     }
-    if (breaks) PG_TRY (break_here (s, state, factor, step));
+    if (breaks && b->growth) PG_TRY (facet_event (s, state, factor, step));
+    else if (breaks) PG_TRY (break_here (s, state, factor, step));
     if (start) step->level = 1;
     else if (!(level > factor)) {
         step->level = 1;

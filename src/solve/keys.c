@@ -23,10 +23,13 @@ static const pg_key keys[] = {
 const pg_key_table pg_keys_solve = { "solve", keys, sizeof keys / sizeof *keys };
 
 static const pg_key breaking[] = {
-    ROW ("solver.break", PG_NAME, NULL, NULL, "worst", "worst|fraction|all|passing",
+    ROW ("solver.break", PG_NAME, NULL, NULL, "worst", "worst|fraction|all|passing|facet",
          "Which bonds over the limit break before the next solve: the worst (with ties), those within "
          "break_fraction of it, or all (the peak load then depends on the increment). passing (with load "
-         "stages, and the default there): at any iteration, once the load of the stage has taken effect."),
+         "stages, and the default there): at any iteration, once the load of the stage has taken effect. "
+         "facet "
+         "(static, with criteria that judge the tips of cracks, and the default there): the crack grows by "
+         "a facet, and all bonds that it crosses break."),
     ROW ("solver.break_fraction", PG_NUMBER, "1", "(0, 1)", "2 %", NULL, "For break: fraction."),
     ROW ("solver.tie", PG_NUMBER, "1", "[0, 0.1]", "1e-4", NULL,
          "Bonds within this share of the worst break with it: keeps symmetric scenes symmetric."),
@@ -35,6 +38,12 @@ static const pg_key breaking[] = {
          "is refused."),
 };
 const pg_key_table solver_keys_breaking = { "solve", breaking, sizeof breaking / sizeof *breaking };
+
+static const pg_key facets[] = {
+    ROW ("solver.facet", PG_NUMBER, "m|spacing", "(0, inf)", "", NULL,
+         "With break: facet: length of a facet, 0.25 to 4 spacings; the local spacing if not given."),
+};
+const pg_key_table solver_keys_facets = { "solve", facets, sizeof facets / sizeof *facets };
 
 static const pg_key linear[] = {
     ROW ("solver.tolerance", PG_NUMBER, "1", "[1e-13, 1e-4]", "1e-8", NULL,

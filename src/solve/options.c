@@ -27,6 +27,39 @@ static int breaks_in_passing (const pg_solver_type *type, const void *unused)
     return (type->flags & PG_SOLVER_STAGED) != 0;
 }
 
+static int grows_facets (const pg_solver_type *type, const void *unused)
+{
+    (void) unused;
+    return (type->flags & PG_SOLVER_FACETS) != 0;
+}
+
+/* Criteria of tips go with facets and the solvers that know them, and with nothing else. */
+static void read_facets (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    int tips = pg_criterion_of_tips (problem->criterion), asked = o->break_mode == PG_BREAK_FACET;
+    double h = problem->cloud.h;
+    if (tips && !given (scene, "solver.break")) o->break_mode = PG_BREAK_FACET;
+    o->facet = given (scene, "solver.facet") ? pg_scene_length (scene, h, "solver.facet") : 0;
+    if (tips && !(o->flags & PG_SOLVER_FACETS)) {
+        char names[200];
+        solver_names_that (grows_facets, NULL, names, sizeof names);
+        pg_scene_fault (
+            scene, "failure.criterion",
+            "%s judges tips in equilibrium, which %s does not look for: use solver.kind: %s, or a "
+            "criterion of bonds",
+            problem->criterion->type->name, o->kind, names);
+    } else if (tips && o->break_mode != PG_BREAK_FACET)
+        pg_scene_fault (scene, "solver.break",
+                        "criterion: %s judges tips, not bonds: use facet, or leave it out",
+                        problem->criterion->type->name);
+    else if (asked && !tips)
+        pg_scene_fault (scene, "solver.break", "facet needs a criterion that judges tips: criterion: %s",
+                        pg_criterion_by_need (PG_NEEDS_FACETS));
+    if (given (scene, "solver.facet") && o->break_mode == PG_BREAK_FACET
+        && !(o->facet >= 0.25 * h && o->facet <= 4 * h))
+        pg_scene_fault (scene, "solver.facet", "must lie in [0.25, 4] spacings of %.6g m", h);
+}
+
 /* How bonds break between solves, and what ends a run early. */
 static void read_breaking (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
@@ -35,6 +68,7 @@ static void read_breaking (pg_solver_options *o, const pg_problem *problem, cons
     o->break_mode = is (mode, "all")        ? PG_BREAK_ALL
                     : is (mode, "fraction") ? PG_BREAK_FRACTION
                     : is (mode, "passing")  ? PG_BREAK_PASSING
+                    : is (mode, "facet")    ? PG_BREAK_FACET
                                             : PG_BREAK_WORST;
     o->break_fraction = pg_scene_number (scene, "solver.break_fraction");
     o->tie = pg_scene_number (scene, "solver.tie");
@@ -46,6 +80,7 @@ static void read_breaking (pg_solver_options *o, const pg_problem *problem, cons
         solver_names_that (breaks_in_passing, NULL, names, sizeof names);
         pg_scene_fault (scene, "solver.break", "passing goes with solver.kind: %s", names);
     }
+    read_facets (o, problem, scene);
 }
 
 /* Nothing prescribed but zero needs no ramp. */

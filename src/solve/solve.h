@@ -95,6 +95,7 @@ typedef struct {
     pg_work_balance  work_balance, before;                         /* now; at the last accounted state */
     double     work;                                   /* external work, J */
     double    *damage;                                 /* with stop.set (6 n) */
+    struct facet_growth *growth;  /* break: facet: tips are judged instead of bonds; else NULL */
     /* largest damage of stop.set: now, when it was first looked at */
     double     nearest, nearest0; int looked;
 } break_loop;
@@ -104,6 +105,8 @@ void      break_loop_free   (break_loop *b);
 pg_status break_loop_ready  (break_loop *b);
 /* Notes a bond that died at time (or load factor) t. */
 pg_status break_loop_log    (break_loop *b, size_t bond, char kind, double utilisation, double t);
+/* 1: bonds are judged in this run: there is a criterion of bonds, and a force that knows how they stand. */
+int       break_loop_judges (const break_loop *b);
 /* Kills the bonds with measure[i] >= cut, logs them with the given utilisation scale. */
 pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
                            double t);
@@ -126,10 +129,10 @@ pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double
 #define PG_SOLVER_KEY(path, kind, unit, range, fallback, choices, doc) \
     { path, kind, unit, range, fallback, choices, NULL, NULL, doc }
 
-/* Keys that several solvers share (keys.c): how bonds break between solves; the linear systems; the time
- * step; the time axis and Rayleigh's damping; stages of the load. */
-extern const pg_key_table solver_keys_breaking, solver_keys_linear, solver_keys_step, solver_keys_time,
-    solver_keys_stages;
+/* Keys that several solvers share (keys.c): how bonds break between solves; facets; the linear systems;
+ * the time step; the time axis and Rayleigh's damping; stages of the load. */
+extern const pg_key_table solver_keys_breaking, solver_keys_facets, solver_keys_linear, solver_keys_step,
+    solver_keys_time, solver_keys_stages;
 
 /* "adr, relax": the names of all entries that fit. */
 void solver_names_that (int (*fits) (const pg_solver_type *type, const void *context), const void *context,

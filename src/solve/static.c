@@ -2,6 +2,7 @@
  * Quasi-static equilibria by linear systems. stepping: fixed takes equal load steps, each with the break
  * loop; stepping: event goes from break to break (event_stepping.c). */
 #include "event_stepping.h"
+#include "facet_growth.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -23,6 +24,7 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     break_loop *b = &s->break_loop;
     double t = (double) (state->step + 1) / (double) s->options.steps;
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
+    if (b->growth) PG_TRY (facet_show (s, state, 1));
     b->system.borne = fmax (b->system.borne, b->system.reference);
     state->factor = state->time = t;
     s->report.energy_strain = b->work_balance.strain;
@@ -61,8 +63,8 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     pg_static_options *own = PG_OWN (pg_static_options, o);
     own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
     o->steps = pg_scene_integer (scene, "solver.steps");
-    o->event = is (stepping, "event")
-               || (is (stepping, "auto") && proportional && o->break_mode != PG_BREAK_ALL);
+    int suits = proportional || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem));
+    o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
     own->affine = o->event && !proportional;
     if (own->affine && !pg_problem_affine (problem))
         pg_scene_fault (scene, "solver.stepping",
@@ -83,7 +85,8 @@ static const pg_key keys[] = {
     ROW ("solver.stepping", PG_NAME, NULL, NULL, "auto", "auto|event|fixed",
          "From break to break (event), or in equal load steps (fixed). event takes loads that grow "
          "with the load factor (in closed form), stay constant (ramp: constant; the first "
-         "step is then at load factor 0), or both; auto: event when all loads are proportional."),
+         "step is then at load factor 0), or both; auto: event when all loads are proportional, and with "
+         "break: facet wherever it can be."),
     ROW ("solver.steps", PG_INTEGER, NULL, "[1, 100000000]", "20", NULL,
          "Number of equal load steps, with stepping: fixed."),
     ROW ("solver.stop.stiffness", PG_NUMBER, "1", "[0, 1)", "1e-3", NULL,
@@ -95,11 +98,12 @@ static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 const pg_solver_type pg_solver_static_ = {
     .name = "static",
     .summary = "quasi-static equilibrium, event by event or in fixed load steps",
-    .flags = PG_SOLVER_STATIC | PG_SOLVER_EVENTS,
-    .keys = { &table, &solver_keys_breaking, &solver_keys_linear },
+    .flags = PG_SOLVER_STATIC | PG_SOLVER_EVENTS | PG_SOLVER_FACETS,
+    .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear },
     .read = static_read,
     .start = static_start,
     .step = static_step,
+    .refused = event_refused,
     .free = event_free,
     .keep = event_keep,
     .ends = event_ends,

@@ -36,7 +36,7 @@ static pg_status judge (pg_first_break *b, const pg_problem *p, pg_solver *solve
     double *factor = NULL, *utilisation = NULL;
     char *kind = NULL;
     b->factor = INFINITY;
-    if (!p->criterion->type || !force->utilisation || state->nbond == 0) return PG_OK;
+    if (!pg_criterion_of_bonds (p->criterion) || !force->utilisation || state->nbond == 0) return PG_OK;
     PG_ALLOC (factor, state->nbond);
     PG_ALLOC (utilisation, state->nbond);
     PG_ALLOC (kind, state->nbond);

@@ -1,0 +1,120 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Facets within event stepping: one event is one facet (or several that tie). Energy is accounted along
+ * the path that growth takes: while the facet opens the load goes from lambda_k, where it began, to
+ * lambda_k+1, where the next begins, so that it dissipates lambda_k lambda_k+1 times the drop at load
+ * factor 1. At a fixed load the same facet would take more under forces, less under displacements: that
+ * jump is not the equilibrium path. */
+#include "event_stepping.h"
+#include "facet_growth.h"
+#include <math.h>
+#include <string.h>
+
+/* The measurement for the equilibria at hand, unless there is one. */
+pg_status facet_ready (pg_solver *s, const pg_state *state)
+{
+    const event_stepping *e = events_of (s);
+    if (s->break_loop.growth->fresh) return PG_OK;
+    return facet_measure (&s->break_loop, state, e->base, e->unit, 1);
+}
+
+/* Proportional loads: everything grows with the load factor. */
+pg_status facet_next (pg_solver *s, const pg_state *state, double *next)
+{
+    pg_status status = PG_OK;
+    PG_TRY (facet_ready (s, state));
+    double top = facet_utilisation (&s->break_loop, state, 1);
+    *next = top > 0 ? 1 / top : INFINITY;
+done:
+    return status;
+}
+
+/* Equilibria for the bonds that live now; a body cut in two may have none, which ends the run. */
+static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *ended)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    *ended = 0;
+    PG_TRY (system_refresh (&b->system, state, &b->changes));
+    pg_status now = event_solve (s);
+    if (event_ended (s, state, factor, now)) {
+        *ended = 1;
+        if (!b->growth->closed) goto done;
+        e->ended = PG_OK, s->finished = 1;
+        pg_statistics_warn (
+            &s->report,
+            "the crack has cut the body, or a loaded part of it, off from its supports: the run "
+            "ends at event %ld, load factor %.6g",
+            state->events, factor);
+        goto done;
+    }
+    status = now;
+done:
+    return status;
+}
+
+/* Where the next facet begins, at most at full load; where none does, the load stays. */
+static pg_status way_end (pg_solver *s, pg_state *state, double factor, double *end)
+{
+    pg_status status = PG_OK;
+    double next;
+    PG_TRY (facet_ready (s, state));
+    if (events_of (s)->base) return affine_next_growth (s, state, end);
+    PG_TRY (facet_next (s, state, &next));
+    *end = isfinite (next) ? fmin (next, fmax (factor, 1)) : factor;
+done:
+    return status;
+}
+
+/* Works along the way from before the event at `factor` to after it at `end`, then back to `factor`: elastic,
+ * and therefore without effect on what was dissipated. */
+static pg_status account (pg_solver *s, pg_state *state, double factor, double end)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    double ways[2] = { end, factor };
+    for (int k = 0; k < 2; k++) {
+        double scale = e->base ? 1 : ways[k];
+        event_move (s, state, ways[k]);
+        PG_TRY (break_loop_account (b, e->base ? ways[k] : 1, e->base ? state->d : e->unit, NULL, scale));
+        s->report.energy_strain = scale * scale * b->work_balance.strain;
+    }
+    e->balance_fresh = 1;
+done:
+    return status;
+}
+
+/* One event: facets, new equilibria, a new measurement, energies. Of the state the displacement stays that of
+ * before, which belongs to the reactions of the step. */
+pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *step)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    facet_growth *g = b->growth;
+    size_t bytes = state->ndof * sizeof *state->d;
+    double strain = s->report.energy_strain, work = b->work, end, now;
+    int ended, more = 1;
+    if (!g->before) PG_ALLOC (g->before, state->ndof);
+    memcpy (g->before, state->d, bytes);
+    PG_TRY (facet_grow (b, state, factor, factor));
+    step->event = 1;
+    state->events++, s->report.events++;
+    for (int closed = g->closed; more; closed |= g->closed) {
+        g->closed |= closed;
+        PG_TRY (solve_anew (s, state, factor, &ended));
+        step->nbroken = b->nbroken, step->broken = b->broken;
+        if (ended) goto done;
+        PG_TRY (facet_ready (s, state));
+        PG_TRY (facet_run_out (b, state, factor, &more));
+    }
+    PG_TRY (way_end (s, state, factor, &end));
+    PG_TRY (account (s, state, factor, end));
+    step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    PG_TRY (event_secant (s, &now));
+    memcpy (state->d, g->before, bytes);
+    PG_TRY (event_stops (s, state, factor, now));
+done:
+    if (g->before) memcpy (state->d, g->before, bytes);
+    return status;
+}

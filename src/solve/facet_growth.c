@@ -1,0 +1,385 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Growth of cracks by facets: an equilibrium, J, K_I and K_II of every tip by integrals over rings around
+ * it, the tip that is nearest to what its material takes gets a facet of about a spacing, every bond that
+ * the facet crosses dies at once, and so on. The lattice enters only by the averaged field at 1 to 8
+ * spacings from the tip (doc/method.md). This file: measuring, growing, one round at a fixed load;
+ * facet_direction.c: how near a tip is and where to; facet_place.c: where its facet ends; facet_events.c:
+ * from event to event. */
+#include "facet_growth.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* ---- life ---------------------------------------------------------------------------------------------- */
+/* A facet longer than the zone in which a material of that strength fails, E G0 / f_t^2, is no longer one of
+ * linear theory. */
+static void doubt_length (const break_loop *b)
+{
+    const pg_problem *p = b->system.problem;
+    double h = b->growth->length > 0 ? b->growth->length : p->cloud.h, x[3] = { 0 };
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        const pg_criterion *c = &p->criterion[m];
+        pg_fracture_limits limits = { 0 };
+        if (!c->type || c->never) continue;
+        for (int k = 0; k < p->dim; k++) x[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]);
+        c->type->fracture (c, x, 0, &limits);
+        double zone = p->material[m].E * limits.energy / (limits.strength * limits.strength);
+        if (zone < 8 * h)
+            pg_statistics_warn (
+                b->system.report,
+                "material %.40s fails within E G0 / f_t^2 = %.3g m, %.2g facets of %.3g m: where "
+                "cracks begin the strength counts as at most %.3g Pa (zone of 8 facets)",
+                p->material[m].name, zone, zone / h, h, sqrt (p->material[m].E * limits.energy / (8 * h)));
+    }
+}
+
+/* Where the criterion judges tips. */
+pg_status facet_create (break_loop *b)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = b->system.problem;
+    facet_growth *g = NULL;
+    if (b->growth || !pg_criterion_of_tips (p->criterion)) return PG_OK;
+    const char *why = pg_tip_refuses (p, b->system.force);
+    if (why) PG_FAIL (PG_E_USAGE, "%s", why);
+    PG_ALLOC (g, 1);
+    b->growth = g;
+    g->length = b->system.options->facet;
+    PG_TRY (pg_nearest_create (&g->near, p->dim, p->cloud.n, p->cloud.x));
+    doubt_length (b);
+done:
+    return status;
+}
+
+void facet_free (break_loop *b)
+{
+    facet_growth *g = b->growth;
+    if (!g) return;
+    pg_nearest_free (&g->near);
+    pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial);
+    pg_free (g);
+    b->growth = NULL;
+}
+
+/* What was measured follows from the displacement and the cracks, so that it is measured anew. */
+pg_status facet_keep (break_loop *b, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    if (!g) return PG_OK;
+    long said = (long) g->said;
+    PG_TRY (k->counts (k->context, "facets.said", 1, &said));
+    PG_TRY (k->numbers (k->context, "facets.needed", 1, &g->needed));
+    PG_KEEP_BOUND (k, "what was said of facets", said, 0, 7);
+    g->said = (unsigned) said;
+    if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy_fracture = g->needed;
+done:
+    return status;
+}
+
+/* ---- measuring ----------------------------------------------------------------------------------------- */
+pg_status facet_offer (facet_growth *g, const facet_candidate *c)
+{
+    pg_status status = PG_OK;
+    PG_GROW (g->trial, g->cap_trial, g->ntrial + 1);
+    g->trial[g->ntrial++] = *c;
+done:
+    return status;
+}
+
+/* Does a trial facet move this tip? */
+static int is_tried (const facet_growth *g, size_t tip)
+{
+    for (size_t k = 0; k < g->ntrial; k++) if (g->trial[k].tip == (long) tip) return 1;
+    return 0;
+}
+
+/* What the user should know of tips that were measured, each said once. */
+static void tell (break_loop *b, const pg_state *state)
+{
+    facet_growth *g = b->growth;
+    double l[2], K[3];
+    facet_candidate out;
+    size_t open = 0;
+    for (size_t i = 0; i < g->ntip; i++) {
+        const pg_tip_field *f = &g->field[i];
+        if (!state->paths->tip[i].open) continue;
+        open++;
+        if (isnan (f->near)) {
+            int goes_out = state->paths->tip[i].grown > 0 && facet_way_out (b, state, i, &out);
+            if (!is_tried (g, i) && !goes_out && !(g->said & FACET_SAID_ROOM)) {
+                pg_statistics_warn (
+                    b->system.report,
+                    "no room for integrals around crack tip %ld at (%.6g, %.6g) m: %.3g spacings to "
+                    "the surface, a load or another crack, 1.5 are needed; it does not grow "
+                    "unless it can go straight out",
+                    state->paths->tip[i].id, f->x[0], f->x[1], f->room / f->h);
+                g->said |= FACET_SAID_ROOM;
+            }
+            continue;
+        }
+        pg_tip_combine (f, facet_factors (g, 1, l), l, NULL, K, NULL);
+        if (K[0] < 0 && fabs (K[0]) > 1e-3 * fabs (K[1]) && !(g->said & FACET_SAID_CLOSED)) {
+            pg_statistics_warn (
+                b->system.report,
+                "crack tip %ld at (%.6g, %.6g) m closes (K_I = %.3g, K_II = %.3g Pa m^(1/2) at full "
+                "load) and its faces overlap: contact is not modelled, so that facets are not to be "
+                "trusted here; until it is, use a criterion that breaks single bonds",
+                state->paths->tip[i].id, f->x[0], f->x[1], K[0], K[1]);
+            g->said |= FACET_SAID_CLOSED;
+        }
+    }
+    if (!open && !g->ntrial && !(g->said & FACET_SAID_NOTHING)) {
+        pg_statistics_warn (b->system.report, "no crack can grow: there is no open tip%s",
+                            state->paths->ntip ? " any more" : ", and no new crack begins");
+        g->said |= FACET_SAID_NOTHING;
+    }
+}
+
+/* Cracks that are held to a path must lie on it. */
+static pg_status check_path (const break_loop *b, const pg_state *state)
+{
+    const pg_problem *p = b->system.problem;
+    size_t n;
+    const double *path = p->criterion->type->path (p->criterion, &n);
+    for (size_t i = 0; path && i < b->growth->ntip; i++) {
+        const pg_tip_field *f = &b->growth->field[i];
+        double to[3];
+        int ends;
+        if (!state->paths->tip[i].open) continue;
+        double off = facet_on_path (path, n, f->x, f->e, 0, to, &ends);
+        if (off > 0.5 * f->h)
+            return pg_error (
+                PG_E_SCENE, PG_HERE,
+                "failure.path: crack tip %ld at (%.6g, %.6g) m lies %.3g m beside it: let the path run "
+                "through every tip",
+                state->paths->tip[i].id, f->x[0], f->x[1], off);
+    }
+    return PG_OK;
+}
+
+pg_status facet_measure (break_loop *b, const pg_state *state, const double *base, const double *unit,
+                         double t)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    pg_system *s = &b->system;
+    double t0 = pg_seconds (), times[2] = { base ? 0 : t, 1 };
+    const double *d[2] = { base ? base : unit, NULL };
+    g->ntip = state->paths ? state->paths->ntip : 0, g->ntrial = 0, g->nfield = base ? 2 : 1;
+    if (base && !g->ramp) PG_ALLOC (g->ramp, s->ndof);
+    for (size_t i = 0; base && i < s->ndof; i++) g->ramp[i] = unit[i] - base[i];
+    if (base) d[1] = g->ramp;
+    PG_GROW (g->field, g->cap_field, g->ntip);
+    for (size_t i = 0; i < g->ntip; i++) {
+        memset (&g->field[i], 0, sizeof g->field[i]);
+        g->field[i].near = NAN;
+        if (!state->paths->tip[i].open) continue;
+        PG_TRY (pg_tip_measure (&g->field[i], s->problem, s->force, s->self, state, i, g->nfield, d, times));
+    }
+    PG_TRY (check_path (b, state));
+    PG_TRY (trial_facets (b, state, d, times));
+    tell (b, state);
+    g->fresh = 1;
+done:
+    s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+    return status;
+}
+
+/* A new crack needs stress and energy at once, the next facet of a tip without room energy alone. */
+static double trial_utilisation (const facet_growth *g, const facet_candidate *c, double factor)
+{
+    double l[2], release = 0, stress = 0;
+    int n = facet_factors (g, factor, l);
+    for (int a = 0; a < n; a++)
+        for (int k = 0; k < n; k++) release += l[a] * l[k] * c->release[a][k];
+    double energy = release > 0 && c->energy > 0 ? sqrt (release / c->energy) : 0;
+    for (int a = 0; a < n; a++) stress += l[a] * c->stress[a];
+    return isnan (c->stress[0]) ? energy : fmax (0, fmin (energy, stress));
+}
+
+double facet_utilisation (const break_loop *b, const pg_state *state, double factor)
+{
+    const facet_growth *g = b->growth;
+    double top = 0, angle;
+    for (size_t i = 0; i < g->ntip; i++) top = fmax (top, facet_judge (b, state, i, factor, &angle));
+    for (size_t k = 0; k < g->ntrial; k++) top = fmax (top, trial_utilisation (g, &g->trial[k], factor));
+    return top;
+}
+
+/* J and K at the load at hand, how far from growth. A tip that has no ring keeps what was known of it. */
+pg_status facet_show (pg_solver *s, const pg_state *state, double factor)
+{
+    pg_status status = PG_OK;
+    const facet_growth *g = s->break_loop.growth;
+    for (size_t i = 0; i < g->ntip; i++) {
+        const pg_tip_field *f = &g->field[i];
+        pg_tip_values v = { .id = state->paths->tip[i].id, .x = { f->x[0], f->x[1] } };
+        double l[2], angle;
+        if (isnan (f->near)) continue;
+        int n = facet_factors (g, factor, l);
+        pg_tip_combine (f, n, l, &v.J, v.K, &v.T);
+        v.uncertainty = pg_tip_uncertainty (f, n, l);
+        v.utilisation = pow (facet_judge (&s->break_loop, state, i, factor, &angle), 2);
+        PG_TRY (solver_note_tip (s, &v));
+    }
+done:
+    return status;
+}
+
+/* ---- growing ------------------------------------------------------------------------------------------- */
+static int ascending (const void *a, const void *b)
+{
+    size_t i = *(const size_t *) a, k = *(const size_t *) b;
+    return (i > k) - (i < k);
+}
+
+/* Bonds that crossed the facet die. */
+static void kill_from (break_loop *b, pg_state *state, size_t first)
+{
+    size_t kept = first;
+    for (size_t i = first; i < b->changes.n; i++) {
+        size_t bond = b->changes.bond[i];
+        if (!state->alive[bond]) continue;
+        state->alive[bond] = 0;
+        b->changes.bond[kept++] = bond;
+    }
+    b->changes.n = kept;
+}
+
+/* A tip within reach of the place where another met its crack has nowhere to go. */
+static pg_status close_others (break_loop *b, pg_state *state, const facet_candidate *c)
+{
+    pg_status status = PG_OK;
+    pg_crack_paths *paths = state->paths;
+    for (size_t i = 0; c->close && i < paths->ntip; i++) {
+        const pg_tip *tip = &paths->tip[i];
+        double d = hypot (tip->x[0] - c->to[0], tip->x[1] - c->to[1]);
+        if (!tip->open || (long) i == c->tip || d > 0.6 * b->system.problem->cloud.h) continue;
+        PG_TRY (pg_crack_grow (state, b->system.problem, i, c->to, 1, &b->changes));
+    }
+done:
+    return status;
+}
+
+/* One facet, and what it takes. */
+static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate *c)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    const pg_problem *p = b->system.problem;
+    size_t first = b->changes.n;
+    if (c->tip >= 0) PG_TRY (pg_crack_grow (state, p, (size_t) c->tip, c->to, c->close, &b->changes));
+    else PG_TRY (pg_crack_start (state, p, c->from, c->to, c->open, &b->changes));
+    PG_TRY (close_others (b, state, c));
+    kill_from (b, state, first);
+    g->needed += c->energy, g->closed |= c->close;
+done:
+    return status;
+}
+
+/* New cracks that tie and lie near each other are one. */
+static int is_near (const facet_candidate *a, const facet_candidate *c)
+{
+    double d =
+        hypot (a->from[0] + a->to[0] - c->from[0] - c->to[0], a->from[1] + a->to[1] - c->from[1] - c->to[1]);
+    return 0.5 * d <= 3 * (hypot (a->to[0] - a->from[0], a->to[1] - a->from[1])
+                           + hypot (c->to[0] - c->from[0], c->to[1] - c->from[1]));
+}
+
+/* New cracks and tips without room, the best first. Tips keep their numbers while others come into being. */
+static pg_status grow_trials (break_loop *b, pg_state *state, double factor, double least)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    for (size_t done = 0; done < g->ntrial; done++) {
+        size_t best = done;
+        int skip = 0;
+        for (size_t k = done; k < g->ntrial; k++)
+            if (trial_utilisation (g, &g->trial[k], factor) > trial_utilisation (g, &g->trial[best], factor))
+                best = k;
+        facet_candidate c = g->trial[best];
+        g->trial[best] = g->trial[done], g->trial[done] = c;
+        if (trial_utilisation (g, &c, factor) < least) break;
+        for (size_t k = 0; k < done; k++)
+            skip |= c.tip >= 0 ? g->trial[k].tip == c.tip : g->trial[k].tip < 0 && is_near (&g->trial[k], &c);
+        if (!skip) PG_TRY (grow_one (b, state, &c));
+    }
+done:
+    return status;
+}
+
+/* Logs what died, in the order of the bonds. */
+static pg_status log_all (break_loop *b, pg_state *state, double utilisation, double t)
+{
+    pg_status status = PG_OK;
+    qsort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, ascending);
+    for (size_t i = 0; i < b->changes.n; i++)
+        PG_TRY (break_loop_log (b, b->changes.bond[i], 'f', utilisation, t));
+    state->broken += (long) b->changes.n;
+    b->system.report->energy_fracture = b->growth->needed;
+    b->growth->fresh = 0;
+done:
+    return status;
+}
+
+/* What is left ahead of such a tip carries next to nothing, and nothing tells how much it takes to part
+ * it: its energy is that of its length. */
+pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    b->changes.n = 0, *grew = 0, g->closed = 0;
+    for (size_t i = 0; i < g->ntip; i++) {
+        facet_candidate c;
+        const pg_tip *tip = &state->paths->tip[i];
+        if (!tip->open || !(tip->grown > 0) || !isnan (g->field[i].near) || is_tried (g, i)) continue;
+        if (!facet_way_out (b, state, i, &c)) continue;
+        PG_TRY (grow_one (b, state, &c));
+        *grew = 1;
+    }
+    if (*grew) PG_TRY (log_all (b, state, 1, t));
+done:
+    return status;
+}
+
+/* Every tip is placed after those before it have grown, so that two that run into each other meet. */
+pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    double top = facet_utilisation (b, state, factor), least = top * (1 - facet_tie), angle;
+    b->changes.n = 0, g->closed = 0;
+    for (size_t i = 0; i < g->ntip && top > 0; i++) {
+        facet_candidate c;
+        if (facet_judge (b, state, i, factor, &angle) < least) continue;
+        facet_place (b, state, i, angle, &c);
+        PG_TRY (grow_one (b, state, &c));
+    }
+    PG_TRY (grow_trials (b, state, factor, least));
+    PG_TRY (log_all (b, state, top, t));
+done:
+    return status;
+}
+
+/* ---- a fixed load -------------------------------------------------------------------------------------- */
+pg_status facet_round (break_loop *b, pg_state *state, double t, const double *d, pg_step *step, int *over)
+{
+    pg_status status = PG_OK;
+    const pg_solver_options *o = b->system.options;
+    *over = 0;
+    PG_TRY (facet_measure (b, state, NULL, d, t));
+    step->utilisation = facet_utilisation (b, state, 1);
+    if (!(step->utilisation > 1)) goto done;
+    if (step->iterations >= o->max_iterations)
+        PG_FAIL (PG_E_EQUILIBRIUM,
+                 "cracks still grow after %ld facets at this load (sqrt (G / G0) = %.6g): raise "
+                 "solver.max_iterations, take smaller steps, or stepping: event",
+                 step->iterations, step->utilisation);
+    PG_TRY (facet_grow (b, state, 1, t));
+    PG_TRY (system_refresh (&b->system, state, &b->changes));
+    *over = 1;
+done:
+    return status;
+}

@@ -1,0 +1,74 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Where the next facet of a tip ends. A tip near the surface or another crack has no room for a ring any
+ * more, and the piece of body left there would carry next to nothing: so a facet that would end within
+ * 1.5 spacings of the surface goes straight on into it, and one that would end within 0.6 spacings of
+ * another crack goes straight to that crack. The tip is closed then. */
+#include "facet_growth.h"
+#include <math.h>
+
+static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
+
+/* The place of another crack nearest to x, if it is within `reach`. */
+static int meets (const pg_crack_paths *paths, size_t tip, const double *x, double reach, double *place)
+{
+    double least = reach;
+    int found = 0;
+    for (size_t c = 0; c < paths->cracks.n; c++) {
+        const double *a = paths->cracks.crack[c].vertex;
+        if (paths->path[c] == paths->path[paths->tip[tip].segment]) continue;
+        double t[2] = { a[2] - a[0], a[3] - a[1] };
+        double s = ((x[0] - a[0]) * t[0] + (x[1] - a[1]) * t[1]) / (t[0] * t[0] + t[1] * t[1]);
+        s = fmin (1, fmax (0, s));
+        double q[2] = { a[0] + s * t[0], a[1] + s * t[1] }, d = hypot (q[0] - x[0], q[1] - x[1]);
+        if (d <= least) least = d, place[0] = q[0], place[1] = q[1], place[2] = 0, found = 1;
+    }
+    return found;
+}
+
+/* Energy that the facet from the tip to out->to takes, J. */
+static void price (const break_loop *b, const pg_tip_field *f, facet_candidate *out)
+{
+    const pg_problem *p = b->system.problem;
+    double t[2] = { out->to[0] - f->x[0], out->to[1] - f->x[1] }, length = hypot (t[0], t[1]);
+    double middle[3] = { f->x[0] + 0.5 * t[0], f->x[1] + 0.5 * t[1], 0 };
+    pg_fracture_limits limits;
+    out->energy = facet_limits (b, middle, atan2 (t[1], t[0]), &limits)
+                      ? limits.energy * length * p->cloud.thickness : 0;
+}
+
+void facet_place (const break_loop *b, const pg_state *state, size_t tip, double angle, facet_candidate *out)
+{
+    const pg_problem *p = b->system.problem;
+    const pg_tip_field *f = &b->growth->field[tip];
+    double e[3] = { cos (angle), sin (angle), 0 }, length = facet_length (b->growth, f), place[3] = { 0 };
+    size_t n;
+    const double *path = p->criterion->type->path (p->criterion, &n);
+    int what = PG_MEETS_NOTHING, ends = 0;
+    *out = (facet_candidate) { .tip = (long) tip };
+    for (int k = 0; k < 3; k++) out->to[k] = f->x[k] + length * e[k];
+    if (path) facet_on_path (path, n, f->x, f->e, length, out->to, &ends);
+    double ahead = pg_tip_ahead (p, state, tip, e, length + to_surface * f->h, &what);
+    int straight = (what == PG_MEETS_SURFACE && ahead <= length + to_surface * f->h)
+                   || (what == PG_MEETS_CRACK && ahead <= length + to_crack * f->h);
+    if (straight) for (int k = 0; k < 3; k++) out->to[k] = f->x[k] + ahead * e[k];
+    else if (meets (state->paths, tip, out->to, to_crack * f->h, place))
+        for (int k = 0; k < 3; k++) out->to[k] = place[k], straight = 1;
+    out->close = straight || ends;
+    price (b, f, out);
+}
+
+/* To the nearest place of the surface or of another crack, unless that lies behind the tip. */
+int facet_way_out (const break_loop *b, const pg_state *state, size_t tip, facet_candidate *out)
+{
+    const pg_problem *p = b->system.problem;
+    const pg_tip_field *f = &b->growth->field[tip];
+    double limit = facet_length (b->growth, f) + to_surface * f->h, place[2];
+    int what;
+    *out = (facet_candidate) { .tip = (long) tip, .close = 1 };
+    double d = pg_tip_nearest (p, state, tip, limit, place, &what);
+    double ahead = (place[0] - f->x[0]) * f->e[0] + (place[1] - f->x[1]) * f->e[1];
+    if (what == PG_MEETS_NOTHING || ahead < -0.2 * d) return 0;
+    out->to[0] = place[0], out->to[1] = place[1];
+    price (b, f, out);
+    return 1;
+}
