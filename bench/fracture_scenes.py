@@ -69,6 +69,7 @@ class Body:
     pin = None
     path = None
     along = None
+    slides = False                       # in mode II, whose energy is that of mode I
     diagonal = False                     # a crack at 45 degrees would run through points if nothing were shifted
     kink = None
     tips = 1
@@ -113,7 +114,7 @@ class Strip(Body):
 
 class ShearStrip(Strip):
     """The same strip, its grips moved along each other: mode II. A free crack would kink, so its path is imposed."""
-    name, title = "shear_strip", "Clamped strip in shear, path imposed"
+    name, title, slides = "shear_strip", "Clamped strip in shear, path imposed", True
 
     def build(self):
         super().build()
@@ -511,8 +512,12 @@ def text(body, lattice, n, method="gauss linear", single=False, events=None):
         for name, _, (far, normal) in body.materials[1:]:
             along, p = frame.vector(normal), frame.place((far * normal[0], far * normal[1]))
             lines += ["  - {material: %s, where: %.12g * (x - %.12g) + %.12g * (y - %.12g) > 0}" % (name, along[0], p[0], along[1], p[1])]
-    lines += ["failure: {criterion: %s, fracture_energy: %g%s}" % (
-        "stretch" if single else "energy_release", m.energy, ", tensile_strength: %.12g" % body.strength if body.strength and not single else "")]
+    failure = "criterion: %s, fracture_energy: %g" % ("stretch" if single else "energy_release", m.energy)
+    if not single:
+        failure += ", shear_fracture_energy: %g" % m.energy if body.slides else ""
+        failure += ", tensile_strength: %.12g" % body.strength if body.strength else ""
+        failure += ", path: [%s]" % ", ".join(numbers(frame.place(v)) for v in body.path) if body.path else ""
+    lines += ["failure: {%s}" % failure]
     if body.pin:
         lines += ["sets:", '  pin: {where: "hypot (x - %.12g, y - %.12g) < %.12g"}' % (*frame.place(body.pin), 1.1 * h)]
     lines += ["boundary:"]
@@ -523,12 +528,9 @@ def text(body, lattice, n, method="gauss linear", single=False, events=None):
     if body.pin:
         lines += ["  - {name: pin, set: pin, displacement: {x: 0, y: 0}, essential: penalty}"]
     lines += ["method: {%s}" % METHODS[method]]
-    solver = "kind: static"
-    if body.path and not single:
-        solver += ", path: [%s]" % ", ".join(numbers(frame.place(v)) for v in body.path)
     if events is None:
         events = round(body.growth * n) * (60 if single else 1)
-    lines += ["solver: {%s, max_events: %d}" % (solver, events)]
+    lines += ["solver: {kind: static, max_events: %d}" % events]
     lines += ["output: {at: {levels: 1}, pictures: [damage]}", ""]
     return "\n".join(lines)
 

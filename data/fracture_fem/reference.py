@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Stress intensities, crack paths and load curves by finite elements with remeshing: nothing here is shared with Perigal.
 
-    reference.py path        the slanted edge crack grows in steps: slanted.csv
+    reference.py path        two cracks grow in steps: slanted.csv, into_hole.csv
     reference.py intensity   K_I, K_II of the bodies of bench/fracture at given lengths: intensity.csv
     reference.py check       the same for a body whose K is known to four digits
 
@@ -312,23 +312,32 @@ TENSION = {1: (0, -1), 3: (0, 1)}
 HELD = [((1, 0), 1), ((1, 0), 2), ((1, 1.25), 1)]
 
 
-def path():
-    """The slanted edge crack from (0.35, 0.15) on, 25 steps of 0.014."""
-    step, crack, grown = 0.014, [(0.0, -0.2), (0.35, 0.15)], 0.0
+def grow(name, outline, holes, crack, pins, steps, first_ring):
+    """A crack that grows in steps of 0.014 in the direction of the largest hoop stress; one row per length."""
+    step, grown = 0.014, 0.0
     rows = [("x [1]", "y [1]", "length [1]", "K_I/(s sqrt W) [1]", "K_II/(s sqrt W) [1]", "K of growth/(s sqrt W) [1]", "sqrt(E'J)/(s sqrt W) [1]",
              "mouth opening E'/(s W) [1]")]
-    first = math.hypot(0.35, 0.35)
-    for k in range(26):
-        outer = 0.08 if k == 0 else 0.9 * step
-        (j, k1, k2), nodes, u = measure(SLANTED, (), [crack], TENSION, HELD, outer, 0.001, 0.05)
+    first = sum(math.hypot(b[0] - a[0], b[1] - a[1]) for a, b in zip(crack, crack[1:]))
+    for k in range(steps + 1):
+        outer = first_ring if k == 0 else 0.9 * step
+        (j, k1, k2), nodes, u = measure(outline, holes, [crack], TENSION, pins, outer, 0.001, 0.05)
         angle, kt = hoop(k1, k2)
         rows.append(tuple("%.6g" % v for v in (*crack[-1], first + grown, k1, k2, kt, math.sqrt(j * PRIME), PRIME * opening(nodes, u, crack[0]))))
         print(*rows[-1], "%.2f degrees" % math.degrees(angle), len(nodes), flush=True)
+        write(name, rows)
         a, b = crack[-2], crack[-1]
         t = math.atan2(b[1] - a[1], b[0] - a[0]) + angle
-        crack.append((b[0] + step * math.cos(t), b[1] + step * math.sin(t)))
+        crack = crack + [(b[0] + step * math.cos(t), b[1] + step * math.sin(t))]
         grown += step
-    write("slanted.csv", rows)
+        if any(math.hypot(crack[-1][0] - c[0], crack[-1][1] - c[1]) < r + step for c, r in holes):
+            break
+
+
+def path():
+    """The slanted edge crack from (0.35, 0.15) on, and an edge crack that passes below a hole."""
+    grow("slanted.csv", SLANTED, (), [(0.0, -0.2), (0.35, 0.15)], HELD, 25, 0.08)
+    grow("into_hole.csv", [(0, -1), (1, -1), (1, 1), (0, 1)], [((0.6, 0.12), 0.1)], [(0.0, 0.0), (0.3, 0.0)], [((1, -1), 1), ((1, -1), 2), ((1, 0.5), 1)],
+         40, 0.08)
 
 
 def write(name, rows):
