@@ -273,13 +273,13 @@ class Slanted(Body):
         self.pin = (0.02, 0.6)
 
     def shape(self, a):
-        """K of the direction of growth / (stress sqrt (width)), from the table."""
-        rows = self.curve or [(0, 0, 0, 1.8)]
+        """K of the direction of growth / (stress sqrt (width)), from the table; beyond its end not known."""
+        rows = self.curve
         for low, high in zip(rows, rows[1:]):
-            if a <= high[2]:
+            if a <= high[2] + 1e-9:
                 share = (a - low[2]) / (high[2] - low[2])
                 return low[3] + share * (high[3] - low[3])
-        return rows[-1][3]
+        return math.nan
 
     def theory(self, a):
         return self.shape(self.start) / self.shape(a) / FULL
@@ -304,7 +304,8 @@ class Centre(Body):
         return math.sqrt(math.pi * a / 2 / math.cos(math.pi * a / 4))
 
     def theory(self, a):
-        return self.shape(self.start) / self.shape(a) / FULL
+        """Of the first growth: whether both tips go on together decides the lattice."""
+        return 1 / FULL if a <= self.start + 1e-9 else math.nan
 
 
 class TwoEnergies(Strip):
@@ -337,21 +338,20 @@ class Offset(Body):
         return math.nan
 
 
-class IntoHole(Body):
-    """An edge crack that passes below a hole and is drawn into it."""
-    name, title = "into_hole", "Edge crack into a hole"
+class IntoHole(Slanted):
+    """An edge crack that passes below a hole and is drawn into it. Reference: data/fracture_fem."""
+    name, title, diagonal = "into_hole", "Edge crack into a hole", False
+    curve = None                        # data/fracture_fem/into_hole.csv
 
     def build(self):
-        self.start, self.growth = 0.3 + self.dx, 0.5
+        self.rise = self.dy
+        self.start, self.growth = 0.3 + self.dx, 0.3
         self.outline = [(0, -1), (1, -1), (1, 1), (0, 1)]
         self.holes = [((0.6, 0.12 + self.dy), 0.1)]
         self.cracks = [((-0.1, self.dy), (self.start, self.dy))]
-        stress = FULL * self.material.toughness() / math.sqrt(math.pi * 0.3 * self.width) / 1.66
+        stress = FULL * self.material.toughness() / (self.shape(self.start) * math.sqrt(self.width))
         self.loads = [(0, "traction", (0, -stress)), (2, "traction", (0, stress))]
         self.pin = (0.02, 0.06)
-
-    def theory(self, a):
-        return math.nan
 
 
 # ---- initiation ------------------------------------------------------------------------------------------------------
