@@ -113,6 +113,28 @@ static void add_all (const gradient_fit *fit, view *v, sums *s, const double *x,
     }
 }
 
+/* The stress is that of the material of the nearest point and the gradient. */
+pg_status gradient_sample (const pg_problem *p, const pg_force_type *force, void *self,
+                           const pg_state *state, const double *d, size_t n, const double *x, double *u,
+                           double *stress, double *gradient)
+{
+    pg_status status = PG_OK;
+    gradient_fit *fit = NULL;
+    if (force->method.shape_functions) return force->sample (self, state, d, n, x, u, stress, gradient);
+    PG_TRY (gradient_fit_create (&fit, p, state));
+    for (size_t k = 0; k < n; k++) {
+        const double *place = x + k * (size_t) p->dim;
+        double spare[9], *H = gradient ? gradient + 9 * k : spare;
+        gradient_fit_at (fit, place, 1, &d, u + 3 * k, H);
+        if (!stress) continue;
+        size_t node = (size_t) pg_nearest_find (fit->near, place, NULL, NULL);
+        pg_stress_of_gradient (&p->material[p->block[PG_NODES][node]], p->dim, H, stress + 6 * k);
+    }
+done:
+    gradient_fit_free (&fit);
+    return status;
+}
+
 /* The quadratic fit, else the linear one. */
 int gradient_fit_at (const gradient_fit *fit, const double *x, size_t n, const double *const *d, double *u,
                      double *gradient)

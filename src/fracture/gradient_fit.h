@@ -3,7 +3,7 @@
  * where the force itself knows displacements at points only. */
 #ifndef PG_GRADIENT_FIT_H
 #define PG_GRADIENT_FIT_H
-#include "perigal/model.h"
+#include "perigal/force.h"
 
 typedef struct gradient_fit gradient_fit;
 /* Borrows the problem and the state, whose cracks and live bonds at each later call decide what a place
@@ -16,4 +16,10 @@ void      gradient_fit_free   (gradient_fit **fit);
  * nearest point that x sees do not spread in all directions: the gradient is NAN then. */
 int       gradient_fit_at (const gradient_fit *fit, const double *x, size_t n, const double *const *d,
                            double *u, double *gradient);
+/* pg_force_type.sample for all forces: by the shape functions of those that have them, else by the fit, with
+ * the stress of the gradient, as that of the material is far from the tip. stress, gradient NULL: not
+ * wanted. */
+pg_status gradient_sample (const pg_problem *p, const pg_force_type *force, void *self,
+                           const pg_state *state, const double *d, size_t n, const double *x, double *u,
+                           double *stress, double *gradient);
 #endif

@@ -46,7 +46,8 @@ pg_status tip_grid_create (tip_grid *out, const pg_tip_field *tip, int core);
 void      tip_grid_clear  (tip_grid *grid);
 /* One field from the force into grid->field[at]. */
 pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, const tip_material *material,
-                           const pg_force_type *force, void *self, const pg_state *state, const double *d);
+                           const pg_problem *p, const pg_force_type *force, void *self,
+                           const pg_state *state, const double *d);
 /* A vector in the frame of the tip. */
 void      tip_turn (const double *e, const double *v, double *out);
 

@@ -3,6 +3,7 @@
  * smooth but not polynomial, with a length of their own of about h: Gauss points by four on pieces of less
  * than h along the radius, and on equal arcs around. None lies on the crack, at the angle +-pi. The near ring
  * and what the wide one adds are divided apart, so that both are sums over places that were sampled once. */
+#include "gradient_fit.h"
 #include "tip.h"
 #include <math.h>
 #include <string.h>
@@ -97,7 +98,8 @@ static void turn_stress (const double *e, const double *s, double *out)
 }
 
 pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, const tip_material *material,
-                           const pg_force_type *force, void *self, const pg_state *state, const double *d)
+                           const pg_problem *p, const pg_force_type *force, void *self,
+                           const pg_state *state, const double *d)
 {
     pg_status status = PG_OK;
     tip_sample *f = &grid->field[at];
@@ -109,7 +111,7 @@ pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, cons
     PG_ALLOC (f->H, 4 * n);
     PG_ALLOC (f->stress, 3 * n);
     if (material->lambda > 0) PG_ALLOC (f->excess, n);
-    PG_TRY (force->sample (self, state, d, n, grid->x, u, stress, gradient));
+    PG_TRY (gradient_sample (p, force, self, state, d, n, grid->x, u, stress, gradient));
     for (size_t k = 0; k < n; k++) {
         double full[6];
         turn_gradient (tip->e, gradient + 9*k, f->H + 4*k);

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * J, K_I, K_II and T of one tip: its rings, the fields there, the integrals. */
+#include "gradient_fit.h"
 #include "tip.h"
 #include <math.h>
 #include <string.h>
@@ -77,7 +78,8 @@ static int moves (const pg_state *state)
 /* - rho a into the loads, rho v_i v_i,1, and the kinetic energy into the term of W: W and T stand together,
  * so that the gradient of the weight sees both. */
 static pg_status add_inertia (tip_grid *grid, const pg_tip_field *tip, const tip_material *m,
-                              const pg_force_type *force, void *self, const pg_state *state)
+                              const pg_problem *p, const pg_force_type *force, void *self,
+                              const pg_state *state)
 {
     pg_status status = PG_OK;
     tip_sample *f = &grid->field[0];
@@ -88,7 +90,7 @@ static pg_status add_inertia (tip_grid *grid, const pg_tip_field *tip, const tip
     PG_ALLOC (f->kinetic, n);
     PG_ALLOC (f->moving, n);
     if (!f->load) PG_ALLOC (f->load, 2 * n);
-    PG_TRY (force->sample (self, state, state->v, n, grid->x, v, NULL, gradient));
+    PG_TRY (gradient_sample (p, force, self, state, state->v, n, grid->x, v, NULL, gradient));
     for (size_t k = 0; k < n; k++) {
         const double *H = gradient + 9*k, *u = v + 3*k;
         /* v_i v_i,1, the derivative being along e */
@@ -96,7 +98,7 @@ static pg_status add_inertia (tip_grid *grid, const pg_tip_field *tip, const tip
                                       + u[1] * (H[2] * tip->e[0] + H[3] * tip->e[1]));
         f->moving[k] = 0.5 * m->density * (u[0] * u[0] + u[1] * u[1]);
     }
-    PG_TRY (force->sample (self, state, state->a, n, grid->x, v, NULL, NULL));
+    PG_TRY (gradient_sample (p, force, self, state, state->a, n, grid->x, v, NULL, NULL));
     for (size_t k = 0; k < n; k++) {
         double a[2];
         tip_turn (tip->e, v + 3*k, a);
@@ -155,10 +157,10 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
     PG_TRY (tip_grid_create (&grid, out, forced || moving));
     grid.nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {
-        PG_TRY (tip_grid_sample (&grid, a, out, &m, force, self, state, d[a]));
+        PG_TRY (tip_grid_sample (&grid, a, out, &m, p, force, self, state, d[a]));
         if (forced) PG_TRY (add_body_force (&grid, a, out, p, node, t));
     }
-    if (moving) PG_TRY (add_inertia (&grid, out, &m, force, self, state));
+    if (moving) PG_TRY (add_inertia (&grid, out, &m, p, force, self, state));
     integrate (out, &grid, &m);
 done:
     tip_grid_clear (&grid);
