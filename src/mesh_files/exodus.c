@@ -13,6 +13,7 @@
 #include <math.h>
 #include <netcdf.h>
 #include <netcdf_mem.h>
+#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -133,7 +134,7 @@ static pg_status open_file (reader *r, const mesh_file *file)
     /* The library trusts the counts in a header. */
     PG_TRY (mesh_netcdf_check_header (file));
     /* netCDF does not change the bytes, though its declaration does not say so */
-    NC_TRY (r, nc_open_mem (file->path, NC_NOWRITE, file->size, (void *) file->text, &r->ncid));
+    NC_TRY (r, nc_open_mem (file->path, NC_NOWRITE, file->size, (void *) (uintptr_t) file->text, &r->ncid));
     r->open = 1;
     r->nnode = length_of (r->ncid, "num_nodes");
     r->n = length_of (r->ncid, "num_elem");

@@ -301,8 +301,8 @@ static void a_point_without_live_bonds_is_dead (void **state)
     const unsigned char alive[3] = { 0, 0, 0 };
     for (int t = 0; t < 3; t++) {
         pg_rows r = among (type[t], 1, 3, x, at, -1);
-        const double volume[3] = { 1, 1, 1 };
-        const pg_cloud c = { .dim = 2, .n = 3, .x = x, .volume = (double *) volume, .h = 1 };
+        double volume[3] = { 1, 1, 1 };
+        const pg_cloud c = { .dim = 2, .n = 3, .x = x, .volume = volume, .h = 1 };
         pg_approx a = make (type[t], "quadratic", 1, PG_RADIAL, 4);
         assert_int_equal (r.grade[0], PG_GRADE_FULL);
         check_ok (a.type->evaluate (&a, &c, &r, alive, 1, NULL, 1));

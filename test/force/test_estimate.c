@@ -170,11 +170,11 @@ static double *polynomial_of (const pg_problem *p, double q, double middle, doub
     return d;
 }
 
-static pg_estimate estimate_of (const run *r, double q, double middle, double factor)
+static pg_estimate estimate_of (run *r, double q, double middle, double factor)
 {
     pg_estimate e;
     double *d = polynomial_of (r->problem, q, middle, factor);
-    refresh ((run *) r, NULL);
+    refresh (r, NULL);
     check_ok (galerkin_estimate (force_of (r), d, &e, NULL));
     pg_free (d);
     return e;

@@ -26,7 +26,7 @@ double strtod (const char *restrict text, char **restrict end)
     copy[n] = 0;
     char *last;
     long double value = strtold (copy, &last);
-    if (end) *end = (char *) text + (last - copy);
+    if (end) *end = (char *) (uintptr_t) text + (last - copy);   /* as the function of the C library does */
     return (double) value;
 }
 
