@@ -42,14 +42,16 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
 /* The sums for the factors l (nfield numbers): J (J/m^2), K (3, Pa m^(1/2)) and T (Pa); outputs may be
  * NULL. */
 void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double *J, double *K, double *T);
+/* What to show of them: K_I, K_II, K_III in the ratio that K has, with the magnitude of J, sqrt (E' J); as
+ * they are where J is not positive or K_I closes the crack. */
+void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, double *K);
 /* How well J is known, relative: by the two rings; NAN: there is only one. */
 double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l);
 
 /* The facet of length l (m) to come. Angle from e (rad, positive to the left) of the largest hoop stress
  * (Erdogan and Sih 1963), its intensity factor there, and what advancing there releases: G_theta = J
- * K_theta^2 / (K_I^2 + K_II^2). T: stress along the crack where that is compression to be regarded (wings of
- * closed cracks: K_I in the direction is raised by 3.19 max (0, -T) sqrt (l)); 0 or NAN: it is not. 0: no
- * direction is in tension. */
+ * K_theta^2 / (K_I^2 + K_II^2). T: stress along the crack. Compression beyond 0.2 K_I / sqrt (l), as wings of
+ * closed cracks have it, turns the direction; NAN: it is not known. 0: no direction is in tension. */
 int pg_kink (double J, double K_I, double K_II, double T, double l, double *angle, double *K_theta,
              double *G_theta);
 

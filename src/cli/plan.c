@@ -346,7 +346,9 @@ static void print_tips (const plan *p)
                     1.5 * f->h, f->room);
             continue;
         }
-        printf ("K_I %.5g, K_II %.4g Pa m^(1/2), J %.5g J/m^2", f->K[0][0], f->K[1][0], f->J[0][0]);
+        double K[3];
+        pg_tip_intensities (f, 1, &one, K);
+        printf ("K_I %.5g, K_II %.4g Pa m^(1/2), J %.5g J/m^2", K[0], K[1], f->J[0][0]);
         double off = pg_tip_uncertainty (f, 1, &one);
         if (isnan (off)) printf (" (one ring of %.2g spacings)", f->near / f->h);
         else

@@ -145,12 +145,14 @@ static void tips (pg_json *j, const plan *p)
     pg_json_open (j, "crack_tips", '[');
     for (size_t t = 0; t < b->ntip && t < PG_FIRST_TIPS; t++) {
         const pg_tip_field *f = &b->tip[t];
+        double K[3];
+        pg_tip_intensities (f, 1, &one, K);
         pg_json_open (j, NULL, '{');
         pg_json_number (j, "tip", (double) b->id[t]);
         pg_json_number (j, "x", f->x[0]);
         pg_json_number (j, "y", f->x[1]);
-        pg_json_number (j, "K_I", f->K[0][0]);
-        pg_json_number (j, "K_II", f->K[1][0]);
+        pg_json_number (j, "K_I", K[0]);
+        pg_json_number (j, "K_II", K[1]);
         pg_json_number (j, "J", f->J[0][0]);
         pg_json_number (j, "J_uncertainty", pg_tip_uncertainty (f, 1, &one));
         pg_json_number (j, "T", f->T[0]);

@@ -180,6 +180,15 @@ void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double 
     }
 }
 
+void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, double *K)
+{
+    double J, size = 0;
+    pg_tip_combine (f, nfield, l, &J, K, NULL);
+    for (int m = 0; m < 3; m++) size = hypot (size, K[m]);
+    if (!(J > 0) || !(size > 0) || K[0] < 0) return;
+    for (int m = 0; m < 3; m++) K[m] *= sqrt (f->modulus * J) / size;
+}
+
 double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l)
 {
     double J = 0, near = 0;

@@ -219,7 +219,8 @@ pg_status facet_show (pg_solver *s, const pg_state *state, double factor)
         double l[2], angle;
         if (isnan (f->near)) continue;
         int n = facet_factors (g, factor, l);
-        pg_tip_combine (f, n, l, &v.J, v.K, &v.T);
+        pg_tip_combine (f, n, l, &v.J, NULL, &v.T);
+        pg_tip_intensities (f, n, l, v.K);
         v.uncertainty = pg_tip_uncertainty (f, n, l);
         v.utilisation = pow (facet_judge (&s->break_loop, state, i, factor, &angle), 2);
         PG_TRY (solver_note_tip (s, &v));

@@ -243,6 +243,10 @@ static void affine_fields (void **state)
         check_scaled (T, 1e5 - 2e5 * l, 1e-3, 1e6);
     }
     assert_true (f.J[0][1] == f.J[1][0]);
+    double alone[2] = { 1, 0 };
+    pg_tip_intensities (&f, 2, alone, K);
+    check_relative (hypot (K[0], K[1]), sqrt (f.modulus * f.J[0][0]), 1e-12);
+    check_relative (K[1] / K[0], f.K[1][0] / f.K[0][0], 1e-12);
     clear (&t);
 }
 
