@@ -10,11 +10,19 @@
 /* Columns of curve_more. */
 enum { STEP, TIME, FACTOR, FIRST_GAUGE };
 
-/* 1 if a load acts along the axis k. A pressure acts along the axis nearest to its first
- * normal. */
-static int pushes_along (const pg_problem *p, const pg_load *load, int k)
+/* How strongly a load acts along the axis k: the largest size of its pattern over its points; 1 where place
+ * and time do not separate, or for the axis nearest to the first normal of a pressure; 0: not at all. */
+static double push_along (const pg_problem *p, const pg_load *load, int k)
 {
-    if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE) return load->value[k] != NULL;
+    double size = 0;
+    if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE) {
+        if (!load->value[k] || load->set->npoint == 0 || !pg_load_separates (load)) return load->value[k] != NULL;
+        for (size_t i = 0; i < load->set->npoint; i++) {
+            const double *x = p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim;
+            size = fmax (size, fabs (pg_load_pattern (load, k, p->dim, x)));
+        }
+        return size;
+    }
     if (load->kind != PG_PRESSURE) return 0;
     const double *normal = p->cells.normal + (size_t) load->set->facet[0] * (size_t) p->dim;
     for (int c = 0; c < p->dim; c++) if (fabs (normal[c]) > fabs (normal[k])) return 0;
@@ -22,7 +30,7 @@ static int pushes_along (const pg_problem *p, const pg_load *load, int k)
 }
 
 /* The curve follows the prescribed component that moves most, else the first load with a
- * force. A velocity is compared by what it moves in 1e-9 s, so that any displacement is
+ * force, along the axis in which that is largest. A velocity is compared by what it moves in 1e-9 s, so that any displacement is
  * preferred to it. */
 void pg_result_curve_choose (pg_result *r)
 {
@@ -41,9 +49,13 @@ void pg_result_curve_choose (pg_result *r)
                                                   end)));
             if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
         }
-    for (size_t l = 0; l < p->nload && r->curve_load < 0; l++)
-        for (int k = 0; k < p->dim && r->curve_load < 0; k++)
-            if (pushes_along (p, &p->load[l], k)) r->curve_load = (int) l, r->curve_component = k;
+    for (size_t l = 0; l < p->nload && r->curve_load < 0; l++) {
+        double strongest = 0;
+        for (int k = 0; k < p->dim; k++) {
+            double push = push_along (p, &p->load[l], k);
+            if (push > strongest) strongest = push, r->curve_load = (int) l, r->curve_component = k;
+        }
+    }
 }
 
 

@@ -92,6 +92,17 @@ static void a_push_is_negative (void **state)
     }
 }
 
+/* A traction whose first component is given as zero: the curve follows the one that pulls. */
+static void the_axis_that_pulls_is_drawn (void **state)
+{
+    (void) state;
+    play (PLATE, "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, "
+                 "traction: {x: 0, y: 1 MPa}}]\nsolver: {kind: static, stepping: fixed, steps: 2}\n");
+    assert_true (json_number (report, "peak", "force") > 0);
+    check_relative (json_number (report, "peak", "force"), number_at (history, 2, "head.force_y [N]"), 1e-15);
+    tidy ();
+}
+
 /* A cycle: the curve comes back, and the peak is on its way. */
 static void unloading_is_drawn_and_a_constant_load_has_no_origin (void **state)
 {
@@ -213,6 +224,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_push_is_negative),
+        cmocka_unit_test (the_axis_that_pulls_is_drawn),
         cmocka_unit_test (unloading_is_drawn_and_a_constant_load_has_no_origin),
         cmocka_unit_test (the_peak_of_events_is_that_of_the_history),
         cmocka_unit_test (a_plane_of_broken_bonds_has_its_area),
