@@ -6,6 +6,7 @@
  * facet_direction.c: how near a tip is and where to; facet_place.c: where its facet ends; facet_events.c:
  * from event to event. */
 #include "facet_growth.h"
+#include "trial_facet.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -56,6 +57,7 @@ void facet_free (break_loop *b)
 {
     facet_growth *g = b->growth;
     if (!g) return;
+    trials_free (&g->trials);
     pg_nearest_free (&g->near);
     pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial);
     pg_free (g);

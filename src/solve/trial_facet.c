@@ -1,9 +1,205 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Trial facets: cracks that begin, and the last steps of tips that have no room for a ring. */
+ * Trial facets: the next facet of tips that have no room for a domain integral, and new cracks. What is
+ * offered carries the energy that it sets free, found on a copy of the state. A facet of length l comes into
+ * being at the load factor at which that reaches G0 l t, t the thickness (Griffith 1921). */
 #include "facet_growth.h"
+#include "trial_facet.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- where the body ends ------------------------------------------------------------------------------- */
+static void place_at (const double *x, const double *direction, double s, double *out)
+{
+    out[0] = x[0] + s * direction[0], out[1] = x[1] + s * direction[1], out[2] = 0;
+}
+
+/* What lies at x + s direction, seen from x + from direction. */
+static int seen (const pg_problem *p, const pg_state *state, const double *x, const double *direction,
+                 double from, double s)
+{
+    double a[3], b[3];
+    place_at (x, direction, from, a);
+    place_at (x, direction, s, b);
+    if (!pg_problem_has_body (p, b)) return PG_MEETS_SURFACE;
+    return pg_cracks_cut (pg_state_cracks (p, state), p->dim, a, b, 1e-9 * p->cloud.h) ? PG_MEETS_CRACK
+                                                                                        : PG_MEETS_NOTHING;
+}
+
+/* In steps of an eighth of the spacing; the last one is halved until the place is known to rounding. */
+double trial_reach (const pg_problem *p, const pg_state *state, const double *x, const double *direction,
+                    double limit, int *what)
+{
+    enum { HALVINGS = 45 };
+    double step = 0.125 * p->cloud.h, low = 0;
+    *what = PG_MEETS_NOTHING;
+    while (low < limit) {
+        double high = fmin (low + step, limit);
+        *what = seen (p, state, x, direction, low, high);
+        if (*what == PG_MEETS_NOTHING) {
+            low = high;
+            continue;
+        }
+        for (int k = 0; k < HALVINGS; k++) {
+            double middle = 0.5 * (low + high);
+            int now = seen (p, state, x, direction, low, middle);
+            if (now == PG_MEETS_NOTHING) low = middle;
+            else high = middle, *what = now;
+        }
+        return low;
+    }
+    return limit;
+}
+
+/* ---- energies ------------------------------------------------------------------------------------------ */
+/* The larger root: opening grows with the load factor there. */
+double trial_energy_factor (const double *c, double energy)
+{
+    double least = c[0] - energy, b = c[1], a = c[2];
+    if (isinf (c[0]) || isinf (c[2])) return 0;        /* a loaded part would come loose */
+    if (!(a > 0)) return b > 0 ? fmax (0, -least / b) : least >= 0 ? 0 : INFINITY;
+    double root = b * b - 4 * a * least;
+    if (root < 0) return 0;
+    root = sqrt (root);
+    /* without cancellation for either sign of b */
+    return fmax (0, b > 0 ? -2 * least / (b + root) : (root - b) / (2 * a));
+}
+
+pg_status trial_cuts (trials *w, const pg_state *state, size_t n, const double *from, const double *to,
+                      const int *open, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = w->system->problem;
+    unsigned char *before = NULL;
+    if (!w->state) PG_TRY (pg_state_create (&w->state, p, w->system->components));
+    PG_ALLOC (before, state->nbond);
+    for (size_t k = 0; k < n; k++) {
+        size_t kept = 0;
+        PG_TRY (pg_state_copy (w->state, state));
+        cut[k].n = 0;
+        PG_TRY (pg_crack_start (w->state, p, from + 3*k, to + 3*k, open[k], &cut[k]));
+        for (size_t i = 0; i < cut[k].n; i++) {
+            size_t bond = cut[k].bond[i];
+            if (before[bond]) continue;
+            before[bond] = 1, cut[k].bond[kept++] = bond;
+        }
+        cut[k].n = kept;
+    }
+done:
+    pg_free (before);
+    return status;
+}
+
+/* ---- the fields at hand -------------------------------------------------------------------------------- */
+/* Those of growth are the displacement at load factor 1, or its constant part and the part that grows with
+ * the load factor; here the second is the displacement at load factor 1. */
+static pg_status take_fields (trials *w, int nfield, const double *const *d, const double *t, trial_fields *f)
+{
+    pg_status status = PG_OK;
+    size_t ndof = w->system->ndof;
+    *f = (trial_fields) { .n = nfield, .d = { d[0] }, .t = { t[0] } };
+    if (nfield == 1) return PG_OK;
+    if (!w->whole) PG_ALLOC (w->whole, ndof);
+    for (size_t i = 0; i < ndof; i++) w->whole[i] = d[0][i] + d[1][i];
+    f->d[1] = w->whole, f->t[0] = 0, f->t[1] = 1;
+done:
+    return status;
+}
+
+/* The polynomial of the load factor as the form of growth's coefficients: lambda alone, or 1 and lambda. */
+static void fill_release (int nfield, const double *c, facet_candidate *out)
+{
+    memset (out->release, 0, sizeof out->release);
+    if (nfield == 1) out->release[0][0] = c[2];
+    else {
+        out->release[0][0] = c[0], out->release[1][1] = c[2];
+        out->release[0][1] = out->release[1][0] = 0.5 * c[1];
+    }
+}
+
+/* ---- tips without room --------------------------------------------------------------------------------- */
+/* What the facet of a tip would set free, into c->release; then it is offered. */
+static pg_status offer_of_tip (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
+                               facet_candidate *c)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = b->system.problem;
+    pg_changes cut = { 0 };
+    trial_form form;
+    double polynomial[3];
+    if (!(c->energy > 0)) return PG_OK;                /* none can grow there */
+    if (!w->state) PG_TRY (pg_state_create (&w->state, p, b->system.components));
+    PG_TRY (pg_state_copy (w->state, state));
+    PG_TRY (pg_crack_grow (w->state, p, (size_t) c->tip, c->to, c->close, &cut));
+    PG_TRY (trial_release (w, state, f, 1, &cut, &form));
+    trial_polynomial (f, &form, polynomial);
+    fill_release (f->n, polynomial, c);
+    c->stress[0] = c->stress[1] = NAN;
+    PG_TRY (facet_offer (b->growth, c));
+done:
+    pg_free (cut.bond);
+    return status;
+}
+
+/* Straight ahead, and the shortest way out where that is another direction. */
+static pg_status offers_of_tip (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
+                                size_t tip)
+{
+    pg_status status = PG_OK;
+    const pg_tip_field *at = &b->growth->field[tip];
+    facet_candidate ahead, out;
+    facet_place (b, state, tip, atan2 (at->e[1], at->e[0]), &ahead);
+    PG_TRY (offer_of_tip (b, w, state, f, &ahead));
+    if (!facet_way_out (b, state, tip, &out)) goto done;
+    double a[2] = { ahead.to[0] - at->x[0], ahead.to[1] - at->x[1] },
+           o[2] = { out.to[0] - at->x[0], out.to[1] - at->x[1] };
+    double turn = atan2 (fabs (a[0] * o[1] - a[1] * o[0]), a[0] * o[0] + a[1] * o[1]);
+    if (turn > 0.2) PG_TRY (offer_of_tip (b, w, state, f, &out));
+done:
+    return status;
+}
+
+/* ---- new cracks ---------------------------------------------------------------------------------------- */
+static int limits_at (void *context, const double *x, double angle, pg_fracture_limits *out)
+{
+    return facet_limits (context, x, angle, out);
+}
+
+static pg_status offer_starts (break_loop *b, trials *w, const pg_state *state, const trial_fields *f)
+{
+    pg_status status = PG_OK;
+    trial_start start[TRIAL_MOST_STARTS];
+    size_t n;
+    int arbitrary;
+    PG_TRY (trial_initiation (w, state, f, limits_at, b, INFINITY, start, &n, &arbitrary));
+    if (arbitrary && !w->said) {
+        pg_statistics_warn (b->system.report,
+                            "the largest stress is the same at many places: where the first crack begins is "
+                            "arbitrary");
+        w->said = 1;
+    }
+    for (size_t k = 0; k < n; k++) {
+        const trial_start *s = &start[k];
+        facet_candidate c = { .tip = -1, .open = s->open, .energy = s->energy };
+        memcpy (c.from, s->from, sizeof c.from), memcpy (c.to, s->to, sizeof c.to);
+        fill_release (f->n, s->release, &c);
+        c.stress[0] = f->n == 1 ? s->stress[1] : s->stress[0], c.stress[1] = f->n == 1 ? 0 : s->stress[1];
+        PG_TRY (facet_offer (b->growth, &c));
+    }
+done:
+    return status;
+}
 
 pg_status trial_facets (break_loop *b, const pg_state *state, const double *const *d, const double *t)
 {
-    (void) b, (void) state, (void) d, (void) t;
-    return PG_OK;
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    trial_fields f;
+    if (!g->trials) PG_TRY (trials_create (&g->trials, &b->system));
+    PG_TRY (take_fields (g->trials, g->nfield, d, t, &f));
+    for (size_t i = 0; i < g->ntip; i++)
+        if (state->paths->tip[i].open && isnan (g->field[i].near))
+            PG_TRY (offers_of_tip (b, g->trials, state, &f, i));
+    PG_TRY (offer_starts (b, g->trials, state, &f));
+done:
+    return status;
 }

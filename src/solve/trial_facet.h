@@ -37,4 +37,38 @@ void      trials_free (trials **w);
 pg_status trial_release (trials *w, const pg_state *state, const trial_fields *f, size_t n,
                          const pg_changes *cut, trial_form *release);
 
+
+/* ---- trial_facet.c ------------------------------------------------------------------------------------- */
+/* Distance from x along the unit `direction` to the first place without body or behind a crack, at most
+ * `limit`, m; *what: PG_MEETS_... */
+double    trial_reach (const pg_problem *p, const pg_state *state, const double *x, const double *direction,
+                       double limit, int *what);
+/* The load factor from which on c[0] + c[1] lambda + c[2] lambda^2 reaches `energy`; 0: always, INFINITY:
+ * never. */
+double    trial_energy_factor (const double *c, double energy);
+/* The bonds that each of n lengths of a new crack cuts beyond the one before. from, to: n x 3; open: its ends
+ * that are tips (pg_crack_start). */
+pg_status trial_cuts (trials *w, const pg_state *state, size_t n, const double *from, const double *to,
+                      const int *open, pg_changes *cut);
+
+/* ---- initiation.c -------------------------------------------------------------------------------------- */
+/* A new crack: where it would begin, and when. */
+typedef struct {
+    double from[3], to[3];                             /* m */
+    int    open;                                       /* pg_crack_start */
+    double length;                                     /* inside the body, m */
+    double factor;                                     /* load factor at which it comes into being */
+    double energy;                                     /* that it takes, J */
+    double release[3];                                 /* that it sets free, a polynomial of lambda, J */
+    double stress[2];  /* least stress across it over the strength: [0] + [1] lambda */
+} trial_start;
+/* Limits at a place for a crack in the direction `angle` (rad, from x); 0: none can grow there. */
+typedef int (*trial_limits) (void *context, const double *x, double angle, pg_fracture_limits *out);
+enum { TRIAL_MOST_STARTS = 4 };
+/* New cracks (room for TRIAL_MOST_STARTS): where strength and energy both suffice at the least load
+ * factor, if that is below `below`; ties (symmetric bodies) together. *n: how many, 0: none. *arbitrary:
+ * 1: the largest stress is the same at more places than that, and only one of them is given. */
+pg_status trial_initiation (trials *w, const pg_state *state, const trial_fields *f, trial_limits limits,
+                            void *context, double below, trial_start *out, size_t *n,
+                            int *arbitrary);
 #endif

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private to initiation.c and hot_spot.c: where new cracks may begin. */
+#ifndef PG_HOT_SPOT_H
+#define PG_HOT_SPOT_H
+#include "trial_facet.h"
+
+/* A stress that is constant + lambda slope: xx, yy, xy, Pa. */
+typedef struct { double constant[3], slope[3]; } affine_stress;
+
+/* A place where a crack may begin. */
+typedef struct {
+    double x[3];                                       /* m */
+    affine_stress stress;                              /* averaged there */
+    double factor;                                     /* load factor at which the strength is reached */
+    double angle;                                      /* of a crack across the largest tension, rad from x */
+    double h;                                          /* local spacing, m */
+    double modulus;                                    /* Young's modulus, Pa */
+} hot_spot;
+
+/* What a search goes by. */
+typedef struct {
+    trials *w;
+    const pg_state *state;
+    const trial_fields *f;
+    trial_limits limits;
+    void *context;
+    double best;                                       /* least load factor so far */
+} search;
+
+/* The largest strength that points h apart can tell, Pa: an eighth of E G0/f^2 is to be h at least. */
+double    hot_strength_cap (double modulus, double energy, double h);
+/* Stress at n places (n x 2), of which each `count` that follow each other and have body are averaged: n /
+ * count results. */
+pg_status hot_stress (const search *g, size_t n, size_t count, const double *x, affine_stress *out);
+/* What a crack at that angle takes at x: energy in J/m^2, strength as far as the points can tell; 0: none can
+ * grow there, or has no strength given. */
+int       hot_resists (const search *g, const double *x, double angle, double h, double modulus,
+                       pg_fracture_limits *out);
+/* Up to `most` places that reach their strength below g->best, the least load factor first. */
+pg_status hot_spots (const search *g, size_t most, hot_spot *out, size_t *n);
+#endif

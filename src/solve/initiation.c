@@ -1,0 +1,436 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Where no crack is, one begins when two conditions hold together (Leguillon 2002): the tension across it
+ * reaches the strength all along its length l, and what it sets free reaches G0 l t. The first holds from
+ * lambda_S (l) on, which grows with l where the stress falls off; the second from lambda_E (l) on, which
+ * falls with l. The least load factor at which both hold is that of the first crack, and the length there
+ * is its length: nothing is fitted, and neither strength alone (at a notch: 0) nor energy alone (at an
+ * even edge: infinity) decides.
+ *
+ * A crack is tried at hot spots (hot_spot.c) across the largest tension: from the surface if that is near,
+ * else to both sides. First its energy is estimated from the stress along it, as of a crack in a half
+ * plane or a plane, which orders the hot spots and tells about what length to try; then several lengths
+ * about that are cut, together, with the factor at hand (trial_release.c). Where a tip lies among the
+ * points is worth a tenth of the spacing in length; lengths that are no multiples of each other average
+ * that: energy over l^2, which an even field would make constant, is fitted by a straight line. */
+#include "facet_growth.h"
+#include "hot_spot.h"
+#include <math.h>
+#include <string.h>
+
+enum {
+    MOST_SPOTS = 12,                                   /* that are looked at */
+    MOST_TRIED = 6,                                    /* of them that are cut */
+    LENGTHS = 6,                                       /* that are tried together */
+    ROUNDS = 5,
+    PER_SPACING = 2,                                   /* places of stress along a crack */
+    MOST_PLACES = 400,
+    LATERAL = 3                                        /* places beside each, to average its stress over */
+};
+static const double even = 0.02, same = 1e-6;          /* shares of the load factor */
+/* What an estimate may be off by before its spot is not looked at any closer. */
+static const double doubt = 1.25;
+
+/* A crack that is tried: from origin - a direction to origin + b direction; a = 0 if it begins in the
+ * surface. */
+typedef struct {
+    double origin[3], direction[3], angle;             /* m, unit vector, rad */
+    double reach[2];                                   /* towards -direction, +direction: length inside, m */
+    int    edge;
+    double h, modulus;                                 /* m, Pa */
+    /* places along it, from -reach to +reach; stress across over strength: c + lambda s; strength, Pa;
+     * energy needed, J/m */
+    size_t n;
+    double at[MOST_PLACES], c[MOST_PLACES], s[MOST_PLACES], strength[MOST_PLACES], needed[MOST_PLACES];
+    double factor, about;                              /* estimates: load factor, and length there, m */
+    /* what it sets free over length^2: polynomials of lambda, J/m^2, value and slope over the length */
+    double release[3], slope[3];
+    double shortest, longest;                          /* lengths that the fit is of, m */
+} trial_crack;
+
+/* ---- where it runs ------------------------------------------------------------------------------------- */
+/* Puts the origin into the body if a lattice has put the node a little outside. */
+static void put_inside (const search *g, trial_crack *c)
+{
+    enum { PARTS = 16 };
+    const pg_problem *p = g->w->system->problem;
+    if (pg_problem_has_body (p, c->origin)) return;
+    for (int part = 1; part <= PARTS; part++)
+        for (int side = -1; side <= 1; side += 2) {
+            double s = side * c->h * part / PARTS;
+            double x[3] = { c->origin[0] + s * c->direction[0], c->origin[1] + s * c->direction[1], 0 };
+            if (!pg_problem_has_body (p, x)) continue;
+            memcpy (c->origin, x, sizeof x);
+            return;
+        }
+}
+
+/* Direction, and how far the body goes to both sides: from the surface if that is within a spacing. */
+static void lay (const search *g, const hot_spot *spot, trial_crack *c)
+{
+    const pg_problem *p = g->w->system->problem;
+    int what;
+    *c = (trial_crack) { .h = spot->h, .modulus = spot->modulus, .angle = spot->angle };
+    memcpy (c->origin, spot->x, sizeof c->origin);
+    c->direction[0] = cos (c->angle), c->direction[1] = sin (c->angle);
+    put_inside (g, c);
+    double limit = 0.5 * MOST_PLACES / PER_SPACING * c->h;
+    double back[3] = { -c->direction[0], -c->direction[1], 0 };
+    c->reach[0] = trial_reach (p, g->state, c->origin, back, limit, &what);
+    c->reach[1] = trial_reach (p, g->state, c->origin, c->direction, limit, &what);
+    c->edge = fmin (c->reach[0], c->reach[1]) < c->h;
+    if (c->edge && c->reach[1] < c->reach[0]) {        /* runs away from the near surface */
+        double swap = c->reach[0];
+        c->reach[0] = c->reach[1], c->reach[1] = swap;
+        memcpy (c->direction, back, sizeof back);
+        c->angle += acos (-1);
+    }
+    if (!c->edge) return;
+    for (int k = 0; k < 2; k++) c->origin[k] -= c->reach[0] * c->direction[k];
+    c->reach[1] = fmin (c->reach[0] + c->reach[1], limit), c->reach[0] = 0;
+}
+
+/* Where the places of a crack are, and those beside them over which the stress is averaged (x: LATERAL of
+ * each). */
+static void set_places (trial_crack *c, double *x)
+{
+    double step = c->h / PER_SPACING, n[2] = { -c->direction[1], c->direction[0] };
+    long first = c->edge ? 0 : -(long) floor (c->reach[0] / step);
+    for (size_t i = 0; i < c->n; i++) {
+        double s = c->at[i] = (double) (first + (long) i) * step;
+        if (c->edge && i == 0) s = 0.1 * step;         /* the surface itself is no place of the body */
+        for (int q = 0; q < LATERAL; q++) {
+            double side = (q - LATERAL / 2) * c->h / LATERAL, *at = x + 2 * (LATERAL * i + (size_t) q);
+            for (int k = 0; k < 2; k++) at[k] = c->origin[k] + s * c->direction[k] + side * n[k];
+        }
+    }
+}
+
+/* Stress across the crack over the strength along it, and the energy that it takes there. */
+static pg_status look_along (const search *g, trial_crack *c)
+{
+    pg_status status = PG_OK;
+    double step = c->h / PER_SPACING, *x = NULL;
+    double a = -c->direction[1], b = c->direction[0], across[3] = { a * a, b * b, 2 * a * b };
+    affine_stress *stress = NULL;
+    c->n = (size_t) (floor (c->reach[1] / step) + (c->edge ? 0 : floor (c->reach[0] / step))) + 1;
+    if (c->n > MOST_PLACES) c->n = MOST_PLACES;
+    PG_ALLOC (x, 2 * LATERAL * c->n);
+    PG_ALLOC (stress, c->n);
+    set_places (c, x);
+    PG_TRY (hot_stress (g, LATERAL * c->n, LATERAL, x, stress));
+    for (size_t i = 0; i < c->n; i++) {
+        double place[3] = { c->origin[0] + c->at[i] * c->direction[0],
+                            c->origin[1] + c->at[i] * c->direction[1] };
+        pg_fracture_limits limits;
+        /* where none can grow no crack goes through */
+        c->needed[i] = INFINITY, c->strength[i] = 1;
+        if (!hot_resists (g, place, c->angle, c->h, c->modulus, &limits)) continue;
+        c->needed[i] = limits.energy * g->w->system->problem->cloud.thickness;
+        c->strength[i] = limits.strength;
+        for (int k = 0; k < 3; k++) {
+            c->c[i] += across[k] * stress[i].constant[k] / limits.strength;
+            c->s[i] += across[k] * stress[i].slope[k] / limits.strength;
+        }
+    }
+done:
+    pg_free (x), pg_free (stress);
+    return status;
+}
+
+/* ---- what it needs ------------------------------------------------------------------------------------- */
+/* The parts of a crack of length l behind and ahead of the origin: equal, as far as the body goes. */
+static void ends_of (const trial_crack *c, double l, double end[2])
+{
+    end[0] = c->edge ? 0 : 0.5 * l, end[1] = l - end[0];
+    for (int k = 0; k < 2 && !c->edge; k++)
+        if (end[k] > c->reach[k]) end[k] = c->reach[k], end[1 - k] = l - end[k];
+    for (int k = 0; k < 2; k++) end[k] = fmin (end[k], c->reach[k]);
+}
+
+/* The place at or behind one. */
+static size_t nearest_place (const trial_crack *c, double at)
+{
+    double step = c->h / PER_SPACING, i = floor ((at - c->at[0]) / step);
+    return i < 0 ? 0 : i > (double) (c->n - 1) ? c->n - 1 : (size_t) i;
+}
+
+/* Stress across at a place along the crack, linear between those that were looked at; beyond them
+ * constant. */
+static void stress_at (const trial_crack *c, double at, double out[2])
+{
+    size_t i = nearest_place (c, at), j = i + 1 < c->n ? i + 1 : i;
+    double share = j > i ? fmin (1, fmax (0, (at - c->at[i]) / (c->at[j] - c->at[i]))) : 0;
+    out[0] = c->c[i] + share * (c->c[j] - c->c[i]), out[1] = c->s[i] + share * (c->s[j] - c->s[i]);
+}
+
+static double stress_factor (const double v[2])
+{
+    if (v[0] >= 1) return 0;
+    return v[1] > 0 ? (1 - v[0]) / v[1] : INFINITY;
+}
+
+/* lambda_S of a length: all along it the strength is reached; *where: the stress that is last to do so. */
+static double lambda_S (const trial_crack *c, double l, double where[2])
+{
+    double end[2], v[2], worst = -1;
+    ends_of (c, l, end);
+    for (size_t i = 0; i < c->n + 2; i++) {
+        double at = i < c->n ? c->at[i] : i == c->n ? -end[0] : end[1];
+        if (at < -end[0] || at > end[1]) continue;
+        stress_at (c, at, v);
+        double factor = stress_factor (v);
+        if (factor > worst) worst = factor, where[0] = v[0], where[1] = v[1];
+    }
+    return worst;
+}
+
+/* What a crack of that length takes, J. */
+static double energy_of (const trial_crack *c, double l)
+{
+    double end[2], sum = 0, length = 0;
+    ends_of (c, l, end);
+    for (size_t i = 0; i < c->n; i++) {
+        /* the part of the crack that is nearest to this place */
+        double low = i ? 0.5 * (c->at[i - 1] + c->at[i]) : -INFINITY,
+               high = i + 1 < c->n ? 0.5 * (c->at[i] + c->at[i + 1]) : INFINITY;
+        double part = fmin (high, end[1]) - fmax (low, -end[0]);
+        if (part > 0) sum += part * c->needed[i], length += part;
+    }
+    return length > 0 ? sum * l / length : INFINITY;
+}
+
+/* ---- an estimate --------------------------------------------------------------------------------------- */
+/* K of a crack of length l, Pa m^(1/2), of the constant part of the stress and of that with lambda: that
+ * of the stress across it in a half plane (from the surface; Hartranft, Sih 1973) or in the plane, the
+ * mean of both tips. */
+static void estimate_K (const trial_crack *c, double l, double K[2])
+{
+    enum { PARTS = 24 };
+    double quarter = 0.5 * acos (-1), a = c->edge ? l : 0.5 * l, end[2], v[2];
+    ends_of (c, l, end);
+    K[0] = K[1] = 0;
+    for (int q = 0; q < PARTS; q++) {
+        double s = sin (quarter * ((c->edge ? q : 2*q - PARTS) + (c->edge ? 0.5 : 1)) / PARTS);
+        double at = c->edge ? s * a : 0.5 * (end[1] - end[0]) + s * a;
+        double weight = c->edge ? 1.3 - 0.3 * pow (s, 1.25) : 1;
+        size_t i = nearest_place (c, at);
+        stress_at (c, at, v);
+        weight *= 2 * sqrt (a / acos (-1)) * quarter / PARTS * c->strength[i];
+        for (int k = 0; k < 2; k++) K[k] += weight * v[k];
+    }
+}
+
+/* The length at which the larger of both factors is least, by estimate. */
+static void estimate (const search *g, trial_crack *c)
+{
+    enum { STEPS = 200 };
+    const double t = g->w->system->problem->cloud.thickness;
+    double all = c->reach[0] + c->reach[1], l = 0, release[3] = { 0 };
+    c->factor = INFINITY, c->about = c->h;
+    for (int k = 0; k < STEPS && l < all; k++) {
+        double step = fmax (0.25 * c->h, all / STEPS), K[2], unused[2];
+        step = fmin (step, all - l);
+        estimate_K (c, l + 0.5 * step, K);
+        release[0] += K[0] * K[0] / c->modulus * step * t;
+        release[1] += 2 * K[0] * K[1] / c->modulus * step * t;
+        release[2] += K[1] * K[1] / c->modulus * step * t;
+        l += step;
+        double factor = fmax (trial_energy_factor (release, energy_of (c, l)), lambda_S (c, l, unused));
+        if (factor < c->factor) c->factor = factor, c->about = l;
+    }
+}
+
+/* ---- lengths that are cut ------------------------------------------------------------------------------ */
+/* The polynomial of what a length sets free, J. */
+static void release_of (const trial_crack *c, double l, double out[3])
+{
+    for (int q = 0; q < 3; q++) out[q] = l * l * (c->release[q] + l * c->slope[q]);
+}
+
+static double lambda_E (const trial_crack *c, double l)
+{
+    double polynomial[3];
+    release_of (c, l, polynomial);
+    return trial_energy_factor (polynomial, energy_of (c, l));
+}
+
+/* Lengths about one, a quarter of a spacing apart at least, from one spacing on. Returns how many. */
+static size_t choose_lengths (const trial_crack *c, double about, double *length)
+{
+    static const double share[LENGTHS] = { 0.6, 0.75, 0.9, 1.05, 1.2, 1.4 };
+    double all = c->reach[0] + c->reach[1], last = 0;
+    size_t n = 0;
+    for (int k = 0; k < LENGTHS; k++) {
+        double l = fmax (share[k] * about, n ? last + 0.25 * c->h : c->h);
+        /* less than half a spacing left: through */
+        if (all - l < 0.5 * c->h) l = all;
+        length[n++] = last = l;
+        if (l >= all) break;
+    }
+    return n;
+}
+
+/* A straight line through energies over length^2, by least squares; through one: constant. */
+static void fit (trial_crack *c, size_t n, const double *length, double energy[][3])
+{
+    double mean = 0, spread = 0;
+    for (size_t k = 0; k < n; k++) mean += length[k] / (double) n;
+    for (size_t k = 0; k < n; k++) spread += (length[k] - mean) * (length[k] - mean);
+    for (int q = 0; q < 3; q++) {
+        double value = 0, slope = 0;
+        for (size_t k = 0; k < n; k++) {
+            double y = energy[k][q] / (length[k] * length[k]);
+            value += y / (double) n, slope += spread > 0 ? (length[k] - mean) * y / spread : 0;
+        }
+        c->release[q] = value - slope * mean, c->slope[q] = slope;
+    }
+    c->shortest = length[0], c->longest = length[n - 1];
+}
+
+/* The ends of a crack of length l, and which of them are tips. */
+static int place_ends (const trial_crack *c, double l, double *from, double *to)
+{
+    double end[2];
+    int open = 0;
+    ends_of (c, l, end);
+    for (int k = 0; k < 2; k++) {
+        from[k] = c->origin[k] - end[0] * c->direction[k], to[k] = c->origin[k] + end[1] * c->direction[k];
+        if (end[k] > 0 && end[k] < c->reach[k]) open |= 1 << k;
+    }
+    from[2] = to[2] = 0;
+    return open;
+}
+
+/* Cuts lengths about one and fits what they set free. */
+static pg_status try_lengths (const search *g, trial_crack *c, double about)
+{
+    pg_status status = PG_OK;
+    pg_changes cut[LENGTHS] = { { 0 } };
+    trial_form form[LENGTHS];
+    double from[3 * LENGTHS], to[3 * LENGTHS], length[LENGTHS], energy[LENGTHS][3];
+    int open[LENGTHS];
+    size_t n = choose_lengths (c, about, length);
+    for (size_t k = 0; k < n; k++) open[k] = place_ends (c, length[k], from + 3*k, to + 3*k);
+    PG_TRY (trial_cuts (g->w, g->state, n, from, to, open, cut));
+    PG_TRY (trial_release (g->w, g->state, g->f, n, cut, form));
+    for (size_t k = 0; k < n; k++) trial_polynomial (g->f, &form[k], energy[k]);
+    /* what cuts the body through is no longer one of a series */
+    if (n > 1 && length[n - 1] >= c->reach[0] + c->reach[1]) n--;
+    fit (c, n, length, energy);
+done:
+    for (size_t k = 0; k < LENGTHS; k++) pg_free (cut[k].bond);
+    return status;
+}
+
+/* The larger of the two factors; *over: energy asks for more than strength. */
+static double both (const trial_crack *c, double l, int *over)
+{
+    double unused[2], e = lambda_E (c, l), s = lambda_S (c, l, unused);
+    *over = e > s;
+    return fmax (e, s);
+}
+
+/* The length from low to high at which the larger of the two factors is least: where they cross, else at an
+ * end. */
+static double best_length (const trial_crack *c, double low, double high, double *factor)
+{
+    enum { HALVINGS = 50 };
+    int at_low, at_high, over;
+    double l = high, first = both (c, low, &at_low);
+    *factor = both (c, high, &at_high);
+    if (first < *factor) *factor = first, l = low;
+    if (!at_low || at_high) return l;
+    for (int i = 0; i < HALVINGS; i++) {
+        double middle = 0.5 * (low + high);
+        both (c, middle, &over);
+        if (over) low = middle;
+        else high = middle;
+    }
+    *factor = both (c, high, &over);
+    return high;
+}
+
+/* Tries a crack: lengths about the estimate, then about what these say, until it lies among those tried. */
+static pg_status try_crack (const search *g, trial_crack *c, trial_start *out)
+{
+    pg_status status = PG_OK;
+    double l = c->about, all = c->reach[0] + c->reach[1];
+    for (int round = 0; round < ROUNDS; round++) {
+        PG_TRY (try_lengths (g, c, l));
+        int over;
+        double about = l;
+        both (c, c->longest, &over);
+        l = best_length (c, 0.5 * c->shortest, over ? fmin (2 * c->longest, all) : c->longest, &out->factor);
+        int inside = (l >= c->shortest * (1 - 1e-9) || c->shortest <= c->h * (1 + 1e-9))
+                     && l <= c->longest * (1 + 1e-9);
+        if (inside || fabs (l - about) < 0.1 * about || out->factor > doubt * g->best) break;
+    }
+    lambda_S (c, l, out->stress);
+    release_of (c, l, out->release);
+    out->energy = energy_of (c, l);
+    /* a facet of less than a spacing cuts next to nothing */
+    out->length = fmin (fmax (l, c->h), all);
+    out->open = place_ends (c, out->length, out->from, out->to);
+done:
+    return status;
+}
+
+/* ---- the search ---------------------------------------------------------------------------------------- */
+/* Keeps the best of the tried ones, and those that tie with it. */
+static size_t keep_best (trial_start *out, size_t n, int one)
+{
+    size_t kept = 0, best = 0;
+    for (size_t k = 1; k < n; k++) if (out[k].factor < out[best].factor) best = k;
+    if (n == 0 || isinf (out[best].factor)) return 0;
+    double limit = out[best].factor * (1 + same);
+    trial_start first = out[best];
+    for (size_t k = 0; k < n; k++) if (out[k].factor <= limit && !one) out[kept++] = out[k];
+    if (one) out[0] = first, kept = 1;
+    return kept;
+}
+
+/* The crack with the least estimate among those that have none yet; SIZE_MAX: none below the limit. */
+static size_t next_crack (const trial_crack *c, size_t n, const unsigned char *done, double limit)
+{
+    size_t best = SIZE_MAX;
+    for (size_t k = 0; k < n; k++)
+        if (!done[k] && c[k].factor <= limit && (best == SIZE_MAX || c[k].factor < c[best].factor)) best = k;
+    return best;
+}
+
+pg_status trial_initiation (trials *w, const pg_state *state, const trial_fields *f, trial_limits limits,
+                            void *context, double below, trial_start *out, size_t *n, int *arbitrary)
+{
+    pg_status status = PG_OK;
+    search g = { w, state, f, limits, context, below };
+    trial_crack *c = NULL;
+    hot_spot spot[MOST_SPOTS];
+    trial_start tried[MOST_TRIED] = { { .factor = 0 } };
+    unsigned char done_[MOST_SPOTS] = { 0 };
+    size_t nspot, ntried = 0, about = 0, k;
+    *n = 0, *arbitrary = 0;
+    if (!state->paths || !w->system->force->field) return PG_OK;
+    PG_TRY (hot_spots (&g, MOST_SPOTS, spot, &nspot));
+    PG_ALLOC (c, nspot);
+    for (size_t i = 0; i < nspot; i++) {
+        about += spot[i].factor <= spot[0].factor * (1 + even);
+        lay (&g, &spot[i], &c[i]);
+        done_[i] = !isfinite (spot[i].factor) || !(c[i].reach[0] + c[i].reach[1] >= c[i].h);
+        if (done_[i]) continue;
+        PG_TRY (look_along (&g, &c[i]));
+        estimate (&g, &c[i]);
+    }
+    while (ntried < MOST_TRIED && (k = next_crack (c, nspot, done_, doubt * g.best)) != SIZE_MAX) {
+        done_[k] = 1;
+        PG_TRY (try_crack (&g, &c[k], &tried[ntried]));
+        g.best = fmin (g.best, tried[ntried].factor);
+        if (tried[ntried].factor < below) ntried++;
+    }
+    *arbitrary = about > TRIAL_MOST_STARTS;
+    *n = keep_best (tried, ntried, *arbitrary);
+    if (*n > TRIAL_MOST_STARTS) *n = TRIAL_MOST_STARTS;
+    memcpy (out, tried, *n * sizeof *out);
+done:
+    pg_free (c);
+    return status;
+}
