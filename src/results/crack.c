@@ -43,6 +43,13 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
     int set = p->rows[PG_POINTS].n ? PG_POINTS : PG_NODES;
     double area = 0;
     r->crack = (result_crack) { .length = NAN, .dissipated = NAN };
+    if (r->grows && state->paths) {                        /* known, not estimated */
+        r->crack.length = state->paths->length, r->crack.area = r->crack.length * p->cloud.thickness;
+        r->crack.found = r->crack.area > 0;
+        if (r->crack.found)
+            r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / r->crack.area;
+        return PG_OK;
+    }
     if (!p->criterion->type || state->broken == 0) return PG_OK;
     if (pg_state_create (&start, p, pg_solver_components (r->solver)) != PG_OK) return PG_OK;
     for (size_t i = 0; i < p->rows[set].n; i++)

@@ -5,6 +5,7 @@
  *   per load     reaction (N; N m for rotations) and mean displacement of its points (m; rad), per component
  *   per gauge    opening, m                     per entry of output.averages   its mean
  *   per entry of output.tips   length of the crack, m
+ *   cracks that grow and their tips (grown_cracks.c)
  *   energies (J), broken bonds, iterations, residual, utilisation, event, level
  *
  * events.csv has one row per broken bond: when, where, how, and which kind of bond. Both
@@ -34,7 +35,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     const pg_problem *p = r->problem;
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
-    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + r->naverage + r->ntip + 1;
+    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + r->naverage + r->ntip + pg_result_paths_columns (r) + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
@@ -50,6 +51,8 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
     for (size_t a = 0; a < r->naverage; a++) pg_result_average_column (r, a, name[n++], sizeof *name);
     for (size_t t = 0; t < r->ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]", r->tip[t].name);
+    for (size_t k = 0; k < pg_result_paths_columns (r); k++)
+        pg_result_paths_column (r, k, name[n++], sizeof *name);
     for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++)
         snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
     for (size_t k = 0; k < n; k++) column[k] = name[k];
@@ -67,6 +70,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     snprintf (path, sizeof path, "%s/events.csv", r->folder);
     PG_TRY (from ? pg_table_open (&r->events, path, EVENT_COLUMNS, event_columns, from->events)
                  : pg_table_create (&r->events, path, EVENT_COLUMNS, event_columns));
+    PG_TRY (pg_result_paths_create (r, from));
 done:
     pg_free (name), pg_free (column);
     return status;
@@ -171,6 +175,8 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     n += r->naverage;
     PG_TRY (pg_result_tips_row (r, state, step, r->row + n, r->u));
     n += r->ntip;
+    PG_TRY (pg_result_paths_row (r, state, r->row + n));
+    n += pg_result_paths_columns (r);
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic,
     r->row[n++] = report->energy_external;
     r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken,
@@ -179,6 +185,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     r->row[n++] = step->level;
     PG_TRY (pg_table_row (r->history, r->row));
     PG_TRY (event_rows (r, step));
+    PG_TRY (pg_result_paths_write (r, state, step));
 done:
     return status;
 }

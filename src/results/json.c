@@ -5,6 +5,7 @@
  *   (no key)   sizes of the problem, steps, events, iterations, work of the linear solver, energies
  *   curve      peak of the load-displacement curve and its stiffnesses        (curve.c)
  *   new_crack  what the broken bonds amount to                                (crack.c)
+ *   crack_length, fracture   cracks that grew by facets                       (grown_cracks.c)
  *   patch      patch test of the discretization before the first step
  *   error_estimate, error   of the last stress, and against the reference of the scene
  *   seconds    where the time went
@@ -133,7 +134,7 @@ static void crack_block (pg_json *j, const pg_result *res)
 {
     if (!res->crack.found) return;
     pg_json_open (j, "new_crack", '{');
-    pg_json_text (j, "kind", "estimate");
+    pg_json_text (j, "kind", res->grows ? "facets" : "estimate");
     pg_json_number (j, "area", res->crack.area);
     if (res->problem->dim == 2) pg_json_number (j, "length", res->crack.length);
     pg_json_number (j, "dissipated_per_area", res->crack.dissipated);
@@ -172,6 +173,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     run_block (j, res, r, state);
     pg_result_curve_json (j, res);
     crack_block (j, res);
+    pg_result_paths_json (j, res, state);
     patch_block (j, res->problem);
     estimate_block (j, res);
     seconds_block (j, res, r, search, total);

@@ -49,6 +49,9 @@ static const pg_key keys[] = {
     { "output.checkpoint", PG_NUMBER, "s", "[0, inf)", "5 min", NULL, NULL, NULL,
       "Wall time between checkpoints, from which run --resume continues; 0: only when the run is "
       "interrupted or fails." },
+    { "output.stress_intensity", PG_BOOL, NULL, NULL, "off", NULL, NULL, NULL,
+      "2D: energy release rate J and stress intensity factors K_I, K_II of every tip of a crack, as columns "
+      "tip.N.J ... of history.csv and in tips.csv. Runs whose cracks grow by facets have them anyway." },
     { "output.averages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
       "Means of a field over a set, a column of history.csv each." },
     { "output.averages[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },

@@ -89,6 +89,7 @@ pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *s
     PG_TRY (read_requests (r, scene));
     PG_TRY (pg_result_averages_read (r, scene));
     PG_TRY (pg_result_tips_read (r, scene));
+    pg_result_paths_read (r, scene);
     PG_TRY (pg_reference_read (&r->reference, scene, problem));
     pg_result_curve_choose (r);
     r->next_broken = r->broken_share > 0 ? 1 : 0;
@@ -128,10 +129,16 @@ done:
 /* Read from the open files, so that marks and files cannot differ. */
 result_marks pg_result_marks_now (const pg_result *r)
 {
-    result_marks m = {
-        pg_table_rows (r->history), pg_table_rows (r->events), 0,        0,      r->next_broken,
-        (long) r->npoint,           r->last_written,           r->stamp, r->time
-    };
+    result_marks m = { .history = pg_table_rows (r->history),
+                       .events = pg_table_rows (r->events),
+                       .next_broken = r->next_broken,
+                       .points = (long) r->npoint,
+                       .last_written = r->last_written,
+                       .pieces = r->pieces ? pg_table_rows (r->pieces) : 0,
+                       .tips = r->tip_rows ? pg_table_rows (r->tip_rows) : 0,
+                       .npiece = r->npiece,
+                       .stamp = r->stamp,
+                       .time = r->time };
     pg_exodus_size (r->file, &m.steps, &m.bytes);
     return m;
 }
@@ -267,6 +274,7 @@ void pg_result_free (pg_result **result)
     pg_exodus_close (&r->file);
     pg_table_close (&r->history);
     pg_table_close (&r->events);
+    pg_result_paths_close (r);
     pg_result_unlock (r->folder, &r->lock);
     pg_scene_files_free (r->nnamed, &r->named);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);

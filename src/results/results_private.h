@@ -20,6 +20,8 @@ typedef struct {
     /* Number of the share of broken bonds at which fields are due next; points of the
      * load-displacement curve; 1 if the state of the last step is in result.e. */
     long     next_broken, points, last_written;
+    /* Rows of cracks.csv and of tips.csv; pieces of cracks that are in cracks.csv or need no row. */
+    long     pieces, tips, npiece;
     /* Time of the last step, and of the last fields in result.e (s, or load factor). */
     double   stamp, time;
 } result_marks;
@@ -95,6 +97,13 @@ struct pg_result {
     result_average *average;  size_t naverage;
     /* Cracks that are followed; tips is the number of rows with their lengths. */
     result_tip *tip;  size_t ntip, tips, tip_capacity;
+    /* 1: cracks grow by facets; 1: tips are measured here (output.stress_intensity). */
+    int       grows, measuring;
+    /* cracks.csv and tips.csv, or NULL; the next piece to write. */
+    pg_table *pieces, *tip_rows;
+    long      npiece;
+    /* What the tips of the state of the last row bear. */
+    pg_tip_values *tip_value;  size_t cap_tip_value;
     /* Time (s) or load factor of each of these rows. */
     double   *tip_time;
     /* Broken bonds when the lengths were measured last; -1: they must be measured. */
@@ -163,6 +172,19 @@ pg_status pg_result_averages_read  (pg_result *r, const pg_scene *scene);
 void      pg_result_average_column (const pg_result *r, size_t i, char *out, size_t size);
 pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *row,
                                double *work /* 6 a point */);
+/* Cracks that grow, and output.stress_intensity (grown_cracks.c): faults, reading; the columns of
+ * history.csv and their values; the tables cracks.csv and tips.csv, created or cut to the rows of `from`, and
+ * their rows, after that of history.csv; report.json; dissipated energy over that of the fracture energy. */
+void      pg_result_paths_check    (const pg_scene *scene, const pg_problem *problem);
+void      pg_result_paths_read     (pg_result *r, const pg_scene *scene);
+size_t    pg_result_paths_columns  (const pg_result *r);
+void      pg_result_paths_column   (const pg_result *r, size_t i, char *out, size_t size);
+pg_status pg_result_paths_row      (pg_result *r, const pg_state *state, double *row);
+pg_status pg_result_paths_create   (pg_result *r, const result_marks *from);
+pg_status pg_result_paths_write    (pg_result *r, const pg_state *state, const pg_step *step);
+void      pg_result_paths_json     (pg_json *j, const pg_result *r, const pg_state *state);
+double    pg_result_paths_ratio    (const pg_result *r);
+void      pg_result_paths_close    (pg_result *r);
 /* output.tips (crack_tips.c): faults, reading, freeing, a row, keeping the first `rows` rows. */
 pg_status pg_result_tips_check     (const pg_scene *scene, const pg_problem *problem);
 pg_status pg_result_tips_read      (pg_result *r, const pg_scene *scene);

@@ -14,8 +14,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
-/* Bytes of a hash and of the version. */
-enum { WORD = 64 };
+/* Bytes of a hash and of the version; whole numbers of a set of marks. */
+enum { WORD = 64, MARKS = 10 };
 /* A checkpoint that is being written or read. */
 typedef struct {
     pg_result *r;
@@ -110,7 +110,7 @@ static pg_status check_marks (const memory *m, const char *name, const long *cou
     char path[4096];
     snprintf (path, sizeof path, "%s/history.csv", m->r->folder);
     if (stat (path, &s) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    for (int i = 0; i < 7; i++)
+    for (int i = 0; i < MARKS; i++)
         if (count[i] < 0 || count[i] > 1L << 50)
             PG_FAIL (PG_E_FILE, "%s is not of this run: mark %d of %s is %ld", m->path, i, name, count[i]);
     if (count[0] > s.st_size)
@@ -128,15 +128,16 @@ static pg_status keep_marks (const memory *of, result_marks *m, const char *name
 {
     pg_status status = PG_OK;
     char part[WORD];
-    long count[7] = { m->history, m->events, m->steps, m->bytes, m->next_broken, m->points, m->last_written };
+    long count[MARKS] = { m->history, m->events,       m->steps,  m->bytes, m->next_broken,
+                          m->points,  m->last_written, m->pieces, m->tips,  m->npiece };
     double number[2] = { m->stamp, m->time };
     snprintf (part, sizeof part, "%s.counts", name);
-    PG_TRY (k->counts (k->context, part, 7, count));
+    PG_TRY (k->counts (k->context, part, MARKS, count));
     snprintf (part, sizeof part, "%s.numbers", name);
     PG_TRY (k->numbers (k->context, part, 2, number));
     if (k->reading) PG_TRY (check_marks (of, name, count));
-    *m = (result_marks){ count[0], count[1], count[2],  count[3], count[4],
-                         count[5], count[6], number[0], number[1] };
+    *m = (result_marks){ count[0], count[1], count[2], count[3], count[4],  count[5],
+                         count[6], count[7], count[8], count[9], number[0], number[1] };
 done:
     return status;
 }
@@ -245,6 +246,8 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     /* Rows first, then the marks that count them. */
     PG_TRY (pg_table_sync (r->history));
     PG_TRY (pg_table_sync (r->events));
+    if (r->pieces) PG_TRY (pg_table_sync (r->pieces));
+    if (r->tip_rows) PG_TRY (pg_table_sync (r->tip_rows));
     PG_TRY (pg_exodus_sync (r->file));
     PG_TRY (pg_checkpoint_write (path, keep_all, &m));
 done:
