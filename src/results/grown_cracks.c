@@ -17,8 +17,8 @@
 
 /* Columns of history.csv for a tip. */
 enum { PER_TIP = 5 };
-static const char *const tip_columns[PER_TIP] = { "J [J/m^2]", "K_I [Pa m^(1/2)]", "K_II [Pa m^(1/2)]", "x [m]",
-                                                  "y [m]" };
+static const char *const tip_columns[PER_TIP] = { "J [J/m^2]", "K_I [Pa m^(1/2)]", "K_II [Pa m^(1/2)]",
+                                                  "x [m]", "y [m]" };
 static const char *const piece_columns[] = { "step [1]", "stamp [1]", "crack [1]", "segment [1]", "x0 [m]",
                                              "y0 [m]",   "x1 [m]",    "y1 [m]",    "tip [1]" };
 static const char *const all_tip_columns[] = {
@@ -37,7 +37,8 @@ void pg_result_paths_check (const pg_scene *scene, const pg_problem *p)
     const pg_force_type *force = pg_force_of (p);
     const char *why = force ? pg_tip_refuses (p, force) : NULL;
     if (p->dim != 2) pg_scene_fault (scene, key, "the tips of cracks are measured in 2D only");
-    else if (p->ntip == 0 && !pg_problem_grows (p)) pg_scene_fault (scene, key, "there is no crack with a tip");
+    else if (p->ntip == 0 && !pg_problem_grows (p))
+        pg_scene_fault (scene, key, "there is no crack with a tip");
     else if (why) pg_scene_fault (scene, key, "%s", why);
 }
 
@@ -65,7 +66,8 @@ void pg_result_paths_column (const pg_result *r, size_t i, char *out, size_t siz
     }
 }
 
-/* What is known of a tip in this state. Where there is no room for a ring nothing is. */
+/* What is known of a tip in this state: nothing where there is no room for a ring, or of one that has
+ * ended. */
 static pg_status values_of (pg_result *r, const pg_state *state, size_t tip, pg_tip_values *out)
 {
     pg_status status = PG_OK;
@@ -75,8 +77,9 @@ static pg_status values_of (pg_result *r, const pg_state *state, size_t tip, pg_
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     const pg_tip_values *known = pg_solver_tip (r->solver, t->id);
-    *out = (pg_tip_values) { .J = NAN, .K = { NAN, NAN, NAN }, .T = NAN, .uncertainty = NAN, .utilisation = NAN };
-    if (known) *out = *known;
+    *out = (pg_tip_values) { .J = NAN, .K = { NAN, NAN, NAN }, .T = NAN, .uncertainty = NAN,
+                             .utilisation = NAN };
+    if (known && t->open) *out = *known;
     out->id = t->id, out->x[0] = t->x[0], out->x[1] = t->x[1];
     if (known || !r->measuring || !t->open) goto done;
     PG_TRY (pg_tip_measure (&field, r->problem, force, self, state, tip, 1, &d, &time));
@@ -153,9 +156,9 @@ static pg_status write_pieces (pg_result *r, const pg_state *state, const pg_ste
         size_t k = (size_t) r->npiece;
         const double *x = w->cracks.crack[k].vertex;
         if (w->owner[k] == 0 && w->parent[k] != SIZE_MAX) continue;
-        PG_TRY (pg_table_row (r->pieces, (double[PIECE_COLUMNS]) {
-            (double) step->number, step->stamp, (double) w->path[k] + 1, (double) k + 1, x[0], x[1], x[2], x[3],
-            (double) w->owner[k] }));
+        const double row[PIECE_COLUMNS] = { (double) step->number, step->stamp, (double) w->path[k] + 1,
+                                            (double) k + 1, x[0], x[1], x[2], x[3], (double) w->owner[k] };
+        PG_TRY (pg_table_row (r->pieces, row));
     }
 done:
     return status;
@@ -170,9 +173,10 @@ pg_status pg_result_paths_write (pg_result *r, const pg_state *state, const pg_s
     for (size_t i = 0; i < state->paths->ntip; i++) {
         const pg_tip *t = &state->paths->tip[i];
         const pg_tip_values *v = &r->tip_value[i];
-        PG_TRY (pg_table_row (r->tip_rows, (double[ALL_TIP_COLUMNS]) {
-            (double) step->number, step->time, step->factor, (double) t->id, t->open, t->x[0], t->x[1], t->grown,
-            v->J, v->K[0], v->K[1], v->T, v->uncertainty, v->utilisation }));
+        const double row[ALL_TIP_COLUMNS] = { (double) step->number, step->time, step->factor, (double) t->id,
+                                              t->open, t->x[0], t->x[1], t->grown, v->J, v->K[0], v->K[1],
+                                              v->T, v->uncertainty, v->utilisation };
+        PG_TRY (pg_table_row (r->tip_rows, row));
     }
 done:
     return status;

@@ -35,7 +35,8 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     const pg_problem *p = r->problem;
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
-    size_t n = 0, most = 13 + 6 * p->nload + p->ngauge + r->naverage + r->ntip + pg_result_paths_columns (r) + 1;
+    size_t n = 0, tips = pg_result_paths_columns (r),
+           most = 13 + 6 * p->nload + p->ngauge + r->naverage + r->ntip + tips + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
@@ -51,8 +52,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
     for (size_t a = 0; a < r->naverage; a++) pg_result_average_column (r, a, name[n++], sizeof *name);
     for (size_t t = 0; t < r->ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]", r->tip[t].name);
-    for (size_t k = 0; k < pg_result_paths_columns (r); k++)
-        pg_result_paths_column (r, k, name[n++], sizeof *name);
+    for (size_t k = 0; k < tips; k++) pg_result_paths_column (r, k, name[n++], sizeof *name);
     for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++)
         snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
     for (size_t k = 0; k < n; k++) column[k] = name[k];

@@ -246,7 +246,8 @@ static void surfaces_of_any_shape (void **state)
     (void) state;
     growing g = begin ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}, {subtract: {disk: "
                        "{center: [0.7, 0.5], radius: 0.1}}}]\nspacing: 0.05\ncells: cut\nmaterials: {m: "
-                       "{youngs_modulus: 1, poissons_ratio: 0.2}}\ncracks: [{from: [0.2, 0.45], to: [0.5, 0.45]}]\n");
+                       "{youngs_modulus: 1, poissons_ratio: 0.2}}\ncracks: [{from: [0.2, 0.45], "
+                       "to: [0.5, 0.45]}]\n");
     double place[2];
     int what;
     check_relative (pg_tip_ahead (g.p, g.s, 1, (double[]) { 1, 0 }, 1, &what), 0.2 - sqrt (0.0075), 1e-11);
