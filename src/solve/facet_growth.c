@@ -238,17 +238,10 @@ static int ascending (const void *a, const void *b)
     return (i > k) - (i < k);
 }
 
-/* Bonds that crossed the facet die. */
-static void kill_from (break_loop *b, pg_state *state, size_t first)
+/* Bonds that crossed a facet die: all that are listed, since a further facet sorts its bonds in among them. */
+static void kill_listed (const break_loop *b, pg_state *state)
 {
-    size_t kept = first;
-    for (size_t i = first; i < b->changes.n; i++) {
-        size_t bond = b->changes.bond[i];
-        if (!state->alive[bond]) continue;
-        state->alive[bond] = 0;
-        b->changes.bond[kept++] = bond;
-    }
-    b->changes.n = kept;
+    for (size_t i = 0; i < b->changes.n; i++) state->alive[b->changes.bond[i]] = 0;
 }
 
 /* A tip within reach of the place where another met its crack has nowhere to go. */
@@ -272,11 +265,10 @@ static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     const pg_problem *p = b->system.problem;
-    size_t first = b->changes.n;
     if (c->tip >= 0) PG_TRY (pg_crack_grow (state, p, (size_t) c->tip, c->to, c->close, &b->changes));
     else PG_TRY (pg_crack_start (state, p, c->from, c->to, c->open, &b->changes));
     PG_TRY (close_others (b, state, c));
-    kill_from (b, state, first);
+    kill_listed (b, state);
     g->needed += c->energy, g->closed |= c->close;
 done:
     return status;
