@@ -14,7 +14,7 @@ typedef struct {
     const unsigned char *alive;
     const size_t *list;
     /* Scratch space, one for each thread. */
-    pg_neighbourhood *star;
+    pg_neighbourhood *around;
 } evaluation;
 
 /* Kernel and its derivative at q (n). Arguments are limited to 1: a family that includes its
@@ -209,13 +209,13 @@ static void row (const evaluation *g, size_t i, pg_neighbourhood *s)
 static void work (void *context, size_t first, size_t last, int thread)
 {
     const evaluation *g = context;
-    for (size_t k = first; k < last; k++) row (g, g->list ? g->list[k] : k, &g->star[thread]);
+    for (size_t k = first; k < last; k++) row (g, g->list ? g->list[k] : k, &g->around[thread]);
 }
 
 /* Scratch space for one thread, for families of at most `most` nodes; all vectors are parts of
  * one block. */
-static pg_status star_create (pg_neighbourhood *s, const pg_approx *a, const pg_cloud *cloud, int dim,
-                              size_t most)
+static pg_status neighbourhood_create (pg_neighbourhood *s, const pg_approx *a, const pg_cloud *cloud,
+                                       int dim, size_t most)
 {
     pg_status status = PG_OK;
     size_t vector = most * (size_t) dim;
@@ -251,17 +251,17 @@ pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, con
         size_t i = list ? list[k] : k, n = rows->family.start[i + 1] - rows->family.start[i];
         if (n > most) most = n;
     }
-    PG_ALLOC (g.star, slots);
-    for (size_t t = 0; t < slots; t++) PG_TRY (star_create (&g.star[t], a, cloud, dim, most));
+    PG_ALLOC (g.around, slots);
+    for (size_t t = 0; t < slots; t++) PG_TRY (neighbourhood_create (&g.around[t], a, cloud, dim, most));
     pg_parallel (threads, count, work, &g);
     for (size_t t = 0; t < slots; t++)
-        if (g.star[t].stray) PG_FAIL (PG_E_USAGE, "%s: a node is missing in its own family", a->type->name);
+        if (g.around[t].stray) PG_FAIL (PG_E_USAGE, "%s: a node is missing in its own family", a->type->name);
 done:
-    for (size_t t = 0; g.star && t < slots; t++) {
-        pg_free (g.star[t].z);
-        pg_free (g.star[t].ratio);
-        pg_free (g.star[t].entry);
+    for (size_t t = 0; g.around && t < slots; t++) {
+        pg_free (g.around[t].z);
+        pg_free (g.around[t].ratio);
+        pg_free (g.around[t].entry);
     }
-    pg_free (g.star);
+    pg_free (g.around);
     return status;
 }

@@ -69,8 +69,8 @@ typedef struct {
  * lowered or projected basis. values (NULL: there is none) writes N alone, with the same bits. */
 typedef struct {
     int about_node;
-    void (*fill) (const pg_neighbourhood *star, double *N, double *dN);
-    void (*values) (const pg_neighbourhood *star, double *N);
+    void (*fill) (const pg_neighbourhood *around, double *N, double *dN);
+    void (*values) (const pg_neighbourhood *around, double *N);
 } pg_formula;
 
 /* The loop over places: gathers live bonds, applies the rule for too few of them, calls the
@@ -82,24 +82,24 @@ pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, con
 
 /* Chooses the richest basis of at most `order` that the bonds can carry, fills p and L (or G),
  * and returns a PG_GRADE_...; h is the spacing, m. */
-int  pg_neighbourhood_grade   (pg_neighbourhood *star, int order, double h);
+int  pg_neighbourhood_grade   (pg_neighbourhood *around, int order, double h);
 /* Finds the directions of the linear basis that are left, fills p, G and centre; 0: none is
  * left. */
-int  pg_neighbourhood_project (pg_neighbourhood *star, double h);
+int  pg_neighbourhood_project (pg_neighbourhood *around, double h);
 /* The second moment M (dim x dim, lower triangle) = sum w (z - centre) (z - centre)'. */
-void pg_neighbourhood_spread  (const pg_neighbourhood *star, const double *centre, double *M);
+void pg_neighbourhood_spread  (const pg_neighbourhood *around, const double *centre, double *M);
 /* centre (dim) = sum w z. */
-void pg_neighbourhood_centre  (const pg_neighbourhood *star, double *centre);
+void pg_neighbourhood_centre  (const pg_neighbourhood *around, double *centre);
 /* Replaces b by A^-1 b, or by G b for a projected basis. */
-void pg_neighbourhood_invert  (const pg_neighbourhood *star, double *b);
+void pg_neighbourhood_invert  (const pg_neighbourhood *around, double *b);
 /* b = A^-1 e_row; for row 0 of a projected basis the right side is p at the place itself, (1,
  * - centre). */
-void pg_neighbourhood_solve   (const pg_neighbourhood *star, int row, double *b);
+void pg_neighbourhood_solve   (const pg_neighbourhood *around, int row, double *b);
 /* N_j = w_j p_j . b, written to the entries of the bonds in the row. */
-void pg_neighbourhood_shape   (const pg_neighbourhood *star, const double *b, double *N);
+void pg_neighbourhood_shape   (const pg_neighbourhood *around, const double *b, double *N);
 /* dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j, where e_k is the row of z_k: E1 with the constant, D1
  * without it. */
-void pg_neighbourhood_differential (const pg_neighbourhood *star, double *dN);
+void pg_neighbourhood_differential (const pg_neighbourhood *around, double *dN);
 /* The gradient of b . p with respect to z at z (dim), for a basis with the constant. */
-void pg_basis_slope  (const pg_neighbourhood *star, const double *z, const double *b, double *slope);
+void pg_basis_slope  (const pg_neighbourhood *around, const double *z, const double *b, double *slope);
 #endif

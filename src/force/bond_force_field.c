@@ -22,8 +22,8 @@ typedef struct {
     int material[BATCH];
 } batch;
 
-/* What bonds show against a law, into the results of the bonds `entry`: the larger utilisation and the
- * smaller load factor of two laws decide. */
+/* What bonds show against a law, into the results of the bonds `entry`: of two laws that judge one bond
+ * the larger utilisation and the smaller load factor decide. */
 static void take_worse (const judging *s, const pg_criterion *c, const pg_bond_measures *m,
                         const size_t *entry)
 {
@@ -40,7 +40,8 @@ static void take_worse (const judging *s, const pg_criterion *c, const pg_bond_m
         if (!(out[k] > s->factor[entry[k]])) s->factor[entry[k]] = out[k];
 }
 
-/* Those bonds of a batch whose law is that of the material. */
+/* Those bonds of a batch whose law is that of the material, copied together and judged at once: criteria
+ * take arrays, so that their own loops are long. */
 static void judge_by (const judging *s, const batch *all, int material)
 {
     const pg_problem *p = s->b->problem;
@@ -67,34 +68,36 @@ static void judge (const judging *s, batch *all)
 }
 
 /* Adds what bond e of point i shows at the displacement at hand to the batch; a full batch is judged. */
-static void add (const judging *s, batch *all, size_t i, const point_bonds *star, size_t e, int material,
+static void add (const judging *s, batch *all, size_t i, const point_bonds *bonds, size_t e, int material,
                  double ratio)
 {
-    size_t dim = (size_t) s->b->dim, m = (size_t) s->b->stride, j = (size_t) star->node[e], k = all->n++;
-    memcpy (all->xi + k * dim, star->xi + e * dim, dim * sizeof *all->xi);
+    size_t dim = (size_t) s->b->dim, m = (size_t) s->b->stride, j = (size_t) bonds->node[e], k = all->n++;
+    memcpy (all->xi + k * dim, bonds->xi + e * dim, dim * sizeof *all->xi);
     for (size_t a = 0; a < dim; a++) all->eta[k * dim + a] = s->d[j * m + a] - s->d[i * m + a];
     all->shear[k] = all->bending[k] = 0;
     if (s->b->theory->strain)
-        s->b->theory->strain (s->b, star->xi + e * dim, s->d + i * m, s->d + j * m, &all->shear[k],
+        s->b->theory->strain (s->b, bonds->xi + e * dim, s->d + i * m, s->d + j * m, &all->shear[k],
                               &all->bending[k]);
     all->reach[k] = ratio;
-    all->entry[k] = star->first + e, all->material[k] = material;
+    all->entry[k] = bonds->first + e, all->material[k] = material;
     if (all->n == BATCH) judge (s, all);
 }
 
-/* Bonds of two materials are judged by both laws. */
+/* Live bonds of a range of points. A bond of two materials is put into the batch twice, once for the law
+ * of either end; limits of stretch go by the spacing at each end in graded clouds, and the weaker end
+ * decides. */
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
     const judging *s = context;
     const bond_force *b = s->b;
     const unsigned char *exempt = b->problem->exempt[PG_NODES];
     const int *material = b->problem->block[PG_NODES];
-    point_bonds star;
+    point_bonds bonds;
     batch all = { .n = 0 };
     for (size_t i = first; i < last; i++) {
-        point_bonds_at (b, i, thread, &star);
-        for (size_t e = 0; e < star.m; e++) {
-            size_t j = (size_t) star.node[e], entry = star.first + e;
+        point_bonds_at (b, i, thread, &bonds);
+        for (size_t e = 0; e < bonds.m; e++) {
+            size_t j = (size_t) bonds.node[e], entry = bonds.first + e;
             if (s->utilisation) s->utilisation[entry] = 0;
             if (s->factor) s->factor[entry] = INFINITY;
             if (!s->state->alive[entry] || exempt[i] || exempt[j]) continue;
@@ -102,8 +105,8 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
                    far = pg_cloud_ratio (&b->problem->cloud, j);
             int alike = material[j] == material[i];
             /* the weaker end decides */
-            add (s, &all, i, &star, e, material[i], alike ? fmax (near, far) : near);
-            if (!alike) add (s, &all, i, &star, e, material[j], far);
+            add (s, &all, i, &bonds, e, material[i], alike ? fmax (near, far) : near);
+            if (!alike) add (s, &all, i, &bonds, e, material[j], far);
         }
     }
     judge (s, &all);
@@ -160,7 +163,8 @@ static void damage_at (const bond_force *b, const unsigned char *alive, const do
     *out = all > 0 ? dead / all : 0;
 }
 
-/* Most points have all their bonds: seen at a glance, since histories ask for this at every row. */
+/* The same for damage: most points have all their bonds, which one look at their bits shows, and
+ * histories ask for this at every row. */
 static void paint_damage (void *context, size_t first, size_t last, int thread)
 {
     const painting *p = context;
@@ -174,7 +178,9 @@ static void paint_damage (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* H[c * dim + k] = du_c/dx_k; 0 where the live bonds do not spread in all directions (design section 3) */
+/* H[c * dim + k] = du_c/dx_k from the live bonds by least squares, weighted by partial volumes: H sum w
+ * xi xi = sum w eta xi. 0 where the live bonds do not spread in all directions (smallest eigenvalue of
+ * sum w xi xi below 1e-3 h^2 sum w), as nothing is known there. */
 static void gradient_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                          const point_bonds *s, double *H)
 {
@@ -198,7 +204,8 @@ static void gradient_at (const bond_force *b, const unsigned char *alive, const 
     for (size_t a = 0; a < dim; a++) pg_dense_solve (b->dim, M, H + a * dim);
 }
 
-/* In Voigt order with engineering shears, from the gradient that fits the displacements of live bonds. */
+/* In Voigt order with engineering shears (xx yy zz xy yz zx), from the gradient that fits the
+ * displacements of live bonds. */
 static void strain_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
@@ -210,7 +217,8 @@ static void strain_at (const bond_force *b, const unsigned char *alive, const do
         out[1] = H[4], out[2] = H[8], out[3] = H[1] + H[3], out[4] = H[5] + H[7], out[5] = H[2] + H[6];
 }
 
-/* In Voigt order: the symmetric part of the virial. */
+/* In Voigt order, Pa: the symmetric part of the virial of the bonds' forces. What is not symmetric is
+ * borne by couples (micropolar bonds). */
 static void stress_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
                        const point_bonds *s, double *out)
 {
@@ -276,7 +284,7 @@ static pg_status make_near (bond_force *b)
 /* Which points a place does not see: those behind a crack. */
 typedef struct { const pg_problem *problem; const pg_cracks *cracks; } view;
 
-/* Refuses points that a crack hides from the place (pg_refuse). */
+/* Refuses points that a crack hides from the place (pg_refuse): displacements jump there. */
 static int hidden (void *context, const double *place, size_t point)
 {
     const view *v = context;
@@ -285,8 +293,9 @@ static int hidden (void *context, const double *place, size_t point)
                           1e-9 * p->cloud.h) != NULL;
 }
 
-/* First-order expansion about the nearest point on the same side of the cracks, with the gradient there (H: 9
- * numbers, dim x dim used); returns that point. */
+/* Displacement at place x by a first-order expansion about the nearest point on the same side of the
+ * cracks, with the gradient there (H: 9 numbers, dim x dim used); where cracks hide all points, about the
+ * nearest one. Returns that point. */
 static size_t expand (bond_force *b, const pg_state *state, const double *d, const double *x, point_bonds *s,
                       double *u, double *H)
 {
@@ -333,8 +342,9 @@ done:
 /* ---- broken bonds -------------------------------------------------------------------------------------- */
 typedef struct { bond_force *b; const pg_state *state; const double *d; double *worst; } closing;
 
-/* Approach of the ends of short dead bonds beyond the shortening of the material about point i, largest
- * (m). */
+/* How far the ends of short dead bonds of a range of points have come towards each other beyond the
+ * shortening of the material about them, the largest of each point, m. Points with all their bonds are
+ * passed over at a glance. */
 static void closing_points (void *context, size_t first, size_t last, int thread)
 {
     const closing *w = context;
@@ -375,7 +385,8 @@ double bond_force_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
-/* Parts of the body that live bonds hold together, by union of their ends. */
+/* Parts of the body that live bonds hold together, by union of their ends: points alone, and parts of
+ * several points beside the largest one. Without memory all are 0: a census is worth no failure. */
 void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
     bond_force *b = self;

@@ -34,8 +34,8 @@ void bond_force_apply (void *context, const double *x, double *y)
 
 enum { MOST = 36 };                                    /* numbers of a block */
 
-/* Sum of the bonds' own blocks over the live (or all) bonds of a point; exact: of a dilatation beside beams
- * nothing */
+/* Sum of the bonds' own blocks over the live bonds of a point (all: over all that count at the start).
+ * exact: of bonds alone, without the pull that stands for a dilatation beside beams. */
 static void own_block (const bond_force *b, size_t i, const point_bonds *s, int all, int exact, double *D)
 {
     size_t bb = (size_t) (b->stride * b->stride);
@@ -52,7 +52,7 @@ static void own_block (const bond_force *b, size_t i, const point_bonds *s, int 
 
 /* ---- rows of points that have all their bonds ---------------------------------------------------------- */
 /* Row of blocks of a point over its live bonds (all: over all), its own block last; returns their number. */
-static size_t row_of_star (const bond_force *b, size_t i, const point_bonds *s, int all, int *node,
+static size_t row_of_bonds (const bond_force *b, size_t i, const point_bonds *s, int all, int *node,
                            double *value)
 {
     size_t bb = (size_t) (b->stride * b->stride), m = 0;
@@ -72,8 +72,9 @@ static size_t row_of_star (const bond_force *b, size_t i, const point_bonds *s, 
 static size_t family_size (const bond_force *b,
                            size_t i) { return b->family->start[i + 1] - b->family->start[i]; }
 
-/* On a lattice without shares of volume, factors of surfaces or several moduli one row serves all whole
- * points; where there is no workspace for it every row is made by itself. */
+/* On a lattice without shares of volume, factors of surfaces or several moduli the row of K of a point
+ * with all its bonds is the same everywhere: it is made once. Where there is no memory for it every row
+ * is made by itself. */
 static void find_whole (bond_force *b)
 {
     const pg_sums *sums = b->problem->sums;
@@ -87,7 +88,7 @@ static void find_whole (bond_force *b)
     point_bonds s;
     point_bonds_at (b, i, 0, &s);
     b->whole = pg_calloc ((n + 1) * bb, sizeof *b->whole);
-    if (b->whole) row_of_star (b, i, &s, 1, NULL, b->whole);
+    if (b->whole) row_of_bonds (b, i, &s, 1, NULL, b->whole);
 }
 
 /* Has the point all its bonds, so that the shared row is its own? */
@@ -102,7 +103,8 @@ static int has_shared_row (void *context, size_t i) { return is_whole (context, 
 
 typedef struct { const bond_force *b; double *out; const double *mass; } job;
 
-/* State-based: what the dilatations add to the own block, that of beams beside them included */
+/* The own block of state-based theory: what the dilatations add (of the point and of its neighbours), and
+ * the beams beside them, exactly; rows of other blocks would need neighbours of neighbours. */
 static void exact_block (const bond_force *b, size_t i, const point_bonds *s, double *D)
 {
     size_t dim = (size_t) b->dim, m = (size_t) b->stride;
@@ -157,7 +159,8 @@ static void add_sizes (size_t m, const double *block, double *sum)
         for (size_t c = 0; c < m; c++) sum[a] += fabs (block[a * m + c]);
 }
 
-/* Own block and all neighbours of a range of points, for Gershgorin's bound. */
+/* Sums of |entries| over the rows of a range of points, N/m: by Gershgorin no eigenvalue of K is larger
+ * than the largest of them. */
 static void row_sum_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -207,7 +210,7 @@ static size_t couplings_of (void *context, size_t i, int thread, int *node, doub
     }
     point_bonds s;
     point_bonds_at (b, i, thread, &s);
-    return row_of_star (b, i, &s, 0, node, value);
+    return row_of_bonds (b, i, &s, 0, node, value);
 }
 
 /* The longest component of any bond of a point, m. */
@@ -305,7 +308,8 @@ static size_t lower (const bond_force *b, size_t i)
     return at - first;
 }
 
-/* The pattern of the upper triangle: every bond once, dead ones included, since they may have lived. */
+/* The pattern of the upper triangle, column by column: every bond once, dead ones included, since they
+ * may have lived when the matrix was first made. */
 static pg_status create_matrix (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -329,7 +333,8 @@ done:
     return status;
 }
 
-/* Values of the columns of a range of points that have become stale. */
+/* Values of the columns of a range of points that have become stale; dead bonds leave zeros, so that the
+ * pattern stays. */
 static void make_columns (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;

@@ -3,11 +3,13 @@
  * out, d = T q + g with T the selection of the others. */
 #include "point_boundary.h"
 
+/* Is component k prescribed by the load? */
 static int prescribes (const pg_load *load, int k) { return pg_load_prescribes (load) && load->value[k]; }
 
 enum { FREE = -1, IDLE = -2 };
 
-/* The entry that prescribes each unknown, FREE: none, IDLE: nothing resists. */
+/* The entry of `boundary` that prescribes each unknown; FREE: none; IDLE: a rotation that nothing
+ * resists, held at 0 so that K is regular. */
 static void claim (const point_boundary *s, const unsigned char *idle, int *by)
 {
     const pg_problem *p = s->problem;
@@ -22,7 +24,8 @@ static void claim (const point_boundary *s, const unsigned char *idle, int *by)
                     (int) l;
 }
 
-/* Supports ascending by unknown, and T, whose columns are the unknowns that remain. */
+/* Supports ascending by unknown, and T, whose columns are the unknowns that remain: a selection, with one
+ * 1 in each column. */
 pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle)
 {
     pg_status status = PG_OK;
@@ -59,7 +62,8 @@ done:
     return status;
 }
 
-/* Separable loads are a stored pattern times a factor of t, others are evaluated anew. */
+/* What support k prescribes at t, m (rotations over the unit of their unknowns). Separable loads are a
+ * stored pattern times a factor of t, others are evaluated anew; an idle rotation is 0. */
 double boundary_goal (const point_boundary *s, size_t k, double t)
 {
     if (s->support[k].load < 0) return 0;
@@ -70,6 +74,7 @@ double boundary_goal (const point_boundary *s, size_t k, double t)
            * boundary_unit (s, load);
 }
 
+/* NULL: all unknowns are free. */
 const pg_sparse *boundary_basis (const point_boundary *s) { return s->nsupport ? &s->T : NULL; }
 
 /* d at prescribed unknowns; the others stay as they are. */

@@ -5,7 +5,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The pattern at t, or at factor 1. */
+/* Forces on the points of a load, N (moments over the length of rotations): its pattern where it is one
+ * times a factor of t, else its values at t. A pressure has one component, along the normal. */
 static void evaluate (const point_boundary *s, boundary_load *l, double t)
 {
     const pg_load *load = &s->problem->load[l->load];
@@ -25,7 +26,8 @@ static void evaluate (const point_boundary *s, boundary_load *l, double t)
     l->time = t;
 }
 
-/* Shares of points; of a separable load the pattern replaces them for good. */
+/* Shares of points. Where the load is a pattern times a factor of t the forces of the pattern replace the
+ * shares for good: a step then costs one product a point. */
 pg_status boundary_make_load (point_boundary *s, boundary_load *l, int load)
 {
     pg_status status = PG_OK;
@@ -42,7 +44,8 @@ done:
     return status;
 }
 
-/* Factor of the pattern as it is now. */
+/* The factor of the pattern at t; 1 where the forces themselves were evaluated at t, which happens once
+ * per t. */
 double boundary_bring_to (const point_boundary *s, boundary_load *l, double t)
 {
     if (l->separates) return pg_load_factor (&s->problem->load[l->load], t);
@@ -50,7 +53,7 @@ double boundary_bring_to (const point_boundary *s, boundary_load *l, double t)
     return 1;
 }
 
-/* Sums over the points of each load. */
+/* P += forces of all loads at t, N. */
 void boundary_add (point_boundary *s, double t, double *P)
 {
     size_t stride = (size_t) s->stride;
@@ -64,7 +67,8 @@ void boundary_add (point_boundary *s, double t, double *P)
     }
 }
 
-/* t = sigma n on every facet of a load, given to points as that load gives its own force. */
+/* P += tractions sigma n of a uniform stress (Voigt order, Pa) on every facet of a load, given to points
+ * as that load gives its own force: what the patch test is loaded with. */
 pg_status boundary_surface (const point_boundary *s, int load, const double *stress, double *P)
 {
     pg_status status = PG_OK;
@@ -82,7 +86,8 @@ done:
     return status;
 }
 
-/* A point under several loads counts once for each: a size, no more. */
+/* Root of the sum of squares of all forces, N, a size to judge residuals by; a point under several loads
+ * counts once for each. */
 double boundary_size (point_boundary *s, double t)
 {
     double sum = 0;

@@ -10,7 +10,8 @@
 /* index: of each point, -1: not yet */
 typedef struct { boundary_load *out; size_t cap, cap_point; int *index; } gathering;
 
-/* A share of a place for one point; the points of the load are collected, each once. */
+/* A share of a place for one point. Points are collected once each in the order in which they come;
+ * boundary_shares sorts them when all are there. */
 static pg_status add_part (gathering *g, int point, boundary_share part)
 {
     pg_status status = PG_OK;
@@ -27,6 +28,7 @@ done:
     return status;
 }
 
+/* For qsort and bsearch; numbers of points and facets are never negative. */
 static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
 /* ---- facets -------------------------------------------------------------------------------------------- */
@@ -44,6 +46,7 @@ enum { MOST_TIES = 16 };
  * until only they are left. */
 typedef struct { const int *found; size_t n; } known;
 
+/* Refuses points that have been found already (pg_refuse). */
 static int is_known (void *context, const double *place, size_t point)
 {
     const known *k = context;
@@ -52,6 +55,8 @@ static int is_known (void *context, const double *place, size_t point)
     return 0;
 }
 
+/* All points equally near to a facet's centre, at most MOST_TIES: on a lattice a face has several, and to
+ * take one of them would break its symmetry. Returns how many. */
 static size_t nearest_points (const point_boundary *s, const pg_nearest *grid, const double *centre,
                               int *found)
 {
@@ -69,6 +74,7 @@ static size_t nearest_points (const point_boundary *s, const pg_nearest *grid, c
     return k.n;
 }
 
+/* Is value in the ascending list? */
 static int member (const int *list, size_t n, int value)
 {
     return n && bsearch (&value, list, n, sizeof *list, ascending) != NULL;
@@ -82,8 +88,9 @@ typedef struct {
     int *columns;                                      /* that hold each point (n) */
 } columns;
 
-/* Is point j below the facet, not deeper than `depth`, and within half a step of its middle along every
- * axis? */
+/* Is point j below the facet, not deeper than `depth` (m), and within half a step of its middle along
+ * every axis? The column of a facet is as wide as a cell, so that each point of a lattice lies in one
+ * column, or on the border of two. */
 static int is_below (const point_boundary *s, size_t facet, int j, double depth)
 {
     const pg_cloud *c = &s->problem->cloud;
@@ -98,8 +105,9 @@ static int is_below (const point_boundary *s, size_t facet, int j, double depth)
     return 1;
 }
 
-/* The force at one quadrature point of a facet, to its column; *found 0: nothing is there. A point between
- * columns belongs to each by a part. */
+/* The force at one quadrature point of a facet, to the points of its column by their volumes; *found 0:
+ * nothing is there. A point that lies in two columns belongs to each by half its volume, and no force is
+ * counted twice. */
 static pg_status column_parts (gathering *g, const point_boundary *s, const columns *c, int facet,
                                boundary_share part,
                                int *found)
@@ -130,7 +138,9 @@ static void clear_columns (columns *c)
     pg_free (c->below), pg_free (c->columns);
 }
 
-/* Points within the depth below each facet, and in how many columns each of them lies. */
+/* Points within the depth below each facet of a load's set, and in how many columns each of them lies.
+ * They are looked for around the middle of each column; in graded clouds the reach grows with the finest
+ * spacing, by which families are scaled. */
 static pg_status find_columns (columns *out, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -160,7 +170,9 @@ done:
     return status;
 }
 
-/* Shares of points in every quadrature place of the facets. */
+/* Shares of points in every quadrature place of the facets (two Gauss points a direction, so that
+ * tractions may vary): those of the column below where the load has a depth and finds points, else those
+ * nearest to the facet's centre. */
 static pg_status facet_parts (gathering *g, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -196,7 +208,7 @@ done:
 }
 
 /* ---- points -------------------------------------------------------------------------------------------- */
-/* A total force: equal shares; a force per volume: shares by volume. */
+/* A total force has equal shares, in 1; a force per volume has shares by volume, m^3. */
 static pg_status point_parts (gathering *g, const point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
@@ -212,7 +224,8 @@ done:
     return status;
 }
 
-/* By what the load acts on: facets or points. */
+/* All shares of a load, by what it acts on, with its points ascending: the order of a sum must not depend
+ * on the order of facets. */
 pg_status boundary_shares (boundary_load *out, const point_boundary *s, int load)
 {
     pg_status status = PG_OK;

@@ -6,7 +6,8 @@
 #include <string.h>
 
 /* ---- constants ----------------------------------------------------------------------------------------- */
-/* Bonds of a new state, which the pre-cracks have cut. */
+/* Bonds of a new state, which the pre-cracks have cut: weighted volumes are those of the body as it is at
+ * the start. None are kept where there are no pre-cracks, as all bonds count then. */
 static pg_status count_bonds (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -21,6 +22,7 @@ done:
     return status;
 }
 
+/* Constants A and B of every point (Pa), which the theory fills, and what follows from them. */
 pg_status dilatation_create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -37,6 +39,7 @@ done:
     return status;
 }
 
+/* Also where there is none. */
 void dilatation_free (bond_force *b)
 {
     dilatation *w = b->dilatation;
@@ -47,7 +50,9 @@ void dilatation_free (bond_force *b)
     b->dilatation = NULL;
 }
 
-/* Once for good, or after every break where weighted volumes follow. */
+/* Weighted volumes q of all points and `stiff` = (B + d A) / q, the stiffness of a pull between two
+ * points that is at least that of their dilatations: once for good, or after every break where weighted
+ * volumes follow the live bonds. */
 pg_status dilatation_weigh (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -61,7 +66,8 @@ done:
     return status;
 }
 
-/* Energies of all points by the loop over bonds: there is no cheaper bound for them. */
+/* Marks the points whose energy density has reached its limit, by the loop over all bonds: dilatations
+ * make every energy depend on neighbours, and there is no cheaper bound for them. */
 pg_status dilatation_dying (bond_force *b, const double *d, size_t *dying)
 {
     pg_status status = PG_OK;
@@ -73,6 +79,8 @@ done:
 }
 
 /* ---- one point ----------------------------------------------------------------------------------------- */
+/* Weight k beta of a bond without the factor of surfaces, which is for the bonds: weighted volumes see to
+ * the surface themselves. */
 double dilatation_weight (const bond_force *b, size_t i, const point_bonds *s, size_t e)
 {
     const pg_sums *sums = b->problem->sums;
@@ -83,6 +91,8 @@ double dilatation_weight (const bond_force *b, size_t i, const point_bonds *s, s
            * (sums->rule.surface == PG_SURFACE_VOLUME ? 0.5 * (v[i] + v[j]) : sqrt (v[i] * v[j]));
 }
 
+/* Adds kappa xi x xi to both blocks of a bond, kappa = both w V V / (r^2 r): a pull along the bond in the
+ * place of dilatations, for preconditioners and bounds. `both`: sum of `stiff` of the ends. */
 void dilatation_pull (const bond_force *b, size_t i, const point_bonds *s, size_t e, double both, double *own,
                       double *other)
 {
@@ -105,10 +115,11 @@ static double weight_of (const bond_force *b, size_t i, const point_bonds *s, si
     return dilatation_weight (b, i, s, e) / sqrt (*rr);
 }
 
+/* a / q, 0 where the point has no bond left. */
 static double over (double a, double q) { return q > 0 ? a / q : 0; }
 
-/* Second derivatives of the energy by u_i: of its own dilatation, of those of its neighbours, of the
- * stretches. */
+/* Second derivatives of the energy by u_i (dim x dim, N/m): of its own dilatation A d / q^2 V g g with g
+ * = sum w V xi; of those of its neighbours; of the stretches, B / q at both ends. */
 void dilatation_own (const bond_force *b, size_t i, const point_bonds *s, double *D)
 {
     size_t dim = (size_t) b->dim;
@@ -134,7 +145,9 @@ void dilatation_own (const bond_force *b, size_t i, const point_bonds *s, double
             D[a * dim + c] += V[i] * over (b->dilatation->A[i] * b->dim, q[i] * q[i]) * g[a] * g[c];
 }
 
-/* A q that follows shrinks as bonds die, yet never below what one live bond makes it: w r^2 V. */
+/* Bound of omega^2 rho at a point, for the stable time step. A q that follows shrinks as bonds die, yet
+ * never below what one live bond makes it, w r^2 V: the bound takes the nearest neighbour as if it were
+ * alone. */
 double dilatation_bound (const bond_force *b, size_t i, const point_bonds *s)
 {
     const double *V = b->problem->cloud.volume;
@@ -148,7 +161,8 @@ double dilatation_bound (const bond_force *b, size_t i, const point_bonds *s)
     return 2 * (sum + (b->dilatation->B[i] + far * fmax (b->dilatation->A[i], 0)) / nearest);
 }
 
-/* Stress of Silling and Lehoucq (2008) for uniform strain: its trace is d kappa theta whatever the family. */
+/* Adds the stress of Silling and Lehoucq (2008), Pa (dim x dim): its trace is d kappa theta for uniform
+ * strain, whatever the family. */
 void dilatation_virial (const bond_force *b, size_t i, const point_bonds *s, const unsigned char *alive,
                         const double *d,
                  double *T)

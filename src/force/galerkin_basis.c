@@ -6,6 +6,7 @@
 #include "galerkin.h"
 #include <string.h>
 
+/* Also where nothing was eliminated. */
 void galerkin_basis_free (galerkin *g)
 {
     for (int k = 0; k < 3; k++) {
@@ -16,6 +17,9 @@ void galerkin_basis_free (galerkin *g)
     pg_sparse_clear (&g->T);
 }
 
+/* The points whose displacement along axis k is prescribed by elimination, ascending, each with the load
+ * that prescribes it. role (n): that load's number at these points, -1 at all others. Where several loads
+ * name a point the first one of the scene counts. */
 static pg_status find_slaves (galerkin *g, int k, int *role)
 {
     pg_status status = PG_OK;
@@ -40,8 +44,10 @@ done:
     return status;
 }
 
-/* Nodes seen by slaves that are no slaves; none when N is the identity (NOSB). role: load index of slaves,
- * else -1 / -2. */
+/* Nodes that slaves see and that are no slaves themselves; none where shape functions interpolate (N is
+ * the identity, NOSB), as slaves take their values directly then. The inverse of C_s is full, hence the
+ * limit on the number of slaves. role: of slaves their load, of the others -1, and -2 once they are found
+ * here. */
 static pg_status find_masters (galerkin *g, int k, int *role)
 {
     pg_status status = PG_OK;
@@ -68,7 +74,9 @@ done:
     return status;
 }
 
-/* T: a column per free dof, ascending; pattern fixed for the run. */
+/* The matrix T: a column for each free unknown, ascending, with 1 in its own row and, for masters, the
+ * entries -X of all slaves of the same component. The pattern is fixed for the run; values follow the
+ * bonds (fill_T). */
 static pg_status make_T (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -102,7 +110,8 @@ done:
     return status;
 }
 
-/* Writes -X into T. */
+/* Writes -X = -C_s^-1 C_m into T. In the column of a master its own row, with the value 1, stands among
+ * those of the slaves, ordered by row. */
 static void fill_T (galerkin *g)
 {
     size_t dim = (size_t) g->dim;
@@ -122,6 +131,7 @@ static void fill_T (galerkin *g)
     }
 }
 
+/* Slaves and masters of each component; g->has_T: there is anything to eliminate. */
 pg_status galerkin_basis_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -140,7 +150,8 @@ done:
     return status;
 }
 
-/* C_s as compressed columns of its transpose's rows: column j = slave j. */
+/* C_s, the shape functions of slaves at slaves, by its transpose in compressed columns: column j is row j
+ * of C_s. index (n): position of a slave among the slaves, -1 of all others. */
 static pg_status slave_matrix (const galerkin *g, const elimination *e, const int *index, pg_sparse *C)
 {
     pg_status status = PG_OK;
@@ -161,6 +172,9 @@ done:
     return status;
 }
 
+/* Inverse of C_s (row by row, by a sparse factor) and X = C_s^-1 C_m of one component for the bonds that
+ * live now. C_s is neither symmetric nor definite, so that the solver is the first that takes general
+ * matrices. */
 static pg_status update_side (galerkin *g, elimination *e, int *index)
 {
     pg_status status = PG_OK;
@@ -197,6 +211,8 @@ done:
     return status;
 }
 
+/* All components, then T. A singular C_s means that the shape functions cannot take the prescribed
+ * values: the message names other ways. */
 pg_status galerkin_basis_update (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -217,18 +233,22 @@ done:
     return status;
 }
 
+/* NULL: every unknown is free. */
 const pg_sparse *galerkin_basis (void *self)
 {
     galerkin *g = self;
     return g->has_T ? &g->T : NULL;
 }
 
+/* What the load prescribes at slave s, m, at time t (s; quasi-static: the load factor). */
 static double goal_of (const galerkin *g, const elimination *e, size_t s, double t)
 {
     return pg_load_value (&g->problem->load[e->load[s]], e->component, g->dim,
                           g->problem->cloud.x + (size_t) e->slave[s] * (size_t) g->dim, t);
 }
 
+/* d_s = C_s^-1 (g - C_m d_m): sets the slaves' coefficients so that the displacement there is the
+ * prescribed one, whatever the masters are. */
 pg_status galerkin_impose (void *self, double t, double *d)
 {
     galerkin *g = self;
@@ -248,7 +268,9 @@ pg_status galerkin_impose (void *self, double t, double *d)
     return PG_OK;
 }
 
-/* Support forces: residual = -C' lambda on the slaves, lambda = -C_s^-T r_s. */
+/* Support forces, N: the residual on the slaves is -C' lambda, so that lambda = -C_s^-T r_s; with the
+ * prescribed displacements these are the pairs whose products are the work of the supports. `at`: where
+ * the pairs of this part begin; returns where they end. */
 size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residual, pg_work_balance *out,
                                     size_t at)
 {

@@ -16,7 +16,9 @@ typedef struct {
 
 enum { BATCH = 128 };
 
-/* What `count` bonds show against one law; the weaker of the laws that judge a bond decides. */
+/* What `count` bonds (entries `bond` of the set) show against one law: utilisation, and the factor by
+ * which a proportional load may grow. Of two laws that judge one bond the weaker decides: the larger
+ * utilisation, the smaller factor. */
 static void judge_by (const judging *s, const pg_criterion *c, const pg_bond_measures *m, const size_t *bond)
 {
     size_t base = s->g->problem->first_bond[s->set];
@@ -33,7 +35,7 @@ static void judge_by (const judging *s, const pg_criterion *c, const pg_bond_mea
         if (!(out[k] > s->factor[base + bond[k]])) s->factor[base + bond[k]] = out[k];
 }
 
-/* Those of a batch with an end in a material, by its law. */
+/* Of a batch those bonds that have an end in a material, copied together and judged by its law. */
 static void judge_material (const judging *s, int material, pg_bond_measures m, const size_t *bond,
                             const size_t *point)
 {
@@ -71,7 +73,9 @@ static int one_material (const galerkin *g, int set, size_t count, const size_t 
     return same ? first : -1;
 }
 
-/* Evaluates the criteria on `count` live bonds and their points. */
+/* Measures `count` live bonds and hands them to the laws: bond vector xi and relative displacement eta
+ * (m), principal stresses as the mean of both ends (Pa), and in graded clouds the local spacing over h,
+ * by which limits of stretch scale. Most batches are of one material and need no second copy. */
 static void judge (const judging *s, size_t count, const size_t *bond, const size_t *point)
 {
     const galerkin *g = s->g;
@@ -110,6 +114,8 @@ static void judge (const judging *s, size_t count, const size_t *bond, const siz
     else for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point);
 }
 
+/* Live bonds of a range of points in batches; bonds that never break have utilisation 0 and an infinite
+ * factor. */
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
     const judging *s = context;
@@ -133,6 +139,7 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
 
 typedef struct { galerkin *g; int set; } principals;
 
+/* Largest and smallest principal stress at a range of points of a set, Pa. */
 static void principal_points (void *context, size_t first, size_t last, int thread)
 {
     const principals *c = context;
@@ -145,6 +152,7 @@ static void principal_points (void *context, size_t first, size_t last, int thre
     }
 }
 
+/* Of every bond of every set. Stresses at all sets first, as a bond joins a point of its set with a node. */
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
                                 char *kind, double *factor)
 {
@@ -164,7 +172,10 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
     return PG_OK;
 }
 
-/* Approach of the ends of a dead node-node bond beyond their own elastic shortening, largest (m). */
+/* How far the ends of a dead bond have come towards each other beyond the elastic shortening of the
+ * material on both sides, the largest, m: without contact crack faces may pass through each other, and
+ * this says whether they do. Only short node-node bonds (1.5 spacings) are looked at, between ends that
+ * still carry stress. */
 double galerkin_overlap (void *self, const pg_state *state, const double *d)
 {
     galerkin *g = self;
@@ -199,6 +210,9 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
+/* Points of evaluation without a gradient; nodes that no evaluation point sees together with another one;
+ * parts of the body that evaluation points no longer join, the largest not counted. A census is worth no
+ * failure: without memory all are 0. */
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
     galerkin *g = self;

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Rows of the evaluation points for all sums: those of the shape functions themselves or, with consistent
+ * integration, copies with derivatives of their own. */
 pg_status galerkin_consistent_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -22,6 +24,7 @@ done:
     return status;
 }
 
+/* What is borrowed from the shape functions is not freed here. */
 void galerkin_consistent_free (galerkin *g)
 {
     if (g->problem->consistency) pg_free (g->sums.N), pg_free (g->sums.dN);
@@ -86,6 +89,7 @@ static size_t judge_around (galerkin *g, const pg_state *state, size_t cell, siz
     return n;
 }
 
+/* For qsort. */
 static int compare (const void *a, const void *b)
 {
     size_t i = *(const size_t *) a, j = *(const size_t *) b;
@@ -112,6 +116,8 @@ done:
     return status;
 }
 
+/* all: from scratch; else the cells of the *count points in g->list, which is replaced by all points
+ * whose rows have changed. */
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count)
 {
     pg_status status = PG_OK;

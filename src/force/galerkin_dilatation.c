@@ -15,7 +15,8 @@ static const double nearby = 1.25;                     /* spacings: bonds that j
 
 typedef galerkin_part part;
 
-/* ---- polynomials --------------------------------------------------------------------------------------- */
+/* psi_m at x: L^-1 (1, (x - centre) / size), orthonormal over the points of the part. x may lie outside
+ * of the patch, at a facet. */
 void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a, const double *x, double *psi)
 {
     psi[0] = 1;
@@ -27,12 +28,14 @@ void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a,
     }
 }
 
+/* Weight of an evaluation point, m^3; 0 where it has no gradient and so carries no stress. */
 static double weight (const galerkin *g, size_t p)
 {
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->sums.weight[p];
 }
 
-/* Of the points of patch c that belong to part k. */
+/* Volume (m^3), centroid and half width (m) of the points of patch c that belong to part k: with these
+ * lengths the polynomials are of the order of 1, and L is well conditioned whatever the size of the body. */
 static void measure_part (const galerkin *g, size_t c, int k, part *a, double *volume)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -56,7 +59,9 @@ static void measure_part (const galerkin *g, size_t c, int k, part *a, double *v
     if (!(a->size > 0)) a->size = 1;                   /* one point: constant */
 }
 
-/* As many polynomials as the part bears. */
+/* As many polynomials as the part bears: linear ones where it has most of the patch's volume and its
+ * points span all directions (the Cholesky factor L of their Gram matrix exists), else the constant
+ * alone. */
 static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -81,7 +86,8 @@ static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
     for (int r = 0; r < a->terms * a->terms; r++) a->L[r] *= sqrt (volume);
 }
 
-/* g_m of a part, on the nodes of its patch */
+/* g_m = sum_p w_p psi_m (p) grad N (p) of a part, on the nodes of its patch (terms x nodes x dim), so
+ * that g_m . d is the m-th coefficient of the projected dilatation, m^(3/2). */
 static void sum_rows (const galerkin *g, size_t c, int k, part *a)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -105,6 +111,7 @@ static void sum_rows (const galerkin *g, size_t c, int k, part *a)
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */
+/* Has patch c all its bonds, and a gradient at all points? Then it is one part. */
 static int whole (const galerkin *g, const pg_state *state, size_t c)
 {
     const pg_patches *q = g->problem->patches;
@@ -119,8 +126,7 @@ static int whole (const galerkin *g, const pg_state *state, size_t c)
     return 1;
 }
 
-/* Does the live bond e join its point with those around its node? The short ones do, and the shortest of
- * all. */
+/* Length of bond e from point p, m. */
 static double length_of (const galerkin *g, size_t p, size_t e)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -130,13 +136,16 @@ static double length_of (const galerkin *g, size_t p, size_t e)
     return sqrt (s);
 }
 
+/* The first point of the patch that has reached this node; the first call for a node stamps it. */
 static int stamped (galerkin_dilatation *d, int node, int first)
 {
     if (d->stamp[node] < 0) d->stamp[node] = first;
     return d->stamp[node];
 }
 
-/* parent: of the points of the patch, by their place in it */
+/* Joins points of a patch that reach a common node by live bonds. Only bonds of about a spacing do (and
+ * the shortest one of each point, or the node itself): long bonds pass around the end of a crack and
+ * would join its two sides. parent: union of the points by their place in the patch. */
 static void join (galerkin *g, const pg_state *state, size_t c, int *parent)
 {
     galerkin_dilatation *d = g->dilatation;
@@ -189,6 +198,8 @@ done:
     return status;
 }
 
+/* Parts, polynomials and rows of one patch, from its live bonds. The rows of all parts lie in one block;
+ * with supported facets behind it a patch has rows s for these as well. */
 static pg_status rebuild (galerkin *g, const pg_state *state, size_t c)
 {
     pg_status status = PG_OK;
@@ -217,6 +228,8 @@ done:
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
+/* Materials without lambda (plain), which give the stress beside the pressure of the patches, and memory.
+ * Rows follow with the first update. */
 pg_status galerkin_dilatation_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -246,6 +259,7 @@ done:
     return status;
 }
 
+/* Also where there are no patches. */
 void galerkin_dilatation_free (galerkin *g)
 {
     galerkin_dilatation *d = g->dilatation;
@@ -259,11 +273,14 @@ void galerkin_dilatation_free (galerkin *g)
     g->dilatation = NULL;
 }
 
+/* The material by which stresses at a point are taken before the pressure of its patch is added. */
 const pg_material *galerkin_plain (const galerkin *g, int set, size_t p)
 {
     return g->dilatation ? &g->dilatation->plain[g->material[set][p]] : galerkin_material (g, set, p);
 }
 
+/* Patches of points that lost a bond, or that a supported facet leans on, are built anew; their nodes'
+ * rows of K become stale. */
 pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, const size_t *count)
 {
     pg_status status = PG_OK;
@@ -291,6 +308,7 @@ done:
 /* ---- what the patches add ------------------------------------------------------------------------------ */
 const pg_family *galerkin_dilatation_family (const galerkin *g) { return &g->dilatation->family; }
 
+/* Lame's first parameter of a patch's material, Pa: a patch lies in one material. */
 static double lambda_of (const galerkin *g, size_t c)
 {
     const pg_patches *q = g->problem->patches;
@@ -300,6 +318,8 @@ static double lambda_of (const galerkin *g, size_t c)
 /* Number `at` of g_m - s_m */
 static double entry (const part *a, size_t at) { return a->s ? a->g[at] - a->s[at] : a->g[at]; }
 
+/* Adds to `out` (m x dim x dim) the blocks of node a of patch c with the first m of its nodes: lambda
+ * sum_m (g - s)(g - s)' and, at supported facets, Nitsche's factor times lambda s s'. */
 void galerkin_dilatation_blocks (void *context, size_t c, size_t a, size_t m, double *out)
 {
     const galerkin *g = context;
@@ -351,12 +371,14 @@ static void measure_patches (void *context, size_t first, size_t last, int threa
     }
 }
 
+/* All patches, by threads; each is the work of one. */
 static void measure_all (galerkin *g, const double *x, int whole)
 {
     measuring m = { g, x, whole };
     pg_parallel (g->threads, g->problem->patches->n, measure_patches, &m);
 }
 
+/* y += K x of the patches: N, in the order of patches, so that threads do not show. */
 void galerkin_dilatation_apply (galerkin *g, const double *x, double *y)
 {
     const pg_family *f = &g->dilatation->family;
@@ -378,6 +400,7 @@ void galerkin_dilatation_apply (galerkin *g, const double *x, double *y)
     }
 }
 
+/* The same of the diagonal of K, N/m. */
 void galerkin_dilatation_diagonal (galerkin *g, double *d)
 {
     const pg_family *f = &g->dilatation->family;
@@ -412,14 +435,16 @@ static double pressure_at (const galerkin *g, size_t q, const double *x)
     return lambda_of (g, (size_t) c) * sum;
 }
 
+/* A pressure is on all normal stresses, in a plane also on the one across it. */
 static void add_pressure (galerkin *g, int set, size_t p, double value)
 {
     for (int k = 0; k < g->dim; k++) g->stress[set][p * (size_t) g->nv + (size_t) k] += value;
     if (g->dim == 2) g->zz[set][p] += value;
 }
 
-/* Of nodes between points: mean of what the patches of the points that see them say there, by the influence
- * of the live bonds. */
+/* Pressure at nodes that are no evaluation points: the mean of what the patches of the points that see
+ * them say there, weighted by the influence of the live bonds; of two materials only the node's own
+ * counts. */
 static void node_pressures (galerkin *g, double *value, double *share)
 {
     const pg_rows *r = &g->rows[g->bulk];
@@ -438,6 +463,7 @@ static void node_pressures (galerkin *g, double *value, double *share)
     for (size_t j = 0; j < g->n; j++) value[j] = share[j] > 0 ? value[j] / share[j] : 0;
 }
 
+/* To d->amount, Pa: by their patch where nodes are evaluation points, else by those around them. */
 static void at_nodes (galerkin *g)
 {
     galerkin_dilatation *d = g->dilatation;
@@ -445,6 +471,7 @@ static void at_nodes (galerkin *g)
     else for (size_t p = 0; p < g->n; p++) d->amount[p] = pressure_at (g, p, g->sums.x + p * (size_t) g->dim);
 }
 
+/* Adds the pressures to the stresses of a set, which are those of the plain materials so far. */
 void galerkin_dilatation_measure (galerkin *g, int set, const double *d)
 {
     galerkin_dilatation *q = g->dilatation;
@@ -459,6 +486,7 @@ void galerkin_dilatation_measure (galerkin *g, int set, const double *d)
     }
 }
 
+/* Pressures of all nodes at displacement d, Pa; borrowed until the next call. */
 const double *galerkin_dilatation_of_nodes (galerkin *g, const double *d)
 {
     measure_all (g, d, 0);

@@ -14,6 +14,7 @@
 #include <string.h>
 
 /* ---- which patch goes on at a facet -------------------------------------------------------------------- */
+/* Squared distance, m^2. */
 static double distance2 (int dim, const double *x, const double *y)
 {
     double s = 0;
@@ -21,8 +22,9 @@ static double distance2 (int dim, const double *x, const double *y)
     return s;
 }
 
-/* The nearest point of the cell behind a facet that belongs to a patch, else the nearest of all; with nodal
- * integration always that. */
+/* The evaluation point whose patch goes on at each facet point: the nearest one of the cell behind it
+ * that belongs to a patch, else the nearest of all; with nodal integration, whose points lie in no cell,
+ * always that. -1: no patch is there. */
 static pg_status find_homes (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -59,6 +61,7 @@ static long patch_of (const galerkin *g, size_t f)
     return g->problem->patches->of[g->dilatation->home[f]];
 }
 
+/* Supported facet points by their patch, in compressed rows. */
 static pg_status sort_facets (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -77,6 +80,7 @@ done:
     return status;
 }
 
+/* For qsort; numbers of nodes are never negative. */
 static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
 /* Nodes of a family that are not yet stamped with c, appended. */
@@ -94,7 +98,7 @@ done:
     return status;
 }
 
-/* Nodes of a patch and of its supported facet points */
+/* Nodes of a patch and of its supported facet points, ascending: rows g and s share one list. */
 static pg_status unite (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -115,6 +119,7 @@ done:
     return status;
 }
 
+/* After the patches and the points of supports are known. */
 pg_status galerkin_dilatation_facets_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -133,11 +138,14 @@ void galerkin_dilatation_facets_free (galerkin *g)
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
+/* Component k of the outward normal at a facet point. */
 static double normal (const galerkin *g, size_t f, int k)
 {
     return g->problem->facet_normal[f * (size_t) g->dim + (size_t) k];
 }
 
+/* s_m = int psi_m n_k N over the supported facet points of part k of patch c, on the nodes of the patch:
+ * with the prescribed components alone, so that s_m . d - (prescribed part) is c_m. */
 void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerkin_part *a)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -162,6 +170,7 @@ void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerki
 }
 
 /* ---- gaps ---------------------------------------------------------------------------------------------- */
+/* The part of a patch that a supported facet point leans on; NULL: none. */
 static galerkin_part *part_behind (const galerkin *g, size_t f)
 {
     const galerkin_dilatation *d = g->dilatation;
@@ -169,11 +178,14 @@ static galerkin_part *part_behind (const galerkin *g, size_t f)
     return c < 0 || d->part_of[d->home[f]] < 0 ? NULL : &d->patch[c].part[d->part_of[d->home[f]]];
 }
 
+/* Its lambda, Pa. */
 static double lambda_behind (const galerkin *g, size_t f)
 {
     return g->problem->patches->lambda[g->material[g->bulk][g->dilatation->home[f]]];
 }
 
+/* c_m of all parts at time t, from the displacements measured at facet points: sum w psi_m n_k (u_k -
+ * prescribed). */
 void galerkin_dilatation_gaps (galerkin *g, double t)
 {
     galerkin_dilatation *d = g->dilatation;
@@ -196,6 +208,7 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
     }
 }
 
+/* What the patch adds to the traction of one constraint, Pa: -(1 + factor) lambda n_k sum_m psi_m c_m. */
 double galerkin_dilatation_traction (const galerkin *g, const constraint *q)
 {
     const galerkin_part *a = part_behind (g, q->point);
@@ -207,6 +220,8 @@ double galerkin_dilatation_traction (const galerkin *g, const constraint *q)
            * sum;
 }
 
+/* Adds lambda sum_m c_m g_m to f, N: the work of the pressure's variation on the gap, which makes the
+ * terms symmetric. */
 void galerkin_dilatation_adjoint (const galerkin *g, double *f)
 {
     const galerkin_dilatation *d = g->dilatation;

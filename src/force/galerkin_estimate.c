@@ -22,17 +22,21 @@ typedef struct {
     double *L;                                         /* factor of D of each material (36 each) */
 } recovery;
 
+/* Points with at least a linear basis: the stress of others is not of the order that polynomials are
+ * fitted to. */
 static int takes_part (const recovery *r, size_t p)
 {
     return r->rows->grade[p] <= PG_GRADE_LOWERED && r->rows->weight[p] > 0;
 }
 
+/* Number of terms of a polynomial of this order: 1, 1 + dim, ... */
 static int terms_of (int dim, int order)
 {
     return order == 0 ? 1 : order == 1 ? 1 + dim : 1 + dim + dim * (dim + 1) / 2;
 }
 
-/* 1, z_k, z_k z_l; z in horizons from the node */
+/* The terms 1, z_k, z_k z_l at point p about a node, z in horizons from the node, so that all are of the
+ * order of 1. */
 static void polynomial (const recovery *r, size_t p, size_t node, double *q)
 {
     const galerkin *g = r->g;
@@ -47,7 +51,8 @@ static void polynomial (const recovery *r, size_t p, size_t node, double *q)
         for (size_t l = k; l < dim; l++) q[m++] = z[k] * z[l];
 }
 
-/* Of the bond p - node; 0: the patch of the node does without the point. */
+/* Weight of the bond between point p and its entry e in the fit of that node, the kernel per volume; 0:
+ * the node's patch does without the point, which is of another material. */
 static double weight_of (const recovery *r, size_t p, size_t e)
 {
     size_t j = (size_t) r->rows->family.node[e];
@@ -56,7 +61,9 @@ static double weight_of (const recovery *r, size_t p, size_t e)
 }
 
 /* ---- polynomials --------------------------------------------------------------------------------------- */
-/* The lowest-order polynomial that the patch bears, up to the order wanted. Without a factor: 0. */
+/* Solves the normal equations of one node for all stress components: the polynomial of the highest order,
+ * up to the one wanted, that the points of its patch determine (the factor exists). 0: not even a
+ * constant. */
 static int solve (const recovery *r, double *fit)
 {
     int nv = r->g->nv, dim = r->g->dim;
@@ -78,7 +85,8 @@ static int solve (const recovery *r, double *fit)
     return 0;
 }
 
-/* Nodes first .. last, each adding its points in ascending order */
+/* Normal equations of nodes first .. last. Each thread reads all points and takes what concerns its own
+ * nodes, in ascending order: sums do not depend on the number of threads. */
 static void fit_nodes (void *context, size_t first, size_t last, int thread)
 {
     recovery *r = context;
@@ -104,7 +112,7 @@ static void fit_nodes (void *context, size_t first, size_t last, int thread)
 }
 
 /* ---- error --------------------------------------------------------------------------------------------- */
-/* s D^-1 s */
+/* s D^-1 s, Pa: twice the complementary energy density of a stress. */
 static double complementary (const recovery *r, size_t p, const double *s)
 {
     double e[VOIGT], sum = 0;
@@ -114,6 +122,8 @@ static double complementary (const recovery *r, size_t p, const double *s)
     return sum;
 }
 
+/* Recovered stress less the computed one at a range of points, and both in the energy norm; NAN where
+ * nothing is known. */
 static void compare_points (void *context, size_t first, size_t last, int thread)
 {
     recovery *r = context;
@@ -123,7 +133,7 @@ static void compare_points (void *context, size_t first, size_t last, int thread
     (void) thread;
     for (size_t p = first; p < last; p++) {
         const double *s = r->stress + p * (size_t) nv;
-        double sum = 0, star[VOIGT] = { 0 };
+        double sum = 0, recovered[VOIGT] = { 0 };
         r->error[p] = r->size[p] = NAN;
         if (!takes_part (r, p)) continue;
         for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
@@ -133,17 +143,18 @@ static void compare_points (void *context, size_t first, size_t last, int thread
             if (!(w > 0)) continue;
             polynomial (r, p, j, q);
             for (int a = 0; a < r->terms; a++)
-                for (int v = 0; v < nv; v++) star[v] += w * q[a] * *c++;
+                for (int v = 0; v < nv; v++) recovered[v] += w * q[a] * *c++;
             sum += w;
         }
         if (!(sum > 0)) continue;
-        for (int v = 0; v < nv; v++) star[v] = star[v] / sum - s[v];
-        r->error[p] = complementary (r, p, star), r->size[p] = complementary (r, p, s);
+        for (int v = 0; v < nv; v++) recovered[v] = recovered[v] / sum - s[v];
+        r->error[p] = complementary (r, p, recovered), r->size[p] = complementary (r, p, s);
     }
 }
 
-/* Every point's share to the node it lies nearest to, or to those equally near: root of E times the mean
- * density, Pa. */
+/* Every point's share to the node it lies nearest to, or to those equally near (two passes: the smallest
+ * distance, then who has it). value: root of E times the mean density, Pa, so that it can be read beside
+ * stresses. */
 static void to_nodes (const recovery *r, double *volume, double *value)
 {
     const galerkin *g = r->g;
@@ -168,6 +179,8 @@ static void to_nodes (const recovery *r, double *volume, double *value)
                                  : 0;
 }
 
+/* Norms over the body, by the weights of the points; relative: the error over the size of recovered
+ * stress, at most 1. */
 static void add_up (const recovery *r, pg_estimate *out)
 {
     double error = 0, size = 0;
@@ -180,6 +193,8 @@ static void add_up (const recovery *r, pg_estimate *out)
     out->relative = size + error > 0 ? sqrt (error / (size + error)) : 0;
 }
 
+/* Fit, comparison, norms; the error of every node in `value` unless NULL. D of each material is factored
+ * once. */
 pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value)
 {
     pg_status status = PG_OK;

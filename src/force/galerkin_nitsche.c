@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-/* Bisection in an ascending list. */
+/* Is value in the ascending list? By bisection: sets are asked for every facet and every node. */
 static int member (const int *list, size_t n, int value)
 {
     size_t lo = 0, hi = n;
@@ -19,7 +19,8 @@ static int member (const int *list, size_t n, int value)
     return lo < n && list[lo] == value;
 }
 
-/* component k is not prescribed by the load */
+/* Does the load leave component k alone? Loads that prescribe nothing do, and so do components beyond the
+ * dimension. */
 static int free_by (const pg_problem *p, const pg_load *load, int k)
 {
     return k >= p->dim || !pg_load_prescribes (load) || !load->value[k];
@@ -54,7 +55,9 @@ done:
     return status;
 }
 
-/* Constraints by penalty, and the families of their nodes. */
+/* Constraints by penalty, node by node, and the nodes that the displacement of each of them depends on:
+ * with shape functions that do not interpolate, u at a node is a sum over its neighbours. A component
+ * that two loads prescribe belongs to the first. */
 static pg_status find_penalties (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -105,7 +108,8 @@ void galerkin_boundary_free (galerkin *g)
     pg_family_clear (&g->penalty_family);
 }
 
-/* Q . sigma = (sigma n)_k in Voigt form */
+/* Q (6 numbers) with Q . sigma = (sigma n)_k for sigma in Voigt order: the row of the matrix of the
+ * normal that makes component k of the traction. */
 static void traction_row (int dim, int k, const double *n, double *Q)
 {
     memset (Q, 0, 6 * sizeof *Q);
@@ -129,7 +133,8 @@ static const double *normal (const galerkin *g, size_t q)
     return g->problem->facet_normal + q * (size_t) g->dim;
 }
 
-/* QD: the Voigt vector D' Q, so that (sigma(v) n)_k = QD . B v */
+/* QD: the Voigt vector D' Q, so that (sigma (v) n)_k = QD . B v: the traction that a displacement v of
+ * the nodes makes at facet point q. */
 static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
 {
     double Q[6];
@@ -141,7 +146,9 @@ static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
     }
 }
 
-/* Nitsche's terms of one facet point between two nodes, symmetric. */
+/* Nitsche's terms of one facet point, between its node a and its first m nodes (blocks m x dim x dim):
+ * -N_a (sigma (N_b) n) - (sigma (N_a) n) N_b + beta N_a N_b for the prescribed component. The second term
+ * makes K symmetric and costs no accuracy, as it vanishes at the solution. */
 void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -165,7 +172,8 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
     }
 }
 
-/* Stiffness of the penalty of a node, N/m. */
+/* Stiffness of the penalty of a node, N/m: factor E / h^2 times the node's volume, so that the force on a
+ * layer of points one spacing deep is that of springs factor E / h per area. */
 static double penalty (const galerkin *g, const constraint *q)
 {
     const pg_problem *p = g->problem;
@@ -175,7 +183,7 @@ static double penalty (const galerkin *g, const constraint *q)
            * p->cloud.volume[node];
 }
 
-/* Penalty of a node between two nodes that its displacement depends on. */
+/* The penalty of one node between two nodes that its displacement depends on: penalty N_a N_b. */
 void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {
     galerkin *g = context;
@@ -196,7 +204,8 @@ void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, doubl
 typedef void (*visitor) (void *context, int set, size_t point, int load, int k, double force,
                          double displacement);
 
-/* Traction less the penalty of the gap between displacement and prescribed value, Pa. */
+/* Traction on one constraint, Pa: that of the stress at the facet point, less beta times the gap (m)
+ * between displacement and prescribed value. */
 static double nitsche_traction (const galerkin *g, const constraint *q, double gap)
 {
     double Q[6], t = 0;
@@ -206,7 +215,8 @@ static double nitsche_traction (const galerkin *g, const constraint *q, double g
     return t - beta (g, q->point) * gap;
 }
 
-/* Calls `visit` with the force on every prescribed component. */
+/* Calls `visit` with the force on every prescribed component, N, and the displacement that is prescribed
+ * there, m: together they are the work of the supports. */
 static void visit_supports (galerkin *g, double t, visitor visit, void *context)
 {
     size_t dim = (size_t) g->dim;
@@ -231,7 +241,8 @@ static void visit_supports (galerkin *g, double t, visitor visit, void *context)
     }
 }
 
-/* Calls `visit` for a traction or pressure at every facet point of its set. */
+/* Calls `visit` for a traction or pressure at every facet point of its set: weight times value; a
+ * pressure pushes against the outward normal. */
 static void visit_facet_load (const galerkin *g, double t, int l, visitor visit, void *context)
 {
     const pg_load *load = &g->problem->load[l];
@@ -248,7 +259,9 @@ static void visit_facet_load (const galerkin *g, double t, int l, visitor visit,
     }
 }
 
-/* Calls `visit` for a total or body force at every point of its set. */
+/* Calls `visit` for a total force, shared equally by the points of its set, or a force per volume. A body
+ * force on all points is integrated at the evaluation points like everything else; on a set of some
+ * points each takes its own volume. */
 static void visit_point_load (const galerkin *g, double t, int l, visitor visit, void *context)
 {
     const pg_load *load = &g->problem->load[l];
@@ -278,6 +291,7 @@ static void visit_loads (const galerkin *g, double t, visitor visit, void *conte
 
 typedef struct { galerkin *g; double *f; } spreading;
 
+/* A force at a point goes to the nodes that its displacement depends on, by their shape functions. */
 static void spread (void *context, int set, size_t point, int load, int k, double force, double displacement)
 {
     const spreading *s = context;
@@ -287,7 +301,8 @@ static void spread (void *context, int set, size_t point, int load, int k, doubl
         s->f[(size_t) r->family.node[e] * (size_t) s->g->dim + (size_t) k] += r->N[e] * force;
 }
 
-/* K x of the supports: facet points and nodes measured for x alone, with all goals zero */
+/* y += K x of the supports. Prescribed values play no part: a matrix is the change of forces, so that
+ * displacement u and traction t are measured for x alone. */
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
 {
     size_t dim = (size_t) g->dim;
@@ -323,6 +338,7 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
     }
 }
 
+/* Sum of squares. */
 static double squared (const double *a, size_t n)
 {
     double s = 0;
@@ -330,7 +346,8 @@ static double squared (const double *a, size_t n)
     return s;
 }
 
-/* int (sigma(v) n)_k (u_k - g_k): the symmetric counterpart, no force on the body */
+/* int (sigma (v) n)_k (u_k - g_k): the symmetric counterpart of the traction, which is no force on the
+ * body and so no part of reactions. */
 static void add_adjoint (galerkin *g, double t, double *f)
 {
     const pg_rows *r = &g->rows[PG_FACETS];
@@ -349,6 +366,8 @@ static void add_adjoint (galerkin *g, double t, double *f)
     galerkin_dilatation_adjoint (g, f);
 }
 
+/* Adds loads and supports to the residual, N; *external and *reaction: their sums of squares, by which
+ * the residual is later judged. */
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external,
                               double *reaction)
 {
@@ -394,6 +413,7 @@ double galerkin_boundary_energy (galerkin *g, double t)
 }
 
 /* ---- work_balance -------------------------------------------------------------------------------------- */
+/* A visitor that counts. */
 static void count_pair (void *context, int set, size_t point, int load, int k, double force,
                         double displacement)
 {
@@ -412,6 +432,7 @@ size_t galerkin_boundary_pairs (galerkin *g)
 
 typedef struct { pg_work_balance *out; size_t at; } writing;
 
+/* A visitor that writes force and displacement, and sums reactions by load and component. */
 static void write_pair (void *context, int set, size_t point, int load, int k, double force,
                         double displacement)
 {

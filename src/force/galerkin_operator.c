@@ -14,8 +14,8 @@ void galerkin_apply (void *context, const double *x, double *y)
     if (g->nnitsche || g->npenalty) galerkin_boundary_apply (g, x, y);
 }
 
-/* diag K_aa += w B_a' D B_a of the bulk; the diagonal of the boundary and stabilisation terms from their
- * blocks */
+/* diag K_aa += w B_a' D B_a of the bulk where D couples no shear with anything else: normal and shear
+ * moduli times squared derivatives, which is a fraction of the work of the blocks. */
 static void bulk_diagonal (galerkin *g, double *d)
 {
     const pg_rows *r = &g->sums;
@@ -41,7 +41,8 @@ static void bulk_diagonal (galerkin *g, double *d)
 
 typedef void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
 
-/* Adds the diagonal of the blocks K_aa of every point; `wide` holds a row of blocks. */
+/* Adds the diagonal of the blocks K_aa of every point of a family; `make` fills the blocks of node a with
+ * the nodes up to itself, of which the last is wanted. `wide` holds a row of blocks. */
 static void add_diagonal_blocks (galerkin *g, const pg_family *f, blocks make, double *wide, double *d)
 {
     size_t dim = (size_t) g->dim;
@@ -63,7 +64,8 @@ static size_t widest (const pg_family *f)
     return most;
 }
 
-/* After the boundary: scratch for one row of blocks of any source. */
+/* After the boundary: room for one row of blocks of any source, marks of stale rows, and the operator by
+ * which iterations use K. */
 pg_status galerkin_operator_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -107,14 +109,16 @@ void galerkin_diagonal (void *context, double *d)
 }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
-/* Rows of all nodes that a touched point sees become stale. */
+/* The rows of K of all nodes that a touched point sees become stale: its shape functions have changed at
+ * each of them. */
 static void mark_family (galerkin *g, int set, size_t p)
 {
     const pg_family *f = set == g->bulk ? &g->sums.family : &g->rows[set].family;
     for (size_t e = f->start[p]; e < f->start[p + 1]; e++) g->stale[f->node[e]] = 1;
 }
 
-/* Boundary points count where something is prescribed there. */
+/* count: how many points of each set were touched (g->list). Facets and nodes matter only where something
+ * is prescribed there. A new revision tells preconditioners and factors that K is another one. */
 void galerkin_mark_stale (galerkin *g, const size_t *count)
 {
     size_t marked = count[g->bulk] + (g->nnitsche ? count[PG_FACETS] : 0) + (g->npenalty ? count[PG_NODES]
@@ -127,7 +131,8 @@ void galerkin_mark_stale (galerkin *g, const size_t *count)
     g->revision += marked > 0;
 }
 
-/* Sources of blocks: bulk, facets, nodes under a penalty, patches of the dilatation. */
+/* Sources of blocks: bulk (cell by cell with consistent integration, whose derivatives join all points of
+ * a cell), facets, nodes under a penalty, patches of the dilatation. */
 static pg_status create_matrix (galerkin *g)
 {
     pg_assembly_source source[4];

@@ -18,6 +18,8 @@ struct galerkin_slices {
     double *x;                                         /* nodal values, 4 numbers a node (3D) */
 };
 
+/* Sixteen slices of the points whatever the number of threads, each with room for the nodes that its
+ * points see. Points are numbered along the lattice, so that these ranges overlap little. */
 pg_status galerkin_slices_create (galerkin *g)
 {
     pg_status status = PG_OK;
@@ -41,6 +43,7 @@ done:
     return status;
 }
 
+/* Also where there are none. */
 void galerkin_slices_free (galerkin *g)
 {
     galerkin_slices *s = g->slices;
@@ -81,6 +84,7 @@ INLINE void force_solid (const pg_rows *r, size_t p, const double *s, double *f,
     }
 }
 
+/* The same in one and two dimensions: e is (xx) or (xx, yy, 2 xy). */
 INLINE void strain_flat (int dim, const pg_rows *r, size_t p, const double *x, double *u, double *e)
 {
     double u0 = 0, u1 = 0, e0 = 0, e1 = 0, e2 = 0;
@@ -100,6 +104,7 @@ INLINE void strain_flat (int dim, const pg_rows *r, size_t p, const double *x, d
     if (u && dim == 2) u[1] = u1;
 }
 
+/* f (dim numbers a node, from node `low` on) += w B' sigma. */
 INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, double *f, size_t low)
 {
     double w = r->weight[p];
@@ -125,6 +130,8 @@ WIDE static void measure_solid (const measuring *m, size_t first, size_t last)
     }
 }
 
+/* Displacement, strain and stress at a range of points, or of entries of a list. In space strains come
+ * first, in a loop of their own that the compiler can widen. */
 static void measure_points (void *context, size_t first, size_t last, int thread)
 {
     const measuring *m = context;
@@ -141,7 +148,7 @@ static void measure_points (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* In 3D with 4 numbers a node. */
+/* Nodal values with four numbers a node in space, so that a node is one vector load; else as they are. */
 static const double *widened (galerkin *g, const double *d)
 {
     if (g->dim != 3) return d;
@@ -151,6 +158,8 @@ static const double *widened (galerkin *g, const double *d)
     return x;
 }
 
+/* All points of a set, unless they were measured at the same displacement already: balances, fields and
+ * criteria ask for the same one several times a step. */
 void galerkin_measure (galerkin *g, int set, const double *d)
 {
     size_t bytes = g->n * (size_t) g->dim * sizeof *d;
@@ -162,6 +171,7 @@ void galerkin_measure (galerkin *g, int set, const double *d)
     g->fresh[set] = 1;
 }
 
+/* Some points anew at the displacement measured last, after their shape functions have changed. */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list)
 {
     measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, g->seen[set]), list };
@@ -172,6 +182,7 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
 /* x NULL: stresses of the last measure */
 typedef struct { galerkin *g; const double *x; double *f; } summing;
 
+/* s = D e in space; a loop of constant length. */
 INLINE void tangent (const double *D, const double *e, double *s)
 {
     for (int v = 0; v < 6; v++) {
@@ -180,6 +191,7 @@ INLINE void tangent (const double *D, const double *e, double *s)
     }
 }
 
+/* Forces of some points in space: by the stresses at hand, or (x given) by those of displacement x. */
 WIDE static void sum_solid (const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
@@ -196,6 +208,7 @@ WIDE static void sum_solid (const summing *m, size_t first, size_t last, double 
     }
 }
 
+/* The same in one and two dimensions. */
 static void sum_flat (const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
@@ -216,6 +229,7 @@ static void sum_flat (const summing *m, size_t first, size_t last, double *sum, 
     }
 }
 
+/* Whole slices, each by one thread. */
 static void sum_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
@@ -228,6 +242,7 @@ static void sum_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* A range of nodes: what all slices have for them, slices in their order. */
 static void add_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
@@ -241,6 +256,7 @@ static void add_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* x NULL: stresses as measured. */
 static void sum_all (galerkin *g, const double *x, double *f)
 {
     summing m = { g, x ? widened (g, x) : NULL, f };

@@ -182,6 +182,6 @@ void pg_multilevel_describe (const pg_multilevel *m, pg_multilevel_info *info)
     *info = (pg_multilevel_info) { .levels = m->count, .degree = m->degree, .applications = m->applications };
     for (int k = 0; k < m->count && k < 8; k++)
         info->unknowns[k] = m->at[k].ndof, info->top[k] = m->at[k].top;
-    for (size_t h = 0; m->count > 1 && h < m->at[0].nhat; h++)
+    for (size_t h = 0; m->count > 1 && h < m->at[0].nvertex; h++)
         info->split += m->at[0].first[h + 1] - m->at[0].first[h] > 1;
 }

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: the levels of the multilevel preconditioner, a V-cycle whose coarse spaces are built from grids
- * over the nodes (doc/method.md, How the systems are solved).
+ * Private: the levels of the multilevel preconditioner, a V-cycle whose coarse spaces are built from
+ * grids over the nodes (doc/method.md, How the systems are solved).
  *
  * Files: multilevel.c (creation, coarsest level), multilevel_space.c (coarse functions of a level),
  * multilevel_matrix.c (their matrix), multilevel_cycle.c (smoothing, transfers, the cycle).
  *
  * Unknown k of node i has the number i * block + k. A masked unknown (prescribed, or without stiffness)
- * takes no part: its inverse diagonal is stored as 0. In the code a `hat` is a multilinear function on the
- * grid, 1 at its vertex and 0 at all others; all hats together are a partition of unity. A `function` is a
- * hat, or the part of one on one side of a crack; functions are the nodes of the next level. */
+ * takes no part: its inverse diagonal is stored as 0. Each vertex of a grid has a hat function,
+ * multilinear on the grid, 1 at its vertex and 0 at all others; all hat functions together are a
+ * partition of unity. A `function` is a hat function, or the part of one on one side of a crack;
+ * functions are the nodes of the next level. */
 #ifndef PG_MULTILEVEL_H
 #define PG_MULTILEVEL_H
 #include "perigal/linalg.h"
@@ -46,13 +47,13 @@ typedef struct {
     /* cells: cells along each axis. share_of: lattice steps in a cell where the nodes form a lattice, they
      * are in the middle of their steps then; 0: no lattice. */
     int     cells[3], share_of[3];
-    /* Numbers of cells, of hats, of functions. */
-    size_t  ncell, nhat, nfunction;
+    /* Numbers of cells, of hat functions, of functions. */
+    size_t  ncell, nvertex, nfunction;
     /* Cell of each node (n). */
     int    *cell;
     /* Nodes of each cell, ascending: cell_start (ncell + 1), cell_node (n). */
     size_t *cell_start;  int *cell_node;
-    /* First function of each hat (nhat + 1). */
+    /* First function of each hat function (nvertex + 1). */
     size_t *first;
     /* Function at each corner of a node's cell, as this node sees it; -1: none (n x corners). */
     int    *function;
@@ -79,9 +80,10 @@ struct pg_multilevel {
 /* ---- multilevel_space.c -------------------------------------------------------------------------------- */
 /* Chooses grid and functions of the next level; step: wanted size of its cells, m. */
 pg_status level_space (level *l, double step);
-/* The hat at a corner of a cell (bit k of corner: high along axis k); the position of a hat on the grid. */
-size_t level_hat (const level *l, size_t cell, int corner);
-void   level_hat_place (const level *l, size_t hat, int *at);
+/* The hat function at a corner of a cell (bit k of corner: high along axis k); the position of a hat
+ * function on the grid. */
+size_t level_vertex (const level *l, size_t cell, int corner);
+void   level_vertex_place (const level *l, size_t vertex, int *at);
 /* ---- multilevel_matrix.c ------------------------------------------------------------------------------- */
 /* Nodes that node i is coupled with (returns how many) and the blocks, row by row; value NULL: nodes only. */
 size_t level_row (const level *l, size_t i, int thread, int *node, double *value);

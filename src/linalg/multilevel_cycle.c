@@ -20,13 +20,13 @@ static const double margin = 1.05;
 
 /* ---- products and transfers ---------------------------------------------------------------------------- */
 /* Arguments of a parallel loop: input x, output out, coefficients of the smoother. */
-typedef struct { const level *l; const double *x, *y; double *out; double c1, c2; } sweep;
+typedef struct { const level *l; const double *x, *y; double *out; double c1, c2; } smoothing;
 
 /* Rows of blocks times x, with unrolled products for 2 and 3 unknowns per node. */
 static void multiply_rows (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
-    const sweep *w = context;
+    const smoothing *w = context;
     const level *l = w->l;
     size_t block = (size_t) l->block, bb = block * block;
     for (size_t i = first; i < last; i++) {
@@ -53,7 +53,7 @@ void level_multiply (const level *l, const double *x, double *y)
         l->A->apply (l->A->context, x, y);
         return;
     }
-    sweep w = { .l = l, .x = x, .out = y };
+    smoothing w = { .l = l, .x = x, .out = y };
     pg_parallel (l->threads, l->n, multiply_rows, &w);
 }
 
@@ -61,7 +61,7 @@ void level_multiply (const level *l, const double *x, double *y)
 static void restrict_functions (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
-    const sweep *w = context;
+    const smoothing *w = context;
     const level *l = w->l;
     size_t block = (size_t) l->block;
     for (size_t f = first; f < last; f++) {
@@ -80,7 +80,7 @@ static void restrict_functions (void *context, size_t first, size_t last, int th
 static void correct_nodes (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
-    const sweep *w = context;
+    const smoothing *w = context;
     const level *l = w->l;
     size_t block = (size_t) l->block, corners = (size_t) l->corners;
     for (size_t i = first; i < last; i++) {
@@ -103,7 +103,7 @@ static void correct_nodes (void *context, size_t first, size_t last, int thread)
 static void first_step (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
-    const sweep *w = context;
+    const smoothing *w = context;
     const level *l = w->l;
     for (size_t i = first; i < last; i++) {
         l->r[i] = w->x[i];
@@ -115,7 +115,7 @@ static void first_step (void *context, size_t first, size_t last, int thread)
 static void next_step (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
-    const sweep *w = context;
+    const smoothing *w = context;
     const level *l = w->l;
     double *restrict r = l->r, *restrict d = l->d, *restrict z = w->out;
     const double *restrict q = l->q, *restrict inverse = l->inverse;
@@ -130,7 +130,7 @@ static void next_step (void *context, size_t first, size_t last, int thread)
 static void take_off (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
-    const sweep *w = context;
+    const smoothing *w = context;
     for (size_t i = first; i < last; i++) w->l->r[i] -= w->l->q[i];
 }
 
@@ -138,7 +138,7 @@ static void take_off (void *context, size_t first, size_t last, int thread)
  * d has not been taken from the residual yet, which the first step does. */
 static void smooth (const level *l, int degree, const double *b, double *z)
 {
-    sweep w = { .l = l, .x = b, .out = z };
+    smoothing w = { .l = l, .x = b, .out = z };
     for (int k = 1; k <= degree; k++) {
         w.c1 = k > 1 ? (2 * k - 3) / (2.0 * k + 1) : 0;
         w.c2 = (8 * k - 4) / (2.0 * k + 1) / l->top;
@@ -156,7 +156,7 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
     smooth (l, m->degree, b, z);
     if (k + 1 == m->count) return PG_OK;
     level *c = &m->at[k + 1];
-    sweep down = { .l = l, .x = l->r, .out = c->b }, up = { .l = l, .x = c->z, .out = z };
+    smoothing down = { .l = l, .x = l->r, .out = c->b }, up = { .l = l, .x = c->z, .out = z };
     /* The residual of the smoothed z, which the last change d has not entered yet. */
     level_multiply (l, l->d, l->q);
     pg_parallel (l->threads, l->ndof, take_off, &down);

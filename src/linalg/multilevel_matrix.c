@@ -84,7 +84,8 @@ done:
 }
 
 /* ---- pattern ------------------------------------------------------------------------------------------- */
-/* Counts, or lists ascending, the functions of all hats within `reach` cells of grid position `at`. */
+/* Counts, or lists ascending, the functions of all hat functions within `reach` cells of grid position
+ * `at`. */
 static size_t neighbours_of (const level *f, const int *at, const int *reach, int *out)
 {
     size_t count = 0;
@@ -104,23 +105,25 @@ static size_t neighbours_of (const level *f, const int *at, const int *reach, in
     return count;
 }
 
-/* Pattern of A_c. Two hats are coupled if nodes under them are: a hat extends one step to either side, so
- * that the couplings of two hats end before two steps and the reach of the fine couplings. */
+/* Pattern of A_c. Two hat functions are coupled if nodes under them are: a hat function extends one step
+ * to either side, so that the couplings of two hat functions end before two steps and the reach of the
+ * fine couplings. */
 static pg_status make_pattern (level *c, const level *f)
 {
     pg_status status = PG_OK;
     int reach[3] = { 0 }, at[3] = { 0 };
     size_t bb = (size_t) (c->block * c->block);
-    /* Hats extend one step to each side: couplings of two hats end before two steps plus the reach. */
+    /* Hat functions extend one step to each side: couplings of two hat functions end before two steps
+     * plus the reach. */
     for (int k = 0; k < f->dim; k++) {
         reach[k] = (int) ceil (2 + f->reach[k] / f->step[k] + 1e-6) - 1;
         c->reach[k] = reach[k] * f->step[k];
     }
-    /* All functions of one hat have the same couplings. */
+    /* All functions of one hat function have the same couplings. */
     PG_ALLOC (c->start, c->n + 1);
-    for (size_t h = 0; h < f->nhat; h++) {
+    for (size_t h = 0; h < f->nvertex; h++) {
         if (f->first[h] == f->first[h + 1]) continue;
-        level_hat_place (f, h, at);
+        level_vertex_place (f, h, at);
         size_t count = neighbours_of (f, at, reach, NULL);
         for (size_t p = f->first[h]; p < f->first[h + 1]; p++) c->start[p + 1] = c->start[p] + count;
         if (count > c->rows.widest) c->rows.widest = count;
@@ -129,8 +132,8 @@ static pg_status make_pattern (level *c, const level *f)
     PG_ALLOC (c->value, c->start[c->n] * bb);
     PG_ALLOC (c->places, c->n * (size_t) c->dim);
     c->x = c->places;
-    for (size_t h = 0; h < f->nhat; h++) {
-        level_hat_place (f, h, at);
+    for (size_t h = 0; h < f->nvertex; h++) {
+        level_vertex_place (f, h, at);
         for (size_t p = f->first[h]; p < f->first[h + 1]; p++) {
             neighbours_of (f, at, reach, c->node + c->start[p]);
             for (int k = 0; k < c->dim; k++)
@@ -163,7 +166,7 @@ typedef struct {
     /* 1 for each cell that is one of them; NULL: none is. */
     unsigned char *like;
     size_t nrow, ncolumn;
-    /* Hats of rows and columns, as offsets from the cell's first corner (x 3). */
+    /* Hat functions of rows and columns, as offsets from the cell's first corner (x 3). */
     int   *row, *column;
     double *sum;
 } pattern;
@@ -312,14 +315,14 @@ static void cell_place (const level *f, size_t cell, int *at)
         at[k] = (int) (cell % (size_t) f->cells[k]), cell /= (size_t) f->cells[k];
 }
 
-/* No node of the cell has a masked unknown, and no hat at its corners is split. */
+/* No node of the cell has a masked unknown, and no hat function at its corners is split. */
 static int is_plain (const level *f, size_t cell)
 {
     for (size_t p = f->cell_start[cell]; p < f->cell_start[cell + 1]; p++)
         if (f->mask[f->cell_node[p]]) return 0;
     for (int c = 0; c < f->corners; c++) {
-        size_t hat = level_hat (f, cell, c);
-        if (f->first[hat + 1] - f->first[hat] > 1) return 0;
+        size_t vertex = level_vertex (f, cell, c);
+        if (f->first[vertex + 1] - f->first[vertex] > 1) return 0;
     }
     return 1;
 }
@@ -362,28 +365,29 @@ static int stands_free (const level *f, const unsigned char *like, size_t cell)
     return 1;
 }
 
-/* Offset of a function's hat from the first corner of a cell; the hat by bisection in `first`. */
+/* Offset of a function's hat function from the first corner of a cell; the hat function by bisection in
+ * `first`. */
 static void offset_of (const level *f, const int *cell, int function, int *out)
 {
-    size_t low = 0, high = f->nhat;
-    /* The last hat whose functions start at or before this one. */
+    size_t low = 0, high = f->nvertex;
+    /* The last hat function whose functions start at or before this one. */
     while (high - low > 1) {
-        /* first[] ascends with the hats. */
+        /* first[] ascends with the vertices. */
         size_t middle = (low + high) / 2;
         if (f->first[middle] <= (size_t) function) low = middle;
         else high = middle;
     }
-    level_hat_place (f, low, out);
+    level_vertex_place (f, low, out);
     for (int k = 0; k < f->dim; k++) out[k] -= cell[k];
 }
 
-/* The function at that offset from a cell; such hats have one function. */
+/* The function at that offset from a cell; such hat functions have one function. */
 static int function_at (const level *f, const int *cell, const int *offset)
 {
-    size_t hat = 0, stride = 1;
+    size_t vertex = 0, stride = 1;
     for (int k = 0; k < f->dim; k++)
-        hat += (size_t) (cell[k] + offset[k]) * stride, stride *= (size_t) f->cells[k] + 1;
-    return (int) f->first[hat];
+        vertex += (size_t) (cell[k] + offset[k]) * stride, stride *= (size_t) f->cells[k] + 1;
+    return (int) f->first[vertex];
 }
 
 static pg_status sum_nodes (galerkin *g, size_t cell, int thread);

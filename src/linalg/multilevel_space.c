@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Coarse functions of a level: multilinear functions ("hats") on a grid over the box of its nodes. Where
- * the couplings leave the nodes under a hat in several connected parts (a crack runs through, a slit, two
- * bodies side by side), each part gets a function of its own: the hat on it, zero on the others. Together
- * they reproduce every linear displacement of every connected part, so that rigid motions and uniform
- * strains of fragments are corrected on the coarse level. */
+ * the couplings leave the nodes under a hat function in several connected parts (a crack runs through, a
+ * slit, two bodies side by side), each part gets a function of its own: the hat function on it, zero on
+ * the others. Together they reproduce every linear displacement of every connected part, so that rigid
+ * motions and uniform strains of fragments are corrected on the coarse level. */
 #include "multilevel.h"
 #include <math.h>
 #include <string.h>
@@ -15,7 +15,7 @@ static const double negligible = 1e-5;
  * same relative positions, so that rows of coarse matrices can be shared. */
 static void make_grid (level *l, double step)
 {
-    l->ncell = l->nhat = 1;
+    l->ncell = l->nvertex = 1;
     for (int k = 0; k < l->dim; k++) {
         double low = INFINITY, high = -INFINITY;
         for (size_t i = 0; i < l->n; i++) {
@@ -31,32 +31,32 @@ static void make_grid (level *l, double step)
             count = ceil (round ((high - low) / h + 1) / l->share_of[k]);
         }
         l->cells[k] = (int) count;
-        l->ncell *= (size_t) l->cells[k], l->nhat *= (size_t) l->cells[k] + 1;
+        l->ncell *= (size_t) l->cells[k], l->nvertex *= (size_t) l->cells[k] + 1;
     }
 }
 
-size_t level_hat (const level *l, size_t cell, int corner)
+size_t level_vertex (const level *l, size_t cell, int corner)
 {
-    size_t hat = 0, stride = 1;
+    size_t vertex = 0, stride = 1;
     for (int k = 0; k < l->dim; k++) {
         size_t a = cell % (size_t) l->cells[k] + (size_t) (corner >> k & 1);
         cell /= (size_t) l->cells[k];
-        hat += a * stride, stride *= (size_t) l->cells[k] + 1;
+        vertex += a * stride, stride *= (size_t) l->cells[k] + 1;
     }
-    return hat;
+    return vertex;
 }
 
-void level_hat_place (const level *l, size_t hat, int *at)
+void level_vertex_place (const level *l, size_t vertex, int *at)
 {
     for (int k = 0; k < l->dim; k++)
-        at[k] = (int) (hat % ((size_t) l->cells[k] + 1)), hat /= (size_t) l->cells[k] + 1;
+        at[k] = (int) (vertex % ((size_t) l->cells[k] + 1)), vertex /= (size_t) l->cells[k] + 1;
 }
 
 /* Has node i an unknown that is not masked? */
 static int takes_part (const level *l, size_t i) { return l->mask[i] != (1 << l->block) - 1; }
 
-/* Cell of each node, and the values of the hats at the cell's corners there. On a lattice the position
- * within the cell is rounded to the lattice, so that equal nodes have equal bits. */
+/* Cell of each node, and the values of the hat functions at the cell's corners there. On a lattice the
+ * position within the cell is rounded to the lattice, so that equal nodes have equal bits. */
 static void place_nodes (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -94,36 +94,36 @@ done:
     return status;
 }
 
-/* ---- parts of a hat ------------------------------------------------------------------------------------ */
-/* Workspace of one thread: nodes under the hat, queue of the search, couplings of a node; seen: hat + 1 of
- * the last hat that reached each node. */
+/* ---- parts of a hat function -------------------------------------------------------------------------- */
+/* Workspace of one thread: nodes under the hat function, queue of the search, couplings of a node; seen:
+ * hat function + 1 of the last hat function that reached each node. */
 typedef struct { int *under, *queue, *node; size_t *seen; } walker;
-/* All threads: the level, their workspaces, the number of parts of each hat. */
+/* All threads: the level, their workspaces, the number of parts of each hat function. */
 typedef struct { level *l; walker *walker; size_t *parts; pg_status failed; } search;
 
-/* Corner of node i's cell at which the hat stands; -1: the node is not under the hat. */
-static int corner_of (const level *l, size_t i, const int *hat)
+/* Corner of node i's cell at which the hat function stands; -1: the node is not under the hat function. */
+static int corner_of (const level *l, size_t i, const int *vertex)
 {
     size_t cell = (size_t) l->cell[i];
     int corner = 0;
     for (int k = 0; k < l->dim; k++) {
-        int a = hat[k] - (int) (cell % (size_t) l->cells[k]);
+        int a = vertex[k] - (int) (cell % (size_t) l->cells[k]);
         if (a < 0 || a > 1) return -1;
         corner |= a << k, cell /= (size_t) l->cells[k];
     }
     return l->weight[i * (size_t) l->corners + (size_t) corner] > 0 ? corner : -1;
 }
 
-/* Lists the nodes under a hat at grid position `hat`, cell by cell; returns how many. */
-static size_t gather (const level *l, const int *hat, int *under)
+/* Lists the nodes under a hat function at grid position `vertex`, cell by cell; returns how many. */
+static size_t gather (const level *l, const int *vertex, int *under)
 {
     size_t count = 0;
-    /* The cell whose corner c is this hat. */
+    /* The cell whose corner c is this hat function. */
     for (int c = 0; c < l->corners; c++) {
         size_t cell = 0, stride = 1;
         int inside = 1;
         for (int k = 0; k < l->dim; k++) {
-            int a = hat[k] - (c >> k & 1);
+            int a = vertex[k] - (c >> k & 1);
             inside = inside && a >= 0 && a < l->cells[k];
             cell += inside ? (size_t) a * stride : 0, stride *= (size_t) l->cells[k];
         }
@@ -136,45 +136,45 @@ static size_t gather (const level *l, const int *hat, int *under)
     return count;
 }
 
-/* Numbers the connected parts of the nodes under hat h by breadth-first search along the couplings:
+/* Numbers the connected parts of the nodes under hat function h by breadth-first search along the couplings:
  * function[node, corner] = part. Ends early once all nodes have been reached. Returns the number of parts.
- * Each entry of `function` belongs to one hat, so that threads do not meet. */
+ * Each entry of `function` belongs to one hat function, so that threads do not meet. */
 static size_t find_parts (level *l, size_t h, walker *w, int thread)
 {
-    int hat[3];
-    level_hat_place (l, h, hat);
-    size_t count = gather (l, hat, w->under), reached = 0, parts = 0;
+    int vertex[3];
+    level_vertex_place (l, h, vertex);
+    size_t count = gather (l, vertex, w->under), reached = 0, parts = 0;
     for (size_t s = 0; s < count && reached < count; s++) {
         /* The next node that has not been reached begins a new part. */
         size_t seed = (size_t) w->under[s], head = 0, tail = 0;
         if (w->seen[seed] == h + 1) continue;
         w->seen[seed] = h + 1, w->queue[tail++] = (int) seed;
-        /* Breadth-first search among the nodes under the hat. */
+        /* Breadth-first search among the nodes under the hat function. */
         while (head < tail && reached + tail < count) {
             size_t i = (size_t) w->queue[head++], m = level_row (l, i, thread, w->node, NULL);
             for (size_t e = 0; e < m; e++) {
                 size_t j = (size_t) w->node[e];
-                if (w->seen[j] == h + 1 || corner_of (l, j, hat) < 0) continue;
+                if (w->seen[j] == h + 1 || corner_of (l, j, vertex) < 0) continue;
                 w->seen[j] = h + 1, w->queue[tail++] = (int) j;
             }
         }
         for (size_t e = 0; e < tail; e++) {
             size_t i = (size_t) w->queue[e];
-            l->function[i * (size_t) l->corners + (size_t) corner_of (l, i, hat)] = (int) parts;
+            l->function[i * (size_t) l->corners + (size_t) corner_of (l, i, vertex)] = (int) parts;
         }
         reached += tail, parts++;
     }
     return parts;
 }
 
-/* The hats first .. last - 1. */
-static void search_hats (void *context, size_t first, size_t last, int thread)
+/* The hat functions first .. last - 1. */
+static void search_vertices (void *context, size_t first, size_t last, int thread)
 {
     search *s = context;
     for (size_t h = first; h < last; h++) s->parts[h] = find_parts (s->l, h, &s->walker[thread], thread);
 }
 
-/* Bound of the number of nodes under one hat. */
+/* Bound of the number of nodes under one hat function. */
 static size_t most_under (const level *l)
 {
     size_t most = 0;
@@ -183,7 +183,7 @@ static size_t most_under (const level *l)
     return most * (size_t) l->corners;
 }
 
-/* Finds the parts of all hats and numbers the functions, hat by hat. */
+/* Finds the parts of all hat functions and numbers the functions, hat function by hat function. */
 static pg_status split_hats (level *l)
 {
     pg_status status = PG_OK;
@@ -196,11 +196,11 @@ static pg_status split_hats (level *l)
         PG_ALLOC (s.walker[t].node, l->rows.widest);
         PG_ALLOC (s.walker[t].seen, l->n);
     }
-    PG_ALLOC (l->first, l->nhat + 1);
+    PG_ALLOC (l->first, l->nvertex + 1);
     s.parts = l->first + 1;
-    pg_parallel (l->threads, l->nhat, search_hats, &s);
-    for (size_t h = 0; h < l->nhat; h++) l->first[h + 1] += l->first[h];
-    l->nfunction = l->first[l->nhat];
+    pg_parallel (l->threads, l->nvertex, search_vertices, &s);
+    for (size_t h = 0; h < l->nvertex; h++) l->first[h + 1] += l->first[h];
+    l->nfunction = l->first[l->nvertex];
 done:
     for (int t = 0; s.walker && t < l->threads; t++)
         pg_free (s.walker[t].under), pg_free (s.walker[t].queue), pg_free (s.walker[t].node),
@@ -219,7 +219,7 @@ static pg_status number_functions (level *l)
         for (size_t c = 0; c < corners; c++) {
             int *f = &l->function[i * corners + c];
             if (!(l->weight[i * corners + c] > 0)) *f = -1;
-            else *f += (int) l->first[level_hat (l, (size_t) l->cell[i], (int) c)], l->at[*f + 2]++;
+            else *f += (int) l->first[level_vertex (l, (size_t) l->cell[i], (int) c)], l->at[*f + 2]++;
         }
     for (size_t f = 0; f < l->nfunction; f++) l->at[f + 2] += l->at[f + 1];
     PG_ALLOC (l->member, l->at[l->nfunction + 1]);

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Micropolar bonds and the energy of the dilatation beside them, (kappa - kappa_b) theta^2 / 2 per volume
- * (theory G3): a sweep of beams, which breaks bonds, and a state-based one of the displacements alone with
+ * (theory G3): a loop over beams, which breaks bonds, and a state-based one of the displacements alone with
  * deviation 0, which is told of them. */
 #include "bond_loop.h"
 #include <stdio.h>

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * sweep.h: how the loops over bonds hang together (private): a kind of loop fills one pg_bond_loop_kind,
- * sweep.c chooses among them. */
+ * bond_loop.h: how the loops over bonds hang together (private): a kind of loop fills one pg_bond_loop_kind,
+ * bond_loop.c chooses among them. */
 #ifndef PERIGAL_SUMS_SWEEP_H
 #define PERIGAL_SUMS_SWEEP_H
 #include "perigal/sums.h"

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * state_stencil.h: state-based sums over the bits of a stencil (private): for the sweep by stencil and for
+ * state_stencil.h: state-based sums over the bits of a stencil (private): for the loop by stencil and for
  * that by transforms, which sums with its loops where bonds are cut. */
 #ifndef PERIGAL_SUMS_STATE_STENCIL_H
 #define PERIGAL_SUMS_STATE_STENCIL_H
