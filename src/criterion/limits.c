@@ -67,8 +67,8 @@ double pg_criterion_calibration (pg_criterion *c, const pg_scene *scene, const p
         if (pg_scene_given (scene, key))
             pg_scene_fault (scene, key,
                             "how much a growing crack consumes was not measured for these bonds, but for "
-                            "force: bond, lps and gmpd on plane lattices with the constant kernel and a "
-                            "horizon of 3 to 5 spacings: use theory");
+                            "those between points of plane lattices with the constant kernel and a horizon "
+                            "of 3 to 5 spacings: use theory");
         return 1;
     }
     c->growth = setting->growth;

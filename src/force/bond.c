@@ -7,7 +7,8 @@ const pg_force_type pg_force_bond = {
                 .summary = "bond-based peridynamics: pair forces between points, Poisson's ratio 1/3 in "
                            "plane stress, 1/4 in plane strain and 3D (Silling 2000)",
                 .keys = { &bond_force_keys },
-                .shows = PG_NEEDS_STRETCH | PG_NEEDS_ENERGY,
+                .shows = PG_NEEDS_STRETCH | PG_NEEDS_ENERGY | PG_NEEDS_FACETS,
+                .tip_offset = bond_force_tip_offset,
                 .rule = bond_force_rule,
                 .read = pairwise_read,
                 .limits = bond_force_limits,

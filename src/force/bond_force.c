@@ -54,7 +54,7 @@ static pg_status make_limits (bond_force *b)
     pg_status status = PG_OK;
     const pg_problem *p = b->problem;
     PG_TRY (bond_force_energy_create (b));
-    if (!p->criterion->type || b->critical || b->limit) goto done;
+    if (!pg_criterion_of_bonds (p->criterion) || b->critical || b->limit) goto done;
     PG_ALLOC (b->limit, b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];

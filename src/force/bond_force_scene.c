@@ -33,7 +33,7 @@ const pg_key_table bond_force_keys = { "force", keys, sizeof keys / sizeof *keys
 static const pg_key dilatation_keys[] = {
     { "method.weighted_volume", PG_NAME, NULL, NULL, "intact", "intact|live", NULL, NULL,
       "the weighted volume q of a point, which its dilatation and forces are divided by: intact: of the "
-      "bonds that no pre-crack cuts, for the whole run; live: of the unbroken bonds, so that the rest of a "
+      "bonds that no pre-crack cuts, for the whole run; live (the default where cracks grow by facets): of the unbroken bonds, so that the rest of a "
       "family behaves as if it had always been alone (stiffer near new cracks; small time steps)." },
 };
 const pg_key_table state_based_keys = { "force", dilatation_keys,
@@ -85,11 +85,21 @@ void bond_force_rule (pg_sum_rule *rule, const pg_scene *scene, pg_mode mode, co
     rule->evaluations = evaluations_of (scene);
 }
 
+/* Does the scene ask for a criterion that judges tips? Its cracks are then the same whether they were there
+ * before or have grown. */
+static int grows_by_facets (const pg_scene *scene)
+{
+    const pg_criterion_type *c = pg_scene_given (scene, "failure")
+                                     ? pg_criterion_find (pg_scene_text (scene, "failure.criterion")) : NULL;
+    return c && (c->needs & PG_NEEDS_FACETS);
+}
+
 /* Weighted volumes are those of the bonds at the start, or follow what lives. */
 void bond_force_rule_with_dilatation (pg_sum_rule *rule, const pg_scene *scene)
 {
+    static const char key[] = "method.weighted_volume";
     rule->state = 1;
-    rule->follow = is (scene, "method.weighted_volume", "live");
+    rule->follow = is (scene, key, "live") || (!pg_scene_given (scene, key) && grows_by_facets (scene));
 }
 
 void bond_force_refuse_matrix (const pg_problem *p, const pg_scene *scene, const char *of)
@@ -160,7 +170,8 @@ void bond_force_check_laws (const pg_problem *p, const pg_scene *scene)
     pg_evaluation asked = p->sums->rule.evaluation;
     for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
         const pg_criterion *a = &p->criterion[0], *b = &p->criterion[m];
-        int at_points = a->type && (a->type->needs & PG_NEEDS_ENERGY);  /* the loops know of no limit */
+        /* points die by themselves, or tips are judged: the loops know of no limit */
+        int at_points = a->type && (a->type->needs & (PG_NEEDS_ENERGY | PG_NEEDS_FACETS));
         /* state-based loops know each point's constants */
         int alike = (p->sums->rule.state && !p->sums->rule.beams)
                     || (p->material[m].modulus == p->material[0].modulus
@@ -191,6 +202,16 @@ pg_status bond_force_limits (const pg_problem *p, size_t material, pg_criterion_
     setting->stretch = rule->finite ? "finite" : "linear";
     setting->state = rule->state && !rule->beams;
     return PG_OK;
+}
+
+/* Points beside a crack that has cut all that crosses it have lost bonds on the other side, and with them
+ * stiffness: such a crack acts as one that is longer. Measured on an edge crack of half the width in tension,
+ * sqrt (E J) against K in closed form at 20 and 40 spacings, on nine lattices: +4.1 % at a horizon of 3
+ * spacings, +4.5 % at 4, +5.5 % at 5, half of that at 40. */
+double bond_force_tip_offset (const pg_problem *p)
+{
+    double m = p->approx.horizon / p->cloud.h;
+    return m < 4 ? 0.40 + 0.02 * (fmax (m, 3) - 3) : 0.42 + 0.08 * (fmin (m, 5) - 4);
 }
 
 /* One line for the plan. */

@@ -22,6 +22,8 @@ void bond_force_refuse_matrix (const pg_problem *problem, const pg_scene *scene,
 /* Entries of pg_method. */
 pg_status bond_force_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
 void bond_force_check_laws (const pg_problem *problem, const pg_scene *scene);
+/* Of pair forces, in spacings. */
+double bond_force_tip_offset (const pg_problem *problem);
 void bond_force_words (const pg_problem *problem, char *text, size_t size);
 
 /* Unknowns above which static systems are solved by conjugate gradients. With the multilevel preconditioner

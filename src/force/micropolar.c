@@ -46,7 +46,7 @@ static pg_status make_limits (bond_force *b)
     pg_status status = PG_OK;
     const pg_problem *p = b->problem;
     double **of[3] = { &b->limit, &own->shear_limit, &own->bending_limit };
-    if (!p->criterion->type || (p->criterion->type->needs & PG_NEEDS_ENERGY)) return PG_OK;
+    if (!pg_criterion_of_bonds (p->criterion) || (p->criterion->type->needs & PG_NEEDS_ENERGY)) return PG_OK;
     for (int k = 0; k < 3; k++) PG_ALLOC (*of[k], b->n);
     for (size_t i = 0; i < b->n; i++) {
         const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];

@@ -37,7 +37,8 @@ static double offset_of (const pg_problem *p, const pg_scene *scene)
     double horizon = p->approx.horizon / p->cloud.h;
     if (pg_scene_given (scene, "method.tip_offset"))
         return pg_scene_length (scene, p->cloud.h, "method.tip_offset");
-    if (!p->method->shape_functions) return 0;
+    if (!p->method->shape_functions)
+        return pg_problem_grows (p) && p->method->tip_offset ? p->method->tip_offset (p) * p->cloud.h : 0;
     if (p->integration->at_nodes) return NODAL * p->cloud.h;
     return p->cloud.h
            * interpolated ((p->approx.type->exact ? exact : approximate)[p->approx.order == 2], horizon);
