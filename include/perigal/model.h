@@ -107,8 +107,8 @@ typedef struct {
     double      iterate_above[2][4];
     /* 1: forces reach the neighbours of neighbours, so that there is no matrix. NULL: they never do. */
     int       (*long_range) (const pg_scene *scene);
-    /* Without shape functions: how far behind its tip a crack that grows by facets cuts, in spacings. NULL: up
-     * to the tip. */
+    /* Without shape functions: how far behind its tip a crack that grows by facets cuts, in spacings. NULL:
+     * up to the tip. */
     double    (*tip_offset) (const pg_problem *problem);
     /* Without shape functions: how its bonds are summed, on a lattice or not (also for forecasts). */
     void      (*rule) (pg_sum_rule *out, const pg_scene *scene, pg_mode mode, const pg_approx *approx,

@@ -33,7 +33,8 @@ const pg_key_table bond_force_keys = { "force", keys, sizeof keys / sizeof *keys
 static const pg_key dilatation_keys[] = {
     { "method.weighted_volume", PG_NAME, NULL, NULL, "intact", "intact|live", NULL, NULL,
       "the weighted volume q of a point, which its dilatation and forces are divided by: intact: of the "
-      "bonds that no pre-crack cuts, for the whole run; live (the default where cracks grow by facets): of the unbroken bonds, so that the rest of a "
+      "bonds that no pre-crack cuts, for the whole run; live (the default where cracks grow by facets): "
+      "of the unbroken bonds, so that the rest of a "
       "family behaves as if it had always been alone (stiffer near new cracks; small time steps)." },
 };
 const pg_key_table state_based_keys = { "force", dilatation_keys,

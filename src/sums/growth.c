@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What a crack consumes that grows bond by bond, over a straight cut through bonds that are all at their
- * limit (calibration.c). It is more: a bond that breaks releases not only what it stores but also what
- * its neighbours give while the gap that it leaves opens, and a crack that has to leave the rows of its
- * lattice breaks bonds beside its path.
+ * limit (calibration.c). It is more: a bond that breaks releases not only what it stores but also what its
+ * neighbours give while the gap that it leaves opens, and a crack that has to leave the rows of its lattice
+ * breaks bonds beside its path.
  *
  * Measured, not derived: strips clamped along both edges, cracked bond by bond, four directions of growth
- * under the lattice (0, 15, 30, 45 degrees), two shifts of each, by bench/single_bonds (doc/method.md
- * A1). The mean is over directions; least and most are single lattices. */
+ * under the lattice (0, 15, 30, 45 degrees), two shifts of each, by bench/single_bonds (doc/method.md A1).
+ * The mean is over directions; least and most are single lattices. */
 #include "perigal/sums.h"
 #include <math.h>
 
