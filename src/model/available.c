@@ -11,8 +11,8 @@
 
 enum { PATH = 1200 };
 
-/* The number after `key` at the start of a line (key "": the first number); NAN: no such file, line or number
- * ("max"). */
+/* The number after `key` at the start of a line of a file (key "": the first number of the file); NAN: no
+ * such file, line or number ("max"). */
 static double number_in (const char *path, const char *key)
 {
     char line[512];
@@ -29,6 +29,7 @@ static double number_in (const char *path, const char *key)
     return value;
 }
 
+/* The same in a file of a folder. */
 static double number_at (const char *folder, const char *name, const char *key)
 {
     char path[PATH + 64];
@@ -36,6 +37,8 @@ static double number_at (const char *folder, const char *name, const char *key)
     return number_in (path, key);
 }
 
+/* Where control groups of either version keep limit, use, and the part of the use that is file cache,
+ * which the system gives back when it is needed. */
 typedef struct { const char *mount, *limit, *use, *cache; } hierarchy;
 static const hierarchy v2 = { "/sys/fs/cgroup", "memory.max", "memory.current", "inactive_file " };
 static const hierarchy v1 = { "/sys/fs/cgroup/memory", "memory.limit_in_bytes", "memory.usage_in_bytes",
@@ -59,6 +62,7 @@ static double group_left (const char *root, const hierarchy *h, const char *name
     }
 }
 
+/* Least of all control groups that /proc/self/cgroup names, bytes. */
 static double groups_left (const char *root)
 {
     char path[PATH], line[1024];
@@ -80,6 +84,7 @@ static double groups_left (const char *root)
     return least;
 }
 
+/* What RLIMIT_AS leaves of the address space, bytes; INFINITY without a limit. */
 static double address_space_left (const char *root)
 {
     struct rlimit r;
@@ -90,6 +95,7 @@ static double address_space_left (const char *root)
     return fmax (0, (double) r.rlim_cur - (pages > 0 ? pages * (double) sysconf (_SC_PAGESIZE) : 0));
 }
 
+/* INFINITY where nothing is known, as on systems without /proc: a forecast then refuses nothing. */
 double pg_available_memory (const char *root)
 {
     char path[PATH];

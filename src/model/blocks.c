@@ -27,7 +27,8 @@ static void clear (entries *e)
 }
 
 /* ---- the list ------------------------------------------------------------------------------------------ */
-/* What `block` names, -1 with a fault. */
+/* The number of the block that `block` names: by name or number in a mesh, by number in a file of points;
+ * -1 with a fault. */
 static int block_named (const pg_problem *p, const pg_scene *scene, const char *path)
 {
     const char *text = pg_scene_text (scene, "%s", path);
@@ -48,7 +49,7 @@ static int block_named (const pg_problem *p, const pg_scene *scene, const char *
     return -1;
 }
 
-/* A condition, or a block number of the points' file or mesh. */
+/* Entry k of `blocks`: a condition, or a block number of the points' file or mesh, and its material. */
 static pg_status read_entry (entry *e, const pg_problem *p, const pg_scene *scene, size_t k)
 {
     pg_status status = PG_OK;
@@ -80,7 +81,8 @@ done:
     return status;
 }
 
-/* What can be said before there are bonds. */
+/* What can be said before there are bonds, so that faults of this section are told beside those of
+ * others. */
 pg_status pg_blocks_check (const pg_problem *p, const pg_scene *scene)
 {
     entries e = { 0 };
@@ -112,7 +114,8 @@ static void inside (const pg_problem *p, int set, size_t point, double *x)
     }
 }
 
-/* Block number of a point: its own, that of its element, or that of the nearest node; -1: it sees no node. */
+/* Block number of a point: its own, that of its element, or that of the nearest node; -1: it sees no
+ * node. */
 static int number_of (const pg_problem *p, int set, size_t point)
 {
     int cell = p->part.mesh.n && set != PG_NODES ? p->rows[set].cell[point] : -1;
@@ -137,6 +140,7 @@ static int claim (entries *e, const pg_problem *p, int set, size_t point)
     return found;
 }
 
+/* So many points of a set are claimed by no entry; the first of them is named. */
 static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set, size_t point, size_t count)
 {
     char place[96];
@@ -148,7 +152,8 @@ static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set,
                     p->rows[set].n, kind_of_points[set], place);
 }
 
-/* The last entry that claims a point decides its material. */
+/* Materials of all points: the last entry that claims a point decides. Entries that claim nothing are
+ * faults, as they are written in vain. */
 static void claim_all (entries *e, pg_problem *p, const pg_scene *scene)
 {
     size_t first = 0;
@@ -189,8 +194,8 @@ static void by_name (pg_problem *p, const pg_scene *scene)
         }
 }
 
-/* Without a list the block column of the file counts the materials; other points follow their nearest
- * node. */
+/* Without a list the block column of the points' file counts the materials; points of other sets follow
+ * their nearest node. */
 static void by_number (pg_problem *p, const pg_scene *scene)
 {
     if (p->part.mesh.n) {

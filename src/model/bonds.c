@@ -6,13 +6,14 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Geometry only: the values belong to the force. */
+/* Frees the values of shape functions, which belong to the force: the problem keeps geometry only. */
 static void strip_values (pg_rows *rows)
 {
     pg_free (rows->N), pg_free (rows->dN), pg_free (rows->w);
     rows->N = rows->dN = rows->w = NULL;
 }
 
+/* Grades as well. */
 static void strip (pg_rows *rows)
 {
     strip_values (rows);
@@ -20,7 +21,9 @@ static void strip (pg_rows *rows)
     rows->grade = NULL;
 }
 
-/* No lattice: every point of the whole body must see enough to carry a strain. */
+/* Points that are no lattice: every point of the whole body must see enough others, and these not too
+ * flat a set, to carry a strain. Shape functions are evaluated once for their grades; the first point
+ * with none is a fault that says where it is. */
 static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
@@ -140,7 +143,7 @@ done:
     return status;
 }
 
-/* Squared; m^2 */
+/* Squared distance of a place and a node, m^2. */
 static double distance2 (const pg_problem *p, const double *x, int node)
 {
     double s = 0;
@@ -151,7 +154,8 @@ static double distance2 (const pg_problem *p, const double *x, int node)
     return s;
 }
 
-/* Ties go to the first. */
+/* The node of its family that is nearest to a point, -1: it has none. Ties go to the first, so that the
+ * answer is always the same. */
 int pg_bonds_nearest (const pg_problem *p, int set, size_t point)
 {
     const pg_family *f = &p->rows[set].family;
@@ -162,7 +166,8 @@ int pg_bonds_nearest (const pg_problem *p, int set, size_t point)
     return nearest;
 }
 
-/* Only where spacings differ; else one number serves all. */
+/* Local spacing at every point of every set, m: that of its nearest node. Only where spacings differ;
+ * else one number serves all. */
 static pg_status measure_spacing (pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -183,6 +188,7 @@ double pg_problem_spacing (const pg_problem *p, int set, size_t point)
     return p->spacing[set] ? p->spacing[set][point] : p->cloud.h;
 }
 
+/* A point of evaluation on a node has a bond of no length there, whose stretch means nothing. */
 int pg_problem_no_bond (const pg_problem *p, int set, size_t point, size_t e)
 {
     const pg_rows *r = &p->rows[set];
@@ -191,8 +197,8 @@ int pg_problem_no_bond (const pg_problem *p, int set, size_t point, size_t e)
     return j == r->own[point] || distance2 (p, r->x + point * (size_t) p->dim, j) <= least * least;
 }
 
-/* A node of an excluded set exempts its bonds; another point follows its nearest node. A material that never
- * breaks exempts its points. */
+/* Which points' bonds never break. A node of an excluded set exempts its bonds; another point follows its
+ * nearest node. A material that never breaks exempts its points. */
 static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -219,7 +225,8 @@ done:
     return status;
 }
 
-/* Bonds between the points themselves, as pg_sums has them. */
+/* Bonds between the points themselves, as pg_sums has them; the sets of evaluation points and facets are
+ * empty. */
 static pg_status make_point_bonds (pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -241,8 +248,8 @@ done:
     return status;
 }
 
-/* Without shape functions: a point without a bond bears nothing and would fly off, or leave K
- * singular. */
+/* Without shape functions a point without a bond bears nothing: it would fly off, or leave K singular.
+ * The first one is a fault, with its place and its own horizon. */
 static pg_status check_company (const pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -261,8 +268,8 @@ done:
     return status;
 }
 
-/* Points on a pre-crack, counted; of the first crack that has some it is said how its rows of points would
- * leave it. */
+/* Counts the points on a pre-crack, which lose their bonds to both sides. Of the first crack that has
+ * some the warning says how the rows of points would leave it: by half a step across it. */
 static void count_eroded (pg_problem *p, const pg_scene *scene)
 {
     const pg_crack *first = NULL;

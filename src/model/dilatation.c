@@ -16,7 +16,8 @@ static int nearly_incompressible (const pg_material *m)
     return m->lambda > 0 && m->lambda >= stiff * (1 - 1e-9) * shear_of (m);
 }
 
-/* Forces of bonds: nothing to project, yet something to say. */
+/* What is said of materials near 1/2 whose dilatation is not projected: state-based forces cannot, and
+ * `pointwise` was asked for. */
 static void warn (pg_problem *p, const char *mode)
 {
     for (size_t m = 0; m < p->nmaterial; m++) {

@@ -11,10 +11,12 @@
 #include <string.h>
 
 /* ---- the factor ---------------------------------------------------------------------------------------- */
-/* Parts of one level differ in how many of their faces are separators: 0, 1 or 2 along each axis. */
+/* How many parts of one level have so many separators among their faces: 0, 1 or 2 along each axis. All
+ * parts of a level have the same size, so that 27 numbers stand for up to 2^level parts. */
 typedef struct { double count[3][3][3]; } parts;
 
-/* Every part is cut across axis k. */
+/* Every part is cut across axis k: both halves have one face more that is a separator, unless there were
+ * two. */
 static void halve (parts *p, int k)
 {
     parts q = { 0 };
@@ -28,6 +30,8 @@ static void halve (parts *p, int k)
     *p = q;
 }
 
+/* Entries of the factor and operations, summed level by level down to parts as thin as two separators,
+ * which are eliminated as they are. */
 static void dissect (const pg_forecast *f, double *entries, double *flops)
 {
     parts p = { 0 };
@@ -69,6 +73,7 @@ static void choose_linear (pg_forecast *f)
 const char *pg_forecast_linear (const pg_forecast *f) { return f->linear ? f->linear->name : "cg"; }
 
 /* ---- bytes --------------------------------------------------------------------------------------------- */
+/* Names of what memory is needed for, in the order of PG_BYTES_... */
 const char *pg_forecast_item (int item)
 {
     static const char *const names[PG_BYTES_COUNT] = {
@@ -82,7 +87,9 @@ const char *pg_forecast_item (int item)
  * hold. They are upper bounds within some 20 %, checked against the peak of whole runs
  * (test/results/test_memory.c). */
 
-/* Shape functions and their derivatives (galerkin), or the bonds of forces that carry them alone. */
+/* Shape functions and their derivatives, strains and stresses at all points (galerkin), or the bonds of
+ * forces that carry them alone: bits on a lattice, ends and a coefficient each in a list. rows: points of
+ * all sets; all: bonds of all sets. */
 static double shape_bytes (const pg_forecast *f, double all, double rows)
 {
     double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points, bytes;
@@ -98,8 +105,9 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
     return bytes;
 }
 
-/* Vectors of the unknowns, and what solves at rest without a factor add: rows of state-based forces, and the
- * multilevel preconditioner with its finest level and its first coarse matrix. */
+/* Vectors of the unknowns (two states of three, thirteen of solvers, two of five numbers a point for
+ * results), and what solves at rest without a factor add: rows of state-based forces, and the multilevel
+ * preconditioner with its finest level and its first coarse matrix. */
 static double vector_bytes (const pg_forecast *f)
 {
     double d = f->dim, n = f->points, m = d + f->rotations, corners = pow (2, d), bytes;
@@ -111,8 +119,9 @@ static double vector_bytes (const pg_forecast *f)
     return bytes;
 }
 
-/* K and its factor, where there is one; slaves: unknowns that elimination takes out, which costs a second
- * matrix. */
+/* K with its lists of blocks, and its factor, where there is one; slaves: unknowns that elimination takes
+ * out, which costs a second matrix. 1.45: supernodes store zeros beside entries. General matrices have
+ * two factors. */
 static void add_matrix_bytes (pg_forecast *f)
 {
     double bulk = f->nodal        ? f->bonds[PG_NODES]
@@ -130,7 +139,8 @@ static void add_matrix_bytes (pg_forecast *f)
     b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
 }
 
-/* Of each pair of phases that do not meet, the larger counts. */
+/* Bytes from counts, and their sum. Of each pair of phases that do not meet, the larger counts. 35e6:
+ * program and libraries; 15e6: pictures. */
 void pg_forecast_sum (pg_forecast *f)
 {
     double d = f->dim, n = f->points, m = d + f->rotations, *b = f->bytes;
@@ -151,6 +161,7 @@ void pg_forecast_sum (pg_forecast *f)
     for (int i = 0; i < PG_BYTES_COUNT; i++) f->peak += b[i];
 }
 
+/* By the law of dissection, unless an analysis has counted. */
 void forecast_factor (pg_forecast *f)
 {
     if (f->analysed) return;
@@ -158,8 +169,8 @@ void forecast_factor (pg_forecast *f)
 }
 
 /* ---- from the problem ---------------------------------------------------------------------------------- */
-/* Nodes that transformation eliminates along axis k, and those that they see: a dense inverse and a dense
- * product. */
+/* Nodes that transformation eliminates along axis k (role 1), and those that they see (role 2): a dense
+ * inverse and a dense product each. */
 static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned char *role)
 {
     const pg_family *fam = &p->rows[PG_NODES].family;
@@ -190,6 +201,8 @@ static int summed_by_list (const pg_problem *p)
            || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
 }
 
+/* Counts of the problem itself; pairs of nodes keep their number per point, which only an analysis knows
+ * exactly. */
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -218,6 +231,7 @@ done:
     return status;
 }
 
+/* An ordering was made: its counts take the place of all estimates of the factor. */
 void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, double entries, double flops)
 {
     f->pairs = pairs, f->factor_entries = entries, f->factor_flops = flops;
@@ -227,6 +241,8 @@ void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, d
 }
 
 /* ---- what would fit ------------------------------------------------------------------------------------ */
+/* Counts scaled from one spacing to another: bodies with (h / h')^dim, faces with one power less, the
+ * factor as dissection scales it. */
 pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
 {
     pg_forecast g = *f;
@@ -245,6 +261,7 @@ pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
     return g;
 }
 
+/* By bisection over the logarithm of the spacing, rounded up to two digits; INFINITY: nothing would fit. */
 double pg_forecast_fitting (const pg_forecast *f, double available)
 {
     double fine = log (f->spacing), coarse = fine + log (1e6);
@@ -258,6 +275,7 @@ double pg_forecast_fitting (const pg_forecast *f, double available)
     return ceil (exp (coarse) / unit) * unit;
 }
 
+/* "3.1 GB". */
 static const char *in_words (char *text, size_t size, double bytes)
 {
     static const char *const unit[] = { "B", "kB", "MB", "GB", "TB", "PB", "EB" };
@@ -276,6 +294,8 @@ static void alternative (const pg_forecast *g, const char *what, double availabl
               g->peak <= available ? " (fits)" : "");
 }
 
+/* The refusal names what takes the memory, and what would fit: a spacing, nodal integration, conjugate
+ * gradients, a plane model. */
 pg_status pg_forecast_afford (const pg_forecast *f, double available)
 {
     char text[1200] = "", need[32], have[32], items[400] = "", word[32];

@@ -5,7 +5,7 @@
 #include <math.h>
 #include <string.h>
 
-/* An expression in x, y, z; time has no place in it. */
+/* Component k of the velocity at the start, an expression in x, y, z (m/s); time has no place in it. */
 static pg_status read_component (pg_problem *p, const pg_scene *scene, int k)
 {
     pg_status status = PG_OK;
@@ -50,7 +50,8 @@ static double velocity_at (const pg_problem *p, const double *x, size_t k)
     return p->initial[k] ? pg_expression_value (p->initial[k], &at) : 0;
 }
 
-/* dv_k / dx_a by the difference over one spacing; 0 where the expression has no value */
+/* dv_k / dx_a at point i by the difference over one spacing, 1/s; 0 where the expression has no value
+ * there. */
 static double slope_at (const pg_problem *p, size_t i, size_t k, size_t a)
 {
     size_t dim = (size_t) p->dim;
@@ -82,6 +83,7 @@ void pg_initial_set (const pg_problem *p, double *v)
     }
 }
 
+/* Also where nothing was given. */
 void pg_initial_clear (pg_problem *p)
 {
     for (int k = 0; k < 3; k++) pg_expression_free (&p->initial[k]);

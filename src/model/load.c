@@ -5,6 +5,8 @@
 #include <string.h>
 #include <math.h>
 
+/* What an entry of `boundary` can prescribe or apply: its key, the unit of its values, its kind. An entry
+ * has one of them (keys.c). */
 static const struct { const char *key, *unit; pg_load_kind kind;
 } kinds[] = {
     { "displacement", "m", PG_DISPLACEMENT }, { "velocity", "m/s", PG_VELOCITY },
@@ -30,7 +32,8 @@ char pg_load_axis (const pg_load *load, int dim, int k)
     return "xyz"[pg_load_rotates (load) && dim < 3 ? 2 : k];
 }
 
-/* Linear between rows, constant beyond the first and last. */
+/* The factor of a table at t: linear between rows {t, factor}, constant before the first and beyond the
+ * last. */
 static double table_value (const pg_load *load, double t)
 {
     const double *row = load->table;
@@ -43,7 +46,8 @@ static double table_value (const pg_load *load, double t)
     return row[2*n - 1];
 }
 
-/* Integral of the table from its first t to t. */
+/* Integral of the table from its first t to t, s: what a table of a velocity is to the displacement that
+ * follows from it. */
 static double table_integral (const pg_load *load, double t)
 {
     const double *row = load->table;
@@ -57,7 +61,8 @@ static double table_integral (const pg_load *load, double t)
     return t > last[0] ? sum + last[1] * (t - last[0]) : sum;
 }
 
-/* Of time alone: table, ramp or none. */
+/* The factor of time: by the table, or by the ramp, an expression that is 1 where a load has none. A
+ * velocity is integrated to a displacement from t = 0, so that all supports prescribe displacements. */
 static double factor_at (const pg_load *load, const pg_place *at)
 {
     if (!load->table) return pg_expression_value (load->ramp, at);
@@ -65,6 +70,7 @@ static double factor_at (const pg_load *load, const pg_place *at)
                                      : table_value (load, at->t);
 }
 
+/* A place as expressions see it, with radius and angle (rad, from 0 to 2 pi) about the origin. */
 pg_place pg_place_of (int dim, const double *x, double t)
 {
     pg_place at = { x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, 0, 0, t };
@@ -74,7 +80,8 @@ pg_place pg_place_of (int dim, const double *x, double t)
     return at;
 }
 
-/* Pattern in space times factor, where they separate; else the expression at (x, t). */
+/* Expression at (x, t) times the factor of t. Radius and angle cost a root and an arc tangent, and are
+ * only computed for expressions that use them. */
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
 {
     if (!load->value[k]) return 0;
@@ -86,7 +93,7 @@ double pg_load_value (const pg_load *load, int k, int dim, const double *x, doub
     return pg_expression_value (load->value[k], &at) * factor_at (load, &at);
 }
 
-/* Does any component change from place to place?. */
+/* Does the expression change from place to place? */
 static int depends_on_place (const pg_expression *e)
 {
     return e
@@ -94,13 +101,15 @@ static int depends_on_place (const pg_expression *e)
                || pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a'));
 }
 
-/* A component whose expression mixes x and t does not. */
+/* 1: a pattern in space times a factor of t alone, which forces compute once. A component whose
+ * expression mixes x and t does not separate, nor does a ramp that depends on the place. */
 int pg_load_separates (const pg_load *load)
 {
     for (int k = 0; k < 3; k++) if (load->value[k] && pg_expression_uses (load->value[k], 't')) return 0;
     return load->table != NULL || !depends_on_place (load->ramp);
 }
 
+/* The two parts of a separable load, whose product is pg_load_value bit by bit. */
 double pg_load_factor (const pg_load *load, double t)
 {
     pg_place at = { .t = t };
@@ -114,7 +123,8 @@ double pg_load_pattern (const pg_load *load, int k, int dim, const double *x)
     return pg_expression_value (load->value[k], &at);
 }
 
-/* The ramp as an expression in t; a velocity's ramp is integrated to one for the displacement. */
+/* The ramp as an expression in t. Words: linear (from 0 to 1 over the run) or constant. A velocity's ramp
+ * is integrated to one for the displacement: t^2 / (2 duration), or t. duration: s (quasi-static: 1). */
 static pg_status read_ramp (pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
 {
     pg_status status = PG_OK;
@@ -141,7 +151,7 @@ done:
     return status;
 }
 
-/* Times must ascend. */
+/* Pairs [t, factor] with ascending t; each wrong pair is a fault of its own. */
 static pg_status read_table (pg_load *load, const pg_scene *scene, size_t i)
 {
     pg_status status = PG_OK;
@@ -161,7 +171,9 @@ done:
     return status;
 }
 
-/* Components beyond those of the body are faults. */
+/* The expressions of the components that are given; components beyond those of the body are faults, and
+ * at least one is needed. A pressure has one, and no direction. A value that depends on t is not
+ * proportional to the load factor. */
 static pg_status read_values (pg_load *load, const pg_scene *scene, size_t i, const char *key,
                               const char *unit)
 {
@@ -205,7 +217,8 @@ static int acts_on_facets (const pg_load *load)
            || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
 }
 
-/* Its set must hold what it acts on. */
+/* The set of a load must hold what it acts on: facets, or points. Empty sets whose emptiness has been
+ * told where they are defined are passed over. */
 static void check_place (const pg_problem *problem, const pg_load *load, const pg_scene *scene, size_t i)
 {
     char path[64];
@@ -227,7 +240,8 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
         pg_scene_fault (scene, path, "the set %s holds no point", set->name);
 }
 
-/* The most that the box of the body measures along the normal of a facet of the set, m. */
+/* The most that the box of the body measures along the normal of a facet of the set, m: no load can reach
+ * deeper. */
 static double deepest (const pg_problem *problem, const pg_set *set)
 {
     const pg_cells *c = &problem->cells;
@@ -249,7 +263,9 @@ static double deepest (const pg_problem *problem, const pg_set *set)
     return most;
 }
 
-/* Shape functions carry a traction on the surface itself. */
+/* boundary[].depth: without shape functions a traction may act on a layer of points instead of the
+ * outermost ones (Silling and Askari 2005); shape functions carry it on the surface itself, where a depth
+ * would mean nothing. */
 static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i)
 {
     char path[64], names[160];

@@ -31,6 +31,7 @@ int pg_problem_rotations (const pg_problem *p) { return p->method ? p->method->r
 int pg_problem_unknowns (const pg_problem *p) { return p->dim + pg_problem_rotations (p); }
 
 /* ---- which forces ... ---------------------------------------------------------------------------------- */
+/* Properties of forces for names_of, by a number that some of them need. */
 static int shows_all (const pg_method *m, int needs) { return !(needs & ~m->shows); }
 static int has_rotations (const pg_method *m, int dim) { return m->rotations[dim] > 0; }
 static int carries_any (const pg_method *m, int unused)
@@ -60,6 +61,7 @@ static const char *names_of (const pg_problem *p, int (*has) (const pg_method *,
     return out;
 }
 
+/* For messages: forces without shape functions; forces whose points have rotations. */
 const char *pg_methods_of_points (const pg_problem *p, char *out, size_t size)
 {
     return names_of (p, is_of_points, 0, out, size);
@@ -71,7 +73,8 @@ const char *pg_methods_with_rotations (const pg_problem *p, char *out, size_t si
 }
 
 /* ---- keys ---------------------------------------------------------------------------------------------- */
-/* Keys of other forces, and essential conditions that bonds between points do not know. */
+/* Keys of other forces, and essential conditions that bonds between points do not know, are no faults: a
+ * scene may be run by several forces. They are listed, so that nobody believes that they count. */
 void pg_method_note_ignored (pg_problem *p, const pg_scene *scene)
 {
     char path[PG_STRAY_PATH], text[200] = "";
@@ -108,7 +111,7 @@ pg_status pg_method_check_materials (const pg_problem *p, const pg_scene *scene)
     return pg_scene_verdict (scene);
 }
 
-/* The measures among PG_NEEDS_..., "stretch and energy" */
+/* The measures among PG_NEEDS_..., in words: "stretch and energy". */
 static const char *measures_of (int needs, char *out, size_t size)
 {
     static const struct { int need; const char *word; } words[] = {
@@ -155,7 +158,8 @@ static const char *criteria_of (const pg_method *m, char *out, size_t size)
     return out;
 }
 
-/* Names criteria that go with this force, and forces that go with this criterion. */
+/* A criterion that needs what the bonds of a force do not show is a fault, which names criteria that go
+ * with this force, and forces that go with this criterion. */
 void pg_method_check_criterion (const pg_problem *p, const pg_scene *scene)
 {
     const pg_criterion_type *type = p->criterion->type;

@@ -67,14 +67,16 @@ done:
     return status;
 }
 
-/* A fault found in one stage keeps the next from nothing: all are told together. */
+/* A fault found in one stage keeps the next from nothing that does not build on it: all are told
+ * together. */
 static pg_status pass (const pg_scene *scene, pg_status status)
 {
     if (status == PG_E_SCENE) pg_scene_pass (scene);
     return status == PG_E_SCENE ? PG_OK : status;
 }
 
-/* Body, cracks, points, cells, sets. */
+/* Body, cracks, points, cells, sets, in this order; a verdict follows where the next step could not do
+ * without the former. */
 static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -147,7 +149,8 @@ done:
     return status;
 }
 
-/* Materials, then the approximation, then what the force reads of its keys. */
+/* Materials, then the approximation (whose horizon may count in spacings), then what the force reads of
+ * its keys, then the criteria, whose constants follow from all of these. */
 static pg_status build_laws (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -169,7 +172,7 @@ done:
     return status;
 }
 
-/* Is any point within its horizon of the place?. */
+/* Is any point within its horizon of the place? Else a field there would be made of nothing. */
 static int sees_points (const pg_problem *p, const double *x)
 {
     size_t dim = (size_t) p->dim;
@@ -324,7 +327,8 @@ int pg_problem_proportional (const pg_problem *p)
     return 1;
 }
 
-/* Of the load at this place, between t = 0 and 1. */
+/* Does component k of the load at this place follow a straight line between t = 0 and 1? Asked at fifteen
+ * times and at the corners of a table, to rounding. */
 static int is_affine (const pg_load *load, int k, int dim, const double *x)
 {
     double a = pg_load_value (load, k, dim, x, 0), b = pg_load_value (load, k, dim, x, 1),

@@ -4,7 +4,8 @@
 #include "model.h"
 #include <string.h>
 
-/* The arrays lie behind the struct, each after the other, so that one copy takes all. */
+/* The arrays lie behind the struct, each after the other, so that one copy takes all: d, v, a (ndof
+ * each), then the alive bits (nbond bytes). */
 static void place (pg_state *s)
 {
     char *base = (char *) s + (sizeof *s + 63) / 64 * 64;
@@ -14,7 +15,8 @@ static void place (pg_state *s)
     s->alive = (unsigned char *) (s->a + s->ndof);
 }
 
-/* One block of memory. */
+/* One block of memory; pre-cracks cut their bonds, points have the velocity that the scene gives them.
+ * Solvers with unknowns of their own (components) begin at rest. */
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components)
 {
     pg_status status = PG_OK;
@@ -49,6 +51,7 @@ done:
     return status;
 }
 
+/* A state in the plane has its own cracks; elsewhere they are those of the scene. */
 const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state)
 {
     return state && state->paths ? &state->paths->cracks : &problem->cracks;

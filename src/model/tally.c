@@ -22,6 +22,7 @@ typedef struct {
     long   *mark, epoch;                               /* box of marks */
 } counter;
 
+/* Also of a counter that was filled in part only. */
 static void counter_clear (counter *c)
 {
     pg_free (c->site), pg_free (c->node.step), pg_free (c->mark);
@@ -29,19 +30,20 @@ static void counter_clear (counter *c)
     pg_free (c->gauss);
 }
 
-/* Is the lattice cell part of the body?. */
+/* Is the lattice cell (a, b, c) part of the body? Beyond the lattice there is none. */
 static int kept (const pg_lattice *l, int a, int b, int c)
 {
     if (a < 0 || b < 0 || c < 0 || a >= l->count[0] || b >= l->count[1] || c >= l->count[2]) return 0;
     return l->in[((size_t) c * (size_t) l->count[1] + (size_t) b) * (size_t) l->count[0] + (size_t) a];
 }
 
+/* Number of a site, x fastest. */
 static size_t site_at (const counter *c, int x, int y, int z)
 {
     return ((size_t) z * (size_t) c->size[1] + (size_t) y) * (size_t) c->size[0] + (size_t) x;
 }
 
-/* Is there a point at a site and a step from it?. */
+/* Is there a point at a site and a step from it? */
 static int is_point (const counter *c, const int *at, const int *step)
 {
     int x = at[0] + step[0], y = at[1] + step[1], z = at[2] + step[2];
@@ -49,8 +51,9 @@ static int is_point (const counter *c, const int *at, const int *step)
     return c->site[site_at (c, x, y, z)];
 }
 
-/* An open face whose middle is not on the surface: as many cells as such faces are crossed by a plane,
- * whatever its direction. */
+/* An open face (f: -x +x -y +y -z +z) of a kept cell whose middle is not on the surface of the body: the
+ * surface runs through a cell there. As many cells as such faces are crossed by a plane, whatever its
+ * direction, so that counting these faces counts cut cells. */
 static int off_surface (const counter *c, int x, int y, int z, int f)
 {
     const pg_lattice *l = c->l;
@@ -126,6 +129,7 @@ done:
     return status;
 }
 
+/* The bonds of forces between points, which have been built already. */
 static pg_status copy_stencil (stencil *out, const pg_stencil *from)
 {
     pg_status status = PG_OK;
@@ -136,7 +140,7 @@ done:
     return status;
 }
 
-/* Of a node and of every Gauss point of a cell. */
+/* Stencils of a node and of every Gauss point of a cell: which nodes it sees, the same for all cells. */
 static pg_status make_stencils (counter *c)
 {
     pg_status status = PG_OK;
@@ -158,7 +162,7 @@ done:
     return status;
 }
 
-/* Points of a stencil that exist, from one site. */
+/* How many points of a stencil exist, seen from one site. */
 static size_t seen (const counter *c, const int *at, const stencil *s)
 {
     size_t n = 0;
@@ -167,6 +171,8 @@ static size_t seen (const counter *c, const int *at, const stencil *s)
 }
 
 /* ---- pairs --------------------------------------------------------------------------------------------- */
+/* Marks what is seen from `from` in the box of marks about `node`; returns how many marks are new in this
+ * epoch. An epoch is a number, so that marks need not be cleared between nodes. */
 static size_t mark_seen (counter *c, const int *node, const int *from, const stencil *s)
 {
     size_t n = 0;
@@ -182,7 +188,8 @@ static size_t mark_seen (counter *c, const int *node, const int *from, const ste
     return n;
 }
 
-/* Nodes that share a point of evaluation with the node, itself included. */
+/* Nodes that share a point of evaluation with the node, itself included: entries of its row of K, in
+ * nodes. */
 static size_t coupled (counter *c, const int *node)
 {
     size_t n = 0;
@@ -201,6 +208,8 @@ static size_t coupled (counter *c, const int *node)
     return n;
 }
 
+/* A box of marks twice as far as any stencil reaches: two nodes that one point sees are at most so far
+ * apart. */
 static pg_status make_marks (counter *c)
 {
     pg_status status = PG_OK;
@@ -217,18 +226,21 @@ done:
 }
 
 /* ---- the sample ---------------------------------------------------------------------------------------- */
-/* One of every `stride` items, at a place that changes from stride to stride. */
+/* One of every `stride` items, at a place that changes from stride to stride (a multiplicative hash), so
+ * that no row or column of the lattice is met more often than others. */
 static int chosen (size_t i, size_t stride)
 {
     return i % stride == (size_t) (i / stride * 2654435761u) % stride;
 }
 
+/* So that about most_visits sites are visited, and at least 64 items in any case. */
 static size_t stride_for (double items, double visits_each)
 {
     return (size_t) fmax (1, fmin (ceil (items * visits_each / most_visits), floor (items / 64)));
 }
 
-/* Bonds and couplings of nodes, on an even sample of them where there are many. */
+/* Bonds of nodes, and pairs of nodes that share a point of evaluation (each pair once, a node with itself
+ * included), on an even sample where there are many. */
 static void count_nodes (counter *c, pg_tally *t)
 {
     double work = c->how->bonds  ? (double) c->node.n
@@ -276,7 +288,8 @@ static void count_gauss (counter *c, pg_tally *t)
     t->point_bonds = n ? bonds * (t->cells / (double) n) : 0;
 }
 
-/* Bonds so long that stencils would be large: as in the interior of an endless body. */
+/* Bonds so long that stencils would be large: counts as in the interior of an endless body then, at most
+ * all points. Such a run is refused for its memory in any case. 1: counted so. */
 static int wide_open (const counter *c, pg_tally *t)
 {
     const pg_approx *a = c->how->approx;
