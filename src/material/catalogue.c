@@ -5,6 +5,8 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The entries of list.h, and behind them those that the calling program has added. Names of both are
+ * joined in `names`, for choices of keys and messages; the first bar is left out. */
 static const pg_material_type *const table[] = {
 #define PG_MATERIAL(name) &pg_material_##name,
 #include "list.h"
@@ -20,6 +22,7 @@ static char names[64 * (MOST_ADDED + 4)] =
 #undef PG_MATERIAL
     ;
 
+/* NULL: there is none of this name. */
 const pg_material_type *pg_material_find (const char *name)
 {
     for (size_t i = 0; name && i < sizeof table / sizeof *table; i++)
@@ -31,7 +34,8 @@ const pg_material_type *pg_material_find (const char *name)
 
 const char *pg_material_names (void) { return names + 1; }
 
-/* Its keys join those of the scene, which gathers them when the first scene is read. */
+/* For programs that bring a material of their own, before any scene is read: its keys join those of the
+ * scene, which gathers them when the first scene is read. */
 pg_status pg_material_add (const pg_material_type *type)
 {
     pg_status status = PG_OK;
@@ -47,9 +51,10 @@ done:
     return status;
 }
 
+/* Components of a symmetric tensor: 1, 3 or 6. */
 int pg_voigt_size (int dim) { return dim * (dim + 1) / 2; }
 
-/* The place of a stress component in Voigt order. */
+/* The place of component ij in Voigt order: xx, yy, zz, xy, yz, zx, of a plane xx, yy, xy. */
 int pg_voigt_at (int dim, int i, int j)
 {
     static const int solid[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } },
@@ -58,6 +63,7 @@ int pg_voigt_at (int dim, int i, int j)
 }
 
 /* ---- keys ---------------------------------------------------------------------------------------------- */
+/* Entry i of both lists together; NULL past the last. */
 static const pg_material_type *entry (size_t i)
 {
     size_t own = sizeof table / sizeof *table;
@@ -71,7 +77,7 @@ const pg_key_catalogue pg_entry_keys_material = { .selector = "materials.{}.mode
                                                   .name = name_of,
                                                   .keys = keys_of };
 
-/* "a, b", the keys that a model reads */
+/* "youngs_modulus, poissons_ratio": the keys that a model reads, without the path of the material. */
 static void list_keys (const pg_material_type *type, char *text, size_t size)
 {
     size_t used = 0;
@@ -94,7 +100,8 @@ static void check_keys (const pg_material *m, const pg_scene *scene)
                         reads);
 }
 
-/* Common keys here, the rest by the model; a constant that is not of this model is a fault. */
+/* Material `name` of the scene: common keys here, the rest by the model; a constant that is not of this
+ * model is a fault. E, nu stay NAN where a model has none. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode)
 {
     pg_status status = PG_OK;

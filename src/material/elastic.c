@@ -10,8 +10,8 @@ static int size_of (pg_mode mode)
     return mode == PG_SOLID ? 6 : mode == PG_LINE ? 1 : 3;
 }
 
-/* lambda tr (eps) 1 + 2 mu eps; in plane stress lambda is 2 lambda mu / (lambda + 2 mu), written in E and
- * nu. */
+/* D (1, 3 or 6 components, Pa): lambda tr (eps) 1 + 2 mu eps with engineering shears. In plane stress
+ * lambda is 2 lambda mu / (lambda + 2 mu) = E nu / (1 - nu^2); a bar has E alone. */
 void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D)
 {
     int nv = size_of (mode), nn = nv == 6 ? 3 : nv == 3 ? 2 : 1;       /* components, normal ones */
@@ -24,7 +24,9 @@ void pg_elastic_tangent (pg_mode mode, double E, double nu, double *D)
     if (mode == PG_LINE) D[0] = E;
 }
 
-/* Bulk modulus of the dimension, and the shear modulus, in the constants of state-based bonds. */
+/* Bulk modulus of the dimension and shear modulus in the constants of state-based bonds (theory B6):
+ * dilation d kappa - (d + 2) mu, deviation d (d + 2) mu, Pa, whose sum for uniform strain is the energy
+ * of E and nu. */
 void pg_state_moduli (pg_mode mode, double E, double nu, double *dilation, double *deviation)
 {
     double mu = E / (2 * (1 + nu)), lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), d = mode == PG_SOLID ? 3 : 2;
@@ -45,6 +47,7 @@ void pg_elastic_set (pg_material *m, double E, double nu)
         m->out_of_plane[0] = m->out_of_plane[1] = E * nu / ((1 + nu) * (1 - 2 * nu));
 }
 
+/* Ranges of the keys have made sure that D is positive definite. */
 static pg_status read (pg_material *m, const pg_scene *scene)
 {
     pg_elastic_set (m, pg_scene_number (scene, "materials.%s.youngs_modulus", m->name),

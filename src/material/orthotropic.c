@@ -10,6 +10,7 @@
 #include <math.h>
 #include <string.h>
 
+/* Constants in the order of pg_material.parameter, Pa and 1, and their keys. */
 enum { E1, E2, E3, NU12, NU13, NU23, G12, G13, G23, CONSTANTS };
 static const char *const names[CONSTANTS] = {
     "youngs_modulus_1",  "youngs_modulus_2", "youngs_modulus_3", "poissons_ratio_12", "poissons_ratio_13",
@@ -83,7 +84,8 @@ static int complete (const pg_material *m, const pg_scene *scene)
     return all;
 }
 
-/* Compliance of normal stresses (theirs alone: shears are apart), of n = 2 or 3 axes. */
+/* Compliance of normal stresses, 1/Pa, of n = 2 or 3 axes (theirs alone: shears are apart): 1 / E_i on
+ * the diagonal, -nu_ij / E_i beside it. */
 static void normal_compliance (int n, const double c[CONSTANTS], double *S)
 {
     static const int ratio[3][3] = { { 0, NU12, NU13 }, { NU12, 0, NU23 }, { NU13, NU23, 0 } };
@@ -117,7 +119,8 @@ static int is_positive (const pg_material *m, const pg_scene *scene, int n, cons
     return 0;
 }
 
-/* Inverse of the n x n compliance into the upper left of the 6 x 6 stiffness C; shears on its diagonal. */
+/* Inverse of the n x n compliance into the upper left of the 6 x 6 stiffness C, Pa, column by column;
+ * shear moduli on its diagonal, in Voigt order (12, 23, 13). */
 static void stiffness (int n, const double c[CONSTANTS], double C[36])
 {
     double S[9];
@@ -133,9 +136,11 @@ static void stiffness (int n, const double c[CONSTANTS], double C[36])
     C[6 * 3 + 3] = c[G12], C[6 * 4 + 4] = c[G23], C[6 * 5 + 5] = c[G13];
 }
 
+/* Length of a vector. */
 static double length (const double *a) { return sqrt (a[0] * a[0] + a[1] * a[1] + a[2] * a[2]); }
 
-/* Keys of the other number of dimensions are faults. 0: there are some. */
+/* Axes are given by an angle in the plane and by two vectors in space; keys of the other number of
+ * dimensions are faults. 0: there are some. */
 static int axes_fit (const pg_material *m, const pg_scene *scene)
 {
     static const char *const key[3] = { "angle", "axis_1", "axis_2" };
@@ -190,7 +195,9 @@ static int read_axes (const pg_material *m, const pg_scene *scene, double R[9])
     return 1;
 }
 
-/* Takes the rows and columns of the mode out of the stiffness of a solid. */
+/* Takes the rows and columns of the mode out of the stiffness of a solid. In plane stress C was inverted
+ * from the compliance of two axes, so that it is the reduced stiffness already; in plane strain sigma_zz
+ * is what the row zz makes. */
 static void reduce (pg_material *m, const double D[36])
 {
     static const int plane[3] = { 0, 1, 3 };
@@ -201,7 +208,8 @@ static void reduce (pg_material *m, const double D[36])
     }
 }
 
-/* Checks first, so that nothing is computed from constants that cannot be. */
+/* Checks first, so that nothing is computed from constants that cannot be. modulus, the largest of the
+ * axes, is what stable steps and penalties are measured in; mu is a mean for the same purpose. */
 static pg_status read (pg_material *m, const pg_scene *scene)
 {
     double c[CONSTANTS], C[36], D[36], R[9];
@@ -222,6 +230,7 @@ static pg_status read (pg_material *m, const pg_scene *scene)
     return PG_OK;
 }
 
+/* The constants that the mode uses, for plans. */
 static void describe (const pg_material *m, char *text, size_t size)
 {
     const double *c = m->parameter;
