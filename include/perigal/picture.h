@@ -34,7 +34,7 @@ typedef struct {
     double      magnify;
     /* Displacement (n x dim, m), or NULL. */
     const double *u;
-    /* Pre-cracks, drawn as lines, or NULL. */
+    /* Cracks, drawn as lines, or NULL. */
     const pg_cracks *cracks;
     /* Plane of a section of a 3D body: 0 is the middle of z; 1, 2 and 3 are x, y, z = at; 4 is
      * the oblique plane direction . x / |direction| = at. */
@@ -120,8 +120,13 @@ pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const doubl
                             const pg_picture_style *style);
 
 /* One state of several in a common picture: its title, the values (n), and, each or NULL,
- * displacement (n x dim, m), the values that select points (n) and the damage (n). */
-typedef struct { const char *title; const double *value, *u, *select, *damage; } pg_panel;
+ * displacement (n x dim, m), the values that select points (n), the damage (n), and the cracks of this state
+ * (NULL: those of the style). */
+typedef struct {
+    const char *title;
+    const double *value, *u, *select, *damage;
+    const pg_cracks *cracks;
+} pg_panel;
 /* Draws n states of one cloud in one picture with one colour bar, row by row in the given
  * number of columns; 0 chooses the number of columns by the shape of the body. The style's own
  * u, select and damage are not used. */

@@ -81,6 +81,9 @@ int       pg_result_tip    (const pg_result *result, size_t k, char *out, size_t
  * stiffness, the new crack and its energy. Returns 0 past the end. */
 int       pg_result_words  (const pg_result *result, size_t k, char *out, size_t size /* 1 or more */);
 const char *pg_result_folder (const pg_result *result);
+/* The cracks of a result folder at the time of fields in its result.e, from cracks.csv, for pictures; none
+ * where it has no such file. To be freed with pg_cracks_clear. PG_E_FILE: the file is damaged. */
+pg_status pg_result_cracks (pg_cracks *out, const char *folder, double time);
 /* Number of pictures written, stages not counted; pg_result_picture has their paths. */
 size_t    pg_result_pictures (const pg_result *result);
 const char *pg_result_picture (const pg_result *result, size_t i);

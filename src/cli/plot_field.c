@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Fields of a result as pictures: reads steps of DIR/result.e, chooses the component and the
- * points, finds out from the copied scene where body and pre-cracks are, names files and
- * panels, and hands everything to picture.h.
+ * points, finds out from the copied scene where body and pre-cracks are, from cracks.csv where cracks
+ * have grown, names files and panels, and hands everything to picture.h.
  *
  * Only the folder is needed: without scene.yaml a picture has no pre-cracks and an outline
  * from the points alone; without the mesh file of the run it is drawn by points. */
 #include "plot.h"
-#include "perigal/compare.h"
+#include "perigal/results.h"
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -37,9 +37,9 @@ typedef struct {
     char     name[128], unit[16];
 } source;
 
-/* A step: values (n), displacements (n x dim), values that select points (n), damage (n);
- * title. */
-typedef struct { double *value, *u, *select, *damage; char title[64]; } stage;
+/* A step: values (n), displacements (n x dim), values that select points (n), damage (n); the cracks, where
+ * they have grown (n = 0: those of the scene); title. */
+typedef struct { double *value, *u, *select, *damage; pg_cracks cracks; char title[64]; } stage;
 
 /* ---- components ---------------------------------------------------------------------------------------- */
 int pg_plot_index (const char *word, const char *list)
@@ -282,7 +282,9 @@ static pg_status read_stage (const plot_request *q, const source *s, int step, s
     }
     if (q->style.view == PG_VIEW_CRACK && !q->limited)
         PG_TRY (pg_exodus_read (q->result, "damage", step, &n, &m, &g->select));
-    name_stage (q, s, step < 0 ? (int) s->nstep - 1 : step, g->title, sizeof g->title);
+    int last = step < 0 ? (int) s->nstep - 1 : step;
+    PG_TRY (pg_result_cracks (&g->cracks, q->directory, s->time[last]));
+    name_stage (q, s, last, g->title, sizeof g->title);
 done:
     pg_free (field);
     return status;
@@ -292,6 +294,7 @@ done:
 static void drop_stage (stage *g)
 {
     pg_free (g->value), pg_free (g->u), pg_free (g->select), pg_free (g->damage);
+    pg_cracks_clear (&g->cracks);
     *g = (stage) { 0 };
 }
 
@@ -382,7 +385,8 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     PG_ALLOC (panel, n);
     for (size_t k = 0; k < n; k++) {
         const double *select = q->limited ? g[k].value : g[k].select;
-        panel[k] = (pg_panel) { titled ? g[k].title : NULL, g[k].value, g[k].u, select, g[k].damage };
+        const pg_cracks *grown = g[k].cracks.n ? &g[k].cracks : NULL;
+        panel[k] = (pg_panel) { titled ? g[k].title : NULL, g[k].value, g[k].u, select, g[k].damage, grown };
     }
     if (crack) style.by_depth = strcmp (q->field, "damage") == 0;
     if (crack && !q->limited) style.above = PG_CRACK_DAMAGE;

@@ -46,6 +46,12 @@ static const double *displaced (const drawing *d, size_t panel)
     return d->style->magnify != 0 ? d->panel[panel].u : NULL;
 }
 
+/* The cracks of a panel, or NULL. */
+static const pg_cracks *cracks_of (const drawing *d, size_t panel)
+{
+    return d->panel[panel].cracks ? d->panel[panel].cracks : d->style->cracks;
+}
+
 /* What is coloured: the value of the panel, or for a crack seen by its depth the coordinate towards the
  * eye. */
 static const double *value_of (const drawing *d, size_t panel)
@@ -309,18 +315,23 @@ static double half_of_points (const drawing *d, int a)
 
 /* ---- painting ------------------------------------------------------------------------------------------ */
 enum { FACE = 129 };
-/* Where both faces of every pre-crack are now, sampled at FACE places each, so that an opened crack is
- * drawn as two lines. */
+/* Where both faces of every crack are now, so that an opened crack is drawn as two lines: FACE places each,
+ * of short pieces fewer, five in a spacing, and nothing behind them. */
 static pg_status find_faces (drawing *d, const pg_tiles *t)
 {
     pg_status status = PG_OK;
+    const pg_cracks *cracks = t->cracks;
     d->nface = 0;
-    if (!t->shift || d->cloud->dim != 2 || !d->style->cracks) goto done;
-    for (size_t c = 0; c < d->style->cracks->n; c++)
+    if (!t->shift || d->cloud->dim != 2 || !cracks) goto done;
+    for (size_t c = 0; c < cracks->n; c++)
         for (int side = 0; side < 2; side++) {
-            const double *v = d->style->cracks->crack[c].vertex;
+            const double *v = cracks->crack[c].vertex;
+            double places = 5 * hypot (v[2] - v[0], v[3] - v[1]) / t->widest;
+            size_t n = places > 3 * FACE / 4 ? FACE : (size_t) fmax (places, 0) + 4;
             PG_GROW (d->face, d->cap_face, 2 * FACE * (d->nface + 1));
-            pg_tiles_face (t, v, v + 2, side, FACE, d->face + 2 * FACE * d->nface++);
+            double *out = d->face + 2 * FACE * d->nface++;
+            pg_tiles_face (t, v, v + 2, side, n, out);
+            for (size_t k = 2 * n; k < 2 * FACE; k++) out[k] = NAN;
         }
 done:
     return status;
@@ -381,7 +392,7 @@ static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
                    .loose = d->spacing || d->cloud->size || d->grid.loose,
                    .eye = e,
                    .outline = d->style->outline,
-                   .cracks = d->style->cracks };
+                   .cracks = cracks_of (d, panel) };
     PG_TRY (collect_points (d, panel, &t, &p));
     for (int a = 0; a < 2; a++) t.step[a] = 2 * half_of_points (d, a);
     if (e->kind == PG_LAYER)
@@ -477,8 +488,8 @@ static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
     PG_TRY (pg_panel_paint (p, cr, panel, &s, value_of (d, panel), fine));
     if (box) pg_wire_box (p, cr, panel, &d->grid, 0);
     if (u && d->cloud->dim == 2) pg_wire_faces (p, cr, panel, d->nface, FACE, d->face);
-    else if (d->style->cracks && !u)
-        pg_wire_cracks (p, cr, panel, &d->grid, d->style->cracks, select ? NULL : &s);
+    else if (cracks_of (d, panel) && !u)
+        pg_wire_cracks (p, cr, panel, &d->grid, cracks_of (d, panel), select ? NULL : &s);
     pg_panel_draw (p, cr, panel, d->panel[panel].title);
 done:
     pg_screen_close (&s);
@@ -591,6 +602,6 @@ done:
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value,
                             const pg_picture_style *style)
 {
-    pg_panel panel = { NULL, value, style->u, style->select, style->damage };
+    pg_panel panel = { NULL, value, style->u, style->select, style->damage, NULL };
     return pg_picture_panels (path, cloud, 1, &panel, 1, style);
 }

@@ -148,12 +148,17 @@ int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
     return t->cracks && pg_cracks_cut (t->cracks, t->dim, x, y, 0);
 }
 
-/* Does the point lie on a pre-crack itself? Then it belongs to both sides. */
+/* Does the point lie on a crack itself? Then it belongs to both sides; of a crack that is sided it does
+ * not. */
 static int on_crack (const pg_tiles *t, size_t k)
 {
     double x[3];
     pg_tiles_space (t, t->place[2*k], t->place[2*k + 1], x);
-    return pg_cracks_touch (t->cracks, t->dim, x, 1e-9 * t->spacing[k]) != NULL;
+    for (size_t c = 0; c < t->cracks->n; c++) {
+        const pg_crack *crack = &t->cracks->crack[c];
+        if (!crack->sided && pg_crack_touches (crack, t->dim, x, 1e-9 * t->spacing[k])) return 1;
+    }
+    return 0;
 }
 
 /* Marks the points with a pre-crack within about two spacings, found by 16 rays. Only these

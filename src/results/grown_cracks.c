@@ -14,6 +14,7 @@
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Columns of history.csv for a tip. */
 enum { PER_TIP = 5 };
@@ -219,4 +220,46 @@ void pg_result_paths_close (pg_result *r)
     pg_table_close (&r->pieces);
     pg_table_close (&r->tip_rows);
     pg_free (r->tip_value);
+}
+
+/* ---- reading back -------------------------------------------------------------------------------------- */
+/* One row as a crack; it is sided unless it is of the scene. */
+static pg_status read_piece (pg_cracks *out, const double *row)
+{
+    pg_status status = PG_OK;
+    pg_crack *c = &out->crack[out->n];
+    *c = (pg_crack) { .kind = PG_CRACK_SEGMENT, .nvertex = 2, .sided = row[0] > 0 };
+    PG_ALLOC (c->vertex, 4);
+    out->n++;
+    memcpy (c->vertex, row + 4, 4 * sizeof *c->vertex);
+    pg_crack_orient (c);
+done:
+    return status;
+}
+
+/* Times in result.e may be a rounding later than the step (write_fields in result.c). */
+pg_status pg_result_cracks (pg_cracks *out, const char *folder, double time)
+{
+    pg_status status = PG_OK;
+    pg_csv csv = { 0 };
+    char path[4096];
+    *out = (pg_cracks) { .dim = 2 };
+    snprintf (path, sizeof path, "%s/cracks.csv", folder);
+    if (access (path, R_OK) != 0) return PG_OK;
+    PG_TRY (pg_csv_read (&csv, path));
+    if (csv.ncolumn != PIECE_COLUMNS)
+        PG_FAIL (PG_E_FILE, "%s has %zu columns, not %d", path, csv.ncolumn, PIECE_COLUMNS);
+    PG_ALLOC (out->crack, csv.nrow);
+    for (size_t i = 0; i < csv.nrow; i++) {
+        const double *row = csv.value + i * csv.ncolumn;
+        for (size_t k = 0; k < csv.ncolumn; k++)
+            if (!isfinite (row[k])) PG_FAIL (PG_E_FILE, "%s: row %zu is damaged", path, i + 1);
+        if (hypot (row[6] - row[4], row[7] - row[5]) > 0 && row[1] <= time * (1 + 1e-12))
+            PG_TRY (read_piece (out, row));
+    }
+    PG_TRY (pg_cracks_index (out));
+done:
+    pg_csv_clear (&csv);
+    if (status != PG_OK) pg_cracks_clear (out);
+    return status;
 }

@@ -339,8 +339,8 @@ static void any_allocation_may_fail (void **state)
     size_t before = pg_memory_used ();
     const char *path = file_at ("sweep.png");
     for (int view = 0; view < PG_VIEWS; view += 2) {
-        pg_panel panel[2] = { { "one", b.value, b.u, NULL, NULL },
-                              { "two", b.value, b.u, view == PG_VIEW_CRACK ? b.value : NULL, NULL } };
+        pg_panel panel[2] = { { "one", b.value, b.u, NULL, NULL, NULL },
+                              { "two", b.value, b.u, view == PG_VIEW_CRACK ? b.value : NULL, NULL, NULL } };
         pg_picture_style style = { .label = "v",
                                    .view = view,
                                    .magnify = view == PG_VIEW_LEFT,

@@ -200,11 +200,11 @@ static void panels_share_one_range (void **state)
         for (size_t i = 0; i < flat.n; i++)
             plane[2 * i] = (double) (i % M) * 1e-3, plane[2 * i + 1] = (double) (i / M) * 1e-3;
         if (dim == 2) flat.x = plane;
-        pg_panel panel[5] = { { "a", zero, NULL, NULL, NULL },
-                              { "b", one, NULL, NULL, NULL },
-                              { "c", one, NULL, NULL, NULL },
-                              { "d", zero, NULL, NULL, NULL },
-                              { "e", one, NULL, NULL, NULL } };
+        pg_panel panel[5] = { { "a", zero, NULL, NULL, NULL, NULL },
+                              { "b", one, NULL, NULL, NULL, NULL },
+                              { "c", one, NULL, NULL, NULL, NULL },
+                              { "d", zero, NULL, NULL, NULL, NULL },
+                              { "e", one, NULL, NULL, NULL, NULL } };
         const char *path = file_at ("panels.png");
         check_ok (
             pg_picture_panels (path, &flat, 4, panel, 0,
