@@ -17,9 +17,11 @@ PG_API_BEGIN
 typedef struct {
     /* Energy release rate of the sum: sum_ab l_a l_b J[a][b], J/m^2. Stress intensity factors of modes I, II,
      * III (0 in the plane): sum_a l_a K[m][a], Pa m^(1/2). J is taken from the wide ring, for it is the
-     * magnitude that counts there; K from the near one, for it tells the direction. */
+     * magnitude that counts there; K, which tells the direction, from the near one, before the tip has grown
+     * from the wide one. */
     double J[2][2], K[3][2];
-    /* The other ring of each: the differences show how well both are known (pg_tip_uncertainty). */
+    /* K by the wide ring, J by the near one: the differences show how well they are known
+     * (pg_tip_uncertainty). */
     double K_wide[3][2], J_near[2][2];
     double T[2];                                       /* stress along e beside the singular part, Pa */
     double x[3], e[3];  /* tip, m; unit vector ahead: the chord of the last 1.5 h */

@@ -119,8 +119,9 @@ static void unknown (pg_tip_field *out)
     }
 }
 
-/* The integrals of both rings into the numbers of the tip. */
-static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_material *m)
+/* The integrals of both rings into the numbers of the tip. The direction comes from the near one, but for a
+ * tip that has not grown: behind it there is no new kink, and the wide ring hears less of the lattice. */
+static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_material *m, int grown)
 {
     tip_sums near, wide;
     tip_integrals (&near, grid, m, out->r1, out->near);
@@ -128,7 +129,7 @@ static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_materi
     for (int a = 0; a < 2; a++) {
         for (int b = 0; b < 2; b++) out->J_near[a][b] = near.J[a][b], out->J[a][b] = wide.J[a][b];
         for (int k = 0; k < 2; k++)
-            out->K[k][a] = 0.5 * m->modulus * near.I[k][a],
+            out->K[k][a] = 0.5 * m->modulus * (grown ? near : wide).I[k][a],
             out->K_wide[k][a] = 0.5 * m->modulus * wide.I[k][a];
         out->K[2][a] = out->K_wide[2][a] = 0;
         out->T[a] = m->modulus * wide.I[PG_TIP_FORCE][a];
@@ -161,7 +162,7 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
         if (forced) PG_TRY (add_body_force (&grid, a, out, p, node, t));
     }
     if (moving) PG_TRY (add_inertia (&grid, out, &m, p, force, self, state));
-    integrate (out, &grid, &m);
+    integrate (out, &grid, &m, state->paths->tip[tip].grown > 0);
 done:
     tip_grid_clear (&grid);
     return status;

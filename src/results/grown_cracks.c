@@ -85,7 +85,8 @@ static pg_status values_of (pg_result *r, const pg_state *state, size_t tip, pg_
     if (known || !r->measuring || !t->open) goto done;
     PG_TRY (pg_tip_measure (&field, r->problem, force, self, state, tip, 1, &d, &time));
     if (isnan (field.near)) goto done;
-    pg_tip_combine (&field, 1, &one, &out->J, out->K, &out->T);
+    pg_tip_combine (&field, 1, &one, &out->J, NULL, &out->T);
+    pg_tip_intensities (&field, 1, &one, out->K);
     out->uncertainty = pg_tip_uncertainty (&field, 1, &one);
 done:
     return status;

@@ -15,7 +15,7 @@ typedef struct {
     double E, nu, density;
     double x[2], angle;           /* tip, direction of the crack */
     double K[2][2], T[2];         /* of the fields d[0], d[1] */
-    double b;                     /* body force along the crack, N/m^3 */
+    double b[2];                  /* body force along the crack, N/m^3 */
     double acceleration[2], spin; /* in motion: m/s^2; v = spin (x1, x1 + x2), 1/s */
     const double *d[2];
 } exact;
@@ -25,11 +25,11 @@ static void field_at (const exact *m, int at, double x, double y, double *u, dou
 {
     double mu = m->E / (2 * (1 + m->nu)), kappa = pg_tip_kappa (m->mode, m->nu), r = hypot (x, y),
            modulus = 8 * mu / (kappa + 1), nu = (3 - kappa) / (1 + kappa), theta = atan2 (y, x);
-    u[0] = (m->T[at] * x - 0.5 * m->b * (x * x + nu * y * y)) / modulus;
-    u[1] = (-nu * m->T[at] * y + nu * m->b * x * y) / modulus;
-    H[0] = (m->T[at] - m->b * x) / modulus, H[1] = -nu * m->b * y / modulus;
-    H[2] = nu * m->b * y / modulus, H[3] = (-nu * m->T[at] + nu * m->b * x) / modulus;
-    s[0] = m->T[at] - m->b * x, s[1] = s[2] = 0;
+    u[0] = (m->T[at] * x - 0.5 * m->b[at] * (x * x + nu * y * y)) / modulus;
+    u[1] = (-nu * m->T[at] * y + nu * m->b[at] * x * y) / modulus;
+    H[0] = (m->T[at] - m->b[at] * x) / modulus, H[1] = -nu * m->b[at] * y / modulus;
+    H[2] = nu * m->b[at] * y / modulus, H[3] = (-nu * m->T[at] + nu * m->b[at] * x) / modulus;
+    s[0] = m->T[at] - m->b[at] * x, s[1] = s[2] = 0;
     for (int k = 0; k < 2; k++) {
         double v[2], G[4], t[3];
         pg_tip_near_field (k, mu, kappa, r, theta, v, G, t);
@@ -183,9 +183,11 @@ static void body_forces_do_not_count_as_energy (void **state)
     for (int k = 0; k < 2; k++) {
         char more[300];
         double angle = k ? 0.6 : 0, b = 2e6;
-        exact m = {
-            .mode = k ? PG_PLANE_STRAIN : PG_PLANE_STRESS, .E = 3e9, .nu = 0.3, .K = { { 1e6, 4e5 } }, .b = b
-        };
+        exact m = { .mode = k ? PG_PLANE_STRAIN : PG_PLANE_STRESS,
+                    .E = 3e9,
+                    .nu = 0.3,
+                    .K = { { 1e6, 4e5 } },
+                    .b = { b } };
         snprintf (
             more, sizeof more,
             "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: all, body_force: {x: %.17g, y: "
@@ -218,18 +220,23 @@ static void motion_does_not_count_as_release (void **state)
     check_field (&m, 1, angle, more, 1e-3);
 }
 
-/* Two fields: J is a square of their sum. */
+/* Two fields: J is a square of their sum. A body force that does not change with the load factor acts on the
+ * first alone. */
 static void affine_fields (void **state)
 {
     (void) state;
+    double b = 1e6;
     exact m = { .mode = PG_PLANE_STRESS,
                 .E = 3e9,
                 .nu = 0.3,
                 .K = { { 1e6, 2e5 }, { -3e5, 6e5 } },
                 .T = { 1e5, -2e5 },
+                .b = { b, 0 },
                 .x = { 0.5, 0 } };
-    tested t = make (&m, 1, 0, NULL);
-    double second[1] = { 0 }, factor[2] = { 0, 1 }, J, K[3], T;
+    tested t = make (&m, 1, 0,
+                     "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: all, body_force: {x: 1e6}, "
+                     "ramp: constant}]\n");
+    double second[1] = { 0 }, factor[2] = { 0, 1 }, J, K[3], T, alone[2] = { 1, 0 };
     const double *d[2] = { t.state->d, second };
     pg_tip_field f;
     m.d[0] = d[0], m.d[1] = d[1];
@@ -237,16 +244,17 @@ static void affine_fields (void **state)
     for (double l = -1; l < 4; l += 0.7) {
         double both[2] = { 1, l }, k[2] = { 1e6 - 3e5 * l, 2e5 + 6e5 * l };
         pg_tip_combine (&f, 2, both, &J, K, &T);
-        check_scaled (K[0], k[0], 1e-4, 1e6), check_scaled (K[1], k[1], 1e-4, 1e6);
+        check_scaled (K[0], k[0], 1e-3, 1e6), check_scaled (K[1], k[1], 1e-3, 1e6);
         assert_true (K[2] == 0);
-        check_relative (J, (k[0] * k[0] + k[1] * k[1]) / m.E, 1e-4);
-        check_scaled (T, 1e5 - 2e5 * l, 1e-3, 1e6);
+        check_relative (J, (k[0] * k[0] + k[1] * k[1]) / m.E, 1e-3);
+        check_scaled (T, 1e5 - 2e5 * l, 1e-2, 1e6);
     }
     assert_true (f.J[0][1] == f.J[1][0]);
-    double alone[2] = { 1, 0 };
     pg_tip_intensities (&f, 2, alone, K);
     check_relative (hypot (K[0], K[1]), sqrt (f.modulus * f.J[0][0]), 1e-12);
     check_relative (K[1] / K[0], f.K[1][0] / f.K[0][0], 1e-12);
+    check_fails (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, 2, 1, d, factor), PG_E_USAGE);
+    check_fails (pg_tip_measure (&f, t.problem, &t.force, &m, t.state, 0, 3, d, factor), PG_E_USAGE);
     clear (&t);
 }
 

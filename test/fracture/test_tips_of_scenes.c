@@ -30,8 +30,7 @@ static pg_tip_field solved (const layer *l)
 {
     double c = cos (l->angle), s = sin (l->angle), u = l->unit, mu = 1 / (2 * (1 + l->nu)),
            kappa = pg_tip_kappa (l->strain ? PG_PLANE_STRAIN : PG_PLANE_STRESS, l->nu),
-           E = 8 * mu / (kappa + 1), nu = (3 - kappa) / (1 + kappa),
-           root = 1 / (2 * mu * sqrt (2 * pi));
+           E = 8 * mu / (kappa + 1), nu = (3 - kappa) / (1 + kappa), root = 1 / (2 * mu * sqrt (2 * pi));
     char along[1500], left[1500], half[200];
     /* angle from the direction of the crack, halved; displacements along it and to its left, m */
     snprintf (half, sizeof half, "atan2(%.17g*y-%.17g*x, %.17g*x+%.17g*y)/2", c, s, c, s);
@@ -39,13 +38,12 @@ static pg_tip_field solved (const layer *l)
     snprintf (
         along, sizeof along,
         "%s*(%.17g*cos(%s)*(%.17g+2*sin(%s)^2)+%.17g*sin(%s)*(%.17g+2*cos(%s)^2))+%.17g*(%.17g*x+%.17g*y)",
-        radius, l->K_I * root, half, kappa - 1, half, l->K_II * root, half, kappa + 1, half, l->T / E,
-        c, s);
+        radius, l->K_I * root, half, kappa - 1, half, l->K_II * root, half, kappa + 1, half, l->T / E, c, s);
     snprintf (
         left, sizeof left,
         "%s*(%.17g*sin(%s)*(%.17g-2*cos(%s)^2)-%.17g*cos(%s)*(%.17g-2*sin(%s)^2))-%.17g*(%.17g*y-%.17g*x)",
-        radius, l->K_I * root, half, kappa + 1, half, l->K_II * root, half, kappa - 1, half,
-        nu * l->T / E, c, s);
+        radius, l->K_I * root, half, kappa + 1, half, l->K_II * root, half, kappa - 1, half, nu * l->T / E, c,
+        s);
     run r =
         scene_of (1,
                   "dimension: 2\nplane: %s\nthickness: %.17g\nbody: [{add: {box: {low: [%.17g, %.17g], high: "
