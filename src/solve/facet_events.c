@@ -109,6 +109,8 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
         PG_TRY (facet_run_out (b, state, factor, &more));
     }
     PG_TRY (way_end (s, state, factor, &end));
+    /* a new crack comes into being at once, at the load at which it is possible: no equilibria lead there */
+    if (g->began) end = factor;
     PG_TRY (account (s, state, factor, end));
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &now));

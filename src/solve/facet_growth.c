@@ -269,18 +269,18 @@ static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate
     else PG_TRY (pg_crack_start (state, p, c->from, c->to, c->open, &b->changes));
     PG_TRY (close_others (b, state, c));
     kill_listed (b, state);
-    g->needed += c->energy, g->closed |= c->close;
+    g->needed += c->energy, g->closed |= c->close, g->began |= c->tip < 0;
 done:
     return status;
 }
 
-/* New cracks that tie and lie near each other are one. */
+/* New cracks that tie and lie no further apart than they are long are one. */
 static int is_near (const facet_candidate *a, const facet_candidate *c)
 {
     double d =
         hypot (a->from[0] + a->to[0] - c->from[0] - c->to[0], a->from[1] + a->to[1] - c->from[1] - c->to[1]);
-    return 0.5 * d <= 3 * (hypot (a->to[0] - a->from[0], a->to[1] - a->from[1])
-                           + hypot (c->to[0] - c->from[0], c->to[1] - c->from[1]));
+    return 0.5 * d <= hypot (a->to[0] - a->from[0], a->to[1] - a->from[1])
+                      + hypot (c->to[0] - c->from[0], c->to[1] - c->from[1]);
 }
 
 /* New cracks and tips without room, the best first. Tips keep their numbers while others come into being. */
@@ -345,7 +345,7 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     double top = facet_utilisation (b, state, factor), least = top * (1 - facet_tie), angle;
-    b->changes.n = 0, g->closed = 0;
+    b->changes.n = 0, g->closed = g->began = 0;
     for (size_t i = 0; i < g->ntip && top > 0; i++) {
         facet_candidate c;
         if (facet_judge (b, state, i, factor, &angle) < least) continue;

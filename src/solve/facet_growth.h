@@ -38,6 +38,7 @@ typedef struct facet_growth {
     double  needed, needed0;
     /* a tip met the surface or a crack in the event at hand */
     int     closed;
+    int     began;                                     /* a new crack came into being in the event at hand */
     unsigned said;                                     /* warnings that were given: FACET_SAID_... */
 } facet_growth;
 enum { FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4 };

@@ -2,13 +2,14 @@
  * Hot spots: places where the largest principal stress, averaged over a disc of one spacing, reaches the
  * strength at the least load factor. No crack through such a place begins below it, so that most places
  * need not be looked at any closer. */
+#include "facet_growth.h"
 #include "hot_spot.h"
 #include <math.h>
 #include <string.h>
 
 enum { DISC = 7 };                                     /* places of the disc */
 static const double apart = 4;                         /* of hot spots and tips, spacings */
-static const double even = 0.02, same = 1e-6;          /* shares of the load factor */
+static const double even = 0.02;                       /* share of the load factor */
 
 double hot_strength_cap (double modulus, double energy, double h)
 {
@@ -179,7 +180,7 @@ static pg_status settle (const search *g, size_t node, const double *factor, hot
             if (hypot (x[0] - y[0], x[1] - y[1]) > 1.1 * h || isinf (factor[j])) continue;
             PG_TRY (average (g, j, &here));
             if (pass == 0 && here.factor < best.factor) best = here, near = j;
-            if (pass == 1 && here.factor <= best.factor * (1 + same)) sum[0] += x[0], sum[1] += x[1], equal++;
+            if (pass == 1 && here.factor <= best.factor * (1 + facet_tie)) sum[0] += x[0], sum[1] += x[1], equal++;
         }
     *out = best;
     if (equal > 1) {

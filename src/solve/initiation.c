@@ -26,7 +26,7 @@ enum {
     MOST_PLACES = 400,
     LATERAL = 3                                        /* places beside each, to average its stress over */
 };
-static const double even = 0.02, same = 1e-6;          /* shares of the load factor */
+static const double even = 0.02;                       /* share of the load factor */
 /* What an estimate may be off by before its spot is not looked at any closer. */
 static const double doubt = 1.25;
 
@@ -382,7 +382,7 @@ static size_t keep_best (trial_start *out, size_t n, int one)
     size_t kept = 0, best = 0;
     for (size_t k = 1; k < n; k++) if (out[k].factor < out[best].factor) best = k;
     if (n == 0 || isinf (out[best].factor)) return 0;
-    double limit = out[best].factor * (1 + same);
+    double limit = out[best].factor * (1 + facet_tie);
     trial_start first = out[best];
     for (size_t k = 0; k < n; k++) if (out[k].factor <= limit && !one) out[kept++] = out[k];
     if (one) out[0] = first, kept = 1;
