@@ -180,7 +180,8 @@ static pg_status settle (const search *g, size_t node, const double *factor, hot
             if (hypot (x[0] - y[0], x[1] - y[1]) > 1.1 * h || isinf (factor[j])) continue;
             PG_TRY (average (g, j, &here));
             if (pass == 0 && here.factor < best.factor) best = here, near = j;
-            if (pass == 1 && here.factor <= best.factor * (1 + facet_tie)) sum[0] += x[0], sum[1] += x[1], equal++;
+            if (pass == 0 || here.factor > best.factor * (1 + facet_tie)) continue;
+            sum[0] += x[0], sum[1] += x[1], equal++;
         }
     *out = best;
     if (equal > 1) {

@@ -172,7 +172,8 @@ static pg_status offer_starts (break_loop *b, trials *w, const pg_state *state, 
     int arbitrary;
     /* proportional loads: a tip that grows earlier leaves nothing to look for */
     double top = f->n == 1 ? facet_utilisation (b, state, 1) : 0;
-    PG_TRY (trial_initiation (w, state, f, limits_at, b, top > 0 ? 1 / top : INFINITY, start, &n, &arbitrary));
+    double below = top > 0 ? 1 / top : INFINITY;
+    PG_TRY (trial_initiation (w, state, f, limits_at, b, below, start, &n, &arbitrary));
     if (arbitrary && !w->said) {
         pg_statistics_warn (b->system.report,
                             "the largest stress is the same at many places: where the first crack begins is "
