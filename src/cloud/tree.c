@@ -61,7 +61,7 @@ pg_status pg_tree_build (pg_tree *out, int dim, size_t n, const double *x)
     PG_ALLOC (out->item, n);
     PG_ALLOC (out->x, n * d);
     for (size_t i = 0; i < n; i++) out->item[i] = i;
-    memcpy (out->x, x, n * d * sizeof *x);
+    if (n > 0) memcpy (out->x, x, n * d * sizeof *x);   /* without points there may be no array */
     halve (&(sorter) { out->item, out->x, d }, 0, n, 0);
 done:
     if (status != PG_OK) pg_tree_clear (out);

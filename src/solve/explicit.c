@@ -39,7 +39,7 @@ static int has_forces (const pg_problem *p)
     return 0;
 }
 
-/* Supports that act like springs: their work is known to the force alone. */
+/* Supports that act like springs (penalty, Nitsche): their work is known to the force alone. */
 static int has_springs (const pg_problem *p)
 {
     for (size_t l = 0; l < p->nload; l++)
@@ -74,6 +74,7 @@ done:
     return status;
 }
 
+/* Also of one that was made in part only. */
 void explicit_free (pg_solver *s)
 {
     motion *m = motion_of (s);
@@ -125,6 +126,8 @@ done:
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
+/* Bonds that died within the evaluation of the force: state and log follow. The kind is that of an
+ * energy, of tension, or what the force says. */
 static pg_status remove_broken (pg_solver *s, pg_state *state, double t)
 {
     pg_status status = PG_OK;
@@ -211,6 +214,7 @@ pg_status explicit_lost (const pg_solver *s, const pg_state *state, double t)
 }
 
 /* ---- rows and levels ----------------------------------------------------------------------------------- */
+/* Rows of history.csv: as asked for, else a tenth of the steps, 100 to 1000; a multiple of the levels. */
 static long rows_of (const pg_solver_options *o, long total)
 {
     long rows = o->rows > 0         ? o->rows

@@ -15,6 +15,7 @@ double lane_sum (const double *s)
     return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
 }
 
+/* a . b over a range, in eight lanes. */
 double lane_dot (const double *a, const double *b, size_t first, size_t last)
 {
     double s[8] = { 0 };
@@ -35,6 +36,8 @@ double lane_not_finite (const double *d, size_t first, size_t last)
 }
 
 /* ---- how many steps ------------------------------------------------------------------------------------ */
+/* Time steps from `end` and `dt`, or `end` from their number; dt is shortened so that the last step ends
+ * at solver.end. steps: rows of history.csv, which are what the caller steps by. */
 static pg_status count_steps (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -80,8 +83,8 @@ static double time_at (const pg_solver *s, long n)
 /* ---- half kicks of all unknowns ------------------------------------------------------------------------ */
 typedef struct { half_kicks w; kick_range range; size_t ndof; double *sum; } kicking;
 
-/* One block of unknowns for one thread: the work of loads before and after, the half kicks, a look whether
- * all is finite. */
+/* Blocks of unknowns for one thread: the work of loads before and after, the half kicks, a look whether
+ * all is finite. One pass over memory for all of these. */
 static void work_on_blocks (void *context, size_t first, size_t last, int thread)
 {
     const kicking *c = context;
@@ -97,7 +100,8 @@ static void work_on_blocks (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* Work of loads and supports over one half of a step, whose velocity is v (prescribed: that of the list). */
+/* Work of loads and supports over one half of a step, J: loads times velocity (at half steps, the list's
+ * own) and reactions times the motion that is prescribed. */
 static double push_work (const pg_solver *s, double loads, const double *from, const double *to)
 {
     const motion *m = motion_of (s);
@@ -144,7 +148,8 @@ done:
     return status;
 }
 
-/* What the prescribed unknowns show of v and a at t_n. */
+/* Velocity and acceleration of prescribed unknowns at t_n by differences of three instants, for fields
+ * and checkpoints: at the half step where the method keeps velocities there (staggered), else central. */
 static void show_prescribed (const pg_solver *s, pg_state *state, int staggered)
 {
     const motion *m = motion_of (s);
@@ -156,7 +161,8 @@ static void show_prescribed (const pg_solver *s, pg_state *state, int staggered)
     }
 }
 
-/* The force on prescribed unknowns from outside; their out-of-balance force is none. */
+/* The force on prescribed unknowns from outside, N: what their mass and acceleration need beside the
+ * internal force and the loads. They have no out-of-balance force. */
 static void take_reactions (pg_solver *s)
 {
     motion *m = motion_of (s);
@@ -170,7 +176,7 @@ static void take_reactions (pg_solver *s)
     }
 }
 
-/* Forces at t_n, which d has reached. */
+/* Forces at t_n, which d has reached; supports move on to t_n+1. */
 static pg_status arrive (pg_solver *s, pg_state *state, long n)
 {
     pg_status status = PG_OK;
@@ -183,7 +189,8 @@ done:
 }
 
 /* ---- work_balance -------------------------------------------------------------------------------------- */
-/* What motion adds to the residual, for reactions. */
+/* What motion adds to the residual, N, for reactions: -m (a + c v), with the velocity brought from the
+ * half step to t_n. */
 static void inertia (pg_solver *s, const pg_state *state, int staggered, double *out)
 {
     motion *m = motion_of (s);
@@ -196,7 +203,8 @@ static void inertia (pg_solver *s, const pg_state *state, int staggered, double 
         out[m->prescribed[k]] = -sys->mass[m->prescribed[k]] * state->a[m->prescribed[k]];
 }
 
-/* The work balance of the force at the state; inertia belongs to the reactions. */
+/* The work balance of the force at the state; inertia belongs to the reactions. book: the work since the
+ * last account is added. */
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
 {
     pg_status status = PG_OK;
@@ -280,7 +288,8 @@ done:
     return status;
 }
 
-/* What a row shows: energies and what breaking has taken, reactions, whether a level or an end is reached. */
+/* What a row shows: energies and what breaking has taken (work less stored, kinetic and damped energy,
+ * over the step), reactions, whether a level or an end is reached. */
 static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long n, int staggered)
 {
     pg_status status = PG_OK;
@@ -353,6 +362,7 @@ void explicit_refused (pg_solver *s)
     m->fresh = 0;
 }
 
+/* Time steps behind it, those of an interrupted row included. */
 int explicit_done (const pg_solver *s, const pg_state *state)
 {
     return state->iterations + s->break_loop.round >= s->options.time_steps;
@@ -364,6 +374,7 @@ double explicit_progress (const pg_solver *s, const pg_state *state)
 }
 
 /* ---- options ------------------------------------------------------------------------------------------- */
+/* Keys of solver that explicit dynamics have in common; what they cannot do is a fault. */
 void explicit_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     PG_OWN (pg_explicit_options, o)->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");

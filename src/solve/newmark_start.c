@@ -6,12 +6,13 @@
 #include "newmark_state.h"
 #include <string.h>
 
+/* T, where the force takes prescribed values by elimination; NULL: it does not. */
 static const pg_sparse *elimination (const pg_system *sys)
 {
     return sys->force->basis && sys->force->impose ? sys->force->basis (sys->self) : NULL;
 }
 
-/* residual -= C v */
+/* residual -= C v with Rayleigh damping C = c_m M + c_k K. */
 void newmark_damp (pg_solver *s, const double *v, double *residual)
 {
     pg_system *sys = &s->break_loop.system;
@@ -30,7 +31,7 @@ void newmark_resist (pg_solver *s, const double *v, const double *a, double *res
     system_add_mass (&s->break_loop.system, -1, a, residual);
 }
 
-/* force0 = P - F_int - C V at the state */
+/* force0 = P - F_int - C V at the state, N, of which the alpha method takes a share in the next step. */
 pg_status newmark_remember (pg_solver *s, double t, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -43,7 +44,7 @@ done:
     return status;
 }
 
-/* 1/2 v M v. */
+/* 1/2 v M v, J, with the mass matrix that the run uses. */
 double newmark_kinetic (pg_solver *s, const double *v)
 {
     const pg_system *sys = &s->break_loop.system;
@@ -78,7 +79,8 @@ done:
     return status;
 }
 
-/* Where the supports have changed with breaking their motion is found anew. */
+/* Velocity and acceleration of prescribed nodes, T q + z' and so on. Where the supports have changed with
+ * breaking their motion is found anew. */
 void newmark_follow (pg_solver *s, double t, double *v, double *a)
 {
     newmark *own = newmark_of (s);
@@ -93,6 +95,7 @@ void newmark_follow (pg_solver *s, double t, double *v, double *a)
 }
 
 /* ---- start --------------------------------------------------------------------------------------------- */
+/* y = T' M T x, for conjugate gradients. */
 static void apply_mass (void *context, const double *x, double *y)
 {
     const pg_system *sys = context;
@@ -118,7 +121,8 @@ static void diagonal_mass (void *context, double *d)
     }
 }
 
-/* a += the acceleration that the residual gives to what is free */
+/* a += the acceleration that the residual gives to what is free: by division with a lumped mass, else by
+ * conjugate gradients. */
 static pg_status accelerate (pg_system *sys, double *a)
 {
     pg_status status = PG_OK;

@@ -30,6 +30,7 @@ typedef struct {
 } probe;
 
 /* ---- fields -------------------------------------------------------------------------------------------- */
+/* a . b. */
 static double dot (size_t n, const double *a, const double *b)
 {
     double s = 0;
@@ -37,8 +38,8 @@ static double dot (size_t n, const double *a, const double *b)
     return s;
 }
 
-/* Centre of volume, and the root of the mean square distance from it: by these motions of different kinds
- * are scaled alike. */
+/* Centre of volume, and the root of the mean square distance from it, m: by this length translations,
+ * turns and strains are scaled alike. */
 static void find_middle (probe *t)
 {
     double all = 0, square = 0;
@@ -55,8 +56,8 @@ static void find_middle (probe *t)
     t->size = sqrt (square / all);
 }
 
-/* Motion m of point i, up to dim displacements and its rotations times the spacing: linear ones of unit
- * strain (engineering shear), then translations and turns. */
+/* Motion m of point i about the middle, up to dim displacements (m) and its rotations times the spacing:
+ * linear ones of unit strain (engineering shear; nv of them), then translations and turns. */
 static void motion_at (const probe *t, size_t m, size_t i, double *d)
 {
     static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
@@ -76,7 +77,7 @@ static void motion_at (const probe *t, size_t m, size_t i, double *d)
     }
 }
 
-/* out = sum of strains times their fields */
+/* out = sum of strains times their fields, `stride` numbers a point; fields of strain zero are left out. */
 static void linear_field (const probe *t, const double *strain, size_t stride, double *out)
 {
     double d[6];
@@ -89,8 +90,9 @@ static void linear_field (const probe *t, const double *strain, size_t stride, d
         }
 }
 
-/* Takes out of f, of stride numbers a point, its least squares of rigid motions, and with linear of linear
- * ones as well; weights: volumes, or 1. */
+/* Takes out of f (n x stride) its least squares of rigid motions, and with `linear` of linear ones as
+ * well; weights: volumes, or 1. Motions that a body does not have (points in a line) are left out by the
+ * eigenvalues of their Gram matrix. */
 static void without (const probe *t, size_t stride, int volumes, int linear, double *f)
 {
     size_t first = linear ? 0 : t->nv, last = t->nv + t->dim + t->dim * (t->dim - 1) / 2, m = last - first;
@@ -118,7 +120,8 @@ static void without (const probe *t, size_t stride, int volumes, int linear, dou
 }
 
 /* ---- points at the rim, where there are no facets ------------------------------------------------------ */
-/* Neighbours within 1.6 spacings leave one side open. */
+/* Is point i at the rim? Then its neighbours within 1.6 spacings leave one side open: the sum of the unit
+ * vectors to them is more than a fifth of their number. */
 static int outermost (const pg_problem *p, size_t i)
 {
     const pg_family *f = &p->rows[PG_NODES].family;
@@ -161,8 +164,9 @@ static int borne_by_rows (const pg_problem *p)
 }
 
 /* ---- one state of stress ------------------------------------------------------------------------------- */
-/* The strain energy's minimum over linear fields starts it: in a body that is too soft or too stiff
- * everywhere alike it is the answer. */
+/* The first guess of a state of stress: the minimum of the energy over linear fields. In a body that is
+ * too soft or too stiff everywhere alike it is the answer, and iterations only find what differs from
+ * place to place. */
 static void start (probe *t, const double *strain)
 {
     double A[STATES * STATES], b[STATES], one[STATES];
@@ -234,7 +238,7 @@ static double measure_softness (probe *t)
     return energy / size;
 }
 
-/* Square of a displacement, integrated over the body. */
+/* Square of a displacement integrated over the body, m^5. */
 static double size_of (const probe *t, const double *f)
 {
     double s = 0;

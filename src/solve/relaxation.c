@@ -24,6 +24,7 @@ done:
     return status;
 }
 
+/* Also of one that was made in part only. */
 void relaxation_free (pg_solver *s)
 {
     struct relaxation *x = motion_of (s) ? motion_of (s)->relaxation : NULL;
@@ -32,6 +33,7 @@ void relaxation_free (pg_solver *s)
     explicit_free (s);
 }
 
+/* From rest: the first iteration takes half a step of velocity. */
 pg_status relaxation_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -44,7 +46,8 @@ done:
     return status;
 }
 
-/* The last stage has exactly the full load. */
+/* Load factor of a stage. The last one has exactly the full load, whatever rounding makes of the
+ * quotient. */
 static double factor_at (const pg_solver *s, long stage)
 {
     const pg_stages_options *own = stages_of (s);
@@ -61,7 +64,9 @@ typedef struct {
     int resting;
 } iterating;
 
-/* r r; v K v dt = v (r' - r), r' the last residual; v M v */
+/* Sums of a range of blocks: r.r; the Rayleigh quotient's parts v K v dt = v (r' - r), r' being the last
+ * residual, and v M v; whether all is finite. Eight lanes each, added in one order, so that instruction
+ * sets do not show. */
 static void measure (void *context, size_t first, size_t last, int thread)
 {
     const iterating *w = context;
@@ -81,8 +86,9 @@ static void measure (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* One iteration for a block of unknowns: from rest, with given damping by unknown, or with one damping for
- * all. */
+/* One iteration for a block of unknowns: from rest (half a kick), with a damping rate of its own for each
+ * unknown, or with one rate c for all. v at half steps, d at whole ones; a keeps the residual for the
+ * next quotient. */
 static void move (void *context, size_t first, size_t last, int thread)
 {
     const iterating *w = context;
@@ -103,10 +109,12 @@ static void move (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* Euclidean norm, by lanes. */
 static double norm (const double *a, size_t n) { return sqrt (lane_dot (a, a, 0, n)); }
 
-/* The residual at d, free of the forces of supports; its size over that of loads and reactions; damping from
- * it. */
+/* The residual at d, free of the forces of supports; imbalance: its size over that of loads and
+ * reactions, or of a hundredth of the largest so far once the body is apart; the damping of the next
+ * iteration from the quotient. */
 static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
 {
     pg_status status = PG_OK;
@@ -152,6 +160,7 @@ static void iterate (pg_solver *s, pg_state *state)
 }
 
 /* ---- a stage that is held ------------------------------------------------------------------------------ */
+/* Prescribed unknowns take their values and have no velocity. */
 static void impose (const pg_solver *s, pg_state *state)
 {
     const motion *m = motion_of (s);
@@ -159,8 +168,8 @@ static void impose (const pg_solver *s, pg_state *state)
         state->d[m->prescribed[k]] = m->goal[k], state->v[m->prescribed[k]] = state->a[m->prescribed[k]] = 0;
 }
 
-/* Under proportional loads the last balanced state times the ratio of loads is the next one, until bonds
- * break. */
+/* The next load. Under proportional loads the last balanced state times the ratio of loads is the next
+ * one, until bonds break: then most iterations are spent where something has changed. */
 static void open_stage (pg_solver *s, pg_state *state)
 {
     struct relaxation *x = motion_of (s)->relaxation;
@@ -173,7 +182,8 @@ static void open_stage (pg_solver *s, pg_state *state)
     impose (s, state);
 }
 
-/* The work up to the state before the first break, as far as the load has come to act. */
+/* The load has come to act: from now on bonds may break. The work up to this state is remembered, as the
+ * state before the first break is the last one on the elastic path. */
 static pg_status arm (pg_solver *s, const pg_state *state, double t, int breaking)
 {
     pg_status status = PG_OK;
@@ -196,7 +206,8 @@ static pg_status book_pending (pg_solver *s)
     return break_loop_book (&s->break_loop, 1);
 }
 
-/* Balanced: break what is over its limit as options.break_mode has it; *died: how many did. */
+/* In balance: breaks what is over its limit as options.break_mode has it (the worst, a share of the
+ * worst, all); *died: how many bonds did. */
 static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_step *step, size_t *died)
 {
     pg_status status = PG_OK;
@@ -261,7 +272,8 @@ static pg_status look (pg_solver *s, pg_state *state, pg_step *step)
     return status;
 }
 
-/* Iterates until the stage is balanced and no bond is over its limit. */
+/* Iterates until the stage is balanced and no bond is over its limit. With `passing` bonds break at any
+ * iteration once the load has come to act, else in balance only. */
 static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -322,6 +334,7 @@ done:
 }
 
 /* ---- one iteration a stage ----------------------------------------------------------------------------- */
+/* The least damping is estimated at iterations 1, 2, 4 ... 32, 64, 128 ...: often at first, seldom later. */
 static int is_due (long n) { return n % 64 == 0 || (n < 64 && (n & (n - 1)) == 0); }
 
 /* Without hold a step is a row of many stages, each of one iteration. */

@@ -12,6 +12,7 @@
 enum { MOST_REFINEMENTS = 12 };
 static const double goal = 1e-12;                      /* refinement stops here or where it no longer gains */
 
+/* Also of a system that was made in part only. */
 void system_free (pg_system *s)
 {
     if (s->factor) s->linear->free (&s->factor);
@@ -25,18 +26,20 @@ void system_free (pg_system *s)
     pg_free (s->fixed);
 }
 
-/* A force may have a matrix in general, yet none for the options of this problem. */
+/* A force may have a matrix in general, yet none for the options of this problem: dilatations reach
+ * neighbours of neighbours, and only their product with K is known. */
 int system_has_matrix (const pg_system *s)
 {
     if (!s->force->matrix || (s->force->matrix_free && s->force->matrix_free (s->self))) return 0;
     return s->force->assemble || s->force->matrix (s->self);
 }
+/* K as a product straight from the bonds; NULL: the force has none. */
 static const pg_operator *operator_of (const pg_system *s)
 {
     return s->force->operator_ ? s->force->operator_ (s->self) : NULL;
 }
 
-/* By the operator where there is one, which needs no assembly. */
+/* y = K x: by the operator where there is one, which needs no assembly, else by the matrix. */
 void system_multiply (const pg_system *s, const double *x, double *y)
 {
     const pg_operator *op = operator_of (s);
@@ -44,7 +47,9 @@ void system_multiply (const pg_system *s, const double *x, double *y)
     else pg_sparse_multiply (s->force->matrix (s->self), x, y);
 }
 
-/* Asks the force for its unknowns, its masses and its constraints, and chooses the linear solver. */
+/* Asks the force for its unknowns, its masses (kg, lumped) and its constraints, and chooses the linear
+ * solver. nred: unknowns that constraints leave. All vectors are of full length, as reactions need every
+ * residual. */
 pg_status system_create (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -75,8 +80,8 @@ done:
     return status;
 }
 
-/* Nodes of points that lack a bond: breaking changes their diagonal, but the first K is already without
- * it. */
+/* Nodes of points that lack a bond (pre-cracks): breaking changes their diagonal, which is how weak
+ * unknowns are found later, but the first K is already without these bonds. */
 static void mark_touched (pg_system *s, const pg_state *state)
 {
     for (int set = 0; set < PG_BOND_SETS; set++) {
@@ -89,7 +94,8 @@ static void mark_touched (pg_system *s, const pg_state *state)
     }
 }
 
-/* The force updates what broken bonds have touched. Where that left K as it was, the factor stays. */
+/* The force updates what broken bonds have touched. Where its revision says that this left K as it was
+ * (bonds that do not enter K), the factor stays. */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes)
 {
     double t0 = pg_seconds ();
@@ -105,7 +111,8 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     return status;
 }
 
-/* From this the factor or preconditioner can be made again. */
+/* The bonds that live when a factor or preconditioner is made: a resumed run makes the same ones again
+ * from them, bit by bit. */
 pg_status system_remember_alive (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -117,7 +124,8 @@ done:
     return status;
 }
 
-/* The first diagonal and its mean tell which unknowns are weak, and how large forces of rounding are. */
+/* The first diagonal and its mean, N/m: they tell which unknowns have become weak, and how large forces
+ * of rounding are. */
 void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 {
     double sum = 0;
@@ -129,7 +137,9 @@ void system_remember_diagonal (pg_system *s, const pg_sparse *K)
     s->mean_diagonal = sum / (double) s->ndof;
 }
 
-/* value = k K + m M + shift on weak unknowns */
+/* value = k K + m M, and a shift on weak unknowns: those of touched nodes, those without stiffness from
+ * the start, and those whose diagonal has changed. With a mass nothing is singular but what has no mass
+ * either. */
 static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, double *value)
 {
     double k = dyn ? dyn->k : 1, m = dyn ? dyn->m : 0;
@@ -149,7 +159,8 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
     }
 }
 
-/* Assembles K, adds mass and shift, and takes out what constraints eliminate. */
+/* Assembles K, adds mass and shift, and takes out what constraints eliminate (T' K T). Without
+ * constraints the pattern is that of K, which is borrowed, and only the values are of the system's own. */
 static pg_status build_matrix (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -175,7 +186,8 @@ done:
     return status;
 }
 
-/* Ordering and symbolic factor, once: breaking only removes entries. */
+/* Ordering and symbolic factor, once: breaking only removes entries. After elimination unknowns no longer
+ * come in blocks of a node. */
 static pg_status analyse (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -194,8 +206,10 @@ done:
     return status;
 }
 
-/* Factors; a matrix that is not positive definite gets a larger shift on its weak unknowns, then goes to
- * UMFPACK (linear: auto). */
+/* Factors. A matrix that is not positive definite gets a larger shift on its weak unknowns (1e-11, 1e-9,
+ * 1e-7 of the mean diagonal), then on all of them where bonds leave motions free (chains, sheets);
+ * Galerkin forms go to a solver for general matrices under linear: auto, as Nitsche's terms with too
+ * small a factor make K indefinite. */
 pg_status system_factorize (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -255,8 +269,9 @@ static const double worth_keeping = 15;
 /* Seconds by stored rates: supernodal factorization, triangular solve, K x without a matrix. Never measured:
  * a run must not depend on the clock. */
 static double factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
+/* Four passes over the factor: two triangular solves, each read twice over a refinement. */
 static double solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
-/* Visits of bonds times a stored rate. */
+/* Seconds of one product K x: visits of bonds times a stored rate, by stencil, list or shape functions. */
 static double apply_cost (const pg_system *s)
 {
     const pg_problem *p = s->problem;
@@ -266,8 +281,8 @@ static double apply_cost (const pg_system *s)
                        - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
 }
 
-/* Factor where K has changed, two triangular solves. A factor that is dear against its solves is kept as a
- * preconditioner from then on. */
+/* Factors where K has changed, then two triangular solves. A factor that is dear against its solves is
+ * kept as a preconditioner from then on, as a few broken bonds change K little. */
 static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -285,8 +300,9 @@ done:
     return status;
 }
 
-/* The factor of an earlier K preconditions; it is renewed when the iterations it cost too much would have
- * paid for a new one (rent or buy). */
+/* The factor of an earlier K preconditions conjugate gradients. It is renewed when the iterations beyond
+ * two that it has cost would have paid for a new one (the rule of rent or buy, at most twice the best
+ * possible cost); where iterations fail, at once. */
 static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double tolerance)
 {
     pg_status status = PG_OK;
@@ -306,7 +322,8 @@ done:
     return status;
 }
 
-/* Would conjugate gradients with sums over bonds be cheaper than a factor? */
+/* Would conjugate gradients with sums over bonds be cheaper than a factor? By measured rates
+ * (pg_method_iterates); can: the multilevel preconditioner is at hand. */
 static int by_bond_loops (const pg_system *s, int can)
 {
     const pg_problem *p = s->problem;
@@ -314,9 +331,9 @@ static int by_bond_loops (const pg_system *s, int can)
            && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
 }
 
-/* Chosen once: solver.linear says it, a force without a matrix leaves no choice, and in a small time step the
- * mass dominates: then a few iterations without any factor do, which is simply tried. Large static 3D bodies
- * have factors that outgrow everything else. */
+/* How systems are solved, chosen once: solver.linear says it, a force without a matrix leaves no choice,
+ * and in a small time step the mass dominates: then a few iterations without any factor do, which is
+ * simply tried. Large static 3D bodies have factors that outgrow everything else. */
 static pg_status choose_mode (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -358,7 +375,9 @@ static void tell_small_step (pg_system *s, size_t used)
 /* iterations by the diagonal where the better preconditioner failed: probably a loaded part has come loose */
 enum { LAST_TRY = 2000 };
 
-/* With the diagonal where there is no better preconditioner. */
+/* Conjugate gradients with the multilevel preconditioner where it can be made, else with the diagonal.
+ * Where the better one fails, the diagonal has a last, limited try: mostly a loaded part has come loose,
+ * and nothing converges. */
 static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double tolerance)
 {
     pg_status status = PG_OK;
@@ -406,6 +425,7 @@ done:
     return status;
 }
 
+/* Euclidean norm. */
 static double norm (const double *a, size_t n)
 {
     double sum = 0;
@@ -447,7 +467,8 @@ done:
     return status;
 }
 
-/* Share of d that a refinement still moves: rounding where K resists, of the order of 1 where it does not. */
+/* Share of d that a refinement still moves: of the size of rounding where K resists, of the order of 1
+ * where nothing holds the body. */
 static double restlessness (const pg_system *s, const double *step, const double *d)
 {
     double size = norm (d, s->ndof);
@@ -456,8 +477,8 @@ static double restlessness (const pg_system *s, const double *step, const double
 
 static const double settled = 1e-3;
 
-/* Is a state that only rounding excuses one that K holds? Looks at one more refinement where none was made
- * yet. */
+/* Is a state that only rounding excuses one that K holds? *restless < 0: no refinement was made yet, and
+ * one more is looked at. */
 static pg_status is_settled (pg_system *s, const dynamics *dyn, const double *d, double *restless)
 {
     pg_status status = PG_OK;
@@ -474,8 +495,8 @@ done:
     return status;
 }
 
-/* The unknown with the largest out-of-balance force; with elimination the reactions of the slaves are
- * none. */
+/* The unknown with the largest out-of-balance force, for messages. With elimination forces are those of
+ * columns of T, whose own row has the entry 1. */
 static size_t worst_unknown (const pg_system *s, const pg_sparse *T)
 {
     size_t worst = 0;
@@ -532,8 +553,9 @@ done:
     return status;
 }
 
-/* Iterative refinement: solve, add, measure. It ends when the residual is small enough or no longer falls;
- * then the state is judged. */
+/* Iterative refinement: solve, add, measure, by forces of the force itself. It ends when the residual is
+ * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
+ * half; then the state is judged. */
 pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
