@@ -27,8 +27,11 @@ static double distance (const pg_problem *p, size_t node, const double *x)
 static size_t nearest_node (const pg_problem *p, const double *x)
 {
     size_t nearest = 0;
-    for (size_t i = 1; i < p->cloud.n; i++)
-        if (distance (p, i, x) < distance (p, nearest, x)) nearest = i;
+    double least = INFINITY;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double a = p->cloud.x[2*i] - x[0], b = p->cloud.x[2*i + 1] - x[1], square = a * a + b * b;
+        if (square < least) least = square, nearest = i;
+    }
     return nearest;
 }
 
@@ -66,9 +69,18 @@ static int differs (const pg_problem *p, size_t i, size_t here)
     return 0;
 }
 
+/* Is there but one material, and are all body forces everywhere? */
+static int is_uniform (const pg_problem *p)
+{
+    for (size_t l = 0; l < p->nload; l++)
+        if (p->load[l].kind == PG_BODY_FORCE && p->load[l].set->npoint < p->cloud.n) return 0;
+    return p->nmaterial == 1;
+}
+
 /* To the interface, which lies in the middle between nodes of the two sides. */
 static double room_of_interfaces (const pg_problem *p, const double *x, size_t here, double room)
 {
+    if (is_uniform (p)) return room;
     for (size_t i = 0; i < p->cloud.n; i++) {
         double away = distance (p, i, x) - 0.5 * pg_problem_spacing (p, PG_NODES, i);
         if (away < room && differs (p, i, here)) room = fmax (0, away);
