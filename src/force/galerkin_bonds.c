@@ -172,6 +172,26 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
     return PG_OK;
 }
 
+/* Of cracks that grow in the plane: by how much the faces overlap along the normal of the crack between two
+ * nodes, m. Faces that slide past each other bring the ends of oblique bonds nearer, and do not overlap:
+ * those are left out. */
+static double overlap_of_faces (const galerkin *g, const pg_state *state, size_t p, size_t j,
+                                const double *xi)
+{
+    const double *x = g->rows[PG_NODES].x, *u = g->u[PG_NODES], *ei = g->strain[PG_NODES] + 3*p,
+                 *ej = g->strain[PG_NODES] + 3*j;
+    const pg_crack *c = pg_cracks_cut (pg_state_cracks (g->problem, state), 2, x + 2*p, x + 2*j,
+                                       1e-9 * g->problem->cloud.h);
+    if (!c) return 0;
+    double along = xi[0] * c->normal[0] + xi[1] * c->normal[1], side = along < 0 ? -1 : 1;
+    double n[2] = { side * c->normal[0], side * c->normal[1] };
+    if (fabs (along) < 0.8 * hypot (xi[0], xi[1])) return 0;
+    double approach = -(n[0] * (u[2*j] - u[2*p]) + n[1] * (u[2*j + 1] - u[2*p + 1]));
+    double elastic = -0.5 * ((ei[0] + ej[0]) * xi[0] * n[0] + (ei[1] + ej[1]) * xi[1] * n[1])
+                     - 0.25 * (ei[2] + ej[2]) * (xi[0] * n[1] + xi[1] * n[0]);
+    return approach - fmax (elastic, 0);
+}
+
 /* How far the ends of a dead bond have come towards each other beyond the elastic shortening of the
  * material on both sides, the largest, m: without contact crack faces may pass through each other, and
  * this says whether they do. Only short node-node bonds (1.5 spacings) are looked at, between ends that
@@ -183,6 +203,7 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
     double worst = 0;
     int both = g->problem->cloud.size != NULL;             /* a bond of unlike ends may exist one way only */
+    int grows = pg_problem_grows (g->problem);
     galerkin_measure (g, PG_NODES, d);
     for (size_t p = 0; p < r->n; p++) {
         double limit = 1.5 * pg_problem_spacing (g->problem, PG_NODES, p);
@@ -194,6 +215,10 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
             for (size_t a = 0; a < dim; a++)
                 xi[a] = r->x[j * dim + a] - r->x[p * dim + a], rr += xi[a] * xi[a];
             if (rr > limit * limit) continue;
+            if (grows) {
+                worst = fmax (worst, overlap_of_faces (g, state, p, j, xi));
+                continue;
+            }
             for (size_t a = 0; a < dim; a++)
                 approach -= xi[a] * (g->u[PG_NODES][j * dim + a] - g->u[PG_NODES][p * dim + a]);
             const double *ei = g->strain[PG_NODES] + p * nv, *ej = g->strain[PG_NODES] + j * nv;

@@ -173,7 +173,7 @@ void pg_method_check_criterion (const pg_problem *p, const pg_scene *scene)
     pg_scene_fault (scene, "failure.criterion",
                     "%s needs the %s of bonds, and those of force: %s show only %s: use %s%s%s", type->name,
                     measures_of (type->needs & ~p->method->shows, lacks, sizeof lacks), p->method->name,
-                    measures_of (p->method->shows, shows, sizeof shows),
+                    measures_of (p->method->shows & ~PG_NEEDS_FACETS, shows, sizeof shows),
                     criteria_of (p->method, criteria, sizeof criteria), *forces ? ", or force: " : "",
                         forces);
 }

@@ -127,10 +127,12 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
         *factor = now;
         if (!events_of (s)->constant_events++)
             pg_statistics_warn (&s->report,
-                                "at load factor %.6g, after event %ld, no lower factor lets the remaining "
-                                "bonds live: the constant loads drive the crack, which then runs "
-                                "at a held factor, bond by bond (in truth a dynamic event)",
-                                now, state->events);
+                                "at load factor %.6g, after event %ld, no lower factor lets %s: the constant "
+                                "loads drive the crack, which then runs at a held factor, %s (in truth a "
+                                "dynamic event)",
+                                now, state->events,
+                                b->growth ? "the crack rest" : "the remaining bonds live",
+                                b->growth ? "facet by facet" : "bond by bond");
         PG_TRY (look (s, state, now, b->utilisation, &top));
     }
 done:

@@ -82,8 +82,7 @@ static int is_uneven (const pg_problem *p)
     return uneven;
 }
 
-/* Opening: closed form, or a comparison of directions. T: where compression along the crack turns the
- * direction. */
+/* Opening: closed form, or a comparison of directions. T: stress along the crack. */
 static double opening (const view *v, double T, double *theta)
 {
     double K_theta, G_theta;

@@ -3,7 +3,8 @@
  * the path that growth takes: while the facet opens the load goes from lambda_k, where it began, to
  * lambda_k+1, where the next begins, so that it dissipates lambda_k lambda_k+1 times the drop at load
  * factor 1. At a fixed load the same facet would take more under forces, less under displacements: that
- * jump is not the equilibrium path. */
+ * jump is not the equilibrium path. Where all that grew has ended in the surface or a crack there is no
+ * such lambda_k+1: the way ends where the facet has taken its energy. */
 #include "event_stepping.h"
 #include "facet_growth.h"
 #include <math.h>
@@ -39,6 +40,8 @@ static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *
     pg_status now = event_solve (s);
     if (event_ended (s, state, factor, now)) {
         *ended = 1;
+        b->growth->needed -= b->growth->event_energy;   /* nothing tells what they took */
+        s->report.energy_fracture = b->growth->needed;
         if (!b->growth->closed) goto done;
         e->ended = PG_OK, s->finished = 1;
         pg_statistics_warn (
@@ -113,6 +116,10 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     if (g->began) end = factor;
     PG_TRY (account (s, state, factor, end));
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    if (!g->going && step->dissipated > g->event_energy) {
+        b->work -= step->dissipated - g->event_energy;
+        step->dissipated = g->event_energy;
+    }
     PG_TRY (event_secant (s, &now));
     memcpy (state->d, g->before, bytes);
     PG_TRY (event_stops (s, state, factor, now));

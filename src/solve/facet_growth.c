@@ -110,7 +110,7 @@ static void tell (break_loop *b, const pg_state *state)
         open++;
         if (isnan (f->near)) {
             int goes_out = state->paths->tip[i].grown > 0 && facet_way_out (b, state, i, &out);
-            if (!is_tried (g, i) && !goes_out && !(g->said & FACET_SAID_ROOM)) {
+            if (!is_tried (g, i) && !goes_out && state->events == 0 && !(g->said & FACET_SAID_ROOM)) {
                 pg_statistics_warn (
                     b->system.report,
                     "no room for integrals around crack tip %ld at (%.6g, %.6g) m: %.3g spacings to "
@@ -139,28 +139,6 @@ static void tell (break_loop *b, const pg_state *state)
     }
 }
 
-/* Cracks that are held to a path must lie on it. */
-static pg_status check_path (const break_loop *b, const pg_state *state)
-{
-    const pg_problem *p = b->system.problem;
-    size_t n;
-    const double *path = p->criterion->type->path (p->criterion, &n);
-    for (size_t i = 0; path && i < b->growth->ntip; i++) {
-        const pg_tip_field *f = &b->growth->field[i];
-        double to[3];
-        int ends;
-        if (!state->paths->tip[i].open) continue;
-        double off = facet_on_path (path, n, f->x, f->e, 0, to, &ends);
-        if (off > 0.5 * f->h)
-            return pg_error (
-                PG_E_SCENE, PG_HERE,
-                "failure.path: crack tip %ld at (%.6g, %.6g) m lies %.3g m beside it: let the path run "
-                "through every tip",
-                state->paths->tip[i].id, f->x[0], f->x[1], off);
-    }
-    return PG_OK;
-}
-
 pg_status facet_measure (break_loop *b, const pg_state *state, const double *base, const double *unit,
                          double t)
 {
@@ -180,7 +158,6 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
         if (!state->paths->tip[i].open) continue;
         PG_TRY (pg_tip_measure (&g->field[i], s->problem, s->force, s->self, state, i, g->nfield, d, times));
     }
-    PG_TRY (check_path (b, state));
     PG_TRY (trial_facets (b, state, d, times));
     tell (b, state);
     g->fresh = 1;
@@ -238,7 +215,8 @@ static int ascending (const void *a, const void *b)
     return (i > k) - (i < k);
 }
 
-/* Bonds that crossed a facet die: all that are listed, since a further facet sorts its bonds in among them. */
+/* Bonds that crossed a facet die: all that are listed, since a further facet sorts its bonds in among
+ * them. */
 static void kill_listed (const break_loop *b, pg_state *state)
 {
     for (size_t i = 0; i < b->changes.n; i++) state->alive[b->changes.bond[i]] = 0;
@@ -265,11 +243,14 @@ static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     const pg_problem *p = b->system.problem;
+    /* another tip ran into it at this event */
+    if (c->tip >= 0 && !state->paths->tip[c->tip].open) return PG_OK;
     if (c->tip >= 0) PG_TRY (pg_crack_grow (state, p, (size_t) c->tip, c->to, c->close, &b->changes));
     else PG_TRY (pg_crack_start (state, p, c->from, c->to, c->open, &b->changes));
     PG_TRY (close_others (b, state, c));
     kill_listed (b, state);
-    g->needed += c->energy, g->closed |= c->close, g->began |= c->tip < 0;
+    g->needed += c->energy, g->event_energy += c->energy, g->closed |= c->close, g->began |= c->tip < 0;
+    g->going |= c->tip >= 0 ? !c->close : c->open != 0;
 done:
     return status;
 }
@@ -345,7 +326,7 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     double top = facet_utilisation (b, state, factor), least = top * (1 - facet_tie), angle;
-    b->changes.n = 0, g->closed = g->began = 0;
+    b->changes.n = 0, g->closed = g->began = g->going = 0, g->event_energy = 0;
     for (size_t i = 0; i < g->ntip && top > 0; i++) {
         facet_candidate c;
         if (facet_judge (b, state, i, factor, &angle) < least) continue;

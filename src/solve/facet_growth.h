@@ -36,9 +36,10 @@ typedef struct facet_growth {
     struct trials *trials;                             /* workspace of trial_facet.c */
     /* energy that all facets took; at the start of the step, J */
     double  needed, needed0;
-    /* a tip met the surface or a crack in the event at hand */
-    int     closed;
-    int     began;                                     /* a new crack came into being in the event at hand */
+    /* Of the event at hand: a tip met the surface or a crack; a new crack came into being; a tip goes on;
+     * what all facets take, J. */
+    int     closed, began, going;
+    double  event_energy;
     unsigned said;                                     /* warnings that were given: FACET_SAID_... */
 } facet_growth;
 enum { FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4 };

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Options of the solver from the keys of a scene, and what does not go together. */
-#include "solve.h"
+#include "facet_growth.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -33,11 +33,31 @@ static int grows_facets (const pg_solver_type *type, const void *unused)
     return (type->flags & PG_SOLVER_FACETS) != 0;
 }
 
+/* Cracks that are held to a path must lie on it. */
+static void check_path (const pg_problem *problem, const pg_scene *scene)
+{
+    size_t n;
+    const double *path = problem->criterion->type->path (problem->criterion, &n);
+    for (size_t i = 0; path && n > 1 && i < problem->ntip; i++) {
+        const double *x = problem->tip[i].x, nowhere[2] = { 0, 0 };
+        double to[3], off;
+        int ends;
+        off = facet_on_path (path, n, x, nowhere, 0, to, &ends);
+        if (off > 0.5 * pg_problem_spacing_at (problem, x))
+            pg_scene_fault (
+                scene, "failure.path",
+                "the tip of a crack at (%.6g, %.6g) m lies %.3g m beside it: the path must run through "
+                "every tip",
+                x[0], x[1], off);
+    }
+}
+
 /* Criteria of tips go with facets and the solvers that know them, and with nothing else. */
 static void read_facets (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     int tips = pg_criterion_of_tips (problem->criterion), asked = o->break_mode == PG_BREAK_FACET;
     double h = problem->cloud.h;
+    if (tips) check_path (problem, scene);
     if (tips && !given (scene, "solver.break")) o->break_mode = PG_BREAK_FACET;
     o->facet = given (scene, "solver.facet") ? pg_scene_length (scene, h, "solver.facet") : 0;
     if (tips && !(o->flags & PG_SOLVER_FACETS)) {
