@@ -41,7 +41,10 @@ def body_panel(d, x, y, body, runs):
         d.path([at(p) for p in inside], INK, 2.2)
     for k, run in enumerate(runs):
         for path in run.paths:
-            d.path([at(p) for p in path], COLOURS[k % len(COLOURS)], 1.2)
+            # from the crack as it is drawn: in other runs it is shifted by parts of a spacing
+            tips = [t for crack in body.cracks for t in crack] or [path[0]]
+            tip = min(tips, key=lambda t: (t[0] - path[0][0]) ** 2 + (t[1] - path[0][1]) ** 2)
+            d.path([at((p[0] - path[0][0] + tip[0], p[1] - path[0][1] + tip[1])) for p in path], COLOURS[k % len(COLOURS)], 1.2)
 
 
 def load_panel(d, x, y, body, runs):
