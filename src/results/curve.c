@@ -16,7 +16,8 @@ static double push_along (const pg_problem *p, const pg_load *load, int k)
 {
     double size = 0;
     if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE) {
-        if (!load->value[k] || load->set->npoint == 0 || !pg_load_separates (load)) return load->value[k] != NULL;
+        if (!load->value[k]) return 0;
+        if (load->set->npoint == 0 || !pg_load_separates (load)) return 1;
         for (size_t i = 0; i < load->set->npoint; i++) {
             const double *x = p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim;
             size = fmax (size, fabs (pg_load_pattern (load, k, p->dim, x)));
@@ -30,8 +31,8 @@ static double push_along (const pg_problem *p, const pg_load *load, int k)
 }
 
 /* The curve follows the prescribed component that moves most, else the first load with a
- * force, along the axis in which that is largest. A velocity is compared by what it moves in 1e-9 s, so that any displacement is
- * preferred to it. */
+ * force, along the axis in which that is largest. A velocity is compared by what it moves in
+ * 1e-9 s, so that any displacement is preferred to it. */
 void pg_result_curve_choose (pg_result *r)
 {
     const pg_problem *p = r->problem;
