@@ -182,6 +182,11 @@ typedef struct {
     char   kind;  int set;
     /* Relative residual of the solve, and largest displacement, m. */
     double residual, displacement;
+    /* Criteria of tips: 1: `factor` is that of the first facet, from where to where (m), and the number of
+     * the tip that it moves (0: a new crack); 0: none in the steps of the scene. */
+    int    grows;
+    double from[2], to[2];
+    long   grown;
     /* The open tips of cracks in the plane: how many there are, their numbers, and what is measured of the
      * first of them. refused: why it is not; else NULL. */
     size_t       ntip;

@@ -328,6 +328,9 @@ static void print_memory (const plan *p)
     }
 }
 
+/* A coordinate without the rounding of one that is zero. */
+static double tidy (const plan *p, double x) { return fabs (x) < 1e-9 * p->problem->cloud.h ? 0 : x; }
+
 /* Of every open tip in the plane: stress intensity factors and energy release rate under the
  * full load, and how well the latter is known by two rings. */
 static void print_tips (const plan *p)
@@ -340,7 +343,7 @@ static void print_tips (const plan *p)
         const pg_tip_field *f = &b->tip[t];
         char name[32];
         snprintf (name, sizeof name, "crack tip %ld", b->id[t]);
-        printf ("  %-18s  at (%.4g, %.4g) m: ", name, f->x[0], f->x[1]);
+        printf ("  %-18s  at (%.4g, %.4g) m: ", name, tidy (p, f->x[0]), tidy (p, f->x[1]));
         if (isnan (f->near)) {
             printf ("no stress intensity factors: a ring needs %.3g m, there is room for %.3g m\n",
                     1.5 * f->h, f->room);
@@ -360,6 +363,52 @@ static void print_tips (const plan *p)
         printf ("  %-18s  %zu more tips\n", "crack tips", b->ntip - PG_FIRST_TIPS);
 }
 
+/* What a material takes, and the spacing at which its strength can be told from its fracture
+ * energy: the zone E G0 / f_t^2 in which it fails should be 8 spacings long. */
+static void print_toughness (const pg_problem *p)
+{
+    double x[3] = { 0 };
+    for (int k = 0; k < p->dim; k++) x[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]);
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        const pg_criterion *c = &p->criterion[m];
+        pg_fracture_limits limits = { NAN, NAN, NAN };
+        if (!c->type || c->never) continue;
+        c->type->fracture (c, x, 0, &limits);
+        printf ("  fracture %-10s %.4g J/m^2", p->material[m].name, limits.energy);
+        double zone = p->material[m].modulus * limits.energy / (limits.strength * limits.strength);
+        if (zone > 0)
+            printf (", strength %.4g Pa: a zone of %.3g m, new cracks need a spacing of at most %.3g m",
+                    limits.strength, zone, zone / 8);
+        printf ("\n");
+    }
+}
+
+/* Of a criterion that judges tips: when and where the first facet grows. */
+static void print_first_growth (const plan *p)
+{
+    const pg_first_break *b = p->first;
+    print_toughness (p->problem);
+    if (!p->options->event) {
+        printf ("  %-18s  not known before a run with fixed load steps\n", "first growth");
+        return;
+    }
+    if (!isfinite (b->factor)) {
+        printf ("  warning: no crack grows under these loads up to load factor 1%s\n",
+                b->proportional ? ", and none would under larger ones" : "");
+        return;
+    }
+    printf ("  %-18s  at load factor %.5g", "first growth", b->factor);
+    if (b->grows && b->grown) printf (", crack tip %ld", b->grown);
+    else if (b->grows) printf (", a new crack");
+    if (b->grows)
+        printf (" from (%.4g, %.4g) to (%.4g, %.4g) m", tidy (p, b->from[0]), tidy (p, b->from[1]),
+                tidy (p, b->to[0]), tidy (p, b->to[1]));
+    printf ("\n");
+    if (b->factor > 1)
+        printf ("  warning: nothing grows up to load factor 1: the first facet needs %.4g times this load\n",
+                b->factor);
+}
+
 /* What --solve found. A load factor above 1 means that nothing breaks under the full load,
  * which is warned of, as is a criterion that no load can reach. */
 static void print_first_break (const plan *p)
@@ -373,6 +422,10 @@ static void print_first_break (const plan *p)
             b->residual);
     if (!p->problem->criterion->type) {
         printf ("  %-18s  none: there is no failure criterion\n", "first break");
+        return;
+    }
+    if (pg_criterion_of_tips (p->problem->criterion)) {
+        print_first_growth (p);
         return;
     }
     if (!isfinite (b->factor)) {

@@ -131,6 +131,13 @@ static void first (pg_json *j, const plan *p)
     pg_json_open (j, "place", '[');
     for (int k = 0; k < p->problem->dim && isfinite (b->factor); k++) pg_json_number (j, NULL, b->place[k]);
     pg_json_shut (j);
+    if (b->grows) {
+        pg_json_number (j, "tip", (double) b->grown);
+        pg_json_open (j, "facet", '[');
+        for (int k = 0; k < 2; k++) pg_json_number (j, NULL, b->from[k]);
+        for (int k = 0; k < 2; k++) pg_json_number (j, NULL, b->to[k]);
+        pg_json_shut (j);
+    }
     pg_json_number (j, "displacement", b->displacement);
     pg_json_number (j, "residual", b->residual);
     pg_json_shut (j);

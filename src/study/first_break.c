@@ -71,6 +71,57 @@ done:
     return status;
 }
 
+/* The facet that a state has grown: that of the tip that moved, or a new crack. */
+static void find_facet (pg_first_break *b, const pg_crack_paths *w)
+{
+    if (!w || w->cracks.n == w->nfirst || !(w->length > 0)) return;
+    size_t piece = w->cracks.n - 1;
+    int to = 1;
+    b->grows = 1, b->grown = 0;
+    for (size_t t = 0; t < w->ntip && !b->grown; t++)
+        if (w->tip[t].grown > 0) b->grown = w->tip[t].id, piece = w->tip[t].segment, to = w->tip[t].end;
+    const double *vertex = w->cracks.crack[piece].vertex;
+    for (int k = 0; k < 2; k++) b->from[k] = vertex[2 * (1 - to) + k], b->to[k] = vertex[2 * to + k];
+}
+
+/* The largest utilisation of a tip that the solver knows. */
+static double largest_utilisation (const pg_solver *solver, const pg_crack_paths *w)
+{
+    double top = 0;
+    for (size_t t = 0; w && t < w->ntip; t++) {
+        const pg_tip_values *v = pg_solver_tip (solver, w->tip[t].id);
+        if (v) top = fmax (top, v->utilisation);
+    }
+    return top;
+}
+
+/* Criteria of tips judge no bond: the run itself, up to its first event, says when the first facet grows. If
+ * the full load comes before, the energy that a tip sets free there, which goes with the square of
+ * proportional loads, tells. */
+static pg_status find_growth (pg_first_break *b, const pg_problem *p, const pg_solver_options *o)
+{
+    pg_status status = PG_OK;
+    pg_solver_options once = *o;
+    pg_solver *solver = NULL;
+    pg_state *state = NULL;
+    pg_step step = { 0 };
+    b->factor = INFINITY, b->utilisation = NAN;
+    once.max_events = 1, once.levels = 1, once.stop_set = NULL;
+    if (!o->event) goto done;
+    PG_TRY (pg_solver_create (&solver, p, &once));
+    PG_TRY (pg_state_create (&state, p, pg_solver_components (solver)));
+    PG_TRY (pg_solver_step (solver, state, &step));
+    double top = largest_utilisation (solver, state->paths);
+    find_facet (b, state->paths);
+    if (b->grows) b->factor = step.factor, b->utilisation = 1;
+    else if (b->proportional && top > 0) b->factor = step.factor / sqrt (top), b->utilisation = top;
+    b->place[0] = b->from[0], b->place[1] = b->from[1], b->kind = 'f';
+done:
+    pg_state_free (&state);
+    pg_solver_free (&solver);
+    return status;
+}
+
 /* 1 if every material has a density. */
 static int all_dense (const pg_problem *p)
 {
@@ -103,7 +154,8 @@ pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_
     b->residual = step.residual;
     for (size_t i = 0; i < state->ndof; i++) b->displacement = fmax (b->displacement, fabs (state->d[i]));
     bare.criterion = p->criterion;
-    PG_TRY (judge (b, &bare, solver, state));
+    if (pg_criterion_of_tips (p->criterion)) PG_TRY (find_growth (b, p, o));
+    else PG_TRY (judge (b, &bare, solver, state));
     PG_TRY (measure_tips (b, &bare, solver, state));
     b->solved = 1;
 done:
