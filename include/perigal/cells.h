@@ -111,6 +111,8 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
 /* The rays at the ends of the angle ranges of all sets of the scene, for pg_cells_cut; the caller frees
  * *out by pg_free. They start at the centre of the body's bounding box. */
 pg_status pg_sets_rays (pg_ray **out, size_t *n, const pg_scene *scene, const pg_body *body);
+/* 1 where `unsettled` is more than 1e-6: the text of a warning that says so. */
+int       pg_cells_doubt (const pg_cells *cells, char *text, size_t size);
 /* Recomputes the volumes of the points from cut cells: each cell is shared equally among its points (its
  * vertices, or its centre). A cell without any gives its volume to the nearest point, in equal parts to all
  * those equally near. Does nothing where no cell is cut: the volumes from the lattice are exact then. */

@@ -10,6 +10,7 @@
  * order of the lattice. */
 #include "cut.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* A box that holds less than this share of its volume is no cell: it is rounding. */
@@ -325,6 +326,22 @@ static pg_status prepare (builder *m, const pg_body *body, double thickness, siz
     PG_ALLOC (m->volume, m->n);
 done:
     return status;
+}
+
+/* Six digits of a cell are far more than the other errors of a discretisation leave; surfaces that nearly
+ * touch, or a cusp between them, may not be resolved so far by Gauss points. */
+int pg_cells_doubt (const pg_cells *cells, char *text, size_t size)
+{
+    const double worth_a_warning = 1e-6;
+    char given_up[64] = "";
+    if (!(cells->unsettled > worth_a_warning)) return 0;
+    if (cells->given_up)
+        snprintf (given_up, sizeof given_up, " (%zu searches for corners given up)", cells->given_up);
+    snprintf (text, size,
+              "cells: cut: a volume or area at the surface is known to %.2g of a whole cell only%s: surfaces "
+              "nearly touch there; take another spacing, or shapes that overlap",
+              cells->unsettled, given_up);
+    return 1;
 }
 
 /* Where all cells and facets are those of the uncut lattice, they are built by pg_cells_from_lattice and no

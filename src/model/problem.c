@@ -36,32 +36,17 @@ static void name_of (char *out, size_t size, const char *file)
     snprintf (out, size, "%.*s", (int) n, n ? base : "scene");
 }
 
-/* Warns where the volume of a cut cell or the area of a cut facet is known to fewer than six digits of a
- * cell: surfaces that nearly touch, or a cusp between them, which Gauss points do not resolve. */
-static void doubt_cut_cells (pg_problem *p)
-{
-    const double worth_a_warning = 1e-6;
-    char given_up[64] = "";
-    if (!(p->cells.unsettled > worth_a_warning)) return;
-    if (p->cells.given_up)
-        snprintf (given_up, sizeof given_up, " (%zu searches for corners given up)", p->cells.given_up);
-    pg_problem_note (p,
-                     PG_WARNING "cells: cut: the volume of a cell at the surface, or the area of a facet, is "
-                                "known to %.2g of a whole one only%s: two surfaces nearly touch there; take "
-                                "another spacing, or shapes that overlap",
-                     p->cells.unsettled, given_up);
-}
-
 /* Cells at the surface keep the part inside the body; rays give the boundaries of sets. */
 static pg_status cut_cells (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_ray *ray = NULL;
     size_t n = 0;
+    char doubt[200];
     PG_TRY (pg_sets_rays (&ray, &n, scene, &p->body));
     PG_TRY (pg_cells_cut (&p->cells, &p->body, &p->lattice, p->cloud.thickness, n, ray));
     PG_TRY (pg_cells_share (&p->cloud, &p->cells, &p->lattice));
-    doubt_cut_cells (p);
+    if (pg_cells_doubt (&p->cells, doubt, sizeof doubt)) pg_problem_note (p, PG_WARNING "%s", doubt);
 done:
     pg_free (ray);
     return status;

@@ -319,6 +319,38 @@ static void rays_part_facets (void **state)
         }
 }
 
+/* Two cylinders that share their mantle: places where surfaces meet are not isolated there, the search for
+ * them is given up, and nothing is lost by it. */
+static void surfaces_in_common_do_no_harm (void **state)
+{
+    char text[200];
+    (void) state;
+    meshed m = mesh ("dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 1, length: 1}}}, {add: "
+                     "{cylinder: {center: [0, 0, 0.5], radius: 1, length: 1}}}]", 0.6);
+    double volume = 0;
+    for (size_t c = 0; c < m.cells.n; c++) volume += m.cells.volume[c];
+    check_relative (volume, 1.5 * pi, 1e-12);
+    assert_true (m.cells.given_up > 0);
+    assert_true (m.cells.unsettled == 0);
+    assert_false (pg_cells_doubt (&m.cells, text, sizeof text));
+    drop (&m);
+    m = mesh ("dimension: 3\nbody: [{add: {sphere: {center: [0, 0, 0], radius: 1}}}]", 0.6);
+    assert_int_equal (m.cells.given_up, 0);
+    assert_true (m.cells.unsettled == 0);
+    drop (&m);
+}
+
+static void cells_that_do_not_settle_are_told (void **state)
+{
+    const pg_cells c = { .unsettled = 1.1e-6, .given_up = 3 }, fine = { .unsettled = 9e-7, .given_up = 3 };
+    char text[200];
+    (void) state;
+    assert_true (pg_cells_doubt (&c, text, sizeof text));
+    check_contains (text, "known to 1.1e-06 of a whole cell only (3 searches for corners given up)");
+    check_contains (text, "shapes that overlap");
+    assert_false (pg_cells_doubt (&fine, text, sizeof text));
+}
+
 static void volumes_of_points_sum_to_the_body (void **state)
 {
     static const char *const lattice[] = {"nodes", "cells"};
@@ -414,6 +446,8 @@ int main (void)
         cmocka_unit_test (bodies_along_the_lattice_are_not_cut),
         cmocka_unit_test (facets_know_their_shape),
         cmocka_unit_test (rays_part_facets),
+        cmocka_unit_test (surfaces_in_common_do_no_harm),
+        cmocka_unit_test (cells_that_do_not_settle_are_told),
         cmocka_unit_test (volumes_of_points_sum_to_the_body),
         cmocka_unit_test (mirror_images_have_equal_volumes),
         cmocka_unit_test (any_allocation_may_fail),
