@@ -3,9 +3,10 @@
  * known in closed form (2 E U^2 / ((1 - nu^2) H) under an opening 2 U, far from both ends); kinks of
  * inclined cracks; loads with a constant part; energies of place and direction; imposed paths; cracks
  * that meet the surface and each other; fixed load steps; what is refused. */
-#include "run.h"
-#include <math.h>
 #include <string.h>
+#include "run.h"
+#include "solve/tape.h"
+#include <math.h>
 
 /* A strip 5 high and 1 long, n cells high, its crack 2 long and shifted against the points by part of a
  * spacing; G = 22500 J/m^2 at an opening of 2 mm, so that 100 J/m^2 are reached at 1/15 of it. */
@@ -336,6 +337,54 @@ static void a_crack_that_closes_is_said_to (void **state)
     clear (&r);
 }
 
+/* In the middle of a run with loads of both kinds and a crack at either end. */
+static void a_resumed_run_goes_on_bit_by_bit (void **state)
+{
+    (void) state;
+    static const char *const boundary[] = {
+        PULL, "  - {name: top, set: top, displacement: {x: 0, y: 2e-5 + 1e-4 * t}, ramp: constant}\n"
+              "  - {name: bottom, set: bottom, displacement: {x: 0, y: 0}}\n"
+    };
+    for (int k = 0; k < 2; k++) {
+        run a = strip (15, 0.37, 0.21, G0, boundary[k], ", max_events: 9", ""),
+            b = strip (15, 0.37, 0.21, G0, boundary[k], ", max_events: 9", "");
+        tape t = { 0 };
+        for (int step = 0; step < 4; step++) advance (&a);
+        keep (&a, &t, 0);
+        keep (&b, &t, 1);
+        while (!pg_solver_done (a.solver, a.state)) {
+            advance (&a), advance (&b);
+            assert_true (a.state->factor == b.state->factor && a.step.nbroken == b.step.nbroken
+                         && a.step.dissipated == b.step.dissipated);
+            assert_memory_equal (a.state->d, b.state->d, a.state->ndof * sizeof *a.state->d);
+            assert_memory_equal (a.state->alive, b.state->alive, a.state->nbond);
+            assert_memory_equal (tip_of (&a, 0)->x, tip_of (&b, 0)->x, sizeof tip_of (&a, 0)->x);
+        }
+        assert_true (pg_solver_report_now (a.solver)->energy_fracture
+                     == pg_solver_report_now (b.solver)->energy_fracture);
+        pg_free (t.byte);
+        clear (&a), clear (&b);
+    }
+}
+
+/* A centre crack on a lattice that mirrors it, held so that neither end is favoured: both tips go
+ * together. */
+static void tips_that_tie_grow_together (void **state)
+{
+    (void) state;
+    run r = scene_of (1, "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [-1, -0.5], "
+                         "high: [1, 0.5]}}}]\n"
+                         "spacing: 0.05\nlattice: cells\ncracks: [{from: [-0.31, 0], to: [0.31, 0]}]\n"
+                         "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.3333333333333333}}\n"
+                         "failure: {" G0 "}\nboundary:\n" PULL
+                         "solver: {kind: static, max_events: 4}\noutput: {at: {levels: 1}}\n");
+    to_the_end (&r);
+    for (size_t i = 0; i < 2; i++) check_relative (tip_of (&r, i)->grown, 0.2, 1e-3);
+    check_absolute (tip_of (&r, 0)->x[0], -tip_of (&r, 1)->x[0], 1e-6);
+    check_absolute (tip_of (&r, 0)->x[1], tip_of (&r, 1)->x[1], 1e-6);
+    clear (&r);
+}
+
 static void check_refused (const char *failure, const char *solver, const char *method, const char *words)
 {
     pg_scene *scene = NULL;
@@ -383,6 +432,8 @@ int main (void)
         cmocka_unit_test (cracks_meet),
         cmocka_unit_test (fixed_steps_grow_until_all_tips_rest),
         cmocka_unit_test (a_crack_that_closes_is_said_to),
+        cmocka_unit_test (a_resumed_run_goes_on_bit_by_bit),
+        cmocka_unit_test (tips_that_tie_grow_together),
         cmocka_unit_test (what_does_not_go_together_is_refused),
     };
     return cmocka_run_group_tests_name ("scene_runs/facet_growth", tests, NULL, NULL);
