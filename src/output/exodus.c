@@ -89,7 +89,7 @@ done:
     return status;
 }
 
-/* Opens the file and checks that it begins as a classic netCDF file of the two kinds that we
+/* Opens the file (f->path) and checks that it begins as a classic netCDF file of the two kinds that we
  * write. O_NOFOLLOW: symbolic links are refused. */
 static pg_status open_file (pg_exodus *f, long *bytes)
 {
@@ -117,7 +117,7 @@ static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *t
     PG_ALLOC (fresh, size);
     snprintf (fresh, size, "%s.new", f->path);
     exodus_layout layout = {
-        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume
+        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, 0, NULL
     };
     PG_TRY (pg_exodus_layout_write (&layout));
     if (rename (fresh, f->path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
@@ -277,6 +277,82 @@ pg_status pg_exodus_write (pg_exodus *f, double time, const pg_field_view *field
         (void) cut;                                    /* what would stay is behind the records that count */
     }
 done:
+    return status;
+}
+
+/* ---- lines --------------------------------------------------------------------------------------------- */
+/* Copies a record: behind the n values of a variable those of the ends of the lines, taken from their points,
+ * and behind all variables whether each line exists. Values stay in the byte order of the file. */
+static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_line *line,
+                               double *old, double *new)
+{
+    pg_status status = PG_OK;
+    size_t k = wide->step;
+    if (pread (f->file, old, (size_t) f->record, f->begin + (long) k * f->record) != f->record)
+        PG_FAIL (PG_E_FILE, "%s: %s", f->path, errno ? strerror (errno) : "it has become shorter");
+    double time = old[0], *to = new + 1;
+    most_significant_first (&time, 1);                   /* and back: the same exchange */
+    new[0] = old[0];
+    for (size_t v = 0; v < f->nvar; v++) {
+        const double *from = old + 1 + v * f->n;
+        memcpy (to, from, f->n * sizeof *to);
+        to += f->n;
+        /* the last one may be the volume, which lines have none of */
+        int none = f->extra && v + 1 == f->nvar;
+        for (size_t i = 0; i < 2 * m; i++) *to++ = none ? 0 : from[line[i / 2].point[i % 2]];
+    }
+    for (size_t i = 0; i < m; i++) to[i] = time >= line[i].since;
+    most_significant_first (to, m);
+    PG_TRY (pg_disk_write (wide->path, wide->file, new, (size_t) wide->record,
+                           wide->begin + (long) k * wide->record));
+    wide->step++;
+done:
+    return status;
+}
+
+/* All records into the new file, which is opened at the end of its header. */
+static pg_status copy_records (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_line *line)
+{
+    pg_status status = PG_OK;
+    double *old = NULL, *new = NULL;
+    PG_TRY (open_file (wide, &wide->begin));
+    wide->record = f->record + (long) (sizeof (double) * (2 * m * f->nvar + m));
+    PG_ALLOC (old, (size_t) f->record / sizeof *old);
+    PG_ALLOC (new, (size_t) wide->record / sizeof *new);
+    for (size_t k = 0; k < f->step; k++) PG_TRY (widen_record (f, wide, m, line, old, new));
+    PG_TRY (count_records (wide, wide->step));
+    PG_TRY (pg_disk_sync (wide->path));
+done:
+    pg_free (old), pg_free (new);
+    return status;
+}
+
+pg_status pg_exodus_add_lines (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
+                               const pg_exodus_line *line)
+{
+    pg_status status = PG_OK;
+    pg_exodus *f = *file, wide = { .file = -1 };
+    char *fresh = NULL;
+    size_t size = strlen (f->path) + 5;
+    if (n == 0) return PG_OK;
+    for (size_t i = 0; i < 2 * n; i++)
+        if (line[i / 2].point[i % 2] >= f->n)
+            PG_FAIL (PG_E_USAGE, "%s: a line hangs on point %zu of %zu", f->path,
+                     line[i / 2].point[i % 2], f->n);
+    PG_ALLOC (fresh, size);
+    snprintf (fresh, size, "%s.new", f->path);
+    wide.path = fresh;
+    exodus_layout layout = {
+        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, n, line
+    };
+    PG_TRY (pg_exodus_layout_write (&layout));
+    PG_TRY (copy_records (f, &wide, n, line));
+    if (rename (fresh, f->path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
+    pg_exodus_close (file);
+done:
+    if (wide.file >= 0) close (wide.file);
+    if (status != PG_OK && fresh) remove (fresh);
+    pg_free (fresh);
     return status;
 }
 

@@ -15,6 +15,8 @@
             PG_FAIL (rc_ == NC_ENOMEM ? PG_E_MEMORY : PG_E_FILE, "%s: %s", (path), nc_strerror (rc_)); \
     } while (0)
 
+/* Name of the block of lines. */
+#define EXODUS_CRACKS "cracks"
 /* Largest number of components of a field. */
 enum { EXODUS_COMPONENTS = 64 };
 /* ---- exodus_layout.c: a whole result.e without steps -------------------------------------------------- */
@@ -28,6 +30,10 @@ typedef struct {
     const pg_field_view *field;
     /* Volumes of the points (n), m3. */
     const double   *volume;
+    /* Lines, two nodes each behind those of the points, as a block of their own; 0: none. The records then
+     * end with one number for each line, 1 if it exists. */
+    size_t          nline;
+    const pg_exodus_line *line;
 } exodus_layout;
 /* Writes the file to its path, including all that does not change during a run. */
 pg_status pg_exodus_layout_write (const exodus_layout *layout);

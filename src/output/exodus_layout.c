@@ -4,6 +4,10 @@
  * ParaView and VisIt can draw; vals_nod_var<k> (time_step x num_nodes) is one component of one
  * field.
  *
+ * Lines (faces of cracks) are a block of elements BAR2 behind those of the points; each has two nodes of its
+ * own. The element variable `exists` of that block is 1 from the time on at which the line has come into
+ * being; points have no such variable (elem_var_tab).
+ *
  * Beyond Exodus the file has what exodus_read.c needs to restore the points: attributes
  * `field` and `units` of each variable, the variable `point_volume`, and global attributes for
  * spacing, lattice step, thickness and box. */
@@ -19,7 +23,8 @@ enum { NAME = 64 };
 typedef struct {
     const exodus_layout *l;
     int     ncid, open, dim;
-    size_t  n, nblock;
+    /* Points; nodes: those and the ends of lines; blocks of points. */
+    size_t  n, nodes, nblock;
     /* The different values of cloud->block, ascending (nblock). */
     int    *block;
     /* Scratch space (n). */
@@ -76,6 +81,8 @@ static pg_status define_globals (writer *w)
     NC_TRY (path, put_numbers (w->ncid, "thickness", 1, &cloud->thickness));
     NC_TRY (path, put_numbers (w->ncid, "box_low", 3, cloud->low));
     NC_TRY (path, put_numbers (w->ncid, "box_high", 3, cloud->high));
+    int points = (int) w->n;
+    NC_TRY (path, nc_put_att_int (w->ncid, NC_GLOBAL, "points", NC_INT, 1, &points));
 done:
     return status;
 }
@@ -112,22 +119,20 @@ static int belongs (const writer *w, size_t i, size_t k)
     return !w->l->cloud->block || w->l->cloud->block[i] == w->block[k];
 }
 
-/* One block of spheres: connect<k> (elements x 1) lists its nodes, counted from 1. Readers of
- * Exodus draw one glyph per sphere, which is why every point is an element, too. */
-static pg_status define_block (writer *w, size_t k)
+/* One block of elements with `each` nodes: connect<k> (elements x each) lists them, counted from 1. Readers
+ * of Exodus draw one glyph per sphere, which is why every point is an element, too. */
+static pg_status define_block (writer *w, size_t k, size_t m, size_t each, const char *type)
 {
     pg_status status = PG_OK;
     char name[NAME];
-    size_t m = 0;
     int dims[2], var;
-    for (size_t i = 0; i < w->n; i++) m += (size_t) belongs (w, i, k);
     snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
     NC_TRY (w->l->path, nc_def_dim (w->ncid, name, m, &dims[0]));
     snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
-    NC_TRY (w->l->path, nc_def_dim (w->ncid, name, 1, &dims[1]));
+    NC_TRY (w->l->path, nc_def_dim (w->ncid, name, each, &dims[1]));
     snprintf (name, sizeof name, "connect%zu", k + 1);
     NC_TRY (w->l->path, nc_def_var (w->ncid, name, NC_INT, 2, dims, &var));
-    NC_TRY (w->l->path, put_text (w->ncid, var, "elem_type", "SPHERE"));
+    NC_TRY (w->l->path, put_text (w->ncid, var, "elem_type", type));
 done:
     return status;
 }
@@ -137,8 +142,13 @@ static pg_status define_blocks (writer *w, int name_dim)
 {
     pg_status status = PG_OK;
     int dim, var;
-    NC_TRY (w->l->path, nc_def_dim (w->ncid, "num_el_blk", w->nblock, &dim));
-    for (size_t k = 0; k < w->nblock; k++) PG_TRY (define_block (w, k));
+    NC_TRY (w->l->path, nc_def_dim (w->ncid, "num_el_blk", w->nblock + (w->l->nline > 0), &dim));
+    for (size_t k = 0; k < w->nblock; k++) {
+        size_t m = 0;
+        for (size_t i = 0; i < w->n; i++) m += (size_t) belongs (w, i, k);
+        PG_TRY (define_block (w, k, m, 1, "SPHERE"));
+    }
+    if (w->l->nline) PG_TRY (define_block (w, w->nblock, w->l->nline, 2, "BAR2"));
     NC_TRY (w->l->path, nc_def_var (w->ncid, "eb_status", NC_INT, 1, &dim, &var));
     NC_TRY (w->l->path, nc_def_var (w->ncid, "eb_prop1", NC_INT, 1, &dim, &var));
     NC_TRY (w->l->path, put_text (w->ncid, var, "name", "ID"));
@@ -169,6 +179,24 @@ done:
     return status;
 }
 
+/* The variable of lines, which only their block has. */
+static pg_status define_existence (writer *w, int steps, int name_dim)
+{
+    pg_status status = PG_OK;
+    char name[NAME];
+    int dim, blocks, lines, var;
+    NC_TRY (w->l->path, nc_def_dim (w->ncid, "num_elem_var", 1, &dim));
+    PG_TRY (define_names (w, "name_elem_var", dim, name_dim));
+    NC_TRY (w->l->path, nc_inq_dimid (w->ncid, "num_el_blk", &blocks));
+    NC_TRY (w->l->path, nc_def_var (w->ncid, "elem_var_tab", NC_INT, 2, (int[2]) { blocks, dim }, &var));
+    snprintf (name, sizeof name, "num_el_in_blk%zu", w->nblock + 1);
+    NC_TRY (w->l->path, nc_inq_dimid (w->ncid, name, &lines));
+    snprintf (name, sizeof name, "vals_elem_var1eb%zu", w->nblock + 1);
+    NC_TRY (w->l->path, nc_def_var (w->ncid, name, NC_DOUBLE, 2, (int[2]) { steps, lines }, &var));
+done:
+    return status;
+}
+
 /* All dimensions and variables. The lengths 33, 81 and 4 are those of the Exodus standard. */
 static pg_status define_all (writer *w)
 {
@@ -181,11 +209,12 @@ static pg_status define_all (writer *w)
     NC_TRY (path, nc_def_dim (w->ncid, "four", 4, &unused));
     NC_TRY (path, nc_def_dim (w->ncid, "len_name", NAME + 1, &name_dim));
     NC_TRY (path, nc_def_dim (w->ncid, "time_step", NC_UNLIMITED, &steps));
-    NC_TRY (path, nc_def_dim (w->ncid, "num_nodes", w->n, &nodes));
-    NC_TRY (path, nc_def_dim (w->ncid, "num_elem", w->n, &unused));
+    NC_TRY (path, nc_def_dim (w->ncid, "num_nodes", w->nodes, &nodes));
+    NC_TRY (path, nc_def_dim (w->ncid, "num_elem", w->n + w->l->nline, &unused));
     PG_TRY (define_points (w, nodes, name_dim));
     PG_TRY (define_blocks (w, name_dim));
     PG_TRY (define_fields (w, steps, nodes, name_dim));
+    if (w->l->nline) PG_TRY (define_existence (w, steps, name_dim));
     NC_TRY (path, nc_enddef (w->ncid));
 done:
     return status;
@@ -235,10 +264,30 @@ static pg_status put_points (writer *w)
     static const char *const variable[] = { "coordx", "coordy", "coordz" }, *const axis[] = { "x", "y", "z" };
     for (size_t a = 0; a < (size_t) w->dim; a++) {
         for (size_t i = 0; i < w->n; i++) w->work[i] = w->l->cloud->x[i * (size_t) w->dim + a];
+        for (size_t i = w->n; i < w->nodes; i++)
+            w->work[i] = w->l->line[(i - w->n) / 2].x[(i - w->n) % 2][a];
         PG_TRY (put_doubles (w, variable[a], w->work));
         PG_TRY (put_name (w, "coor_names", a, axis[a]));
     }
-    PG_TRY (put_doubles (w, "point_volume", w->l->volume));
+    memcpy (w->work, w->l->volume, w->n * sizeof *w->work);
+    for (size_t i = w->n; i < w->nodes; i++) w->work[i] = 0;
+    PG_TRY (put_doubles (w, "point_volume", w->work));
+done:
+    return status;
+}
+
+/* Writes the block of lines, and that it alone has the variable. */
+static pg_status put_lines (writer *w)
+{
+    pg_status status = PG_OK;
+    char name[NAME];
+    for (size_t i = 0; i < 2 * w->l->nline; i++) w->node[i] = (int) (w->n + i) + 1;
+    snprintf (name, sizeof name, "connect%zu", w->nblock + 1);
+    PG_TRY (put_ints (w, name, w->node));
+    PG_TRY (put_name (w, "eb_names", w->nblock, EXODUS_CRACKS));
+    PG_TRY (put_name (w, "name_elem_var", 0, "exists"));
+    for (size_t k = 0; k <= w->nblock; k++) w->node[k] = k == w->nblock;
+    PG_TRY (put_ints (w, "elem_var_tab", w->node));
 done:
     return status;
 }
@@ -257,9 +306,12 @@ static pg_status put_blocks (writer *w)
         snprintf (name, sizeof name, "block_%d", w->block[k]);
         PG_TRY (put_name (w, "eb_names", k, name));
     }
-    for (size_t k = 0; k < w->nblock; k++) w->node[k] = 1;
+    size_t blocks = w->nblock + (w->l->nline > 0);
+    if (w->l->nline) PG_TRY (put_lines (w));
+    for (size_t k = 0; k < blocks; k++) w->node[k] = 1;
     PG_TRY (put_ints (w, "eb_status", w->node));
     for (size_t k = 0; k < w->nblock; k++) w->node[k] = w->block[k] + 1;
+    if (w->l->nline) w->node[w->nblock] = w->block[w->nblock - 1] + 2;
     PG_TRY (put_ints (w, "eb_prop1", w->node));
 done:
     return status;
@@ -294,8 +346,8 @@ static pg_status find_blocks (writer *w)
 {
     pg_status status = PG_OK;
     PG_ALLOC (w->block, w->n);
-    PG_ALLOC (w->node, w->n);
-    PG_ALLOC (w->work, w->n);
+    PG_ALLOC (w->node, w->nodes + 1);
+    PG_ALLOC (w->work, w->nodes);
     w->nblock = 1;
     if (!w->l->cloud->block) goto done;
     memcpy (w->block, w->l->cloud->block, w->n * sizeof *w->block);
@@ -317,7 +369,8 @@ static pg_status open_file (writer *w)
     PG_TRY (pg_file_create (&probe, w->l->path));
     fclose (probe);
     NC_TRY (w->l->path,
-            nc_create (w->l->path, NC_CLOBBER | (w->n > 0xfffffffcu / 8 ? NC_64BIT_DATA : NC_64BIT_OFFSET),
+            nc_create (w->l->path,
+                       NC_CLOBBER | (w->nodes > 0xfffffffcu / 8 ? NC_64BIT_DATA : NC_64BIT_OFFSET),
                        &w->ncid));
     w->open = 1;
     NC_TRY (w->l->path, nc_set_fill (w->ncid, NC_NOFILL, &before));
@@ -330,7 +383,8 @@ done:
 pg_status pg_exodus_layout_write (const exodus_layout *layout)
 {
     pg_status status = PG_OK;
-    writer w = { .l = layout, .dim = layout->cloud->dim, .n = layout->cloud->n };
+    writer w = { .l = layout, .dim = layout->cloud->dim, .n = layout->cloud->n,
+                 .nodes = layout->cloud->n + 2 * layout->nline };
     PG_TRY (find_blocks (&w));
     PG_TRY (open_file (&w));
     PG_TRY (define_all (&w));

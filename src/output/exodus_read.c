@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Reads result.e back: points with volumes and blocks, and fields, whose components are
- * grouped by the attribute `field` of vals_nod_var<k>. Files of other programs do not have
- * that attribute; there every variable is a field with one component.
+ * Reads result.e back: points with volumes and blocks (nodes of lines, which lie behind them, are left
+ * out), and fields, whose components are grouped by the attribute `field` of vals_nod_var<k>. Files of other
+ * programs do not have that attribute; there every variable is a field with one component.
  *
  * Headers are checked by pg_netcdf_check_header before netCDF sees them, because netCDF trusts
  * the counts in them and would allocate gigabytes for a few damaged bytes. Each function opens
@@ -30,6 +30,18 @@ static size_t length_of (int ncid, const char *name)
     int dim;
     size_t n = 0;
     if (nc_inq_dimid (ncid, name, &dim) != NC_NOERR || nc_inq_dimlen (ncid, dim, &n) != NC_NOERR) return 0;
+    return n;
+}
+
+/* Number of points: of the nodes those before the ends of lines; all, where the file does not say. */
+static size_t points_of (int ncid)
+{
+    size_t n = length_of (ncid, "num_nodes"), m;
+    int points;
+    if (nc_inq_attlen (ncid, NC_GLOBAL, "points", &m) == NC_NOERR && m == 1
+        && nc_get_att_int (ncid, NC_GLOBAL, "points", &points) == NC_NOERR && points > 0
+        && (size_t) points < n)
+        return (size_t) points;
     return n;
 }
 
@@ -84,7 +96,7 @@ static pg_status reader_open (reader *r, const char *path)
     PG_TRY (pg_netcdf_check_header (path));
     NC_TRY (path, nc_open (path, NC_NOWRITE, &r->ncid));
     r->open = 1;
-    r->n = length_of (r->ncid, "num_nodes");
+    r->n = points_of (r->ncid);
     r->nstep = length_of (r->ncid, "time_step");
     r->npart = length_of (r->ncid, "num_nod_var");
     if (r->n == 0) PG_FAIL (PG_E_FILE, "%s: no points: not a result file", path);
@@ -221,7 +233,7 @@ static pg_status read_places (const reader *r, pg_cloud *cloud, double *work)
     size_t dim = (size_t) cloud->dim;
     for (size_t a = 0; a < dim; a++) {
         NC_TRY (r->path, nc_inq_varid (r->ncid, name[a], &var));
-        NC_TRY (r->path, nc_get_var_double (r->ncid, var, work));
+        NC_TRY (r->path, nc_get_vara_double (r->ncid, var, (size_t[1]) { 0 }, &r->n, work));
         cloud->low[a] = cloud->high[a] = work[0];
         for (size_t i = 0; i < r->n; i++) {
             cloud->x[i * dim + a] = work[i];
@@ -235,7 +247,7 @@ static pg_status read_places (const reader *r, pg_cloud *cloud, double *work)
     numbers (r->ncid, "spacing", 1, &cloud->h);
     numbers (r->ncid, "thickness", 1, &cloud->thickness);
     if (nc_inq_varid (r->ncid, "point_volume", &var) == NC_NOERR)
-        NC_TRY (r->path, nc_get_var_double (r->ncid, var, cloud->volume));
+        NC_TRY (r->path, nc_get_vara_double (r->ncid, var, (size_t[1]) { 0 }, &r->n, cloud->volume));
 done:
     return status;
 }
@@ -247,13 +259,18 @@ static pg_status read_blocks (const reader *r, pg_cloud *cloud)
     pg_status status = PG_OK;
     int *id = NULL, *node = NULL, var;
     size_t m = length_of (r->ncid, "num_el_blk");
-    char name[64];
+    int has_lines = r->n < length_of (r->ncid, "num_nodes");
+    char name[64], type[NAME];
     PG_ALLOC (id, m);
     PG_ALLOC (node, r->n);
     if (m == 0) goto done;
     NC_TRY (r->path, nc_inq_varid (r->ncid, "eb_prop1", &var));
     NC_TRY (r->path, nc_get_var_int (r->ncid, var, id));
     for (size_t k = 0; k < m; k++) {
+        snprintf (name, sizeof name, "connect%zu", k + 1);
+        if (has_lines && nc_inq_varid (r->ncid, name, &var) == NC_NOERR
+            && text_attribute (r->ncid, var, "elem_type", type, sizeof type) && strcmp (type, "BAR2") == 0)
+            continue;
         snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
         size_t count = length_of (r->ncid, name);
         snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);

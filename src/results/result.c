@@ -256,6 +256,7 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     PG_TRY (pg_result_crack_measure (r, state));
     PG_TRY (pg_result_draw (r, state));
     PG_TRY (pg_result_measure (r, state));
+    if (!failure) PG_TRY (pg_result_paths_lines (r, state));
     if (!failure) PG_TRY (estimate (r, state));
 done:
     r->seconds += pg_seconds () - t0;

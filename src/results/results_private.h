@@ -185,6 +185,8 @@ pg_status pg_result_paths_write    (pg_result *r, const pg_state *state, const p
 void      pg_result_paths_json     (pg_json *j, const pg_result *r, const pg_state *state);
 double    pg_result_paths_ratio    (const pg_result *r);
 void      pg_result_paths_close    (pg_result *r);
+/* Adds the faces of all cracks to result.e, which is complete then, and closes it (crack_lines.c). */
+pg_status pg_result_paths_lines    (pg_result *r, const pg_state *state);
 /* output.tips (crack_tips.c): faults, reading, freeing, a row, keeping the first `rows` rows. */
 pg_status pg_result_tips_check     (const pg_scene *scene, const pg_problem *problem);
 pg_status pg_result_tips_read      (pg_result *r, const pg_scene *scene);
