@@ -86,8 +86,8 @@ static void turning_the_strip_changes_nothing (void **state)
     char outline[512] = "";
     (void) state;
     for (int k = 0; k < 4; k++)
-        snprintf (outline + strlen (outline), sizeof outline - strlen (outline), "%s[%.15g, %.15g]", k ? ", " : "",
-                  c * corner[k][0] - s * corner[k][1], s * corner[k][0] + c * corner[k][1]);
+        snprintf (outline + strlen (outline), sizeof outline - strlen (outline), "%s[%.15g, %.15g]",
+                  k ? ", " : "", c * corner[k][0] - s * corner[k][1], s * corner[k][0] + c * corner[k][1]);
     run r = scene_of (1,
                       "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {polygon: {vertices: [%s]}}}]\n"
                       "spacing: 0.005\nlattice: cells\nlattice_offset: [0.13, 0.29]\n"
