@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * tip.h: the parts of the measurement of a tip. Files: tip_domain.c (frame, rings and the room for them),
  * tip_grid.c (places of the integrals, and the fields there), tip_integrals.c (the integrals), tip_measure.c
- * (all of it for one tip), williams.c (exact fields), kink.c (direction). */
+ * (all of it for one tip), tip_faces.c (faces that turn inside the rings), williams.c (exact fields), kink.c (direction). */
 #ifndef PG_FRACTURE_TIP_H
 #define PG_FRACTURE_TIP_H
 #include "perigal/fracture.h"
@@ -44,6 +44,9 @@ pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *st
 /* core: 1: places within r1 too, where terms without derivatives of the weight are to be summed. */
 pg_status tip_grid_create (tip_grid *out, const pg_tip_field *tip, int core);
 void      tip_grid_clear  (tip_grid *grid);
+/* Places on the faces of the pieces within the wide ring that do not run along e; area: outward normal along
+ * e times length, m. None: n = 0. */
+pg_status tip_faces_create (tip_grid *out, const pg_tip_field *tip, const pg_cracks *cracks);
 /* One field from the force into grid->field[at]. */
 pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, const tip_material *material,
                            const pg_problem *p, const pg_force_type *force, void *self,
@@ -56,4 +59,7 @@ void      tip_turn (const double *e, const double *v, double *out);
 typedef struct { double J[2][2], I[PG_TIP_FIELDS][2]; } tip_sums;
 /* Over the ring r1 .. r2. */
 void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *material, double r1, double r2);
+/* What the faces of tip_faces_create add to J. */
+void tip_face_integrals (tip_sums *out, const tip_grid *faces, const tip_material *material, double r1,
+                         double r2);
 #endif

@@ -96,3 +96,13 @@ void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *m, 
     }
     out->J[0][1] = out->J[1][0];
 }
+
+void tip_face_integrals (tip_sums *out, const tip_grid *faces, const tip_material *m, double r1, double r2)
+{
+    for (size_t k = 0; k < faces->n; k++) {
+        double slope, q = weight (faces->r[k], r1, r2, &slope);
+        for (size_t a = 0; a < faces->nfield; a++)
+            for (size_t b = 0; b <= a; b++) out->J[a][b] += faces->area[k] * q * energy (faces, m, a, b, k);
+    }
+    out->J[0][1] = out->J[1][0];
+}

@@ -121,11 +121,14 @@ static void unknown (pg_tip_field *out)
 
 /* The integrals of both rings into the numbers of the tip. The direction comes from the near one, but for a
  * tip that has not grown: behind it there is no new kink, and the wide ring hears less of the lattice. */
-static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_material *m, int grown)
+static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_grid *faces, const tip_material *m,
+                       int grown)
 {
     tip_sums near, wide;
     tip_integrals (&near, grid, m, out->r1, out->near);
     tip_integrals (&wide, grid, m, out->r1, out->wide);
+    tip_face_integrals (&near, faces, m, out->r1, out->near);
+    tip_face_integrals (&wide, faces, m, out->r1, out->wide);
     for (int a = 0; a < 2; a++) {
         for (int b = 0; b < 2; b++) out->J_near[a][b] = near.J[a][b], out->J[a][b] = wide.J[a][b];
         for (int k = 0; k < 2; k++)
@@ -141,7 +144,7 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
                           const double *t)
 {
     pg_status status = PG_OK;
-    tip_grid grid = { 0 };
+    tip_grid grid = { 0 }, faces = { 0 };
     size_t node;
     const char *refused = pg_tip_refuses (p, force);
     memset (out, 0, sizeof *out);
@@ -156,15 +159,17 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
     int forced = any_body_force (p, node),
         moving = nfield == 1 && d[0] == state->d && m.density > 0 && moves (state);
     PG_TRY (tip_grid_create (&grid, out, forced || moving));
-    grid.nfield = (size_t) nfield;
+    PG_TRY (tip_faces_create (&faces, out, pg_state_cracks (p, state)));
+    grid.nfield = faces.nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {
         PG_TRY (tip_grid_sample (&grid, a, out, &m, p, force, self, state, d[a]));
+        if (faces.n) PG_TRY (tip_grid_sample (&faces, a, out, &m, p, force, self, state, d[a]));
         if (forced) PG_TRY (add_body_force (&grid, a, out, p, node, t));
     }
     if (moving) PG_TRY (add_inertia (&grid, out, &m, p, force, self, state));
-    integrate (out, &grid, &m, state->paths->tip[tip].grown > 0);
+    integrate (out, &grid, &faces, &m, state->paths->tip[tip].grown > 0);
 done:
-    tip_grid_clear (&grid);
+    tip_grid_clear (&grid), tip_grid_clear (&faces);
     return status;
 }
 

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The faces of a crack that turns inside the rings. Where the faces run along e the line integral of Rice is
+ * the same around every path; on faces that do not, J of the tip has a further part. With P_j = sigma_ij
+ * u_i,1 - W delta_1j and div P = 0 the integral over the ring is J of the tip less the flux of P through the
+ * faces, and since free faces have sigma n = 0,
+ *
+ *   J += int W n_1 q ds over both faces of all pieces, n outwards: q ((W n_1) right + (W n_1) left).
+ *
+ * W is the energy density on the face, seen from its own side. It matters where the body is compressed along
+ * the crack: behind a kink such as that of a wing the part is as large as J itself. Within a quarter of a
+ * spacing of the tip the two faces are not apart yet and nothing is added. */
+#include "gradient_fit.h"
+#include "tip.h"
+#include <math.h>
+#include <string.h>
+
+enum { GAUSS = 4 };
+static const double piece = 0.5, aside = 0.02, closed = 0.25;      /* in spacings */
+static const double straight = 0.05;                   /* |n_1| of faces that count as running along e */
+
+/* The left and the right face at a place of a piece whose left normal is n_1 along e: the outward normals are
+ * the opposite of it and itself. `length`: what the place stands for, m. */
+static void add_place (tip_grid *grid, const pg_tip_field *tip, const double *at, const double *normal,
+                       double n_1, double length)
+{
+    for (int side = 1; side >= -1; side -= 2) {
+        size_t k = grid->n++;
+        for (int c = 0; c < 2; c++) grid->x[2*k + c] = at[c] + side * aside * tip->h * normal[c];
+        grid->r[k] = hypot (at[0] - tip->x[0], at[1] - tip->x[1]);
+        grid->area[k] = -side * n_1 * length;
+    }
+}
+
+/* Parts of the segment a b that are looked at, each with GAUSS places on both faces. */
+static size_t parts_of (const pg_tip_field *tip, double length)
+{
+    return (size_t) fmax (1, ceil (length / (piece * tip->h) - 1e-9));
+}
+
+/* Does the piece run within the wide ring, and not along e? Its length and how its left normal lies along
+ * e. */
+static int turns (const pg_tip_field *tip, const pg_crack *c, double *length, double *n_1)
+{
+    const double *a = c->vertex, *b = a + 2;
+    double t[2] = { b[0] - a[0], b[1] - a[1] };
+    *length = hypot (t[0], t[1]);
+    if (!(*length > 0)) return 0;
+    *n_1 = c->normal[0] * tip->e[0] + c->normal[1] * tip->e[1];
+    double s = ((tip->x[0] - a[0]) * t[0] + (tip->x[1] - a[1]) * t[1]) / (*length * *length);
+    s = fmin (1, fmax (0, s));
+    return fabs (*n_1) > straight
+           && hypot (a[0] + s * t[0] - tip->x[0], a[1] + s * t[1] - tip->x[1]) < tip->wide;
+}
+
+/* A piece of a path, by Gauss points on its parts; only where the faces are apart and within the ring. */
+static void add_piece (tip_grid *grid, const pg_tip_field *tip, const pg_crack *c, double length, double n_1)
+{
+    double x[GAUSS], w[GAUSS];
+    size_t n = parts_of (tip, length);
+    pg_gauss_rule (GAUSS, x, w);
+    for (size_t i = 0; i < n * GAUSS; i++) {
+        double s = ((double) (i / GAUSS) + 0.5 * (1 + x[i % GAUSS])) / (double) n, at[2];
+        for (int k = 0; k < 2; k++) at[k] = c->vertex[k] + s * (c->vertex[2 + k] - c->vertex[k]);
+        double r = hypot (at[0] - tip->x[0], at[1] - tip->x[1]);
+        if (r > closed * tip->h && r < tip->wide)
+            add_place (grid, tip, at, c->normal, n_1, 0.5 * w[i % GAUSS] * length / (double) n);
+    }
+}
+
+pg_status tip_faces_create (tip_grid *out, const pg_tip_field *tip, const pg_cracks *cracks)
+{
+    pg_status status = PG_OK;
+    size_t most = 0;
+    double length, n_1;
+    memset (out, 0, sizeof *out);
+    for (size_t k = 0; k < cracks->n; k++)
+        if (turns (tip, &cracks->crack[k], &length, &n_1)) most += 2 * GAUSS * parts_of (tip, length);
+    PG_ALLOC (out->r, most + 1);
+    PG_ALLOC (out->theta, most + 1);
+    PG_ALLOC (out->area, most + 1);
+    PG_ALLOC (out->x, 2 * (most + 1));
+    for (size_t k = 0; k < cracks->n; k++)
+        if (turns (tip, &cracks->crack[k], &length, &n_1))
+            add_piece (out, tip, &cracks->crack[k], length, n_1);
+done:
+    if (status != PG_OK) tip_grid_clear (out);
+    return status;
+}
