@@ -9,7 +9,8 @@
 #include <string.h>
 
 typedef struct { double *y; int failed; } negation;
-/* y = - y, or not a number where the forces could not be had. */
+/* y = -y over a range, or not a number where the forces could not be had, so that nobody goes on with
+ * them. */
 static void negate (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
@@ -51,7 +52,8 @@ static void own_block (const bond_force *b, size_t i, const point_bonds *s, int 
 }
 
 /* ---- rows of points that have all their bonds ---------------------------------------------------------- */
-/* Row of blocks of a point over its live bonds (all: over all), its own block last; returns their number. */
+/* Row of blocks of a point over its live bonds (all: over all), block after block in `value`, its own
+ * last; nodes in `node` unless NULL. Returns their number. */
 static size_t row_of_bonds (const bond_force *b, size_t i, const point_bonds *s, int all, int *node,
                            double *value)
 {
@@ -116,7 +118,7 @@ static void exact_block (const bond_force *b, size_t i, const point_bonds *s, do
         for (size_t c = 0; c < dim; c++) D[a * m + c] += state[a * dim + c];
 }
 
-/* Diagonals of the own blocks of a range of points. */
+/* Diagonals of the own blocks of a range of points: from the shared row, else summed. */
 static void diagonal_points (void *context, size_t first, size_t last, int thread)
 {
     const job *w = context;
@@ -300,7 +302,7 @@ done:
 pg_status bond_force_bound (void *self, double *omega) { return bond_force_omega (self, omega); }
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
-/* Bonds of point i to points before it. */
+/* How many bonds of point i lead to points before it: the upper triangle by columns needs these. */
 static size_t lower (const bond_force *b, size_t i)
 {
     size_t at = b->family->start[i], first = at;

@@ -38,8 +38,8 @@ static void offset (const bond_force *b, size_t i, size_t j, double *xi)
         xi[k] = b->problem->cloud.x[j * (size_t) b->dim + k] - b->problem->cloud.x[i * (size_t) b->dim + k];
 }
 
-/* Those of point i, at most NEAR; -1: its bond is dead. Half the horizon, so that they are each other's
- * neighbours: a kernel that vanishes there has none. */
+/* The nearest points of point i, at most NEAR; -1: its bond is dead. Half the horizon, so that they are
+ * each other's neighbours: a kernel that vanishes there has none. */
 static size_t nearest (const bond_force *b, size_t i, int *node)
 {
     const pg_family *f = b->family;
@@ -57,7 +57,7 @@ static size_t nearest (const bond_force *b, size_t i, int *node)
     return m;
 }
 
-/* Entry of the bond to j in point i's part of the family; one that is dead or missing: -1 */
+/* Entry of the bond to j in point i's part of the family, by bisection; one that is dead or missing: -1. */
 static long entry_of (const bond_force *b, size_t i, int j)
 {
     const int *node = b->family->node;
@@ -70,7 +70,8 @@ static long entry_of (const bond_force *b, size_t i, int j)
     return low < high && node[low] == j && bond_force_lives (b, low) ? (long) low : -1;
 }
 
-/* Live, in all directions, and each the other's neighbour */
+/* Can the dilatation of point i be taken from its nearest points? They must live, lie in all directions,
+ * and each be the other's neighbour: their rows of K then have a place for what they share. */
 static int is_narrow (const bond_force *b, const dilatation_rows *r, size_t i, size_t m, const int *node)
 {
     int intact = r->intact[i] && b->problem->sums->stencil.n;
@@ -84,7 +85,8 @@ static int is_narrow (const bond_force *b, const dilatation_rows *r, size_t i, s
     return 1;
 }
 
-/* Inverse of sum V xi x xi over the nearest points; 0: they do not spread in all directions. */
+/* Inverse of sum V xi x xi over the nearest points, 1/m^(dim + 2); 0: they do not spread in all
+ * directions, the smallest eigenvalue being less than a tenth of the largest. */
 static int invert (const bond_force *b, size_t i, size_t m, const int *node, double *out)
 {
     size_t dim = (size_t) b->dim;
@@ -119,7 +121,8 @@ static void count_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* The nearest points themselves, and whether the dilatation can be taken from them. */
+/* The nearest points themselves, and whether the dilatation can be taken from them; stiff: what bonds
+ * must bear alone, B / q beside a dilatation, else all. */
 static void find_points (void *context, size_t first, size_t last, int thread)
 {
     bond_force *b = context;
@@ -136,8 +139,8 @@ static void find_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* On a lattice: all bonds, and nothing but gradients over the nearest, with one B / q, at the point and
- * whatever it sees */
+/* Which points have the row that most points of a lattice have: all bonds, and nothing but gradients over
+ * the nearest, with one B / q, at the point and whatever it sees. */
 static void compare_points (void *context, size_t first, size_t last, int thread)
 {
     bond_force *b = context;
@@ -155,7 +158,8 @@ static void compare_points (void *context, size_t first, size_t last, int thread
 }
 
 /* ---- a row --------------------------------------------------------------------------------------------- */
-/* g_j of theta_k = sum g_j . (u_j - u_k); of k itself minus their sum */
+/* g_j of theta_k = sum_j g_j . (u_j - u_k), from the inverse of the nearest points: what the displacement
+ * of point j adds to the dilatation of k; of k itself minus their sum. */
 static void gradient (const bond_force *b, size_t k, int j, double *g)
 {
     const dilatation_rows *r = b->dilatation->rows;
@@ -171,8 +175,8 @@ static void gradient (const bond_force *b, size_t k, int j, double *g)
     for (size_t a = 0; a < dim; a++) g[a] = (size_t) j == k ? -sum[a] : sum[a];
 }
 
-/* What the dilatation of point k adds to the row of point i, whose n blocks are at `node`, its own the
- * last. */
+/* What the dilatation of point k adds to the row of point i, V A / d g_i x g_j for all j of k; n blocks
+ * are at `node`, the own one being the last. */
 static void add_dilatation (const bond_force *b, size_t i, size_t k, size_t n, const int *node, double *value)
 {
     const dilatation_rows *r = b->dilatation->rows;
@@ -206,7 +210,8 @@ static void pull_block (const bond_force *b, size_t i, const point_bonds *s, siz
                      other);
 }
 
-/* Blocks of all live bonds, then what the dilatations of the point and of those around it add. */
+/* Blocks of all live bonds of point i, then what the dilatations of the point and of those around it add;
+ * the nodes in `node`, its own last. Returns their number. */
 static size_t make_row (const bond_force *b, size_t i, int thread, int *node, double *value)
 {
     const dilatation_rows *r = b->dilatation->rows;

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <string.h>
 
-/* Unknowns are coefficients of shape functions; what is recorded is the displacement they make. */
+/* The unknowns of a point. They are coefficients of shape functions; what is recorded is the displacement
+ * that they make. */
 static size_t galerkin_fields (const void *self, size_t max, pg_field *out)
 {
     const galerkin *g = self;
@@ -38,7 +39,9 @@ static void galerkin_free (void **self)
     *self = NULL;
 }
 
-/* Values of one bond set. */
+/* Values of one bond set on the geometry of the problem, which is borrowed: shape functions N (1 a bond),
+ * derivatives dN (dim), kernel w, grades (1 a point); strain, stress (nv), stress across a plane,
+ * displacement, principal stresses; `seen`: the displacement these belong to. */
 static pg_status create_set (galerkin *g, int s)
 {
     pg_status status = PG_OK;
@@ -65,7 +68,8 @@ done:
     return status;
 }
 
-/* Rows of shape functions are filled by the first refresh. */
+/* Rows of shape functions are filled by the first refresh, when it is known which bonds live. Consistent
+ * integration, boundary, elimination, dilatation and sums lean on the rows of all sets, in this order. */
 static pg_status galerkin_create (void **self, const pg_problem *problem)
 {
     pg_status status = PG_OK;
@@ -90,7 +94,7 @@ done:
 }
 
 /* ---- refresh ------------------------------------------------------------------------------------------- */
-/* Touched points of each set (ascending, once each) from the dead bonds. */
+/* Touched points of each set (ascending, once each) from the dead bonds, which are ascending as well. */
 static void touched_points (const galerkin *g, const pg_changes *changes, size_t *count)
 {
     for (int s = 0; s < PG_BOND_SETS; s++) count[s] = 0;
@@ -103,7 +107,9 @@ static void touched_points (const galerkin *g, const pg_changes *changes, size_t
     }
 }
 
-/* Shape functions of points that lost a bond are evaluated anew, then all that depends on them. */
+/* Shape functions of points that lost a bond (changes NULL: of all) are evaluated anew, then all that
+ * depends on them: consistent derivatives, patches, stale rows of K, elimination. Strains measured at the
+ * last displacement stay known: only those of touched points are taken again. */
 static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes)
 {
     pg_status status = PG_OK;
@@ -136,7 +142,8 @@ done:
 }
 
 /* ---- balance ------------------------------------------------------------------------------------------- */
-/* Internal force by the measured stresses, then loads and boundary terms. */
+/* residual = loads - internal force + boundary terms, N, at displacement d and time t; reference: the
+ * largest of the internal forces, the loads and the reactions, by which the residual is judged. */
 static pg_status galerkin_balance (void *self, double t, const double *d, double *residual, double *reference)
 {
     galerkin *g = self;
@@ -152,7 +159,8 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     return PG_OK;
 }
 
-/* Lumped: density times the volume of each node. */
+/* Lumped: density times the volume of each node, kg. Volumes of nodes sum up to that of the body, so the
+ * mass is right whatever the shape functions. */
 static pg_status galerkin_mass (void *self, double *mass)
 {
     galerkin *g = self;
@@ -165,7 +173,8 @@ static pg_status galerkin_mass (void *self, double *mass)
 
 static unsigned long galerkin_revision (const void *self) { return ((const galerkin *) self)->revision; }
 static const pg_operator *galerkin_operator (void *self) { return &((galerkin *) self)->op; }
-/* Boundary terms first; what elimination prescribes follows with its reactions. */
+/* Pairs of force and displacement of all loads and supports, and the stored energy. Boundary terms first;
+ * what elimination prescribes follows with its reactions, for which the residual is needed. */
 static pg_status galerkin_work_balance (void *self, double t, const double *d, const double *inertia,
                                         pg_work_balance *out)
 {

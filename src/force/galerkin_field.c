@@ -3,7 +3,8 @@
 #include "galerkin.h"
 #include <string.h>
 
-/* Share of dead bonds among all that end at a node, node-node and point-node. */
+/* Share of dead bonds among all that end at a node, node-node and point-node; a bond of no length is
+ * none. */
 static void damage (const galerkin *g, const pg_state *state, double *value)
 {
     double *all = g->work;
@@ -22,7 +23,8 @@ static void damage (const galerkin *g, const pg_state *state, double *value)
     for (size_t i = 0; i < g->n; i++) value[i] = all[i] > 0 ? value[i] / all[i] : 0;
 }
 
-/* By name; displacement and velocity are those that the shape functions make, not their coefficients. */
+/* A field of results by name, value: n x components. Displacement and velocity are those that the shape
+ * functions make, not their coefficients, which a field of its own shows; *components = 0: unknown here. */
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
                           int *components, const char **unit, double *value)
 {

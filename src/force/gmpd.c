@@ -26,12 +26,14 @@ static const pg_key keys[] = {
 };
 static const pg_key_table own_keys = { "force", keys, sizeof keys / sizeof *keys };
 
+/* Is the text of a key, which may be missing, this word? */
 static int is (const pg_scene *scene, const char *key, const char *word)
 {
     const char *text = pg_scene_text (scene, "%s", key);
     return text && strcmp (text, word) == 0;
 }
 
+/* Dilatations reach the neighbours of neighbours, so that there is no matrix. */
 static int long_range (const pg_scene *scene) { return pg_scene_bool (scene, "method.volumetric"); }
 
 /* Bonds as beams; with volumetric: on a dilatation beside them. */
@@ -63,7 +65,9 @@ static void check_volumetric (const pg_problem *p, micropolar_options *o, const 
                             o->bond_poisson, p->material[m].name, p->material[m].nu);
 }
 
-/* Beams of negative shear stiffness would make the body unstable; a dilatation beside them bears the rest. */
+/* Beams of negative shear stiffness would make the body unstable: Poisson's ratio has a largest value
+ * (pg_beam_poisson), beyond which a dilatation beside them must bear the rest. Kernels that make the
+ * shear of short bonds unbounded are refused too. */
 static void check_materials (const pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
 {
     for (size_t m = 0; m < p->nmaterial && p->mode != PG_LINE; m++) {
@@ -85,8 +89,9 @@ static void check_materials (const pg_problem *p, const pg_scene *scene, const p
     }
 }
 
-/* B / C_t of a beam: Euler and Bernoulli 1; with shear, phi = 12 EI / (k G A r^2), 1 + phi; Chen's 4 C_M - 3
- * C_t (theory G1) */
+/* The bending stiffness over the shear stiffness: B / C_t of a beam: Euler and Bernoulli 1; with shear,
+ * phi = 12 EI / (k G A r^2), 1 + phi; Chen's 4 C_M - 3 C_t (theory G1). Keys of another beam, and what
+ * beams cannot do, are faults. */
 static void read_beams (pg_problem *p, const pg_scene *scene, const pg_sum_rule *rule)
 {
     micropolar_options *o = p->options;
@@ -130,7 +135,8 @@ done:
 }
 
 /* ---- criteria and loads -------------------------------------------------------------------------------- */
-/* Energy of a straight cut, J/m^2, all bonds at s = 1, gamma = 1, kappa = 1. */
+/* Energy of a straight cut, J/m^2, with all bonds across it at s = 1, gamma = 1, kappa = 1: fracture
+ * energies become limits by these three. */
 static pg_status measure_beams (double *out, const pg_problem *p, double axial, double shear)
 {
     pg_status status = PG_OK;
@@ -171,8 +177,8 @@ static int bears_shear (const pg_problem *p, int material)
     return fabs (nu - pg_beam_poisson (p->mode)) > 1e-9;
 }
 
-/* Where bonds bear no shear nothing resists rotations, and none are solved for: a moment would go nowhere.
- * Once every point has its material. */
+/* Where bonds bear no shear nothing resists rotations, and none are solved for: a moment would go
+ * nowhere. Asked once every point has its material. */
 static void check_moments (const pg_problem *p, const pg_scene *scene)
 {
     const int *material = p->block[PG_NODES];

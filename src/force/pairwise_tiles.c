@@ -46,7 +46,8 @@ void pairwise_tiles_free (pairwise_tiles **tiles)
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
-/* The longest bond of the body, m: no tile is smaller. */
+/* The longest bond of the body, m: no tile is smaller, so that a point and its neighbours lie in a tile
+ * and those around it. */
 static double longest_bond (const bond_force *b)
 {
     size_t dim = (size_t) b->dim;
@@ -74,7 +75,7 @@ static size_t tile_of (const pairwise_tiles *t, const pg_cloud *cloud, double ed
 }
 
 typedef struct { size_t run, next; } place;
-/* The next point of a tile; where: { start of the tile, 0 } at first. */
+/* The next point of a tile, *i; where: { start of the tile, 0 } at first. 0: there are no more. */
 static int next_point (const pairwise_tiles *t, size_t tile, place *where, size_t *i)
 {
     while (where->run < t->start[tile + 1] && where->next == t->run[where->run].n)
@@ -84,7 +85,8 @@ static int next_point (const pairwise_tiles *t, size_t tile, place *where, size_
     return 1;
 }
 
-/* Largest sqrt (A / W_c) of the points of a tile, kappa of all their bonds. */
+/* Largest sqrt (A / W_c) of the points of a tile, 1/m, with kappa of all their bonds: bonds that die only
+ * make it smaller, and it need not follow them. */
 static void find_gains (void *context, size_t first, size_t last, int thread)
 {
     const bond_force *b = context;
@@ -125,7 +127,8 @@ done:
     return status;
 }
 
-/* Tiles no smaller than the longest bond, and what displacements can add to the energies in each. */
+/* Tiles no smaller than the longest bond, nor so many that empty ones outnumber points (scattered
+ * bodies), and what displacements can add to the energies in each. */
 static pg_status create (bond_force *b)
 {
     pg_status status = PG_OK;
@@ -160,7 +163,8 @@ done:
 /* ---- what may have happened ---------------------------------------------------------------------------- */
 typedef struct { bond_force *b; const double *d; } looking;
 
-/* Lane l belongs to component l modulo dim: LANES and LANES - LANES % 3 are whole numbers of points. */
+/* Extremes of now - then over n numbers, lane by lane: lane l belongs to component l modulo dim, as LANES
+ * and LANES - LANES % 3 are whole numbers of points. */
 static void box_run (const double *now, const double *then, size_t n, size_t lanes, double *low, double *high)
 {
     size_t j = 0;
@@ -175,6 +179,7 @@ static void box_run (const double *now, const double *then, size_t n, size_t lan
     }
 }
 
+/* Low and high of delta = d - d0 over each tile of a range. */
 static void box_tiles (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
@@ -197,7 +202,8 @@ static void box_tiles (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Diagonal of the box of delta over a tile and those around it. */
+/* Diagonal of the box of delta over a tile and those around it, m: no two points that share a bond have
+ * moved against each other by more. */
 static double width_around (const pairwise_tiles *t, size_t tile)
 {
     double low[3] = { INFINITY, INFINITY, INFINITY }, high[3] = { -INFINITY, -INFINITY, -INFINITY },
@@ -229,6 +235,8 @@ static int is_open (const pairwise_tiles *t, size_t tile, double at_d0)
     return !(at_d0 + t->reach[tile] < 1 - margin);
 }
 
+/* Which points of each tile may have reached their limit: none, unless the bound of the whole tile says
+ * so. */
 static void clear_tiles (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;
@@ -263,7 +271,8 @@ static void look_at_open (void *context, size_t first, size_t last, int thread)
             w->b->dying[i] = is_open (t, k, t->near[i]) && dies (w->b, i, thread, w->d);
 }
 
-/* All energies, from b->density: those near their limit by their own bonds. */
+/* All energies, from b->density: those near their limit are summed once more by their own bonds, since
+ * loops of different instruction sets round differently and what breaks must not. */
 static void look_at_all (void *context, size_t first, size_t last, int thread)
 {
     const looking *w = context;

@@ -5,6 +5,8 @@
 #define PERIGAL_SUMS_BEAM_H
 #include "perigal/sums.h"
 
+/* Unknowns of a point: dim displacements, and one or three rotations times the length, so that all are in
+ * m. */
 static inline int beam_unknowns (int dim) { return dim == 2 ? 3 : 6; }
 
 /* w = eta - lever (q_i + q_j) x xi, diff = q_j - q_i; lever: 1 / (2 length) */
@@ -25,6 +27,7 @@ static inline void beam_motion (int dim, double lever, const double *xi, const d
     w[2] = (dj[2] - di[2]) - (sum[0] * xi[1] - sum[1] * xi[0]);
 }
 
+/* a . b of n components, first to last: the order is that of the loops. */
 static inline double beam_dot (int n, const double *a, const double *b)
 {
     double sum = a[0] * b[0];
@@ -48,7 +51,9 @@ static inline void beam_pull (int dim, double lever, const double *xi, double in
     f[5] += lever * (xi[0] * g[1] - xi[1] * g[0]) + b->bending * (diff[2] - twist * xi[2]);
 }
 
-/* s^2 with its sign, gamma^2, kappa^2; per_length: 1 / length */
+/* What a criterion asks of a bond: stretch s with its sign, gamma^2 with gamma = |w_perp| / r, and
+ * kappa^2 from the turn across the bond; per_length: 1 / length, 1/m, or 1 where kappa is to stay a
+ * length. */
 static inline void beam_measures (int dim, double per_length, const double *xi, double inverse,
                                   const double *w, const double *diff, double *s, double *shear2,
                                   double *bending2)

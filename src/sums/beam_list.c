@@ -12,12 +12,14 @@ typedef struct {
     double *energy;                                    /* J, of each point's halves (n) */
 } beam_list;
 
+/* Why these bonds cannot be summed at all: lists take any points and any number of materials. */
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
     if (setting->sums->rule.finite) return "stretch: finite is not for bonds that bear shear";
     return setting->sums->cloud->dim < 2 ? "bonds of a line bear no shear" : NULL;
 }
 
+/* Also of an object that was never completed. */
 static void release (void *self)
 {
     beam_list *s = self;
@@ -26,7 +28,8 @@ static void release (void *self)
 }
 
 /* ---- building ------------------------------------------------------------------------------------------ */
-/* Constants of the law; 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2 of each point into its record */
+/* Constants of the law (list_laws.h), and 1 / s0^2, 1 / gamma0^2, 1 / kappa0^2 of each point into its
+ * record, behind place and unknowns: a bond is judged by the limits of both its ends. */
 static void prepare (bond_list *list)
 {
     beam_list *s = (beam_list *) list;
@@ -43,15 +46,17 @@ static void prepare (bond_list *list)
         }
 }
 
+/* Stiffnesses of a bond in the order of law_beam.h: shear, along, bending, N/m. */
 static void term (const bond_list *list, size_t i, size_t j, const double *xi, double weight, double *out)
 {
     const pg_beam beam = pg_beam_between (&list->setting, i, j, xi, weight);
     out[0] = beam.shear, out[1] = beam.along, out[2] = beam.bending;
 }
 
-/* Of the sum of a bond's shares */
+/* Of the sum of a bond's shares, or of the largest of them: 1. */
 static double limit (const bond_list *list, size_t i, size_t j) { (void) list, (void) i, (void) j; return 1; }
 
+/* Records of 8 numbers in a plane (2 + 3 + 3), 16 in space (3 + 6 + 3 and a gap): whole cache lines. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
     pg_status status = PG_OK;
@@ -66,6 +71,7 @@ done:
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
+/* Sums of a chunk to the points' own numbers: forces, then moments over the length, N. */
 static void take_forces (void *f, const bond_list *list, size_t first, size_t last, const double *sum)
 {
     int m = list->law.unknowns;
@@ -75,6 +81,7 @@ static void take_forces (void *f, const bond_list *list, size_t first, size_t la
     }
 }
 
+/* Forces and moments of all points; with `broken` bonds at their limit die on the way. */
 static pg_status force (void *self, const double *u, double *f, pg_changes *broken)
 {
     beam_list *s = self;
@@ -91,6 +98,7 @@ static void take_energies (void *W, const bond_list *list, size_t first, size_t 
         ((double *) W)[list->point[p]] = pg_list_sum (sum, 1, p - first, 0) / 4;
 }
 
+/* Energy of the body, J: points in their own order, so that threads do not show. */
 static double energy (void *self, const double *u)
 {
     beam_list *s = self;
@@ -101,6 +109,7 @@ static double energy (void *self, const double *u)
     return sum;
 }
 
+/* Energy density of the points, J/m^3. */
 static pg_status energies (void *self, const double *u, double *W)
 {
     beam_list *s = self;

@@ -70,8 +70,9 @@ static void compare_transforms (const pg_bond_loop_kind **kind, const pg_bond_lo
     snprintf (reason, size, "auto: about %.2g ns a point by transforms, %.2g by stencil", fast, direct);
 }
 
-/* The first kind of loop that is made for the theory (bonds alone, state-based, beams, both) and does not
- * refuse. */
+/* The first kind of loop that is made for the theory (0 bonds alone, 1 state-based, 2 beams, 3 beams and
+ * dilatation) and does not refuse; `only`: the one that the scene asks for. The reason of the last
+ * refusal is told. */
 static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_setting *setting)
 {
     static const char *const asked[] = { [PG_EVALUATE_AUTO] = NULL,

@@ -10,8 +10,9 @@ typedef struct {
     double *xi, *weight;  /* of one family, for each thread (threads x most x dim, x most) */
 } filler;
 
-/* Sort of the bond from point i to point j: 0 shared and kept by i, 1 kept by both, -1 shared and kept by j.
- * */
+/* How the bond from point i to point j is stored: 0 shared and kept by i, 1 kept by both, -1 shared and
+ * kept by j. Bonds within a chunk can be shared, as one thread sums both ends; the end that comes earlier
+ * in the order of tiles keeps it. */
 static int sort_of (const bond_list *list, size_t i, size_t j)
 {
     size_t p = (size_t) list->rank[i], q = (size_t) list->rank[j];
@@ -19,7 +20,8 @@ static int sort_of (const bond_list *list, size_t i, size_t j)
     return list->before[i] < list->before[j] ? 0 : -1;
 }
 
-/* A slice has as many slots of a sort as the point of it with the most bonds of that sort. */
+/* A slice of eight points has as many slots of a sort as the point of it with the most bonds of that
+ * sort; start: slots before each slice. */
 static void count_slots (bond_list *list)
 {
     const pg_family *family = list->family;
@@ -38,7 +40,8 @@ static void count_slots (bond_list *list)
         for (size_t s = 0; s < list->slices; s++) list->slots[k].start[s + 1] += list->slots[k].start[s];
 }
 
-/* Offset of the record of point q (new number) as it stands in slots of point p. */
+/* Offset of the record of point q (new number) as it stands in slots of point p: 16 bits from the start
+ * of the chunk for shared bonds, 32 bits for the others. */
 static void set_end (const bond_list *list, bond_slots *slots, size_t at, size_t p, size_t q)
 {
     size_t pitch = (size_t) list->pitch;
@@ -46,7 +49,8 @@ static void set_end (const bond_list *list, bond_slots *slots, size_t at, size_t
     else slots->far[at] = (uint32_t) (q * pitch);
 }
 
-/* Bonds of point p of the new order, into its lane. */
+/* Bonds of point p of the new order, into its lane: ends, numbers of the law, alive bits. xi (m), weight:
+ * room for the largest family. */
 static void fill_lane (const filler *g, size_t p, double *xi, double *weight)
 {
     bond_list *list = g->list;
@@ -89,7 +93,8 @@ static void fill_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Limit of the bond of points p and q (new numbers) */
+/* Limit of the bond of points p and q (new numbers) as the law compares it; INFINITY where one of them is
+ * exempt. */
 static double bond_limit (const bond_list *list, size_t p, size_t q)
 {
     const unsigned char *exempt = list->setting.exempt;
@@ -98,7 +103,7 @@ static double bond_limit (const bond_list *list, size_t p, size_t q)
     return list->law.limit (list, i, j);
 }
 
-/* Are the first eight limits all this one? */
+/* Are the first eight limits, which most slices share, all this one? */
 static int first_eight (const bond_list *list, double limit)
 {
     int same = list->limits > 0;

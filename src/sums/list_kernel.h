@@ -10,7 +10,8 @@
  *   lanes. */
 #define OF_LAW(what) GLUE (LAW, what)
 
-/* Bonds of a slot at or over their limit die; returns the bits of those that live on. */
+/* Bonds of a slot at or over their limit die: their bits leave `alive` and are noted in `lost`. Returns
+ * the bits of those that live on. This is rare, and told to the compiler as such. */
 INLINE unsigned OF_LAW (_break) (const bond_slots *slots, size_t k, unsigned shift, unsigned live,
                                  const V *own,
                                  const V *other, const double *limit, const double *constant, const int dim,
@@ -30,7 +31,9 @@ INLINE unsigned OF_LAW (_break) (const bond_slots *slots, size_t k, unsigned shi
     return live;
 }
 
-/* Slots of one slice and one sort. */
+/* Slots of one slice and one sort: fetch the other ends' records, judge, add to the own sums, and give
+ * the opposite to the other ends where bonds are shared. Numbers and ends of slots to come are asked for
+ * ahead: they are read once and in order. */
 INLINE void OF_LAW (_slots) (const bond_list *list, const bond_slots *slots, size_t slice, const double *from,
                              const double *constant, double *sum, lanes *lane, const int dim, const int check,
                              const int gives, int *broke)

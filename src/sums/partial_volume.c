@@ -19,6 +19,8 @@ static const double weight[POINTS / 2] = { 0.1894506104550685, 0.182603415044923
                                            0.1495959888165767, 0.1246289712555339, 0.0951585116824928,
                                            0.0622535239386479, 0.0271524594117541 };
 
+/* beta by the distance r alone: 1 up to the horizon (none), or falling from 1 to 0 over the width of a
+ * cell about it (linear). */
 double pg_sums_partial (pg_partial partial, double r, double horizon, double width)
 {
     if (partial == PG_PARTIAL_NONE) return r <= horizon * (1 + 1e-9);
@@ -48,6 +50,8 @@ static double arc (double R, double x)
     return 0.5 * (x * sqrt (c > 0 ? c : 0) + R * R * asin (fmin (1, x / R)));
 }
 
+/* Area that a rectangle in the first quadrant and the disk of radius R have in common: full height up to
+ * where the circle leaves the top edge, the arc from there on. */
 static double area (const double *low, const double *high, double R)
 {
     if (square (low[0]) + square (low[1]) >= R * R) return 0;
@@ -68,7 +72,8 @@ static int insert (double *list, int n, double x)
     return n + 1;
 }
 
-/* Slices along the first axis; kinks where a corner of the other two coordinates enters. */
+/* The same of a box and a ball: areas of slices along the first axis, by Gauss points between the places
+ * where one of the four edges enters or leaves the ball, at which the area has kinks. */
 static double volume (const box *b, double R)
 {
     double low2 = 0, kink[6], sum = 0;
@@ -91,6 +96,7 @@ static double volume (const box *b, double R)
     return sum;
 }
 
+/* Length, area or volume in common with the ball of radius R about the origin. */
 static double common (const box *b, double R)
 {
     if (b->dim == 1) return fmax (0, fmin (b->high[0], R) - b->low[0]);
@@ -112,6 +118,7 @@ static double fold (box *b, int dim, const int *n, const double *step, double *n
     return size;
 }
 
+/* Share of the cell at offset n (whole steps) within the ball of the horizon, 0 to 1. */
 double pg_sums_overlap (int dim, const int *n, const double *step, double radius)
 {
     box b;
@@ -121,6 +128,8 @@ double pg_sums_overlap (int dim, const int *n, const double *step, double radius
     return fmin (1, common (&b, radius) / size);
 }
 
+/* Mean of the kernel over the part of the cell within the ball, times that part's share: -int k' V d rho
+ * / cell, between the radii at which corners enter. */
 double pg_sums_overlap_mean (int dim, const int *n, const double *step, double radius,
                              const pg_kernel *kernel)
 {

@@ -63,7 +63,8 @@ done:
     return status;
 }
 
-/* Sites of the box about all points; 0: too many for this cloud, or no box. */
+/* Sites of the box about all points, and its corner; 0: too many to number, or no box. Axes that the body
+ * lacks have one site. */
 static size_t count_sites (pg_sites *s, const pg_cloud *cloud, const double *step, double *low)
 {
     double high[3], all = 1;
@@ -77,7 +78,7 @@ static size_t count_sites (pg_sites *s, const pg_cloud *cloud, const double *ste
     return (size_t) all;
 }
 
-/* The site of point i; -1: it is on none. */
+/* The site of a point, x fastest; -1: it is off all of them by more than a millionth of a step. */
 static int site_of (const pg_sites *s, const double *x, const double *low)
 {
     int site = 0;

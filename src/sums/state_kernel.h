@@ -27,6 +27,7 @@ INLINE void dilate_stride (const pg_block_job *job, size_t k, int stride, int di
         const ptrdiff_t jump = job->jump[j];
         const double *t = job->term + j * PG_TERMS;
         const uint32_t live = alive[j] >> stride, free = check == PG_CHECK_SOME ? may[j] >> stride : 0;
+        /* The numbers of a bond in all lanes; dead bonds are masked out of e, so that they add nothing. */
         const vec limit = ALL (t[PG_AT_LIMIT]), wV = ALL (t[PG_AT_WV]);
         UNROLL for (int v = 0; v < vecs; v++) {
             vec s = ALL (t[PG_AT_XI]) * (LOAD (u[0] + jump + v * LANES) - own[0][v]);

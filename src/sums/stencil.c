@@ -76,7 +76,8 @@ static size_t place (const shells *s, const int *n)
            + (size_t) (s->reach[0] + 1) * ((size_t) n[1] + (size_t) (s->reach[1] + 1) * (size_t) n[2]);
 }
 
-/* Sizes of components, descending along axes of equal steps. */
+/* Sizes of components, descending along axes of equal steps: all offsets of one shell have the same
+ * canonical form, and so the same bits. */
 static void canonical (const shells *s, const int *n, int *c)
 {
     for (int k = 0; k < 3; k++) c[k] = n[k] < 0 ? -n[k] : n[k];
@@ -85,7 +86,8 @@ static void canonical (const shells *s, const int *n, int *c)
             if (s->step[a] == s->step[b] && c[a] < c[b]) { int keep = c[a]; c[a] = c[b]; c[b] = keep; }
 }
 
-/* How far a bond may reach along each axis; equal steps made so in all bits. */
+/* How far a bond may reach along each axis, in steps; steps that are equal to rounding are made so in all
+ * bits. Partial volumes reach half a cell farther. */
 static pg_status fit (shells *s, const pg_sum_rule *rule, int dim, const double *step)
 {
     pg_status status = PG_OK;
@@ -126,7 +128,7 @@ done:
     return status;
 }
 
-/* All offsets in order; out NULL: only counted. */
+/* All offsets with a bond, in the order z, y, x; out NULL: only counted. */
 static size_t list (const shells *s, pg_stencil *out)
 {
     size_t b = 0;

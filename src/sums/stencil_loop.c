@@ -89,7 +89,9 @@ done:
     return status;
 }
 
-/* Blocks that have points, in the order of sites */
+/* Blocks of 32 sites of a row that have points, in the order of sites; `first`: their first point where
+ * all have consecutive numbers, by which copies need no lookup. block_at finds the block of a padded
+ * place. */
 static pg_status find_blocks (stencil *s)
 {
     pg_status status = PG_OK;
@@ -122,7 +124,8 @@ done:
 }
 
 /* ---- bonds --------------------------------------------------------------------------------------------- */
-/* Bond of the stencil that jumps so far, looked for from `from` on, then everywhere; n: none */
+/* Bond of the stencil that jumps so far; looked for from `from` on, as families ascend like the stencil
+ * mostly, then by bisection; n: none. */
 static size_t bond_of (const stencil *s, ptrdiff_t jump, size_t from)
 {
     size_t n = s->job.n, low = 0, high = n;
@@ -141,8 +144,8 @@ static ptrdiff_t jump_of (const stencil *s, size_t i, size_t entry)
     return (ptrdiff_t) s->place[s->setting.family->node[entry]] - (ptrdiff_t) s->place[i];
 }
 
-/* Sets the bits of live bonds of point i; NULL: all live. exempt: those that may break as well. PG_E_USAGE: a
- * bond that the stencil has not. */
+/* Sets the bits of live bonds of point i; live NULL: all live. exempt: bits of those that may break are
+ * set as well. PG_E_USAGE: a bond that the stencil has not, so that the family is of other points. */
 static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, const unsigned char *exempt)
 {
     pg_status status = PG_OK;
@@ -252,7 +255,9 @@ done:
 /* Padded places of the box, with a halo before the first row. */
 size_t pg_stencil_loop_places (const stencil *s) { return s->pitch * s->rows * s->planes + (size_t) s->left; }
 
-/* Weights of points, where not all are 1: share of a cell's volume over the root of how full the family is */
+/* Weights of points, where not all are 1: share of a cell's volume, over the root of how full the family
+ * is (product correction). A bond then weighs p_i p_j, and one number per bond of the stencil still
+ * serves all points. */
 static pg_status set_weights (stencil *s)
 {
     pg_status status = PG_OK;
@@ -357,7 +362,7 @@ static double measure (const stencil *s, size_t place, size_t b)
     return sum;
 }
 
-/* Kills the bonds of a block that are over their limit, and notes them. */
+/* Kills the bonds of a block that are over their limit, and notes them by their entries in the family. */
 static pg_status kill_bonds (stencil *s, size_t k, pg_changes *found)
 {
     pg_status status = PG_OK;
