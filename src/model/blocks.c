@@ -92,8 +92,8 @@ pg_status pg_blocks_check (const pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- claims -------------------------------------------------------------------------------------------- */
-/* A point on the boundary is looked at a hair inside its cell, of a cut one inside the surface: rounding must
- * not take it out of the body. */
+/* Where a point is judged by conditions: a point on the boundary is looked at a hair inside its cell, of
+ * a cut one inside the surface, as rounding must not take it out of the body. */
 static void inside (const pg_problem *p, int set, size_t point, double *x)
 {
     const pg_cells *c = &p->cells;
@@ -215,7 +215,7 @@ static void by_number (pg_problem *p, const pg_scene *scene)
         }
 }
 
-/* A material that no point has is a fault. */
+/* A material that no point has is a fault: it was meant for something. */
 static void check_used (const pg_problem *p, const pg_scene *scene)
 {
     for (size_t m = 0; m < p->nmaterial; m++) {
@@ -228,7 +228,8 @@ static void check_used (const pg_problem *p, const pg_scene *scene)
     }
 }
 
-/* Of nodes, points of evaluation and boundary points alike. */
+/* Materials of nodes, points of evaluation and boundary points alike. With one material and no list there
+ * is nothing to do; with several the list is needed, or blocks of the mesh or file. */
 pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -52,7 +52,8 @@ done:
     return status;
 }
 
-/* Nodes see each other through the shape functions at their own places. */
+/* Nodes see each other through the shape functions at their own places; `own`: the node that a point is
+ * itself. */
 static pg_status make_nodes (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -68,8 +69,8 @@ done:
     return status;
 }
 
-/* Points per direction of a cell: as many as the basis needs between two nodes; an element with middle nodes
- * spans two such steps. */
+/* Points per direction of a cell: as many as the basis needs between two nodes; an element with middle
+ * nodes spans two such steps. At most 5, the highest rule there is. */
 static int quadrature_order (const pg_problem *p)
 {
     /* at most 5, the highest rule there is */
@@ -84,14 +85,16 @@ static int gauss_order (const pg_problem *p, const pg_scene *scene)
                : quadrature_order (p);
 }
 
-/* On a cut surface as fine as in the cells: linear fields balance only then. */
+/* Points per direction of a facet: on a cut surface as fine as in the cells, since linear fields balance
+ * only then. */
 static int facet_order (const pg_problem *p, const pg_scene *scene)
 {
     int order = quadrature_order (p), fine = gauss_order (p, scene);
     return p->cells.cut && fine > order ? fine : order;
 }
 
-/* Points of evaluation with weights; the cells of consistent integration. */
+/* Points of evaluation with their weights (m^3), and the cells of consistent integration. Its cut cells
+ * have at least three points a direction: with two the identity amplifies the error of thin pieces. */
 static pg_status make_points (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -111,7 +114,7 @@ done:
     return status;
 }
 
-/* Points on those facets only that a load or support needs. */
+/* Points with weights (m^2) and outward normals, on those facets only that a load or support needs. */
 static pg_status make_facets (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

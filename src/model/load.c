@@ -210,7 +210,8 @@ done:
     return status;
 }
 
-/* Does a load act on boundary facets, rather than on points? */
+/* Does a load act on boundary facets, rather than on points? Tractions and pressures do, and supports by
+ * Nitsche's terms. */
 static int acts_on_facets (const pg_load *load)
 {
     return load->kind == PG_TRACTION || load->kind == PG_PRESSURE
@@ -289,7 +290,8 @@ static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene
     }
 }
 
-/* The name given, or that of its set without blanks ("polygon.edge 3"): it heads a column of history.csv. */
+/* The name given, or that of its set without blanks ("polygon.edge 3"): it heads a column of history.csv,
+ * where blanks would end it for many readers. */
 static void name_load (pg_load *load, const pg_scene *scene, size_t i, const char *set)
 {
     const char *name = pg_scene_text (scene, "boundary[%zu].name", i);
@@ -331,8 +333,8 @@ done:
     return status;
 }
 
-/* Names become columns of history.csv: two given alike are a fault, a name taken from the set gets a
- * number. */
+/* Names become columns of history.csv: two given alike are a fault, a name taken from the set gets the
+ * number of its entry. */
 static void name_apart (pg_problem *problem, const pg_scene *scene)
 {
     char path[64];

@@ -107,7 +107,8 @@ static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
                ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
 }
 
-/* Constants of criteria derive from the material and from what the force measures. */
+/* Criteria of all materials. Their constants derive from the material and from what the force measures
+ * (limits), so that a setting is filled for each first. */
 static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -238,7 +239,7 @@ done:
     return status;
 }
 
-/* Only a scene without faults gets this far. */
+/* The second half: bonds, and what only they show. Only a scene without faults gets this far. */
 pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;

@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* On a lattice that of the body, whose surface lies beyond the outermost points. */
+/* On a lattice the box is that of the body, whose surface lies beyond the outermost points; else that of
+ * the points. */
 void pg_problem_box (const pg_problem *p, double *low, double *high)
 {
     for (int k = 0; k < p->dim; k++)
@@ -14,7 +15,7 @@ void pg_problem_box (const pg_problem *p, double *low, double *high)
         high[k] = p->lattice.dim ? p->body.high[k] : p->cloud.high[k];
 }
 
-/* One cell across a body resolves nothing there. */
+/* One cell across a body resolves nothing there. A spacing in the wrong unit shows in this first. */
 void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
 {
     double asked, low[3], high[3];
@@ -32,7 +33,7 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */
-/* Does a crack of the start lie between two points?. */
+/* Does a crack of the start lie between two points? */
 static int is_cut (const pg_problem *p, size_t i, size_t j)
 {
     size_t dim = (size_t) p->dim;
@@ -40,7 +41,7 @@ static int is_cut (const pg_problem *p, size_t i, size_t j)
                           1e-9 * p->cloud.h) != NULL;
 }
 
-/* Does a crack of the start pass through a point?. */
+/* Does a crack of the start pass through a point? */
 static int on_a_crack (const pg_problem *p, size_t i)
 {
     return pg_cracks_touch (pg_state_cracks (p, NULL), p->dim, p->cloud.x + i * (size_t) p->dim,
@@ -55,8 +56,8 @@ static void write_place (const pg_problem *p, size_t i, char *out, size_t size)
         used += (size_t) snprintf (out + used, size - used, "%s%.4g", k ? ", " : "", p->cloud.x[i * dim + k]);
 }
 
-/* Which points hang together by bonds that no crack cuts: their sets (parent) and the size of each at its
- * root. */
+/* Which points hang together by bonds that no crack cuts: their sets (parent, a union) and the size of
+ * each at its root. */
 static void join_points (const pg_problem *p, int *parent, int *size)
 {
     const pg_family *f = &p->rows[PG_NODES].family;
@@ -74,7 +75,7 @@ static void join_points (const pg_problem *p, int *parent, int *size)
 /* Parts beside the largest one, their points, and points without any bond; a point of each kind. */
 typedef struct { size_t parts, beside, at, alone, lonely; } loose;
 
-/* One pass over the sets of joined points. */
+/* One pass over the sets of joined points: which are not the largest, how many points they have. */
 static loose find_loose (const pg_problem *p, int *parent, const int *size)
 {
     loose l = { 0 };

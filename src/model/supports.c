@@ -9,7 +9,8 @@
 enum { LOOKS = 5 };                                    /* times of the run at which values are compared */
 typedef struct { const int *item; size_t n; } held;
 
-/* In the shared order of both lists. */
+/* The next item that both ascending lists hold, at *i and *k; 0: there are no more. In the shared order
+ * of both lists, so that all of them take one pass. */
 static int next_common (const held *a, const held *b, size_t *i, size_t *k)
 {
     while (*i < a->n && *k < b->n) {
@@ -28,6 +29,7 @@ static size_t common (const held *a, const held *b)
     return n;
 }
 
+/* Does the support hold facets, by Nitsche's terms, rather than points? */
 static int by_facets (const pg_load *load) { return load->essential == PG_ESSENTIAL_NITSCHE; }
 
 /* What two supports share: facets, or points where one of them holds points. The corner that a face shares
@@ -43,7 +45,8 @@ static int shared (const pg_load *a, const pg_load *b, held *first, held *second
     return n ? PG_NODES : -1;
 }
 
-/* Times at which a load may differ from what it is at the end. */
+/* Times at which a load may differ from what it is at the end: at parts of the run, and at the rows of
+ * both tables. */
 static double time_of (const pg_load *a, const pg_load *b, double duration, size_t look)
 {
     if (look < LOOKS) return duration * (double) (LOOKS - look) / LOOKS;
@@ -53,7 +56,8 @@ static double time_of (const pg_load *a, const pg_load *b, double duration, size
 
 typedef struct { double here, there, t, x[3]; size_t differ; } conflict;
 
-/* At several times of the run and at the rows of both tables. */
+/* Do two supports want different values of component k at what they share? Compared at several times of
+ * the run and at the rows of both tables; how many places differ, and the first of them. */
 static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b, int k, int kind, held first,
                          held second, double duration)
 {
@@ -76,14 +80,14 @@ static conflict compare (const pg_problem *p, const pg_load *a, const pg_load *b
     return c;
 }
 
-/* As the scene spells it. */
+/* What the scene calls it: displacement, velocity or rotation. */
 static const char *key_of (const pg_load *load)
 {
     return load->kind == PG_VELOCITY ? "velocity" : load->kind == PG_ROTATION ? "rotation" : "displacement";
 }
 
-/* A corner has to go with one of its sides: that is told. More than half of a support that another
- * contradicts is a mistake. */
+/* A corner that two sides share has to go with one of them: that is told. More than half of a support
+ * that another contradicts is a mistake, and a fault. */
 static void tell (pg_problem *p, const pg_scene *scene, size_t i, size_t l, int k, int kind, size_t smaller,
                   const conflict *c)
 {
@@ -120,7 +124,8 @@ static int comparable (const pg_load *a, const pg_load *b, int k)
            && a->set && b->set && a->value[k] && b->value[k];
 }
 
-/* Every pair of supports; the first of them wins where both hold a point. */
+/* Looks at every pair of supports; the first of them wins where both hold a point. duration: s,
+ * quasi-static 1. */
 void pg_supports_check (pg_problem *p, const pg_scene *scene, double duration)
 {
     for (size_t l = 1; l < p->nload; l++)

@@ -7,6 +7,7 @@
 #include <string.h>
 
 static const long most = 1L << 50;                     /* of any count */
+/* Bytes that are 0 or 1: anything else in a file is a fault, as they are used in arithmetic. */
 static pg_status keep_flags (const char *name, size_t n, unsigned char *flag, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -16,7 +17,7 @@ done:
     return status;
 }
 
-/* A text of fixed workspace, ended whatever was read. */
+/* A text of fixed size, ended whatever was read. */
 pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k)
 {
     pg_status status = k->bytes (k->context, name, size, text);
@@ -52,7 +53,8 @@ done:
     return status;
 }
 
-/* Word by word: the struct has gaps, and what it holds is looked at before it is used. */
+/* One broken bond as three whole numbers and five numbers, word by word: the struct has gaps, and what it
+ * holds is looked at before it is used as an index. */
 static pg_status keep_bond (const pg_problem *p, pg_broken *b, const pg_keeper *k, long *count,
                             double *number)
 {
@@ -74,7 +76,8 @@ done:
     return status;
 }
 
-/* A list of broken bonds as two arrays, whole numbers and numbers: the file has no structs. */
+/* A list of broken bonds as two arrays, whole numbers (n x 3) and numbers (n x 5): the file has no
+ * structs. */
 pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_broken *broken,
                           const pg_keeper *k)
 {
@@ -97,7 +100,8 @@ done:
     return status;
 }
 
-/* Counts, numbers and texts of the report, seconds too: those of the run so far. */
+/* Counts, numbers and texts of the report, seconds too: those of the run so far, so that a resumed run
+ * reports the whole of it. Numbers of entries are bounded before they are used. */
 static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -152,7 +156,7 @@ done:
     return status;
 }
 
-/* Bonds that died in the step at hand. */
+/* Bonds that died in the step at hand, which is in its middle. */
 static pg_status keep_broken (break_loop *b, const pg_problem *p, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -168,7 +172,8 @@ done:
     return status;
 }
 
-/* Forces and displacements of the last accounted states, between which work is summed. */
+/* Forces and displacements of the last accounted states, between which work is summed. pairs: how many a
+ * balance of this problem has, -1: none; only that number is accepted. */
 static pg_status keep_work_balance (pg_work_balance *l, const char *name, size_t nload, long pairs,
                                     int reactions, const pg_keeper *k)
 {
@@ -222,7 +227,8 @@ done:
     return status;
 }
 
-/* The linear system: how it is solved, which unknowns are weak, what the iterations have cost so far. */
+/* The linear system: how it is solved, which unknowns are weak, what the iterations have cost so far. A
+ * way to solve that this force does not have is refused. */
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -250,7 +256,8 @@ done:
     return status;
 }
 
-/* Entries of a work balance of this problem; -1: the force has none. */
+/* Pairs of force and displacement in a work balance of this problem, by making one; -1: the force has
+ * none. */
 static pg_status count_pairs (pg_solver *s, long *pairs)
 {
     pg_status status = PG_OK;

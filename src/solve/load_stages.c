@@ -27,8 +27,8 @@ static double smallest_stretch (const pg_problem *p)
     return s0;
 }
 
-/* Shen 2016 eqs (21), (22): a stage must not stretch bonds to their limit by its mere arrival, d_lambda |b| <
- * 2 rho s0 h / dt^2. */
+/* At least so many stages that the mere arrival of a stage's load does not stretch bonds to their limit:
+ * d_lambda |b| < 2 rho s0 h / dt^2 (Shen 2016 eqs (21), (22)), b the load per volume. */
 static pg_status limit_stages (pg_solver *s)
 {
     pg_status status = PG_OK;

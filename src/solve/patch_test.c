@@ -140,8 +140,9 @@ static int outermost (const pg_problem *p, size_t i)
     return sqrt (open) > 0.2 * count || count < (double) dim;
 }
 
-/* Direct forces: is there a load or support that a set no deeper than a horizon bears? Those on facets of
- * other forces are as thin as these. */
+/* Is there a load or support that only the outermost rows of points bear? Tractions are; sets thinner
+ * than a horizon are; with shape functions facets are as thin as these. Then what the surface gives way
+ * counts as error. */
 static int borne_by_rows (const pg_problem *p)
 {
     size_t dim = (size_t) p->dim;
@@ -187,8 +188,9 @@ static void start (probe *t, const double *strain)
     for (size_t i = 0; i < t->ndof; i++) if (t->inverse[i] == 0) t->r[i] = 0;
 }
 
-/* Conjugate gradients; what an iteration takes off the energy of the error tells when to stop (Hestenes and
- * Stiefel; Strakos and Tichy). */
+/* Conjugate gradients for K x = P; what an iteration takes off the energy of the error, alpha r.z, tells
+ * when to stop (Hestenes and Stiefel; Strakos and Tichy): when six of them together gain less than 1e-4
+ * of all so far. Returns that energy. */
 static double iterate (probe *t, double scale)
 {
     double rz = 0, found = 0, late[DELAY] = { 0 };
@@ -310,6 +312,8 @@ done:
 }
 
 /* ---- the probe ----------------------------------------------------------------------------------------- */
+/* The force on the bare body, its unknowns, and K between the fields of unit strains. Iterations are
+ * bounded by what they may cost; without loads to carry the outermost points are held. */
 static pg_status prepare (probe *t)
 {
     pg_status status = PG_OK;
@@ -348,6 +352,7 @@ done:
     return status;
 }
 
+/* Also of a probe that was made in part only. */
 static void clear (probe *t)
 {
     pg_free (t->P), pg_free (t->x), pg_free (t->r), pg_free (t->z), pg_free (t->q), pg_free (t->inverse),

@@ -19,7 +19,7 @@ pg_status solver_fault (const pg_solver *s, const char *key, const char *format,
     return pg_scene_verdict (s->options.scene);
 }
 
-/* The force is that of the problem. */
+/* The force is that of the problem; pg_solver_create_with is for tests that bring one of their own. */
 pg_status pg_solver_create (pg_solver **out, const pg_problem *problem, const pg_solver_options *options)
 {
     const pg_force_type *force = pg_force_of (problem);
@@ -148,12 +148,13 @@ void pg_solver_watch (pg_solver *s, pg_watch watch, void *context)
     s->break_loop.watch = watch, s->break_loop.watching = context;
 }
 
+/* By its own word (stop set, events, failure) or when the method has made all its steps. */
 int pg_solver_done (const pg_solver *s, const pg_state *state)
 {
     return s->finished || (s->type->done && s->type->done (s, state));
 }
 
-/* By it the overlap of crack faces is judged. */
+/* By this the overlap of crack faces is judged, m. */
 static double largest_displacement (const pg_solver *s, const pg_state *state)
 {
     double top = 0;
@@ -161,7 +162,8 @@ static double largest_displacement (const pg_solver *s, const pg_state *state)
     return top;
 }
 
-/* Work that breaking did not cost: factors and preconditioners that were kept. Told once. */
+/* Work that breaking did not cost: factors and preconditioners that were kept, with the seconds that a
+ * mean one took. Told once. */
 static void report_skips (pg_solver *s)
 {
     const pg_system *sys = &s->break_loop.system;

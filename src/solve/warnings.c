@@ -16,8 +16,8 @@ static int acts_at (const pg_problem *p, const pg_load *load, int k, double t)
     return 0;
 }
 
-/* Ever? A load may end at zero (a table that comes back): looked at where its table has rows, or at times all
- * along the run. */
+/* Does component k of a load ever differ from zero? It may end there (a table that comes back), so that
+ * it is looked at where its table has rows, or at times all along the run. */
 static int acts (const pg_problem *p, const pg_load *load, int k, double end)
 {
     enum { LOOKS = 7 };
@@ -57,7 +57,8 @@ static int may_turn (const pg_problem *p)
     return value[n - 1] < 1e-12 * value[0];
 }
 
-/* Rigid motions that nothing prevents, and bodies without a load. */
+/* Warns of rigid motions that nothing prevents, and of bodies without a load. In dynamics inertia holds a
+ * body, and only the load is asked for. */
 static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     int moving = 0, everywhere = 1;

@@ -325,8 +325,8 @@ static void surfaces_in_common_do_no_harm (void **state)
 {
     char text[200];
     (void) state;
-    meshed m = mesh ("dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 1, length: 1}}}, {add: "
-                     "{cylinder: {center: [0, 0, 0.5], radius: 1, length: 1}}}]", 0.6);
+    meshed m = mesh ("dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], radius: 1, length: 1}}}, "
+                     "{add: {cylinder: {center: [0, 0, 0.5], radius: 1, length: 1}}}]", 0.6);
     double volume = 0;
     for (size_t c = 0; c < m.cells.n; c++) volume += m.cells.volume[c];
     check_relative (volume, 1.5 * pi, 1e-12);
