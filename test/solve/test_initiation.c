@@ -58,7 +58,8 @@ static void a_tip_beside_the_surface_grows_by_energy (void **state)
                          "materials: {glass: {youngs_modulus: %g, poissons_ratio: 0.22}}\n"
                          "sets: {pin: {where: \"hypot (x - 1.9, y - 1) < 0.06\"}}\n"
                          "boundary: [{set: bottom, traction: {y: -10 MPa}}, "
-                         "{set: top, traction: {y: 10 MPa}}, {set: pin, displacement: {x: 0, y: 0}, essential: penalty}]\n"
+                         "{set: top, traction: {y: 10 MPa}}, "
+                         "{set: pin, displacement: {x: 0, y: 0}, essential: penalty}]\n"
                          "failure: {criterion: energy_release, fracture_energy: %g}\n"
                          "solver: {max_events: 1}\n", h, a, E, G0);
     first_event (&r);
@@ -94,7 +95,8 @@ static run beam (double unit, int n, int upright, double shift_x, double shift_y
         const char *v = upright ? "x" : "y";
         double sign = upright ? 1 : -1, q = share * p;
         at += (size_t) snprintf (loads + at, sizeof loads - at,
-                                 "  - {set: polygon.edge 3, traction: {%s: %.17g * cos (pi * %s / (%.17g m))}%s}\n",
+                                 "  - {set: polygon.edge 3, traction: "
+                                 "{%s: %.17g * cos (pi * %s / (%.17g m))}%s}\n",
                                  v, sign * q, s, 4.4 * unit, ramp);
         for (int e = 0; e < 2; e++)
             at += (size_t) snprintf (loads + at, sizeof loads - at,
