@@ -80,6 +80,10 @@ typedef struct {
 } pg_patch;
 typedef struct { char name[32]; double from[3], to[3]; } pg_gauge;      /* opening along from -> to, m */
 
+/* An interface between two materials with a fracture energy (J/m^2) and a tensile strength (Pa; NAN: none) of
+ * its own. */
+typedef struct { int material[2]; double energy, strength; } pg_interface;
+
 /* What a force tells the model about itself before any of it exists: what it stands on, which keys it reads,
  * what it can carry. Every force has one of these in its own file (src/force/<name>.c). The model asks these
  * flags and calls these functions; it compares no names. */
@@ -154,6 +158,7 @@ struct pg_problem {
     pg_material  *material;  size_t nmaterial;
     pg_criterion *criterion;  /* per material, all of one type; type NULL: nothing breaks */
     int          *block[PG_BOND_SETS];                 /* material of every point of a bond set */
+    pg_interface *interface; size_t ninterface;        /* failure.interfaces */
     pg_approx     approx;
     pg_tip  *tip;  size_t ntip;                        /* 2D: the tips of the pre-cracks */
     double   tip_offset;  /* of a tip where the local spacing is cloud.h, m (method.tip_offset) */
@@ -209,6 +214,8 @@ int       pg_problem_unknowns  (const pg_problem *problem);            /* of eve
 /* The box of the body, m (dim each); of points of a file or mesh: of the points. */
 void      pg_problem_box (const pg_problem *problem, double *low, double *high);
 double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m */
+/* The entry for two materials, in any order; NULL: there is none. */
+const pg_interface *pg_problem_interface (const pg_problem *problem, int a, int b);
 /* 1: entry `e` of the family of a point of a set has no length: its node is the point itself, or lies within
  * PG_NO_LENGTH of the local spacing of it (an evaluation point in the middle of a cell of `lattice: cells`).
  * It has no direction and no stretch: no criterion judges it, it never breaks, and damage does not count

@@ -40,6 +40,8 @@ pg_status pg_blocks_build (pg_problem *problem, const pg_scene *scene);
 /* method.dilatation: patches for the materials that need them; notes and warnings for those that have
  * none. */
 pg_status pg_dilatation_build (pg_problem *problem, const pg_scene *scene);
+/* failure.interfaces, once materials and criteria are there. */
+pg_status pg_interfaces_read (pg_problem *problem, const pg_scene *scene);
 /* Remarks on what was perhaps not meant (remarks.c); parts, contrast: once the bonds are there. */
 void      pg_remark_spacing  (pg_problem *problem, const pg_scene *scene);
 pg_status pg_remark_parts    (pg_problem *problem);

@@ -230,6 +230,7 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     for (size_t l = 0; l < p->nload; l++) if (!p->load[l].set) PG_TRY (pg_scene_conclude (scene));
     PG_TRY (pg_initial_read (p, scene));
     PG_TRY (pg_blocks_check (p, scene));
+    PG_TRY (pg_interfaces_read (p, scene));
     PG_TRY (read_gauges (p, scene));
     pg_scene_pass (scene);
     *out = p;
@@ -267,7 +268,7 @@ void pg_problem_free (pg_problem **problem)
     pg_free (p->options);
     pg_loads_clear (p), pg_initial_clear (p);
     pg_criterion_clear (p->criterion, p->nmaterial);
-    pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->material), pg_free (p->criterion);
+    pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->interface), pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
     pg_cells_clear (&p->cells);
     pg_cloud_clear (&p->cloud);

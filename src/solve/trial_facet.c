@@ -3,7 +3,7 @@
  * offered carries the energy that it sets free, found on a copy of the state. A facet of length l comes into
  * being at the load factor at which that reaches G0 l t, t the thickness (Griffith 1921). */
 #include "facet_growth.h"
-#include "trial_facet.h"
+#include "interface_facet.h"
 #include <math.h>
 #include <string.h>
 
@@ -140,19 +140,107 @@ done:
     return status;
 }
 
-/* Straight ahead, and the shortest way out where that is another direction. */
+/* What a crack between two materials takes, J/m^2: the interface's own energy, or that of the weaker one. */
+static double energy_between (break_loop *b, const crossing *c, const double *x, double angle)
+{
+    const pg_problem *p = b->system.problem;
+    const pg_interface *own = pg_problem_interface (p, c->material[0], c->material[1]);
+    double least = INFINITY;
+    if (own) return own->energy;
+    for (int k = 0; k < 2; k++) {
+        const pg_criterion *law = &p->criterion[c->material[k]];
+        pg_fracture_limits limits = { .energy = INFINITY };
+        if (!law->never) law->type->fracture (law, x, angle, &limits);
+        least = fmin (least, limits.energy);
+    }
+    return isfinite (least) ? least : 0;
+}
+
+static double angle_to (const double *from, const double *to) { return atan2 (to[1] - from[1], to[0] - from[0]); }
+
+/* The smaller angle between two directions, rad. */
+static double turn_between (double a, double b) { return fabs (remainder (a - b, 2 * acos (-1))); }
+
+/* A tip on an interface: along it to both sides, across it, and out of it by kinks of 45 degrees; the
+ * angle of the tip is that of the last facets. */
+static pg_status offers_on_interface (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
+                                      size_t tip, const crossing *way, size_t nway)
+{
+    pg_status status = PG_OK;
+    const pg_tip_field *at = &b->growth->field[tip];
+    static const double right = 1.5707963267948966;
+    double e = atan2 (at->e[1], at->e[0]), kinks[3] = { 0, -0.5 * right, 0.5 * right };
+    facet_candidate c;
+    for (size_t k = 0; k < nway; k++) {
+        double angle = angle_to (at->x, way[k].x);
+        if (turn_between (angle, e) > 1.3 * right) continue;    /* back along the crack itself */
+        facet_place (b, state, tip, angle, &c);
+        if (!c.close) memcpy (c.to, way[k].x, sizeof c.to);
+        double length = hypot (c.to[0] - at->x[0], c.to[1] - at->x[1]);
+        c.energy = energy_between (b, &way[k], way[k].x, angle) * length
+                   * b->system.problem->cloud.thickness;
+        PG_TRY (offer_of_tip (b, w, state, f, &c));
+    }
+    for (int q = 0; q < 3; q++) {
+        double angle = e + kinks[q], near = INFINITY;
+        for (size_t k = 0; k < nway; k++)
+            near = fmin (near, turn_between (angle, angle_to (at->x, way[k].x)));
+        if (near < 0.35 * right) continue;
+        facet_place (b, state, tip, angle, &c);
+        PG_TRY (offer_of_tip (b, w, state, f, &c));
+    }
+done:
+    return status;
+}
+
+/* A tip near an interface; *here: 0: there is none ahead of it or under it. */
+static pg_status offers_at_interface (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
+                                      size_t tip, int *here)
+{
+    enum { WAYS = 8 };
+    pg_status status = PG_OK;
+    const pg_tip_field *at = &b->growth->field[tip];
+    crossing way[WAYS], meets;
+    double h = facet_length (b->growth, at), distance;
+    size_t n;
+    facet_candidate c = { .tip = (long) tip };
+    PG_TRY (interface_ready (w, here));
+    if (!*here) goto done;
+    if (interface_around (w, at->x, 0.2 * h, WAYS, way)) {
+        n = interface_around (w, at->x, h, WAYS, way);
+        PG_TRY (offers_on_interface (b, w, state, f, tip, way, n));
+        goto done;
+    }
+    *here = interface_ahead (w, at->x, at->e, 1.5 * h, &distance, &meets);
+    if (!*here) goto done;
+    /* up to the interface, in the material that the tip is in */
+    pg_fracture_limits limits;
+    memcpy (c.to, meets.x, sizeof c.to);
+    double middle[3] = { 0.5 * (at->x[0] + c.to[0]), 0.5 * (at->x[1] + c.to[1]), 0 };
+    if (!facet_limits (b, middle, atan2 (at->e[1], at->e[0]), &limits)) goto done;
+    c.energy = limits.energy * distance * b->system.problem->cloud.thickness;
+    PG_TRY (offer_of_tip (b, w, state, f, &c));
+done:
+    return status;
+}
+
+/* Straight ahead, and the shortest way out where that is another direction; at an interface what may happen
+ * there. */
 static pg_status offers_of_tip (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
                                 size_t tip)
 {
     pg_status status = PG_OK;
     const pg_tip_field *at = &b->growth->field[tip];
     facet_candidate ahead, out;
+    int interface = 0;
+    size_t held;
+    if (!b->system.problem->criterion->type->path (b->system.problem->criterion, &held))
+        PG_TRY (offers_at_interface (b, w, state, f, tip, &interface));
+    if (interface) goto done;
     facet_place (b, state, tip, atan2 (at->e[1], at->e[0]), &ahead);
     PG_TRY (offer_of_tip (b, w, state, f, &ahead));
     if (!facet_way_out (b, state, tip, &out)) goto done;
-    double a[2] = { ahead.to[0] - at->x[0], ahead.to[1] - at->x[1] },
-           o[2] = { out.to[0] - at->x[0], out.to[1] - at->x[1] };
-    double turn = atan2 (fabs (a[0] * o[1] - a[1] * o[0]), a[0] * o[0] + a[1] * o[1]);
+    double turn = turn_between (angle_to (at->x, ahead.to), angle_to (at->x, out.to));
     if (turn > 0.2) PG_TRY (offer_of_tip (b, w, state, f, &out));
 done:
     return status;

@@ -25,6 +25,7 @@ typedef struct trials {
     double    *residual[2], *load[2];                  /* of each field before, N (ndof) */
     double    *after, *zero, *whole;                   /* workspaces (ndof) */
     int        said;                                   /* a warning that was given */
+    pg_nearest *points;                                /* evaluation points, with several materials */
     /* how often each way was taken, and columns of K^-1 that were solved for: for reports and tests */
     long       by_columns, by_solves, columns;
     int        never_columns;                          /* tests: 1: solve anew every time */

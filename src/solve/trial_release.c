@@ -51,6 +51,7 @@ void trials_free (trials **trials_)
     trials *w = *trials_;
     if (!w) return;
     pg_state_free (&w->state);
+    pg_nearest_free (&w->points);
     pg_free (w->K), pg_free (w->after), pg_free (w->zero), pg_free (w->whole);
     for (int a = 0; a < 2; a++) pg_free (w->residual[a]), pg_free (w->load[a]);
     pg_free (w);
