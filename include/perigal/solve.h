@@ -10,14 +10,19 @@ PG_API_BEGIN
 /* PASSING (stages): at any iteration once the stage's load has come to act, not only in balance. FACET: tips
  * are judged, not bonds, and all bonds that a facet crosses break at once. */
 typedef enum { PG_BREAK_WORST, PG_BREAK_FRACTION, PG_BREAK_ALL, PG_BREAK_PASSING, PG_BREAK_FACET } pg_break;
+/* Event stepping, bonds being over their limit after an event at an unchanged load: the load falls to where
+ * they are at it; it stays and they break, the worst first; it stays and the body moves until it is at
+ * rest. */
+typedef enum { PG_UNSTABLE_FOLLOW, PG_UNSTABLE_HOLD, PG_UNSTABLE_DYNAMIC } pg_unstable;
 /* Options common to all methods. What one method or family of methods knows alone is a struct of its own in
  * `own`: PG_OWN (pg_newmark_options, options)->alpha. */
-enum { PG_SOLVER_OWN = 64 };
+enum { PG_SOLVER_OWN = 128 };
 typedef struct {
     char     kind[32], linear[16];  /* an entry of src/solve; "auto" or an entry of src/linalg */
     char     preconditioner[16];  /* of linear: pcg; auto | jacobi | multilevel; "": auto */
     unsigned flags;                                    /* of the kind, PG_SOLVER_...: perigal/model.h */
     int      event;                                    /* steps go from break to break (PG_SOLVER_EVENTS) */
+    pg_unstable on_instability;                        /* of these */
     pg_break break_mode;
     double   break_fraction, tie;  /* bonds within this share of the worst break with it */
     double   facet;  /* break: facet: length of a facet, m; 0: the local spacing */
@@ -46,14 +51,17 @@ static inline const void *pg_own_const (const pg_solver_options *o) { return o->
     const pg_solver_options *: (const type *) pg_own_const ((options) \
         + 0 * sizeof (char[sizeof (type) <= PG_SOLVER_OWN ? 1 : -1])))
 #define PG_ALIAS __attribute__ ((may_alias))
-typedef struct {                                       /* equilibria by linear systems */
-    int    affine;                                     /* event stepping: loads have a constant part */
-    double stop_stiffness;  /* event stepping: stop when the secant stiffness fell below it */
-} PG_ALIAS pg_static_options;
 typedef struct {                                       /* Newmark's method; 1, 1, 1, 1/s, s */
     int    consistent;                                 /* consistent mass, not lumped */
     double alpha, beta, gamma, rayleigh_mass, rayleigh_stiffness;
 } PG_ALIAS pg_newmark_options;
+typedef struct {                                       /* equilibria by linear systems */
+    int    affine;                                     /* event stepping: loads have a constant part */
+    double stop_stiffness;  /* event stepping: stop when the secant stiffness fell below it */
+    pg_newmark_options motion;                         /* with PG_UNSTABLE_DYNAMIC */
+    /* s; 0: by the fastest wave. quiet: so long without a break, then what moves is damped away */
+    double dt, quiet, longest;
+} PG_ALIAS pg_static_options;
 typedef struct { double rayleigh_mass; } PG_ALIAS pg_explicit_options;      /* explicit dynamics; 1/s */
 typedef struct {                                       /* stages of the load, each relaxed */
     long   stages;
@@ -107,6 +115,11 @@ typedef struct {                                       /* of the run so far */
     double energy_fracture;  /* J: what cracks that grew should have taken: fracture energy times new area */
     double seconds[PG_SECONDS_COUNT];
     double factor_entries, factor_flops;
+    /* Event stepping where growth went on by itself: how often, steps of it (events at a held load, or time
+     * steps), s in motion, and the largest jump of a reaction at the begin or end of a motion, over the
+     * largest reaction. */
+    long   instabilities, unstable_steps;
+    double motion_time, switch_jump;
     char   ordering[16], solver[16], preconditioner[128];
     pg_skip skipped[16];  size_t nskipped;
     char   warning[16][256]; size_t nwarning;
@@ -132,6 +145,8 @@ typedef struct {  /* of one step: a user level, a time step or an event */
     size_t nbroken;  const pg_broken *broken;          /* borrowed until the next step */
     const double *reaction;  /* force on the body per load, N (nload x 3), borrowed */
     double dissipated;                                 /* J, in this step */
+    /* event stepping: number of the instability that the step is part of, 0: none; s in motion so far */
+    long   instability; double motion;
 } pg_step;
 
 /* What was measured last at a tip, in the state of the last step. NAN: not measured. */

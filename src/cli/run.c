@@ -60,6 +60,18 @@ static void print_counts (const pg_statistics *r, const pg_solver_options *o)
             r->energy_external, r->energy_strain, r->energy_kinetic, r->energy_damping, r->energy_dissipated);
 }
 
+/* Where growth went on by itself, and what the run made of it. */
+static void print_instabilities (const pg_statistics *r, const pg_solver_options *o)
+{
+    if (o->on_instability == PG_UNSTABLE_HOLD)
+        printf ("  growth went on by itself %ld times: %ld of %ld events at a held load\n", r->instabilities,
+                r->unstable_steps, r->events);
+    if (o->on_instability == PG_UNSTABLE_DYNAMIC)
+        printf ("  growth went on by itself %ld times, in motion: %ld time steps, %.4g s, %.4g J damped; "
+                "reactions jump by at most %.1e where motion begins and ends\n",
+                r->instabilities, r->unstable_steps, r->motion_time, r->energy_damping, r->switch_jump);
+}
+
 /* Warnings that came during the run; those known before stand above the progress, so they are
  * worked out again and left out here. */
 static void print_warnings (const pg_statistics *r, const pg_problem *problem, const pg_solver_options *o)
@@ -80,6 +92,7 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
 {
     int nodal = problem->integration->at_nodes;
     print_counts (r, o);
+    print_instabilities (r, o);
     char row[400];
     for (size_t k = 0; pg_result_words (result, k, row, sizeof row); k++) printf ("  %s\n", row);
     const pg_estimate *e = pg_result_estimate (result);

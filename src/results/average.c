@@ -10,7 +10,7 @@
 /* Names of the columns that history.csv always has. */
 static const char *const fixed_columns =
     "step|time|load_factor|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|"
-    "iterations|residual|utilisation|event|level";
+    "iterations|residual|utilisation|event|level|instability|motion_time|energy_damping";
 
 /* Writes "damage|displacement.x|...|stress.xx|...": every component that there is in this
  * dimension; `turns` is the number of rotations of a point. */

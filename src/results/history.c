@@ -7,6 +7,7 @@
  *   per entry of output.tips   length of the crack, m
  *   cracks that grow and their tips (grown_cracks.c)
  *   energies (J), broken bonds, iterations, residual, utilisation, event, level
+ *   with solver.on_instability: instability, time in motion (s), damped energy (J)
  *
  * events.csv has one row per broken bond: when, where, how, and which kind of bond. Both
  * tables are read by other programs and by our own (`perigal plot --curve`, converge), by the
@@ -24,6 +25,14 @@ static const char *const last_columns[] = { "energy_strain [J]",   "energy_kinet
                                             "residual [1]",        "utilisation [1]",
                                             "event [1]",           "level [1]" };
 
+/* Those of event stepping that holds the load, or moves, where growth goes on by itself. */
+static const char *const unstable_columns[] = { "instability [1]", "motion_time [s]", "energy_damping [J]" };
+enum { UNSTABLE_COLUMNS = sizeof unstable_columns / sizeof *unstable_columns };
+static int goes_unstable (const pg_result *r)
+{
+    return pg_solver_settled (r->solver)->on_instability != PG_UNSTABLE_FOLLOW;
+}
+
 /* Columns of events.csv: numbers, then the names of bond set and kind. */
 enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
 
@@ -36,7 +45,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
     size_t n = 0, tips = pg_result_paths_columns (r),
-           most = 13 + 6 * p->nload + p->ngauge + r->naverage + r->ntip + tips + 1;
+           most = 13 + UNSTABLE_COLUMNS + 6 * p->nload + p->ngauge + r->naverage + r->ntip + tips + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
@@ -55,6 +64,8 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     for (size_t k = 0; k < tips; k++) pg_result_paths_column (r, k, name[n++], sizeof *name);
     for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++)
         snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
+    for (size_t k = 0; goes_unstable (r) && k < UNSTABLE_COLUMNS; k++)
+        snprintf (name[n++], sizeof *name, "%s", unstable_columns[k]);
     for (size_t k = 0; k < n; k++) column[k] = name[k];
     r->ncolumn = n;
     PG_ALLOC (r->row, n);
@@ -183,6 +194,10 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     r->row[n++] = (double) step->iterations;
     r->row[n++] = step->residual, r->row[n++] = step->utilisation, r->row[n++] = step->event,
     r->row[n++] = step->level;
+    if (goes_unstable (r)) {
+        r->row[n++] = (double) step->instability, r->row[n++] = step->motion;
+        r->row[n++] = report->energy_damping;
+    }
     PG_TRY (pg_table_row (r->history, r->row));
     PG_TRY (event_rows (r, step));
     PG_TRY (pg_result_paths_write (r, state, step));

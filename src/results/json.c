@@ -43,6 +43,21 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics
     pg_json_shut (j);
 }
 
+/* Event stepping that holds the load, or moves, where growth goes on by itself: how often, and how long. */
+static void instability_block (pg_json *j, const pg_result *res, const pg_statistics *r)
+{
+    pg_unstable policy = pg_solver_settled (res->solver)->on_instability;
+    if (policy == PG_UNSTABLE_FOLLOW) return;
+    pg_json_open (j, "instabilities", '{');
+    pg_json_count (j, "count", (size_t) r->instabilities);
+    pg_json_count (j, "steps", (size_t) r->unstable_steps);
+    if (policy == PG_UNSTABLE_DYNAMIC) {
+        pg_json_number (j, "motion_time", r->motion_time);
+        pg_json_number (j, "reaction_jump", r->switch_jump);
+    }
+    pg_json_shut (j);
+}
+
 /* Sizes of the problem, steps and events, the work of the solver and of the linear solver, and
  * the energies of the last state (J). */
 static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
@@ -171,6 +186,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     files_block (j, res);
     pg_json_text (j, "outcome", failure ? failure : "done");
     run_block (j, res, r, state);
+    instability_block (j, res, r);
     pg_result_curve_json (j, res);
     crack_block (j, res);
     pg_result_paths_json (j, res, state);

@@ -12,10 +12,10 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     pg_status status = PG_OK;
     pg_system *s = &b->system;
     if (!s->force->work_balance) return PG_OK;
-    double t0 = pg_seconds (), unused = 0;
+    double t0 = pg_seconds ();
     if (dyn) {
         memset (s->full, 0, s->ndof * sizeof *s->full);
-        dyn->add (dyn->context, d, s->full, &unused);
+        dyn->resist (dyn->context, d, s->full);
     }
     PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : NULL, &b->work_balance));
     PG_TRY (break_loop_book (b, scale));

@@ -10,6 +10,8 @@
 #include <stdio.h>
 #include <string.h>
 
+static const double rounding = 1e-12;                  /* of a load factor */
+
 /* The displacement at load factor 1 of the intact body; with affine loads that at 0 as well. A run that
  * goes on from a state begins with what it has. */
 pg_status event_start (pg_solver *s, const pg_state *state)
@@ -17,6 +19,7 @@ pg_status event_start (pg_solver *s, const pg_state *state)
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     int affine = PG_OWN (pg_static_options, &s->options)->affine;
+    PG_TRY (instability_start (s, &e->unstable));
     if (!e->unit) PG_ALLOC (e->unit, state->ndof);
     if (affine && !e->base) PG_ALLOC (e->base, state->ndof);
     if (affine) {
@@ -45,13 +48,29 @@ done:
 }
 
 /* Linear between those at 0 and at 1. */
+void event_displacement (const pg_solver *s, double factor, double *d)
+{
+    const event_stepping *e = events_of (s);
+    for (size_t i = 0; i < s->break_loop.system.ndof; i++)
+        d[i] = !e->base     ? factor * e->unit[i]
+               : factor == 1 ? e->unit[i]
+                             : e->base[i] + factor * (e->unit[i] - e->base[i]);
+}
+
 void event_move (const pg_solver *s, pg_state *state, double factor)
 {
+    event_displacement (s, factor, state->d);
+}
+
+/* A displacement that was tried in vain may be anything: the next attempt begins with that of the state. The
+ * work balance at hand is not that of `unit` any more. */
+void event_equilibrium_lost (pg_solver *s, const pg_state *state)
+{
     event_stepping *e = events_of (s);
-    for (size_t i = 0; i < state->ndof; i++)
-        state->d[i] = !e->base      ? factor * e->unit[i]
-                      : factor == 1 ? e->unit[i]
-                                    : e->base[i] + factor * (e->unit[i] - e->base[i]);
+    double scale = e->base || state->factor == 0 ? 1 : 1 / state->factor;
+    for (size_t i = 0; i < state->ndof; i++) e->unit[i] = scale * state->d[i];
+    if (e->base) memcpy (e->base, state->d, state->ndof * sizeof *e->base);
+    e->balance_fresh = 0;
 }
 
 static double smallest (const double *a, size_t n)
@@ -97,12 +116,17 @@ done:
     return status;
 }
 
+int event_no_equilibrium (pg_status solved)
+{
+    return solved == PG_E_EQUILIBRIUM || solved == PG_E_NOT_SPD || solved == PG_E_SINGULAR;
+}
+
 /* No equilibrium after a break is no error yet: the event itself is a result. The reason is kept and given
  * by the step that cannot be made. */
 int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status now)
 {
     event_stepping *e = events_of (s);
-    if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD && now != PG_E_SINGULAR) return 0;
+    if (!event_no_equilibrium (now)) return 0;
     e->ended = now;
     snprintf (e->why, sizeof e->why, "after event %ld at load factor %.6g: %s", state->events, factor,
               pg_last_error ());
@@ -146,6 +170,19 @@ void event_limit (pg_solver *s, const pg_state *state, double factor)
     s->finished = 1;
 }
 
+/* At a held load the worst bonds break, by what the state itself shows: utilisation in b->factor. */
+static pg_status worst_here (pg_solver *s, const pg_state *state, double *top, double *scale)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
+    memcpy (b->factor, b->utilisation, state->nbond * sizeof *b->factor);
+    *top = 0, *scale = 1;
+    for (size_t i = 0; i < state->nbond; i++) *top = fmax (*top, b->factor[i]);
+done:
+    return status;
+}
+
 /* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the
  * next step is refused. */
 static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
@@ -154,15 +191,24 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
-    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, stiff;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 1,
+           stiff;
     /* utilisation here */
     for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;
-    PG_TRY (break_loop_kill (b, state, b->factor, 1 - width, scale, factor));
+    if (e->unstable.held) PG_TRY (worst_here (s, state, &top, &scale));
+    instability_before (s, &e->unstable, state);
+    PG_TRY (break_loop_kill (b, state, b->factor, (1 - width) * top, scale, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
     pg_status now = event_solve (s);
+    int moves;
+    PG_TRY (instability_after (s, &e->unstable, state, factor, now, &moves));
+    if (moves) {
+        step->dissipated = b->work - work - (s->report.energy_strain - strain);
+        goto done;
+    }
     if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
     PG_TRY (break_loop_account (b, 1, e->unit, NULL, factor));
@@ -174,9 +220,18 @@ done:
     return status;
 }
 
+/* Does the utilisation of the worst bond grow with the load factor, as its limit in closed form has it? That of
+ * the finite stretch does so nearly. */
+static int grows_in_proportion (const break_loop *b, const pg_state *state)
+{
+    size_t worst = 0;
+    for (size_t i = 1; i < state->nbond; i++) if (b->utilisation[i] > b->utilisation[worst]) worst = i;
+    return !(fabs (b->utilisation[worst] * b->factor[worst] - 1) > 1e-9);
+}
+
 /* Utilisation of the accepted state, from that of the unit displacement: independent of the closed form
- * that gave the factor. Where a measure is not linear (finite stretch) and seems over its limit, the state
- * itself is measured. *scale belongs to the utilisation kept. */
+ * that gave the factor. Where a measure is not linear (finite stretch) the state itself is measured. *scale
+ * belongs to the utilisation kept. */
 static pg_status look_over (pg_solver *s, const pg_state *state, double factor, double *scale, pg_step *step)
 {
     pg_status status = PG_OK;
@@ -188,13 +243,46 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
     }
     if (!break_loop_judges (b)) return PG_OK;
     long over = break_loop_over (b, state, *scale, &step->utilisation);
-    if (over) {
+    if (over || !grows_in_proportion (b, state)) {
         *scale = 1;
         PG_TRY (
             b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
         over = break_loop_over (b, state, *scale, &step->utilisation);
     }
-    s->report.bonds_over_limit += over;
+    if (!events_of (s)->unstable.held) s->report.bonds_over_limit += over;   /* else about to break */
+done:
+    return status;
+}
+
+/* Those of factor 1, which the balance at hand has, times the factor. */
+static void take_reactions (pg_solver *s, double factor)
+{
+    const double *of_unit = s->break_loop.work_balance.reaction;
+    if (!of_unit) return;
+    for (size_t k = 0; k < 3 * s->problem->nload; k++) {
+        s->reaction[k] = of_unit[k];
+        s->reaction[k] *= factor;
+    }
+}
+
+pg_status event_rest (pg_solver *s, pg_state *state, double factor)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    const pg_work_balance *b = &s->break_loop.work_balance;
+    double stiff;
+    e->balance_fresh = 0;
+    if (!e->base) {
+        PG_TRY (go_to (s, state, factor));
+        take_reactions (s, factor);
+    } else {
+        event_move (s, state, factor);
+        PG_TRY (break_loop_account (&s->break_loop, factor, state->d, NULL, 1));
+        s->report.energy_strain = b->strain;
+        if (b->reaction) memcpy (s->reaction, b->reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    }
+    PG_TRY (event_secant (s, &stiff));
+    PG_TRY (event_stops (s, state, factor, stiff));
 done:
     return status;
 }
@@ -218,11 +306,13 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
         next = smallest (b->factor, state->nbond);
     }
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+    int over = next < state->factor * (1 - rounding);
+    if (instability_holds (s, &e->unstable, over)) next = state->factor;
+    step->instability = e->unstable.held ? e->unstable.count : 0;
     double factor = next < level ? next : level;
     PG_TRY (go_to (s, state, factor));
     e->top_factor = fmax (e->top_factor, factor);
-    if (b->work_balance.reaction)
-        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    take_reactions (s, factor);
     if (e->secant0 == 0) PG_TRY (event_secant (s, &e->secant0));
     step->factor = step->time = factor;
     step->residual = e->unit_residual;
@@ -241,14 +331,14 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
         }
     }
     event_limit (s, state, factor);
-    for (size_t k = 0; k < 3 * s->problem->nload; k++) s->reaction[k] *= factor;
 done:
     return status;
 }
 
 pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
 {
-    const event_stepping *e = events_of (s);
+    event_stepping *e = events_of (s);
+    if (instability_moves (&e->unstable)) return instability_step (s, &e->unstable, state, step);
     if (e->ended != PG_OK) return pg_error (e->ended, PG_HERE, "%s", e->why);
     return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)
                                                            : proportional_step (s, state, step);
@@ -259,6 +349,7 @@ void event_free (pg_solver *s)
 {
     event_stepping *e = events_of (s);
     pg_free (e->unit), pg_free (e->base);
+    instability_free (&e->unstable);
 }
 
 /* What was measured on the way is not that of the state that is gone back to. */
@@ -302,6 +393,7 @@ pg_status event_keep (pg_solver *s, const pg_keeper *k)
     if (count[2] && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
     if (e->base) PG_TRY (k->numbers (k->context, "event_stepping.base", ndof, e->base));
     PG_TRY (facet_keep (&s->break_loop, k));
+    PG_TRY (instability_keep (s, &e->unstable, k));
 done:
     return status;
 }

@@ -3,7 +3,7 @@
  * are a constant part and the load factor times another (event_stepping_affine.c). */
 #ifndef PG_EVENT_STEPPING_H
 #define PG_EVENT_STEPPING_H
-#include "solve.h"
+#include "instability.h"
 
 typedef struct {                                       /* state of `static` with stepping: event */
     double   *unit;                                    /* displacement at load factor 1 (ndof) */
@@ -15,6 +15,7 @@ typedef struct {                                       /* state of `static` with
     int       balance_fresh;                           /* the work balance at hand is that of `unit` */
     double    secant0;                                 /* first work per squared load factor, J */
     double    secant, top_factor;                      /* that of now over the first; largest load factor */
+    instability unstable;                              /* where growth goes on by itself */
 } event_stepping;
 static inline event_stepping *events_of (const pg_solver *s) { return s->own; }
 
@@ -42,6 +43,12 @@ pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end);
 pg_status facet_ready  (pg_solver *s, const pg_state *state);
 pg_status facet_next   (pg_solver *s, const pg_state *state, double *next);
 pg_status facet_event  (pg_solver *s, pg_state *state, double factor, pg_step *step);
+void      event_displacement (const pg_solver *s, double factor, double *d);
+/* What stands for the equilibria before they are solved anew: what the state is. */
+void      event_equilibrium_lost (pg_solver *s, const pg_state *state);
+/* At rest at this factor, once more: displacement, work balance, reactions; may end the run. */
+pg_status event_rest   (pg_solver *s, pg_state *state, double factor);
+int       event_no_equilibrium (pg_status solved);     /* this outcome says so */
 /* What the equilibrium after an event came to: 1: there is none, and the next step says why. */
 int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_status now);
 /* Ends the run when the crack has arrived at stop.set, or the body has separated. */

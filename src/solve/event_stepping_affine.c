@@ -12,7 +12,7 @@
 #include <string.h>
 
 static const double close = 1e-12;                     /* of utilisation to its limit */
-enum { MOST_LOOKS = 80, MOST_THIRDS = 40 };
+enum { MOST_LOOKS = 80, MOST_THIRDS = 52 };
 
 /* Utilisation of every bond at this factor; *top the largest. Of facets the largest alone. */
 static pg_status look (pg_solver *s, pg_state *state, double factor, double *utilisation, double *top)
@@ -76,12 +76,25 @@ done:
     return status;
 }
 
-/* A factor below `from` that all bonds admit, though zero is none: thirds of a convex function. *found 0:
- * there is none. */
-static pg_status search (pg_solver *s, pg_state *state, double from, double *at, int *found)
+/* The least that a convex function can be between the first and the last of four places at equal distances
+ * where it has these values: it lies above each chord outside of it, so in the middle third above the outer
+ * chords, in an outer third above the chord of the middle one. */
+static double least_of_convex (const double f[4])
+{
+    double outer = fmin (2 * f[1] - f[2], 2 * f[2] - f[1]);
+    double fall = f[1] - f[0], rise = f[3] - f[2];         /* of the outer chords, in a third */
+    if (!(fall < 0 && rise > 0)) return fmin (outer, fmin (f[1], f[2]));
+    double x = (f[2] - rise - f[1]) / (fall - rise);       /* where they meet, in thirds behind the first */
+    return fmin (outer, f[1] + fall * fmin (fmax (x, 0), 1));
+}
+
+/* A factor below `from` that all bonds admit, though zero is none: thirds of a convex function, the values
+ * being known at both ends. *found 0: there is none. */
+static pg_status search (pg_solver *s, pg_state *state, double from, double at_zero, double at_from, double *at,
+                         int *found)
 {
     pg_status status = PG_OK;
-    double low = 0, high = from, a, b;
+    double low = 0, high = from, f_low = at_zero, f_high = at_from, a, b;
     *found = 0;
     for (int k = 0; k < MOST_THIRDS && high - low > 1e-9 * from; k++) {
         double p = low + (high - low) / 3, q = high - (high - low) / 3;
@@ -90,8 +103,9 @@ static pg_status search (pg_solver *s, pg_state *state, double from, double *at,
         if (*found) break;
         PG_TRY (look (s, state, p, s->break_loop.factor, &a));
         if ((*found = a <= 1)) *at = p;
-        if (*found) break;
-        if (a < b) high = q; else low = p;
+        if (*found || least_of_convex ((const double[4]) { f_low, a, b, f_high }) > 1) break;
+        if (a < b) high = q, f_high = b;
+        else low = p, f_low = a;
     }
 done:
     return status;
@@ -110,6 +124,10 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     if (b->growth) PG_TRY (facet_ready (s, state));
     else PG_TRY (break_loop_ready (b));
     PG_TRY (look (s, state, now, b->utilisation, &top));
+    if (instability_holds (s, &events_of (s)->unstable, top > 1 + close)) {
+        *breaks = 1, *factor = now;
+        goto done;
+    }
     if (top <= 1 + close) {
         if (state->step == 0) goto done;
         PG_TRY (look (s, state, level, b->utilisation, &there));
@@ -121,7 +139,7 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     *breaks = 1, in = 0;
     if (now > 0) PG_TRY (look (s, state, 0, b->factor, &there));
     if (!(now > 0)) found = 0;
-    else if (there > 1) PG_TRY (search (s, state, now, &in, &found));
+    else if (there > 1) PG_TRY (search (s, state, now, there, top, &in, &found));
     if (found) PG_TRY (way_out (s, state, in, now, factor));
     else {
         *factor = now;
@@ -164,12 +182,19 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 0,
            now;
     for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
+    instability_before (s, &events_of (s)->unstable, state);
     PG_TRY (break_loop_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
     pg_status solved = event_solve (s);
+    int moves;
+    PG_TRY (instability_after (s, &events_of (s)->unstable, state, factor, solved, &moves));
+    if (moves) {
+        step->dissipated = b->work - work - (s->report.energy_strain - strain);
+        goto done;
+    }
     if (event_ended (s, state, factor, solved)) goto done;
     PG_TRY (solved);
     event_move (s, state, factor);
@@ -194,6 +219,7 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     b->nbroken = 0;
     step->iterations = 1;
     PG_TRY (choose (s, state, level, &factor, &breaks));
+    step->instability = e->unstable.held ? e->unstable.count : 0;
     if (breaks && factor > level) factor = level;
     event_move (s, state, factor);
     state->factor = state->time = step->factor = step->time = factor;
@@ -210,7 +236,7 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     } else if (break_loop_judges (b)) {
         long over = break_loop_over (b, state, 1, &step->utilisation);
         /* at a held factor they are about to break */
-        if (!e->constant_events || !breaks) s->report.bonds_over_limit += over;
+        if ((!e->constant_events && !e->unstable.held) || !breaks) s->report.bonds_over_limit += over;
     }
     if (breaks && b->growth) PG_TRY (facet_event (s, state, factor, step));
     else if (breaks) PG_TRY (break_here (s, state, factor, step));

@@ -11,26 +11,26 @@
  * Nodes whose motion is prescribed by elimination take V and A from that motion (newmark_start.c). */
 #include "newmark_state.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 typedef struct { double b[8]; } coefficients;
 
 /* b0 to b7 of the head of this file; the last two predict velocities. */
-static coefficients coefficients_of (const pg_solver_options *o)
+static coefficients coefficients_of (const pg_newmark_options *own, double dt)
 {
-    const pg_newmark_options *own = PG_OWN (pg_newmark_options, o);
-    double dt = o->dt, be = own->beta, ga = own->gamma;
+    double be = own->beta, ga = own->gamma;
     return (coefficients){ { 1 / (be * dt * dt), 1 / (be * dt), 1 / (2 * be), ga / (be * dt), ga / be,
                              dt * (ga / (2 * be) - 1), dt * (1 - ga), ga * dt } };
 }
 
 void pg_newmark_coefficients (const pg_solver_options *o, double *b)
 {
-    coefficients c = coefficients_of (o);
+    coefficients c = coefficients_of (PG_OWN (pg_newmark_options, o), o->dt);
     memcpy (b, c.b, sizeof c.b);
 }
 
-typedef struct { pg_solver *s; const pg_state *from; coefficients c; double t; } course;
+typedef struct { newmark *n; const pg_state *from; coefficients c; double t; } course;
 
 /* V and A that belong to displacements d at the new time */
 static void rates (const course *m, const double *d, double *v, double *a)
@@ -42,14 +42,14 @@ static void rates (const course *m, const double *d, double *v, double *a)
         a[i] = b[0] * du - b[1] * f->v[i] - (b[2] - 1) * f->a[i];
         v[i] = b[3] * du + (1 - b[4]) * f->v[i] - b[5] * f->a[i];
     }
-    newmark_follow (m->s, m->t, v, a);
+    newmark_follow (m->n, m->t, v, a);
 }
 
 /* The first guess: acceleration goes on as it was. */
 static void predict (const course *m, double *d)
 {
     const pg_state *f = m->from;
-    double dt = m->s->options.dt;
+    double dt = m->n->dt;
     for (size_t i = 0; i < f->ndof; i++) d[i] = f->d[i] + dt * (f->v[i] + 0.5 * dt * f->a[i]);
 }
 
@@ -59,15 +59,15 @@ static void predict (const course *m, double *d)
 static void add_inertia (void *context, const double *d, double *residual, double *reference)
 {
     const course *m = context;
-    pg_system *sys = &m->s->break_loop.system;
+    newmark *n = m->n;
+    pg_system *sys = n->system;
     const pg_state *f = m->from;
-    double *v = newmark_of (m->s)->work1, *a = newmark_of (m->s)->work3, size = 0, parts = 0,
-           alpha = PG_OWN (pg_newmark_options, &m->s->options)->alpha;
+    double *v = n->work1, *a = n->work3, size = 0, parts = 0, alpha = n->setting.alpha;
     rates (m, d, v, a);
-    newmark_damp (m->s, v, residual);
+    newmark_damp (n, v, residual);
     for (size_t i = 0; alpha != 0 && i < sys->ndof; i++)
-        residual[i] = (1 + alpha) * residual[i] - alpha * newmark_of (m->s)->force0[i];
-    double *known = newmark_of (m->s)->work4, *Mknown = known + sys->ndof, *Ma = Mknown + sys->ndof;
+        residual[i] = (1 + alpha) * residual[i] - alpha * n->force0[i];
+    double *known = n->work4, *Mknown = known + sys->ndof, *Ma = Mknown + sys->ndof;
     memset (Mknown, 0, 2 * sys->ndof * sizeof *Mknown);
     for (size_t i = 0; i < sys->ndof; i++) known[i] = m->c.b[1] * f->v[i] + (m->c.b[2] - 1) * f->a[i];
     system_add_mass (sys, 1, known, Mknown);
@@ -77,34 +77,81 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
     *reference = fmax (*reference, fmax (sqrt (size), 1e-6 * sqrt (parts)));
 }
 
-static const dynamics *newmark_dynamics (pg_solver *s)
+/* Reactions are those of the end of the step, whatever its equations weigh with alpha. */
+static void add_resistance (void *context, const double *d, double *residual)
 {
-    const pg_newmark_options *own = PG_OWN (pg_newmark_options, &s->options);
-    double b[8], share = 1 + own->alpha;
-    pg_newmark_coefficients (&s->options, b);
-    newmark_of (s)->dyn.k = share * (1 + b[3] * own->rayleigh_stiffness);
-    newmark_of (s)->dyn.m = b[0] + share * b[3] * own->rayleigh_mass;
-    return &newmark_of (s)->dyn;
+    const course *m = context;
+    newmark *n = m->n;
+    double *v = n->work1, *a = n->work3, *Ma = n->work4;
+    rates (m, d, v, a);
+    newmark_damp (n, v, residual);
+    memset (Ma, 0, n->system->ndof * sizeof *Ma);
+    system_add_mass (n->system, 1, a, Ma);
+    for (size_t i = 0; i < n->system->ndof; i++) residual[i] -= Ma[i];
 }
 
-/* One time step: a guess for the displacement, equilibrium with inertia and breaking at its end, velocity
- * and acceleration that belong to it, energies. */
-static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
+const dynamics *newmark_matrix (newmark *n)
+{
+    coefficients c = coefficients_of (&n->setting, n->dt);
+    double share = 1 + n->setting.alpha;
+    n->dyn.k = share * (1 + c.b[3] * n->setting.rayleigh_stiffness);
+    n->dyn.m = c.b[0] + share * c.b[3] * n->setting.rayleigh_mass;
+    return &n->dyn;
+}
+
+/* Interrupted between its rounds of breaking the step goes on from the displacements at hand. */
+pg_status newmark_advance (newmark *n, break_loop *b, const pg_state *from, pg_state *state, double t,
+                           pg_step *step)
 {
     pg_status status = PG_OK;
-    break_loop *b = &s->break_loop;
-    int last = state->step + 1 >= s->options.steps;
-    course m = { s, s->backup, coefficients_of (&s->options),
-                 last ? s->options.end : (double) (state->step + 1) * s->options.dt };
-    dynamics dyn = *newmark_dynamics (s);
-    dyn.add = add_inertia, dyn.context = &m;
-    double t = m.t;
-    PG_TRY (newmark_supports (s, t, 0));
+    course m = { n, from, coefficients_of (&n->setting, n->dt), t };
+    dynamics dyn = *newmark_matrix (n);
+    dyn.add = add_inertia, dyn.resist = add_resistance, dyn.context = &m;
+    PG_TRY (newmark_supports (n, t, 0));
     if (b->round == 0) predict (&m, state->d);
     PG_TRY (equilibrate (b, state, t, state->d, &dyn, step));
     rates (&m, state->d, state->v, state->a);
-    if (PG_OWN (pg_newmark_options, &s->options)->alpha != 0) PG_TRY (newmark_remember (s, t, state));
-    s->report.energy_kinetic = newmark_kinetic (s, state->v);
+    if (n->setting.alpha != 0) PG_TRY (newmark_remember (n, t, state));
+done:
+    return status;
+}
+
+/* ---- the solver ---------------------------------------------------------------------------------------- */
+static newmark *newmark_of (const pg_solver *s) { return s->own; }
+
+/* Starts from the state as it is: the energy that it has counts as work done before. A run that goes on has
+ * its acceleration already. */
+static pg_status newmark_start (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    newmark *n = newmark_of (s);
+    n->system = &s->break_loop.system;
+    n->setting = *PG_OWN (pg_newmark_options, &s->options), n->dt = s->options.dt;
+    PG_TRY (system_refresh (n->system, state, NULL));
+    s->next_level = 1;
+    PG_TRY (newmark_open (n));
+    if (state->step > 0) goto done;
+    PG_TRY (newmark_launch (n, state, state->time));
+    PG_TRY (newmark_account (n, &s->break_loop, state, state->time));
+    if (n->system->force->work_balance)
+        s->break_loop.work = s->report.energy_strain + s->report.energy_kinetic;
+    if (n->force0) PG_TRY (newmark_remember (n, state->time, state));
+done:
+    return status;
+}
+
+static const dynamics *newmark_dynamics (pg_solver *s) { return newmark_matrix (newmark_of (s)); }
+
+/* One time step, its energies, the level it may have come to, and the end of the run. */
+static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    newmark *n = newmark_of (s);
+    break_loop *b = &s->break_loop;
+    int last = state->step + 1 >= s->options.steps;
+    double t = last ? s->options.end : (double) (state->step + 1) * s->options.dt;
+    PG_TRY (newmark_advance (n, b, s->backup, state, t, step));
+    s->report.energy_kinetic = newmark_kinetic (n, state->v);
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (s->report.energy_strain + s->report.energy_kinetic - b->stored0);
     if (b->work_balance.reaction)
@@ -123,12 +170,7 @@ done:
     return status;
 }
 
-static void newmark_free (pg_solver *s)
-{
-    newmark *n = newmark_of (s);
-    pg_free (n->work1), pg_free (n->work2), pg_free (n->work3), pg_free (n->work4);
-    pg_free (n->support), pg_free (n->force0);
-}
+static void newmark_free (pg_solver *s) { newmark_close (newmark_of (s)); }
 
 /* With alpha the residual at the end of the last step enters the next. */
 static pg_status newmark_keep (pg_solver *s, const pg_keeper *k)
@@ -141,22 +183,29 @@ done:
 }
 
 /* ---- the entry ----------------------------------------------------------------------------------------- */
-static void newmark_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+/* Damping and mass, the scheme by alpha; beta and gamma may differ where the map has these keys. */
+void newmark_read_setting (pg_newmark_options *own, const pg_problem *problem, const pg_scene *scene,
+                           const char *map)
 {
     const pg_force_type *force = pg_force_of (problem);
+    char path[96];
+    own->rayleigh_mass = pg_scene_number (scene, "%s.rayleigh.mass", map);
+    own->rayleigh_stiffness = pg_scene_number (scene, "%s.rayleigh.stiffness", map);
+    own->consistent = strcmp (pg_scene_text (scene, "%s.mass", map), "consistent") == 0;
+    snprintf (path, sizeof path, "%s.mass", map);
+    if (own->consistent && force && !force->mass_matrix)
+        pg_scene_fault (scene, path, "force: %s has no consistent mass: use lumped", problem->method->name);
+    own->alpha = pg_scene_number (scene, "%s.alpha", map);
+    own->beta = (1 - own->alpha) * (1 - own->alpha) / 4, own->gamma = 0.5 - own->alpha;
+}
+
+static void newmark_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
     pg_newmark_options *own = PG_OWN (pg_newmark_options, o);
     options_read_times (o, problem, scene);
-    own->rayleigh_mass = pg_scene_number (scene, "solver.rayleigh.mass");
-    own->rayleigh_stiffness = pg_scene_number (scene, "solver.rayleigh.stiffness");
-    own->consistent = strcmp (pg_scene_text (scene, "solver.mass"), "consistent") == 0;
-    if (own->consistent && force && !force->mass_matrix)
-        pg_scene_fault (scene, "solver.mass", "force: %s has no consistent mass: use lumped",
-                        problem->method->name);
-    own->alpha = pg_scene_number (scene, "solver.alpha");
-    own->beta = pg_scene_given (scene, "solver.beta") ? pg_scene_number (scene, "solver.beta")
-                                           : (1 - own->alpha) * (1 - own->alpha) / 4;
-    own->gamma = pg_scene_given (scene, "solver.gamma") ? pg_scene_number (scene, "solver.gamma")
-                                                        : 0.5 - own->alpha;
+    newmark_read_setting (own, problem, scene, "solver");
+    if (pg_scene_given (scene, "solver.beta")) own->beta = pg_scene_number (scene, "solver.beta");
+    if (pg_scene_given (scene, "solver.gamma")) own->gamma = pg_scene_number (scene, "solver.gamma");
     if (own->gamma > 2 * own->beta)
         pg_scene_fault (scene, "solver.beta", "newmark is unconditionally stable only for 2 beta >= gamma");
 }

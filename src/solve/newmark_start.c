@@ -13,11 +13,10 @@ static const pg_sparse *elimination (const pg_system *sys)
 }
 
 /* residual -= C v with Rayleigh damping C = c_m M + c_k K. */
-void newmark_damp (pg_solver *s, const double *v, double *residual)
+void newmark_damp (newmark *n, const double *v, double *residual)
 {
-    pg_system *sys = &s->break_loop.system;
-    const pg_newmark_options *own = PG_OWN (pg_newmark_options, &s->options);
-    double *Kv = newmark_of (s)->work2, cm = own->rayleigh_mass, ck = own->rayleigh_stiffness;
+    pg_system *sys = n->system;
+    double *Kv = n->work2, cm = n->setting.rayleigh_mass, ck = n->setting.rayleigh_stiffness;
     system_add_mass (sys, -cm, v, residual);
     if (ck == 0) return;
     system_multiply (sys, v, Kv);
@@ -25,55 +24,54 @@ void newmark_damp (pg_solver *s, const double *v, double *residual)
 }
 
 /* residual -= M a + C v */
-void newmark_resist (pg_solver *s, const double *v, const double *a, double *residual)
+void newmark_resist (newmark *n, const double *v, const double *a, double *residual)
 {
-    newmark_damp (s, v, residual);
-    system_add_mass (&s->break_loop.system, -1, a, residual);
+    newmark_damp (n, v, residual);
+    system_add_mass (n->system, -1, a, residual);
 }
 
 /* force0 = P - F_int - C V at the state, N, of which the alpha method takes a share in the next step. */
-pg_status newmark_remember (pg_solver *s, double t, const pg_state *state)
+pg_status newmark_remember (newmark *n, double t, const pg_state *state)
 {
     pg_status status = PG_OK;
-    newmark *own = newmark_of (s);
-    pg_system *sys = &s->break_loop.system;
+    pg_system *sys = n->system;
     double unused;
-    PG_TRY (sys->force->balance (sys->self, t, state->d, own->force0, &unused));
-    newmark_damp (s, state->v, own->force0);
+    PG_TRY (sys->force->balance (sys->self, t, state->d, n->force0, &unused));
+    newmark_damp (n, state->v, n->force0);
 done:
     return status;
 }
 
 /* 1/2 v M v, J, with the mass matrix that the run uses. */
-double newmark_kinetic (pg_solver *s, const double *v)
+double newmark_kinetic (newmark *n, const double *v)
 {
-    const pg_system *sys = &s->break_loop.system;
-    double sum = 0, *Mv = newmark_of (s)->work2;
+    const pg_system *sys = n->system;
+    double sum = 0, *Mv = n->work2;
     memset (Mv, 0, sys->ndof * sizeof *Mv);
     system_add_mass (sys, 1, v, Mv);
     for (size_t i = 0; i < sys->ndof; i++) sum += 0.5 * v[i] * Mv[i];
     return sum;
 }
 
-/* z, z', z'' at t by differences over a part of the step: forward at the start, else central. */
-pg_status newmark_supports (pg_solver *s, double t, int start)
+/* z, z', z'' at t by differences over a part of the step: forward at the start, else central; of held
+ * supports z alone. */
+pg_status newmark_supports (newmark *n, double t, int start)
 {
     pg_status status = PG_OK;
-    newmark *own = newmark_of (s);
-    pg_system *sys = &s->break_loop.system;
-    double *z[3], e = s->options.dt / 16;
-    own->support_updates = s->report.updates;
+    pg_system *sys = n->system;
+    double *z[3], e = n->held ? 0 : n->dt / 16;
+    n->support_updates = sys->report->updates;
     if (!elimination (sys)) return PG_OK;
     for (size_t k = 0; k < 3; k++) {
-        z[k] = own->support + k * sys->ndof;
+        z[k] = n->support + k * sys->ndof;
         memset (z[k], 0, sys->ndof * sizeof *z[k]);
         PG_TRY (sys->force->impose (sys->self, t + ((double) k - !start) * e, z[k]));
     }
     for (size_t i = 0; i < sys->ndof; i++) {
         double z0 = z[0][i], z1 = z[1][i], z2 = z[2][i];
         z[0][i] = start ? z0 : z1;
-        z[1][i] = start ? (4 * (z1 - z0) - (z2 - z0)) / (2 * e) : (z2 - z0) / (2 * e);
-        z[2][i] = ((z2 - z1) - (z1 - z0)) / (e * e);
+        z[1][i] = n->held ? 0 : start ? (4 * (z1 - z0) - (z2 - z0)) / (2 * e) : (z2 - z0) / (2 * e);
+        z[2][i] = n->held ? 0 : ((z2 - z1) - (z1 - z0)) / (e * e);
     }
 done:
     return status;
@@ -81,16 +79,15 @@ done:
 
 /* Velocity and acceleration of prescribed nodes, T q + z' and so on. Where the supports have changed with
  * breaking their motion is found anew. */
-void newmark_follow (pg_solver *s, double t, double *v, double *a)
+void newmark_follow (newmark *n, double t, double *v, double *a)
 {
-    newmark *own = newmark_of (s);
-    const pg_system *sys = &s->break_loop.system;
+    const pg_system *sys = n->system;
     if (!elimination (sys)) return;
-    if (own->support_updates != s->report.updates) newmark_supports (s, t, 0);
+    if (n->support_updates != sys->report->updates) newmark_supports (n, t, 0);
     for (size_t k = 1; k < 3; k++) {
         double *w = k == 1 ? v : a;
         sys->force->impose (sys->self, t, w);          /* prescribed nodes: T q + z */
-        for (size_t i = 0; i < sys->ndof; i++) w[i] += own->support[k * sys->ndof + i] - own->support[i];
+        for (size_t i = 0; i < sys->ndof; i++) w[i] += n->support[k * sys->ndof + i] - n->support[i];
     }
 }
 
@@ -142,57 +139,63 @@ done:
     return status;
 }
 
-/* The energy that the run starts with counts as work done before. */
-static pg_status first_account (pg_solver *s, const pg_state *state)
+/* Both energies of the state, and the work balance that later work is counted from. */
+pg_status newmark_account (newmark *n, break_loop *b, const pg_state *state, double t)
 {
     pg_status status = PG_OK;
-    break_loop *b = &s->break_loop;
-    pg_system *sys = &b->system;
-    s->report.energy_kinetic = newmark_kinetic (s, state->v);
+    pg_system *sys = n->system;
+    sys->report->energy_kinetic = newmark_kinetic (n, state->v);
     if (!sys->force->work_balance) goto done;
     memset (sys->full, 0, sys->ndof * sizeof *sys->full);
-    newmark_resist (s, state->v, state->a, sys->full);
-    PG_TRY (sys->force->work_balance (sys->self, state->time, state->d, sys->full, &b->work_balance));
+    newmark_resist (n, state->v, state->a, sys->full);
+    PG_TRY (sys->force->work_balance (sys->self, t, state->d, sys->full, &b->work_balance));
     PG_TRY (break_loop_book (b, 1));
-    s->report.energy_strain = b->work_balance.strain;
-    b->work = s->report.energy_strain + s->report.energy_kinetic;
+    sys->report->energy_strain = b->work_balance.strain;
 done:
     return status;
 }
 
-/* Allocates and finds the acceleration at the start from the loads, the resistance and the motion of the
- * supports; a run that goes on has it already. */
-pg_status newmark_start (pg_solver *s, pg_state *state)
+/* With a step of the scheme that counts the residual of the last one there is room for that as well. */
+pg_status newmark_open (newmark *n)
 {
     pg_status status = PG_OK;
-    newmark *own = newmark_of (s);
-    pg_system *sys = &s->break_loop.system;
+    size_t ndof = n->system->ndof;
+    if (!n->work1) PG_ALLOC (n->work1, ndof);
+    if (!n->work2) PG_ALLOC (n->work2, ndof);
+    if (!n->work3) PG_ALLOC (n->work3, ndof);
+    if (!n->work4) PG_ALLOC (n->work4, 3 * ndof);
+    PG_TRY (system_mass (n->system, n->setting.consistent));
+    if (!n->support) PG_ALLOC (n->support, 3 * ndof);
+    if (n->setting.alpha != 0 && !n->force0) PG_ALLOC (n->force0, ndof);
+done:
+    return status;
+}
+
+void newmark_close (newmark *n)
+{
+    pg_free (n->work1), pg_free (n->work2), pg_free (n->work3), pg_free (n->work4);
+    pg_free (n->support), pg_free (n->force0);
+}
+
+/* Velocities of free nodes are as given. */
+pg_status newmark_launch (newmark *n, pg_state *state, double t)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = n->system;
     size_t ndof = sys->ndof;
     double reference;
-    PG_TRY (system_refresh (sys, state, NULL));
-    s->next_level = 1;
-    if (!own->work1) PG_ALLOC (own->work1, ndof);
-    if (!own->work2) PG_ALLOC (own->work2, ndof);
-    if (!own->work3) PG_ALLOC (own->work3, ndof);
-    if (!own->work4) PG_ALLOC (own->work4, 3 * ndof);
-    PG_TRY (system_mass (sys, PG_OWN (pg_newmark_options, &s->options)->consistent));
-    if (!own->support) PG_ALLOC (own->support, 3 * ndof);
-    if (PG_OWN (pg_newmark_options, &s->options)->alpha != 0 && !own->force0) PG_ALLOC (own->force0, ndof);
-    if (state->step > 0) goto done;
     for (size_t i = 0; i < ndof; i++)
         if (!(sys->mass[i] > 0))
             PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
     memset (state->a, 0, ndof * sizeof *state->a);
     if (elimination (sys)) {
-        PG_TRY (sys->force->impose (sys->self, state->time, state->d));
-        PG_TRY (newmark_supports (s, state->time, 1));
-        newmark_follow (s, state->time, state->v, state->a);
+        PG_TRY (sys->force->impose (sys->self, t, state->d));
+        PG_TRY (newmark_supports (n, t, 1));
+        newmark_follow (n, t, state->v, state->a);
     }
-    PG_TRY (sys->force->balance (sys->self, state->time, state->d, sys->residual, &reference));
-    newmark_resist (s, state->v, state->a, sys->residual);
+    PG_TRY (sys->force->balance (sys->self, t, state->d, sys->residual, &reference));
+    newmark_resist (n, state->v, state->a, sys->residual);
     PG_TRY (accelerate (sys, state->a));
-    PG_TRY (first_account (s, state));
-    if (own->force0) PG_TRY (newmark_remember (s, state->time, state));
 done:
     return status;
 }

@@ -1,25 +1,48 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: state of Newmark's method; where it starts, and supports by elimination (newmark_start.c). */
+ * Private: Newmark's scheme as an object of its own, for the solver of that name and for motions that begin
+ * when a static equilibrium is lost (instability.c). newmark.c: the step; newmark_start.c: where it starts,
+ * and supports by elimination. */
 #ifndef PG_SOLVE_NEWMARK_H
 #define PG_SOLVE_NEWMARK_H
 #include "solve.h"
 
 typedef struct {
-    double   *work1, *work2, *work3, *work4;           /* room for vectors (ndof; work4: 3 x ndof) */
-    double   *force0;  /* with alpha: loads less resistance at the last step's end, N */
-    dynamics  dyn;                                     /* coefficients of the matrix */
-    double   *support;                                 /* motion z, z', z'' of prescribed nodes (3 x ndof) */
-    long      support_updates;  /* report.updates when it was found: breaking changes z */
+    pg_system *system;                                 /* what moves: forces, masses, supports */
+    pg_newmark_options setting;
+    double     dt;                                     /* s */
+    /* 1: loads and supports stay as they are at the t of each step, which is then no time: a load factor */
+    int        held;
+    double    *work1, *work2, *work3, *work4;          /* room for vectors (ndof; work4: 3 x ndof) */
+    double    *force0;  /* with alpha: loads less resistance at the last step's end, N */
+    dynamics   dyn;                                    /* coefficients of the matrix */
+    double    *support;                                /* motion z, z', z'' of prescribed nodes (3 x ndof) */
+    long       support_updates;  /* report.updates when it was found: breaking changes z */
 } newmark;
-static inline newmark *newmark_of (const pg_solver *s) { return s->own; }
 
-pg_status newmark_start    (pg_solver *s, pg_state *state);
-pg_status newmark_supports (pg_solver *s, double t, int start);        /* fills `support` for time t */
+/* Room for its vectors, and the mass; after the first refresh of the system, which is set already. */
+pg_status newmark_open     (newmark *n);
+void      newmark_close    (newmark *n);
+/* Acceleration at the start from the loads at t, what resists and the motion of the supports. */
+pg_status newmark_launch   (newmark *n, pg_state *state, double t);
+/* Energies of the state (strain, kinetic, J) into the report, and its work balance, with inertia, as the last
+ * one that work is counted from. */
+pg_status newmark_account  (newmark *n, break_loop *b, const pg_state *state, double t);
+/* One time step from the state `from` to loads at t: a guess, equilibrium with inertia and breaking, the
+ * rates that belong to it. */
+pg_status newmark_advance  (newmark *n, break_loop *b, const pg_state *from, pg_state *state, double t,
+                            pg_step *step);
+const dynamics *newmark_matrix (newmark *n);           /* what the factored matrix is made of */
+
+pg_status newmark_supports (newmark *n, double t, int start);          /* fills `support` for time t */
 /* V and A of prescribed nodes from support */
-void      newmark_follow   (pg_solver *s, double t, double *v, double *a);
+void      newmark_follow   (newmark *n, double t, double *v, double *a);
 /* -= M a + C v */
-void      newmark_resist   (pg_solver *s, const double *v, const double *a, double *residual);
-void      newmark_damp     (pg_solver *s, const double *v, double *residual);                  /* -= C v */
-pg_status newmark_remember (pg_solver *s, double t, const pg_state *state);  /* fills force0 */
-double    newmark_kinetic  (pg_solver *s, const double *v);            /* J */
+void      newmark_resist   (newmark *n, const double *v, const double *a, double *residual);
+void      newmark_damp     (newmark *n, const double *v, double *residual);                   /* -= C v */
+pg_status newmark_remember (newmark *n, double t, const pg_state *state);  /* fills force0 */
+double    newmark_kinetic  (newmark *n, const double *v);              /* J */
+
+/* Damping, mass and scheme from the scene, below this map; its other keys are the caller's. */
+void      newmark_read_setting (pg_newmark_options *own, const pg_problem *problem, const pg_scene *scene,
+                                const char *map);
 #endif

@@ -7,8 +7,10 @@
 /* ---- system.c: equilibrium of a force at given alive bits ---------------------------------------------- */
 typedef struct pg_dynamics {                           /* what inertia and damping add (NULL: static) */
     double k, m;                                       /* matrix = k K + m M */
-    /* reference: at least its size */
+    /* residual: of the equations to be solved; reference: at least its size */
     void (*add) (void *context, const double *d, double *residual, double *reference);
+    /* residual -= M a + C v at d: what reactions contain of the motion */
+    void (*resist) (void *context, const double *d, double *residual);
     void  *context;
 } dynamics;
 
@@ -57,6 +59,8 @@ void      system_free    (pg_system *s);
 pg_status system_factorize (pg_system *s, const dynamics *dyn);  /* k K + m M of the last refresh */
 void      system_remember_diagonal (pg_system *s, const pg_sparse *K);  /* once; K NULL: by the operator */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
+/* Systems with another matrix than so far, solved in this way: SYSTEM_... */
+void      system_switch  (pg_system *s, int mode);
 /* y = K x, by operator or matrix */
 void      system_multiply (const pg_system *s, const double *x, double *y);
 /* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the factor at hand or by the

@@ -72,12 +72,24 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
                         "(ramp: constant), or both: use fixed");
     if (o->event && o->break_mode == PG_BREAK_ALL)
         pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
+    instability_read (o, problem, scene);
     if (!pg_scene_given (scene, "solver.steps") && o->levels > o->steps) o->steps = o->levels;
 }
 
 static const char *static_manner (const pg_solver_options *o)
 {
-    return o->event ? ", event stepping" : ", fixed load steps";
+    static const char *const by_events[] = {
+        [PG_UNSTABLE_FOLLOW] = ", event stepping",
+        [PG_UNSTABLE_HOLD] = ", event stepping, the load held where growth goes on by itself",
+        [PG_UNSTABLE_DYNAMIC] = ", event stepping, in motion where growth goes on by itself"
+    };
+    return o->event ? by_events[o->on_instability] : ", fixed load steps";
+}
+
+/* A run that is in motion has inertia in its matrix. */
+static const dynamics *static_dynamics (pg_solver *s)
+{
+    return instability_dynamics (&events_of (s)->unstable);
 }
 
 #define ROW PG_SOLVER_KEY
@@ -99,7 +111,8 @@ const pg_solver_type pg_solver_static_ = {
     .name = "static",
     .summary = "quasi-static equilibrium, event by event or in fixed load steps",
     .flags = PG_SOLVER_STATIC | PG_SOLVER_EVENTS | PG_SOLVER_FACETS,
-    .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear },
+    .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear,
+              &instability_keys },
     .read = static_read,
     .start = static_start,
     .step = static_step,
@@ -109,4 +122,5 @@ const pg_solver_type pg_solver_static_ = {
     .ends = event_ends,
     .own_size = sizeof (event_stepping),
     .manner = static_manner,
+    .dynamics = static_dynamics,
 };

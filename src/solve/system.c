@@ -111,6 +111,16 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     return status;
 }
 
+/* The matrix is another one from here on, with or without inertia, whatever K does. A factor of the old one
+ * is no preconditioner of the new one: its next use makes a new one. */
+void system_switch (pg_system *s, int mode)
+{
+    s->mode = mode, s->stale = 1;
+    s->extra_cost = mode == SYSTEM_KEPT_FACTOR ? 1e300 : 0;
+    pg_multilevel_free (&s->multilevel);
+    s->remake = 0;
+}
+
 /* The bonds that live when a factor or preconditioner is made: a resumed run makes the same ones again
  * from them, bit by bit. */
 pg_status system_remember_alive (pg_system *s)

@@ -1,0 +1,421 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Where growth goes on by itself: after an event of a static run, bonds are over their limit at the very load
+ * at which it happened. What follows is chosen by solver.on_instability:
+ *   follow   the load falls until the next bond is at its limit: the path of equilibria, snap-back included
+ *            (event_stepping.c, event_stepping_affine.c). No body under a controlled load does this.
+ *   hold     the load stays, and the worst bonds break, one event after the other, until the body bears it:
+ *            the limit of fixed load steps as they become small.
+ *   dynamic  the load stays and the body moves, by Newmark's method from the displacements before the event,
+ *            at rest, without the bonds that the event broke. Displacements are continuous there, and with
+ *            them the reactions; what the broken bonds stored is gone.
+ * The motion runs in equal time steps until no bond has broken for a while (quiet). Then it settles: mass
+ * damping c = 10 / dt, beta = 1 and gamma = 3/2 (spectral radius 0 at infinite steps), dt doubled in every
+ * step: inertia fades, and what is left creeps to the equilibrium u. These steps count as no time. The run is static again once the energy
+ * above that equilibrium,
+ *   1/2 V M V + 1/2 (d - u) K (d - u),
+ * is below 1e-18 of the strain energy: forces are then continuous to about 1e-9. A bond that breaks while it
+ * settles sets off the motion anew. Energy that goes without a bond having broken counts as damped, else what
+ * Rayleigh's damping takes does: dt v C v at the mean velocity of the step, exact for beta = 1/4, gamma =
+ * 1/2. */
+#include "event_stepping.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { PHASE_REST, PHASE_RUNNING, PHASE_SETTLING };
+/* Steps of settling, and how often dt is doubled in them: at most by 2^16, so that the mass still holds what
+ * no bond holds. */
+enum { MOST_SETTLING = 45, MOST_DOUBLINGS = 16 };
+static const double calm = 1e-18;                      /* of the strain energy */
+static const double at_limit = 1e-12;                  /* of a utilisation to 1 */
+
+/* ---- start --------------------------------------------------------------------------------------------- */
+/* Where the scene leaves them open, times follow from the fastest wave: a step is half of what it takes from
+ * a point to the next, quiet is its way through the body and back. */
+static pg_status choose_times (const pg_solver *s, instability *u)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
+    const pg_static_options *own = PG_OWN (pg_static_options, &s->options);
+    double fastest = 0, across = 0, low[3], high[3];
+    for (size_t k = 0; k < p->nmaterial; k++)
+        fastest = fmax (fastest, pg_material_waves (&p->material[k]).pressure);
+    if (!(fastest > 0))
+        PG_FAIL (PG_E_USAGE, "on_instability: dynamic needs the density of every material");
+    pg_problem_box (p, low, high);
+    for (int k = 0; k < p->dim; k++) across += (high[k] - low[k]) * (high[k] - low[k]);
+    u->dt = own->dt > 0 ? own->dt : 0.5 * p->cloud.h / fastest;
+    u->quiet = own->quiet > 0 ? own->quiet : 2 * sqrt (across) / fastest;
+    u->longest = own->longest > 0 ? own->longest : 50 * u->quiet;
+done:
+    return status;
+}
+
+/* Room for the motion is made only where there may be one. */
+pg_status instability_start (pg_solver *s, instability *u)
+{
+    pg_status status = PG_OK;
+    if (s->options.on_instability != PG_UNSTABLE_DYNAMIC) goto done;
+    u->scheme.system = &s->break_loop.system;
+    u->scheme.setting = PG_OWN (pg_static_options, &s->options)->motion;
+    u->scheme.held = 1;
+    PG_TRY (choose_times (s, u));
+    PG_TRY (newmark_open (&u->scheme));
+    if (!u->before) PG_ALLOC (u->before, s->break_loop.system.ndof);
+    if (!u->rest) PG_ALLOC (u->rest, s->break_loop.system.ndof);
+    if (!u->reaction) PG_ALLOC (u->reaction, 3 * s->problem->nload);
+done:
+    return status;
+}
+
+void instability_free (instability *u)
+{
+    newmark_close (&u->scheme);
+    pg_free (u->before), pg_free (u->rest), pg_free (u->reaction);
+}
+
+int instability_moves (const instability *u) { return u->phase != PHASE_REST; }
+
+/* ---- the matrix ---------------------------------------------------------------------------------------- */
+/* The scheme of the phase at hand; a function of the phase alone, so that a run read back has the same. */
+static void set_scheme (const pg_solver *s, instability *u)
+{
+    newmark *n = &u->scheme;
+    n->setting = PG_OWN (pg_static_options, &s->options)->motion;
+    n->dt = u->dt;
+    if (u->phase != PHASE_SETTLING) return;
+    n->dt = ldexp (u->dt, u->settling < MOST_DOUBLINGS ? (int) u->settling : MOST_DOUBLINGS);
+    n->setting.alpha = 0, n->setting.beta = 1, n->setting.gamma = 1.5;
+    n->setting.rayleigh_mass = fmax (n->setting.rayleigh_mass, 10 / n->dt);
+}
+
+/* Another phase, another matrix. How the systems of rest and of running motion are solved is remembered: they
+ * were tried. Settling goes from one to the other, and is solved as rest is. */
+static void enter (pg_solver *s, instability *u, int phase)
+{
+    pg_system *sys = &s->break_loop.system;
+    if (u->phase == PHASE_REST) u->mode[0] = sys->mode;
+    if (u->phase == PHASE_RUNNING) u->mode[1] = sys->mode;
+    u->phase = phase;
+    set_scheme (s, u);
+    int mode = u->mode[phase == PHASE_RUNNING];
+    if (phase == PHASE_SETTLING && mode != SYSTEM_NO_FACTOR) mode = SYSTEM_FACTOR;
+    system_switch (sys, mode);
+}
+
+const dynamics *instability_dynamics (instability *u)
+{
+    return instability_moves (u) ? newmark_matrix (&u->scheme) : NULL;
+}
+
+/* ---- holding ------------------------------------------------------------------------------------------- */
+int instability_holds (pg_solver *s, instability *u, int over)
+{
+    if (s->options.on_instability == PG_UNSTABLE_FOLLOW) return 0;
+    if (over && !u->held) s->report.instabilities = ++u->count;
+    s->report.unstable_steps += over;
+    return u->held = over;
+}
+
+/* ---- into motion --------------------------------------------------------------------------------------- */
+void instability_before (const pg_solver *s, instability *u, const pg_state *state)
+{
+    if (s->options.on_instability == PG_UNSTABLE_DYNAMIC)
+        memcpy (u->before, state->d, state->ndof * sizeof *u->before);
+}
+
+/* The largest change of a reaction at a switch, over the largest reaction. */
+static void compare_reactions (pg_solver *s, const double *before, const double *after)
+{
+    double size = 0, change = 0;
+    for (size_t k = 0; before && after && k < 3 * s->problem->nload; k++) {
+        size = fmax (size, fmax (fabs (before[k]), fabs (after[k])));
+        change = fmax (change, fabs (after[k] - before[k]));
+    }
+    if (size > 0) s->report.switch_jump = fmax (s->report.switch_jump, change / size);
+}
+
+/* From the displacements before the event, at rest, without the bonds that it broke. */
+static pg_status begin (pg_solver *s, instability *u, pg_state *state, double factor)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    memcpy (state->d, u->before, state->ndof * sizeof *state->d);
+    memset (state->v, 0, state->ndof * sizeof *state->v);
+    state->factor = state->time = factor;
+    enter (s, u, PHASE_RUNNING);
+    u->time = u->last_break = 0, u->settling = 0;
+    if (!u->held) u->count++;
+    u->held = 0;
+    s->report.instabilities = u->count;
+    PG_TRY (newmark_launch (&u->scheme, state, factor));
+    PG_TRY (newmark_account (&u->scheme, b, state, factor));
+    if (u->scheme.force0) PG_TRY (newmark_remember (&u->scheme, factor, state));
+    compare_reactions (s, s->reaction, b->work_balance.reaction);
+    event_equilibrium_lost (s, state);
+done:
+    return status;
+}
+
+/* No equilibrium, or one that bonds do not bear: motion. */
+pg_status instability_after (pg_solver *s, instability *u, pg_state *state, double factor, pg_status solved,
+                             int *moves)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    double top = 0;
+    *moves = 0;
+    if (s->options.on_instability != PG_UNSTABLE_DYNAMIC) goto done;
+    if (solved == PG_OK) {
+        event_displacement (s, factor, u->rest);
+        PG_TRY (b->system.force->utilisation (b->system.self, state, u->rest, b->utilisation, b->kind, NULL));
+        for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
+        if (!(top > 1 + at_limit)) goto done;
+    } else if (!event_no_equilibrium (solved)) PG_TRY (solved);
+    *moves = 1;
+    PG_TRY (begin (s, u, state, factor));
+done:
+    return status;
+}
+
+/* ---- in motion ----------------------------------------------------------------------------------------- */
+/* What Rayleigh's damping takes in a step, J: dt v C v at the mean velocity. */
+static double damped (newmark *n, const pg_state *from, const pg_state *state)
+{
+    double sum = 0, *mean = n->work1, *force = n->work3;
+    if (n->setting.rayleigh_mass == 0 && n->setting.rayleigh_stiffness == 0) return 0;
+    for (size_t i = 0; i < state->ndof; i++) mean[i] = 0.5 * (from->v[i] + state->v[i]), force[i] = 0;
+    newmark_damp (n, mean, force);
+    for (size_t i = 0; i < state->ndof; i++) sum -= n->dt * mean[i] * force[i];
+    return sum;
+}
+
+/* Energies after a time step, and where what is missing went. */
+static void balance_energy (pg_solver *s, instability *u, const pg_state *state, pg_step *step)
+{
+    break_loop *b = &s->break_loop;
+    pg_statistics *r = &s->report;
+    r->energy_kinetic = newmark_kinetic (&u->scheme, state->v);
+    r->energy_strain = b->work_balance.strain;
+    double lost = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0);
+    double taken = step->nbroken ? damped (&u->scheme, s->backup, state) : lost;
+    r->energy_damping += taken;
+    step->dissipated = lost - taken;
+}
+
+/* Energy above the equilibrium u->rest, J. */
+static double excess (const pg_solver *s, instability *u, const pg_state *state)
+{
+    const pg_system *sys = &s->break_loop.system;
+    double sum = 0, *z = u->scheme.work1, *Kz = u->scheme.work3;
+    for (size_t i = 0; i < state->ndof; i++) z[i] = state->d[i] - u->rest[i];
+    system_multiply (sys, z, Kz);
+    for (size_t i = 0; i < state->ndof; i++) sum += 0.5 * z[i] * Kz[i];
+    return sum + newmark_kinetic (&u->scheme, state->v);
+}
+
+/* Is there an equilibrium to settle to, with the bonds that live? If not, the motion goes on, and ends the
+ * run when it has lasted as long as it may. */
+static pg_status try_to_settle (pg_solver *s, instability *u, pg_state *state)
+{
+    pg_status status = PG_OK;
+    double factor = state->factor;
+    int late = u->time >= u->longest;
+    enter (s, u, PHASE_REST);
+    pg_status solved = event_solve (s);
+    if (solved == PG_OK) {
+        event_displacement (s, factor, u->rest);
+        u->settling = 0;
+        enter (s, u, PHASE_SETTLING);
+        goto done;
+    }
+    if (!event_no_equilibrium (solved)) PG_TRY (solved);
+    event_equilibrium_lost (s, state);
+    enter (s, u, PHASE_RUNNING);
+    u->last_break = u->time;
+    if (late) {
+        pg_statistics_warn (&s->report,
+                            "after event %ld, at load factor %.6g, the body moves for %.3g s without an "
+                            "equilibrium to come to: it has come apart, and the run ends",
+                            state->events, factor, u->time);
+        s->finished = 1;
+    }
+done:
+    return status;
+}
+
+/* Static again: the equilibrium takes the place of the state, which differs by less than rounding of forces;
+ * what it lacks in energy counts as damped. */
+static pg_status come_to_rest (pg_solver *s, instability *u, pg_state *state)
+{
+    pg_status status = PG_OK;
+    pg_statistics *r = &s->report;
+    double before = r->energy_strain + r->energy_kinetic, work = s->break_loop.work;
+    memcpy (u->reaction, s->reaction, 3 * s->problem->nload * sizeof *u->reaction);
+    memset (state->v, 0, state->ndof * sizeof *state->v);
+    memset (state->a, 0, state->ndof * sizeof *state->a);
+    enter (s, u, PHASE_REST);
+    PG_TRY (event_rest (s, state, state->factor));
+    r->energy_kinetic = 0;
+    r->energy_damping += s->break_loop.work - work + before - r->energy_strain;
+    compare_reactions (s, u->reaction, s->reaction);
+done:
+    return status;
+}
+
+/* What the next step is: one of the same phase, of another, or a static one. */
+static pg_status next_phase (pg_solver *s, instability *u, pg_state *state, const pg_step *step)
+{
+    pg_status status = PG_OK;
+    if (u->phase == PHASE_RUNNING) {
+        if (u->time - u->last_break >= u->quiet || u->time >= u->longest)
+            PG_TRY (try_to_settle (s, u, state));
+        goto done;
+    }
+    if (step->nbroken) {
+        enter (s, u, PHASE_RUNNING);
+        if (u->scheme.force0) PG_TRY (newmark_remember (&u->scheme, state->factor, state));
+        goto done;
+    }
+    if (u->settling + 1 >= MOST_SETTLING || excess (s, u, state) <= calm * s->report.energy_strain) {
+        PG_TRY (come_to_rest (s, u, state));
+        goto done;
+    }
+    u->settling++;
+    enter (s, u, PHASE_SETTLING);
+done:
+    return status;
+}
+
+/* The load stays; a step in which bonds broke counts as an event. */
+pg_status instability_step (pg_solver *s, instability *u, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    double factor = state->factor;
+    int arrived;
+    PG_TRY (newmark_advance (&u->scheme, b, s->backup, state, factor, step));
+    balance_energy (s, u, state, step);
+    if (b->work_balance.reaction)
+        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (u->phase == PHASE_RUNNING) u->time += u->scheme.dt, s->report.motion_time += u->scheme.dt;
+    s->report.unstable_steps++;
+    step->factor = step->time = factor;
+    step->instability = u->count, step->motion = u->time;
+    if (step->nbroken) {
+        u->last_break = u->time;
+        step->event = 1;
+        state->events++, s->report.events++;
+    }
+    PG_TRY (break_loop_arrived (b, state, state->d, &arrived));
+    if (arrived) {
+        pg_statistics_warn (&s->report,
+                            "the crack has arrived at %s in motion: the run ends at event %ld, load factor "
+                            "%.6g",
+                            s->options.stop_set->name, state->events, factor);
+        s->finished = 1;
+    }
+    PG_TRY (next_phase (s, u, state, step));
+    event_limit (s, state, factor);
+done:
+    return status;
+}
+
+/* ---- checkpoint ---------------------------------------------------------------------------------------- */
+pg_status instability_keep (pg_solver *s, instability *u, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    if (s->options.on_instability == PG_UNSTABLE_FOLLOW) return PG_OK;
+    int dynamic = s->options.on_instability == PG_UNSTABLE_DYNAMIC;
+    pg_statistics *r = &s->report;
+    long count[8] = { u->phase,   u->held,    u->count,         u->settling,
+                      u->mode[0], u->mode[1], r->instabilities, r->unstable_steps };
+    double number[4] = { u->time, u->last_break, r->motion_time, r->switch_jump };
+    PG_TRY (k->counts (k->context, "instability.counts", 8, count));
+    PG_TRY (k->numbers (k->context, "instability.numbers", 4, number));
+    PG_KEEP_BOUND (k, "the phase of a motion", count[0], PHASE_REST, dynamic ? PHASE_SETTLING : PHASE_REST);
+    PG_KEEP_BOUND (k, "a step of settling", count[3], 0, MOST_SETTLING);
+    for (int i = 4; i < 6; i++)
+        PG_KEEP_BOUND (k, "the way to solve", count[i], SYSTEM_UNDECIDED, SYSTEM_NO_FACTOR);
+    u->phase = (int) count[0], u->held = (int) count[1], u->count = count[2], u->settling = count[3];
+    u->mode[0] = (int) count[4], u->mode[1] = (int) count[5];
+    u->time = number[0], u->last_break = number[1];
+    r->instabilities = count[6], r->unstable_steps = count[7];
+    r->motion_time = number[2], r->switch_jump = number[3];
+    if (dynamic) PG_TRY (k->numbers (k->context, "instability.rest", s->break_loop.system.ndof, u->rest));
+    if (u->scheme.force0)
+        PG_TRY (k->numbers (k->context, "instability.force0", s->break_loop.system.ndof, u->scheme.force0));
+    if (dynamic) set_scheme (s, u);
+done:
+    return status;
+}
+
+/* ---- keys ---------------------------------------------------------------------------------------------- */
+static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
+
+#define ROW PG_SOLVER_KEY
+static const pg_key keys[] = {
+    ROW ("solver.on_instability", PG_NAME, NULL, NULL, "follow", "follow|hold|dynamic",
+         "Event stepping, where bonds are over their limit after an event at an unchanged load: the load "
+         "falls to where they are at it (follow: the path of equilibria, snap-back included), it stays and "
+         "the worst break one after the other (hold), or it stays and the body moves, by Newmark's method, "
+         "until it has come to rest (dynamic)."),
+    ROW ("solver.motion.dt", PG_NUMBER, "s", "(0, inf)", "", NULL,
+         "on_instability: dynamic: time step; if not given half of what the fastest wave takes from a point "
+         "to the next."),
+    ROW ("solver.motion.quiet", PG_NUMBER, "s", "(0, inf)", "", NULL,
+         "on_instability: dynamic: after so long without a break what still moves is damped away; if not "
+         "given what the fastest wave takes through the body and back."),
+    ROW ("solver.motion.longest", PG_NUMBER, "s", "(0, inf)", "", NULL,
+         "on_instability: dynamic: a motion that lasts longer is damped away although bonds still break, "
+         "and without an equilibrium to come to it ends the run; if not given 50 times quiet."),
+    ROW ("solver.motion.alpha", PG_NUMBER, "1", "[-0.3333333333333334, 0]", "-0.05", NULL,
+         "on_instability: dynamic: numerical damping of Hilber, Hughes and Taylor, as solver.alpha of "
+         "newmark."),
+    ROW ("solver.motion.mass", PG_NAME, NULL, NULL, "lumped", "lumped|consistent",
+         "on_instability: dynamic: the mass of a node's cell at the node, or int rho N_I N_J dV."),
+    ROW ("solver.motion.rayleigh.mass", PG_NUMBER, "1/s", "[0, inf)", "0", NULL,
+         "on_instability: dynamic: damping C = mass M + stiffness K."),
+    ROW ("solver.motion.rayleigh.stiffness", PG_NUMBER, "s", "[0, inf)", "0", NULL,
+         "on_instability: dynamic: damping C = mass M + stiffness K."),
+};
+enum { KEYS = sizeof keys / sizeof *keys };
+const pg_key_table instability_keys = { "solve", keys, KEYS };
+
+/* What a motion needs: density, and a force that moves by linear systems. */
+static void check_motion (const pg_problem *problem, const pg_scene *scene)
+{
+    const pg_force_type *force = pg_force_of (problem);
+    for (size_t i = 0; i < problem->nmaterial; i++)
+        if (!(problem->material[i].density > 0))
+            pg_scene_fault (scene, "solver.on_instability",
+                            "dynamic needs the density of material %s: give materials.%s.density, or take "
+                            "hold",
+                            problem->material[i].name, problem->material[i].name);
+    const char *why = force && force->refuses
+                          ? force->refuses (problem, PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY)
+                          : NULL;
+    if (why) pg_scene_fault (scene, "solver.on_instability", "dynamic: %s", why);
+}
+
+void instability_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    pg_static_options *own = PG_OWN (pg_static_options, o);
+    const char *policy = pg_scene_text (scene, "solver.on_instability");
+    o->on_instability = is (policy, "hold")      ? PG_UNSTABLE_HOLD
+                        : is (policy, "dynamic") ? PG_UNSTABLE_DYNAMIC
+                                                 : PG_UNSTABLE_FOLLOW;
+    int dynamic = o->on_instability == PG_UNSTABLE_DYNAMIC;
+    if (o->on_instability != PG_UNSTABLE_FOLLOW && !o->event)
+        pg_scene_fault (scene, "solver.on_instability",
+                        "goes with stepping: event; fixed load steps hold the load in any case");
+    for (size_t k = 1; k < KEYS; k++)
+        if (!dynamic && pg_scene_given (scene, "%s", keys[k].path))
+            pg_scene_fault (scene, keys[k].path, "goes with on_instability: dynamic");
+    if (!dynamic) return;
+    newmark_read_setting (&own->motion, problem, scene, "solver.motion");
+    own->dt = options_number (scene, "solver.motion.dt");
+    own->quiet = options_number (scene, "solver.motion.quiet");
+    own->longest = options_number (scene, "solver.motion.longest");
+    check_motion (problem, scene);
+}
