@@ -220,8 +220,8 @@ done:
     return status;
 }
 
-/* Does the utilisation of the worst bond grow with the load factor, as its limit in closed form has it? That of
- * the finite stretch does so nearly. */
+/* Does the utilisation of the worst bond grow with the load factor, as its limit in closed form has it? That
+ * of the finite stretch does so nearly. */
 static int grows_in_proportion (const break_loop *b, const pg_state *state)
 {
     size_t worst = 0;

@@ -90,8 +90,8 @@ static double least_of_convex (const double f[4])
 
 /* A factor below `from` that all bonds admit, though zero is none: thirds of a convex function, the values
  * being known at both ends. *found 0: there is none. */
-static pg_status search (pg_solver *s, pg_state *state, double from, double at_zero, double at_from, double *at,
-                         int *found)
+static pg_status search (pg_solver *s, pg_state *state, double from, double at_zero, double at_from,
+                         double *at, int *found)
 {
     pg_status status = PG_OK;
     double low = 0, high = from, f_low = at_zero, f_high = at_from, a, b;

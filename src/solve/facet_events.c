@@ -56,15 +56,19 @@ done:
     return status;
 }
 
-/* Where the next facet begins, at most at full load; where none does, the load stays. */
+/* Where the next facet begins, at most at full load; where none does, the load stays. A load that is held
+ * does not fall. */
 static pg_status way_end (pg_solver *s, pg_state *state, double factor, double *end)
 {
     pg_status status = PG_OK;
     double next;
     PG_TRY (facet_ready (s, state));
-    if (events_of (s)->base) return affine_next_growth (s, state, end);
-    PG_TRY (facet_next (s, state, &next));
-    *end = isfinite (next) ? fmin (next, fmax (factor, 1)) : factor;
+    if (events_of (s)->base) PG_TRY (affine_next_growth (s, state, end));
+    else {
+        PG_TRY (facet_next (s, state, &next));
+        *end = isfinite (next) ? fmin (next, fmax (factor, 1)) : factor;
+    }
+    if (s->options.on_instability != PG_UNSTABLE_FOLLOW) *end = fmax (*end, factor);
 done:
     return status;
 }
@@ -95,11 +99,13 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     facet_growth *g = b->growth;
+    event_stepping *e = events_of (s);
     size_t bytes = state->ndof * sizeof *state->d;
     double strain = s->report.energy_strain, work = b->work, end, now;
-    int ended, more = 1;
+    int ended, more = 1, moves = 0;
     if (!g->before) PG_ALLOC (g->before, state->ndof);
     memcpy (g->before, state->d, bytes);
+    instability_before (s, &e->unstable, state);
     PG_TRY (facet_grow (b, state, factor, factor));
     step->event = 1;
     state->events++, s->report.events++;
@@ -107,10 +113,13 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
         g->closed |= closed;
         PG_TRY (solve_anew (s, state, factor, &ended));
         step->nbroken = b->nbroken, step->broken = b->broken;
-        if (ended) goto done;
+        if (ended) break;
         PG_TRY (facet_ready (s, state));
         PG_TRY (facet_run_out (b, state, factor, &more));
     }
+    if (!s->finished) PG_TRY (instability_after (s, &e->unstable, state, factor, e->ended, &moves));
+    if (moves) step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    if (ended || moves) goto done;
     PG_TRY (way_end (s, state, factor, &end));
     /* a new crack comes into being at once, at the load at which it is possible: no equilibria lead there */
     if (g->began) end = factor;

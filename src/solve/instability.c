@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Where growth goes on by itself: after an event of a static run, bonds are over their limit at the very load
- * at which it happened. What follows is chosen by solver.on_instability:
+ * Where growth goes on by itself: after an event of a static run, bonds or tips are over their limit at the
+ * very load at which it happened. What follows is chosen by solver.on_instability:
  *   follow   the load falls until the next bond is at its limit: the path of equilibria, snap-back included
  *            (event_stepping.c, event_stepping_affine.c). No body under a controlled load does this.
  *   hold     the load stays, and the worst bonds break, one event after the other, until the body bears it:
@@ -10,14 +10,15 @@
  *            them the reactions; what the broken bonds stored is gone.
  * The motion runs in equal time steps until no bond has broken for a while (quiet). Then it settles: mass
  * damping c = 10 / dt, beta = 1 and gamma = 3/2 (spectral radius 0 at infinite steps), dt doubled in every
- * step: inertia fades, and what is left creeps to the equilibrium u. These steps count as no time. The run is static again once the energy
- * above that equilibrium,
+ * step: inertia fades, and what is left creeps to the equilibrium u. These steps count as no time. The run is
+ * static again once the energy above that equilibrium,
  *   1/2 V M V + 1/2 (d - u) K (d - u),
  * is below 1e-18 of the strain energy: forces are then continuous to about 1e-9. A bond that breaks while it
  * settles sets off the motion anew. Energy that goes without a bond having broken counts as damped, else what
  * Rayleigh's damping takes does: dt v C v at the mean velocity of the step, exact for beta = 1/4, gamma =
  * 1/2. */
 #include "event_stepping.h"
+#include "facet_growth.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -153,6 +154,26 @@ static pg_status begin (pg_solver *s, instability *u, pg_state *state, double fa
     if (u->scheme.force0) PG_TRY (newmark_remember (&u->scheme, factor, state));
     compare_reactions (s, s->reaction, b->work_balance.reaction);
     event_equilibrium_lost (s, state);
+    events_of (s)->ended = PG_OK;
+    if (b->growth) b->growth->fresh = 0;               /* what was measured is that of the equilibrium */
+done:
+    return status;
+}
+
+/* The largest utilisation of bonds, or of facets, in the equilibrium after the event. */
+static pg_status look_at_rest (pg_solver *s, instability *u, pg_state *state, double factor, double *top)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    *top = 0;
+    if (b->growth) {
+        PG_TRY (facet_ready (s, state));
+        *top = facet_utilisation (b, state, factor);
+        goto done;
+    }
+    event_displacement (s, factor, u->rest);
+    PG_TRY (b->system.force->utilisation (b->system.self, state, u->rest, b->utilisation, b->kind, NULL));
+    for (size_t i = 0; i < state->nbond; i++) *top = fmax (*top, b->utilisation[i]);
 done:
     return status;
 }
@@ -162,14 +183,11 @@ pg_status instability_after (pg_solver *s, instability *u, pg_state *state, doub
                              int *moves)
 {
     pg_status status = PG_OK;
-    break_loop *b = &s->break_loop;
-    double top = 0;
+    double top;
     *moves = 0;
     if (s->options.on_instability != PG_UNSTABLE_DYNAMIC) goto done;
     if (solved == PG_OK) {
-        event_displacement (s, factor, u->rest);
-        PG_TRY (b->system.force->utilisation (b->system.self, state, u->rest, b->utilisation, b->kind, NULL));
-        for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
+        PG_TRY (look_at_rest (s, u, state, factor, &top));
         if (!(top > 1 + at_limit)) goto done;
     } else if (!event_no_equilibrium (solved)) PG_TRY (solved);
     *moves = 1;
@@ -255,6 +273,7 @@ static pg_status come_to_rest (pg_solver *s, instability *u, pg_state *state)
     memset (state->v, 0, state->ndof * sizeof *state->v);
     memset (state->a, 0, state->ndof * sizeof *state->a);
     enter (s, u, PHASE_REST);
+    if (s->break_loop.growth) s->break_loop.growth->fresh = 0;
     PG_TRY (event_rest (s, state, state->factor));
     r->energy_kinetic = 0;
     r->energy_damping += s->break_loop.work - work + before - r->energy_strain;

