@@ -331,6 +331,25 @@ static void an_orthotropic_plate_survives_every_failing_allocation (void **state
     sweep (wooden_scene, 1, 25);
 }
 
+/* Cracks in the plane that grow by facets, from a crack that is there and from the edge of an intact plate. */
+#define SHEET \
+    "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [10 mm, 10 mm]}}}]\nspacing: 1 mm\n" \
+    "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.2}}\n" \
+    "method: {integration: gauss, essential: nitsche}\n" \
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 20 um}}]\n" \
+    "solver: {kind: static, max_events: 3}\noutput: {fields: [displacement, damage], pictures: []}\n"
+static const char growing_scene[] =
+    SHEET "cracks: [{from: [-1 mm, 5.03 mm], to: [4.1 mm, 5.03 mm]}]\n"
+          "failure: {criterion: energy_release, fracture_energy: 0.1 J/m2}\n";
+static const char starting_scene[] =
+    SHEET "failure: {criterion: energy_release, fracture_energy: 8 J/m2, tensile_strength: 5 MPa}\n";
+static void growing_cracks_survive_every_failing_allocation (void **state)
+{
+    (void) state;
+    sweep (growing_scene, 1, 40);
+    sweep (starting_scene, 1, 40);
+}
+
 static void no_entry_of_a_catalogue_was_left_out (void **state)
 {
     (void) state;
@@ -362,6 +381,7 @@ int main (void)
         cmocka_unit_test (every_method_survives_every_failing_allocation),
         cmocka_unit_test (every_force_survives_with_every_solver),
         cmocka_unit_test (an_orthotropic_plate_survives_every_failing_allocation),
+        cmocka_unit_test (growing_cracks_survive_every_failing_allocation),
         cmocka_unit_test (no_entry_of_a_catalogue_was_left_out),
     };
     return cmocka_run_group_tests_name ("fuzz/allocation", tests, NULL, NULL);
