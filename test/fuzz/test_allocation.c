@@ -331,10 +331,10 @@ static void an_orthotropic_plate_survives_every_failing_allocation (void **state
     sweep (wooden_scene, 1, 25);
 }
 
-/* Cracks in the plane that grow by facets, from a crack that is there and from the edge of an intact plate. */
+/* Cracks in the plane that grow by facets: from one that is there, and from the edge of an intact plate. */
 #define SHEET \
-    "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [10 mm, 10 mm]}}}]\nspacing: 1 mm\n" \
-    "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.2}}\n" \
+    "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [10 mm, 10 mm]}}}]\n" \
+    "spacing: 1 mm\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.2}}\n" \
     "method: {integration: gauss, essential: nitsche}\n" \
     "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 20 um}}]\n" \
     "solver: {kind: static, max_events: 3}\noutput: {fields: [displacement, damage], pictures: []}\n"
