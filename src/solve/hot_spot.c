@@ -8,7 +8,6 @@
 #include <string.h>
 
 enum { DISC = 7 };                                     /* places of the disc */
-static const double apart = 4;                         /* of hot spots and tips, spacings */
 static const double even = 0.02;                       /* share of the load factor */
 
 double hot_strength_cap (double modulus, double energy, double h)
@@ -100,14 +99,13 @@ int hot_resists (const search *g, const double *x, double angle, double h, doubl
 }
 
 /* ---- hot spots ----------------------------------------------------------------------------------------- */
-/* Too near a tip, where the domain integral decides, or beside a crack, whose faces are free. */
-static int is_excluded (const search *g, const double *x, double h)
+int hot_excluded (const search *g, const double *x, double h)
 {
     const pg_problem *p = g->w->system->problem;
     const pg_crack_paths *paths = g->state->paths;
     for (size_t i = 0; paths && i < paths->ntip; i++) {
         const pg_tip *t = &paths->tip[i];
-        if (t->open && hypot (x[0] - t->x[0], x[1] - t->x[1]) < apart * h) return 1;
+        if (t->open && hypot (x[0] - t->x[0], x[1] - t->x[1]) < HOT_APART * h) return 1;
     }
     return pg_cracks_touch (pg_state_cracks (p, g->state), p->dim, x, 1.5 * h) != NULL;
 }
@@ -136,7 +134,7 @@ static pg_status node_factors (const search *g, double *factor)
             || !hot_resists (g, x, 0, h, p->material[p->block[PG_NODES][i]].modulus, &limits))
             continue;
         factor[i] = strength_factor (&at, limits.strength);
-        if (factor[i] < g->best && is_excluded (g, x, h)) factor[i] = INFINITY;
+        if (factor[i] < g->best && hot_excluded (g, x, h)) factor[i] = INFINITY;
     }
 done:
     pg_free (stress[0]), pg_free (stress[1]);
@@ -206,7 +204,7 @@ static long next_node (const search *g, const double *factor, const unsigned cha
         int near = 0;
         if (!(factor[i] < g->best) || !(key < least)) continue;
         for (size_t k = 0; k < n && !near; k++)
-            near = hypot (x[0] - spot[k].x[0], x[1] - spot[k].x[1]) < apart * spot[k].h;
+            near = hypot (x[0] - spot[k].x[0], x[1] - spot[k].x[1]) < HOT_APART * spot[k].h;
         if (!near) least = key, found = (long) i;
     }
     return found;

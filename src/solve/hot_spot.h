@@ -15,6 +15,7 @@ typedef struct {
     double angle;                                      /* of a crack across the largest tension, rad from x */
     double h;                                          /* local spacing, m */
     double modulus;                                    /* Young's modulus, Pa */
+    const pg_interface *interface;                     /* that it lies on, its angle along it; NULL: none */
 } hot_spot;
 
 /* What a search goes by. */
@@ -36,6 +37,12 @@ pg_status hot_stress (const search *g, size_t n, size_t count, const double *x, 
  * grow there, or has no strength given. */
 int       hot_resists (const search *g, const double *x, double angle, double h, double modulus,
                        pg_fracture_limits *out);
+/* Too near a tip, where the domain integral decides, or beside a crack, whose faces are free. */
+int       hot_excluded (const search *g, const double *x, double h);
+/* Least distance of hot spots from each other and from tips, spacings. */
+#define HOT_APART 4
+/* Up to `most` places of interfaces that reach a strength of their own, in interface_facet.c. */
+pg_status hot_interfaces (const search *g, size_t most, hot_spot *out, size_t *n);
 /* Up to `most` places that reach their strength below g->best, the least load factor first. */
 pg_status hot_spots (const search *g, size_t most, hot_spot *out, size_t *n);
 #endif

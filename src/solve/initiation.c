@@ -14,11 +14,13 @@
  * that: energy over l^2, which an even field would make constant, is fitted by a straight line. */
 #include "facet_growth.h"
 #include "hot_spot.h"
+#include "interface_facet.h"
 #include <math.h>
 #include <string.h>
 
 enum {
     MOST_SPOTS = 12,                                   /* that are looked at */
+    MOST_ON_INTERFACES = 4,                            /* besides */
     MOST_TRIED = 6,                                    /* of them that are cut */
     LENGTHS = 6,                                       /* that are tried together */
     ROUNDS = 5,
@@ -37,6 +39,7 @@ typedef struct {
     double reach[2];                                   /* towards -direction, +direction: length inside, m */
     int    edge;
     double h, modulus;                                 /* m, Pa */
+    const pg_interface *interface;                     /* that it runs along */
     /* places along it, from -reach to +reach; stress across over strength: c + lambda s; strength, Pa;
      * energy needed, J/m */
     size_t n;
@@ -69,7 +72,8 @@ static void lay (const search *g, const hot_spot *spot, trial_crack *c)
 {
     const pg_problem *p = g->w->system->problem;
     int what;
-    *c = (trial_crack) { .h = spot->h, .modulus = spot->modulus, .angle = spot->angle };
+    *c = (trial_crack) { .h = spot->h, .modulus = spot->modulus, .angle = spot->angle,
+                         .interface = spot->interface };
     memcpy (c->origin, spot->x, sizeof c->origin);
     c->direction[0] = cos (c->angle), c->direction[1] = sin (c->angle);
     put_inside (g, c);
@@ -105,6 +109,18 @@ static void set_places (trial_crack *c, double *x)
     }
 }
 
+/* What the crack takes at a place: along an interface that of the interface, as far as that goes on straight;
+ * 0: it cannot go on there. */
+static int resists (const search *g, const trial_crack *c, const double *x, pg_fracture_limits *out)
+{
+    crossing unused;
+    if (!c->interface || !interface_around (g->w, x, 0.3 * c->h, 1, &unused))
+        return hot_resists (g, x, c->angle, c->h, c->modulus, out);
+    out->energy = c->interface->energy;
+    out->strength = fmin (c->interface->strength, hot_strength_cap (c->modulus, out->energy, c->h));
+    return 1;
+}
+
 /* Stress across the crack over the strength along it, and the energy that it takes there. */
 static pg_status look_along (const search *g, trial_crack *c)
 {
@@ -124,7 +140,7 @@ static pg_status look_along (const search *g, trial_crack *c)
         pg_fracture_limits limits;
         /* where none can grow no crack goes through */
         c->needed[i] = INFINITY, c->strength[i] = 1;
-        if (!hot_resists (g, place, c->angle, c->h, c->modulus, &limits)) continue;
+        if (!resists (g, c, place, &limits)) continue;
         c->needed[i] = limits.energy * g->w->system->problem->cloud.thickness;
         c->strength[i] = limits.strength;
         for (int k = 0; k < 3; k++) {
@@ -404,16 +420,18 @@ pg_status trial_initiation (trials *w, const pg_state *state, const trial_fields
     pg_status status = PG_OK;
     search g = { w, state, f, limits, context, below };
     trial_crack *c = NULL;
-    hot_spot spot[MOST_SPOTS];
+    hot_spot spot[MOST_SPOTS + MOST_ON_INTERFACES];
     trial_start tried[MOST_TRIED] = { { .factor = 0 } };
-    unsigned char done_[MOST_SPOTS] = { 0 };
-    size_t nspot, ntried = 0, about = 0, k;
+    unsigned char done_[MOST_SPOTS + MOST_ON_INTERFACES] = { 0 };
+    size_t nspot, more, ntried = 0, about = 0, k;
     *n = 0, *arbitrary = 0;
     if (!state->paths || !w->system->force->field) return PG_OK;
     PG_TRY (hot_spots (&g, MOST_SPOTS, spot, &nspot));
+    PG_TRY (hot_interfaces (&g, MOST_ON_INTERFACES, spot + nspot, &more));
+    nspot += more;
     PG_ALLOC (c, nspot);
     for (size_t i = 0; i < nspot; i++) {
-        about += spot[i].factor <= spot[0].factor * (1 + even);
+        about += !spot[i].interface && spot[i].factor <= spot[0].factor * (1 + even);
         lay (&g, &spot[i], &c[i]);
         done_[i] = !isfinite (spot[i].factor) || !(c[i].reach[0] + c[i].reach[1] >= c[i].h);
         if (done_[i]) continue;

@@ -2,6 +2,7 @@
  * Where interfaces run: a place is of the material of the nearest evaluation point, and an interface lies
  * where that changes. Points of evaluation are no further from an interface along the edges of cells than
  * half a spacing, at equal distances on both sides, so that such an interface is found exactly. */
+#include "hot_spot.h"
 #include "interface_facet.h"
 #include <math.h>
 #include <string.h>
@@ -90,4 +91,98 @@ int interface_ahead (trials *w, const double *x, const double *direction, double
         return 1;
     }
     return 0;
+}
+
+/* ---- where cracks may begin ---------------------------------------------------------------------------- */
+/* Does node i see a node of another material? */
+static int is_beside (const pg_problem *p, size_t i)
+{
+    const pg_family *f = &p->rows[PG_NODES].family;
+    for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
+        if (p->block[PG_NODES][f->node[e]] != p->block[PG_NODES][i]) return 1;
+    return 0;
+}
+
+/* The place of an interface near a node, its direction there, and its entry; 0: none with a strength. */
+static int lies_near (trials *w, size_t node, hot_spot *out)
+{
+    const pg_problem *p = w->system->problem;
+    double x[3] = { p->cloud.x[2 * node], p->cloud.x[2 * node + 1], 0 };
+    crossing way[3];
+    *out = (hot_spot) { .h = pg_problem_spacing (p, PG_NODES, node), .factor = INFINITY };
+    if (interface_around (w, x, 0.8 * out->h, 3, way) < 2) return 0;
+    out->interface = pg_problem_interface (p, way[0].material[0], way[0].material[1]);
+    if (!out->interface || !(out->interface->strength > 0)) return 0;
+    for (int k = 0; k < 2; k++) out->x[k] = 0.5 * (way[0].x[k] + way[1].x[k]);
+    out->angle = atan2 (way[1].x[1] - way[0].x[1], way[1].x[0] - way[0].x[0]);
+    const int *m = out->interface->material;
+    out->modulus = fmin (p->material[m[0]].modulus, p->material[m[1]].modulus);
+    return 1;
+}
+
+/* Load factor at which the tension across the interface reaches its strength. */
+static double factor_across (const hot_spot *s, const affine_stress *stress)
+{
+    double a = -sin (s->angle), b = cos (s->angle), across[3] = { a * a, b * b, 2 * a * b };
+    double f = fmin (s->interface->strength, hot_strength_cap (s->modulus, s->interface->energy, s->h)),
+           constant = 0, slope = 0;
+    for (int k = 0; k < 3; k++) {
+        constant += across[k] * stress->constant[k];
+        slope += across[k] * stress->slope[k];
+    }
+    if (constant >= f) return 0;
+    return slope > 0 ? (f - constant) / slope : INFINITY;
+}
+
+/* The best of the places that lie apart from those already kept. */
+static void keep_apart (size_t count, const hot_spot *all, double limit, size_t most, hot_spot *out,
+                        size_t *n)
+{
+    for (*n = 0; *n < most; ++*n) {
+        size_t best = count;
+        for (size_t i = 0; i < count; i++) {
+            int near = 0;
+            for (size_t k = 0; k < *n && !near; k++)
+                near = hypot (all[i].x[0] - out[k].x[0], all[i].x[1] - out[k].x[1]) < HOT_APART * all[i].h;
+            if (near || !(all[i].factor < limit)) continue;
+            if (best == count || all[i].factor < all[best].factor) best = i;
+        }
+        if (best == count) break;
+        out[*n] = all[best];
+    }
+}
+
+/* Stresses are averaged over two places, a quarter of a spacing to both sides of the interface. */
+pg_status hot_interfaces (const search *g, size_t most, hot_spot *out, size_t *n)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = g->w->system->problem;
+    size_t count = 0, cap = 0;
+    hot_spot *all = NULL, one;
+    double *x = NULL;
+    affine_stress *stress = NULL;
+    int several;
+    *n = 0;
+    PG_TRY (interface_ready (g->w, &several));
+    if (!several || p->ninterface == 0) goto done;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        if (p->exempt[PG_NODES][i] || !is_beside (p, i) || !lies_near (g->w, i, &one)) continue;
+        if (hot_excluded (g, one.x, one.h)) continue;
+        PG_GROW (all, cap, count + 1);
+        all[count++] = one;
+    }
+    PG_ALLOC (x, 4 * count);
+    PG_ALLOC (stress, count);
+    for (size_t i = 0; i < count; i++)
+        for (int side = 0; side < 2; side++) {
+            double s = (side ? 0.25 : -0.25) * all[i].h;
+            x[4*i + 2 * (size_t) side] = all[i].x[0] - s * sin (all[i].angle);
+            x[4*i + 2 * (size_t) side + 1] = all[i].x[1] + s * cos (all[i].angle);
+        }
+    if (count) PG_TRY (hot_stress (g, 2 * count, 2, x, stress));
+    for (size_t i = 0; i < count; i++) all[i].factor = factor_across (&all[i], &stress[i]);
+    keep_apart (count, all, g->best, most, out, n);
+done:
+    pg_free (all), pg_free (x), pg_free (stress);
+    return status;
 }

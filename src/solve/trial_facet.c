@@ -156,7 +156,10 @@ static double energy_between (break_loop *b, const crossing *c, const double *x,
     return isfinite (least) ? least : 0;
 }
 
-static double angle_to (const double *from, const double *to) { return atan2 (to[1] - from[1], to[0] - from[0]); }
+static double angle_to (const double *from, const double *to)
+{
+    return atan2 (to[1] - from[1], to[0] - from[0]);
+}
 
 /* The smaller angle between two directions, rad. */
 static double turn_between (double a, double b) { return fabs (remainder (a - b, 2 * acos (-1))); }

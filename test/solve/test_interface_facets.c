@@ -60,6 +60,37 @@ static void a_weak_interface_deflects_a_crack (void **state)
         }
 }
 
+/* A bar in even tension parts at the interface where that is weaker than the bodies, at its strength; else
+ * anywhere. */
+static void an_interface_parts_at_its_strength (void **state)
+{
+    (void) state;
+    for (int weak = 0; weak < 2; weak++) {
+        double f = sqrt (E * G0 / 0.4);                /* E G0/f^2 is eight spacings */
+        run r = scene_of (1, "dimension: 2\nplane: stress\nspacing: 0.05 m\nlattice: cells\n"
+                             "body: [{add: {box: {low: [0, 0], high: [2 m, 1 m]}}}]\n"
+                             "materials: {a: {youngs_modulus: %.17g, poissons_ratio: %g}, "
+                             "b: {youngs_modulus: %.17g, poissons_ratio: %g}}\n"
+                             "blocks: [{material: a, where: x == x}, {material: b, where: x > 1.4}]\n"
+                             "sets: {pin: {where: \"hypot (x - 1, y - 0.5) < 0.06\"}}\n"
+                             "boundary: [{set: left, traction: {x: %.17g}}, "
+                             "{set: right, traction: {x: %.17g}}, "
+                             "{set: pin, displacement: {x: 0, y: 0}, essential: penalty}]\n"
+                             "failure: {criterion: energy_release, fracture_energy: %g, "
+                             "tensile_strength: %.17g, interfaces: [{between: [a, b], "
+                             "fracture_energy: %g, tensile_strength: %.17g}]}\n"
+                             "solver: {max_events: 1}\n", E, nu, E, nu, -2 * f, 2 * f, G0, f,
+                          weak ? 0.25 * G0 : 4 * G0, weak ? 0.5 * f : 2 * f);
+        while (r.state->events == 0 && !pg_solver_done (r.solver, r.state)) advance (&r);
+        assert_int_equal (r.state->events, 1);
+        check_relative (r.step.factor, weak ? 0.25 : 0.5, 0.03);
+        double x = r.state->paths->tip[0].x[0];
+        if (weak) check_below (fabs (x - 1.4), 0.01);
+        else assert_true (fabs (x - 1.4) > 0.01);
+        clear (&r);
+    }
+}
+
 static void wrong_interfaces_are_refused (void **state)
 {
     (void) state;
@@ -96,6 +127,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (along_an_interface_its_energy_counts),
         cmocka_unit_test (a_weak_interface_deflects_a_crack),
+        cmocka_unit_test (an_interface_parts_at_its_strength),
         cmocka_unit_test (wrong_interfaces_are_refused),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
