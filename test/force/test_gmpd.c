@@ -215,8 +215,8 @@ static void test_fracture_energy (void **unused)
             snprintf (text, sizeof text,
                       "%sspacing: 0.1\nlattice: cells\nmaterials: {rock: {youngs_modulus: 10, "
                       "poissons_ratio: 0.18, density: 3}}\n"
-                      "failure: {criterion: beam_limits, fracture_energy: 0.7}\nmethod: {force: gmpd, beam: "
-                      "timoshenko, horizon: %s}\n",
+                      "failure: {criterion: beam_limits, fracture_energy: 0.7, calibration: theory}\n"
+                      "method: {force: gmpd, beam: timoshenko, horizon: %s}\n",
                       body[w], k ? "3 spacing" : "3.015 spacing");
             bonded b = bonded_of (text);
             for (int mode = 0; mode < 3; mode++)

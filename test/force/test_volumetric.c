@@ -419,8 +419,8 @@ static void test_fracture_energy (void **unused)
             snprintf (text, sizeof text,
                       "%sspacing: 0.1\nlattice: cells\nmaterials: {rock: {youngs_modulus: 10, "
                       "poissons_ratio: 0.4, density: 3}}\n"
-                      "failure: {criterion: %s, fracture_energy: 0.7}\nmethod: {force: gmpd, volumetric: on, "
-                      "horizon: %s}\n",
+                      "failure: {criterion: %s, fracture_energy: 0.7, calibration: theory}\n"
+                      "method: {force: gmpd, volumetric: on, horizon: %s}\n",
                       body[w], k == 1 ? "stretch" : "beam_limits", k ? "3 spacing" : "3.015 spacing");
             bonded b = bonded_of (text);
             for (int axis = 0; axis < b.problem->dim; axis++)

@@ -220,7 +220,7 @@ static void refusals (void **unused)
     (void) unused;
     refused (PLATE ROCK PULL
              "method: {force: bond}\nfailure: {criterion: principal_stress, tensile_strength: 1 MPa}\n",
-             "use stretch, node_energy, or force: galerkin");
+             "use stretch, node_energy, energy_release, or force: galerkin");
     refused (PLATE ROCK PULL "method: {force: bond, stretch: finite}\n",
              "this solver needs linear ones");
     refused (PLATE ROCK PULL "method: {force: bond, stretch: finite}\nfailure: {criterion: stretch, "
