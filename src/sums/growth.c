@@ -15,7 +15,7 @@ typedef struct { double horizon; pg_growth growth; } row;
 enum { ROWS = 3 };
 static const row alone[ROWS] = { { 3.015, { 1.138, 1.105, 1.182 } },
                                  { 4.015, { 1.086, 1.053, 1.117 } },
-                                 { 5.015, { 1.04, 1.02, 1.06 } } };
+                                 { 5.015, { 1.039, 1.023, 1.071 } } };
 /* At a Poisson's ratio of 1/3 in plane stress the same as bonds alone; between that and 0.2. */
 static const row state[ROWS] = { { 3.015, { 1.128, 1.083, 1.187 } },
                                  { 4.015, { 1.08, 1.05, 1.12 } },
