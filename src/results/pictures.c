@@ -65,8 +65,10 @@ static void write_title (const pg_result *r, const pg_state *state, const result
                   v->style.above, v->limited && *unit ? " " : "", v->limited ? unit : "");
     int used = snprintf (title, size, "%.200s%s%s%s, ", r->problem->title, v->look[0] ? ", " : "", v->look,
                          limit);
-    if (r->dynamic) snprintf (title + used, size - (size_t) used, "time %s", time);
-    else snprintf (title + used, size - (size_t) used, "load factor %.4g", state->factor);
+    if (r->dynamic) used += snprintf (title + used, size - (size_t) used, "time %s", time);
+    else used += snprintf (title + used, size - (size_t) used, "load factor %.4g", state->factor);
+    if (v->style.magnify != 0)
+        snprintf (title + used, size - (size_t) used, ", displacements \xc3\x97 %g", v->style.magnify);
 }
 
 /* Where the body is: plane elements, its shapes, or the whole cells that stand for it. Nothing
