@@ -45,9 +45,9 @@ pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *clo
  * the first step at which it exists. */
 typedef struct { double x[2][3]; size_t point[2]; double since; } pg_exodus_line;
 /* Adds n lines to a file that is complete, as a block of elements BAR2 named "cracks", and closes it. Faces
- * of cracks are shown so: each takes the displacements of its own side. The element variable `exists` is 1 from
- * a line's `since` on, else 0. The file is copied and takes the place of the old one when the copy is whole;
- * nothing can be appended to it any more. Cloud, title and fields are those of its creation. */
+ * of cracks are shown so: each takes the displacements of its own side. The element variable `exists` is 1
+ * from the `since` of a line on, else 0. The file is copied and takes the place of the old one when the copy
+ * is whole; nothing can be appended to it any more. Cloud, title and fields are those of its creation. */
 pg_status pg_exodus_add_lines (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
                                const pg_exodus_line *line);
 /* Appends a step: the fields in the order of the creation, with values. `time` is in s (a load

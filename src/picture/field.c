@@ -35,7 +35,7 @@ typedef struct {
     pg_spots spots;
     /* Spacing around the points of a 2D cloud that is no lattice, m (cloud->n), or NULL. */
     double *spacing;
-    /* Displaced faces of pre-cracks in 2D, FACE places each, m. */
+    /* Displaced faces of cracks in 2D, PG_FACE places each, m. */
     double *face;  size_t nface, cap_face;
     char    label[32], title[440];
 } drawing;
@@ -314,29 +314,6 @@ static double half_of_points (const drawing *d, int a)
 }
 
 /* ---- painting ------------------------------------------------------------------------------------------ */
-enum { FACE = 129 };
-/* Where both faces of every crack are now, so that an opened crack is drawn as two lines: FACE places each,
- * of short pieces fewer, five in a spacing, and nothing behind them. */
-static pg_status find_faces (drawing *d, const pg_tiles *t)
-{
-    pg_status status = PG_OK;
-    const pg_cracks *cracks = t->cracks;
-    d->nface = 0;
-    if (!t->shift || d->cloud->dim != 2 || !cracks) goto done;
-    for (size_t c = 0; c < cracks->n; c++)
-        for (int side = 0; side < 2; side++) {
-            const double *v = cracks->crack[c].vertex;
-            double places = 5 * hypot (v[2] - v[0], v[3] - v[1]) / t->widest;
-            size_t n = places > 3 * FACE / 4 ? FACE : (size_t) fmax (places, 0) + 4;
-            PG_GROW (d->face, d->cap_face, 2 * FACE * (d->nface + 1));
-            double *out = d->face + 2 * FACE * d->nface++;
-            pg_tiles_face (t, v, v + 2, side, n, out);
-            for (size_t k = 2 * n; k < 2 * FACE; k++) out[k] = NAN;
-        }
-done:
-    return status;
-}
-
 /* What is handed to tiles.c: coordinates, shifts, damage and local spacings of the points in sight, in the
  * plane. */
 typedef struct { double *place, *shift, *damage, *size; } plane_points;
@@ -400,7 +377,7 @@ static pg_status paint_tiles (drawing *d, size_t panel, pg_screen *s)
     t.place = p.place, t.shift = p.shift, t.damage = p.damage, t.size = d->cloud->size ? p.size : NULL;
     PG_TRY (pg_tiles_open (&t));
     PG_TRY (pg_tiles_draw (&t, s));
-    PG_TRY (find_faces (d, &t));
+    PG_TRY (pg_tiles_faces (&t, &d->face, &d->nface, &d->cap_face));
     for (size_t k = 0; k < (size_t) s->width * (size_t) s->height; k++) {
         if (s->owner[k] < 0) continue;
         s->owner[k] = d->index[s->owner[k]];
@@ -487,7 +464,7 @@ static pg_status paint_panel (drawing *d, cairo_t *cr, size_t panel, int fine)
     if (box) pg_wire_box (p, cr, panel, &d->grid, 1);
     PG_TRY (pg_panel_paint (p, cr, panel, &s, value_of (d, panel), fine));
     if (box) pg_wire_box (p, cr, panel, &d->grid, 0);
-    if (u && d->cloud->dim == 2) pg_wire_faces (p, cr, panel, d->nface, FACE, d->face);
+    if (u && d->cloud->dim == 2) pg_wire_faces (p, cr, panel, d->nface, PG_FACE, d->face);
     else if (cracks_of (d, panel) && !u)
         pg_wire_cracks (p, cr, panel, &d->grid, cracks_of (d, panel), select ? NULL : &s);
     pg_panel_draw (p, cr, panel, d->panel[panel].title);

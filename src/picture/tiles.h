@@ -54,11 +54,11 @@ pg_status pg_tiles_rest  (const pg_tiles *t, pg_screen *screen);
  * leave a gap. */
 pg_status pg_tiles_draw  (pg_tiles *t, pg_screen *screen);
 
-/* After pg_tiles_draw with a shift: where n places along one face of a crack from a to b (m)
- * are now (side 1: the face on the left of the direction a to b; 0: on the right); NAN outside
- * the body. */
-void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int side, size_t n,
-                    double *out /* n x 2, m */);
+/* After pg_tiles_draw with a shift, in 2D: where both faces of every crack are now, so that an opened crack
+ * is drawn as two lines. *face: PG_FACE places (x 2, m) of each of *n faces, NAN outside the body and where a
+ * short piece needs fewer; grown as needed, *cap numbers. */
+enum { PG_FACE = 129 };
+pg_status pg_tiles_faces (const pg_tiles *t, double **face, size_t *n, size_t *cap);
 
 /* 1 if a place lies in the body; also 1 where there is no outline, or one that is a mesh. */
 int       pg_tiles_inside (const pg_tiles *t, const double *at);

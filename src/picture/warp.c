@@ -169,9 +169,11 @@ static long beside (const pg_tiles *t, const double *place)
     return best;
 }
 
-/* Places are taken a thousandth of a spacing beside the crack, on the side that is asked for,
+/* Where n places along one face of a crack from a to b (m) are now: side 1: on the left of that direction, 0:
+ * on the right; out: n x 2, m; NAN outside the body.
+ * Places are taken a thousandth of a spacing beside the crack, on the side that is asked for,
  * so that they see the points of that side only. */
-void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int side, size_t n, double *out)
+static void face_of (const pg_tiles *t, const double *a, const double *b, int side, size_t n, double *out)
 {
     double dx = b[0] - a[0], dy = b[1] - a[1], length = hypot (dx, dy),
            off = (side ? 1e-3 : -1e-3) * t->widest;
@@ -184,6 +186,26 @@ void pg_tiles_face (const pg_tiles *t, const double *a, const double *b, int sid
         shift_at (t, (size_t) o, at, u);
         out[2*k] = at[0] + u[0], out[2*k + 1] = at[1] + u[1];
     }
+}
+
+/* Five places in a spacing of a short piece, none behind them. */
+pg_status pg_tiles_faces (const pg_tiles *t, double **face, size_t *n, size_t *cap)
+{
+    pg_status status = PG_OK;
+    *n = 0;
+    if (!t->shift || t->dim != 2 || !t->cracks) goto done;
+    for (size_t c = 0; c < t->cracks->n; c++)
+        for (int side = 0; side < 2; side++) {
+            const double *v = t->cracks->crack[c].vertex;
+            double places = 5 * hypot (v[2] - v[0], v[3] - v[1]) / t->widest;
+            size_t m = places > 0.75 * PG_FACE ? PG_FACE : (size_t) fmax (places, 0) + 4;
+            PG_GROW (*face, *cap, 2 * PG_FACE * (*n + 1));
+            double *out = *face + 2 * PG_FACE * (*n)++;
+            face_of (t, v, v + 2, side, m, out);
+            for (size_t k = 2 * m; k < 2 * PG_FACE; k++) out[k] = NAN;
+        }
+done:
+    return status;
 }
 
 /* ---- pieces -------------------------------------------------------------------------------------------- */

@@ -12,6 +12,10 @@
 #define PULL \
     "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, " \
     "displacement: {y: 2 mm}}]\n"
+#define FACETS \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 0.9]}}}]\nspacing: 0.05\n" \
+    "cracks: [{from: [-0.1, 0.46], to: [0.43, 0.43]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
+    "poissons_ratio: 0.2, density: 2000}}\nfailure: {fracture_energy: 400 J/m2}\n"
 static const struct { const char *name, *text;
 } scenes[] = {
     { "event", BODY PULL
@@ -36,6 +40,10 @@ static const struct { const char *name, *text;
       "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\nmethod: {force: "
       "bond}\n" PULL "solver: {stepping: event, linear: pcg, max_events: 16}\noutput: {at: {levels: 4, "
                      "broken: 2 %}, pictures: []}\n" },
+    { "facets", FACETS PULL "solver: {stepping: event, max_events: 9}\n"
+                            "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+    { "facets_fixed", FACETS PULL "solver: {stepping: fixed, steps: 4}\n"
+                                  "output: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

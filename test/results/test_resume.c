@@ -27,6 +27,7 @@ static void same_report (const char *a, const char *b)
 static void same_files (const char *a, const char *b)
 {
     same_file (a, b, "history.csv"), same_file (a, b, "events.csv"), same_file (a, b, "result.e");
+    if (size_of (inside (a, "cracks.csv")) > 0) same_file (a, b, "cracks.csv"), same_file (a, b, "tips.csv");
     same_report (a, b);
     assert_int_equal (size_of (inside (b, "checkpoint.nc")), -1);
 }
@@ -57,7 +58,7 @@ static void from_every_moment (int i, long some)
     assert_int_equal (within, 0);
     for (long k = 1; stop_at (text, where, k); k += stride, moments++)
         from_moment (text, plain, where, &within);
-    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5));  /* an event is a step of its own */
+    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5 || i == 6));  /* an event is a step */
     remove_folder (plain), remove_folder (where);
 }
 static void from_every_event (void **state) { (void) state; from_every_moment (0, 5); }
@@ -70,6 +71,8 @@ static void from_every_event_with_an_old_preconditioner (void **state)
     (void) state;
     from_every_moment (5, 5);
 }
+static void from_every_facet (void **state) { (void) state; from_every_moment (6, 3); }
+static void from_every_round_of_facets (void **state) { (void) state; from_every_moment (7, 3); }
 
 /* ---- stages, full disks -------------------------------------------------------------------------------- */
 static void stages_within_a_step_ascend_in_time (void **state)
@@ -156,6 +159,8 @@ int main (void)
         cmocka_unit_test (from_every_round_of_nodal_integration),
         cmocka_unit_test (from_every_round_of_time_steps),
         cmocka_unit_test (from_every_event_with_an_old_preconditioner),
+        cmocka_unit_test (from_every_facet),
+        cmocka_unit_test (from_every_round_of_facets),
         cmocka_unit_test (stages_within_a_step_ascend_in_time),
         cmocka_unit_test (a_disk_that_was_full_costs_nothing),
     };
