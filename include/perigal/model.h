@@ -27,6 +27,9 @@ typedef struct pg_load {
     char           name[64];
     pg_load_kind   kind;
     const pg_set  *set;
+    /* 1: a pressure in all cracks, also in those that come into being, the same at all places; the set is
+     * empty */
+    int            cracks;
     /* per component, NULL: free; m, m/s, Pa, N, N/m^3, rad, N m; 2D rotation, moment: about z, the first */
     pg_expression *value[3];
     pg_expression *ramp;                               /* factor of t; NULL: from the table */

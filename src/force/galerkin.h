@@ -150,6 +150,10 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
                               double *reaction);
 double galerkin_boundary_energy (galerkin *g, double t);
 size_t galerkin_boundary_pairs (galerkin *g);
+/* P += factor times the nodal forces of a unit pressure in all cracks, N (ndof). */
+void   galerkin_crack_pressure (galerkin *g, double factor, double *P);
+/* The volume of all cracks, m^3, that a displacement d opens. */
+double galerkin_crack_volume   (galerkin *g, const double *d);
 size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out);
 /* basis */
 pg_status galerkin_basis_create (galerkin *g);

@@ -289,6 +289,13 @@ static void visit_loads (const galerkin *g, double t, visitor visit, void *conte
     }
 }
 
+/* In cracks, where it is the same at all places. */
+static double pressure_at (const galerkin *g, size_t l, double t)
+{
+    static const double anywhere[3] = { 0 };
+    return pg_load_value (&g->problem->load[l], 0, g->dim, anywhere, t);
+}
+
 typedef struct { galerkin *g; double *f; } spreading;
 
 /* A force at a point goes to the nodes that its displacement depends on, by their shape functions. */
@@ -376,6 +383,8 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
     (void) d;
     memset (g->work, 0, ndof * sizeof *g->work);
     visit_loads (g, t, spread, &s);
+    for (size_t l = 0; l < g->problem->nload; l++)
+        if (g->problem->load[l].cracks) galerkin_crack_pressure (g, pressure_at (g, l, t), g->work);
     *external = squared (g->work, ndof);
     for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
     memset (g->work, 0, ndof * sizeof *g->work);
@@ -427,6 +436,7 @@ size_t galerkin_boundary_pairs (galerkin *g)
     size_t n = 0;
     visit_supports (g, 0, count_pair, &n);
     visit_loads (g, 0, count_pair, &n);
+    for (size_t l = 0; l < g->problem->nload; l++) n += g->problem->load[l].cracks != 0;
     return n;
 }
 
@@ -446,8 +456,12 @@ static void write_pair (void *context, int set, size_t point, int load, int k, d
 size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out)
 {
     writing w = { out, 0 };
-    (void) d;
     visit_supports (g, t, write_pair, &w);
     visit_loads (g, t, write_pair, &w);
+    for (size_t l = 0; l < g->problem->nload; l++) {
+        if (!g->problem->load[l].cracks) continue;
+        out->force[w.at] = pressure_at (g, l, t);      /* its displacement is the volume of the cracks */
+        out->displacement[w.at++] = galerkin_crack_volume (g, d);
+    }
     return w.at;
 }

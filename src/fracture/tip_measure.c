@@ -69,6 +69,32 @@ done:
     return status;
 }
 
+/* Pressure in the cracks in field `at`: of t[at], less that of t[0] for the second. */
+static double pressure_in (const pg_problem *p, int at, const double *t)
+{
+    static const double anywhere[3] = { 0 };
+    double sum = 0;
+    for (size_t l = 0; l < p->nload; l++) {
+        if (!p->load[l].cracks) continue;
+        sum += pg_load_value (&p->load[l], 0, 2, anywhere, t[at]);
+        if (at > 0) sum -= pg_load_value (&p->load[l], 0, 2, anywhere, t[0]);
+    }
+    return sum;
+}
+
+/* A uniform pressure in the whole body, subtracted, leaves faces that are free: J, K_I and K_II are the same,
+ * the stress along the crack is larger by it. Its strain is p / (2 k), k = 2 mu / (kappa - 1) the modulus of
+ * in-plane dilatation. */
+static void free_faces (tip_grid *grid, int at, const tip_material *m, double pressure)
+{
+    tip_sample *f = &grid->field[at];
+    double strain = pressure * (m->kappa - 1) / (4 * m->mu);
+    for (size_t k = 0; k < grid->n; k++) {
+        f->H[4*k] += strain, f->H[4*k + 3] += strain;
+        f->stress[3*k] += pressure, f->stress[3*k + 1] += pressure;
+    }
+}
+
 static int moves (const pg_state *state)
 {
     for (size_t i = 0; i < state->ndof; i++) if (state->v[i] != 0 || state->a[i] != 0) return 1;
@@ -145,6 +171,7 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
 {
     pg_status status = PG_OK;
     tip_grid grid = { 0 }, faces = { 0 };
+    double pressure[TIP_FIELDS] = { 0 };
     size_t node;
     const char *refused = pg_tip_refuses (p, force);
     memset (out, 0, sizeof *out);
@@ -165,9 +192,12 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
         PG_TRY (tip_grid_sample (&grid, a, out, &m, p, force, self, state, d[a]));
         if (faces.n) PG_TRY (tip_grid_sample (&faces, a, out, &m, p, force, self, state, d[a]));
         if (forced) PG_TRY (add_body_force (&grid, a, out, p, node, t));
+        pressure[a] = pressure_in (p, a, t);
+        if (pressure[a] != 0) free_faces (&grid, a, &m, pressure[a]), free_faces (&faces, a, &m, pressure[a]);
     }
     if (moving) PG_TRY (add_inertia (&grid, out, &m, p, force, self, state));
     integrate (out, &grid, &faces, &m, state->paths->tip[tip].grown > 0);
+    for (int a = 0; a < nfield; a++) out->T[a] -= pressure[a];
 done:
     tip_grid_clear (&grid), tip_grid_clear (&faces);
     return status;

@@ -127,6 +127,7 @@ static pg_status make_facets (pg_problem *p, const pg_scene *scene)
         int needs = load->kind == PG_TRACTION || load->kind == PG_PRESSURE
                     || (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE);
         for (size_t k = 0; needs && k < load->set->nfacet; k++) used[load->set->facet[k]] = 1;
+        for (size_t k = 0; load->cracks && k < p->cells.nfacet; k++) used[k] = 1;
     }
     p->facet_order = facet_order (p, scene);
     PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));

@@ -25,9 +25,12 @@ static const pg_key keys[] = {
     { "boundary", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Loads and supports." },
     { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL,
       "Name in history.csv; default: the set's name." },
-    { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL, NULL,
+    { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all|cracks",
+      NULL, NULL,
       "Where it acts: a set, a part of one (platens.top) or of a shape (disk.rim, polygon.edge 3), or left, "
-      "right, bottom, top, back, front, all." },
+      "right, bottom, top, back, front, all; cracks: a pressure on the faces of all cracks, also of those "
+      "that "
+      "come into being." },
     LOAD ("displacement", "m", "Prescribed displacement."),
     LOAD ("velocity", "m/s", "Prescribed velocity (newmark, verlet, central)."),
     LOAD ("rotation", "rad", "gmpd: prescribed rotation (2D: z)."),
@@ -41,7 +44,8 @@ static const pg_key keys[] = {
       "Traction, pressure with force: bond: shared, by volume, by the points down to this depth below each "
       "facet, at most all of the body; unless given by the outermost points." },
     { "boundary[].essential", PG_NAME, NULL, NULL, "", "auto|nitsche|transformation|penalty", NULL, NULL,
-      "How this displacement or velocity is prescribed; method.essential unless given. penalty: cheapest for "
+      "How this displacement or velocity is prescribed; method.essential unless given. penalty: cheapest "
+      "for "
       "a point that only keeps the body from moving." },
     { "boundary[].ramp", PG_TEXT, NULL, NULL, "", NULL, NULL, "ramp:most",
       "Factor over time: linear (0 to 1 over the run), constant, or an expression in t; default linear, for "

@@ -300,6 +300,33 @@ static void name_load (pg_load *load, const pg_scene *scene, size_t i, const cha
     for (char *c = load->name; *c && !given; c++) if (*c == ' ') *c = '_';
 }
 
+/* `set: cracks`: no points and no facets, for faces come into being in the run. */
+static const pg_set crack_faces = { .name = "cracks" };
+
+/* A pressure in cracks is equivalent to one on the surface and inside the body (theory: the divergence of
+ * every shape function), which holds where it is the same at all places. */
+static void check_cracks (const pg_problem *problem, const pg_load *load, const pg_scene *scene, size_t i)
+{
+    char path[64];
+    snprintf (path, sizeof path, "boundary[%zu].set", i);
+    if (load->kind != PG_PRESSURE)
+        pg_scene_fault (scene, path, "in cracks there can be a pressure, nothing else so far");
+    else if (!problem->method->shape_functions)
+        pg_scene_fault (
+            scene, path,
+            "force: %s has no shape functions that end at the faces of a crack, so that nothing can "
+            "press on these",
+            problem->method->name);
+    else if (problem->cells.n == 0)
+        pg_scene_fault (scene, path,
+                        "a pressure in cracks needs the surface of the body, and a body of explicit "
+                        "points has none");
+    snprintf (path, sizeof path, "boundary[%zu].pressure", i);
+    if (load->value[0] && depends_on_place (load->value[0]))
+        pg_scene_fault (scene, path,
+                        "a pressure in cracks is the same at all places: an expression of t alone");
+}
+
 /* Entry i of `boundary`. duration: end of the run, s (quasi-static: 1), for ramps over it. */
 static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i,
                             int is_static, double duration)
@@ -318,17 +345,19 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
                         problem->method->name, pg_methods_with_rotations (problem, names, sizeof names));
     name_load (load, scene, i, set);
     snprintf (path, sizeof path, "boundary[%zu].set", i);
-    load->set = pg_sets_named (&problem->sets, scene, path, set);
+    load->cracks = strcmp (set, crack_faces.name) == 0 && !pg_scene_given (scene, "sets.%s", set);
+    load->set = load->cracks ? &crack_faces : pg_sets_named (&problem->sets, scene, path, set);
     if (!load->set) goto done;
     if (is_static && load->kind == PG_VELOCITY)
         pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
     load->essential = PG_ESSENTIAL_TRANSFORMATION;
     if (problem->method->support) problem->method->support (problem, load, scene, i);
-    check_place (problem, load, scene, i);
+    if (!load->cracks) check_place (problem, load, scene, i);
     read_depth (problem, load, scene, i);
     if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
     else PG_TRY (read_ramp (load, scene, i, is_static, duration));
     PG_TRY (read_values (load, scene, i, kinds[k].key, kinds[k].unit));
+    if (load->cracks) check_cracks (problem, load, scene, i);
 done:
     return status;
 }

@@ -24,7 +24,7 @@ static double push_along (const pg_problem *p, const pg_load *load, int k)
         }
         return size;
     }
-    if (load->kind != PG_PRESSURE) return 0;
+    if (load->kind != PG_PRESSURE || load->cracks) return 0;
     const double *normal = p->cells.normal + (size_t) load->set->facet[0] * (size_t) p->dim;
     for (int c = 0; c < p->dim; c++) if (fabs (normal[c]) > fabs (normal[k])) return 0;
     return 1;

@@ -337,6 +337,45 @@ static void a_crack_that_closes_is_said_to (void **state)
     clear (&r);
 }
 
+/* The same K as tension on the whole outside, also after the crack has grown: new faces are pressed on
+ * too. The stress along the crack differs by the pressure. The work is that of the volume which opens. */
+static void pressure_in_cracks_is_tension_outside (void **state)
+{
+    (void) state;
+    static const char *const load[] = {
+        "{set: cracks, pressure: 5 MPa}",
+        "{set: left, pressure: -5 MPa}, {set: right, pressure: -5 MPa}, {set: top, "
+        "pressure: -5 MPa}, {set: bottom, pressure: -5 MPa}"
+    };
+    for (int strain = 0; strain < 2; strain++) {
+        run r[2];
+        for (int k = 0; k < 2; k++)
+            r[k] = scene_of (
+                1,
+                "dimension: 2\nplane: %s\nthickness: 1 m\nbody: [{add: {box: {low: [-1, -1], high: [1, "
+                "1]}}}]\n"
+                "spacing: 0.05\nlattice: cells\ncracks: [{from: [-1.2, 0.007], to: [0.013, 0.007]}]\n"
+                "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\nfailure: {" G0 "}\n"
+                "sets: {pin: {where: x > 0.94 and abs (y) < 0.06}}\nboundary: [%s, {name: pin, set: pin, "
+                "displacement: {x: 0, y: 0}, essential: penalty}]\nsolver: {kind: static, max_events: 4}\n"
+                "output: {at: {levels: 1}}\n",
+                strain ? "strain" : "stress", load[k]);
+        for (int event = 0; event < 4; event++) {
+            for (int k = 0; k < 2; k++) advance (&r[k]);
+            const pg_tip_values *in = pg_solver_tip (r[0].solver, 1), *out = pg_solver_tip (r[1].solver, 1);
+            check_relative (r[0].state->factor, r[1].state->factor, 2e-3);
+            check_relative (in->K[0], out->K[0], 1e-3);
+            check_absolute ((in->T - out->T) / (5e6 * r[0].state->factor), -1, 0.03);
+        }
+        for (int k = 0; k < 2; k++) {
+            const pg_statistics *s = pg_solver_report_now (r[k].solver);
+            check_relative (s->energy_external, s->energy_strain + s->energy_dissipated, 1e-10);
+            check_relative (s->energy_dissipated, s->energy_fracture, 0.04);
+            clear (&r[k]);
+        }
+    }
+}
+
 /* In the middle of a run with loads of both kinds and a crack at either end. */
 static void a_resumed_run_goes_on_bit_by_bit (void **state)
 {
@@ -432,6 +471,7 @@ int main (void)
         cmocka_unit_test (cracks_meet),
         cmocka_unit_test (fixed_steps_grow_until_all_tips_rest),
         cmocka_unit_test (a_crack_that_closes_is_said_to),
+        cmocka_unit_test (pressure_in_cracks_is_tension_outside),
         cmocka_unit_test (a_resumed_run_goes_on_bit_by_bit),
         cmocka_unit_test (tips_that_tie_grow_together),
         cmocka_unit_test (what_does_not_go_together_is_refused),
