@@ -100,7 +100,10 @@ class Strip(Body):
     name, title = "strip", "Clamped strip, its grips moved apart"
 
     def build(self):
-        self.start, self.growth, length = 1.25 + self.dx, 1.0, 3.5
+        # the free end ahead is felt over the height times the root of lambda / (12 mu)
+        nu, strain = self.material.nu, self.material.plane == "strain"
+        far = max(1.25, 5 * math.sqrt(nu / (6 * (1 - 2 * nu)))) if strain else 1.25
+        self.start, self.growth, length = 1.25 + self.dx, 1.0, 2.25 + far
         self.outline = [(0, -0.5), (length, -0.5), (length, 0.5), (0, 0.5)]
         self.cracks = [((-0.2, self.dy), (self.start, self.dy))]
         self.along = (1, 0)
@@ -118,7 +121,7 @@ class ShearStrip(Strip):
 
     def build(self):
         super().build()
-        self.path = [(self.start, self.dy), (3.5, self.dy)]
+        self.path = [(self.start, self.dy), (3.4, self.dy)]
         # G = mu (2 u)^2 / (2 height)
         u = FULL * 0.5 * math.sqrt(2 * self.material.energy * self.width / self.material.shear())
         self.loads = [(0, "displacement", (-u, 0)), (2, "displacement", (u, 0))]
@@ -393,16 +396,10 @@ class Beam(Bend):
         # outer fibre stress of force 1 per width and thickness
         moment = 6 * (self.span / 4 - self.patch / 8)
         self.first, self.least = coupled(lambda l: moment * (1 - 2 * l),
-                                         lambda l: (moment * self.bending(l)) ** 2 * w / m.prime(),
+                                         lambda l: self.shape(l) ** 2 * w / m.prime(),
                                          self.strength, m.energy, 0.45)
         p = FULL * self.first
         self.loads = self.forces(p)
-
-    @staticmethod
-    def bending(a):
-        """K / (outer fibre stress sqrt (width)), pure bending (Tada, Paris, Irwin)."""
-        half = math.pi * a / 2
-        return math.sqrt(math.pi * a) * math.sqrt(math.tan(half) / half) * (0.923 + 0.199 * (1 - math.sin(half)) ** 4) / math.cos(half)
 
     def theory(self, a):
         return 1 / FULL if a == 0 else math.nan

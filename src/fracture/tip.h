@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * tip.h: the parts of the measurement of a tip. Files: tip_domain.c (frame, rings and the room for them),
- * tip_grid.c (places of the integrals, and the fields there), tip_integrals.c (the integrals), tip_measure.c
- * (all of it for one tip), tip_faces.c (faces that turn inside the rings), williams.c (exact fields), kink.c (direction). */
+ * tip_grid.c (places of the integrals, and the fields there), tip_integrals.c (the integrals), tip_faces.c
+ * (faces that turn inside the rings), tip_measure.c (all of it for one tip), williams.c (exact fields),
+ * kink.c (direction). */
 #ifndef PG_FRACTURE_TIP_H
 #define PG_FRACTURE_TIP_H
 #include "perigal/fracture.h"

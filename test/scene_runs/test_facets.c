@@ -87,9 +87,10 @@ static void turning_the_strip_changes_nothing (void **state)
     (void) state;
     for (int k = 0; k < 4; k++)
         snprintf (outline + strlen (outline), sizeof outline - strlen (outline), "%s[%.15g, %.15g]",
-                  k ? ", " : "", c * corner[k][0] - s * corner[k][1], s * corner[k][0] + c * corner[k][1]);
+                  k ? ", " : "", c * corner[k][0] - s * corner[k][1],
+                  s * corner[k][0] + c * corner[k][1]);
     run r = scene_of (1,
-                      "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {polygon: {vertices: [%s]}}}]\n"
+                      "dimension: 2\nthickness: 1\nbody: [{add: {polygon: {vertices: [%s]}}}]\n"
                       "spacing: 0.005\nlattice: cells\nlattice_offset: [0.13, 0.29]\n"
                       "cracks: [{from: [%.15g, %.15g], to: [%.15g, %.15g]}]\n"
                       "materials: {glass: {youngs_modulus: 70 GPa, poissons_ratio: 0.22}}\n"
@@ -174,8 +175,8 @@ static void an_inclined_crack_turns (void **state)
         double sign = before[i].x[0] > before[1 - i].x[0] ? 1 : -1, turn;
         if (!(now->grown > 0)) continue;
         moved++;
-        const pg_crack *first = NULL;
-        for (size_t k = 0; k < r.state->paths->cracks.n && !first; k++) {    /* the facet that leaves this tip */
+        const pg_crack *first = NULL;                  /* the facet that leaves this tip */
+        for (size_t k = 0; k < r.state->paths->cracks.n && !first; k++) {
             const pg_crack *c = &r.state->paths->cracks.crack[k];
             for (int e = 0; e < 2; e++)
                 if (r.state->paths->owner[k] == now->id
@@ -184,9 +185,9 @@ static void an_inclined_crack_turns (void **state)
         }
         assert_non_null (first);
         int e = hypot (first->vertex[0] - before[i].x[0], first->vertex[1] - before[i].x[1]) < 1e-9;
-        turn = atan2 (sign * (first->vertex[2*e + 1] - before[i].x[1]), sign * (first->vertex[2*e] - before[i].x[0]))
-                   / 0.017453292519943295
-               - 45;
+        turn = atan2 (sign * (first->vertex[2*e + 1] - before[i].x[1]),
+                      sign * (first->vertex[2*e] - before[i].x[0]));
+        turn = turn / 0.017453292519943295 - 45;
         print_message ("tip %d turns by %.1f degrees\n", i + 1, turn);
         check_below (fabs (turn + 53.1), 3);
     }
