@@ -109,7 +109,7 @@ packages:            ## install the Debian packages that are missing
 
 demo: packages       ## install, build, run the Brazilian disk, leave pictures
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
-	$(Q)./perigal run data/cui_disk_plane/scene.yaml -o out/demo --force --threads $(THREADS)
+	$(Q)./perigal run data/disk_crack/scene.yaml -o out/demo --force --threads $(THREADS)
 
 test: packages       ## everything; last line: N passed, N failed
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB)) test-programs

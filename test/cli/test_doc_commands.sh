@@ -50,7 +50,7 @@ output: {at: {levels: 8}, pictures: []}
 EOF
 printf 'x [mm], y [mm], u_y [mm]\n%s\n%s\n' '10, 0, -0.01' '20, 0, -0.02' > "$work/line.csv"
 beam=data/textbook_cantilever/scene.yaml
-{ "$perigal" run data/cui_disk_plane/scene.yaml -q -o "$work/demo" --set spacing='4 mm' && "$perigal" run "$work/solid.yaml" -q -o "$work/solid" \
+{ "$perigal" run data/disk_crack/scene.yaml -q -o "$work/demo" --set spacing='4 mm' && "$perigal" run "$work/solid.yaml" -q -o "$work/solid" \
     && "$perigal" run $beam -q -o "$work/beam" && "$perigal" run $beam -q -o "$work/finer" --set method.kernel=conical; } > "$work/out" 2>&1 ||
     { echo "not ok 1 - results to work on"; sed 's/^/# /' "$work/out"; echo "1..1"; exit 1; }
 
