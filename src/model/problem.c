@@ -107,6 +107,17 @@ static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
                ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
 }
 
+/* Limits that differ from the formula of the literature, though the scene says nothing of it. */
+static void note_calibration (pg_problem *p, const pg_scene *scene)
+{
+    const pg_growth *g = &p->criterion->growth;
+    if (g->mean > 0 && !pg_scene_given (scene, "failure.calibration"))
+        pg_problem_note (p,
+                         "limits are %.2g %% below the formula of the literature, with which growing cracks "
+                         "consume %.3g times the fracture energy; failure.calibration: theory takes it",
+                         100 * (1 - 1 / sqrt (g->mean)), g->mean);
+}
+
 /* Criteria of all materials. Their constants derive from the material and from what the force measures
  * (limits), so that a setting is filled for each first. */
 static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
@@ -128,6 +139,7 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
         if (p->method->limits) PG_TRY (p->method->limits (p, i, &setting[i]));
     }
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
+    note_calibration (p, scene);
     pg_method_check_criterion (p, scene);
     if (p->method->check_laws) p->method->check_laws (p, scene);
 done:

@@ -145,6 +145,30 @@ static void doubt_patch (pg_statistics *report, const pg_problem *p)
     pg_statistics_warn (report, "%s; %s", words, remedy);
 }
 
+/* Cracks that grow bond by bond in shape functions: a bond of a point of evaluation is one entry of its shape
+ * functions, no spring, and takes along what the others bear. Measured on strips of known energy release rate
+ * (bench/single_bonds galerkin_stretch; doc/method.md A1): 2.7 to 5.2 times the fracture energy is consumed,
+ * and 4.1 to 7.9 times must be supplied, whose roots are the factors of the load. */
+static void doubt_single_bonds (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
+{
+    const pg_criterion *c = p->criterion;
+    const char *instead = o->flags & PG_SOLVER_FACETS && p->dim == 2 ? pg_criterion_by_need (PG_NEEDS_FACETS)
+                                                                     : NULL;
+    if (p->dim < 2 || !p->method->shape_functions || !pg_criterion_of_bonds (c)) return;
+    if (c->type->needs & PG_NEEDS_STRETCH)
+        pg_statistics_warn (report,
+                            "cracks of shape functions that grow bond by bond consume 3 to 5 times the "
+                            "fracture energy and need 2 to 3 times the load, by how the lattice lies%s%s%s",
+                            instead ? "; criterion: " : "", instead ? instead : "",
+                            instead ? " grows them at that energy" : "");
+    else
+        pg_statistics_warn (report,
+                            "a strength is no fracture energy: cracks that grow bond by bond consume what "
+                            "spacing and lattice give, and bear more load the coarser they are%s%s%s",
+                            instead ? "; criterion: " : "", instead ? instead : "",
+                            instead ? " grows them at a fracture_energy" : "");
+}
+
 /* All warnings before the first step; notes of the model that are warnings among them. */
 void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
@@ -152,6 +176,7 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
     doubt_all (report, p);
     doubt_inner (report, p);
     doubt_patch (report, p);
+    doubt_single_bonds (report, p, o);
     for (size_t k = 0; k < p->nnote; k++)
         if (warns (p->note[k])) pg_statistics_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)

@@ -10,7 +10,7 @@ from scenes import finite, merged, write
 
 EXIT_DONE, EXIT_USAGE, EXIT_SCENE, EXIT_FAILED = 0, 64, 65, 70
 # What a warning must be about to excuse an inexact answer: these speak of something else.
-BESIDE_THE_POINT = ("Poisson's ratio", 'checkpoint')
+BESIDE_THE_POINT = ("Poisson's ratio", 'checkpoint', 'grow bond by bond')
 # Numbers that a coarse discretisation spoils, as each run says of itself by its patch error. Others hold in any: their runs accept it.
 OF_THE_DISCRETISATION = ('patch error', 'error of the opening')
 
