@@ -103,6 +103,8 @@ static int is_positive (const pg_material *m, const pg_scene *scene, int n, cons
     char why[200];
     double S[9];
     for (int k = 0; k < (n == 3 ? 3 : 1); k++) {
+        /* nu_12^2 < E_1 / E_2 is the 2 x 2 determinant of the compliance; a part in 1e9 is kept from it,
+         * as nearly singular stiffnesses are of no use either. */
         double most = sqrt (c[pair[k].of] / c[pair[k].other]);
         if (fabs (c[pair[k].ratio]) < most * (1 - 1e-9)) continue;
         snprintf (why, sizeof why,
@@ -126,6 +128,7 @@ static void stiffness (int n, const double c[CONSTANTS], double C[36])
     double S[9];
     memset (C, 0, 36 * sizeof *C);
     normal_compliance (n, c, S);
+    /* Unit stresses one after the other: the strain's compliance is solved for them, S C = 1. */
     pg_dense_cholesky (n, S, 0);
     for (int j = 0; j < n; j++) {
         double unit[3] = { 0 };
@@ -172,6 +175,8 @@ static int read_vectors (const pg_material *m, const pg_scene *scene, double R[9
     for (int k = 0; k < 3; k++) R[k] /= size[0], R[3 + k] /= size[1], along += R[k] * R[3 + k];
     for (int k = 0; k < 3; k++) R[3 + k] -= along * R[k];
     double left = length (R + 3);
+    /* What is left of axis 2 is the sine of the angle between the two: below 1e-6 its direction would be
+     * rounding. */
     if (!(left > 1e-6)) {
         fault (scene, m, key[pg_scene_given (scene, "materials.%s.axis_2", m->name)],
                "axis_1 and axis_2 point the same way: give two vectors that span a plane");
@@ -201,6 +206,7 @@ static int read_axes (const pg_material *m, const pg_scene *scene, double R[9])
 static void reduce (pg_material *m, const double D[36])
 {
     static const int plane[3] = { 0, 1, 3 };
+    /* Voigt order of a solid is 11, 22, 33, 12, 23, 13, that of a plane 11, 22, 12: rows 0, 1, 3. */
     if (m->mode == PG_SOLID) memcpy (m->D, D, 36 * sizeof *D);
     else for (int a = 0; a < 3; a++) {
         for (int b = 0; b < 3; b++) m->D[3 * a + b] = D[6 * plane[a] + plane[b]];

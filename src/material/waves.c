@@ -3,7 +3,10 @@
 #include "perigal/material.h"
 #include <math.h>
 
-/* Bisection: the function is negative below the root and positive above it. */
+/* Rayleigh's equation in x = c / c_s, (2 - x^2)^2 = 4 sqrt ((1 - x^2) (1 - q x^2)) with q = (c_s /
+ * c_p)^2: the surface is free of traction for a wave that decays below it. x = 0 solves it without being
+ * a wave, so that bisection begins just above; its function is negative below the root and positive above
+ * it. */
 double pg_rayleigh_speed (double pressure, double shear)
 {
     double low = 1e-3, high = 1, q = shear * shear / (pressure * pressure);
@@ -43,6 +46,8 @@ enum { DIRECTIONS = 2000 };                            /* speeds within about 0.
  * circle. Surface waves depend on the direction and are not given. */
 static pg_waves anisotropic_waves (const pg_material *m)
 {
+    /* pi and the golden angle pi (3 - sqrt 5): turned by it, successive points of the spiral never line
+     * up. */
     static const double pi = 3.14159265358979323846, golden = 2.39996322972865332;
     double most = 0, least = INFINITY;
     for (int k = 0; k < DIRECTIONS; k++) {
@@ -55,6 +60,10 @@ static pg_waves anisotropic_waves (const pg_material *m)
     return w;
 }
 
+/* Isotropic: c_p = sqrt (D_11 / rho), which in plane stress is the plate's speed and on a line that of a
+ * bar, c_s = sqrt (mu / rho). D is the stiffness in Voigt order: entry 21 = 6 * 3 + 3 of a solid and 8 =
+ * 3 * 2 + 2 of a plane are the shear modulus, entry 1 is lambda (in plane stress that of the reduced
+ * stiffness). Without a density there are no speeds. */
 pg_waves pg_material_waves (const pg_material *m)
 {
     pg_waves w = {0, 0, 0, 0, 0};

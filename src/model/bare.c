@@ -5,7 +5,8 @@
 #include <math.h>
 #include <stdio.h>
 
-/* The material whose dilatation is the hardest to carry. */
+/* The material whose dilatation is the hardest to carry: the largest Poisson's ratio. One without a ratio
+ * (NAN: anisotropic) is taken as the hardest. */
 static const pg_material *stiffest (const pg_problem *p)
 {
     size_t most = 0;
@@ -56,7 +57,10 @@ done:
     return status;
 }
 
-/* Copies the struct and replaces what it does not share. */
+/* Copies the struct and replaces what it does not share. Shared are cloud, cells, body and the bonds of
+ * points; its own are the points on facets, the marks of bonds (none broken), one load, one material and
+ * one criterion. Whoever frees it must use pg_problem_bare_free: pg_problem_free would take the shared
+ * parts along. */
 pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -84,6 +88,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     }
     PG_ALLOC (b->borne, p->cells.nfacet);
     if (p->spacing[PG_FACETS]) PG_ALLOC (b->spacing[PG_FACETS], b->rows[PG_FACETS].n);
+    /* A point of a facet counts lengths in the spacing of the nearest point of the cloud that it sees. */
     for (size_t q = 0; b->spacing[PG_FACETS] && q < b->rows[PG_FACETS].n; q++) {
         int nearest = pg_bonds_nearest (b, PG_FACETS, q);
         b->spacing[PG_FACETS][q] = nearest < 0 ? p->cloud.h : p->cloud.size[nearest];

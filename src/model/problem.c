@@ -170,7 +170,8 @@ done:
     return status;
 }
 
-/* Is any point within its horizon of the place? Else a field there would be made of nothing. */
+/* Is any point within its horizon of the place? Else a field there would be made of nothing. r is the
+ * square of the distance, m^2; horizons of a graded cloud follow the spacing, by the ratio of the point. */
 static int sees_points (const pg_problem *p, const double *x)
 {
     size_t dim = (size_t) p->dim;
@@ -225,9 +226,11 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     p->dim = (int) pg_scene_integer (scene, "dimension");
     p->threads = threads < 1 ? 1 : threads;
     p->mode = mode_of (scene, p->dim);
+    /* A thickness of 1 m, or a cross-section of 1 m^2, is assumed where none is given; the plan says so. */
     p->thickness_assumed = p->dim < 3
                            && !pg_scene_given (scene, "%s", p->dim == 2 ? "thickness" : "cross_section");
     p->accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
+    /* No number until the patch test has run: NAN shows as a gap and compares false. */
     p->patch = (pg_patch) { .error = NAN, .compliance = NAN };
     const char *title = pg_scene_text (scene, "title");
     name_of (p->name, sizeof p->name, pg_scene_file (scene));
@@ -267,7 +270,8 @@ done:
     return status;
 }
 
-/* Also of a problem that was built in part only. */
+/* Also of a problem that was built in part only: all pointers start as NULL, and freeing those does
+ * nothing. The criteria hold memory of their own and go before the array that they lie in. */
 void pg_problem_free (pg_problem **problem)
 {
     pg_problem *p = *problem;
@@ -280,7 +284,8 @@ void pg_problem_free (pg_problem **problem)
     pg_free (p->options);
     pg_loads_clear (p), pg_initial_clear (p);
     pg_criterion_clear (p->criterion, p->nmaterial);
-    pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->interface), pg_free (p->material), pg_free (p->criterion);
+    pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->interface);
+    pg_free (p->material), pg_free (p->criterion);
     pg_sets_clear (&p->sets);
     pg_cells_clear (&p->cells);
     pg_cloud_clear (&p->cloud);
@@ -303,12 +308,16 @@ void pg_problem_note (pg_problem *p, const char *format, ...)
     va_end (args);
 }
 
+/* Cracks are lines only in two dimensions: there a criterion of facets makes them longer. */
 int pg_problem_grows (const pg_problem *p)
 {
     return p->dim == 2 && p->criterion && p->criterion->type && (p->criterion->type->needs & PG_NEEDS_FACETS);
 }
 
-/* Event stepping then scales one solution (solve/event_stepping.c). */
+/* Are all loads proportional to t, u = t u_1 and F = t F_1? Event stepping then scales one solution
+ * (solve/event_stepping.c). A load given as an expression may be so without saying; a displacement held
+ * at zero is in any case, which is tried at three places and three times that no formula vanishes at by
+ * design. */
 int pg_problem_proportional (const pg_problem *p)
 {
     for (size_t i = 0; i < p->nload; i++) {
@@ -344,7 +353,9 @@ static int is_affine (const pg_load *load, int k, int dim, const double *x)
     return 1;
 }
 
-/* Event stepping then scales the difference of two solutions. */
+/* Do all loads follow a + b t between t = 0 and 1? Event stepping then scales the difference of two
+ * solutions. A load whose place and time factors are apart is asked at one place, others at every point
+ * of their set. */
 int pg_problem_affine (const pg_problem *p)
 {
     double middle[3] = { 0 };

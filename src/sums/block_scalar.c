@@ -14,6 +14,7 @@ typedef double vec __attribute__ ((vector_size (16)));
 typedef long long lane_bits __attribute__ ((vector_size (16)));
 typedef lane_bits hits;
 
+/* Masks of two lanes by the two bits of a number: -1 has all bits set and keeps a lane, 0 clears it. */
 static const lane_bits lanes[4] = { { 0, 0 }, { -1, 0 }, { 0, -1 }, { -1, -1 } };
 
 #ifdef __FP_FAST_FMA

@@ -4,6 +4,8 @@
 #include <math.h>
 #include <string.h>
 
+/* What list_instances.h asks of a width: V is a vector of WIDTH numbers, here one; V_KEEP clears lanes
+ * whose bit is not set; V_LEAST tells by bits where a >= b. */
 #define TABLE  pg_list_scalar
 #define TARGET
 #define V      double
@@ -14,6 +16,7 @@
 #define V_ROOT(v)        sqrt (v)
 #define V_KEEP(v, bits)  ((bits) ? (v) : 0.0)
 #define V_LEAST(a, b)    ((a) >= (b) ? 1u : 0u)
+/* One row of the record of the other end; *o is its offset, counted in numbers. */
 #define FETCH(record, o, columns, out) \
     do { \
         const double *row_ = (record) + *(o); \
