@@ -148,7 +148,8 @@ static void doubt_patch (pg_statistics *report, const pg_problem *p)
 /* Cracks that grow bond by bond in shape functions: a bond of a point of evaluation is one entry of its shape
  * functions, no spring, and takes along what the others bear. Measured on strips of known energy release rate
  * (bench/single_bonds galerkin_stretch; doc/method.md A1): 2.7 to 5.2 times the fracture energy is consumed,
- * and 4.1 to 7.9 times must be supplied, whose roots are the factors of the load. */
+ * and 4.1 to 7.9 times must be supplied, whose roots are the factors of the load. With a tensile strength f
+ * 3.4 to 3.8 f^2 h / E must be supplied, and -0.6 to 0.04 of it is consumed (galerkin_principal_stress). */
 static void doubt_single_bonds (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     const pg_criterion *c = p->criterion;
@@ -163,8 +164,8 @@ static void doubt_single_bonds (pg_statistics *report, const pg_problem *p, cons
                             instead ? " grows them at that energy" : "");
     else
         pg_statistics_warn (report,
-                            "a strength is no fracture energy: cracks that grow bond by bond consume what "
-                            "spacing and lattice give, and bear more load the coarser they are%s%s%s",
+                            "a strength is no fracture energy: cracks that grow bond by bond need about 3.6 "
+                            "strength^2 spacing / E, and take next to no energy out of the body%s%s%s",
                             instead ? "; criterion: " : "", instead ? instead : "",
                             instead ? " grows them at a fracture_energy" : "");
 }

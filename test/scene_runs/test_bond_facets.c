@@ -130,9 +130,54 @@ static void inclined_cracks_kink_as_they_should (void **state)
         }
 }
 
+/* Bond by bond, with limits that allow for growth: the energy between the first spacings of growth, in which
+ * the drawn tip becomes a grown one, and the seventh, over the fracture energy times the length by which the
+ * crack of the strip has grown as its stiffness shows. bench/single_bonds in small. */
+static double consumed (const theory *t, double turn, const char *failure)
+{
+    const double crack[4] = { -2, 0, 20, 0 };
+    double first = stored (t, turn, 20), G = (first - stored (t, turn, 35)) / 15, before = first, work = 0,
+           length = 0, grown = 0;
+    char text[256];
+    snprintf (text, sizeof text, "failure: {%s, fracture_energy: 1e-3, exclude: [up, down]}\n"
+                                 "solver: {kind: static, max_events: 3000}\n", failure);
+    run r = box (t, turn, 60, 10, 5, crack, text);
+    while (!pg_solver_done (r.solver, r.state) && grown < 7) {
+        advance (&r);
+        double factor = r.step.factor, after = pg_solver_report_now (r.solver)->energy_strain;
+        after /= factor * factor;
+        if (grown > 2) work += factor * factor * (before - after), length += (before - after) / G;
+        grown += (before - after) / G, before = after;
+    }
+    assert_true (length > 4);
+    clear (&r);
+    return work / length / 1e-3;
+}
+
+static void cracks_that_grow_bond_by_bond_consume_it (void **state)
+{
+    static const double turn[] = { 30, 0, 15, 45 };
+    static const char *const failure[] = { "criterion: stretch", "criterion: stretch",
+                                          "criterion: beam_limits" };
+    int all = size_is_long ();
+    (void) state;
+    for (int k = 0; k < (all ? 3 : 1); k++) {
+        double mean = 0;
+        for (int a = 0; a < (all ? 4 : 1); a++) {
+            double share = consumed (&theories[k], turn[a], failure[k]);
+            print_message ("%-12s %2g degrees, bond by bond: %.3f of the fracture energy\n",
+                           theories[k].method, turn[a], share);
+            assert_true (fabs (share - 1) < 0.15);
+            mean += share / (all ? 4 : 1);
+        }
+        if (all) assert_true (fabs (mean - 1) < 0.05);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (a_strip_grows_at_the_fracture_energy),
+                                        cmocka_unit_test (cracks_that_grow_bond_by_bond_consume_it),
                                         cmocka_unit_test (inclined_cracks_kink_as_they_should) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
