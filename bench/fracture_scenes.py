@@ -69,6 +69,7 @@ class Body:
     pin = None
     path = None
     along = None
+    interface = None                     # fracture energy between the two materials, J/m2
     slides = False                       # in mode II, whose energy is that of mode I
     diagonal = False                     # a crack at 45 degrees would run through points if nothing were shifted
     kink = None
@@ -329,6 +330,23 @@ class TwoEnergies(Strip):
         return super().taken(grown - tough + self.ratio * tough)
 
 
+class Along(Strip):
+    """The strip glued along its middle by an interface of half the fracture energy, along which the crack runs."""
+    name, title, weak = "along", "Strip, crack along an interface of half the fracture energy", 0.5
+
+    def build(self):
+        super().build()
+        m = self.material
+        self.materials = [("glass", m.energy, None), ("other", m.energy, (self.dy, (0, 1)))]
+        self.interface = self.weak * m.energy
+
+    def theory(self, a):
+        return math.sqrt(self.weak) / FULL
+
+    def taken(self, grown):
+        return self.weak * super().taken(grown)
+
+
 class Offset(Body):
     """Two edge cracks from opposite sides, one a little higher: they pass each other and join."""
     name, title, tips = "offset", "Two offset edge cracks", 2
@@ -521,6 +539,8 @@ def text(body, lattice, n, method="gauss linear", single=False, events=None):
     if not single:
         failure += ", shear_fracture_energy: %g" % m.energy if body.slides else ""
         failure += ", tensile_strength: %.12g" % body.strength if body.strength else ""
+        failure += ", interfaces: [{between: [%s, %s], fracture_energy: %g}]" % (
+            body.materials[0][0], body.materials[1][0], body.interface) if body.interface else ""
         failure += ", path: [%s]" % ", ".join(numbers(frame.place(v)) for v in body.path) if body.path else ""
     lines += ["failure: {%s}" % failure]
     if body.pin:
@@ -546,5 +566,5 @@ class HalfNotch(EdgeNotch):
 
 
 BODIES = [Strip, EdgeNotch, Bend, Slanted, Inclined30, Inclined, Inclined60, ShearStrip, DoubleCantilever]
-MORE = [Centre, TwoEnergies, Offset, IntoHole]       # several tips, two materials, boundaries met on the way
+MORE = [Centre, TwoEnergies, Along, Offset, IntoHole]       # several tips, two materials, boundaries met on the way
 BEGIN = [Beam, Hole]                                 # no crack at the start
