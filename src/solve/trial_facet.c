@@ -117,6 +117,39 @@ static void fill_release (int nfield, const double *c, facet_candidate *out)
 }
 
 /* ---- tips without room --------------------------------------------------------------------------------- */
+/* A facet must open: contact is not modelled, and energy is also set free where faces would overlap. It
+ * does if the tension across its place, with a fifth of the shear along it, is positive; any such stress
+ * is enough, so that it counts a million times. c->energy and tip are there already. */
+static pg_status find_tension (const break_loop *b, const pg_state *state, const trial_fields *f,
+                               facet_candidate *c)
+{
+    enum { PLACES = 2 };
+    const pg_system *s = &b->system;
+    const pg_tip_field *at = &b->growth->field[c->tip];
+    double x[2 * PLACES], u[3 * PLACES], stress[6 * PLACES], sum[2] = { 0, 0 };
+    double t[2] = { c->to[0] - at->x[0], c->to[1] - at->x[1] }, length = hypot (t[0], t[1]);
+    double n[2] = { -t[1] / length, t[0] / length };
+    /* stress of a crack of that energy about a facet away */
+    double scale = 1e6 / sqrt (at->modulus * c->energy / s->problem->cloud.thickness) * length;
+    c->stress[0] = c->stress[1] = NAN;
+    if (!s->force->sample || !(at->modulus > 0) || !(length > 0)) return PG_OK;
+    for (int q = 0; q < PLACES; q++)
+        for (int k = 0; k < 2; k++) x[2*q + k] = at->x[k] + (q ? 0.9 : 0.5) * t[k];
+    for (int a = 0; a < f->n; a++) {
+        pg_status status = s->force->sample (s->self, state, f->d[a], PLACES, x, u, stress, NULL);
+        if (status != PG_OK) return status;
+        for (int q = 0; q < PLACES; q++) {
+            const double *v = stress + 6*q;
+            double across = n[0] * n[0] * v[0] + n[1] * n[1] * v[1] + 2 * n[0] * n[1] * v[3];
+            double shear = n[0] * n[1] * (v[1] - v[0]) + (n[0] * n[0] - n[1] * n[1]) * v[3];
+            sum[a] += (across + 0.2 * fabs (shear)) * scale / PLACES;
+        }
+    }
+    /* weights 1 - lambda and lambda against 1 and lambda */
+    c->stress[0] = sum[0], c->stress[1] = f->n == 2 ? sum[1] - sum[0] : 0;
+    return PG_OK;
+}
+
 /* What the facet of a tip would set free, into c->release; then it is offered. */
 static pg_status offer_of_tip (break_loop *b, trials *w, const pg_state *state, const trial_fields *f,
                                facet_candidate *c)
@@ -133,7 +166,7 @@ static pg_status offer_of_tip (break_loop *b, trials *w, const pg_state *state, 
     PG_TRY (trial_release (w, state, f, 1, &cut, &form));
     trial_polynomial (f, &form, polynomial);
     fill_release (f->n, polynomial, c);
-    c->stress[0] = c->stress[1] = NAN;
+    PG_TRY (find_tension (b, state, f, c));
     PG_TRY (facet_offer (b->growth, c));
 done:
     pg_free (cut.bond);
@@ -236,13 +269,14 @@ static pg_status offers_of_tip (break_loop *b, trials *w, const pg_state *state,
     const pg_tip_field *at = &b->growth->field[tip];
     facet_candidate ahead, out;
     int interface = 0;
-    size_t held;
-    if (!b->system.problem->criterion->type->path (b->system.problem->criterion, &held))
+    size_t places;
+    int held = b->system.problem->criterion->type->path (b->system.problem->criterion, &places) != NULL;
+    if (!held)
         PG_TRY (offers_at_interface (b, w, state, f, tip, &interface));
     if (interface) goto done;
     facet_place (b, state, tip, atan2 (at->e[1], at->e[0]), &ahead);
     PG_TRY (offer_of_tip (b, w, state, f, &ahead));
-    if (!facet_way_out (b, state, tip, &out)) goto done;
+    if (held || !facet_way_out (b, state, tip, &out)) goto done;
     double turn = turn_between (angle_to (at->x, ahead.to), angle_to (at->x, out.to));
     if (turn > 0.2) PG_TRY (offer_of_tip (b, w, state, f, &out));
 done:
@@ -255,12 +289,28 @@ static int limits_at (void *context, const double *x, double angle, pg_fracture_
     return facet_limits (context, x, angle, out);
 }
 
+/* Does any material or interface give a strength? */
+static int has_strength (const pg_problem *p)
+{
+    double x[3] = { 0 };
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        pg_fracture_limits limits = { .strength = NAN };
+        const pg_criterion *c = &p->criterion[m];
+        if (c->never) continue;
+        c->type->fracture (c, x, 0, &limits);
+        if (limits.strength > 0) return 1;
+    }
+    for (size_t k = 0; k < p->ninterface; k++) if (p->interface[k].strength > 0) return 1;
+    return 0;
+}
+
 static pg_status offer_starts (break_loop *b, trials *w, const pg_state *state, const trial_fields *f)
 {
     pg_status status = PG_OK;
     trial_start start[TRIAL_MOST_STARTS];
     size_t n;
     int arbitrary;
+    if (!has_strength (b->system.problem)) return PG_OK;
     /* proportional loads: a tip that grows earlier leaves nothing to look for */
     double top = f->n == 1 ? facet_utilisation (b, state, 1) : 0;
     double below = top > 0 ? 1 / top : INFINITY;

@@ -70,6 +70,26 @@ static void a_tip_beside_the_surface_grows_by_energy (void **state)
     clear (&r);
 }
 
+/* The same crack pressed together: its faces would overlap, which also sets energy free, but it does not
+ * grow. */
+static void a_pressed_tip_does_not_grow (void **state)
+{
+    (void) state;
+    run r = scene_of (1, "dimension: 2\nplane: stress\nspacing: 0.05 m\nlattice: cells\n"
+                         "body: [{add: {box: {low: [0, 0], high: [2 m, 2 m]}}}]\n"
+                         "cracks: [{from: [-0.1, 1], to: [0.07, 1]}]\n"
+                         "materials: {glass: {youngs_modulus: 70 GPa, poissons_ratio: 0.22}}\n"
+                         "sets: {pin: {where: \"hypot (x - 1.9, y - 1) < 0.06\"}}\n"
+                         "boundary: [{set: bottom, traction: {y: 10 MPa}}, "
+                         "{set: top, traction: {y: -10 MPa}}, "
+                         "{set: pin, displacement: {x: 0, y: 0}, essential: penalty}]\n"
+                         "failure: {criterion: energy_release, fracture_energy: 8}\n"
+                         "solver: {max_events: 1}\n");
+    to_the_end (&r);
+    assert_int_equal (r.state->events, 0);
+    clear (&r);
+}
+
 /* ---- new cracks ---------------------------------------------------------------------------------------- */
 /* A beam on two supports, span four depths, without a notch; l_ch = E G0/f^2 is half its depth. Lengths in
  * units of `unit` m, turned by a quarter if `upright`, shifted by `shift` spacings; constant: share of the
@@ -233,6 +253,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_facet_releases_J),
         cmocka_unit_test (a_tip_beside_the_surface_grows_by_energy),
+        cmocka_unit_test (a_pressed_tip_does_not_grow),
         cmocka_unit_test (a_beam_breaks_at_one_load_on_every_lattice),
         cmocka_unit_test (units_and_axes_make_no_difference),
         cmocka_unit_test (a_constant_part_is_a_head_start),
