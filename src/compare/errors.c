@@ -125,7 +125,7 @@ done:
     return status;
 }
 
-/* May be called for errors that were never measured. */
+/* May be called for errors that were never measured. What is left is zero, thus "not measured". */
 void pg_errors_clear (pg_errors *errors)
 {
     pg_free (errors->line), pg_free (errors->difference);
@@ -133,7 +133,9 @@ void pg_errors_clear (pg_errors *errors)
 }
 
 /* ---- reports ------------------------------------------------------------------------------------------- */
-/* One norm as a JSON object; place = 1 with the place of the largest difference. */
+/* One norm as a JSON object; place = 1 with the place of the largest difference, m. `relative` is
+ * `difference` over `reference`, which have the unit of the norm: of displacement L2 m^(5/2), of energy
+ * sqrt (J). */
 static void json_norm (pg_json *j, const char *key, const pg_norm *n, int place)
 {
     pg_json_open (j, key, '{');

@@ -39,6 +39,7 @@ void pg_sparse_multiply (const pg_sparse *A, const double *x, double *y)
     }
 }
 
+/* A column of A is a row of A': products of columns need no storage of the transpose. */
 void pg_sparse_multiply_transposed (const pg_sparse *A, const double *x, double *y)
 {
     if (A->symmetric) {
@@ -94,7 +95,8 @@ done:
     return status;
 }
 
-/* F = A with both triangles stored. */
+/* F = A with both triangles stored. An entry off the diagonal counts in two columns: lengths first, then
+ * starts from their sums, then the entries; rows within a column are in no order. */
 static pg_status both_triangles (pg_sparse *F, const pg_sparse *A)
 {
     pg_status status = PG_OK;

@@ -15,7 +15,7 @@
 enum { NAME = 32 };
 
 /* One component of a field: name of the field, its unit, the netCDF variable. */
-typedef struct { char base[NAME], unit[16]; int var; } part;      /* one component of a field */
+typedef struct { char base[NAME], unit[16]; int var; } part;
 /* A file that is open for reading, with all its components. */
 typedef struct {
     const char *path;
@@ -24,7 +24,8 @@ typedef struct {
     part   *part;
 } reader;
 
-/* Length of a dimension; 0 when there is none. */
+/* Length of a dimension; 0 when there is none: files of other programs lack some, and callers decide
+ * whether they can do without. */
 static size_t length_of (int ncid, const char *name)
 {
     int dim;
@@ -128,8 +129,9 @@ static void list_fields (const reader *r, char *text, size_t size)
             used += (size_t) snprintf (text + used, size - used, "%s%s", used ? "|" : "", r->part[k].base);
 }
 
-/* Index of the first component of a field and the number of its components; PG_E_USAGE names
- * the fields that there are, and the nearest one. */
+/* Index of the first component of a field and the number of its components; PG_E_USAGE names the fields
+ * that there are, and the nearest one. Counted from the last to the first, so that the first is what is
+ * left. */
 static pg_status find_field (const reader *r, const char *field, size_t *first, int *components)
 {
     pg_status status = PG_OK;
@@ -223,8 +225,9 @@ static void numbers (int ncid, const char *name, size_t m, double *value)
         nc_get_att_double (ncid, NC_GLOBAL, name, value);
 }
 
-/* Reads coordinates, the box, steps, spacing, thickness and volumes. Without a box in the file
- * it is that of the points. */
+/* Reads coordinates, the box, steps, spacing, thickness and volumes, all in m and m^3. Without a box in
+ * the file it is that of the points. Whatever else a file of another program lacks stays as the caller
+ * set it: 0, and a thickness of 1. */
 static pg_status read_places (const reader *r, pg_cloud *cloud, double *work)
 {
     pg_status status = PG_OK;

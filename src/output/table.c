@@ -183,8 +183,8 @@ done:
 
 long pg_table_rows (const pg_table *t) { return t->rows; }
 
-/* value == value is false for NaN only. Infinities are written as inf, which readers of CSV
- * understand. */
+/* 17 digits bring every double back as it was, bit for bit. value == value is false for NaN only, which
+ * becomes an empty cell. Infinities are written as inf, which readers of CSV understand. */
 pg_status pg_table_row (pg_table *t, const double *values)
 {
     pg_status status = PG_OK;

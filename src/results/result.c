@@ -61,7 +61,7 @@ done:
     return status;
 }
 
-/* A file that is missing is no failure. */
+/* Removes a file of the folder; one that is missing is no failure. */
 pg_status pg_result_remove (const pg_result *r, const char *name)
 {
     pg_status status = PG_OK;
@@ -73,7 +73,8 @@ done:
     return status;
 }
 
-/* What new and resumed results have in common. */
+/* What new and resumed results have in common. length is that of a step in the time of result.e:
+ * quasi-static loads run from 0 to 1, others to solver.end in s. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver)
 {
@@ -164,7 +165,9 @@ done:
     return status;
 }
 
-/* 1 if another share of the bonds has broken; sets the next one. */
+/* 1 if another share of the bonds has broken; sets the next one. output.at.broken = 0.1 gives stages at
+ * 10 %, 20 % and so on of all bonds; a share that breaks at once with the one before it gives no stage of
+ * its own. */
 static int share_has_broken (pg_result *r, const pg_state *state)
 {
     if (!(r->broken_share > 0)
@@ -174,8 +177,8 @@ static int share_has_broken (pg_result *r, const pg_state *state)
     return 1;
 }
 
-/* A time for a stage in the middle of a step, where there is none: rounds of breaking move it
- * from the last step towards the end of this one without reaching it. */
+/* A time for a stage in the middle of a step, where there is none: rounds of breaking n move it from the
+ * last step towards the end of this one, by n / (n + 100) of its length, without reaching it. */
 static double time_within (const pg_result *r)
 {
     return r->stamp + r->length * (double) r->rounds / ((double) r->rounds + 100);
@@ -230,7 +233,8 @@ done:
     return status;
 }
 
-/* A run does not fail for want of memory for the estimate. */
+/* The error estimate of the force, where it has one and output.estimate asks for it. A run does not fail
+ * for want of memory for it. */
 static pg_status estimate (pg_result *r, const pg_state *state)
 {
     void *self;
@@ -288,6 +292,7 @@ void pg_result_free (pg_result **result)
     *result = NULL;
 }
 
+/* Answers for reports of the command line. Errors and estimate: NULL where none were measured. */
 const pg_errors *pg_result_errors (const pg_result *r) { return r->measured ? &r->errors : NULL; }
 const char *pg_result_folder (const pg_result *r) { return r->folder; }
 size_t pg_result_pictures (const pg_result *r) { return r->nwritten; }

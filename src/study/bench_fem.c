@@ -16,7 +16,8 @@ static const char *missing (const char *path, const char *scene)
                : pg_bench_mesh_missing (path, scene);
 }
 
-/* If something is missing one case is added that says so. */
+/* Adds a curve for each kind of element with a case for each mesh size (elements along the side), those
+ * asked for or the usual ones. If something is missing one case is added that says so. */
 pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size_t s, const char *name)
 {
     pg_status status = PG_OK;

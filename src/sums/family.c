@@ -7,13 +7,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* Order of qsort. */
 static int ascending (const void *a, const void *b)
 {
     int x = *(const int *) a, y = *(const int *) b;
     return (x > y) - (x < y);
 }
 
-/* Position of an item in an ascending list; n: it is not there. */
+/* Position of an item in an ascending list, by halving it; n: it is not there. */
 static size_t find (const int *list, size_t n, int item)
 {
     size_t a = 0, b = n;
@@ -75,6 +76,7 @@ static size_t visit (const walk *w, size_t i, int *node)
     return n;
 }
 
+/* Lengths of the lists of some points, each at start[i + 1]: their sums become the starts. */
 static void count_points (void *context, size_t first, size_t last, int thread)
 {
     const walk *w = context;
@@ -82,6 +84,8 @@ static void count_points (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) w->out->start[i + 1] = visit (w, i, NULL);
 }
 
+/* The lists themselves. Threads write to parts of node that do not overlap, so that the result does not
+ * depend on how many there are. */
 static void fill_points (void *context, size_t first, size_t last, int thread)
 {
     const walk *w = context;
@@ -185,6 +189,7 @@ static pg_status by_search (pg_family *out, const pg_sums *sums)
     const pg_cloud *cloud = sums->cloud;
     pg_family near = {0};
     size_t *next = NULL, n = cloud->n;
+    /* The reach at spacing h; pg_family_build scales it with the local spacing of a graded cloud. */
     double reach = sums->rule.horizon + (sums->rule.partial == PG_PARTIAL_NONE ? 0 : 0.5 * cloud->h);
     PG_TRY (pg_family_build (&near, cloud, n, cloud->x, reach, PG_RADIAL, 1));
     PG_ALLOC (out->start, n + 1);

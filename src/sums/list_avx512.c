@@ -38,6 +38,9 @@ static inline __attribute__ ((always_inline)) TARGET __m512d load (const double 
 #define QUAD(record, o, i, j, k, m) \
     _mm512_insertf64x4 (_mm512_castpd256_pd512 (HALF (record, o, i, j)), HALF (record, o, k, m), 1)
 
+/* Records of 2, 4 or 8 columns of eight points become as many vectors, each with one column of all eight.
+ * The points are not fetched in line: shuffles within quarters of a register cost less than gathers, and
+ * even and odd points meet again by the choice of halves. */
 #define FETCH2(record, o, out) \
     do { \
         const __m512d even_ = QUAD (record, o, 0, 2, 4, 6), odd_ = QUAD (record, o, 1, 3, 5, 7); \
