@@ -132,6 +132,63 @@ static void constant_loads_count (void **state)
     }
 }
 
+/* Load factor at which the largest hoop stress of K_0 + lambda K_1 reaches K_c, by trying. */
+static double load_of (const double *K0, const double *K1, double Kc)
+{
+    double low = 0, high = 10;
+    for (int k = 0; k < 60; k++) {
+        double at = 0.5 * (low + high), top = 0;
+        for (int i = -900; i <= 900; i++) {
+            double t = i * 1e-3, c = cos (t / 2), one = K0[0] + at * K1[0], two = K0[1] + at * K1[1];
+            top = fmax (top, c * (one * c * c - 1.5 * two * sin (t)));
+        }
+        if (top < Kc) low = at;
+        else high = at;
+    }
+    return low;
+}
+
+/* An inclined crack under a constant pressure all around and a growing tension: K_I and K_II of the two parts
+ * by themselves, each from a run of its own under tension, say when it grows. */
+static void confinement_adds_to_a_growing_load (void **state)
+{
+    (void) state;
+    static const char *const load[] = {
+        "{name: t, set: top, traction: {y: 10 MPa}}, {name: b, set: bottom, traction: {y: -10 MPa}}",
+        "{set: left, pressure: -0.1 MPa}, {set: right, pressure: -0.1 MPa}, {set: top, pressure: -0.1 MPa}, {set: "
+        "bottom, pressure: -0.1 MPa}",
+        "{name: t, set: top, traction: {y: 10 MPa}}, {name: b, set: bottom, traction: {y: -10 MPa}}, {set: left, "
+        "pressure: 0.1 MPa, ramp: constant}, {set: right, pressure: 0.1 MPa, ramp: constant}, {set: top, pressure: 0.1 "
+        "MPa, ramp: constant}, {set: bottom, pressure: 0.1 MPa, ramp: constant}",
+    };
+    double K[2][2], Kc = sqrt (100 * 10e9);
+    for (int k = 0; k < 3; k++) {
+        run r = scene_of (
+            1,
+            "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [-1, -1], high: [1, 1]}}}]\n"
+            "spacing: 0.05\nlattice: cells\ncracks: [{from: [-1.2, -0.613], to: [0.013, 0.007]}]\n"
+            "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\nfailure: {fracture_energy: %s}\n"
+            "sets: {pin: {where: x > 0.94 and abs (y) < 0.06}}\nboundary: [%s, {name: pin, set: pin, "
+            "displacement: {x: 0, y: 0}, essential: penalty}]\nsolver: {kind: static, max_events: 1}\n"
+            "output: {at: {levels: 1}}\n",
+            k < 2 ? "1e6 J/m2" : "100 J/m2", load[k]);
+        to_the_end (&r);
+        const pg_tip_values *v = pg_solver_tip (r.solver, 1);
+        if (k < 2) {
+            assert_true (r.state->factor == 1);
+            K[k][0] = v->K[0], K[k][1] = v->K[1];
+        } else {
+            double none[2] = { 0, 0 }, all[2] = { -K[1][0], -K[1][1] }, first = load_of (all, K[0], Kc);
+            print_message ("lambda %.5f, expected %.5f, without the pressure %.5f\n", r.state->factor, first,
+                           load_of (none, K[0], Kc));
+            assert_true (r.step.event);
+            check_relative (r.state->factor, first, 0.02);
+            assert_true (first > 1.2 * load_of (none, K[0], Kc));
+        }
+        clear (&r);
+    }
+}
+
 /* Alone it is more than the crack bears: it runs at a held factor. */
 static void a_constant_load_may_drive_the_crack (void **state)
 {
@@ -461,6 +518,7 @@ int main (void)
         cmocka_unit_test (a_strip_breaks_at_its_load_on_any_lattice),
         cmocka_unit_test (the_length_of_a_facet_does_not_matter),
         cmocka_unit_test (constant_loads_count),
+        cmocka_unit_test (confinement_adds_to_a_growing_load),
         cmocka_unit_test (a_constant_load_may_drive_the_crack),
         cmocka_unit_test (the_energy_may_change_from_place_to_place),
         cmocka_unit_test (the_energy_may_depend_on_the_direction),
