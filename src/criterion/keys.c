@@ -31,7 +31,8 @@ static const pg_key keys[] = {
     { .path = "failure.interfaces",
       .kind = PG_LIST,
       .fallback = "",
-      .doc = "Interfaces between two materials along which cracks take another energy than in either of them: a "
+      .doc = "Interfaces between two materials along which cracks take another energy than in either of "
+             "them: a "
              "tip that meets one goes on along it or across it, whichever the lesser load drives." },
     { .path = "failure.interfaces[].between",
       .kind = PG_NAMES,

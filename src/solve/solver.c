@@ -201,6 +201,21 @@ static void report_skips (pg_solver *s)
     }
 }
 
+/* What growing cracks dissipate along equilibria is what their area takes; said at the end. */
+static void warn_of_facets (pg_solver *s)
+{
+    const pg_statistics *r = &s->report;
+    double share = r->energy_fracture > 0 ? r->energy_dissipated / r->energy_fracture : 1;
+    if (s->warned_facets || !s->finished || r->events + r->iterations < 10 || (share < 1.15 && share > 0.85))
+        return;
+    pg_statistics_warn (
+        &s->report, "the cracks that grew have dissipated %.3g times what their area takes: %s", share,
+        share > 1 ? "they ran ahead of equilibrium at loads that were held, and what is too much "
+                    "would be motion (stepping: event follows equilibrium where it can)"
+                  : "turns, or other cracks, lie too close together for the spacing");
+    s->warned_facets = 1;
+}
+
 /* What a result may be doubted for: energy from breaking, faces of a crack that overlap. Told once. */
 static void warn_at_end (pg_solver *s, const pg_state *state)
 {
@@ -213,6 +228,7 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
                             -s->report.energy_dissipated, s->report.energy_external);
         s->warned_energy = 1;
     }
+    warn_of_facets (s);
     if (!s->warned_overlap && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
         pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)",
                             s->report.overlap_max);

@@ -155,19 +155,24 @@ static void confinement_adds_to_a_growing_load (void **state)
     (void) state;
     static const char *const load[] = {
         "{name: t, set: top, traction: {y: 10 MPa}}, {name: b, set: bottom, traction: {y: -10 MPa}}",
-        "{set: left, pressure: -0.1 MPa}, {set: right, pressure: -0.1 MPa}, {set: top, pressure: -0.1 MPa}, {set: "
+        "{set: left, pressure: -0.1 MPa}, {set: right, pressure: -0.1 MPa}, {set: top, pressure: -0.1 MPa}, "
+        "{set: "
         "bottom, pressure: -0.1 MPa}",
-        "{name: t, set: top, traction: {y: 10 MPa}}, {name: b, set: bottom, traction: {y: -10 MPa}}, {set: left, "
-        "pressure: 0.1 MPa, ramp: constant}, {set: right, pressure: 0.1 MPa, ramp: constant}, {set: top, pressure: 0.1 "
+        "{name: t, set: top, traction: {y: 10 MPa}}, {name: b, set: bottom, traction: {y: -10 MPa}}, {set: "
+        "left, "
+        "pressure: 0.1 MPa, ramp: constant}, {set: right, pressure: 0.1 MPa, ramp: constant}, {set: top, "
+        "pressure: 0.1 "
         "MPa, ramp: constant}, {set: bottom, pressure: 0.1 MPa, ramp: constant}",
     };
     double K[2][2], Kc = sqrt (100 * 10e9);
     for (int k = 0; k < 3; k++) {
         run r = scene_of (
             1,
-            "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [-1, -1], high: [1, 1]}}}]\n"
+            "dimension: 2\nplane: stress\nthickness: 1 m\nbody: [{add: {box: {low: [-1, -1], high: [1, "
+            "1]}}}]\n"
             "spacing: 0.05\nlattice: cells\ncracks: [{from: [-1.2, -0.613], to: [0.013, 0.007]}]\n"
-            "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\nfailure: {fracture_energy: %s}\n"
+            "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\nfailure: {fracture_energy: "
+            "%s}\n"
             "sets: {pin: {where: x > 0.94 and abs (y) < 0.06}}\nboundary: [%s, {name: pin, set: pin, "
             "displacement: {x: 0, y: 0}, essential: penalty}]\nsolver: {kind: static, max_events: 1}\n"
             "output: {at: {levels: 1}}\n",
