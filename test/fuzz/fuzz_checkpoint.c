@@ -28,6 +28,12 @@ static const char *const checkpoint_scene[] = {
     "method: {force: lps}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, traction: {y: 1 "
     "MPa}}]\n"
     "solver: {kind: verlet, end: 0.5 ms}\noutput: {at: {rows: 8}, pictures: []}\n",
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.8, 0.7]}}}]\nspacing: 0.1\n"
+    "cracks: [{from: [-0.1, 0.36], to: [0.33, 0.34]}, {from: [0.6, 0.1], to: [0.7, 0.15]}]\n"
+    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 2000}}\n"
+    "failure: {fracture_energy: 400 J/m2}\nboundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, "
+    "{name: head, set: top, displacement: {y: 2 mm}}]\n"
+    "solver: {stepping: event, max_events: 6}\noutput: {pictures: [], at: {levels: 1}}\n",
 };
 enum {
     CHECKPOINT_SCENES = sizeof checkpoint_scene / sizeof *checkpoint_scene,
