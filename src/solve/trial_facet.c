@@ -3,6 +3,7 @@
  * offered carries the energy that it sets free, found on a copy of the state. A facet of length l comes into
  * being at the load factor at which that reaches G0 l t, t the thickness (Griffith 1921). */
 #include "facet_growth.h"
+#include "hot_spot.h"
 #include "interface_facet.h"
 #include <math.h>
 #include <string.h>
@@ -333,12 +334,32 @@ done:
     return status;
 }
 
+/* Interfaces whose strength the points cannot tell, as facet_growth.c says it of materials. */
+static void doubt_interfaces (const break_loop *b)
+{
+    const pg_problem *p = b->system.problem;
+    double h = b->growth->length > 0 ? b->growth->length : p->cloud.h;
+    for (size_t k = 0; k < p->ninterface; k++) {
+        const pg_interface *one = &p->interface[k];
+        const pg_material *m[2] = { &p->material[one->material[0]], &p->material[one->material[1]] };
+        double cap = hot_strength_cap (fmin (m[0]->modulus, m[1]->modulus), one->energy, h);
+        if (one->strength > cap)
+            pg_statistics_warn (b->system.report,
+                                "the interface of %.40s and %.40s has too large a strength for points %.3g m "
+                                "apart: where cracks begin it counts as %.3g Pa",
+                                m[0]->name, m[1]->name, h, cap);
+    }
+}
+
 pg_status trial_facets (break_loop *b, const pg_state *state, const double *const *d, const double *t)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     trial_fields f;
-    if (!g->trials) PG_TRY (trials_create (&g->trials, &b->system));
+    if (!g->trials) {
+        PG_TRY (trials_create (&g->trials, &b->system));
+        doubt_interfaces (b);
+    }
     PG_TRY (take_fields (g->trials, g->nfield, d, t, &f));
     for (size_t i = 0; i < g->ntip; i++)
         if (state->paths->tip[i].open && isnan (g->field[i].near))

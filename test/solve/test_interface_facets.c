@@ -6,7 +6,7 @@
 static const double E = 70e9, nu = 0.22, G0 = 8;
 
 /* A strip of height 1 m, 20 spacings, its grips moved apart so that G = 4 G0 at full load. */
-static run strip (const char *where, double energy, double shift, int events)
+static run strip (const char *where, const char *energy, double shift, int events)
 {
     double u = sqrt (2 * G0 * (1 - nu * nu) / E);
     return scene_of (1, "dimension: 2\nplane: stress\nspacing: 0.05 m\nlattice: cells\n"
@@ -18,7 +18,7 @@ static run strip (const char *where, double energy, double shift, int events)
                         "boundary: [{set: bottom, displacement: {x: 0, y: %.17g}}, "
                         "{set: top, displacement: {x: 0, y: %.17g}}]\n"
                         "failure: {criterion: energy_release, fracture_energy: %g, "
-                        "interfaces: [{between: [b, a], fracture_energy: %g}]}\n"
+                        "interfaces: [{between: [b, a], fracture_energy: %s}]}\n"
                         "solver: {max_events: %d}\n", shift, E, nu, E, nu, where, -u, u, G0, energy, events);
 }
 
@@ -27,7 +27,7 @@ static void along_an_interface_its_energy_counts (void **state)
     (void) state;
     static const double energy[2] = { 2, 7 };
     for (int k = 0; k < 2; k++) {
-        run r = strip ("y > 0.5", energy[k], 0, 6);
+        run r = strip ("y > 0.5", k ? "7" : "2", 0, 6);
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
             if (r.step.event) check_relative (r.step.factor, 0.5 * sqrt (energy[k] / G0), 0.01);
@@ -46,7 +46,7 @@ static void a_weak_interface_deflects_a_crack (void **state)
     (void) state;
     for (int weak = 0; weak < 2; weak++)
         for (int shifted = 0; shifted < 2; shifted++) {
-            run r = strip ("x > 1.5", weak ? 1 : 4, shifted ? 0.37 : 0, 9);
+            run r = strip ("x > 1.5", weak ? "1" : "4", shifted ? 0.37 : 0, 9);
             to_the_end (&r);
             const pg_tip *tip = r.state->paths->tip;
             if (weak) {
@@ -91,6 +91,23 @@ static void an_interface_parts_at_its_strength (void **state)
     }
 }
 
+/* E G/f^2 of 0.4 m, eight spacings, belongs to 0.37 MPa at 0.8 J/m^2. */
+static void a_strength_beyond_the_points_is_said (void **state)
+{
+    (void) state;
+    for (int strong = 0; strong < 2; strong++) {
+        const char *limits = strong ? "0.8, tensile_strength: 0.4 MPa" : "0.8, tensile_strength: 0.35 MPa";
+        run r = strip ("x > 1.5", limits, 0, 1);
+        advance (&r);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
+        int said = 0;
+        for (size_t k = 0; k < report->nwarning; k++)
+            said |= strstr (report->warning[k], "interface of b and a") != NULL;
+        assert_int_equal (said, strong);
+        clear (&r);
+    }
+}
+
 static void wrong_interfaces_are_refused (void **state)
 {
     (void) state;
@@ -128,6 +145,7 @@ int main (void)
         cmocka_unit_test (along_an_interface_its_energy_counts),
         cmocka_unit_test (a_weak_interface_deflects_a_crack),
         cmocka_unit_test (an_interface_parts_at_its_strength),
+        cmocka_unit_test (a_strength_beyond_the_points_is_said),
         cmocka_unit_test (wrong_interfaces_are_refused),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
