@@ -33,7 +33,7 @@ static void measured (int n, const char *method, const char *nu, double x, doubl
     clear (&r);
 }
 
-static void energy_release_is_known_to_two_and_a_half_percent (void **state)
+static void energy_release_is_known_well (void **state)
 {
     static const struct { const char *method, *nu; double low, high; } theories[] = {
         { "force: bond, tip_offset: 0.4 spacing", "0.3333333333333333", 0.975, 1.025 },
@@ -59,6 +59,6 @@ static void energy_release_is_known_to_two_and_a_half_percent (void **state)
 
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (energy_release_is_known_to_two_and_a_half_percent) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (energy_release_is_known_well) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
