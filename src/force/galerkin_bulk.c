@@ -22,7 +22,8 @@ static void add_strain (int dim, const double *q, const double *d, double *e)
     }
 }
 
-/* f_k = sum of sigma_kl dN/dx_l. */
+/* f_k = sum of sigma_kl dN/dx_l, thus B' sigma for one node: q is its gradient of N, 1/m, and s the
+ * stress in Voigt order. */
 void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
 {
     if (dim == 1) f[0] = q[0] * s[0];
@@ -42,6 +43,8 @@ static double stabilisation (const galerkin *g, size_t p)
     return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->options->silling * mu;
 }
 
+/* In the plane all four entries of a block lie in one register: row by row they are products of D B_a
+ * with q[0] and q[1]. */
 WIDE static void add_plane_blocks (const double *DB, size_t m, const double *q, double *k)
 {
     const four x = { DB[0], DB[2], DB[3], DB[5] }, y = { DB[2], DB[1], DB[5], DB[4] };
@@ -110,7 +113,9 @@ void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, doubl
 }
 
 /* f += Silling forces of point p: f_l = c (w_l z_l - M g_l), z = eta - H xi, M = sum w z xi (theory D3a);
- * returns the energy. */
+ * returns the energy. z is what the mean deformation H leaves of the change eta of a bond: zero for all
+ * affine fields, so that the patch test stays. Three passes over the bonds: H and the weighted second
+ * moment q, then M, then forces. */
 static double silling_force (const galerkin *g, size_t p, const double *d, double *f)
 {
     const pg_rows *r = &g->rows[g->bulk];

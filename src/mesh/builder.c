@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+/* start has an entry more than there are elements: the nodes of element e are start[e] .. start[e + 1] -
+ * 1 of list. */
 pg_status pg_mesh_builder_create (pg_mesh_builder **out, const char *path)
 {
     pg_status status = PG_OK;
@@ -123,6 +125,7 @@ done:
     return status;
 }
 
+/* Nodes by the numbers of the file; the same one may come twice. */
 pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node)
 {
     pg_status status = PG_OK;
@@ -162,6 +165,7 @@ pg_mesh_given pg_mesh_builder_given (const pg_mesh_builder *m)
                              .group = m->group, .kind = m->kind, .start = m->start, .node = m->list };
 }
 
+/* Element e, by its order in the file, goes to another block. */
 void pg_mesh_builder_regroup (pg_mesh_builder *m, size_t e, long group) { m->group[e] = group; }
 
 /* Are all numbers of the list within 1 .. most? */
@@ -192,6 +196,7 @@ void pg_mesh_builder_renumber (pg_mesh_builder *m, size_t nnode, const long *nod
     }
 }
 
+/* File, line and number of an element for messages; lines are known of formats that have lines. */
 void builder_where (const pg_mesh_builder *m, size_t e, char *text, size_t size)
 {
     if (m->line[e] > 0)

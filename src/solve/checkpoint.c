@@ -31,6 +31,8 @@ static pg_status keep_state (pg_state *s, const pg_problem *p, const char *name,
 {
     pg_status status = PG_OK;
     char part[64];
+    /* Numbers of one kind go in one array, so that the file has few variables. Every name in the file is
+     * that of the state and a suffix. */
     long count[5] = { s->step, s->events, s->iterations, s->broken, s->history_rows };
     double number[3] = { s->time, s->factor, s->work };
     double *vector[3] = { s->d, s->v, s->a };
@@ -121,6 +123,8 @@ static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
     };
     long count[15];
     double number[VALUES + PG_SECONDS_COUNT], saved[SKIPS];
+    /* Gathered, given to the keeper, and spread again: when writing the keeper leaves them as they are,
+     * so that spreading changes nothing. */
     for (int i = 0; i < 9; i++) count[i] = *word[i];
     for (int i = 0; i < 6; i++) count[9 + i] = (long) *size[i];
     for (int i = 0; i < VALUES; i++) number[i] = *value[i];
@@ -245,6 +249,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
     s->spared = count[7];
     s->mean_diagonal = number[0], s->shift = number[1], s->extra_cost = number[2];
+    /* K had become indefinite: the method of factoring is changed as it was in the first run. */
     if (k->reading && count[1] && !s->indefinite) {
         if (s->factor) s->linear->free (&s->factor);
         s->linear = pg_linear_first (0, 1);
@@ -307,6 +312,8 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
     pg_system *sys = &s->break_loop.system;
+    /* Making caches counts factorisations and solves; the report must not show those that the first run
+     * did not make, only their seconds. */
     pg_statistics counts = s->report;
     int stale = sys->stale;
     unsigned char *alive = state->alive;

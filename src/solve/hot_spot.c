@@ -43,7 +43,8 @@ static double crack_angle (const affine_stress *s, double lambda)
     return 0.5 * atan2 (2 * v[2], v[0] - v[1]) + 0.5 * acos (-1);
 }
 
-/* From the stresses of the fields (xx, yy, xy). */
+/* Stress as a function of the load factor, constant + lambda slope, from the stresses of the fields (xx,
+ * yy, xy): with two fields they are those at factors 0 and 1, with one the load is proportional. */
 static affine_stress affine_of (const trial_fields *f, const double *first, const double *second)
 {
     affine_stress s = { { 0 }, { 0 } };
@@ -99,6 +100,7 @@ int hot_resists (const search *g, const double *x, double angle, double h, doubl
 }
 
 /* ---- hot spots ----------------------------------------------------------------------------------------- */
+/* Places that are none of their own: near an open tip, which grows by its own law, or on a crack. */
 int hot_excluded (const search *g, const double *x, double h)
 {
     const pg_problem *p = g->w->system->problem;
@@ -149,6 +151,7 @@ static pg_status average (const search *g, size_t node, hot_spot *out)
     double x[2 * DISC], sixth = acos (-1) / 3;
     pg_fracture_limits limits;
     for (int k = 0; k < DISC; k++) {
+        /* The centre and six places around it. */
         double r = k ? 0.35 * out->h : 0;
         x[2*k] = out->x[0] + r * cos (k * sixth), x[2*k + 1] = out->x[1] + r * sin (k * sixth);
     }
@@ -210,7 +213,7 @@ static long next_node (const search *g, const double *factor, const unsigned cha
     return found;
 }
 
-/* 1: the body ends within a spacing of a node. */
+/* 1: the body ends within a spacing h of a node, asked along the four axes. */
 static int is_rim (const pg_problem *p, size_t i)
 {
     double h = pg_problem_spacing (p, PG_NODES, i), quarter = 0.5 * acos (-1);
@@ -223,6 +226,8 @@ static int is_rim (const pg_problem *p, size_t i)
 }
 
 
+/* Up to `most` places with load factors below the best that is known, each the first to reach its
+ * strength among those around it, none within HOT_APART spacings of another. */
 pg_status hot_spots (const search *g, size_t most, hot_spot *out, size_t *n)
 {
     pg_status status = PG_OK;

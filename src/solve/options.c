@@ -16,11 +16,13 @@ double options_number (const pg_scene *scene, const char *key)
     return given (scene, key) ? pg_scene_number (scene, "%s", key) : 0;
 }
 
+/* The same for whole numbers. */
 long options_integer (const pg_scene *scene, const char *key)
 {
     return given (scene, key) ? pg_scene_integer (scene, "%s", key) : 0;
 }
 
+/* Filters of the catalogue of solvers, for messages that name those that would do. */
 static int breaks_in_passing (const pg_solver_type *type, const void *unused)
 {
     (void) unused;
@@ -159,6 +161,8 @@ static void complete_times (pg_solver_options *o, const pg_scene *scene)
     }
 }
 
+/* Times of methods in motion. Explicit ones choose the step themselves where none is given, so that
+ * either the end or the number of steps may be left open until then. */
 void options_read_times (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     int stable = (o->flags & PG_SOLVER_EXPLICIT) != 0;
@@ -190,6 +194,7 @@ static void find_unused (pg_solver_options *o, const pg_scene *scene)
         used += (size_t) snprintf (o->unused + used, sizeof o->unused - used, "%s%s", used ? ", " : "", key);
 }
 
+/* What goes_with asks of a solver: does this force take it? */
 typedef struct { const pg_problem *problem; const pg_force_type *force; } pairing;
 
 static int goes_with (const pg_solver_type *type, const void *context)

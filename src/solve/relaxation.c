@@ -98,6 +98,8 @@ static void move (void *context, size_t first, size_t last, int thread)
     for (size_t b = first; b < last; b++) {
         size_t i = b * BLOCK, end = i + BLOCK < w->ndof ? i + BLOCK : w->ndof;
         if (w->resting) for (size_t k = i; k < end; k++) v[k] = 0.5 * dt * (r[k] * inverse[k]);
+        /* Central differences of M a + C v = r with C = rate M: (1/dt + rate/2) v_new = (1/dt - rate/2) v
+         * + r/m, times 2 dt. */
         else if (rate)
             for (size_t k = i; k < end; k++)
                 v[k] = ((2 - rate[k] * dt) * v[k] + 2 * dt * (r[k] * inverse[k])) / (2 + rate[k] * dt);
@@ -173,6 +175,7 @@ static void impose (const pg_solver *s, pg_state *state)
 static void open_stage (pg_solver *s, pg_state *state)
 {
     struct relaxation *x = motion_of (s)->relaxation;
+    /* u of stage n + 1 = (n + 1) / n times u of stage n. */
     double ratio = state->step > 0 && pg_problem_proportional (s->problem)
                        ? (double) (state->step + 1) / (double) state->step
                        : 1;
@@ -224,6 +227,9 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
         PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
         for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
         step->utilisation = top;
+        /* Bonds at cut or above break. Of the worst those within `tie` of it, so that bonds that are
+         * equal by symmetry break together; a share of the worst is wider, but takes none below its
+         * limit of 1. */
         double cut =
             o->break_mode == PG_BREAK_ALL
                 ? 1
@@ -326,6 +332,7 @@ static pg_status step_of_held_stage (pg_solver *s, pg_state *state, pg_step *ste
     b->round = 0;
     step->residual = m->relaxation->imbalance;
     state->factor = t;
+    /* Levels are shares of the full load at which fields are written. */
     while ((double) s->next_level / (double) s->options.levels <= t * (1 + 1e-12))
         s->next_level++, step->level = 1;
     PG_TRY (explicit_end (s, state, state->step + 1 >= stages_of (s)->stages, "load factor", t));
@@ -397,12 +404,14 @@ done:
     return status;
 }
 
+/* Held stages are steps; without hold a step is many stages of one iteration. */
 int relaxation_done (const pg_solver *s, const pg_state *state)
 {
     const pg_stages_options *own = stages_of (s);
     return (own->hold ? state->step : state->iterations) >= own->stages;
 }
 
+/* Share of the stages that is done, 0 to 1. */
 double relaxation_progress (const pg_solver *s, const pg_state *state)
 {
     const pg_stages_options *own = stages_of (s);

@@ -65,6 +65,8 @@ done:
     return status;
 }
 
+/* Also of a solver that was made in part only. What the method owns is freed first, as it may point into
+ * the system of the break loop. */
 void pg_solver_free (pg_solver **solver)
 {
     pg_solver *s = *solver;
@@ -78,6 +80,8 @@ void pg_solver_free (pg_solver **solver)
     *solver = NULL;
 }
 
+/* The largest stable time step, s, and in `from` what it was derived from; NAN where the method has no
+ * such limit. */
 double pg_solver_stable (const pg_solver *s, const char **from)
 {
     const char *unknown = "";
@@ -86,6 +90,7 @@ double pg_solver_stable (const pg_solver *s, const char **from)
     return s->type->stable ? s->type->stable (s, from) : NAN;
 }
 
+/* Unknowns of a point: dim displacements, and rotations where the force has them. */
 int pg_solver_components (const pg_solver *s) { return s->break_loop.system.components; }
 
 const pg_force_type *pg_solver_force (const pg_solver *s, void **self)
@@ -113,6 +118,8 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     state->step++;
     state->iterations += step->iterations;
     state->work = s->break_loop.work;
+    /* Event steps have no time of their own (load factors fall as well as rise): they are counted
+     * instead. */
     step->stamp = s->options.event ? (double) step->number : step->time;
     step->reaction = s->reaction;
     pg_statistics *r = &s->report;
@@ -123,6 +130,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
         r->overlap_max = fmax (r->overlap_max, s->break_loop.system.force->overlap (s->break_loop.system.self,
                                                                                     state, state->d));
     r->energy_external = s->break_loop.work;
+    /* First law: work of loads = strain + motion + damping + what breaking has taken, the rest. */
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping;
 done:
     if (status != PG_OK && s->started && !s->break_loop.stopped) {
@@ -143,6 +151,7 @@ done:
     return status;
 }
 
+/* The watch is called within long steps, so that a caller may write a checkpoint or stop. */
 void pg_solver_watch (pg_solver *s, pg_watch watch, void *context)
 {
     s->break_loop.watch = watch, s->break_loop.watching = context;
@@ -162,8 +171,8 @@ static double largest_displacement (const pg_solver *s, const pg_state *state)
     return top;
 }
 
-/* Work that breaking did not cost: factors and preconditioners that were kept, with the seconds that a
- * mean one took. Told once. */
+/* Work that breaking did not cost: factors and preconditioners that were kept. The time saved is an
+ * estimate, number of times kept * mean seconds of one that was made. Told once. */
 static void report_skips (pg_solver *s)
 {
     const pg_system *sys = &s->break_loop.system;
@@ -216,7 +225,9 @@ static void warn_of_facets (pg_solver *s)
     s->warned_facets = 1;
 }
 
-/* What a result may be doubted for: energy from breaking, faces of a crack that overlap. Told once. */
+/* What a result may be doubted for: breaking that fed in more than 1 % of the work of loads, where it
+ * should take energy; crack faces that overlap by more than a thousandth of the largest displacement.
+ * Told once. */
 static void warn_at_end (pg_solver *s, const pg_state *state)
 {
     if (!s->warned_energy && s->report.broken > 0
