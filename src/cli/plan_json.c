@@ -70,8 +70,8 @@ static void constants (pg_json *j, const pg_problem *p)
     pg_json_shut (j);
 }
 
-/* Solver and time steps, and where the stable time step comes from: measured, an estimate, or
- * unknown without a density. */
+/* Solver and time steps (s), and where the stable time step comes from: measured, an estimate by the
+ * largest frequency, the solver itself, or unknown without a density. */
 static void steps (pg_json *j, const plan *p)
 {
     plan_times t = plan_times_of (p);
@@ -106,6 +106,7 @@ static void memory (pg_json *j, const plan *p)
         pg_json_number (j, "matrix_entries", f->matrix_entries);
         pg_json_number (j, "factor_entries", f->factor_entries);
         pg_json_number (j, "factor_flops", f->factor_flops);
+        /* At 2e10 operations a second, what one core does; a guess, as clocks differ. */
         pg_json_number (j, "factor_seconds", f->factor_flops / 20e9);
     }
     pg_json_open (j, "bytes", '{');
@@ -120,7 +121,8 @@ static void memory (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* The first break, if it was asked for and the scene is static. */
+/* The first break, if it was asked for and the scene is static: the load factor at which it comes and
+ * where; of a crack that grows the tip and the two ends of its first facet. */
 static void first (pg_json *j, const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -143,7 +145,8 @@ static void first (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* What the tips of cracks bear under the full load; null where there is no room for a ring. */
+/* What the tips of cracks bear under the full load: place in m, K in Pa sqrt (m), J in J/m^2, T in Pa,
+ * radii of the rings in m; null where there is no room for a ring. */
 static void tips (pg_json *j, const plan *p)
 {
     const pg_first_break *b = p->first;
@@ -170,7 +173,8 @@ static void tips (pg_json *j, const plan *p)
     pg_json_shut (j);
 }
 
-/* Warnings and notes that are known before the run. */
+/* Warnings and notes that are known before the run, by the same functions that speak in the run: plan and
+ * report cannot differ. */
 static void doubts (pg_json *j, const plan *p)
 {
     pg_statistics report = { 0 };

@@ -6,7 +6,8 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Names the surface of shape i; names of the sides of the bounding box are taken. */
+/* Names the surface of shape i, by which sets call it: as the scene says, else hole, rim or side; names
+ * of the sides of the bounding box are taken. */
 static void name_boundary (pg_shape *s, const pg_scene *scene, size_t i)
 {
     const char *name = !s->add ? "hole" : pg_shape_types[s->kind].round ? "rim" : "side";
@@ -42,7 +43,8 @@ static pg_status read_shape (pg_shape *s, int dim, const pg_scene *scene, size_t
     return PG_OK;
 }
 
-/* Bounding box of the added shapes. */
+/* Bounding box of the added shapes, m. Subtracted ones can only make the body smaller, and are left out:
+ * the box may then be wider than the body. */
 static void bound (pg_body *body)
 {
     for (int k = 0; k < body->dim; k++) body->low[k] = INFINITY, body->high[k] = -INFINITY;
@@ -96,6 +98,7 @@ done:
     return status;
 }
 
+/* Also of a body that was read in part only. */
 void pg_body_clear (pg_body *body)
 {
     for (size_t i = 0; body->shape && i < body->n; i++)
@@ -104,8 +107,9 @@ void pg_body_clear (pg_body *body)
     memset (body, 0, sizeof *body);
 }
 
-/* A shape that would not change the answer so far is not asked. Shapes need only distances up to the
- * tolerance. */
+/* 1 for places in the body or within `tolerance` (m) of its surface, on either side of it: a subtracted
+ * shape must hold a place by more than that. A shape that would not change the answer so far is not
+ * asked. Shapes need only distances up to the tolerance. */
 int pg_body_inside (const pg_body *body, const double *x, double tolerance)
 {
     int in = 0;
@@ -121,7 +125,8 @@ int pg_body_inside (const pg_body *body, const double *x, double tolerance)
 
 const char *pg_shape_kind (const pg_shape *shape) { return pg_shape_types[shape->kind].name; }
 
-/* The least distance so far is the reach of the next question, which shapes may use to stop early. */
+/* The shape whose surface is nearest to x, and how far it is, m; signs are left away. The least distance
+ * so far is the reach of the next question, which shapes may use to stop early. */
 size_t pg_body_nearest (const pg_body *body, const double *x, double *distance)
 {
     size_t nearest = 0;

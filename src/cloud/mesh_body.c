@@ -72,6 +72,7 @@ int pg_mesh_body_block (const pg_mesh *m, const char *name)
     return -1;
 }
 
+/* The names of all blocks as "a|b|c", as pg_nearest_name reads them; as many as fit. */
 void pg_mesh_body_blocks (const pg_mesh *m, char *out, size_t size)
 {
     size_t at = 0;
@@ -173,6 +174,7 @@ done:
 }
 
 /* ---- elements ------------------------------------------------------------------------------------------ */
+/* Positions of the nodes of element e, m, dim numbers each: meshes keep three in any dimension. */
 void pg_mesh_body_nodes (const pg_mesh *m, size_t e, double *x)
 {
     size_t dim = (size_t) m->dim, first = m->start[e];
@@ -240,7 +242,8 @@ static double measure (const pg_mesh *m, size_t e, double *least)
     return volume;
 }
 
-/* Volumes, sizes and quality of all elements. */
+/* Volumes (m^3, in the plane m^2), sizes (their dim-th roots) and quality of all elements; the worst is
+ * remembered for the plan. */
 static pg_status check_elements (pg_mesh_body *b, const pg_scene *scene, const char *key)
 {
     pg_status status = PG_OK;
@@ -304,11 +307,13 @@ done:
     return status;
 }
 
+/* The mesh of key `mesh`; a shape may be a mesh too (shape_mesh.c). */
 pg_status pg_mesh_body_read (pg_mesh_body *out, const pg_scene *scene)
 {
     return mesh_body_at (out, scene, "mesh");
 }
 
+/* Also of one that was read in part only. */
 void pg_mesh_body_clear (pg_mesh_body *body)
 {
     pg_mesh_clear (&body->mesh);

@@ -8,7 +8,7 @@
 /* Places with values of both sides: u and v displacements (n x 3), s and t stresses (n x 6). */
 typedef struct { size_t n, ncolumn; int dim, column[9]; const double *x; double *u, *s, *v, *t; } pairs;
 
-/* The value of a column at place i. */
+/* The value of a column at place i: 0 to 2 displacement x y z, m; 3 to 8 stress xx yy zz xy yz zx, Pa. */
 static double part (const double *u, const double *s, size_t i, int column)
 {
     return column < 3 ? u[3*i + (size_t) column] : s[6*i + (size_t) column - 3];
@@ -105,8 +105,9 @@ done:
     return status;
 }
 
-/* Columns that one side does not know give NAN. In the norm of the stress each shear counts
- * twice, since it stands for two components of the tensor. */
+/* One number for each point: the difference of a column, or with PG_COMPARE_U and PG_COMPARE_S the norm
+ * of all that both know. Columns that one side does not know give NAN. In the norm of the stress each
+ * shear counts twice, since it stands for two components of the tensor. */
 pg_status pg_compare_field (double *out, const pg_cloud *cloud, int column, const pg_sampler *value,
                             const pg_sampler *reference)
 {

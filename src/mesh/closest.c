@@ -54,6 +54,8 @@ static int solve (int n, double A[UNKNOWNS][UNKNOWNS + 1], double *x)
 static int try_set (const bounds *s, double H[3][3], const double c[3], const double *xi, unsigned set,
                     double to[3])
 {
+    /* H G' | c ; G 0 | b - G xi, with a row of G for each bound that holds; the right-hand side waits in
+     * the last column until the number of rows is known. */
     double A[UNKNOWNS][UNKNOWNS + 1] = { { 0 } }, u[UNKNOWNS];
     int d = s->dim, n = d;
     for (int a = 0; a < d; a++) {

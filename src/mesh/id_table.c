@@ -12,7 +12,8 @@ static size_t slot_of (const pg_id_table *t, long id)
     return (size_t) (h >> 32) & t->mask;
 }
 
-/* Entries of `direct` hold the place of a number + 1; 0: empty. */
+/* The place of a number is its distance from the lowest. Entries of `direct` hold the position in the
+ * list + 1; 0: empty. *twice: the first number that was there before; n: none. */
 static pg_status build_dense (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;
@@ -26,7 +27,8 @@ done:
     return status;
 }
 
-/* The same with linear probing. */
+/* The same in a table of a power of two slots, at least twice as many as numbers; a slot that is taken by
+ * another number sends on to the next one. */
 static pg_status build_hash (pg_id_table *t, size_t *twice)
 {
     pg_status status = PG_OK;
@@ -73,6 +75,7 @@ long pg_id_table_find (const pg_id_table *t, long id)
     return -1;
 }
 
+/* The list of numbers belongs to the caller. */
 void pg_id_table_clear (pg_id_table *t)
 {
     pg_free (t->direct);

@@ -87,14 +87,14 @@ done:
     return status;
 }
 
-/* May be called for a table that was never read. */
+/* May be called for a table that was never read. Names are parts of the text and go with it. */
 void pg_csv_clear (pg_csv *csv)
 {
     pg_free (csv->text), pg_free (csv->name), pg_free (csv->value);
     memset (csv, 0, sizeof *csv);
 }
 
-/* The name ends before the bracket of the unit, blanks taken off. */
+/* Length of a column's name: it ends before the bracket of the unit, blanks taken off. */
 size_t pg_csv_name (const char *column)
 {
     size_t n = strcspn (column, "[");
@@ -102,7 +102,8 @@ size_t pg_csv_name (const char *column)
     return n;
 }
 
-/* The full header cell is preferred over the name without its unit, column by column. */
+/* Number of a column, -1: there is none. Each is compared with the full header cell, then with the name
+ * without its unit: "force" finds "force [N]", and of two that fit the first. */
 long pg_csv_column (const pg_csv *csv, const char *wanted)
 {
     size_t n = strlen (wanted);

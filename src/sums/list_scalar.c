@@ -22,6 +22,7 @@
         const double *row_ = (record) + *(o); \
         UNROLL for (int c_ = 0; c_ < (columns); c_++) (out)[c_] = row_[c_]; \
     } while (0)
+/* The other end takes the opposite force; its sums have half as many columns as its record. */
 #define GIVE(sum, o, dim, f) \
     do { \
         double *to_ = (sum) + *(o) / 2; \

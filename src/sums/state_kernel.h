@@ -87,7 +87,8 @@ INLINE void pull_stride (const pg_block_job *job, size_t k, int stride, int dim,
     }
 }
 
-/* All strides of a range of blocks that have points; job->hit of blocks with a bond over its limit. */
+/* All strides of a range of blocks that have points (part: the bits of one stride); job->hit of blocks
+ * with a bond over its limit. */
 INLINE void dilate_loop (const pg_block_job *job, size_t first, size_t last, int dim, int check, int weighted)
 {
     const int width = VECS (dim) * LANES;
@@ -115,7 +116,8 @@ INLINE void pull_loop (const pg_block_job *job, size_t first, size_t last, int d
 }
 
 /* Energy density of every point, J/m^3, to job->energies where that is wanted, and the energy of each
- * block, J. */
+ * block, J. Lanes without a point have no live bond and add zeros: blocks need no masks but
+ * for what goes out. */
 INLINE void store_loop (const pg_block_job *job, size_t first, size_t last, int dim, int weighted)
 {
     double lane[LANES];
