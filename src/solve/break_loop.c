@@ -135,7 +135,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
         if (b->growth) {
             int over;
-            PG_TRY (facet_round (b, state, t, d, step, &over));
+            PG_TRY (facet_round (b, state, t, d, dyn, step, &over));
             if (!over) break;
             continue;
         }

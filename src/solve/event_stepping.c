@@ -338,6 +338,8 @@ done:
 pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     event_stepping *e = events_of (s);
+    facet_growth *g = s->break_loop.growth;
+    if (g && s->break_loop.round == 0) g->needed0 = g->needed;
     if (instability_moves (&e->unstable)) return instability_step (s, &e->unstable, state, step);
     if (e->ended != PG_OK) return pg_error (e->ended, PG_HERE, "%s", e->why);
     return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)

@@ -59,7 +59,7 @@ void facet_free (break_loop *b)
     if (!g) return;
     trials_free (&g->trials);
     pg_nearest_free (&g->near);
-    pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial);
+    pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial), pg_free (g->way);
     pg_free (g);
     b->growth = NULL;
 }
@@ -75,6 +75,12 @@ pg_status facet_keep (break_loop *b, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "facets.needed", 1, &g->needed));
     PG_KEEP_BOUND (k, "what was said of facets", said, 0, 7);
     g->said = (unsigned) said;
+    long way = (long) g->nway;
+    PG_TRY (k->counts (k->context, "facets.running", 1, &way));
+    PG_KEEP_BOUND (k, "the tips that run", way, 0, (long) b->system.problem->first_bond[PG_BOND_SETS]);
+    if (k->reading) PG_GROW (g->way, g->cap_way, (size_t) way);
+    g->nway = (size_t) way;
+    if (way) PG_TRY (k->numbers (k->context, "facets.way", g->nway, g->way));
     if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy_fracture = g->needed;
 done:
     return status;
@@ -158,7 +164,7 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
         if (!state->paths->tip[i].open) continue;
         PG_TRY (pg_tip_measure (&g->field[i], s->problem, s->force, s->self, state, i, g->nfield, d, times));
     }
-    PG_TRY (trial_facets (b, state, d, times));
+    if (!g->moving) PG_TRY (trial_facets (b, state, d, times));
     tell (b, state);
     g->fresh = 1;
 done:
@@ -329,7 +335,9 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     b->changes.n = 0, g->closed = g->began = g->going = 0, g->event_energy = 0;
     for (size_t i = 0; i < g->ntip && top > 0; i++) {
         facet_candidate c;
-        if (facet_judge (b, state, i, factor, &angle) < least) continue;
+        if (facet_judge (b, state, i, factor, &angle) < (g->moving ? 1 : least)) continue;
+        if (g->moving && !facet_has_come (g, i)) continue;
+        if (g->moving) g->way[i] = 0;
         facet_place (b, state, i, angle, &c);
         PG_TRY (grow_one (b, state, &c));
     }
@@ -340,14 +348,18 @@ done:
 }
 
 /* ---- a fixed load -------------------------------------------------------------------------------------- */
-pg_status facet_round (break_loop *b, pg_state *state, double t, const double *d, pg_step *step, int *over)
+pg_status facet_round (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
+                       pg_step *step, int *over)
 {
     pg_status status = PG_OK;
     const pg_solver_options *o = b->system.options;
-    *over = 0;
+    int any = 1;
+    *over = 0, b->growth->moving = dyn != NULL;
     PG_TRY (facet_measure (b, state, NULL, d, t));
     step->utilisation = facet_utilisation (b, state, 1);
     if (!(step->utilisation > 1)) goto done;
+    if (dyn) PG_TRY (facet_run (b, state, step->iterations == 0 || !isfinite (dyn->dt) ? dyn->dt : 0, &any));
+    if (!any) goto done;
     if (step->iterations >= o->max_iterations)
         PG_FAIL (PG_E_EQUILIBRIUM,
                  "cracks still grow after %ld facets at this load (sqrt (G / G0) = %.6g): raise "

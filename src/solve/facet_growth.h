@@ -40,6 +40,9 @@ typedef struct facet_growth {
      * what all facets take, J. */
     int     closed, began, going;
     double  event_energy;
+    /* In motion: the way that every tip has come towards its next facet, m. */
+    int     moving;
+    double *way; size_t nway, cap_way;
     unsigned said;                                     /* warnings that were given: FACET_SAID_... */
 } facet_growth;
 enum { FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4 };
@@ -65,9 +68,17 @@ pg_status facet_grow    (break_loop *b, pg_state *state, double factor, double t
 pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew);
 /* The tips at the load factor of a step, for results (1 after facet_round). */
 pg_status facet_show    (pg_solver *s, const pg_state *state, double factor);
-/* One round at a fixed load, the displacement d being in equilibrium: *over: something grew, and the
- * caches of the force are fresh. */
-pg_status facet_round   (break_loop *b, pg_state *state, double t, const double *d, pg_step *step, int *over);
+/* One round at a fixed load, the displacement d being in equilibrium (dyn: with inertia): *over: something
+ * grew, and the caches of the force are fresh. */
+pg_status facet_round   (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
+                         pg_step *step, int *over);
+
+/* ---- facet_motion.c ------------------------------------------------------------------------------------ */
+/* Tips run for dt (s; INFINITY: what is over its limit comes at once); *any: one has come as far as its next
+ * facet. */
+pg_status facet_run     (break_loop *b, const pg_state *state, double dt, int *any);
+int       facet_has_come (const facet_growth *g, size_t tip);
+void      facet_rest    (facet_growth *g);             /* the motion begins, or is over */
 
 /* Coefficients l of the fields at a load factor; returns how many. */
 static inline int facet_factors (const facet_growth *g, double factor, double l[2])

@@ -11,6 +11,7 @@ typedef struct {                                       /* a part of the state of
     int      held;                                     /* 1: the last event was one at a held load */
     long     count, settling;  /* instabilities so far; steps of settling in this motion */
     double   time, last_break;                         /* since the motion began, s */
+    double   needed, dissipated;                       /* by facets in motion, in all, J */
     double   dt, quiet, longest;                       /* s, as settled */
     int      mode[2];  /* how K (0) and K with the mass (1) were last solved: SYSTEM_... */
     double  *before, *rest;  /* displacement before the event at hand, and at rest after it (ndof) */

@@ -106,6 +106,7 @@ pg_status newmark_advance (newmark *n, break_loop *b, const pg_state *from, pg_s
     pg_status status = PG_OK;
     course m = { n, from, coefficients_of (&n->setting, n->dt), t };
     dynamics dyn = *newmark_matrix (n);
+    dyn.dt = n->creeps ? INFINITY : n->dt;
     dyn.add = add_inertia, dyn.resist = add_resistance, dyn.context = &m;
     PG_TRY (newmark_supports (n, t, 0));
     if (b->round == 0) predict (&m, state->d);

@@ -10,6 +10,7 @@ typedef struct {
     pg_system *system;                                 /* what moves: forces, masses, supports */
     pg_newmark_options setting;
     double     dt;                                     /* s */
+    int        creeps;                                 /* 1: dt is no time, only a way to come to rest */
     /* 1: loads and supports stay as they are at the t of each step, which is then no time: a load factor */
     int        held;
     double    *work1, *work2, *work3, *work4;          /* room for vectors (ndof; work4: 3 x ndof) */

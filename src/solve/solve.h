@@ -7,6 +7,7 @@
 /* ---- system.c: equilibrium of a force at given alive bits ---------------------------------------------- */
 typedef struct pg_dynamics {                           /* what inertia and damping add (NULL: static) */
     double k, m;                                       /* matrix = k K + m M */
+    double dt;  /* of the time step, s; INFINITY: its length is no time, the body creeps to an equilibrium */
     /* residual: of the equations to be solved; reference: at least its size */
     void (*add) (void *context, const double *d, double *residual, double *reference);
     /* residual -= M a + C v at d: what reactions contain of the motion */

@@ -30,7 +30,7 @@ static const struct { const char *nu, *fails, *how;
 static const char *const loads[] = {
     "", "  - {set: right, traction: {x: 3 MPa, y: 1 MPa}, ramp: constant}\n"
 };
-enum { CASES = sizeof cases / sizeof *cases, MOST = 100, ENOUGH = 30, STEPS = 600 };
+enum { CASES = sizeof cases / sizeof *cases, MOST = 100, ENOUGH = 20, STEPS = 300 };
 
 /* ramp: of the displacement of the top, ", ramp: ..." */
 static run plate_with (int c, int load, const char *ramp, const char *solver)
