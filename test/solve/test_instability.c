@@ -109,7 +109,7 @@ static void a_held_load_is_the_limit_of_fixed_steps (void **state)
             }
             clear (&a), clear (&b);
         }
-    assert_true (unstable > 20 * CASES);
+    assert_true (unstable > 5 * CASES);
 }
 
 /* The load falls where that is followed, with both kinds of loads, and at every event the worst bond is at
