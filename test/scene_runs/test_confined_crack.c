@@ -76,7 +76,8 @@ static run opened (const char *solver)
                      "0.33, density: 2500 kg/m3}}\nfailure: {criterion: energy_release, fracture_energy: 100 "
                      "J/m2, path: [[0, 0.014], [2, 0.014]]}\nsets: {up: {where: 'x < 0.07 and y > "
                      "0.43'}, down: {where: 'x < 0.07 and y < -0.43'}}\nboundary:\n  - {set: right, "
-                     "displacement: {x: 0, y: 0}}\n  - {set: up, force: {y: 2 MN}}\n  - {set: down, force: {y: -2 MN}}\nsolver: {stepping: event, %s}\n"
+                     "displacement: {x: 0, y: 0}}\n  - {set: up, force: {y: 2 MN}}\n"
+                     "  - {set: down, force: {y: -2 MN}}\nsolver: {stepping: event, %s}\n"
                      "output: {at: {levels: 1}}\n",
                      solver);
 }
