@@ -188,6 +188,29 @@ static void a_closed_path_severs_the_body (void **state)
     end (&g);
 }
 
+/* Points of whole cells lie outside the disk: what is beyond its surface is cut, too. */
+static void points_beyond_the_surface_are_severed (void **state)
+{
+    (void) state;
+    growing g = begin ("dimension: 2\nbody: [{add: {disk: {center: [0, 0], radius: 0.5}}}]\nspacing: 0.1\n"
+                       "cells: staircase\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.2}}\n"
+                       "cracks: [{from: [-0.6, 0.03], to: [0.1, 0.03]}]\n");
+    size_t outside = 0;
+    grow (&g, 0, 0.1 + pg_tip_ahead (g.p, g.s, 0, (double[]) { 1, 0 }, 1, NULL), 0.03, 1);
+    check_relative (g.s->paths->tip[0].x[0], sqrt (0.25 - 0.0009), 1e-12);
+    check_mask (&g);
+    const pg_family *f = &g.p->rows[PG_NODES].family;
+    for (size_t i = 0; i < g.p->cloud.n; i++)
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+            const double *a = g.p->cloud.x + 2*i, *b = g.p->cloud.x + 2 * (size_t) f->node[e];
+            if ((a[1] < 0.03) == (b[1] < 0.03)) continue;
+            assert_false (g.s->alive[e]);
+            outside += fmin (a[0], b[0]) > 0.4995;
+        }
+    assert_true (outside > 1);
+    end (&g);
+}
+
 static void tips_know_their_path (void **state)
 {
     (void) state;
@@ -445,7 +468,8 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (what_dies_is_what_the_path_cuts), cmocka_unit_test (strokes_do_not_matter),
         cmocka_unit_test (changes_gather), cmocka_unit_test (points_on_the_line_stay_on_its_left),
-        cmocka_unit_test (a_closed_path_severs_the_body), cmocka_unit_test (tips_know_their_path),
+        cmocka_unit_test (a_closed_path_severs_the_body),
+        cmocka_unit_test (points_beyond_the_surface_are_severed), cmocka_unit_test (tips_know_their_path),
         cmocka_unit_test (what_lies_around_a_tip), cmocka_unit_test (surfaces_of_any_shape),
         cmocka_unit_test (cracks_that_meet_end), cmocka_unit_test (cracks_begin_inside_and_at_the_surface),
         cmocka_unit_test (copies_are_deep), cmocka_unit_test (no_memory_changes_nothing),
