@@ -343,9 +343,22 @@ static const char growing_scene[] =
           "failure: {criterion: energy_release, fracture_energy: 0.1 J/m2}\n";
 static const char starting_scene[] =
     SHEET "failure: {criterion: energy_release, fracture_energy: 8 J/m2, tensile_strength: 5 MPa}\n";
+/* Two glasses that come apart along the interface between them, driven by a pressure on the faces. */
+static const char interface_scene[] =
+    "dimension: 2\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [10 mm, 10 mm]}}}]\n"
+    "spacing: 1 mm\nmaterials: {a: {youngs_modulus: 72 GPa, poissons_ratio: 0.2}, "
+    "b: {youngs_modulus: 60 GPa, poissons_ratio: 0.2}}\n"
+    "blocks: [{material: a, where: x == x}, {material: b, where: y > 5 mm}]\n"
+    "method: {integration: gauss, essential: nitsche}\ncracks: [{from: [-1 mm, 5 mm], to: [4.1 mm, 5 mm]}]\n"
+    "failure: {criterion: energy_release, fracture_energy: 8 J/m2, "
+    "interfaces: [{between: [a, b], fracture_energy: 0.1 J/m2}]}\n"
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 20 um}}, "
+    "{set: cracks, pressure: 1 MPa}]\n"
+    "solver: {kind: static, max_events: 3}\noutput: {fields: [displacement, damage], pictures: []}\n";
 static void growing_cracks_survive_every_failing_allocation (void **state)
 {
     (void) state;
+    sweep (interface_scene, 1, 40);
     sweep (growing_scene, 1, 40);
     sweep (starting_scene, 1, 40);
 }
