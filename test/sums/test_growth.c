@@ -7,7 +7,8 @@
 #include "scene_runs/run.h"
 
 #define SQUARE "dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [20, 20]}}}]\n" \
-    "spacing: 1\nboundary: [{set: top, displacement: {x: 0, y: 1}}, {set: bottom, displacement: {x: 0, y: 0}}]\n" \
+    "spacing: 1\nboundary: [{set: top, displacement: {x: 0, y: 1}}, " \
+    "{set: bottom, displacement: {x: 0, y: 0}}]\n" \
     "solver: {kind: static}\n"
 #define STONE "materials: {m: {youngs_modulus: 1, poissons_ratio: 0.3333333333333333}}\n"
 
