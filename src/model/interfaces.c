@@ -41,7 +41,8 @@ pg_status pg_interfaces_read (pg_problem *p, const pg_scene *scene)
         one->strength = pg_scene_given (scene, "failure.interfaces[%zu].tensile_strength", k)
                             ? pg_scene_number (scene, "failure.interfaces[%zu].tensile_strength", k) : NAN;
         snprintf (path, sizeof path, "failure.interfaces[%zu].between", k);
-        if (one->material[0] == one->material[1] && one->material[0] >= 0)
+        if ((one->material[0] == one->material[1] && one->material[0] >= 0)
+            || pg_scene_name (scene, 2, "%s", path))
             pg_scene_fault (scene, path, "must name two different materials");
     }
 done:

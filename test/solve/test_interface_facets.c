@@ -116,6 +116,9 @@ static void wrong_interfaces_are_refused (void **state)
           "interfaces: [{between: [a, a], fracture_energy: 1}]",
           "two different materials" },
         { "criterion: energy_release, fracture_energy: 8, "
+          "interfaces: [{between: [a, b, a], fracture_energy: 1}]",
+          "two different materials" },
+        { "criterion: energy_release, fracture_energy: 8, "
           "interfaces: [{between: [a], fracture_energy: 1}]",
           "two materials" },
         { "criterion: stretch, critical_stretch: 1e-4, interfaces: [{between: [a, b], fracture_energy: 1}]",
