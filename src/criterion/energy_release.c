@@ -65,6 +65,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     energy_release *own = NULL;
     PG_ALLOC (own, 1);
     c->own = own;
+    pg_criterion_by_theory (scene);
     PG_TRY (read_energy (c, scene, setting));
     c->parameter[SHEAR] = optional (scene, setting, "shear_fracture_energy");
     c->parameter[STRENGTH] = optional (scene, setting, "tensile_strength");
@@ -150,7 +151,7 @@ const pg_criterion_type pg_criterion_energy_release = {
     .needs = PG_NEEDS_FACETS,
     .needed = 1,
     .limits = { &criterion_keys_energy, &criterion_keys_tension, &limits },
-    .options = { &options },
+    .options = { &options, &criterion_keys_calibration },
     .read = read,
     .fracture = fracture,
     .uneven = uneven,

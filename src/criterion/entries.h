@@ -17,6 +17,9 @@ extern const pg_key_table criterion_keys_calibration;
  * straight cut is returned, 1 where limits are those of theory. A calibration that is asked for and was not
  * measured is a fault of the scene. */
 double pg_criterion_calibration (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
+/* Of criteria that have the key only so that a scene can change from one criterion to another: theory is all
+ * there is. */
+void   pg_criterion_by_theory (const pg_scene *scene);
 /* ", ..." for describe: how limits allow for growth, or that they do not; "" for forces that know nothing
  * of it. */
 void   pg_criterion_say_growth (const pg_criterion *c, char *text, size_t size);

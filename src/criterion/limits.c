@@ -75,6 +75,13 @@ double pg_criterion_calibration (pg_criterion *c, const pg_scene *scene, const p
     return setting->growth.mean;
 }
 
+void pg_criterion_by_theory (const pg_scene *scene)
+{
+    static const char key[] = "failure.calibration";
+    if (pg_scene_given (scene, key) && strcmp (pg_scene_text (scene, key), "measured") == 0)
+        pg_scene_fault (scene, key, "is for limits of bonds; this criterion has none: leave it out");
+}
+
 void pg_criterion_say_growth (const pg_criterion *c, char *text, size_t size)
 {
     const pg_growth *g = &c->growth;

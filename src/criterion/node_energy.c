@@ -13,6 +13,7 @@ enum { LIMIT, ENERGY, FACTOR };
 static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
 {
     char map[PG_LIMITS];
+    pg_criterion_by_theory (scene);
     c->parameter[ENERGY] = pg_criterion_limit (scene, setting, "fracture_energy");
     if (!(c->parameter[ENERGY] > 0)) return PG_OK;     /* missing: a fault already */
     pg_criterion_holder (map, scene, setting, "wc_factor");
@@ -66,6 +67,7 @@ const pg_criterion_type pg_criterion_node_energy = {
         "stored energy of a point reaches a share of fracture energy over horizon: all its bonds break",
     .needs = PG_NEEDS_ENERGY,
     .limits = { &criterion_keys_energy, &limits },
+    .options = { &criterion_keys_calibration },
     .read = read,
     .utilisation = utilisation,
     .factor = factor,

@@ -84,7 +84,7 @@ static void test_turn (void **unused)
 static void test_galerkin (void **unused)
 {
     (void) unused;
-    static const char *const set[] = { "method.force=galerkin", "spacing=25 mm",
+    static const char *const set[] = { "method.force=galerkin", "failure.criterion=stretch", "spacing=25 mm",
                                        "body[2].add.box.low=[0, -75 mm]",
                                        "sets.lift.where=x >= 0.45 m and y <= 0.28 m and y >= 0",
                                        "solver.max_events=6" };
