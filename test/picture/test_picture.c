@@ -168,6 +168,33 @@ static void cracks_are_black_lines (void **state)
     drop_cloud (&c);
 }
 
+/* Cracks grow: every panel draws those of its own state, of the style only where it has none. */
+static void a_panel_has_its_own_cracks (void **state)
+{
+    (void) state;
+    pg_cloud c;
+    double *value, vertex[] = { -0.02, -0.02, 0.02, 0.02, -0.02, -0.02, -0.01, -0.01 };
+    pg_crack crack[2] = { { .kind = PG_CRACK_SEGMENT, .vertex = vertex, .nvertex = 2 },
+                          { .kind = PG_CRACK_SEGMENT, .vertex = vertex + 4, .nvertex = 2, .sided = 1 } };
+    pg_cracks grown = { .dim = 2, .crack = crack, .n = 1 }, first = { .dim = 2, .crack = crack + 1, .n = 1 };
+    long black[3];
+    make_disk (&c, &value);
+    for (int k = 0; k < 3; k++) {
+        pg_panel panel = { NULL, value, NULL, NULL, NULL, k == 0 ? NULL : k == 1 ? &first : &grown };
+        pg_picture_style style = { .label = "v", .cracks = k == 0 ? &grown : &first };
+        const char *path = file_at ("panel.png");
+        image m;
+        check_ok (pg_picture_panels (path, &c, 1, &panel, 1, &style));
+        open_image (&m, path);
+        black[k] = (long) count_near (&m, 0, 20);
+        cairo_surface_destroy (m.surface);
+    }
+    assert_int_equal (black[0], black[2]);
+    assert_true (black[1] < black[0] - 300);
+    pg_free (value);
+    drop_cloud (&c);
+}
+
 static void a_section_shows_its_own_layer (void **state)
 {
     (void) state;
@@ -409,6 +436,7 @@ int main (void)
         cmocka_unit_test (nan_is_grey),
         cmocka_unit_test (equal_values_are_drawn),
         cmocka_unit_test (cracks_are_black_lines),
+        cmocka_unit_test (a_panel_has_its_own_cracks),
         cmocka_unit_test (a_section_shows_its_own_layer),
         cmocka_unit_test (points_on_a_line_make_a_chart),
         cmocka_unit_test (every_curve_has_its_colour),
