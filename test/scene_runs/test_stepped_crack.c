@@ -1,0 +1,75 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * K of a crack that stands still in a body that moves, by ring integrals with inertia: a wave of tension that
+ * meets the crack (closed form), and a load so slow that it is static. */
+#include "run.h"
+#include <math.h>
+
+/* Plane strain, 2.5 m x 2 m between smooth walls on the left and right, so that a pull on its top and bottom
+ * sends plane waves; the crack is 1 m long, and by the wall on its left half of one of 2 m. */
+static run plate (const char *ramp, const char *solver)
+{
+    return scene_of (1,
+                     "dimension: 2\nplane: strain\nthickness: 1 m\nbody: [{add: {box: {low: [0, -1], high: "
+                     "[2.5, 1]}}}]\nspacing: 0.05\nlattice: cells\ncracks: [{from: [-0.1, 0.012], to: [1, "
+                     "0.012]}]\n"
+                     "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}\n"
+                     "boundary:\n"
+                     "  - {set: left, displacement: {x: 0}}\n  - {set: right, displacement: {x: 0}}\n"
+                     "  - {set: top, traction: {y: 1 MPa}%s}\n  - {set: bottom, traction: {y: -1 MPa}%s}\n"
+                     "solver: {%s}\noutput: {at: {levels: 1}}\n",
+                     ramp, ramp, solver);
+}
+
+/* K_I by the wide ring, with the inertia of the state. */
+static double measured (run *r, double t)
+{
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    pg_tip_field f = { 0 };
+    const double *d = r->state->d;
+    assert_true (r->state->paths && r->state->paths->ntip == 1);
+    check_ok (pg_tip_measure (&f, r->problem, force, self, r->state, 0, 1, &d, &t));
+    return f.K_wide[0][0];
+}
+
+/* Both waves meet at the crack at t = H / c, where they would make a stress of 2 MPa together. From then on,
+ * until waves come back, K_I (t) = 2 s sqrt ((1 - 2 nu) c t / pi) / (1 - nu) (Freund 1990, Dynamic Fracture
+ * Mechanics, section 2.5). */
+static void a_wave_opens_a_crack_as_the_root_of_time (void **state)
+{
+    (void) state;
+    double c = sqrt (10e9 * 0.75 / (1.25 * 0.5) / 2500), pi = acos (-1), mean = 0;
+    run r = plate (", ramp: constant", "kind: newmark, dt: 8 us, end: 1.05 ms");
+    long looks = 0;
+    while (!pg_solver_done (r.solver, r.state)) {
+        advance (&r);
+        double t = r.state->time - 1 / c;
+        if (!(c * t > 0.4)) continue;
+        double share = measured (&r, r.state->time) / (2 * 2e6 * sqrt (0.5 * c * t / pi) / 0.75);
+        check_absolute (share, 1, 0.04);
+        mean += share, looks++;
+    }
+    assert_true (looks > 20);
+    check_absolute (mean / (double) looks, 1, 0.015);
+    clear (&r);
+}
+
+/* A load that grows over many periods of the body. */
+static void a_slow_load_is_static (void **state)
+{
+    (void) state;
+    run a = plate ("", "kind: newmark, dt: 2 ms, end: 0.2 s, alpha: -0.3"),
+        b = plate ("", "kind: static, stepping: fixed, steps: 1");
+    to_the_end (&a), to_the_end (&b);
+    check_relative (measured (&a, a.state->time), measured (&b, 1), 0.005);
+    clear (&a), clear (&b);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (a_wave_opens_a_crack_as_the_root_of_time),
+        cmocka_unit_test (a_slow_load_is_static),
+    };
+    return cmocka_run_group_tests_name ("scene_runs/stepped_crack", tests, NULL, NULL);
+}
