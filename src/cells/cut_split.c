@@ -161,6 +161,25 @@ static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const
     }
 }
 
+/* Do two planes coincide (in local coordinates, to 1e-6)? Edges of a polygon that lie in one line do, and
+ * nothing but the ends of their boxes tells where one ends and the next begins. */
+static int coincide (const cut_quadric *p, const cut_quadric *q)
+{
+    double plus = fabs (p->c + q->c), minus = fabs (p->c - q->c), size = fabs (p->c);
+    for (int i = 0; i < 3; i++) {
+        plus += fabs (p->b[i] + q->b[i]), minus += fabs (p->b[i] - q->b[i]), size += fabs (p->b[i]);
+        for (int k = 0; k < 3; k++) if (p->A[i][k] != 0 || q->A[i][k] != 0) return 0;
+    }
+    return fmin (plus, minus) <= 1e-6 * size;
+}
+
+/* Splits along x at the ends of the box of a surface that lie inside the cell. */
+static void split_box (cut_slices *s, cut_level *out, size_t surface, int x)
+{
+    double end[2] = { s->low[3 * surface + (size_t) x], s->high[3 * surface + (size_t) x] };
+    for (int k = 0; k < 2; k++) if (fabs (end[k]) < 1) push (s, &out->hard, end[k]);
+}
+
 /* All splits of a plane slice with outer coordinate y and height z; q: the surfaces restricted to the
  * slice. */
 static void split_slice (cut_slices *s, const cut_quadric *surface, cut_level *out, int y, int z)
@@ -172,6 +191,7 @@ static void split_slice (cut_slices *s, const cut_quadric *surface, cut_level *o
         for (size_t j = 0; j < i; j++) {
             conic q = conic_of (&surface[j], y, z);
             if (overlap (s, i, j)) split_pair (s, out, i, j, &p, &q, y, z);
+            if (coincide (&surface[i], &surface[j])) split_box (s, out, i, y), split_box (s, out, j, y);
         }
     }
 }

@@ -447,9 +447,36 @@ static void more_rays_than_divide_a_cell_are_refused (void **state)
     }
 }
 
+/* Two edges of a polygon that lie in one line share a facet of a cell between them: each has its own length,
+ * whatever cell the vertex lies in (edge 3 and 4: hypot (0.87, 0.7); of the prism times its height 1). */
+static void edges_in_one_line_have_their_lengths (void **state)
+{
+    (void) state;
+    static const char corners[] = "[[0, 0], [1, 0], [2, 0.6], [1.13, 1.3], [0.26, 2], [-1, 1.4]]";
+    static const double spacing[] = { 0.1, 0.13, 0.17, 0.21, 0.3 };
+    for (int solid = 0; solid < 2; solid++)
+        for (size_t k = 0; k < 5 - 2 * (size_t) solid; k++)
+            for (int edge = 3; edge < 5; edge++) {
+                model m;
+                char text[600];
+                double area = 0;
+                snprintf (text, sizeof text,
+                          "dimension: %d\nbody: [{add: {%s: {vertices: %s%s}}}]\nspacing: %g\n"
+                          "sets: {part: {boundary: %s.edge %d}}\n",
+                          2 + solid, solid ? "prism" : "polygon", corners, solid ? ", low: 0, high: 1" : "",
+                          spacing[4 - k], solid ? "prism" : "polygon", edge);
+                check_ok (make (&m, text, 1));
+                const pg_set *part = find (&m, "part");
+                for (size_t f = 0; f < part->nfacet; f++) area += m.cells.area[part->facet[f]];
+                check_relative (area, hypot (0.87, 0.7), 1e-12);
+                drop (&m);
+            }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (edges_in_one_line_have_their_lengths),
         cmocka_unit_test (sides_of_a_box_have_their_points_and_areas),
         cmocka_unit_test (parts_of_stairs_are_where_they_should_be),
         cmocka_unit_test (a_face_that_ends_in_a_side_is_none_of_it),
