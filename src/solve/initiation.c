@@ -45,8 +45,9 @@ typedef struct {
     size_t n;
     double at[MOST_PLACES], c[MOST_PLACES], s[MOST_PLACES], strength[MOST_PLACES], needed[MOST_PLACES];
     double factor, about;                              /* estimates: load factor, and length there, m */
-    /* what it sets free over length^2: polynomials of lambda, J/m^2, value and slope over the length */
-    double release[3], slope[3];
+    /* what it sets free over length^power: polynomials of lambda, value and slope over the length; power 2:
+     * J/m^2 */
+    double release[3], slope[3], power;
     double shortest, longest;                          /* lengths that the fit is of, m */
 } trial_crack;
 
@@ -260,7 +261,7 @@ static void estimate (const search *g, trial_crack *c)
 /* The polynomial of what a length sets free, J. */
 static void release_of (const trial_crack *c, double l, double out[3])
 {
-    for (int q = 0; q < 3; q++) out[q] = l * l * (c->release[q] + l * c->slope[q]);
+    for (int q = 0; q < 3; q++) out[q] = pow (l, c->power) * (c->release[q] + l * c->slope[q]);
 }
 
 static double lambda_E (const trial_crack *c, double l)
@@ -286,10 +287,29 @@ static size_t choose_lengths (const trial_crack *c, double about, double *length
     return n;
 }
 
+/* Energies by a power of the length, least squares of the logarithms: for a stress that falls off over a short
+ * way (a small hole), where a straight line through energies over length^2 would soon come down to zero. */
+static void fit_power (trial_crack *c, size_t n, const double *length, double energy[][3])
+{
+    double x = 0, y = 0, xx = 0, xy = 0;
+    for (size_t k = 0; k < n; k++) {
+        double all = energy[k][0] + energy[k][1] + energy[k][2], u = log (length[k]), v = log (all);
+        if (!(all > 0)) return;
+        x += u, y += v, xx += u * u, xy += u * v;
+    }
+    /* between that of a long crack from a point and that of an even field */
+    c->power = fmin (2, fmax (1, (xy - x * y / (double) n) / (xx - x * x / (double) n)));
+    for (int q = 0; q < 3; q++) {
+        c->release[q] = c->slope[q] = 0;
+        for (size_t k = 0; k < n; k++) c->release[q] += energy[k][q] / pow (length[k], c->power) / (double) n;
+    }
+}
+
 /* A straight line through energies over length^2, by least squares; through one: constant. */
 static void fit (trial_crack *c, size_t n, const double *length, double energy[][3])
 {
     double mean = 0, spread = 0;
+    c->power = 2;
     for (size_t k = 0; k < n; k++) mean += length[k] / (double) n;
     for (size_t k = 0; k < n; k++) spread += (length[k] - mean) * (length[k] - mean);
     for (int q = 0; q < 3; q++) {
@@ -300,6 +320,10 @@ static void fit (trial_crack *c, size_t n, const double *length, double energy[]
         }
         c->release[q] = value - slope * mean, c->slope[q] = slope;
     }
+    /* where l (value + slope l) falls with l the line would ask for more load for a longer crack */
+    double value = c->release[0] + c->release[1] + c->release[2],
+           slope = c->slope[0] + c->slope[1] + c->slope[2];
+    if (n > 1 && value + 2 * slope * length[n - 1] <= 0) fit_power (c, n, length, energy);
     c->shortest = length[0], c->longest = length[n - 1];
 }
 

@@ -56,11 +56,11 @@ static void beams_break_by_energy (void **state)
     }
 }
 
-static void the_catalogue_lists_five (void **state)
+static void the_catalogue_lists_six (void **state)
 {
     (void) state;
     assert_string_equal (pg_criterion_names (),
-                         "stretch|principal_stress|mohr_coulomb|node_energy|beam_limits");
+                         "stretch|principal_stress|mohr_coulomb|node_energy|beam_limits|energy_release");
     assert_null (pg_criterion_find ("energy"));
     assert_int_equal (pg_criterion_find ("stretch")->needs, PG_NEEDS_STRETCH);
     assert_int_equal (pg_criterion_find ("mohr_coulomb")->needs, PG_NEEDS_STRESS);
@@ -266,7 +266,7 @@ static void description_names_the_constants (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (the_catalogue_lists_five), cmocka_unit_test (beams_break_by_energy),
+        cmocka_unit_test (the_catalogue_lists_six), cmocka_unit_test (beams_break_by_energy),
         cmocka_unit_test (limits_follow_the_horizon_where_an_energy_gives_them),
         cmocka_unit_test (stretch_along_the_bond_counts_and_turning_does_not),
         cmocka_unit_test (finite_stretch_is_the_change_of_length),

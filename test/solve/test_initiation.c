@@ -248,6 +248,32 @@ static void a_hole_cracks_on_both_sides (void **state)
     clear (&r);
 }
 
+/* A hole of two spacings: the stress falls off within a spacing, and yet cracks begin there and not at the
+ * straight sides of the plate, which reach the strength at a load factor of 0.333 only. */
+static void a_small_hole_cracks_first (void **state)
+{
+    (void) state;
+    const double strength = sqrt (70e9 * 8 / 0.04);
+    run r = scene_of (1, "dimension: 2\nplane: stress\nspacing: 5 mm\nlattice: cells\n"
+                         "body: [{add: {box: {low: [-0.06, -0.09], high: [0.06, 0.09]}}}, "
+                         "{subtract: {disk: {center: [0, 0], radius: 10 mm}}}]\n"
+                         "materials: {glass: {youngs_modulus: 70 GPa, poissons_ratio: 0.22}}\n"
+                         "sets: {pin: {where: \"hypot (x + 0.055, y + 0.085) < 5.5 mm\"}}\n"
+                         "boundary: [{set: bottom, traction: {y: -%.17g}}, {set: top, traction: {y: %.17g}}, "
+                         "{set: pin, displacement: {x: 0, y: 0}, essential: penalty}]\n"
+                         "failure: {criterion: energy_release, fracture_energy: 8 J/m2, "
+                         "tensile_strength: %.17g}\nsolver: {max_events: 1}\n",
+                      3 * strength, 3 * strength, strength);
+    first_event (&r);
+    const pg_crack_paths *paths = r.state->paths;
+    assert_true (paths->ntip > 0 && r.step.factor < 0.31);
+    for (size_t k = 0; k < paths->ntip; k++) {
+        check_below (fabs (paths->tip[k].x[1]), 5e-3);
+        check_below (fabs (paths->tip[k].x[0]), 0.03);
+    }
+    clear (&r);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -259,6 +285,7 @@ int main (void)
         cmocka_unit_test (a_constant_part_is_a_head_start),
         cmocka_unit_test (without_a_strength_nothing_begins),
         cmocka_unit_test (a_hole_cracks_on_both_sides),
+        cmocka_unit_test (a_small_hole_cracks_first),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
