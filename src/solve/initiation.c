@@ -287,8 +287,9 @@ static size_t choose_lengths (const trial_crack *c, double about, double *length
     return n;
 }
 
-/* Energies by a power of the length, least squares of the logarithms: for a stress that falls off over a short
- * way (a small hole), where a straight line through energies over length^2 would soon come down to zero. */
+/* Energies by a power of the length, least squares of the logarithms: for a stress that falls off over a
+ * short way (a small hole), where a straight line through energies over length^2 would soon come down to
+ * zero. */
 static void fit_power (trial_crack *c, size_t n, const double *length, double energy[][3])
 {
     double x = 0, y = 0, xx = 0, xy = 0;
