@@ -105,6 +105,9 @@ static pg_status find_column (const char *path, const pg_csv *csv, const char *w
     char *open = strrchr (label, '['), *close = strrchr (label, ']');
     if (open && close > open + 1 && strcmp (open, "[1]") != 0) *open = '(', *close = ')';
     else if (open) label[pg_csv_name (label)] = 0;
+    /* the unit of stress intensity, "Pa m^(1/2)", with its exponent raised */
+    char *power = strstr (label, "^("), *end = power ? strchr (power, ')') : NULL;
+    if (end) power[1] = '{', *end = '}';
 done:
     return status;
 }
@@ -150,6 +153,9 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
     out->events = pg_solver_is (kind, PG_SOLVER_EVENTS);
     for (int k = 0; k < 2; k++) {
         if (starts_elsewhere (scene, wanted[k])) out->at_rest = out->events = 0;
+        /* what belongs to a length of the crack is no path of load and displacement */
+        if (strncmp (wanted[k], "tip.", 4) == 0 || is_one_of (wanted[k], "crack.length|crack.area"))
+            out->at_rest = out->events = 0;
         if (is_one_of (
                 wanted[k],
                 "step|energy_strain|energy_kinetic|energy_external|energy_dissipated|broken|utilisation"))
