@@ -244,6 +244,10 @@ void      pg_crack_orient (pg_crack *segment);
 /* Does the bond x - y meet the crack, less the strips along its tips and fronts that `retreat` gives? A
  * touch within `tolerance` (m) counts. The answer for y - x is the same. */
 int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
+/* The place of the segment a - b in the plane that is nearest to x: its share of the way from a to b, 0 to 1;
+ * where it is (2 numbers) and how far from x, m. NULL: not wanted. */
+double pg_segment_nearest (const double *a, const double *b, const double *x, double *place,
+                           double *distance);
 /* Does x lie on the crack, within the tolerance, whichever side it counts to? */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);
 /* The same for several cracks: the first of them that the bond meets, or that x lies on; NULL: none. */

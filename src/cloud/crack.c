@@ -58,6 +58,17 @@ static double distance_segments (const double *a, const double *b, const double 
     return fmin (least, sqrt (dot (3, w, w)));
 }
 
+double pg_segment_nearest (const double *a, const double *b, const double *x, double *place, double *distance)
+{
+    double t[2] = { b[0] - a[0], b[1] - a[1] }, size = t[0] * t[0] + t[1] * t[1];
+    double s = size > 0 ? ((x[0] - a[0]) * t[0] + (x[1] - a[1]) * t[1]) / size : 0;
+    s = fmin (1, fmax (0, s));
+    double at[2] = { a[0] + s * t[0], a[1] + s * t[1] };
+    if (place) place[0] = at[0], place[1] = at[1];
+    if (distance) *distance = hypot (at[0] - x[0], at[1] - x[1]);
+    return s;
+}
+
 /* ---- in the line or plane of the crack ----------------------------------------------------------------- */
 /* Along the line of the crack: does the interval of a b overlap that of the crack without its retreats? */
 static int meets_segment (const pg_crack *c, const double *a, const double *b, double tolerance)

@@ -68,16 +68,6 @@ double pg_tip_ahead (const pg_problem *p, const pg_state *s, size_t tip, const d
     return r;
 }
 
-/* The place of a segment nearest to x; returns its distance. */
-static double nearest_of_segment (const double *x, const double *a, const double *b, double *place)
-{
-    double t[2] = { b[0] - a[0], b[1] - a[1] }, tt = t[0]*t[0] + t[1]*t[1];
-    double s = tt > 0 ? ((x[0] - a[0]) * t[0] + (x[1] - a[1]) * t[1]) / tt : 0;
-    s = fmin (fmax (s, 0), 1);
-    for (int k = 0; k < 2; k++) place[k] = a[k] + s * t[k];
-    return hypot (place[0] - x[0], place[1] - x[1]);
-}
-
 /* Distance to the surface at an angle. */
 static double surface_at (const pg_problem *p, const double *x, double angle, double limit, double *place)
 {
@@ -126,7 +116,8 @@ double pg_tip_nearest (const pg_problem *p, const pg_state *s, size_t tip, doubl
     for (size_t c = 0; c < w->cracks.n; c++) {
         const double *a = w->cracks.crack[c].vertex;
         if (w->path[c] == w->path[t->segment]) continue;
-        double d = nearest_of_segment (t->x, a, a + 2, try);
+        double d;
+        pg_segment_nearest (a, a + 2, t->x, try, &d);
         if (d < best) best = d, met = PG_MEETS_CRACK, at[0] = try[0], at[1] = try[1];
     }
     for (size_t i = 0; i < w->ntip; i++) {

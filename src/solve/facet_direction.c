@@ -82,6 +82,20 @@ static int is_uneven (const pg_problem *p)
     return uneven;
 }
 
+/* Does a scene give the energy of sliding? Without it no direction is worth a look for it. */
+static int slides (const pg_problem *p, const double *x)
+{
+    int any = 0;
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        const pg_criterion *c = &p->criterion[m];
+        pg_fracture_limits limits = { 0 };
+        if (!c->type || c->never) continue;
+        c->type->fracture (c, x, 0, &limits);
+        any |= limits.shear > 0;
+    }
+    return any;
+}
+
 /* Opening: closed form, or a comparison of directions. T: stress along the crack. */
 static double opening (const view *v, double T, double *theta)
 {
@@ -97,16 +111,6 @@ static double opening (const view *v, double T, double *theta)
 }
 
 /* ---- imposed path -------------------------------------------------------------------------------------- */
-/* Nearest place of a segment to x: share of the way along it, 0 to 1. */
-static double nearest_share (const double *a, const double *b, const double *x, double *distance)
-{
-    double t[2] = { b[0] - a[0], b[1] - a[1] };
-    double s = ((x[0] - a[0]) * t[0] + (x[1] - a[1]) * t[1]) / (t[0] * t[0] + t[1] * t[1]);
-    s = fmin (1, fmax (0, s));
-    *distance = hypot (a[0] + s * t[0] - x[0], a[1] + s * t[1] - x[1]);
-    return s;
-}
-
 /* Walks over as many segments as the length needs; beyond the last place the path is over. */
 double facet_on_path (const double *path, size_t n, const double *x, const double *e, double length,
                       double *to, int *ends)
@@ -114,7 +118,7 @@ double facet_on_path (const double *path, size_t n, const double *x, const doubl
     size_t at = 0;
     double near = INFINITY, s = 0;
     for (size_t i = 0; i + 1 < n; i++) {
-        double d, here = nearest_share (path + 2*i, path + 2*i + 2, x, &d);
+        double d, here = pg_segment_nearest (path + 2*i, path + 2*i + 2, x, NULL, &d);
         if (d < near) near = d, at = i, s = here;
     }
     const double *a = path + 2*at;
@@ -165,7 +169,7 @@ double facet_judge (const break_loop *b, const pg_state *state, size_t tip, doub
     if (path) return along_path (&v, path, n, angle);
     double top = opening (&v, T, &theta);
     v.sliding = 1;
-    double sliding = best (&v, &slip);
+    double sliding = slides (p, f->x) ? best (&v, &slip) : 0;
     if (sliding > top) top = sliding, theta = slip;
     *angle = atan2 (f->e[1], f->e[0]) + theta;
     return top;

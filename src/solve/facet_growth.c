@@ -6,6 +6,7 @@
  * facet_direction.c: how near a tip is and where to; facet_place.c: where its facet ends; facet_events.c:
  * from event to event. */
 #include "facet_growth.h"
+#include "hot_spot.h"
 #include "trial_facet.h"
 #include <math.h>
 #include <stdio.h>
@@ -31,7 +32,8 @@ static void doubt_length (const break_loop *b)
                 b->system.report,
                 "material %.40s fails within E G0 / f_t^2 = %.3g m, %.2g facets of %.3g m: where "
                 "cracks begin the strength counts as at most %.3g Pa (zone of 8 facets)",
-                p->material[m].name, zone, zone / h, h, sqrt (p->material[m].E * limits.energy / (8 * h)));
+                p->material[m].name, zone, zone / h, h,
+                hot_strength_cap (p->material[m].E, limits.energy, h));
     }
 }
 

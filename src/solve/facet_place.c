@@ -16,10 +16,8 @@ static int meets (const pg_crack_paths *paths, size_t tip, const double *x, doub
     for (size_t c = 0; c < paths->cracks.n; c++) {
         const double *a = paths->cracks.crack[c].vertex;
         if (paths->path[c] == paths->path[paths->tip[tip].segment]) continue;
-        double t[2] = { a[2] - a[0], a[3] - a[1] };
-        double s = ((x[0] - a[0]) * t[0] + (x[1] - a[1]) * t[1]) / (t[0] * t[0] + t[1] * t[1]);
-        s = fmin (1, fmax (0, s));
-        double q[2] = { a[0] + s * t[0], a[1] + s * t[1] }, d = hypot (q[0] - x[0], q[1] - x[1]);
+        double q[2], d;
+        pg_segment_nearest (a, a + 2, x, q, &d);
         if (d <= least) least = d, place[0] = q[0], place[1] = q[1], place[2] = 0, found = 1;
     }
     return found;

@@ -45,4 +45,14 @@ static inline void keep (run *r, tape *t, int read)
     reading = read, t->at = 0;
     check_ok (pg_solver_keep (r->solver, r->state, &k));
 }
+
+/* One step of both runs, a and its copy b that was read back: the same to the last bit. */
+static inline void advance_alike (run *a, run *b)
+{
+    advance (a), advance (b);
+    assert_true (a->state->factor == b->state->factor && a->step.nbroken == b->step.nbroken
+                 && a->step.dissipated == b->step.dissipated);
+    assert_memory_equal (a->state->d, b->state->d, a->state->ndof * sizeof *a->state->d);
+    assert_memory_equal (a->state->alive, b->state->alive, a->state->nbond);
+}
 #endif
