@@ -24,6 +24,7 @@ typedef struct {
     int      event;                                    /* steps go from break to break (PG_SOLVER_EVENTS) */
     pg_unstable on_instability;                        /* of these */
     pg_break break_mode;
+    int      plain;                                    /* 1: no shortcuts; as problem->plain */
     double   break_fraction, tie;  /* bonds within this share of the worst break with it */
     double   facet;  /* break: facet: length of a facet, m; 0: the local spacing */
     double   tolerance;                                /* of the residual, relative to the reference force */

@@ -72,8 +72,10 @@ static int refuse (const char *name, int option, const char *argument)
         const char *near =
             pg_nearest_name (argument,
                              strcmp (name, "check") == 0
-                                 ? "--json|--solve|--spectrum|--out|--threads|--memory|--set|--quiet|--help"
-                                 : "--out|--resume|--force|--threads|--memory|--set|--quiet|--help");
+                                 ? "--json|--solve|--spectrum|--out|--threads|--memory|--plain|--set|--quiet|"
+                                   "--help"
+                                 : "--out|--resume|--force|--threads|--memory|--plain|--set|--quiet|"
+                                   "--help");
         fprintf (stderr, "perigal %s: unknown option %s%s%s%s\n", name, argument,
                  near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     }
@@ -131,6 +133,7 @@ static int read_option (command *c, const char *name, int option, const char *wo
     case 's': return read_set (c, optarg);
     case 'm': return read_memory (c, optarg);
     case 'q': c->quiet = 1; return -1;
+    case 'p': return read_set (c, "solver.plain=on");
     case 'r': c->resume = 1; return -1;
     case 'f': c->force = 1; return -1;
     case 'j': c->json = 1; return -1;
@@ -150,6 +153,7 @@ int command_parse (command *c, int argc, char **argv)
         { "force", no_argument, NULL, 'f' },     { "memory", required_argument, NULL, 'm' },
         { "json", no_argument, NULL, 'j' },      { "solve", no_argument, NULL, 'v' },
         { "spectrum", no_argument, NULL, 'w' },  { "quiet", no_argument, NULL, 'q' },
+        { "plain", no_argument, NULL, 'p' },
         { "help", no_argument, NULL, 'h' },      { NULL, 0, NULL, 0 }
     };
     char unquoted[1200];

@@ -7,7 +7,7 @@
 
 static const char run[] =
     "perigal run SCENE.yaml [-o DIR] [--resume | --force] [--threads N] [--memory SIZE]\n"
-    "            [--set KEY=VALUE]... [--quiet]\n"
+    "            [--plain] [--set KEY=VALUE]... [--quiet]\n"
     "  Solves a scene and writes a result folder.\n"
     "  -o, --out DIR        result folder, created if needed; default: out/NAME, where NAME is that of\n"
     "                       the scene's folder or file\n"
@@ -18,6 +18,7 @@ static const char run[] =
     "      --threads N      0 (the default): one per processor\n"
     "      --memory SIZE    limit, such as 8GB; default: what the machine has free. A run that needs more\n"
     "                       is refused before it starts\n"
+    "      --plain          without the shortcuts that spare work (solver.plain: on); slower, the same answer\n"
     "  -s, --set KEY=VALUE  replace or add a value of the scene, such as method.horizon='2.5 spacing'\n"
     "  -q, --quiet          no progress and no summary; warnings are in DIR/report.json\n"
     "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) writes a checkpoint after the current break round and stops; a\n"

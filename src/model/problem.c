@@ -229,6 +229,7 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     /* A thickness of 1 m, or a cross-section of 1 m^2, is assumed where none is given; the plan says so. */
     p->thickness_assumed = p->dim < 3
                            && !pg_scene_given (scene, "%s", p->dim == 2 ? "thickness" : "cross_section");
+    p->plain = pg_scene_bool (scene, "solver.plain");
     p->accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
     /* No number until the patch test has run: NAN shows as a gap and compares false. */
     p->patch = (pg_patch) { .error = NAN, .compliance = NAN };

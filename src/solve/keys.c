@@ -10,6 +10,9 @@ static const pg_key keys[] = {
     ROW ("solver.max_events", PG_INTEGER, NULL, "[1, 1000000000]", "1000000", NULL,
          "Event stepping ends after so many events; explicit dynamics after so many time steps with "
          "breaking bonds."),
+    ROW ("solver.plain", PG_BOOL, NULL, NULL, "off", NULL,
+         "Switches every shortcut off that spares work without changing the answer (what a run skips, it "
+         "says): slower, for comparison. perigal run --plain is the same."),
     ROW ("solver.stop.set", PG_NAME, NULL, NULL, "", "sets.{}|left|right|bottom|top|back|front|all",
          "The run ends when the crack arrives at a point of this set."),
     ROW ("solver.stop.damage", PG_NUMBER, "1", "(0, 1]", "50 %", NULL,

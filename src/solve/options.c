@@ -225,6 +225,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     snprintf (o->preconditioner, sizeof o->preconditioner, "%s",
               pg_scene_text (scene, "solver.preconditioner"));
     o->flags = pg_solver_flags (o->kind);
+    o->plain = problem->plain;
     o->tolerance = pg_scene_number (scene, "solver.tolerance");
     o->max_iterations = pg_scene_integer (scene, "solver.max_iterations");
     o->levels = pg_scene_integer (scene, "output.at.levels");
