@@ -18,7 +18,7 @@ static const char run[] =
     "      --threads N      0 (the default): one per processor\n"
     "      --memory SIZE    limit, such as 8GB; default: what the machine has free. A run that needs more\n"
     "                       is refused before it starts\n"
-    "      --plain          without the shortcuts that spare work (solver.plain: on); slower, the same answer\n"
+    "      --plain          without the shortcuts that spare work (solver.plain: on): slower, same answer\n"
     "  -s, --set KEY=VALUE  replace or add a value of the scene, such as method.horizon='2.5 spacing'\n"
     "  -q, --quiet          no progress and no summary; warnings are in DIR/report.json\n"
     "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) writes a checkpoint after the current break round and stops; a\n"
