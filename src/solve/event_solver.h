@@ -1,0 +1,115 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: exact equilibria after bonds broke, from the factor of an earlier stiffness.
+ *
+ * At the *base* the stiffness A (after elimination of supports) was factored, and the displacements u_b of all
+ * load cases were in equilibrium. Since then refreshes have changed K by W D W', where the columns of W select
+ * the t *touched* unknowns and D (t x t, symmetric) is summed up from what the force says it has changed
+ * (pg_force_type.change), and the constant forces by W p. With G = A^-1 W (n x t, the Green columns) and
+ * H = W' G the displacement is u = u_b + G x, and what is not balanced is W r with
+ *
+ *     r = p - x - D u_T,    u_T = (u_b)_T + H x;                        (t numbers, for each load case)
+ *
+ * each event solves (1 + D H) dx = r and adds dx to x, so that errors of earlier events are corrected and do
+ * not add up, and what nothing holds any more stays where the last event left it. No sparse matrix is
+ * touched. Two ways to know G and H stand behind one interface:
+ *
+ *   columns  G is computed when an unknown is touched for the first time: a solve with the factor for each.
+ *            Any dimension, breaks anywhere. u is known at all nodes, one product with G.
+ *   window   the unknowns of a chosen set of nodes are ordered last in the factor, so that the dense trailing
+ *            block of L gives all of H between them at once; breaks may touch the window only, and events see
+ *            the displacement in the window only. Elsewhere it follows for a block of events by one
+ *            back-substitution with many right-hand sides.
+ *
+ * When t grows so far that the dense algebra since the base has cost more than a new base would (counted, by
+ * stored rates: rent or buy), the solver says that a new base is due; the caller decides when. Nothing here
+ * depends on a clock, and of threads only BLAS knows.
+ *
+ * A block of events: the solution of each event is kept as its x (t numbers a case) from one
+ * event_solver_base or event_solver_flush to the next, so that displacements of many events can be asked for
+ * together (event_solver_block), and the solver can go back to any of them (event_solver_back). */
+#ifndef PG_EVENT_SOLVER_H
+#define PG_EVENT_SOLVER_H
+#include "solve.h"
+
+typedef struct event_solver event_solver;
+
+/* What the bonds that broke have done to the equilibria. */
+typedef enum {
+    EVENT_SAME,                                        /* neither K nor forces changed: u stays */
+    EVENT_SOLVED,                                      /* u is the new equilibrium */
+    EVENT_DUE,                                         /* the same, but a new base would pay from now on */
+    /* Not solved, a new base is needed: the force cannot tell its change, elimination (T) changed, a break
+     * outside the window, too many touched unknowns, or a result that the residual does not bear out. */
+    EVENT_LOST
+} event_outcome;
+
+enum { EVENT_CASES = 2, EVENT_MOST = 64 };             /* most load cases; most events of a block */
+
+/* A solver for the system of a run. cases: 1 (load factor 1) or 2 (load factors 0 and 1): time[c] is the load
+ * factor of case c. *out NULL: not available (solver.plain, no matrix, a force without `change`). */
+pg_status event_solver_create (event_solver **out, pg_system *s, int cases, const double *time);
+void      event_solver_free   (event_solver **e);
+
+/* A new base: K of the last refresh is factored if it is stale, and u[c] (ndof, full unknowns, with
+ * prescribed values) are equilibria of it. Green columns from here on. The block is empty. */
+pg_status event_solver_base   (event_solver *e, double *const *u);
+/* The same with a window of these nodes (ascending). *done 0: not possible here (nodes whose elimination
+ * couples, no memory): a base of columns was made instead. */
+pg_status event_solver_window (event_solver *e, double *const *u, size_t n, const int *node, int *done);
+int       event_solver_has_base (const event_solver *e);
+/* Nodes at which u of every event is known: the window, or NULL (n = all nodes). */
+const int *event_solver_nodes (const event_solver *e, size_t *n);
+
+/* After system_refresh: takes in what K lost and solves for the new equilibria. The event is the next one of
+ * the block. EVENT_LOST leaves u as it was. */
+pg_status event_solver_update (event_solver *e, event_outcome *outcome);
+/* Why the last update was lost or a base is due: static text. */
+const char *event_solver_why  (const event_solver *e);
+
+/* ---- the solution of the last update ------------------------------------------------------------------- */
+/* Unknowns of node[k] of a case, for the nodes known (list NULL: all known nodes, in their order): n x
+ * components. Columns: one product with G, as many rows as nodes. */
+void      event_solver_at     (const event_solver *e, int which, size_t n, const int *node, double *u);
+/* The whole displacement of a case, ndof; window: one back-substitution. */
+pg_status event_solver_full   (event_solver *e, int which, double *u);
+/* The same with u at hand (columns): adds what the last update changed, u += G dx. */
+void      event_solver_advance (const event_solver *e, int which, double *u);
+/* K^-1 r of any reduced residual, delta (nred): a solve with the base factor, corrected for D. */
+pg_status event_solver_correct (event_solver *e, const double *r, double *delta);
+/* Largest |r_i| of the last update after its correction over the largest force, D u: rounding, or a sign that
+ * a part has come loose. */
+double    event_solver_residual (const event_solver *e);
+
+/* ---- blocks of events ---------------------------------------------------------------------------------- */
+/* Events since the base or the last flush; the next one is number `count`. A block holds EVENT_MOST. */
+int       event_solver_count  (const event_solver *e);
+/* Forgets the events of the block; the solution and D stay. */
+void      event_solver_flush  (event_solver *e);
+/* Whole displacements of events list[0..n-1] of the block for one case, u[unknown * n + k]: the unknowns of a
+ * node side by side, event by event within each, so that loops over k are contiguous. Event -1: that before
+ * the first one of the block. */
+pg_status event_solver_block  (event_solver *e, int which, int n, const int *list, double *u);
+/* Back to the solution of event k of the block (-1: before its first). The caller has refreshed the force
+ * with the bonds of the later events alive again; the change of K is taken in here. */
+pg_status event_solver_back   (event_solver *e, int k, event_outcome *outcome);
+
+/* ---- linear functionals -------------------------------------------------------------------------------- */
+/* From the next base or window on (and from now on, if there is a base), the value of ell . u is known at
+ * every event for the cost of t products; ell (ndof) is copied. *number: by which it is asked for. Forgotten
+ * by event_solver_forget. Supports and forces that touch broken bonds change their own ell: the caller's
+ * affair. */
+pg_status event_solver_functional (event_solver *e, const double *ell, int *number);
+double    event_solver_value  (const event_solver *e, int number, int which);
+void      event_solver_forget (event_solver *e);
+
+/* ---- for reports and checkpoints ----------------------------------------------------------------------- */
+typedef struct {
+    long   bases, windows, updates, columns;           /* made; columns: solves for them */
+    size_t touched, most_touched;                      /* t now; the largest so far */
+    double flops;                                      /* counted since the base, in seconds by stored rates */
+    double spared;                                     /* factorizations not made, in seconds by stored rates */
+} event_solver_account;
+void      event_solver_tell   (const event_solver *e, event_solver_account *out);
+/* Base, D, x: a run that is read back goes on bit by bit. */
+pg_status event_solver_keep   (event_solver *e, const pg_keeper *k);
+#endif
