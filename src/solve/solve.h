@@ -74,8 +74,10 @@ pg_status system_iterate_multilevel (pg_system *s, double tolerance);
 pg_status system_make_multilevel (pg_system *s);  /* from the last refresh */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
 pg_status system_remember_alive (pg_system *s);        /* in `factored` */
-/* d becomes the equilibrium at t; *residual relative to the reference force. PG_E_EQUILIBRIUM when it stays
- * above the tolerance. */
+/* One solve for `delta` from `reduced`, by the way that was chosen or is chosen now (system.c). */
+pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance);
+/* d becomes the equilibrium at t (refinement.c); *residual relative to the reference force.
+ * PG_E_EQUILIBRIUM when it stays above the tolerance. */
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */

@@ -1,0 +1,173 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Iterative refinement: solve, add, measure, until the out-of-balance force of the state is small. The
+ * residual is taken from the force itself, not from K. How a state is judged that is not exactly in balance,
+ * and the message for one that is refused. */
+#include "solve.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+enum { MOST_REFINEMENTS = 12 };
+static const double goal = 1e-12;                      /* refinement stops here or where it no longer gains */
+
+/* Euclidean norm. */
+static double norm (const double *a, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += a[i] * a[i];
+    return sqrt (sum);
+}
+
+/* Where nothing resists (parts moved as rigid bodies) all forces are rounding, and their own size is no
+ * measure. This makes the tolerance a backward error of 1e-14 there; with resistance it is far below the
+ * forces. It grows with d, and with it what a body that nothing holds may leave unbalanced: who passes by it
+ * alone has to be `settled`. */
+static double force_of_rounding (const pg_system *s, const double *d)
+{
+    double sum = 0;
+    if (!(s->mean_diagonal > 0)) return 0;
+    for (size_t i = 0; i < s->ndof; i++) sum += s->diagonal0[i] * d[i] * s->diagonal0[i] * d[i];
+    return 1e-14 / s->options->tolerance * sqrt (sum);
+}
+
+/* The out-of-balance force of the state, from the force itself, and what it is measured against. */
+static pg_status measure_residual (pg_system *s, double t, const double *d, const dynamics *dyn,
+                                   double *relative)
+{
+    pg_status status = PG_OK;
+    double reference = 0, t0 = pg_seconds ();
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    PG_TRY (s->force->balance (s->self, t, d, s->residual, &reference));
+    if (dyn) dyn->add (dyn->context, d, s->residual, &reference);
+    if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
+    else memcpy (s->reduced, s->residual, s->ndof * sizeof *s->reduced);
+    if (T) reference = fmax (reference, norm (s->residual, s->ndof));
+    s->reference = reference;
+    reference = fmax (reference, force_of_rounding (s, d));
+    double size = s->unbalanced = norm (s->reduced, s->nred);
+    if (!isfinite (size)) PG_FAIL (PG_E_EQUILIBRIUM, "the out-of-balance force is not finite");
+    *relative = reference > 0 ? size / reference : size > 0 ? 1 : 0;
+done:
+    s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    return status;
+}
+
+/* Share of d that a refinement still moves: of the size of rounding where K resists, of the order of 1
+ * where nothing holds the body. */
+static double restlessness (const pg_system *s, const double *step, const double *d)
+{
+    double size = norm (d, s->ndof);
+    return size > 0 ? norm (step, s->ndof) / size : 0;
+}
+
+static const double settled = 1e-3;
+
+/* Is a state that only rounding excuses one that K holds? *restless < 0: no refinement was made yet, and
+ * one more is looked at. */
+static pg_status is_settled (pg_system *s, const dynamics *dyn, const double *d, double *restless)
+{
+    pg_status status = PG_OK;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    if (*restless >= 0) return PG_OK;
+    pg_status now = system_solve_once (s, dyn, 0.1);
+    if (now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD || now == PG_E_SINGULAR) *restless = 1;
+    else {
+        PG_TRY (now);
+        if (T) pg_sparse_multiply (T, s->delta, s->full);
+        *restless = restlessness (s, T ? s->full : s->delta, d);
+    }
+done:
+    return status;
+}
+
+/* The unknown with the largest out-of-balance force, for messages. With elimination forces are those of
+ * columns of T, whose own row has the entry 1. */
+static size_t worst_unknown (const pg_system *s, const pg_sparse *T)
+{
+    size_t worst = 0;
+    for (size_t i = 1; i < s->nred; i++) if (fabs (s->reduced[i]) > fabs (s->reduced[worst])) worst = i;
+    if (!T) return worst;
+    for (long q = T->start[worst]; q < T->start[worst + 1]; q++)
+        if (T->value[q] == 1) return (size_t) T->row[q];
+    return (size_t) T->row[T->start[worst]];
+}
+
+/* The message for a state that is not in equilibrium: how far off, where, and what may be the cause. */
+static pg_status refuse (pg_system *s, double residual, double restless)
+{
+    const pg_problem *p = s->problem;
+    size_t point = worst_unknown (s, s->force->basis ? s->force->basis (s->self) : NULL)
+                   / (size_t) s->components;
+    const double *x = p->cloud.x + point * (size_t) p->dim;
+    char where[96];
+    snprintf (where, sizeof where, "largest at point %zu (%g, %g, %g) m", point, x[0], p->dim > 1 ? x[1] : 0,
+              p->dim > 2 ? x[2] : 0);
+    if (restless > settled)
+        return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                         "%.3g N of the loads stay unbalanced (%.3g of the reference force, allowed %.3g), "
+                         "%s, and each refinement moves the points by another "
+                         "%.2g of their displacement: nothing holds the body, or a loaded part of it has "
+                         "come loose; prescribe displacements that keep it from moving and turning, or "
+                         "use newmark",
+                         s->unbalanced, s->reference > 0 ? s->unbalanced / s->reference : 1,
+                         s->options->tolerance, where, restless);
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                     "the residual stays at %.3g of the reference force (allowed %.3g), %s: "
+                     "probably a loaded part has come loose; try prescribed displacements, newmark, or a "
+                     "coarser criterion",
+                     residual, s->options->tolerance, where);
+}
+
+/* The state is judged by its own forces. Those of a body without load vanish: then by the largest that an
+ * accepted state has borne. Else rounding excuses it, if it is settled. */
+static pg_status judge (pg_system *s, const double *d, const dynamics *dyn, double r, double restless,
+                        double *residual)
+{
+    pg_status status = PG_OK;
+    double tolerance = s->options->tolerance;
+    *residual = r;
+    if (s->unbalanced <= tolerance * s->reference) return PG_OK;
+    if (s->unbalanced <= tolerance * s->borne) {
+        *residual = fmin (r, s->unbalanced / s->borne);
+        return PG_OK;
+    }
+    if (!(r <= tolerance)) return refuse (s, r, 0);
+    PG_TRY (is_settled (s, dyn, d, &restless));
+    if (!(restless <= settled)) status = refuse (s, r, restless);
+done:
+    return status;
+}
+
+/* Iterative refinement: solve, add, measure, by forces of the force itself. It ends when the residual is
+ * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
+ * half; then the state is judged. */
+pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
+{
+    pg_status status = PG_OK;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    double last = INFINITY, r = 0, restless = -1;
+    struct { double unbalanced, reference; } before = { 0, 0 };
+    if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
+    for (int k = 0; k <= MOST_REFINEMENTS; k++) {
+        PG_TRY (measure_residual (s, t, d, dyn, &r));
+        if (k > 1 && r > last) {                       /* the last refinement made it worse: take it back */
+            memcpy (d, s->best, s->ndof * sizeof *d);
+            r = last, s->unbalanced = before.unbalanced, s->reference = before.reference;
+            break;
+        }
+        if (r <= (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED ? goal
+                                                                          : 0.1 * s->options->tolerance)
+            || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last))
+            break;
+        memcpy (s->best, d, s->ndof * sizeof *d);
+        last = r, before.unbalanced = s->unbalanced, before.reference = s->reference;
+        PG_TRY (system_solve_once (s, dyn, fmin (0.1, 0.03 * s->options->tolerance / r)));
+        if (T) pg_sparse_multiply (T, s->delta, s->full);
+        const double *step = T ? s->full : s->delta;
+        for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];
+        if (k > 0) restless = restlessness (s, step, d);
+    }
+    PG_TRY (judge (s, d, dyn, r, restless, residual));
+done:
+    return status;
+}
