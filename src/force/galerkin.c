@@ -23,7 +23,8 @@ static void galerkin_free (void **self)
     for (int s = 0; s < PG_BOND_SETS; s++) {
         pg_free (g->rows[s].N), pg_free (g->rows[s].dN), pg_free (g->rows[s].w), pg_free (g->rows[s].grade);
         pg_free (g->strain[s]), pg_free (g->stress[s]), pg_free (g->zz[s]), pg_free (g->u[s]);
-        pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->seen[s]), pg_free (g->list[s]);
+        pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->seen[s]), pg_free (g->list[s]),
+            pg_free (g->judged[s]);
     }
     pg_assembly_free (&g->K);
     pg_assembly_free (&g->M);
@@ -34,7 +35,8 @@ static void galerkin_free (void **self)
     galerkin_dilatation_free (g);
     pg_nearest_free (&g->near_point);
     pg_nearest_free (&g->near_node);
-    pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide);
+    pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide),
+        pg_free (g->ends);
     pg_free (g);
     *self = NULL;
 }

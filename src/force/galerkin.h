@@ -70,6 +70,9 @@ typedef struct {
     unsigned long revision;                            /* of K and T */
     double  *work;                                     /* ndof */
     const double *at_d;                                /* for workers */
+    /* bonds that a criterion looks at while they live (1 per bond); NULL until one does */
+    unsigned char *judged[PG_BOND_SETS];
+    int     *ends;  /* bonds that end at each node (n), for damage; NULL until asked for */
     size_t  *list[PG_BOND_SETS];                       /* touched points (scratch of refresh) */
     pg_nearest *near_point, *near_node;  /* bulk points, nodes; NULL until a place is asked for */
 } galerkin;

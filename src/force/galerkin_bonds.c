@@ -121,20 +121,37 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const judging *s = context;
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
-    const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set];
+    const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set],
+                        *judged = g->judged[s->set];
     size_t base = g->problem->first_bond[s->set], bond[BATCH], point[BATCH], count = 0;
     (void) thread;
     for (size_t p = first; p < last; p++)
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-            int j = r->family.node[e];
             if (s->utilisation) s->utilisation[base + e] = 0;
             if (s->factor) s->factor[base + e] = INFINITY;
-            if (!alive[e] || g->problem->exempt[s->set][p] || g->problem->exempt[PG_NODES][j]) continue;
-            if (pg_problem_no_bond (g->problem, s->set, p, e)) continue;
+            if (!alive[e] || !judged[e]) continue;
             bond[count] = e, point[count++] = p;
             if (count == BATCH) judge (s, count, bond, point), count = 0;
         }
     if (count) judge (s, count, bond, point);
+}
+
+/* Which bonds are looked at, once for all: those of no length and those of exempt ends never break. */
+static pg_status find_judged (galerkin *g)
+{
+    pg_status status = PG_OK;
+    const pg_problem *q = g->problem;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_family *f = &g->rows[set].family;
+        if (g->judged[set]) continue;
+        PG_ALLOC (g->judged[set], f->start[f->n]);
+        for (size_t p = 0; p < f->n; p++)
+            for (size_t e = f->start[p]; e < f->start[p + 1]; e++)
+                g->judged[set][e] = !q->exempt[set][p] && !q->exempt[PG_NODES][f->node[e]]
+                                    && !pg_problem_no_bond (q, set, p, e);
+    }
+done:
+    return status;
 }
 
 typedef struct { galerkin *g; int set; } principals;
@@ -156,7 +173,9 @@ static void principal_points (void *context, size_t first, size_t last, int thre
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
                                 char *kind, double *factor)
 {
+    pg_status status = PG_OK;
     galerkin *g = self;
+    PG_TRY (find_judged (g));
     for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_rows *r = &g->rows[set];
         if (r->n == 0) continue;
@@ -169,7 +188,8 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
         judging s = { g, state, set, utilisation, factor, kind };
         pg_parallel (g->threads, g->rows[set].n, judge_points, &s);
     }
-    return PG_OK;
+done:
+    return status;
 }
 
 /* Of cracks that grow in the plane: by how much the faces overlap along the normal of the crack between two

@@ -3,24 +3,42 @@
 #include "galerkin.h"
 #include <string.h>
 
-/* Share of dead bonds among all that end at a node, node-node and point-node; a bond of no length is
- * none. */
-static void damage (const galerkin *g, const pg_state *state, double *value)
+/* How many bonds end at each node, node-node and point-node, once for all. A bond of no length is none. */
+static pg_status count_ends (galerkin *g)
 {
-    double *all = g->work;
+    pg_status status = PG_OK;
+    if (g->ends) return PG_OK;
+    PG_ALLOC (g->ends, g->n);
+    for (int set = PG_NODES; set <= PG_POINTS; set++) {
+        const pg_family *f = &g->rows[set].family;
+        for (size_t p = 0; p < f->n; p++)
+            for (size_t e = f->start[p]; e < f->start[p + 1]; e++)
+                g->ends[f->node[e]] += !pg_problem_no_bond (g->problem, set, p, e);
+    }
+done:
+    return status;
+}
+
+/* Share of dead bonds among all that end at a node. Most points have all their bonds, which one look at their
+ * bits shows. */
+static pg_status damage (galerkin *g, const pg_state *state, double *value)
+{
+    pg_status status = PG_OK;
+    PG_TRY (count_ends (g));
     memset (value, 0, g->n * sizeof *value);
-    memset (all, 0, g->n * sizeof *all);
     for (int set = PG_NODES; set <= PG_POINTS; set++) {
         const pg_family *f = &g->rows[set].family;
         const unsigned char *alive = state->alive + g->problem->first_bond[set];
-        for (size_t p = 0; p < f->n; p++)
-            for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
-                int j = f->node[e];
-                if (pg_problem_no_bond (g->problem, set, p, e)) continue;
-                all[j]++, value[j] += !alive[e];
-            }
+        for (size_t p = 0; p < f->n; p++) {
+            size_t first = f->start[p], last = f->start[p + 1];
+            const unsigned char *dead = memchr (alive + first, 0, last - first);
+            for (size_t e = dead ? (size_t) (dead - alive) : last; e < last; e++)
+                if (!alive[e] && !pg_problem_no_bond (g->problem, set, p, e)) value[f->node[e]]++;
+        }
     }
-    for (size_t i = 0; i < g->n; i++) value[i] = all[i] > 0 ? value[i] / all[i] : 0;
+    for (size_t i = 0; i < g->n; i++) value[i] = g->ends[i] > 0 ? value[i] / g->ends[i] : 0;
+done:
+    return status;
 }
 
 /* A field of results by name, value: n x components. Displacement and velocity are those that the shape
@@ -33,8 +51,7 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
     *components = 0, *unit = "";
     if (strcmp (name, "damage") == 0) {
         *components = 1;
-        damage (g, state, value);
-        return PG_OK;
+        return damage (g, state, value);
     }
     if (strcmp (name, "error_estimate") == 0) {
         pg_estimate sums;

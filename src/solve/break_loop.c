@@ -78,7 +78,7 @@ pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure
     pg_status status = PG_OK;
     b->changes.n = 0;
     for (size_t i = 0; i < state->nbond; i++) {
-        if (!state->alive[i] || !(measure[i] >= cut)) continue;
+        if (!(measure[i] >= cut) || !state->alive[i]) continue;
         PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
         PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
         state->alive[i] = 0;
@@ -105,7 +105,7 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
     for (size_t i = 0; i < state->nbond; i++) {
         if (!state->alive[i]) continue;
         double u = scale * b->utilisation[i];
-        *top = fmax (*top, u);
+        if (u > *top) *top = u;
         over += u > 1 + b->system.options->tie;
     }
     return over;
