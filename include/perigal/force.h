@@ -29,6 +29,20 @@ typedef struct {
     size_t points, left_out;  /* of evaluation: taken part; degenerate, or without a patch */
 } pg_estimate;
 
+/* What refreshes have changed of K since it was last asked for. */
+typedef struct {
+    /* 0: everything may have changed, or more than is worth telling. */
+    int known;
+    /* 1: the basis of elimination has changed too; forces that do not depend on d have. */
+    int basis, loads;
+    /* The nodes that are touched, and the change of K between their unknowns, N/m: symmetric, row-major, a
+     * row every `width` numbers, unknowns numbered node by node in this order. Borrowed until the next
+     * refresh. */
+    size_t n, width;
+    const int *node;
+    const double *K;
+} pg_stiffness_change;
+
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest
  * may be NULL. */
 typedef struct {
@@ -113,6 +127,9 @@ typedef struct {
      * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.
      * NULL: not known. */
     pg_status (*surface) (void *self, const double *stress, double *P);
+    /* What refreshes have changed of K since the last call; the first call begins the record and knows
+     * nothing. NULL: never known. */
+    pg_status (*change) (void *self, pg_stiffness_change *out);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

@@ -158,6 +158,14 @@ long pg_linear_failed_row (void);
 /* Solves A X = B for a dense general matrix, column-major (n x n, n x nrhs): A becomes its factors, b the
  * solution. PG_E_SINGULAR, PG_E_MEMORY. */
 pg_status pg_dense_lu (size_t n, double *A, size_t nrhs, double *b);
+/* The same in two parts: A (columns lda apart) becomes its factors with these pivots (n), 0: a pivot is zero;
+ * then b (n x nrhs, columns ldb apart) becomes A^-1 b. */
+int  pg_dense_factor (size_t n, double *A, size_t lda, int *pivot);
+void pg_dense_substitute (size_t n, const double *A, size_t lda, const int *pivot, size_t nrhs, double *b,
+                          size_t ldb);
+/* C = alpha A B + beta C, or alpha A' B + beta C, column-major: C m x n, the inner dimension k. */
+void pg_dense_multiply (int transposed, size_t m, size_t n, size_t k, double alpha, const double *A,
+                        size_t lda, const double *B, size_t ldb, double beta, double *C, size_t ldc);
 
 /* ---- multilevel preconditioner ------------------------------------------------------------------------- */
 /* Rows of a matrix of nodes, or of one like it with fewer couplings: it must have the same rigid motions,

@@ -33,6 +33,7 @@ static void galerkin_free (void **self)
     galerkin_slices_free (g);
     galerkin_consistent_free (g);
     galerkin_dilatation_free (g);
+    galerkin_change_free (g);
     pg_nearest_free (&g->near_point);
     pg_nearest_free (&g->near_node);
     pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide),
@@ -119,14 +120,17 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
     const pg_problem *p = g->problem;
     size_t count[PG_BOND_SETS];
     if (changes) touched_points (g, changes, count);
+    galerkin_change_begin (g, !changes);
     for (int s = 0; s < PG_BOND_SETS; s++) {
         size_t n = changes ? count[s] : g->rows[s].n;
         int known = changes && g->fresh[s] && !g->dilatation;  /* pressures of patches reach further */
         g->fresh[s] = 0;
+        if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], -1));
         if (n)
             PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &g->rows[s],
                                               state->alive + p->first_bond[s], n, changes ? g->list[s] : NULL,
                                               g->threads));
+        if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], 1));
         if (s == g->bulk && g->whole) PG_TRY (galerkin_consistent_update (g, state, !changes, &n));
         count[s] = n;
         g->fresh[s] = known;
@@ -135,8 +139,9 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
     if (g->dilatation) PG_TRY (galerkin_dilatation_update (g, state, !changes, count));
     if (!changes) g->all_stale = 1, g->revision++;
     else galerkin_mark_stale (g, count);
-    if (g->has_T && (!changes || count[PG_NODES])) {
+    if (g->has_T && (!changes || galerkin_basis_touched (g, count[PG_NODES], g->list[PG_NODES]))) {
         PG_TRY (galerkin_basis_update (g));
+        galerkin_change_basis (g);
         g->revision++;
     }
 done:
@@ -236,5 +241,6 @@ const pg_force_type pg_force_galerkin = {
     .mass_matrix = galerkin_mass_matrix,
     .sample = galerkin_sample,
     .estimate = galerkin_estimate,
-    .surface = galerkin_surface
+    .surface = galerkin_surface,
+    .change = galerkin_change_of
 };

@@ -2,7 +2,8 @@
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
  * blocks, energy), galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_dilatation.c, galerkin_dilatation_facet.c (near
- * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_field.c (fields),
+ * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
+ * (what breaking changes of K), galerkin_field.c (fields),
  * galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
@@ -25,6 +26,7 @@ typedef struct {  /* one component's elimination: C_s d_s = g - C_m d_m */
 
 typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c */
 typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c */
+typedef struct galerkin_change galerkin_change;         /* galerkin_change.c */
 
 /* What the scene says of the method (pg_problem.options). */
 typedef struct {
@@ -68,6 +70,7 @@ typedef struct {
     pg_sparse T;
     int      has_T;
     unsigned long revision;                            /* of K and T */
+    galerkin_change *change;                           /* NULL until someone asks for it */
     double  *work;                                     /* ndof */
     const double *at_d;                                /* for workers */
     /* bonds that a criterion looks at while they live (1 per bond); NULL until one does */
@@ -103,6 +106,15 @@ const pg_sparse *galerkin_matrix (void *self);
 pg_status galerkin_mass_matrix (void *self, const pg_sparse **M);
 /* rows that the touched points of each set enter */
 void galerkin_mark_stale (galerkin *g, const size_t *count);
+/* change: between `begin` and the end of a refresh every item of K that it touches is subtracted (sign -1)
+ * and added again (1); nothing happens as long as nobody has asked for the change. */
+void galerkin_change_free (galerkin *g);
+void galerkin_change_begin (galerkin *g, int all);
+pg_status galerkin_change_points (galerkin *g, int set, size_t count, const size_t *list, double sign);
+pg_status galerkin_change_cells (galerkin *g, size_t count, const size_t *cell, double sign);
+pg_status galerkin_change_patch (galerkin *g, size_t patch, int supported, double sign);
+void galerkin_change_basis (galerkin *g);
+pg_status galerkin_change_of (void *self, pg_stiffness_change *out);
 /* consistent */
 pg_status galerkin_consistent_create (galerkin *g);
 void galerkin_consistent_free (galerkin *g);
@@ -152,6 +164,9 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y);
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external,
                               double *reaction);
 double galerkin_boundary_energy (galerkin *g, double t);
+/* 1: forces that do not depend on d lean on the shape functions of one of these points */
+int    galerkin_boundary_loaded (const galerkin *g, int set, size_t count, const size_t *list);
+long   galerkin_penalty_of (const galerkin *g, size_t node);   /* the place under a penalty, or -1 */
 size_t galerkin_boundary_pairs (galerkin *g);
 /* P += factor times the nodal forces of a unit pressure in all cracks, N (ndof). */
 void   galerkin_crack_pressure (galerkin *g, double factor, double *P);
@@ -161,6 +176,8 @@ size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, p
 /* basis */
 pg_status galerkin_basis_create (galerkin *g);
 pg_status galerkin_basis_update (galerkin *g);
+/* 1: T leans on the shape functions of one of these nodes */
+int galerkin_basis_touched (const galerkin *g, size_t count, const size_t *list);
 void galerkin_basis_free (galerkin *g);
 const pg_sparse *galerkin_basis (void *self);
 pg_status galerkin_impose (void *self, double t, double *d);

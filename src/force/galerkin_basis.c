@@ -233,6 +233,21 @@ done:
     return status;
 }
 
+/* The values of T are those of the shape functions at the prescribed nodes; where these interpolate they are
+ * constants. */
+int galerkin_basis_touched (const galerkin *g, size_t count, const size_t *list)
+{
+    for (int k = 0; k < g->dim; k++) {
+        const elimination *e = &g->side[k];
+        size_t s = 0;
+        for (size_t i = 0; i < count && e->inverse; i++) {  /* both ascend */
+            while (s < e->n && (size_t) e->slave[s] < list[i]) s++;
+            if (s < e->n && (size_t) e->slave[s] == list[i]) return 1;
+        }
+    }
+    return 0;
+}
+
 /* NULL: every unknown is free. */
 const pg_sparse *galerkin_basis (void *self)
 {

@@ -133,7 +133,9 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
     }
     if (*count == 0) return PG_OK;
     PG_TRY (changed_cells (g, state, *count, &cells, &n));
+    PG_TRY (galerkin_change_cells (g, n, cells, -1));
     PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, n, cells, g->threads));
+    PG_TRY (galerkin_change_cells (g, n, cells, 1));
     *count = 0;
     for (size_t k = 0; k < n; k++)
         for (size_t p = c->first[cells[k]]; p < c->first[cells[k] + 1]; p++) g->list[g->bulk][(*count)++] = p;

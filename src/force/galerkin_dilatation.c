@@ -297,7 +297,10 @@ pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int al
     }
     for (size_t c = 0; c < q->n; c++) {
         if (!d->mark[c]) continue;
+        int supported = d->facet_start[c + 1] > d->facet_start[c];
+        if (!all) PG_TRY (galerkin_change_patch (g, c, supported, -1));
         PG_TRY (rebuild (g, state, c));
+        if (!all) PG_TRY (galerkin_change_patch (g, c, supported, 1));
         for (size_t e = d->family.start[c]; !all && e < d->family.start[c + 1]; e++)
             g->stale[d->family.node[e]] = 1;
     }

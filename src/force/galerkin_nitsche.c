@@ -108,6 +108,45 @@ void galerkin_boundary_free (galerkin *g)
     pg_family_clear (&g->penalty_family);
 }
 
+/* Nodes under a penalty are ascending. */
+long galerkin_penalty_of (const galerkin *g, size_t node)
+{
+    size_t lo = 0, hi = g->npenalty_node;
+    while (lo < hi) {
+        size_t mid = (lo + hi) / 2;
+        if ((size_t) g->penalty_node[mid] < node) lo = mid + 1;
+        else hi = mid;
+    }
+    return lo < g->npenalty_node && (size_t) g->penalty_node[lo] == node ? (long) lo : -1;
+}
+
+/* Does a load or a prescribed value act at a point of a set, so that its share of each node follows the shape
+ * functions there? */
+static int loaded (const galerkin *g, int set, size_t point)
+{
+    const pg_problem *p = g->problem;
+    if (set == PG_FACETS && g->nnitsche && g->nitsche_start[point + 1] > g->nitsche_start[point]) return 1;
+    if (set == PG_NODES && g->npenalty && galerkin_penalty_of (g, point) >= 0) return 1;
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        int everywhere = load->kind == PG_BODY_FORCE && load->set->npoint == g->n;
+        if (load->cracks || (everywhere && set == g->bulk)) return 1;
+        if ((load->kind == PG_TRACTION || load->kind == PG_PRESSURE) && set == PG_FACETS
+            && member (load->set->facet, load->set->nfacet, g->rows[PG_FACETS].cell[point]))
+            return 1;
+        if ((load->kind == PG_POINT_FORCE || (load->kind == PG_BODY_FORCE && !everywhere)) && set == PG_NODES
+            && member (load->set->point, load->set->npoint, (int) point))
+            return 1;
+    }
+    return 0;
+}
+
+int galerkin_boundary_loaded (const galerkin *g, int set, size_t count, const size_t *list)
+{
+    for (size_t k = 0; k < count; k++) if (loaded (g, set, list[k])) return 1;
+    return 0;
+}
+
 /* Q (6 numbers) with Q . sigma = (sigma n)_k for sigma in Voigt order: the row of the matrix of the
  * normal that makes component k of the traction. */
 static void traction_row (int dim, int k, const double *n, double *Q)

@@ -1,11 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: exact equilibria after bonds broke, from the factor of an earlier stiffness.
  *
- * At the *base* the stiffness A (after elimination of supports) was factored, and the displacements u_b of all
- * load cases were in equilibrium. Since then refreshes have changed K by W D W', where the columns of W select
- * the t *touched* unknowns and D (t x t, symmetric) is summed up from what the force says it has changed
- * (pg_force_type.change), and the constant forces by W p. With G = A^-1 W (n x t, the Green columns) and
- * H = W' G the displacement is u = u_b + G x, and what is not balanced is W r with
+ * At the *base* the stiffness A (after elimination of supports) was factored, and the displacements u_b of
+ * all load cases were in equilibrium. Since then refreshes have changed K by W D W', where the columns of W
+ * select the t *touched* unknowns and D (t x t, symmetric) is summed up from what the force says it has
+ * changed (pg_force_type.change), and the constant forces by W p. With G = A^-1 W (n x t, the Green
+ * columns) and H = W' G the displacement is u = u_b + G x, and what is not balanced is W r with
  *
  *     r = p - x - D u_T,    u_T = (u_b)_T + H x;                        (t numbers, for each load case)
  *
@@ -50,12 +50,15 @@ enum { EVENT_CASES = 2, EVENT_MOST = 64 };             /* most load cases; most 
 pg_status event_solver_create (event_solver **out, pg_system *s, int cases, const double *time);
 void      event_solver_free   (event_solver **e);
 
-/* A new base: K of the last refresh is factored if it is stale, and u[c] (ndof, full unknowns, with
- * prescribed values) are equilibria of it. Green columns from here on. The block is empty. */
-pg_status event_solver_base   (event_solver *e, double *const *u);
+/* A new base: K of the last refresh is factored if it is stale, and u[c] (ndof, full unknowns, first guesses
+ * on entry) become equilibria of it by system_solve, with its failures; *residual: the larger one. Green
+ * columns from here on. The block is empty. There may be no base afterwards, where the system has come to be
+ * solved without a factor: then every update is lost. */
+pg_status event_solver_base   (event_solver *e, double *const *u, double *residual);
 /* The same with a window of these nodes (ascending). *done 0: not possible here (nodes whose elimination
  * couples, no memory): a base of columns was made instead. */
-pg_status event_solver_window (event_solver *e, double *const *u, size_t n, const int *node, int *done);
+pg_status event_solver_window (event_solver *e, double *const *u, size_t n, const int *node, double *residual,
+                               int *done);
 int       event_solver_has_base (const event_solver *e);
 /* Nodes at which u of every event is known: the window, or NULL (n = all nodes). */
 const int *event_solver_nodes (const event_solver *e, size_t *n);
@@ -76,8 +79,7 @@ pg_status event_solver_full   (event_solver *e, int which, double *u);
 void      event_solver_advance (const event_solver *e, int which, double *u);
 /* K^-1 r of any reduced residual, delta (nred): a solve with the base factor, corrected for D. */
 pg_status event_solver_correct (event_solver *e, const double *r, double *delta);
-/* Largest |r_i| of the last update after its correction over the largest force, D u: rounding, or a sign that
- * a part has come loose. */
+/* What the last update left unbalanced on the touched unknowns, over the reference force of the base. */
 double    event_solver_residual (const event_solver *e);
 
 /* ---- blocks of events ---------------------------------------------------------------------------------- */
@@ -94,10 +96,10 @@ pg_status event_solver_block  (event_solver *e, int which, int n, const int *lis
 pg_status event_solver_back   (event_solver *e, int k, event_outcome *outcome);
 
 /* ---- linear functionals -------------------------------------------------------------------------------- */
-/* From the next base or window on (and from now on, if there is a base), the value of ell . u is known at
- * every event for the cost of t products; ell (ndof) is copied. *number: by which it is asked for. Forgotten
- * by event_solver_forget. Supports and forces that touch broken bonds change their own ell: the caller's
- * affair. */
+/* From the next base or window on (and from now on, if there is a base), the value of ell . u is known
+ * at every event for the cost of t products; ell (ndof) is copied. *number: by which it is asked for.
+ * Forgotten by event_solver_forget. Supports and forces that touch broken bonds change their own ell:
+ * the caller's affair. */
 pg_status event_solver_functional (event_solver *e, const double *ell, int *number);
 double    event_solver_value  (const event_solver *e, int number, int which);
 void      event_solver_forget (event_solver *e);
@@ -106,8 +108,8 @@ void      event_solver_forget (event_solver *e);
 typedef struct {
     long   bases, windows, updates, columns;           /* made; columns: solves for them */
     size_t touched, most_touched;                      /* t now; the largest so far */
-    double flops;                                      /* counted since the base, in seconds by stored rates */
-    double spared;                                     /* factorizations not made, in seconds by stored rates */
+    double rent;  /* dense algebra since the base, in seconds by stored rates */
+    double spared;                                     /* factorizations not made, alike */
 } event_solver_account;
 void      event_solver_tell   (const event_solver *e, event_solver_account *out);
 /* Base, D, x: a run that is read back goes on bit by bit. */

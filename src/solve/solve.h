@@ -62,6 +62,9 @@ void      system_remember_diagonal (pg_system *s, const pg_sparse *K);  /* once;
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
 /* Systems with another matrix than so far, solved in this way: SYSTEM_... */
 void      system_switch  (pg_system *s, int mode);
+/* Seconds by stored rates: a factorization; two triangular solves of one right-hand side. */
+double    system_factor_cost (const pg_system *s);
+double    system_solve_cost  (const pg_system *s);
 /* y = K x, by operator or matrix */
 void      system_multiply (const pg_system *s, const double *x, double *y);
 /* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the factor at hand or by the

@@ -275,9 +275,9 @@ static const double worth_keeping = 15;
 
 /* Seconds by stored rates: supernodal factorization, triangular solve, K x without a matrix. Never measured:
  * a run must not depend on the clock. */
-static double factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
+double system_factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
 /* Four passes over the factor: two triangular solves, each read twice over a refinement. */
-static double solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
+double system_solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
 /* Seconds of one product K x: visits of bonds times a stored rate, by stencil, list or shape functions. */
 static double apply_cost (const pg_system *s)
 {
@@ -302,7 +302,7 @@ static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
     s->matrix_iterations = info.iterations;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     int keep = operator_of (s) && strcmp (s->options->linear, "auto") == 0 && !s->indefinite && s->unshifted;
-    if (keep && factor_cost (s) > worth_keeping * solve_cost (s)) s->mode = SYSTEM_KEPT_FACTOR;
+    if (keep && system_factor_cost (s) > worth_keeping * system_solve_cost (s)) s->mode = SYSTEM_KEPT_FACTOR;
 done:
     return status;
 }
@@ -314,13 +314,13 @@ static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double
 {
     pg_status status = PG_OK;
     size_t used = 0;
-    if (s->stale && s->extra_cost > factor_cost (s)) {
+    if (s->stale && s->extra_cost > system_factor_cost (s)) {
         PG_TRY (system_factorize (s, dyn));
         s->extra_cost = 0;
     }
     s->spared += s->stale;
     pg_status now = system_iterate (s, dyn, 1, tolerance, 200, &used);
-    if (used > 2) s->extra_cost += (double) (used - 2) * (solve_cost (s) + apply_cost (s));
+    if (used > 2) s->extra_cost += (double) (used - 2) * (system_solve_cost (s) + apply_cost (s));
     if (now == PG_OK) return PG_OK;
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
     s->stale = 1, s->extra_cost = 0;
