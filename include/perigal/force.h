@@ -120,6 +120,9 @@ typedef struct {
     /* Rows of K at the last refresh, by points, for preconditioners of the operator. NULL: none can be
      * had. */
     pg_status (*couplings) (void *self, pg_couplings *out);
+    /* Finite elements on the points, whose energies are about those of K at the last refresh, for
+     * preconditioners of the operator. NULL: none can be had. */
+    pg_status (*elements) (void *self, pg_elements *out);
     /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with
      * criteria of energies. */
     char      (*kind_of) (void *self, const double *d, size_t bond);

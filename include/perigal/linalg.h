@@ -232,5 +232,67 @@ void      pg_multilevel_free   (pg_multilevel **multilevel);
 pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *multilevel);
 /* Fills in the report. */
 void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel_info *info);
+/* ---- finite elements as a preconditioner --------------------------------------------------------------- */
+/* A symmetric matrix of node blocks as a sum of element matrices, by rows with both triangles: row of node i
+ * start[i] .. start[i + 1] - 1, nodes ascending, blocks row-major. Float: it serves preconditioners. */
+typedef struct {
+    /* Unknowns of a node; threads of its products. */
+    int     block, threads;
+    /* Number of nodes; most couplings of one of them. */
+    size_t  n, widest;
+    /* First coupling of each row (n + 1), its node (start[n]), its block (start[n] x block x block). */
+    size_t *start;  int *node;  float *value;
+} pg_block_matrix;
+/* Pattern of the elements, whose nodes `elements` lists; all values zero. PG_E_MEMORY. */
+pg_status pg_block_create (pg_block_matrix *out, size_t n, int block, const pg_adjacency *elements,
+                           int threads);
+void      pg_block_clear  (pg_block_matrix *A);
+/* Adds the matrix of an element with m nodes (m block x m block, symmetric to the bit), of the pattern. */
+void      pg_block_add    (pg_block_matrix *A, size_t m, const int *node, const double *K);
+/* Adds to the diagonal of an unknown; nothing where the node is in no element. */
+void      pg_block_add_diagonal (pg_block_matrix *A, size_t unknown, double value);
+/* As an operator, and as rows for pg_multilevel (reach: pg_couplings.reach); both borrow A. */
+pg_operator  pg_block_operator  (pg_block_matrix *A);
+pg_couplings pg_block_couplings (pg_block_matrix *A, double reach);
+
+/* A sparse matrix with one number for each pair of nodes, by rows (n + 1, start[n]). */
+typedef struct { size_t n; size_t *start; int *node; float *value; } pg_node_matrix;
+void pg_node_matrix_clear (pg_node_matrix *A);
+
+/* Finite elements on the nodes of a smooth approximation. */
+typedef struct {
+    /* Their stiffness, N/m, supports included. */
+    pg_block_matrix Q;
+    /* Row i: values of the shape functions at node i; start NULL: the unit matrix. */
+    pg_node_matrix  N;
+    /* Spacing of the nodes; no two nodes of an element are further apart than `reach`; steps of the
+     * lattice that the nodes form, 0: none. m. */
+    double spacing, reach, lattice[3];
+} pg_elements;
+void pg_elements_clear (pg_elements *elements);
+
+/* How the preconditioner is made; 0: the usual choice. */
+typedef struct {
+    /* Dimension of space. */
+    int     dim;
+    /* Positions of the nodes, m (n x dim); borrowed. */
+    const double *x;
+    /* 1: the displacement of this unknown is prescribed (n x block); NULL: none is. Borrowed. */
+    const unsigned char *fixed;
+    /* Terms of the polynomial for N^-1, and the interval on which it is good. */
+    int     terms;
+    double  low, high;
+} pg_element_setting;
+typedef struct pg_element_preconditioner pg_element_preconditioner;
+/* z = p (N) V p (N)' r, V one cycle of pg_multilevel on Q, p a polynomial for 1 / x. Symmetric positive
+ * definite where no unknown is fixed. Takes over the elements, which are empty afterwards, also where it
+ * fails. */
+pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_elements *elements,
+                                            const pg_element_setting *setting);
+void      pg_element_preconditioner_free   (pg_element_preconditioner **preconditioner);
+/* In the form that conjugate gradients take; borrows it. */
+pg_preconditioner pg_element_preconditioner_of (pg_element_preconditioner *preconditioner);
+/* The levels of V, for reports. */
+const pg_multilevel *pg_element_preconditioner_levels (const pg_element_preconditioner *preconditioner);
 PG_API_END
 #endif

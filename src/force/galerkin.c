@@ -242,5 +242,6 @@ const pg_force_type pg_force_galerkin = {
     .sample = galerkin_sample,
     .estimate = galerkin_estimate,
     .surface = galerkin_surface,
-    .change = galerkin_change_of
+    .change = galerkin_change_of,
+    .elements = galerkin_elements
 };

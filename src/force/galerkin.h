@@ -3,7 +3,7 @@
  * blocks, energy), galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
- * (what breaking changes of K), galerkin_field.c (fields),
+ * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c (preconditioner),
  * galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
@@ -167,6 +167,8 @@ double galerkin_boundary_energy (galerkin *g, double t);
 /* 1: forces that do not depend on d lean on the shape functions of one of these points */
 int    galerkin_boundary_loaded (const galerkin *g, int set, size_t count, const size_t *list);
 long   galerkin_penalty_of (const galerkin *g, size_t node);   /* the place under a penalty, or -1 */
+double galerkin_nitsche_stiffness (const galerkin *g, const constraint *q);
+double galerkin_penalty_stiffness (const galerkin *g, const constraint *q);
 size_t galerkin_boundary_pairs (galerkin *g);
 /* P += factor times the nodal forces of a unit pressure in all cracks, N (ndof). */
 void   galerkin_crack_pressure (galerkin *g, double factor, double *P);
@@ -183,6 +185,8 @@ const pg_sparse *galerkin_basis (void *self);
 pg_status galerkin_impose (void *self, double t, double *d);
 size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residual, pg_work_balance *out,
                                     size_t at);
+/* elements: finite elements on the nodes, as a preconditioner */
+pg_status galerkin_elements (void *self, pg_elements *out);
 /* bonds and fields */
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
                                 char *kind, double *factor);

@@ -222,6 +222,15 @@ static double penalty (const galerkin *g, const constraint *q)
            * p->cloud.volume[node];
 }
 
+/* Springs at the places of constraints, N/m: beta times the weight of the facet point, the penalty of the
+ * node. */
+double galerkin_nitsche_stiffness (const galerkin *g, const constraint *q)
+{
+    return beta (g, q->point) * g->rows[PG_FACETS].weight[q->point];
+}
+
+double galerkin_penalty_stiffness (const galerkin *g, const constraint *q) { return penalty (g, q); }
+
 /* The penalty of one node between two nodes that its displacement depends on: penalty N_a N_b. */
 void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, double *out)
 {

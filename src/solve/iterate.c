@@ -46,21 +46,37 @@ static pg_status by_factor_of_before (void *context, const double *r, double *z)
     return s->linear->solve (s->factor, 1, r, z);
 }
 
+/* Finite elements know all unknowns. With elimination, d = T q, the residual of q is put at the unknowns that
+ * q are, and the result taken from there: at those that q determines the elements are held. */
+static pg_status by_elements (void *context, const double *r, double *z)
+{
+    pg_status status = PG_OK;
+    pg_system *s = context;
+    pg_preconditioner P = pg_element_preconditioner_of (s->elements);
+    if (!s->own_row) return P.solve (P.context, r, z);
+    memset (s->full, 0, s->ndof * sizeof *s->full);
+    for (size_t j = 0; j < s->nred; j++) s->full[s->own_row[j]] = r[j];
+    PG_TRY (P.solve (P.context, s->full, s->scratch));
+    for (size_t j = 0; j < s->nred; j++) z[j] = s->scratch[s->own_row[j]];
+done:
+    return status;
+}
+
 /* Conjugate gradients on the reduced unknowns, from zero; counts what they cost. */
-pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit,
+pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
                           size_t *used)
 {
     combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
-    pg_preconditioner P = { s, by_factor_of_before, s->problem->threads };
+    pg_preconditioner P = { s, by == BY_FACTOR ? by_factor_of_before : by_elements, s->problem->threads };
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
-    pg_status status = pg_conjugate_gradients_with (&op, by_factor ? &P : NULL, s->reduced, s->delta,
+    pg_status status = pg_conjugate_gradients_with (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced, s->delta,
                                                     tolerance, limit, used);
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
-    if (!by_factor) strcpy (s->report->solver, "cg");
-    if (!by_factor && !s->multilevel) strcpy (s->report->preconditioner, "jacobi");
+    if (by != BY_FACTOR) strcpy (s->report->solver, "cg");
+    if (by == BY_DIAGONAL && !system_has_preconditioner (s)) strcpy (s->report->preconditioner, "jacobi");
     return status;
 }

@@ -1,60 +1,105 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * K delta = R for forces that tell the rows of K, by conjugate gradients with the multilevel preconditioner,
- * over all unknowns with the prescribed ones blanked. Breaking leaves an old preconditioner valid: it is made
- * anew when the iterations that it has cost above those of its first solve would have paid for another (rent
- * or buy, counted in iterations, never by the clock). */
+ * Preconditioners of several levels for conjugate gradients without a factor, in two forms: of forces that
+ * tell the rows of K, over all unknowns with the prescribed ones blanked; of forces that stand on smooth
+ * shape functions, by finite elements on their nodes, over the unknowns that constraints leave. Breaking leaves an
+ * old preconditioner valid: it is made anew when the iterations that it has cost above those of its first
+ * solve would have paid for another (rent or buy, counted in iterations, never by the clock). */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
 enum { RENEWAL = 20, MOST_ITERATIONS = 200 };  /* a new preconditioner costs about so many iterations */
+/* Finite elements fit worse near Poisson's ratio 1/2 and on smooth kernels with a wide support. */
+enum { MOST_BY_ELEMENTS = 500 };
 
+int system_has_preconditioner (const pg_system *s) { return s->multilevel || s->elements; }
+
+void system_forget_preconditioner (pg_system *s)
+{
+    pg_multilevel_free (&s->multilevel);
+    pg_element_preconditioner_free (&s->elements);
+}
+
+/* ---- unknowns that constraints leave ------------------------------------------------------------------- */
 /* T selects unknowns: one entry 1 in each column, no row twice. */
-static pg_status find_fixed (pg_system *s, const pg_sparse *T, int *selects)
+static int selects (pg_system *s, const pg_sparse *T)
+{
+    int yes = 1;
+    if (T) memset (s->fixed, 1, s->ndof);
+    for (size_t j = 0; T && j < T->ncol && yes; j++) {
+        long p = T->start[j];
+        yes = T->start[j + 1] == p + 1 && T->value[p] == 1 && s->fixed[T->row[p]];
+        if (yes) s->fixed[T->row[p]] = 0;
+    }
+    return yes;
+}
+
+/* The unknown that each reduced one is: the row of its column that no other column has, with the entry 1.
+ * 0: a column has none, or several. */
+static pg_status find_own_rows (pg_system *s, const pg_sparse *T, int *found)
 {
     pg_status status = PG_OK;
-    *selects = 1;
-    if (s->fixed) return PG_OK;
-    PG_ALLOC (s->fixed, s->ndof);
-    if (T) memset (s->fixed, 1, s->ndof);
-    for (size_t j = 0; T && j < T->ncol && *selects; j++) {
-        long p = T->start[j];
-        *selects = T->start[j + 1] == p + 1 && T->value[p] == 1 && s->fixed[T->row[p]];
-        if (*selects) s->fixed[T->row[p]] = 0;
+    unsigned char *columns = NULL;
+    *found = 1;
+    if (!T || s->own_row) return PG_OK;
+    PG_ALLOC (s->own_row, T->ncol);
+    PG_ALLOC (columns, s->ndof);
+    for (long p = 0; p < T->start[T->ncol]; p++) if (columns[T->row[p]] < 2) columns[T->row[p]]++;
+    memset (s->fixed, 1, s->ndof);
+    for (size_t j = 0; j < T->ncol && *found; j++) {
+        int count = 0;
+        for (long p = T->start[j]; p < T->start[j + 1]; p++)
+            if (columns[T->row[p]] == 1 && T->value[p] == 1) s->own_row[j] = (int) T->row[p], count++;
+        *found = count == 1;
+        if (count == 1) s->fixed[s->own_row[j]] = 0;
     }
+    if (!*found) pg_free (s->own_row), s->own_row = NULL;
 done:
+    pg_free (columns);
     return status;
 }
 
-/* Static systems of forces that know the rows of K, with supports that prescribe single unknowns. */
+/* Static systems of forces that know the rows of K, with supports that prescribe single unknowns; systems of
+ * forces with finite elements. */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     *can = 0;
-    if (dyn || !s->force->couplings || !s->force->operator_
+    if ((!s->force->couplings && !s->force->elements) || !s->force->operator_ || dyn
         || strcmp (s->options->preconditioner, "jacobi") == 0)
         return PG_OK;
-    PG_TRY (find_fixed (s, s->force->basis ? s->force->basis (s->self) : NULL, can));
+    if (s->fixed) {
+        *can = s->precondition;
+        return PG_OK;
+    }
+    PG_ALLOC (s->fixed, s->ndof);
+    if (s->force->elements) PG_TRY (find_own_rows (s, T, can));
+    else *can = selects (s, T);
+    s->precondition = *can;
 done:
     return status;
 }
 
+/* ---- made ---------------------------------------------------------------------------------------------- */
 /* The number of unknowns of each level, for the report. */
 static void tell (pg_system *s)
 {
     pg_multilevel_info info;
     char *text = s->report->preconditioner;
     size_t workspace = sizeof s->report->preconditioner, at = 0;
-    pg_multilevel_describe (s->multilevel, &info);
-    at = (size_t) snprintf (text, workspace, "multilevel, %d levels of", info.levels);
+    pg_multilevel_describe (s->elements ? pg_element_preconditioner_levels (s->elements) : s->multilevel,
+                            &info);
+    at = (size_t) snprintf (text, workspace, "%smultilevel, %d levels of",
+                            s->elements ? "finite elements, " : "", info.levels);
     for (int k = 0; k < info.levels && k < 8 && at < workspace; k++)
         at += (size_t) snprintf (text + at, workspace - at, "%s%zu", k ? ", " : " ", info.unknowns[k]);
     if (at < workspace) snprintf (text + at, workspace - at, " unknowns");
 }
 
-/* Made from the rows of K of the bonds that live now; what it costs is counted as a factor would be. */
-pg_status system_make_multilevel (pg_system *s)
+/* By the rows of K. */
+static pg_status make_by_rows (pg_system *s)
 {
     pg_status status = PG_OK;
     pg_multilevel_setting setting = { .dim = s->problem->dim,
@@ -64,10 +109,32 @@ pg_status system_make_multilevel (pg_system *s)
                                       .x = s->problem->cloud.x,
                                       .fixed = s->fixed,
                                       .A = s->force->operator_ (s->self) };
-    double t0 = pg_seconds ();
-    pg_multilevel_free (&s->multilevel);
     PG_TRY (s->force->couplings (s->self, &setting.rows));
     PG_TRY (pg_multilevel_create (&s->multilevel, &setting));
+done:
+    return status;
+}
+
+static pg_status make_by_elements (pg_system *s)
+{
+    pg_status status = PG_OK;
+    pg_elements elements = { 0 };
+    pg_element_setting setting = { .dim = s->problem->dim, .x = s->problem->cloud.x,
+                                   .fixed = s->own_row ? s->fixed : NULL };
+    PG_TRY (s->force->elements (s->self, &elements));
+    PG_TRY (pg_element_preconditioner_create (&s->elements, &elements, &setting));
+done:
+    pg_elements_clear (&elements);
+    return status;
+}
+
+/* Made of the bonds that live now; what it costs is counted as a factor would be. */
+pg_status system_make_preconditioner (pg_system *s)
+{
+    pg_status status = PG_OK;
+    double t0 = pg_seconds ();
+    system_forget_preconditioner (s);
+    PG_TRY (s->force->elements ? make_by_elements (s) : make_by_rows (s));
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;
     tell (s);
@@ -77,6 +144,7 @@ done:
     return status;
 }
 
+/* ---- used ---------------------------------------------------------------------------------------------- */
 /* K x with prescribed unknowns left out: they stay zero. */
 static void apply_free (void *context, const double *x, double *y)
 {
@@ -85,43 +153,52 @@ static void apply_free (void *context, const double *x, double *y)
     for (size_t i = 0; i < s->ndof; i++) if (s->fixed[i]) y[i] = 0;
 }
 
-/* Solves; keeps account of what an older preconditioner costs: pace is the gain of one iteration, as a
- * logarithm, when it was new. */
-static pg_status iterate (pg_system *s, double tolerance, size_t *used)
+/* By the rows of K: all unknowns, of which the prescribed ones stay zero. */
+static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
 {
     pg_operator op = { s->ndof, s, apply_free, NULL };
     pg_preconditioner P = pg_multilevel_preconditioner (s->multilevel);
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double t0 = pg_seconds (), *b = s->scratch, *x = s->full;
     for (size_t i = 0; i < s->ndof; i++) b[i] = s->fixed[i] ? 0 : s->residual[i], x[i] = 0;
     pg_status status = pg_conjugate_gradients_with (&op, &P, b, x, tolerance, MOST_ITERATIONS, used);
-    double gain = -log (tolerance);
-    if (s->pace == 0) s->pace = gain / (double) (*used + 1);
-    else s->extra_cost += fmax (0, (double) (*used + 1) - gain / s->pace);
+    for (size_t j = 0; j < s->nred; j++) s->delta[j] = s->full[T ? (size_t) T->row[j] : j];
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     return status;
 }
 
+/* Solves; keeps account of what an older preconditioner costs: pace is the gain of one iteration, as a
+ * logarithm, when it was new. */
+static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, size_t *used)
+{
+    pg_status status = s->elements
+                           ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, MOST_BY_ELEMENTS, used)
+                           : iterate_all (s, tolerance, used);
+    double gain = -log (tolerance);
+    if (s->pace == 0) s->pace = gain / (double) (*used + 1);
+    else s->extra_cost += fmax (0, (double) (*used + 1) - gain / s->pace);
+    return status;
+}
+
 /* An old preconditioner serves as long as it does not cost more iterations than a new one would; where it
  * fails a new one is made and tried once. */
-pg_status system_iterate_multilevel (pg_system *s, double tolerance)
+pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, double tolerance)
 {
     pg_status status = PG_OK;
     size_t used = 0;
-    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     system_remember_diagonal (s, NULL);
-    if (!s->multilevel || s->extra_cost > RENEWAL) PG_TRY (system_make_multilevel (s));
+    if (!system_has_preconditioner (s) || s->extra_cost > RENEWAL) PG_TRY (system_make_preconditioner (s));
     else s->spared += s->stale;
     strcpy (s->report->solver, "cg");
-    pg_status now = iterate (s, tolerance, &used);
+    pg_status now = iterate (s, dyn, tolerance, &used);
     /* made before the last break: once more */
     if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->stale) {
-        PG_TRY (system_make_multilevel (s));
-        now = iterate (s, tolerance, &used);
+        PG_TRY (system_make_preconditioner (s));
+        now = iterate (s, dyn, tolerance, &used);
     }
     PG_TRY (now);
     s->stale = 0;
-    for (size_t j = 0; j < s->nred; j++) s->delta[j] = s->full[T ? (size_t) T->row[j] : j];
 done:
     return status;
 }

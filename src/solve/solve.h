@@ -47,7 +47,10 @@ typedef struct {
     /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
     double    extra_cost;
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
+    pg_element_preconditioner *elements;               /* the same */
+    int      *own_row;  /* unknown that each reduced one is (nred); with elements only */
     unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
+    int       precondition;  /* with `fixed`: the constraints allow a preconditioner of several levels */
     int       remake;  /* read back: the preconditioner is to be made from `factored` */
     double    pace;  /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
@@ -67,14 +70,17 @@ double    system_factor_cost (const pg_system *s);
 double    system_solve_cost  (const pg_system *s);
 /* y = K x, by operator or matrix */
 void      system_multiply (const pg_system *s, const double *x, double *y);
-/* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the factor at hand or by the
- * diagonal (iterate.c). */
-pg_status system_iterate (pg_system *s, const dynamics *dyn, int by_factor, double tolerance, size_t limit,
+/* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the diagonal, the factor at hand
+ * or the finite elements at hand (iterate.c). */
+enum { BY_DIAGONAL, BY_FACTOR, BY_ELEMENTS };
+pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
                           size_t *used);
-/* The same for K alone by conjugate gradients with the multilevel preconditioner, made when needed
- * (preconditioner.c). */
-pg_status system_iterate_multilevel (pg_system *s, double tolerance);
-pg_status system_make_multilevel (pg_system *s);  /* from the last refresh */
+/* The same by conjugate gradients with a preconditioner of several levels, by the rows of K (multilevel; K
+ * alone) or by finite elements, made when needed (preconditioner.c). */
+pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, double tolerance);
+pg_status system_make_preconditioner (pg_system *s);  /* from the last refresh */
+void      system_forget_preconditioner (pg_system *s);
+int       system_has_preconditioner (const pg_system *s);
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
 pg_status system_remember_alive (pg_system *s);        /* in `factored` */
 /* One solve for `delta` from `reduced`, by the way that was chosen or is chosen now (system.c). */

@@ -139,7 +139,7 @@ done:
         snprintf (text, sizeof text, "%s", pg_last_error ());
         /* fields asked for now are those of the accepted state */
         system_refresh (&s->break_loop.system, s->backup, NULL);
-        pg_multilevel_free (&s->break_loop.system.multilevel);  /* bonds live again that it does not know */
+        system_forget_preconditioner (&s->break_loop.system);  /* bonds live again that it does not know */
         s->break_loop.work = s->backup->work, s->break_loop.round = 0;
         if (s->type->refused) s->type->refused (s);
         if (status != PG_E_MEMORY)

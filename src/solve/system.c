@@ -13,14 +13,14 @@
 void system_free (pg_system *s)
 {
     if (s->factor) s->linear->free (&s->factor);
-    pg_multilevel_free (&s->multilevel);
+    system_forget_preconditioner (s);
     if (s->force && s->self) s->force->free (&s->self);
     if (s->copy) pg_sparse_clear (&s->A);
     else pg_free (s->A.value);
     pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass);
     pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best),
         pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
-    pg_free (s->fixed);
+    pg_free (s->fixed), pg_free (s->own_row);
 }
 
 /* A force may have a matrix in general, yet none for the options of this problem: dilatations reach
@@ -114,7 +114,7 @@ void system_switch (pg_system *s, int mode)
 {
     s->mode = mode, s->stale = 1;
     s->extra_cost = mode == SYSTEM_KEPT_FACTOR ? 1e300 : 0;
-    pg_multilevel_free (&s->multilevel);
+    system_forget_preconditioner (s);
     s->remake = 0;
 }
 
@@ -319,7 +319,7 @@ static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double
         s->extra_cost = 0;
     }
     s->spared += s->stale;
-    pg_status now = system_iterate (s, dyn, 1, tolerance, 200, &used);
+    pg_status now = system_iterate (s, dyn, BY_FACTOR, tolerance, 200, &used);
     if (used > 2) s->extra_cost += (double) (used - 2) * (system_solve_cost (s) + apply_cost (s));
     if (now == PG_OK) return PG_OK;
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
@@ -360,7 +360,8 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
         pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization",
                             "so many points: conjugate gradients with sums over the bonds are "
                             "cheaper by stored rates");
-    } else if (automatic && operator_of (s) && s->problem->dim == 3 && s->ndof > 200000)
+    } else if (automatic && operator_of (s) && s->problem->dim == 3
+             && (s->ndof > 200000 || (can && s->ndof > 6000)))
         s->mode = SYSTEM_NO_FACTOR;
 done:
     return status;
@@ -392,11 +393,11 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
     int can;
     PG_TRY (system_can_precondition (s, dyn, &can));
     if (can) {
-        pg_status now = system_iterate_multilevel (s, tolerance);
+        pg_status now = system_iterate_preconditioned (s, dyn, tolerance);
         if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) return now;
         limit = LAST_TRY;
     }
-    pg_status now = system_iterate (s, dyn, 0, tolerance, limit, &used);
+    pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, limit, &used);
     int free_to_move = (can && now == PG_E_EQUILIBRIUM) || (s->problem->sums && now == PG_E_NOT_SPD);
     if (free_to_move)
         PG_FAIL (now,
@@ -415,7 +416,7 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
     size_t used = 0;
     if (s->mode == SYSTEM_UNDECIDED) PG_TRY (choose_mode (s, dyn));
     if (s->mode == SYSTEM_TRIAL) {
-        pg_status now = system_iterate (s, dyn, 0, tolerance, FEW_ITERATIONS, &used);
+        pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, FEW_ITERATIONS, &used);
         if (now != PG_OK && now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
         s->mode = now == PG_OK ? SYSTEM_NO_FACTOR : SYSTEM_FACTOR;
         if (now == PG_OK) {

@@ -438,7 +438,7 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
     /* whatever factor or preconditioner there is may be that of the cut body */
     s->stale = 1, s->alive = state->alive;
     if (s->force->revision) s->revision = s->force->revision (s->self);
-    pg_multilevel_free (&s->multilevel);
+    system_forget_preconditioner (s);
 done:
     for (int q = 0; q < 3; q++) pg_work_balance_clear (&before[q]);
     pg_work_balance_clear (&after);

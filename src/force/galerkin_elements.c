@@ -1,0 +1,498 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Finite elements on the nodes of the Galerkin form, whose energies are about those of K (linalg.h,
+ * pg_elements): they precondition the iterations.
+ *
+ * A cell whose evaluation points see all its corners is an element: isoparametric, of the mesh's own kind,
+ * or the bilinear or trilinear one of a lattice, with its nodes at the nodes' real places. Where a crack
+ * separates corners, where the surface cuts the cell, or where there is no cell at all, each evaluation point
+ * p becomes an element of its own over the m nearest nodes that it still sees. With c their mean place and
+ * h the local spacing, the gradient is that of the best linear field (least squares),
+ *
+ *     q_a = A^-1 (x_a - c),   A = sum_a (x_a - c)(x_a - c)' + 0.02 h^2 I,   du/dx = sum_a u_a q_a',
+ *
+ * and what differs from that field, R u with R_ab = delta_ab - 1/m - (x_a - c) . q_b, has the stiffness
+ *
+ *     K_p = w (B' D B + 8 mu / (h^2 m) R' R (x) I),
+ *
+ * so that every node that anything sees has a stiffness: elements that were only left out where they are cut
+ * would leave nodes beside a crack without any. Supports: constraints of Nitsche's method become springs at
+ * the node nearest to each facet point, penalties springs at their node. */
+#include "galerkin.h"
+#include <math.h>
+#include <string.h>
+
+/* Nodes of an element around a point: within this many spacings; by `wider` farther until there are
+ * enough. */
+static const double near_by = 1.45, wider = 0.3;
+/* Share of Nitsche's factor that the springs of the facet points get: between 0.25 and 0.5 iterations are
+ * fewest (measured). */
+static const double spring_share = 0.3;
+/* Strength of what resists deviations from a linear field, in units of mu / (h^2 m), and the least spread of
+ * the nodes of a point, in units of h^2. */
+static const double deviation = 8, least_spread = 0.02;
+/* Row of N at nodes that lost bonds: this share of it and the rest of the unit row (measured: 1 and 0 need
+ * 1.4 and 2.5 times the iterations). */
+static const double row_share = 0.85;
+
+enum { MOST_NODES = 64, NO_CELL = -1 };
+
+/* The elements while they are listed: nodes of each, the evaluation point or cell it belongs to, and the
+ * share of the weight of the point. */
+typedef struct {
+    galerkin *g;
+    pg_adjacency list;
+    size_t cap_start, cap_node, cap_of, cap_cell, cap_weight;
+    size_t *of;                                        /* point, or cell */
+    int    *cell;                                      /* kind of element, NO_CELL: of a point */
+    double *weight;                                    /* of the point */
+    double *rest;                                      /* nodal: volume that no whole cell has taken (n) */
+    double  reach;
+    double *K, *last;                                  /* matrix of an element; of the last whole cell */
+    double  shape[MOST_NODES * 3]; int shape_kind; const pg_material *shape_material;
+} builder;
+
+/* ---- which nodes --------------------------------------------------------------------------------------- */
+static double distance2 (int dim, const double *a, const double *b)
+{
+    double s = 0;
+    for (int k = 0; k < dim; k++) s += (a[k] - b[k]) * (a[k] - b[k]);
+    return s;
+}
+
+static const double *place (const galerkin *g, int node)
+{
+    return g->problem->cloud.x + (size_t) node * (size_t) g->dim;
+}
+
+/* Where node j stands in the family of point p; SIZE_MAX: nowhere. */
+static size_t entry_of (const pg_rows *r, size_t p, int j)
+{
+    size_t low = r->family.start[p], high = r->family.start[p + 1];
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (r->family.node[middle] < j) low = middle + 1;
+        else high = middle;
+    }
+    return low < r->family.start[p + 1] && r->family.node[low] == j ? low : SIZE_MAX;
+}
+
+/* Is entry e of point p a broken bond? Beyond the support of a node and on its edge there is no influence
+ * either. */
+static int broken (const galerkin *g, const pg_rows *r, size_t p, size_t e)
+{
+    int j = r->family.node[e];
+    double support = 0.999 * g->problem->approx.horizon * pg_cloud_ratio (&g->problem->cloud, (size_t) j);
+    return !(r->w[e] > 0) && r->own[p] != j
+           && distance2 (g->dim, r->x + p * (size_t) g->dim, place (g, j)) < support * support;
+}
+
+/* The node nearest to x among those that point p sees, *d2 its squared distance. */
+static int nearest_seen (const galerkin *g, const pg_rows *r, size_t p, const double *x, double *d2)
+{
+    int best = -1;
+    *d2 = INFINITY;
+    for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+        double d = distance2 (g->dim, x, place (g, r->family.node[e]));
+        if (d < *d2) *d2 = d, best = r->family.node[e];
+    }
+    return best;
+}
+
+/* The evaluation point first .. last - 1 that is nearest to x. */
+static size_t nearest_point (const galerkin *g, const pg_rows *r, size_t first, size_t last, const double *x)
+{
+    size_t best = first;
+    double least = INFINITY;
+    for (size_t p = first; p < last; p++) {
+        double d = distance2 (g->dim, x, r->x + p * (size_t) g->dim);
+        if (d < least) least = d, best = p;
+    }
+    return best;
+}
+
+/* The nodes at the places of the first m nodes of a cell; 0: some have none of their own within 0.6
+ * spacings. points first .. last - 1 are those of the cell. */
+static int find_nodes (const galerkin *g, size_t cell, size_t m, size_t first, size_t last, int *node)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    const pg_cells *c = &g->problem->cells;
+    for (size_t k = 0; k < m; k++) {
+        const double *x = c->x + (c->start[cell] + k) * (size_t) g->dim;
+        double d2;
+        size_t p = nearest_point (g, r, first, last, x);
+        node[k] = nearest_seen (g, r, p, x, &d2);
+        double h = 0.6 * pg_problem_spacing (g->problem, g->bulk, p);
+        if (node[k] < 0 || d2 > h * h) return 0;
+        for (size_t i = 0; i < k; i++) if (node[i] == node[k]) return 0;
+    }
+    return 1;
+}
+
+/* Has a point of the cell lost sight of one of its m nodes? */
+static int separated (const galerkin *g, size_t m, const int *node, size_t first, size_t last)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    for (size_t p = first; p < last; p++) {
+        if (r->grade[p] >= PG_GRADE_SHEPARD) return 1;
+        for (size_t k = 0; k < m; k++) {
+            size_t e = entry_of (r, p, node[k]);
+            if (e != SIZE_MAX && broken (g, r, p, e)) return 1;
+        }
+    }
+    return 0;
+}
+
+/* The kind of element with the same corners and straight edges. */
+static pg_element straight (pg_element kind)
+{
+    for (int k = 0; k < PG_ELEMENTS; k++)
+        if (pg_element_types[k].dim == pg_element_types[kind].dim && pg_element_types[k].order == 1
+            && pg_element_types[k].nodes == pg_element_types[kind].corners)
+            return (pg_element) k;
+    return kind;
+}
+
+/* The cell as an element: its kind, and its nodes in the order of that kind; NO_CELL: it is none. */
+static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last, int *node)
+{
+    int kind = g->problem->cells.kind[cell];
+    if (kind >= PG_ELEMENTS || first == last) return NO_CELL;
+    if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) {
+        kind = (int) straight ((pg_element) kind);
+        if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) return NO_CELL;
+    }
+    return separated (g, (size_t) pg_element_types[kind].nodes, node, first, last) ? NO_CELL : kind;
+}
+
+/* Nodes that point p still sees near by, itself where it is a node. */
+static size_t near_nodes (const galerkin *g, size_t p, int *node)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t enough = (size_t) g->dim + 2, m = 0, seen = 0;
+    double h = pg_problem_spacing (g->problem, g->bulk, p), reach = near_by * h;
+    const double *x = r->x + p * (size_t) g->dim;
+    for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
+        seen += r->w[e] > 0 || r->family.node[e] == r->own[p];
+    for (;; reach += wider * h) {
+        m = 0;
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && m < MOST_NODES; e++)
+            if ((r->w[e] > 0 || r->family.node[e] == r->own[p])
+                && distance2 (g->dim, x, place (g, r->family.node[e])) <= reach * reach)
+                node[m++] = r->family.node[e];
+        if (m >= enough || m >= seen || m == MOST_NODES) break;
+    }
+    return m;
+}
+
+/* ---- the list ------------------------------------------------------------------------------------------ */
+static pg_status append (builder *b, size_t of, int kind, double weight, size_t m, const int *node)
+{
+    pg_status status = PG_OK;
+    pg_adjacency *l = &b->list;
+    if (m == 0) return PG_OK;
+    if (!l->start) {
+        PG_GROW (l->start, b->cap_start, 1);
+        l->start[0] = 0;
+    }
+    PG_GROW (l->start, b->cap_start, l->n + 2);
+    PG_GROW (l->node, b->cap_node, l->start[l->n] + m);
+    PG_GROW (b->of, b->cap_of, l->n + 1);
+    PG_GROW (b->cell, b->cap_cell, l->n + 1);
+    PG_GROW (b->weight, b->cap_weight, l->n + 1);
+    memcpy (l->node + l->start[l->n], node, m * sizeof *node);
+    b->of[l->n] = of, b->cell[l->n] = kind, b->weight[l->n] = weight;
+    l->start[l->n + 1] = l->start[l->n] + m;
+    l->n++;
+    /* no two nodes of it are further apart than twice the farthest from the first */
+    for (size_t k = 1; k < m; k++)
+        for (size_t i = 0; i < k; i++)
+            b->reach = fmax (b->reach, distance2 (b->g->dim, place (b->g, node[i]), place (b->g, node[k])));
+done:
+    return status;
+}
+
+static pg_status append_point (builder *b, size_t p, double weight)
+{
+    int node[MOST_NODES];
+    return append (b, p, NO_CELL, weight, near_nodes (b->g, p, node), node);
+}
+
+/* Cells with Gauss points: whole, or point by point. Points of a cell follow one another. */
+static pg_status list_cells (builder *b)
+{
+    pg_status status = PG_OK;
+    const galerkin *g = b->g;
+    const pg_rows *r = &g->rows[g->bulk];
+    for (size_t first = 0, last; first < r->n; first = last) {
+        int node[MOST_NODES], cell = r->cell[first];
+        for (last = first; last < r->n && r->cell[last] == cell; last++) continue;
+        int kind = whole_cell (g, (size_t) cell, first, last, node);
+        if (kind != NO_CELL)
+            PG_TRY (append (b, (size_t) cell, kind, 1, (size_t) pg_element_types[kind].nodes, node));
+        else
+            for (size_t p = first; p < last; p++) PG_TRY (append_point (b, p, r->weight[p]));
+    }
+done:
+    return status;
+}
+
+/* Nodal integration: whole cells where the corners see each other; the rest of each node's volume by the
+ * node itself. */
+static pg_status list_nodes (builder *b)
+{
+    pg_status status = PG_OK;
+    const galerkin *g = b->g;
+    const pg_problem *p = g->problem;
+    for (size_t i = 0; i < g->n; i++) PG_TRY (append_point (b, i, p->cloud.volume[i]));
+done:
+    return status;
+}
+
+/* ---- their matrices ------------------------------------------------------------------------------------ */
+/* K += w B' D B for gradients q (m x dim) of the m nodes, blocks on and above the diagonal. */
+static void add_strain (const galerkin *g, size_t m, const double *q, const double *D, double w, double *K)
+{
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv, width = m * dim;
+    for (size_t a = 0; a < m; a++) {
+        double DB[18], unit[3], B[6], f[3];
+        /* column r of D B_a */
+        for (size_t r = 0; r < dim; r++) {
+            memset (B, 0, sizeof B);
+            for (size_t v = 0; v < nv; v++) {
+                double one[6] = { 0 };
+                one[v] = 1;
+                galerkin_B_transpose (g->dim, q + a * dim, one, unit);
+                B[v] = unit[r];
+            }
+            for (size_t v = 0; v < nv; v++) {
+                double s = 0;
+                for (size_t u = 0; u < nv; u++) s += D[u * nv + v] * B[u];
+                DB[r * nv + v] = w * s;
+            }
+        }
+        for (size_t b = a; b < m; b++)
+            for (size_t r = 0; r < dim; r++) {
+                galerkin_B_transpose (g->dim, q + b * dim, DB + r * nv, f);
+                for (size_t c = 0; c < dim; c++) K[(a * dim + r) * width + b * dim + c] += f[c];
+            }
+    }
+}
+
+/* The lower triangle is that above it, to the bit. */
+static void mirror (size_t width, double *K)
+{
+    for (size_t i = 0; i < width; i++)
+        for (size_t j = 0; j < i; j++) K[i * width + j] = K[j * width + i];
+}
+
+/* Gradients of the shape functions of an element at xi, 1/m (nodes x dim); returns its size factor. */
+static double gradients (const galerkin *g, pg_element kind, const int *node, const double *xi, double *q)
+{
+    size_t dim = (size_t) g->dim, m = (size_t) pg_element_types[kind].nodes;
+    double N[PG_ELEMENT_NODES], dN[PG_ELEMENT_NODES * 3], J[9] = { 0 }, I[9], size;
+    pg_element_shape (kind, xi, N, dN);
+    for (size_t a = 0; a < m; a++)
+        for (size_t r = 0; r < dim; r++)
+            for (size_t c = 0; c < dim; c++) J[r * dim + c] += dN[a * dim + r] * place (g, node[a])[c];
+    if (dim == 1) size = J[0], I[0] = 1 / size;
+    else if (dim == 2) {
+        size = J[0] * J[3] - J[1] * J[2];
+        I[0] = J[3] / size, I[1] = -J[1] / size, I[2] = -J[2] / size, I[3] = J[0] / size;
+    } else {
+        for (size_t r = 0; r < 3; r++)
+            for (size_t c = 0; c < 3; c++) {
+                size_t r1 = (r + 1) % 3, r2 = (r + 2) % 3, c1 = (c + 1) % 3, c2 = (c + 2) % 3;
+                I[c * 3 + r] = J[r1 * 3 + c1] * J[r2 * 3 + c2] - J[r1 * 3 + c2] * J[r2 * 3 + c1];
+            }
+        size = J[0] * I[0] + J[1] * I[3] + J[2] * I[6];
+        for (size_t k = 0; k < 9; k++) I[k] /= size;
+    }
+    for (size_t a = 0; a < m; a++)
+        for (size_t c = 0; c < dim; c++) {
+            q[a * dim + c] = 0;
+            for (size_t r = 0; r < dim; r++) q[a * dim + c] += I[c * dim + r] * dN[a * dim + r];
+        }
+    return size;
+}
+
+/* Is this cell of the same shape, kind and material as the last one? Then its matrix is the same. */
+static int same_as_last (builder *b, int kind, const pg_material *material, size_t m, const int *node)
+{
+    size_t dim = (size_t) b->g->dim;
+    double shape[MOST_NODES * 3], least = 1e-10 * b->g->problem->cloud.h;
+    int same = b->shape_kind == kind && b->shape_material == material;
+    for (size_t k = 0; k < m; k++)
+        for (size_t c = 0; c < dim; c++) {
+            shape[k * dim + c] = place (b->g, node[k])[c] - place (b->g, node[0])[c];
+            same = same && fabs (shape[k * dim + c] - b->shape[k * dim + c]) <= least;
+        }
+    if (!same) memcpy (b->shape, shape, m * dim * sizeof *shape), b->shape_kind = kind, b->shape_material =
+            material;
+    return same;
+}
+
+/* Stiffness of a whole cell. Nodes that were moved so far that the element turns inside out somewhere count
+ * with the size of that place. */
+static const double *cell_matrix (builder *b, size_t cell, int kind, size_t m, const int *node, size_t p)
+{
+    const galerkin *g = b->g;
+    const pg_material *material = galerkin_plain (g, g->bulk, p);
+    size_t dim = (size_t) g->dim, width = m * dim;
+    double xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], q[PG_ELEMENT_NODES * 3];
+    (void) cell;
+    if (same_as_last (b, kind, material, m, node)) return b->last;
+    memset (b->last, 0, width * width * sizeof *b->last);
+    int n = pg_element_rule ((pg_element) kind, pg_element_types[kind].order == 1 ? 2 : 3, xi, weight);
+    for (int k = 0; k < n; k++) {
+        double size = gradients (g, (pg_element) kind, node, xi + (size_t) k * dim, q);
+        add_strain (g, m, q, material->D, fabs (size) * weight[k] * g->problem->cells.thickness, b->last);
+    }
+    mirror (width, b->last);
+    return b->last;
+}
+
+/* Stiffness of the element of point p. */
+static const double *point_matrix (builder *b, size_t p, double w, size_t m, const int *node)
+{
+    const galerkin *g = b->g;
+    const pg_material *material = galerkin_plain (g, g->bulk, p);
+    size_t dim = (size_t) g->dim, width = m * dim;
+    double c[3] = { 0 }, A[9] = { 0 }, q[MOST_NODES * 3], R[MOST_NODES * MOST_NODES], *K = b->K,
+                    h = pg_problem_spacing (g->problem, g->bulk, p);
+    for (size_t a = 0; a < m; a++)
+        for (size_t k = 0; k < dim; k++) c[k] += place (g, node[a])[k] / (double) m;
+    for (size_t a = 0; a < m; a++)
+        for (size_t k = 0; k < dim; k++)
+            for (size_t l = 0; l < dim; l++)
+                A[k * dim + l] += (place (g, node[a])[k] - c[k]) * (place (g, node[a])[l] - c[l]);
+    for (size_t k = 0; k < dim; k++) A[k * dim + k] += least_spread * h * h;
+    pg_dense_cholesky ((int) dim, A, 0);
+    for (size_t a = 0; a < m; a++) {
+        for (size_t k = 0; k < dim; k++) q[a * dim + k] = place (g, node[a])[k] - c[k];
+        pg_dense_solve ((int) dim, A, q + a * dim);
+    }
+    memset (K, 0, width * width * sizeof *K);
+    add_strain (g, m, q, material->D, w, K);
+    for (size_t a = 0; a < m; a++)
+        for (size_t e = 0; e < m; e++) {
+            R[a * m + e] = (a == e) - 1 / (double) m;
+            for (size_t k = 0; k < dim; k++) R[a * m + e] -= (place (g, node[a])[k] - c[k]) * q[e * dim + k];
+        }
+    for (size_t a = 0; a < m; a++)
+        for (size_t e = a; e < m; e++) {
+            double s = 0;
+            for (size_t k = 0; k < m; k++) s += R[k * m + a] * R[k * m + e];
+            s *= w * deviation * material->mu / (h * h * (double) m);
+            for (size_t k = 0; k < dim; k++) K[(a * dim + k) * width + e * dim + k] += s;
+        }
+    mirror (width, K);
+    return K;
+}
+
+/* An evaluation point of each cell, for its material. */
+static size_t point_of (const galerkin *g, size_t cell, size_t *at)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    while (*at + 1 < r->n && (size_t) r->cell[*at] < cell) ++*at;
+    return *at;
+}
+
+/* Sums them up. */
+static pg_status add_elements (builder *b, pg_block_matrix *Q)
+{
+    pg_status status = PG_OK;
+    size_t most = 0, at = 0;
+    for (size_t k = 0; k < b->list.n; k++)
+        if (b->list.start[k + 1] - b->list.start[k] > most) most = b->list.start[k + 1] - b->list.start[k];
+    most *= (size_t) b->g->dim;
+    PG_ALLOC (b->K, most * most);
+    PG_ALLOC (b->last, most * most);
+    b->shape_kind = NO_CELL;
+    for (size_t k = 0; k < b->list.n; k++) {
+        size_t m = b->list.start[k + 1] - b->list.start[k];
+        const int *node = b->list.node + b->list.start[k];
+        pg_block_add (Q, m, node,
+                      b->cell[k] == NO_CELL
+                          ? point_matrix (b, b->of[k], b->weight[k], m, node)
+                          : cell_matrix (b, b->of[k], b->cell[k], m, node, point_of (b->g, b->of[k], &at)));
+    }
+done:
+    return status;
+}
+
+/* ---- supports, N --------------------------------------------------------------------------------------- */
+/* Springs of the supports: on the node nearest to each facet point; penalties of nodes. */
+static void add_supports (const galerkin *g, pg_block_matrix *Q)
+{
+    const pg_rows *r = &g->rows[PG_FACETS];
+    size_t dim = (size_t) g->dim;
+    double d2;
+    for (size_t i = 0; i < g->nnitsche; i++) {
+        const constraint *q = &g->nitsche[i];
+        int node = nearest_seen (g, r, q->point, r->x + q->point * dim, &d2);
+        if (node >= 0)
+            pg_block_add_diagonal (Q, (size_t) node * dim + (size_t) q->component,
+                                   spring_share * galerkin_nitsche_stiffness (g, q));
+    }
+    for (size_t i = 0; i < g->npenalty; i++) {
+        const constraint *q = &g->penalty[i];
+        pg_block_add_diagonal (Q, (size_t) g->penalty_node[q->point] * dim + (size_t) q->component,
+                               galerkin_penalty_stiffness (g, q));
+    }
+}
+
+/* Values of the shape functions at the nodes. Nodes whose displacement is not a sum of this kind, because
+ * too few neighbours are left, get the unit row. */
+static pg_status copy_values (const galerkin *g, pg_node_matrix *N)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = &g->rows[PG_NODES];
+    N->n = g->n;
+    PG_ALLOC (N->start, g->n + 1);
+    size_t nnz = 0;
+    for (size_t e = 0; e < r->family.start[g->n]; e++) nnz += r->N[e] != 0;
+    PG_ALLOC (N->node, nnz + g->n);
+    PG_ALLOC (N->value, nnz + g->n);
+    size_t at = 0;
+    for (size_t i = 0; i < g->n; i++) {
+        int lost = 0, unit = r->grade[i] >= PG_GRADE_SHEPARD, own = 0;
+        for (size_t e = r->family.start[i]; e < r->family.start[i + 1] && !lost; e++)
+            lost = broken (g, r, i, e);
+        double share = unit ? 0 : lost ? row_share : 1;
+        for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
+            int self = (size_t) r->family.node[e] == i;
+            double value = share * r->N[e] + (self ? 1 - share : 0);
+            if (value == 0) continue;
+            own |= self, N->node[at] = r->family.node[e], N->value[at++] = (float) value;
+        }
+        if (!own && share < 1) N->node[at] = (int) i, N->value[at++] = (float) (1 - share);
+        N->start[i + 1] = at;
+    }
+done:
+    return status;
+}
+
+static void builder_clear (builder *b)
+{
+    pg_free (b->list.start), pg_free (b->list.node), pg_free (b->of), pg_free (b->cell), pg_free (b->weight);
+    pg_free (b->rest), pg_free (b->K), pg_free (b->last);
+}
+
+/* Of the bonds that live at the last refresh. */
+pg_status galerkin_elements (void *self, pg_elements *out)
+{
+    pg_status status = PG_OK;
+    galerkin *g = self;
+    builder b = { .g = g };
+    memset (out, 0, sizeof *out);
+    PG_TRY (g->problem->integration->at_nodes ? list_nodes (&b) : list_cells (&b));
+    PG_TRY (pg_block_create (&out->Q, g->n, g->dim, &b.list, g->threads));
+    PG_TRY (add_elements (&b, &out->Q));
+    add_supports (g, &out->Q);
+    if (!g->problem->approx.type->interpolates) PG_TRY (copy_values (g, &out->N));
+    out->spacing = g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);
+done:
+    builder_clear (&b);
+    if (status != PG_OK) pg_elements_clear (out);
+    return status;
+}

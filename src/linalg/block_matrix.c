@@ -1,0 +1,232 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Symmetric matrices of dense node blocks that are sums of small element matrices, kept by rows with both
+ * triangles. They serve preconditioners only, so that values are kept as float (7 digits): half the memory,
+ * and half the time of a product, which the memory bounds. Sums of a product are taken as double.
+ *
+ * The pattern of row i is the union of the nodes of all elements that contain node i, ascending. */
+#include "perigal/linalg.h"
+#include <string.h>
+
+void pg_block_clear (pg_block_matrix *A)
+{
+    pg_free (A->start), pg_free (A->node), pg_free (A->value);
+    memset (A, 0, sizeof *A);
+}
+
+/* ---- pattern ------------------------------------------------------------------------------------------- */
+/* Elements of each node (of: n + 1, element), and a list of nodes for each thread. */
+typedef struct {
+    pg_block_matrix *A;
+    const pg_adjacency *elements;
+    size_t *of;
+    int    *element;
+    int   **list;
+} pattern;
+
+/* Sorts a short list: by insertion, as most of it comes in ascending pieces. Returns how many numbers differ,
+ * which are then in front. */
+static size_t sort_unique (int *a, size_t n)
+{
+    size_t m = 0;
+    for (size_t i = 0; i < n; i++) {
+        int x = a[i];
+        size_t j = m;
+        while (j > 0 && a[j - 1] > x) j--;
+        if (j > 0 && a[j - 1] == x) continue;
+        memmove (a + j + 1, a + j, (m - j) * sizeof *a);
+        a[j] = x, m++;
+    }
+    return m;
+}
+
+/* Nodes of row i, ascending. */
+static size_t collect (const pattern *p, size_t i, int *out)
+{
+    const pg_adjacency *e = p->elements;
+    size_t m = 0;
+    for (size_t k = p->of[i]; k < p->of[i + 1]; k++) {
+        size_t c = (size_t) p->element[k], count = e->start[c + 1] - e->start[c];
+        memcpy (out + m, e->node + e->start[c], count * sizeof *out);
+        m += count;
+    }
+    return sort_unique (out, m);
+}
+
+/* Counts the couplings of each node. */
+static void count_rows (void *context, size_t first, size_t last, int thread)
+{
+    const pattern *p = context;
+    for (size_t i = first; i < last; i++) p->A->start[i + 1] = collect (p, i, p->list[thread]);
+}
+
+/* Writes them, once it is known where. */
+static void fill_rows (void *context, size_t first, size_t last, int thread)
+{
+    const pattern *p = context;
+    for (size_t i = first; i < last; i++) {
+        size_t m = collect (p, i, p->list[thread]);
+        memcpy (p->A->node + p->A->start[i], p->list[thread], m * sizeof (int));
+    }
+}
+
+/* Elements of each node, ascending; returns the most nodes that one row can have. */
+static size_t invert (pattern *p, size_t n)
+{
+    const pg_adjacency *e = p->elements;
+    size_t most = 0;
+    for (size_t k = 0; k < e->start[e->n]; k++) p->of[e->node[k] + 1]++;
+    for (size_t i = 0; i < n; i++) p->of[i + 1] += p->of[i];
+    for (size_t c = e->n; c-- > 0;)
+        for (size_t k = e->start[c]; k < e->start[c + 1]; k++) {
+            size_t i = (size_t) e->node[k];
+            p->element[--p->of[i + 1]] = (int) c;
+        }
+    /* of[i + 1] is now where the list of i begins */
+    memmove (p->of, p->of + 1, n * sizeof *p->of);
+    p->of[n] = e->start[e->n];
+    for (size_t i = 0; i < n; i++) {
+        size_t m = 0;
+        for (size_t k = p->of[i]; k < p->of[i + 1]; k++)
+            m += e->start[p->element[k] + 1] - e->start[p->element[k]];
+        if (m > most) most = m;
+    }
+    return most;
+}
+
+pg_status pg_block_create (pg_block_matrix *A, size_t n, int block, const pg_adjacency *elements, int threads)
+{
+    pg_status status = PG_OK;
+    pattern p = { .A = A, .elements = elements };
+    if (threads < 1) threads = 1;
+    memset (A, 0, sizeof *A);
+    A->n = n, A->block = block, A->threads = threads;
+    PG_ALLOC (A->start, n + 1);
+    PG_ALLOC (p.of, n + 2);
+    PG_ALLOC (p.element, elements->start[elements->n]);
+    PG_ALLOC (p.list, (size_t) threads);
+    size_t most = invert (&p, n);
+    for (int t = 0; t < threads; t++) PG_ALLOC (p.list[t], most);
+    pg_parallel (threads, n, count_rows, &p);
+    for (size_t i = 0; i < n; i++) {
+        if (A->start[i + 1] > A->widest) A->widest = A->start[i + 1];
+        A->start[i + 1] += A->start[i];
+    }
+    PG_ALLOC (A->node, A->start[n]);
+    PG_ALLOC (A->value, A->start[n] * (size_t) (block * block));
+    pg_parallel (threads, n, fill_rows, &p);
+done:
+    for (int t = 0; p.list && t < threads; t++) pg_free (p.list[t]);
+    pg_free (p.list), pg_free (p.of), pg_free (p.element);
+    if (status != PG_OK) pg_block_clear (A);
+    return status;
+}
+
+/* ---- values -------------------------------------------------------------------------------------------- */
+/* Place of node j in row i; the pattern holds it. */
+static size_t place (const pg_block_matrix *A, size_t i, int j)
+{
+    size_t low = A->start[i], high = A->start[i + 1];
+    while (high - low > 1) {
+        size_t middle = (low + high) / 2;
+        if (A->node[middle] <= j) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+/* A block and its mirror image get the same sums: K has equal bits there, and elements come in one order. */
+void pg_block_add (pg_block_matrix *A, size_t m, const int *node, const double *K)
+{
+    size_t block = (size_t) A->block, width = m * block;
+    for (size_t a = 0; a < m; a++)
+        for (size_t b = 0; b < m; b++) {
+            float *to = A->value + place (A, (size_t) node[a], node[b]) * block * block;
+            for (size_t r = 0; r < block; r++)
+                for (size_t c = 0; c < block; c++)
+                    to[r * block + c] += (float) K[(a * block + r) * width + b * block + c];
+        }
+}
+
+/* A node that no element contains has no row, and nothing can be added to it. */
+void pg_block_add_diagonal (pg_block_matrix *A, size_t unknown, double value)
+{
+    size_t block = (size_t) A->block, i = unknown / block, k = unknown % block;
+    if (A->start[i] == A->start[i + 1]) return;
+    A->value[place (A, i, (int) i) * block * block + k * block + k] += (float) value;
+}
+
+/* ---- products ------------------------------------------------------------------------------------------ */
+typedef struct { const pg_block_matrix *A; const double *x; double *y; } product;
+
+/* Rows times x; solids and planes with lengths that the compiler knows. */
+static void multiply_rows (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const product *w = context;
+    const pg_block_matrix *A = w->A;
+    size_t block = (size_t) A->block, bb = block * block;
+    for (size_t i = first; i < last; i++) {
+        double y[6] = { 0 };
+        const float *v = A->value + A->start[i] * bb;
+        for (size_t e = A->start[i]; e < A->start[i + 1]; e++, v += bb) {
+            const double *x = w->x + (size_t) A->node[e] * block;
+            if (block == 2)
+                y[0] += (double) v[0] * x[0] + (double) v[1] * x[1],
+                    y[1] += (double) v[2] * x[0] + (double) v[3] * x[1];
+            else if (block == 3) {
+                y[0] += (double) v[0] * x[0] + (double) v[1] * x[1] + (double) v[2] * x[2];
+                y[1] += (double) v[3] * x[0] + (double) v[4] * x[1] + (double) v[5] * x[2];
+                y[2] += (double) v[6] * x[0] + (double) v[7] * x[1] + (double) v[8] * x[2];
+            } else
+                for (size_t a = 0; a < block; a++)
+                    for (size_t c = 0; c < block; c++) y[a] += (double) v[a * block + c] * x[c];
+        }
+        memcpy (w->y + i * block, y, block * sizeof *y);
+    }
+}
+
+static void multiply (void *context, const double *x, double *y)
+{
+    product w = { context, x, y };
+    pg_parallel (w.A->threads, w.A->n, multiply_rows, &w);
+}
+
+static void diagonal (void *context, double *d)
+{
+    const pg_block_matrix *A = context;
+    size_t block = (size_t) A->block;
+    for (size_t i = 0; i < A->n; i++) {
+        size_t e = A->start[i] < A->start[i + 1] ? place (A, i, (int) i) : 0;
+        for (size_t k = 0; k < block; k++)
+            d[i * block + k] = A->start[i] < A->start[i + 1] ? A->value[e * block * block + k * (block + 1)]
+                                                             : 0;
+    }
+}
+
+pg_operator pg_block_operator (pg_block_matrix *A)
+{
+    return (pg_operator) { A->n * (size_t) A->block, A, multiply, diagonal };
+}
+
+/* Zero blocks couple nothing and are left out, so that loose parts are seen to be loose. */
+static size_t row_of (void *context, size_t i, int thread, int *node, double *value)
+{
+    (void) thread;
+    const pg_block_matrix *A = context;
+    size_t bb = (size_t) (A->block * A->block), m = 0;
+    for (size_t e = A->start[i]; e < A->start[i + 1]; e++) {
+        const float *v = A->value + e * bb;
+        size_t k = 0;
+        while (k < bb && v[k] == 0) k++;
+        if (k == bb) continue;
+        node[m] = A->node[e];
+        for (k = 0; value && k < bb; k++) value[m * bb + k] = v[k];
+        m++;
+    }
+    return m;
+}
+
+pg_couplings pg_block_couplings (pg_block_matrix *A, double reach)
+{
+    return (pg_couplings) { .context = A, .widest = A->widest, .reach = reach, .row = row_of };
+}

@@ -1,0 +1,226 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A preconditioner for stiffness matrices of smooth shape functions: that of finite elements on the same
+ * nodes, with a change of unknowns.
+ *
+ * Coefficients d and displacements u = N d of the nodes differ: N holds the values of all shape functions at
+ * the nodes. Patterns of d that alternate from node to node hardly move the nodes, and have hardly any
+ * energy, so that neither smoothing by the diagonal nor finite elements alone find them. But the energy of d
+ * is about that of the finite elements with the displacements N d, hence with their stiffness Q
+ *
+ *     K ~ N' Q N,    P^-1 = p (N) V (Q) p (N)',
+ *
+ * where V (Q) is a multilevel cycle, about Q^-1, and p a polynomial, about 1 / x on the spectrum of N. For
+ * finite elements of low order as preconditioners of smooth ones: S. A. Orszag, J. Comput. Phys. 37 (1980)
+ * 70; M. O. Deville and E. H. Mund, J. Comput. Phys. 60 (1985) 517. Since p is the same fixed polynomial on both
+ * sides, P is symmetric, and it is positive definite whatever N is as long as p (N) is regular.
+ *
+ * p interpolates a given function at the Chebyshev nodes of [low, high] and is evaluated by the recurrence
+ * T_k+1 = 2 s T_k - T_k-1 of s = (x - middle) / half. */
+#include "perigal/linalg.h"
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* Terms at most. */
+enum { MOST_TERMS = 32 };
+
+struct pg_element_preconditioner {
+    pg_elements elements;
+    /* N', by rows. */
+    pg_node_matrix transposed;
+    pg_multilevel *multilevel;
+    pg_operator    Q;
+    int     terms;
+    double  middle, half, c[MOST_TERMS];
+    /* Unknowns that V leaves at zero (ndof), or NULL; borrowed. */
+    const unsigned char *fixed;
+    /* Vectors of the recurrence and of the two halves (ndof). */
+    double *t[2], *left, *right;
+};
+
+/* ---- N ------------------------------------------------------------------------------------------------- */
+void pg_node_matrix_clear (pg_node_matrix *A)
+{
+    pg_free (A->start), pg_free (A->node), pg_free (A->value);
+    memset (A, 0, sizeof *A);
+}
+
+/* Rows in ascending order make ascending columns. */
+static pg_status transpose (pg_node_matrix *B, const pg_node_matrix *A)
+{
+    pg_status status = PG_OK;
+    size_t nnz = A->start[A->n];
+    B->n = A->n;
+    PG_ALLOC (B->start, A->n + 2);
+    PG_ALLOC (B->node, nnz);
+    PG_ALLOC (B->value, nnz);
+    for (size_t e = 0; e < nnz; e++) B->start[A->node[e] + 2]++;
+    for (size_t i = 0; i < A->n; i++) B->start[i + 2] += B->start[i + 1];
+    for (size_t i = 0; i < A->n; i++)
+        for (size_t e = A->start[i]; e < A->start[i + 1]; e++) {
+            size_t at = B->start[A->node[e] + 1]++;
+            B->node[at] = (int) i, B->value[at] = A->value[e];
+        }
+done:
+    return status;
+}
+
+/* ---- the polynomial ------------------------------------------------------------------------------------ */
+/* Coefficients of the Chebyshev polynomials from the values at their nodes (a discrete cosine transform). */
+static void interpolate (pg_element_preconditioner *P, double low, double high,
+                         double (*f) (double x, double parameter), double parameter)
+{
+    int m = P->terms;
+    P->middle = (high + low) / 2, P->half = (high - low) / 2;
+    for (int k = 0; k < m; k++) {
+        double sum = 0;
+        for (int j = 0; j < m; j++)
+            sum += f (P->middle + P->half * cos ((j + 0.5) * pi / m), parameter)
+                   * cos (k * (j + 0.5) * pi / m);
+        P->c[k] = (k ? 2.0 : 1.0) / m * sum;
+    }
+}
+
+/* One step of the recurrence: last = T_k-1 r becomes T_k+1 r, now = T_k r, sum += c last. factor: 1 in the
+ * first step, where there is no T_-1, else 2. */
+typedef struct {
+    const pg_node_matrix *A;
+    size_t block;
+    double middle, scale, keep, c;
+    const double *now;
+    double *last, *sum;
+} step;
+
+static void recur (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const step *w = context;
+    const pg_node_matrix *A = w->A;
+    size_t block = w->block;
+    for (size_t i = first; i < last; i++) {
+        double s[6] = { 0 };
+        const double *now = w->now + i * block;
+        double *before = w->last + i * block, *sum = w->sum + i * block;
+        if (block == 3)
+            for (size_t e = A->start[i]; e < A->start[i + 1]; e++) {
+                const double *x = w->now + (size_t) A->node[e] * 3;
+                double a = A->value[e];
+                s[0] += a * x[0], s[1] += a * x[1], s[2] += a * x[2];
+            }
+        else
+            for (size_t e = A->start[i]; e < A->start[i + 1]; e++)
+                for (size_t k = 0; k < block; k++)
+                    s[k] += (double) A->value[e] * w->now[(size_t) A->node[e] * block + k];
+        for (size_t k = 0; k < block; k++) {
+            double next = w->scale * (s[k] - w->middle * now[k]) - w->keep * before[k];
+            before[k] = next;
+            sum[k] += w->c * next;
+        }
+    }
+}
+
+/* y = p (A) r */
+static void polynomial (const pg_element_preconditioner *P, const pg_node_matrix *A, const double *r,
+                        double *y)
+{
+    const pg_block_matrix *Q = &P->elements.Q;
+    size_t ndof = Q->n * (size_t) Q->block;
+    double *now = P->t[0], *last = P->t[1];
+    for (size_t i = 0; i < ndof; i++) now[i] = r[i], last[i] = 0, y[i] = P->c[0] * r[i];
+    for (int k = 1; k < P->terms; k++) {
+        step w = { A, (size_t) Q->block, P->middle, (k > 1 ? 2 : 1) / P->half, k > 1, P->c[k], now, last, y };
+        pg_parallel (Q->threads, Q->n, recur, &w);
+        double *swap = now;
+        now = last, last = swap;
+    }
+}
+
+/* ---- the preconditioner -------------------------------------------------------------------------------- */
+void pg_elements_clear (pg_elements *e)
+{
+    pg_block_clear (&e->Q);
+    pg_node_matrix_clear (&e->N);
+}
+
+void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
+{
+    pg_element_preconditioner *P = *preconditioner;
+    if (!P) return;
+    pg_elements_clear (&P->elements);
+    pg_node_matrix_clear (&P->transposed);
+    pg_multilevel_free (&P->multilevel);
+    pg_free (P->t[0]), pg_free (P->t[1]), pg_free (P->left), pg_free (P->right);
+    pg_free (P);
+    *preconditioner = NULL;
+}
+
+static double inverse (double x, double parameter)
+{
+    (void) parameter;
+    return 1 / x;
+}
+
+/* Takes over the elements, also where it fails. */
+pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_elements *elements,
+                                            const pg_element_setting *s)
+{
+    pg_status status = PG_OK;
+    pg_element_preconditioner *P = NULL;
+    *out = NULL;
+    PG_ALLOC (P, 1);
+    P->elements = *elements, P->fixed = s->fixed;
+    memset (elements, 0, sizeof *elements);
+    pg_block_matrix *Q = &P->elements.Q;
+    size_t ndof = Q->n * (size_t) Q->block;
+    P->Q = pg_block_operator (Q);
+    pg_multilevel_setting m = { .dim = s->dim,
+                                .block = Q->block,
+                                .threads = Q->threads,
+                                .n = Q->n,
+                                .x = s->x,
+                                .fixed = s->fixed,
+                                .A = &P->Q,
+                                .rows = pg_block_couplings (Q, P->elements.reach),
+                                .step = 2.5 * P->elements.spacing / P->elements.reach };
+    memcpy (m.rows.lattice, P->elements.lattice, sizeof m.rows.lattice);
+    PG_TRY (pg_multilevel_create (&P->multilevel, &m));
+    if (P->elements.N.start) {
+        P->terms = s->terms > 0 ? (s->terms < MOST_TERMS ? s->terms : MOST_TERMS) : 6;
+        interpolate (P, s->low > 0 ? s->low : 0.1, s->high > 0 ? s->high : 1.1, inverse, 0);
+        PG_TRY (transpose (&P->transposed, &P->elements.N));
+        PG_ALLOC (P->t[0], ndof);
+        PG_ALLOC (P->t[1], ndof);
+        PG_ALLOC (P->left, ndof);
+        PG_ALLOC (P->right, ndof);
+    }
+    *out = P, P = NULL;
+done:
+    pg_elements_clear (elements);
+    pg_element_preconditioner_free (&P);
+    return status;
+}
+
+/* z = p (N) V (Q) p (N') r */
+static pg_status solve (void *context, const double *r, double *z)
+{
+    pg_status status = PG_OK;
+    pg_element_preconditioner *P = context;
+    pg_preconditioner V = pg_multilevel_preconditioner (P->multilevel);
+    if (!P->elements.N.start) return V.solve (V.context, r, z);
+    polynomial (P, &P->transposed, r, P->left);
+    PG_TRY (V.solve (V.context, P->left, P->right));
+    polynomial (P, &P->elements.N, P->right, z);
+done:
+    return status;
+}
+
+pg_preconditioner pg_element_preconditioner_of (pg_element_preconditioner *P)
+{
+    return (pg_preconditioner) { P, solve, P->elements.Q.threads };
+}
+
+const pg_multilevel *pg_element_preconditioner_levels (const pg_element_preconditioner *P)
+{
+    return P->multilevel;
+}
