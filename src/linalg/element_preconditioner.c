@@ -11,8 +11,8 @@
  *
  * where V (Q) is a multilevel cycle, about Q^-1, and p a polynomial, about 1 / x on the spectrum of N. For
  * finite elements of low order as preconditioners of smooth ones: S. A. Orszag, J. Comput. Phys. 37 (1980)
- * 70; M. O. Deville and E. H. Mund, J. Comput. Phys. 60 (1985) 517. Since p is the same fixed polynomial on both
- * sides, P is symmetric, and it is positive definite whatever N is as long as p (N) is regular.
+ * 70; M. O. Deville and E. H. Mund, J. Comput. Phys. 60 (1985) 517. Since p is the same fixed polynomial on
+ * both sides, P is symmetric, and it is positive definite whatever N is as long as p (N) is regular.
  *
  * p interpolates a given function at the Chebyshev nodes of [low, high] and is evaluated by the recurrence
  * T_k+1 = 2 s T_k - T_k-1 of s = (x - middle) / half. */
