@@ -2,8 +2,8 @@
  * Preconditioners of several levels for conjugate gradients without a factor, in two forms: of forces that
  * tell the rows of K, over all unknowns with the prescribed ones blanked; of forces that stand on smooth
  * shape functions, by finite elements on their nodes, over the unknowns that constraints leave. Breaking
- * leaves an old preconditioner valid: it is made anew when the iterations that it has cost above those of its first
- * solve would have paid for another (rent or buy, counted in iterations, never by the clock). */
+ * leaves an old preconditioner valid: it is made anew when the iterations that it has cost above those of
+ * its first solve would have paid for another (rent or buy, counted in iterations, never by the clock). */
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
