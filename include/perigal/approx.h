@@ -121,6 +121,13 @@ extern const pg_key_table pg_keys_shape_functions;
 pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,
                           const double *weight, const int *own, const int *cell);
 void      pg_rows_clear  (pg_rows *rows);
+/* The same in steps, for large bodies and for several lots of places: the points of the cloud sorted for a
+ * search (which borrows the cloud; pg_family_search_free), places with their families but without memory for
+ * shape functions, found by any number of threads, and that memory. */
+pg_status pg_rows_search (pg_family_search **out, const pg_approx *a, const pg_cloud *cloud);
+pg_status pg_rows_place  (pg_rows *out, const pg_family_search *search, int dim, size_t n, const double *x,
+                          const double *weight, const int *own, const int *cell, int threads);
+pg_status pg_rows_values (pg_rows *rows);
 /* Number of places with that grade. */
 size_t    pg_rows_count  (const pg_rows *rows, int grade);
 PG_API_END

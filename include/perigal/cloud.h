@@ -189,6 +189,14 @@ enum { PG_RADIAL, PG_TENSOR };
 pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre,
                            double reach, int shape, int closed);
 void      pg_family_clear (pg_family *family);
+/* The same in two steps, for many centres or for several lots of them: the points sorted once, then families
+ * found by any number of threads, always the same ones. The search borrows the cloud. */
+typedef struct pg_family_search pg_family_search;
+pg_status pg_family_search_create (pg_family_search **out, const pg_cloud *cloud, double reach, int shape,
+                                   int closed);
+void      pg_family_search_free   (pg_family_search **search);
+pg_status pg_family_find (pg_family *out, const pg_family_search *search, size_t n, const double *centre,
+                          int threads);
 
 /* ---- nearest point ------------------------------------------------------------------------------------- */
 /* A k-d tree over copies of the points, for nearest-point searches. */

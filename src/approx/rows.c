@@ -4,32 +4,58 @@
 #include "perigal/approx.h"
 #include <string.h>
 
+pg_status pg_rows_search (pg_family_search **out, const pg_approx *a, const pg_cloud *cloud)
+{
+    return pg_family_search_create (out, cloud, a->horizon, a->shape, a->kernel->closed);
+}
+
 /* All places count as dead until they are evaluated. Families include the nodes at exactly the
  * horizon if the kernel is not zero there (`closed`). */
-pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,
-                          const double *weight, const int *own, const int *cell)
+pg_status pg_rows_place (pg_rows *out, const pg_family_search *search, int dim, size_t n, const double *x,
+                         const double *weight, const int *own, const int *cell, int threads)
 {
     pg_status status = PG_OK;
-    size_t dim = (size_t) cloud->dim;
-    *out = (pg_rows) { .dim = cloud->dim, .n = n };
-    PG_ALLOC (out->x, n * dim);
+    *out = (pg_rows) { .dim = dim, .n = n };
+    PG_ALLOC (out->x, n * (size_t) dim);
     PG_ALLOC (out->weight, n);
     PG_ALLOC (out->own, n);
     PG_ALLOC (out->cell, n);
     PG_ALLOC (out->grade, n);
-    if (n) memcpy (out->x, x, n * dim * sizeof *x);
+    if (n) memcpy (out->x, x, n * (size_t) dim * sizeof *x);
     for (size_t i = 0; i < n; i++) {
         out->weight[i] = weight ? weight[i] : 0;
         out->own[i] = own ? own[i] : -1;
         out->cell[i] = cell ? cell[i] : -1;
         out->grade[i] = PG_GRADE_DEAD;                 /* until evaluated */
     }
-    PG_TRY (pg_family_build (&out->family, cloud, n, out->x, a->horizon, a->shape, a->kernel->closed));
-    size_t bonds = out->family.start[n];
-    PG_ALLOC (out->N, bonds);
-    PG_ALLOC (out->dN, bonds * dim);
-    PG_ALLOC (out->w, bonds);
+    PG_TRY (pg_family_find (&out->family, search, n, out->x, threads));
 done:
+    if (status != PG_OK) pg_rows_clear (out);
+    return status;
+}
+
+pg_status pg_rows_values (pg_rows *rows)
+{
+    pg_status status = PG_OK;
+    size_t bonds = rows->family.start[rows->n];
+    PG_ALLOC (rows->N, bonds);
+    PG_ALLOC (rows->dN, bonds * (size_t) rows->dim);
+    PG_ALLOC (rows->w, bonds);
+done:
+    return status;
+}
+
+pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,
+                          const double *weight, const int *own, const int *cell)
+{
+    pg_status status = PG_OK;
+    pg_family_search *search = NULL;
+    *out = (pg_rows) { 0 };
+    PG_TRY (pg_rows_search (&search, a, cloud));
+    PG_TRY (pg_rows_place (out, search, cloud->dim, n, x, weight, own, cell, 1));
+    PG_TRY (pg_rows_values (out));
+done:
+    pg_family_search_free (&search);
     if (status != PG_OK) pg_rows_clear (out);
     return status;
 }

@@ -1,91 +1,36 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Families { j : |x_j - c_i| <= reach }: the centres are sorted into a k-d tree; the points then visit,
- * in ascending order, the centres near them, so that each family comes out sorted. O(n log n), however
- * crowded some places are. */
-#include "perigal/cloud.h"
-#include "tree.h"
+ * Families { j : |x_j - c_i| <= reach }: the points are sorted into boxes a spacing wide, and every centre
+ * reads off those near it (boxes.h). Points of unequal spacings see, and are seen, unequally far: they go
+ * into boxes by classes, each up to half as far again as the one before, so that boxes fit their points.
+ * Centres know nothing of each other: any number of threads finds the same families.
+ *
+ * Points so thinly scattered that their boxes would mostly be empty are left to the k-d tree of
+ * family_tree.c. */
+#include "family.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
-/* ---- who belongs to a family --------------------------------------------------------------------------- */
-/* One pass over all points. */
-typedef struct {
-    /* Tree of the centres. */
-    const pg_tree *tree;
-    /* Reach of the search, a little more than the largest distance of a member, m. */
-    double  reach;
-    /* Largest distance of a member (radial: its square). */
-    double  limit;
-    int     shape, closed;
-    /* For each centre the place of its next member; counts up. */
-    size_t *next;
-    /* Members of all families; NULL in the counting pass. */
-    int    *node;
-    /* Box of the centres, m: points beyond their reach of it see none. */
-    double  low[3], high[3];
-    /* The point whose turn it is: its position and number. */
-    const double *x;  int j;
-} search;
+/* Classes of reach at most: 1.5^40 = 1e7 times the smallest. */
+enum { CLASSES = 40 };
 
-/* Does the visiting point belong to the family of the centre c? */
-static inline int belongs (const search *s, int dim, const double *c)
-{
-    double d = 0;
-    for (int k = 0; k < dim; k++) {
-        double z = fabs (s->x[k] - c[k]);
-        d = s->shape == PG_RADIAL ? d + z*z : fmax (d, z);
-    }
-    return s->closed ? d <= s->limit : d < s->limit;
-}
+struct pg_family_search {
+    const pg_cloud *cloud;
+    double   reach;
+    pg_nearness near;
+    pg_boxes boxes[CLASSES];
+    size_t   n;
+    /* 0: the points are too scattered for boxes. */
+    int      fits;
+};
 
-/* Enters the visiting point into the families of some centres. */
-static void join (void *context, size_t first, size_t last)
-{
-    search *s = context;
-    const pg_tree *t = s->tree;
-    for (size_t e = first; e < last; e++) {
-        if (!belongs (s, t->dim, t->x + e * (size_t) t->dim)) continue;
-        size_t i = t->item[e];
-        if (s->node) s->node[s->next[i]] = s->j;
-        s->next[i]++;
-    }
-}
-
-/* Can the visiting point be within its reach of a centre? Few centres, such as the places around the tip of a
- * crack, are then found without a walk down the tree for every point of the body. */
-static inline int meets_box (const search *s, int dim)
-{
-    for (int k = 0; k < dim; k++)
-        if (s->x[k] < s->low[k] - s->reach || s->x[k] > s->high[k] + s->reach) return 0;
-    return 1;
-}
-
-/* The points visit the centres one after the other, so that each family comes out in ascending order; the
- * reach of a point follows its spacing. */
-static void visit_points (const search *all, const pg_cloud *cloud, double reach)
-{
-    search s = *all;
-    for (size_t j = 0; j < cloud->n; j++) {
-        s.x = cloud->x + j * (size_t) cloud->dim, s.j = (int) j;
-        if (cloud->size) {
-            double far = reach * pg_cloud_ratio (cloud, j);
-            s.reach = all->reach * pg_cloud_ratio (cloud, j);
-            s.limit = s.shape == PG_RADIAL ? far * far : far;
-        }
-        if (!meets_box (&s, cloud->dim)) continue;
-        pg_tree_near (s.tree, s.x, s.reach, join, &s);
-    }
-}
-
+/* ---- sorting the points -------------------------------------------------------------------------------- */
 /* Positions and spacings must be finite numbers. */
-static pg_status check_input (const pg_cloud *cloud, size_t n, const double *centre, double reach)
+static pg_status check_points (const pg_cloud *cloud, double reach)
 {
     pg_status status = PG_OK;
     if (!(reach >= 0) || !isfinite (reach))
         PG_FAIL (PG_E_USAGE, "reach %g m of a family must be finite and not negative", reach);
-    for (size_t i = 0; i < n * (size_t) cloud->dim; i++)
-        if (!isfinite (centre[i]))
-            PG_FAIL (PG_E_USAGE, "centre %zu of a family is not a finite position", i / (size_t) cloud->dim);
     for (size_t i = 0; i < cloud->n * (size_t) cloud->dim; i++)
         if (!isfinite (cloud->x[i]))
             PG_FAIL (PG_E_USAGE, "point %zu has no finite position", i / (size_t) cloud->dim);
@@ -96,43 +41,229 @@ done:
     return status;
 }
 
-/* Two passes: the first counts, the second writes. A relative margin of 1e-9 decides about distances of
- * exactly `reach`, which rounding would leave to chance; the search is a little wider. */
+static pg_status check_centres (int dim, size_t n, const double *centre)
+{
+    pg_status status = PG_OK;
+    for (size_t i = 0; i < n * (size_t) dim; i++)
+        if (!isfinite (centre[i]))
+            PG_FAIL (PG_E_USAGE, "centre %zu of a family is not a finite position", i / (size_t) dim);
+done:
+    return status;
+}
+
+/* How far point i is seen, m. */
+static double reach_of (const pg_family_search *s, size_t i)
+{
+    double far = pg_family_edge (s->reach, s->near);
+    return s->cloud->size ? far * pg_cloud_ratio (s->cloud, i) : far;
+}
+
+/* Can a centre in the box low .. high see point i? box NULL: there is none. Few centres, such as the places
+ * around the tip of a crack, then cost one look at every point of the body. */
+static int meets_box (const pg_family_search *s, size_t i, const double *box)
+{
+    double far = reach_of (s, i) * (1 + 1e-7);
+    for (int k = 0; box && k < s->cloud->dim; k++) {
+        double x = s->cloud->x[i * (size_t) s->cloud->dim + (size_t) k];
+        if (x < box[k] - far || x > box[3 + k] + far) return 0;
+    }
+    return 1;
+}
+
+/* Width of the boxes along each axis, m: the step of the lattice, or the spacing; of a cloud that has neither
+ * as if its points filled their surroundings evenly. Not below an eighth of the reach, for many empty boxes
+ * would be looked at. */
+static void choose_width (const pg_family_search *s, double least, double *width)
+{
+    const pg_cloud *c = s->cloud;
+    double ratio = least / pg_family_edge (s->reach, s->near), filled = 1, axes = 0, extent[3] = { 0 };
+    for (int k = 0; k < c->dim; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = 0; i < c->n; i++) {
+            double x = c->x[i * (size_t) c->dim + (size_t) k];
+            low = fmin (low, x), high = fmax (high, x);
+        }
+        extent[k] = high - low;
+        if (extent[k] > 0) filled *= extent[k], axes++;
+    }
+    double even = axes > 0 ? pow (filled / (double) c->n, 1 / axes) : 0;
+    for (int k = 0; k < c->dim; k++) {
+        double step = c->step[k] > 0 ? c->step[k] * ratio : c->h > 0 ? c->h * ratio : even;
+        width[k] = fmax (step, 0.125 * least);
+    }
+}
+
+/* Class of a reach: how often the smallest one has grown by half. */
+static int class_of (double reach, double least)
+{
+    double k = least > 0 ? log (reach / least * (1 + 1e-12)) / log (1.5) : 0;
+    return k < CLASSES - 1 ? (int) k : CLASSES - 1;
+}
+
+/* One class: its points in a list, their reaches where these differ, and their boxes. */
+static pg_status sort_class (pg_family_search *s, int class, double least, const unsigned char *member)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *c = s->cloud;
+    int *list = NULL;
+    double *reach = NULL, width[3] = { 0 }, smallest = least * pow (1.5, class);
+    size_t n = 0;
+    for (size_t i = 0; i < c->n; i++) n += member[i] == class + 1;
+    if (n == 0) goto done;
+    PG_ALLOC (list, n);
+    if (c->size) PG_ALLOC (reach, n);
+    n = 0;
+    for (size_t i = 0; i < c->n; i++) {
+        if (member[i] != class + 1) continue;
+        if (reach) reach[n] = reach_of (s, i);
+        list[n++] = (int) i;
+    }
+    choose_width (s, smallest, width);
+    PG_TRY (pg_boxes_create (&s->boxes[s->n], &s->fits, c, n, list, width, reach,
+                             pg_family_edge (s->reach, s->near), s->near));
+    s->n += s->fits != 0;
+done:
+    pg_free (reach);
+    pg_free (list);
+    return status;
+}
+
+/* All points, or those that centres in a box (low, high: 3 + 3 numbers, m) can see. */
+static pg_status sort_points (pg_family_search *s, const double *box)
+{
+    pg_status status = PG_OK;
+    unsigned char *member = NULL;                      /* class + 1; 0: seen from nowhere */
+    double least = INFINITY;
+    int most = -1;
+    size_t n = s->cloud->n;
+    PG_ALLOC (member, n);
+    for (size_t i = 0; i < n; i++) least = fmin (least, reach_of (s, i));
+    s->fits = 1;
+    for (size_t i = 0; i < n; i++) {
+        if (!meets_box (s, i, box)) continue;
+        int class = s->cloud->size ? class_of (reach_of (s, i), least) : 0;
+        member[i] = (unsigned char) (class + 1);
+        most = class > most ? class : most;
+    }
+    for (int class = 0; class <= most && s->fits; class++) PG_TRY (sort_class (s, class, least, member));
+done:
+    pg_free (member);
+    return status;
+}
+
+pg_status pg_family_search_create (pg_family_search **out, const pg_cloud *cloud, double reach, int shape,
+                                   int closed)
+{
+    pg_status status = PG_OK;
+    pg_family_search *s = NULL;
+    *out = NULL;
+    PG_TRY (check_points (cloud, reach));
+    PG_ALLOC (s, 1);
+    s->cloud = cloud, s->reach = reach, s->near = (pg_nearness) { shape, closed };
+    PG_TRY (sort_points (s, NULL));
+    *out = s, s = NULL;
+done:
+    pg_family_search_free (&s);
+    return status;
+}
+
+void pg_family_search_free (pg_family_search **search)
+{
+    pg_family_search *s = *search;
+    if (!s) return;
+    for (size_t k = 0; k < CLASSES; k++) pg_boxes_clear (&s->boxes[k]);
+    pg_free (s);
+    *search = NULL;
+}
+
+/* ---- reading off --------------------------------------------------------------------------------------- */
+typedef struct { const pg_family_search *s; const double *centre; pg_family *out; } finding;
+
+/* Ascending order; runs that ascend already, one for each row of boxes, are what insertion sort likes, by
+ * steps that shrink (Shell's method with Knuth's steps) for long families. */
+static void ascend (size_t n, int *a)
+{
+    size_t step = 1;
+    size_t k = 1;
+    while (k < n && a[k - 1] < a[k]) k++;
+    if (k >= n) return;
+    while (step < n / 9) step = 3 * step + 1;
+    for (; step > 0; step /= 3)
+        for (size_t i = step; i < n; i++) {
+            int value = a[i];
+            size_t j = i;
+            for (; j >= step && a[j - step] > value; j -= step) a[j] = a[j - step];
+            a[j] = value;
+        }
+}
+
+/* First pass: the number of members of each family, at the place where it will end. */
+static void count (void *context, size_t first, size_t last, int thread)
+{
+    const finding *f = context;
+    (void) thread;
+    for (size_t i = first; i < last; i++) {
+        const double *at = f->centre + i * (size_t) f->s->cloud->dim;
+        size_t n = 0;
+        for (size_t k = 0; k < f->s->n; k++) n += pg_boxes_count (&f->s->boxes[k], at, f->s->near);
+        f->out->start[i + 1] = n;
+    }
+}
+
+/* Second pass: the members, ascending. */
+static void list (void *context, size_t first, size_t last, int thread)
+{
+    const finding *f = context;
+    (void) thread;
+    for (size_t i = first; i < last; i++) {
+        const double *at = f->centre + i * (size_t) f->s->cloud->dim;
+        int *node = f->out->node + f->out->start[i];
+        size_t most = f->out->start[i + 1] - f->out->start[i], n = 0;
+        for (size_t k = 0; k < f->s->n && n < most; k++)
+            n += pg_boxes_list (&f->s->boxes[k], at, f->s->near, most - n, node + n);
+        ascend (most, node);
+    }
+}
+
+pg_status pg_family_find (pg_family *out, const pg_family_search *s, size_t n, const double *centre,
+                          int threads)
+{
+    pg_status status = PG_OK;
+    finding f = { s, centre, out };
+    memset (out, 0, sizeof *out);
+    PG_TRY (check_centres (s->cloud->dim, n, centre));
+    if (!s->fits) return pg_family_by_tree (out, s->cloud, n, centre, s->reach, s->near);
+    out->n = n;
+    PG_ALLOC (out->start, n + 1);
+    pg_parallel (threads, n, count, &f);
+    for (size_t i = 0; i < n; i++) out->start[i + 1] += out->start[i];
+    PG_ALLOC (out->node, out->start[n]);
+    pg_parallel (threads, n, list, &f);
+done:
+    if (status != PG_OK) pg_family_clear (out);
+    return status;
+}
+
 pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre,
                            double reach, int shape, int closed)
 {
     pg_status status = PG_OK;
-    pg_tree tree = { 0 };
-    double far = reach * (closed ? 1 + 1e-9 : 1 - 1e-9);
-    search s = { .tree = &tree, .reach = reach * (1 + 1e-8), .shape = shape, .closed = closed,
-                 .limit = shape == PG_RADIAL ? far * far : far };
+    pg_family_search s = { .cloud = cloud, .reach = reach, .near = { shape, closed } };
+    double box[6];
     memset (out, 0, sizeof *out);
-    PG_TRY (check_input (cloud, n, centre, reach));
+    PG_TRY (check_points (cloud, reach));
+    PG_TRY (check_centres (cloud->dim, n, centre));
     for (int k = 0; k < cloud->dim; k++) {
-        s.low[k] = INFINITY, s.high[k] = -INFINITY;
+        box[k] = INFINITY, box[3 + k] = -INFINITY;
         for (size_t i = 0; i < n; i++) {
-            s.low[k] = fmin (s.low[k], centre[i * (size_t) cloud->dim + (size_t) k]);
-            s.high[k] = fmax (s.high[k], centre[i * (size_t) cloud->dim + (size_t) k]);
+            box[k] = fmin (box[k], centre[i * (size_t) cloud->dim + (size_t) k]);
+            box[3 + k] = fmax (box[3 + k], centre[i * (size_t) cloud->dim + (size_t) k]);
         }
     }
-    PG_TRY (pg_tree_build (&tree, cloud->dim, n, centre));
-    PG_ALLOC (out->start, n + 1);
-    PG_ALLOC (s.next, n);
-    out->n = n;
-    /* First pass: numbers of members. */
-    visit_points (&s, cloud, far);
-    /* next becomes the place of the first member of each family. */
-    for (size_t i = 0; i < n; i++) {
-        out->start[i + 1] = out->start[i] + s.next[i];
-        s.next[i] = out->start[i];
-    }
-    PG_ALLOC (out->node, out->start[n]);
-    s.node = out->node;
-    visit_points (&s, cloud, far);
+    PG_TRY (sort_points (&s, box));
+    PG_TRY (pg_family_find (out, &s, n, centre, 1));
 done:
-    pg_free (s.next);
-    pg_tree_clear (&tree);
-    if (status != PG_OK) pg_family_clear (out);
+    for (size_t k = 0; k < CLASSES; k++) pg_boxes_clear (&s.boxes[k]);
     return status;
 }
 

@@ -20,14 +20,15 @@ static pg_status make_surface (pg_problem *out, const pg_problem *p)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
+    pg_family_search *search = NULL;
     out->rows[PG_FACETS] = (pg_rows) { 0 }, out->facet_normal = NULL;
     PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
-    PG_TRY (pg_rows_create (&out->rows[PG_FACETS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
-    pg_rows *r = &out->rows[PG_FACETS];
-    pg_free (r->N), pg_free (r->dN), pg_free (r->w), pg_free (r->grade);
-    r->N = r->dN = r->w = NULL, r->grade = NULL;
+    PG_TRY (pg_rows_search (&search, &p->approx, &p->cloud));
+    PG_TRY (pg_rows_place (&out->rows[PG_FACETS], search, p->dim, q.n, q.x, q.weight, NULL, q.cell,
+                           p->threads));
     out->facet_normal = q.normal, q.normal = NULL;
 done:
+    pg_family_search_free (&search);
     pg_quadrature_clear (&q);
     return status;
 }

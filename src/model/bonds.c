@@ -6,21 +6,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Frees the values of shape functions, which belong to the force: the problem keeps geometry only. */
-static void strip_values (pg_rows *rows)
-{
-    pg_free (rows->N), pg_free (rows->dN), pg_free (rows->w);
-    rows->N = rows->dN = rows->w = NULL;
-}
-
-/* Grades as well. */
-static void strip (pg_rows *rows)
-{
-    strip_values (rows);
-    pg_free (rows->grade);
-    rows->grade = NULL;
-}
-
 /* Points that are no lattice: every point of the whole body must see enough others, and these not too
  * flat a set, to carry a strain. Shape functions are evaluated once for their grades; the first point
  * with none is a fault that says where it is. */
@@ -31,7 +16,6 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
     pg_rows *r = &p->rows[set];
     char at[100];
     if (p->lattice.dim || r->n == 0) goto done;
-    strip_values (r);                                  /* grades only */
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n; q++) {
         int used = 0;
@@ -54,16 +38,15 @@ done:
 
 /* Nodes see each other through the shape functions at their own places; `own`: the node that a point is
  * itself. */
-static pg_status make_nodes (pg_problem *p, const pg_scene *scene)
+static pg_status make_nodes (pg_problem *p, const pg_family_search *search, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     int *own = NULL;
     PG_ALLOC (own, p->cloud.n);
     for (size_t i = 0; i < p->cloud.n; i++) own[i] = (int) i;
-    PG_TRY (pg_rows_create (&p->rows[PG_NODES], &p->approx, &p->cloud, p->cloud.n, p->cloud.x,
-                            p->cloud.volume, own, NULL));
+    PG_TRY (pg_rows_place (&p->rows[PG_NODES], search, p->dim, p->cloud.n, p->cloud.x, p->cloud.volume, own,
+                           NULL, p->threads));
     PG_TRY (check_support (p, scene, PG_NODES));
-    strip (&p->rows[PG_NODES]);
 done:
     pg_free (own);
     return status;
@@ -95,7 +78,7 @@ static int facet_order (const pg_problem *p, const pg_scene *scene)
 
 /* Points of evaluation with their weights (m^3), and the cells of consistent integration. Its cut cells
  * have at least three points a direction: with two the identity amplifies the error of thin pieces. */
-static pg_status make_points (pg_problem *p, const pg_scene *scene)
+static pg_status make_points (pg_problem *p, const pg_family_search *search, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
@@ -103,19 +86,19 @@ static pg_status make_points (pg_problem *p, const pg_scene *scene)
     p->cells.cut_order = p->integration->consistent ? 3 : 0;
     if (!p->integration->at_nodes)
         PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
-    PG_TRY (pg_rows_create (&p->rows[PG_POINTS], &p->approx, &p->cloud, q.n, q.x, q.weight, NULL, q.cell));
+    PG_TRY (pg_rows_place (&p->rows[PG_POINTS], search, p->dim, q.n, q.x, q.weight, NULL, q.cell,
+                           p->threads));
     PG_TRY (check_support (p, scene, PG_POINTS));
     if (p->integration->consistent)
         PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS],
                                        facet_order (p, scene), p->threads));
-    strip (&p->rows[PG_POINTS]);
 done:
     pg_quadrature_clear (&q);
     return status;
 }
 
 /* Points with weights (m^2) and outward normals, on those facets only that a load or support needs. */
-static pg_status make_facets (pg_problem *p, const pg_scene *scene)
+static pg_status make_facets (pg_problem *p, const pg_family_search *search, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
@@ -137,9 +120,9 @@ static pg_status make_facets (pg_problem *p, const pg_scene *scene)
         memmove (q.normal + keep * dim, q.normal + k * dim, dim * sizeof *q.normal);
         q.weight[keep] = q.weight[k], q.cell[keep++] = q.cell[k];
     }
-    PG_TRY (pg_rows_create (&p->rows[PG_FACETS], &p->approx, &p->cloud, keep, q.x, q.weight, NULL, q.cell));
+    PG_TRY (pg_rows_place (&p->rows[PG_FACETS], search, p->dim, keep, q.x, q.weight, NULL, q.cell,
+                           p->threads));
     PG_TRY (check_support (p, scene, PG_FACETS));
-    strip (&p->rows[PG_FACETS]);
     p->facet_normal = q.normal, q.normal = NULL;
 done:
     pg_quadrature_clear (&q);
@@ -207,6 +190,7 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const char *name;
+    int excluded = 0;
     for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->exempt[s], p->rows[s].n);
     for (size_t k = 0; (name = pg_scene_name (scene, k, "failure.exclude")); k++) {
         char path[64];
@@ -216,8 +200,9 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
             pg_scene_fault (scene, path, "%s is a set without points", name);
         if (!set) continue;
         for (size_t i = 0; i < set->npoint; i++) p->exempt[PG_NODES][set->point[i]] = 1;
+        excluded |= set->npoint > 0;
     }
-    for (int s = PG_POINTS; s < PG_BOND_SETS; s++)
+    for (int s = PG_POINTS; s < PG_BOND_SETS && excluded; s++)
         for (size_t q = 0; q < p->rows[s].n; q++) {
             int nearest = pg_bonds_nearest (p, s, q);
             p->exempt[s][q] = nearest >= 0 && p->exempt[PG_NODES][nearest];
@@ -307,13 +292,15 @@ static void count_eroded (pg_problem *p, const pg_scene *scene)
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
+    pg_family_search *search = NULL;
     if (!p->method->shape_functions) {
         PG_TRY (make_point_bonds (p));
         PG_TRY (check_company (p, scene));
     } else {
-        PG_TRY (make_nodes (p, scene));
-        PG_TRY (make_points (p, scene));
-        PG_TRY (make_facets (p, scene));
+        PG_TRY (pg_rows_search (&search, &p->approx, &p->cloud));
+        PG_TRY (make_nodes (p, search, scene));
+        PG_TRY (make_points (p, search, scene));
+        PG_TRY (make_facets (p, search, scene));
     }
     for (int s = 0; s < PG_BOND_SETS; s++)
         p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
@@ -323,5 +310,6 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
     PG_TRY (make_exempt (p, scene));
     count_eroded (p, scene);
 done:
+    pg_family_search_free (&search);
     return status;
 }

@@ -115,6 +115,57 @@ static void own_reaches_match_brute_force (void **state)
         }
 }
 
+/* Boxes of the spacing given would be 1e12: the tree finds the same families. */
+static void points_too_scattered_for_boxes_match_brute_force (void **state)
+{
+    (void) state;
+    uint32_t seed = 5;
+    double x[600];
+    for (int i = 0; i < 600; i++) x[i] = (i < 300 ? 0 : 1e3) + 1e-3 * next (&seed);
+    pg_cloud cloud = {.dim = 2, .n = 300, .x = x, .h = 1e-4};
+    pg_family f;
+    size_t bonds = 0;
+    check_ok (pg_family_build (&f, &cloud, 300, x, 2e-4, PG_RADIAL, 0));
+    for (size_t i = 0; i < 300; i++)
+        for (size_t j = 0, e = f.start[i]; j < 300; j++) {
+            if (!in_family (2, x + 2 * i, x + 2 * j, 2e-4, PG_RADIAL, 0)) continue;
+            assert_true (e < f.start[i + 1]);
+            assert_int_equal (f.node[e++], j);
+            bonds++;
+        }
+    assert_int_equal (bonds, f.start[300]);
+    assert_true (bonds > 1000);
+    pg_family_clear (&f);
+}
+
+/* Points sorted once and centres in two lots, on one thread and on four: the families of one call. */
+static void lots_and_threads_find_the_same_families (void **state)
+{
+    (void) state;
+    uint32_t seed = 13;
+    enum { N = 1000, LOT = 300 };
+    double x[3 * N], size[N];
+    for (int i = 0; i < 3 * N; i++) x[i] = next (&seed);
+    for (int i = 0; i < N; i++) size[i] = 0.05 + 0.1 * next (&seed);
+    for (int graded = 0; graded < 2; graded++) {
+        pg_cloud cloud = {.dim = 3, .n = N, .x = x, .h = 0.1, .size = graded ? size : NULL};
+        pg_family all, lot;
+        pg_family_search *search = NULL;
+        check_ok (pg_family_build (&all, &cloud, N, x, 0.2, PG_RADIAL, 1));
+        check_ok (pg_family_search_create (&search, &cloud, 0.2, PG_RADIAL, 1));
+        for (size_t first = 0; first < N; first += LOT) {
+            size_t n = N - first < LOT ? N - first : LOT, bonds = all.start[first + n] - all.start[first];
+            check_ok (pg_family_find (&lot, search, n, x + 3 * first, first ? 4 : 1));
+            for (size_t i = 0; i <= n; i++)
+                assert_int_equal (lot.start[i], all.start[first + i] - all.start[first]);
+            assert_memory_equal (lot.node, all.node + all.start[first], bonds * sizeof *lot.node);
+            pg_family_clear (&lot);
+        }
+        pg_family_search_free (&search);
+        pg_family_clear (&all);
+    }
+}
+
 static void an_end_exactly_at_the_reach_counts_only_when_closed (void **state)
 {
     (void) state;
@@ -198,6 +249,8 @@ int main (void)
         cmocka_unit_test (random_clouds_match_brute_force),
         cmocka_unit_test (lattice_points_lie_on_cell_borders),
         cmocka_unit_test (clusters_and_flat_clouds_match_brute_force),
+        cmocka_unit_test (points_too_scattered_for_boxes_match_brute_force),
+        cmocka_unit_test (lots_and_threads_find_the_same_families),
         cmocka_unit_test (own_reaches_match_brute_force),
         cmocka_unit_test (an_end_exactly_at_the_reach_counts_only_when_closed),
         cmocka_unit_test (families_do_not_depend_on_the_unit),
