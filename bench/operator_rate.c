@@ -32,11 +32,14 @@ static const body bodies[] = {
     { "cube", 24, CUBE "method: {" GAUSS ("2 spacing") "}\n" },
     { "cube_perturbed", 24, CUBE "method: {" GAUSS ("2 spacing") "}\nperturb: {amount: 0.2}\n" },
     { "cube_consistent", 24,
-      CUBE "method: {approximation: rkpm, integration: consistent, kernel: cubic_spline, horizon: 2 spacing}\n" },
+      CUBE "method: {approximation: rkpm, integration: consistent, kernel: cubic_spline, horizon: 2 "
+           "spacing}\n" },
     { "cube_nodal", 24,
-      CUBE "method: {approximation: nosb, integration: nodal, horizon: 2 spacing, stabilization: none}\n" },
+      CUBE "method: {approximation: nosb, integration: nodal, horizon: 2 spacing, stabilization: "
+           "none}\n" },
     { "cube_silling", 24,
-      CUBE "method: {approximation: nosb, integration: nodal, horizon: 2 spacing, stabilization: silling}\n" },
+      CUBE "method: {approximation: nosb, integration: nodal, horizon: 2 spacing, stabilization: "
+           "silling}\n" },
     { "square", 150, SQUARE "method: {" GAUSS ("2 spacing") "}\n" },
     { "square_perturbed", 150, SQUARE "method: {" GAUSS ("2 spacing") "}\nperturb: {amount: 0.2}\n" },
     { "square_consistent", 150,

@@ -132,6 +132,7 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
                                               g->threads));
         if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], 1));
         if (s == g->bulk && g->whole) PG_TRY (galerkin_consistent_update (g, state, !changes, &n));
+        if (s == g->bulk) galerkin_slices_stale (g, n, changes ? g->list[s] : NULL);
         count[s] = n;
         g->fresh[s] = known;
         if (known) galerkin_measure_list (g, s, n, g->list[s]);

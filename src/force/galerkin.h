@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
  * blocks, energy), galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
+ * galerkin_sum.c (loops over points), galerkin_runs.c (points that are alike), galerkin_operator.c (K x, K),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c (preconditioner),
@@ -91,12 +92,34 @@ void      galerkin_words (const pg_problem *problem, char *text, size_t size);
 /* sum: the loops over points */
 pg_status galerkin_slices_create (galerkin *g);
 void galerkin_slices_free (galerkin *g);
+/* The rows of these points have changed (list NULL: of all). */
+void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list);
 /* u, strain, stress, zz of every point, unless known */
 void galerkin_measure (galerkin *g, int set, const double *d);
 /* again, after a change of rows */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list);
 void galerkin_sum_stress  (galerkin *g, double *f);  /* f += sum w B' sigma of the last measure */
 void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x */
+/* runs: groups of points that are alike, for products with a tangent */
+/* Lanes of a vector: arrays of nodal values by components have room for so many numbers more. */
+enum { GALERKIN_LANES = 8 };
+/* A bond of the first group of a run: where it stands in a row of nodes that follow each other, its node, the
+ * point within the group, and its number counted from the first bond of the group. */
+typedef struct { int place, node, point; unsigned bond; } galerkin_entry;
+/* `count` groups of `points` points, the first from point `point` on; its bonds in the order of summation. */
+typedef struct { size_t point, points, count, entry, entries; } galerkin_run;
+/* Runs among the points first .. last - 1, ascending; to be found anew if stale. */
+typedef struct {
+    size_t first, last, n, cap, nentry, cap_entry;
+    int    stale;
+    galerkin_run   *run;
+    galerkin_entry *entry;
+} galerkin_run_list;
+void galerkin_runs_find  (const galerkin *g, galerkin_run_list *list);
+void galerkin_runs_clear (galerkin_run_list *list);
+/* f += sum w B' D B x of a run; x, f: an array for each component, f from node `low` on. */
+void galerkin_run_sum (const galerkin *g, const galerkin_run_list *list, const galerkin_run *run,
+                       const double *const x[3], double *const f[3], size_t low);
 /* operator: K x without K, and K */
 pg_status galerkin_operator_create (galerkin *g);
 void galerkin_apply (void *context, const double *x, double *y);

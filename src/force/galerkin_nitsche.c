@@ -356,30 +356,55 @@ static void spread (void *context, int set, size_t point, int load, int k, doubl
         s->f[(size_t) r->family.node[e] * (size_t) s->g->dim + (size_t) k] += r->N[e] * force;
 }
 
+/* K x of the constraints first .. last - 1, all at one facet point: displacement u and gradient H of x there,
+ * from these the forces N_j F and B_j' S of each node, F_k = w (beta u_k - (sigma n)_k) and S = - w sum_k u_k
+ * D' Q_k over the prescribed components. Two passes over the bonds, however many components there are; `dim`
+ * is a number that the compiler knows. */
+static inline void apply_point (int dim, galerkin *g, size_t first, size_t last, const double *x, double *y)
+{
+    const pg_rows *r = &g->rows[PG_FACETS];
+    size_t p = g->nitsche[first].point, d = (size_t) dim, begin = r->family.start[p],
+           end = r->family.start[p + 1];
+    double u[3] = { 0 }, H[9] = { 0 }, F[3] = { 0 }, S[6] = { 0 }, e[6] = { 0 }, QD[6], w = r->weight[p];
+    for (size_t b = begin; b < end; b++) {
+        const double *at = x + (size_t) r->family.node[b] * d, *q = r->dN + b * d;
+        for (size_t c = 0; c < d; c++) {
+            u[c] += r->N[b] * at[c];
+            for (size_t a = 0; a < d; a++) H[c * d + a] += at[c] * q[a];
+        }
+    }
+    for (int c = 0; c < dim; c++)
+        for (int a = 0; a < dim; a++) e[pg_voigt_at (dim, c, a)] += H[c * dim + a];
+    for (size_t i = first; i < last; i++) {
+        int k = g->nitsche[i].component;
+        double t = 0;
+        traction_of_strain (g, p, k, QD);
+        for (int v = 0; v < g->nv; v++) t += QD[v] * e[v], S[v] -= w * u[k] * QD[v];
+        F[k] = w * (beta (g, p) * u[k] - t);
+    }
+    for (int c = 0; c < dim; c++)
+        for (int a = 0; a < dim; a++) H[c * dim + a] = S[pg_voigt_at (dim, c, a)];
+    for (size_t b = begin; b < end; b++) {
+        double *to = y + (size_t) r->family.node[b] * d;
+        const double *q = r->dN + b * d;
+        for (size_t c = 0; c < d; c++) {
+            double f = r->N[b] * F[c];
+            for (size_t a = 0; a < d; a++) f += H[c * d + a] * q[a];
+            to[c] += f;
+        }
+    }
+}
+
 /* y += K x of the supports. Prescribed values play no part: a matrix is the change of forces, so that
  * displacement u and traction t are measured for x alone. */
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
 {
     size_t dim = (size_t) g->dim;
-    const pg_rows *r = &g->rows[PG_FACETS];
-    for (size_t i = 0; i < g->nnitsche; i++) {
-        const constraint *q = &g->nitsche[i];
-        size_t k = (size_t) q->component, p = q->point;
-        double QD[6], part[3], u = 0, t = 0, w = r->weight[p];
-        traction_of_strain (g, p, q->component, QD);
-        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-            const double *d = x + (size_t) r->family.node[e] * dim;
-            galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
-            u += r->N[e] * d[k];
-            for (size_t c = 0; c < dim; c++) t += part[c] * d[c];
-        }
-        double force = w * (beta (g, p) * u - t);
-        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-            double *to = y + (size_t) r->family.node[e] * dim;
-            galerkin_B_transpose (g->dim, r->dN + e * dim, QD, part);
-            to[k] += r->N[e] * force;
-            for (size_t c = 0; c < dim; c++) to[c] -= w * u * part[c];
-        }
+    for (size_t i = 0, end = 0; i < g->nnitsche; i = end) {
+        while (end < g->nnitsche && g->nitsche[end].point == g->nitsche[i].point) end++;
+        if (dim == 3) apply_point (3, g, i, end, x, y);
+        else if (dim == 2) apply_point (2, g, i, end, x, y);
+        else apply_point (1, g, i, end, x, y);
     }
     for (size_t i = 0; i < g->npenalty; i++) {
         const constraint *q = &g->penalty[i];

@@ -3,7 +3,8 @@
  * nodal forces from stress, f_J = sum_p w_p B_pJ' sigma_p. Together they are K x without a matrix: 24 bytes a
  * bond instead of 9 numbers a node pair. Forces are summed in a fixed number of slices of the points, each
  * over its own range of nodes, and the slices in their order: the answer does not depend on the number of
- * threads. */
+ * threads. Points that are like others, most of those of a lattice, are summed many at a time
+ * (galerkin_runs.c), unless the scene wants the plain way. */
 #include "galerkin.h"
 #include <string.h>
 
@@ -16,6 +17,11 @@ struct galerkin_slices {
     size_t  low[SLICES], high[SLICES];                 /* nodes they see */
     double *sum[SLICES];                               /* per node of the range, 4 numbers (3D) or dim */
     double *x;                                         /* nodal values, 4 numbers a node (3D) */
+    /* Points that are alike in each slice; what they add up to, and nodal values, an array for each
+     * component. has_runs: not in one dimension, and not where the plain way is wanted. */
+    int     has_runs;
+    galerkin_run_list runs[SLICES];
+    double *part[SLICES][3], *component[3];
 };
 
 /* Sixteen slices of the points whatever the number of threads, each with room for the nodes that its
@@ -39,15 +45,38 @@ pg_status galerkin_slices_create (galerkin *g)
         PG_ALLOC (s->sum[k], (s->high[k] - s->low[k]) * stride);
     }
     PG_ALLOC (s->x, g->n * stride);
+    s->has_runs = g->dim > 1 && !g->problem->plain;
+    for (size_t k = 0; k < SLICES && s->has_runs; k++) {
+        s->runs[k] = (galerkin_run_list) { .first = s->first[k], .last = s->first[k + 1], .stale = 1 };
+        for (int c = 0; c < g->dim; c++) PG_ALLOC (s->part[k][c], s->high[k] - s->low[k] + GALERKIN_LANES);
+    }
+    for (int c = 0; c < g->dim && s->has_runs; c++) PG_ALLOC (s->component[c], g->n + GALERKIN_LANES);
 done:
     return status;
+}
+
+/* Slices with changed rows look for their runs anew when they are next asked for a product. */
+void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list)
+{
+    galerkin_slices *s = g->slices;
+    for (size_t k = 0; k < SLICES && s && !list; k++) s->runs[k].stale = 1;
+    for (size_t i = 0, k = 0; i < count && list; i++) {
+        while (list[i] >= s->first[k + 1]) k++;
+        while (list[i] < s->first[k]) k--;
+        s->runs[k].stale = 1;
+    }
 }
 
 /* Also where there are none. */
 void galerkin_slices_free (galerkin *g)
 {
     galerkin_slices *s = g->slices;
-    for (size_t k = 0; s && k < SLICES; k++) pg_free (s->sum[k]);
+    for (size_t k = 0; s && k < SLICES; k++) {
+        pg_free (s->sum[k]);
+        for (int c = 0; c < 3; c++) pg_free (s->part[k][c]);
+        galerkin_runs_clear (&s->runs[k]);
+    }
+    for (int c = 0; s && c < 3; c++) pg_free (s->component[c]);
     if (s) pg_free (s->x);
     pg_free (s);
     g->slices = NULL;
@@ -229,16 +258,34 @@ static void sum_flat (const summing *m, size_t first, size_t last, double *sum, 
     }
 }
 
-/* Whole slices, each by one thread. */
+/* Some points one by one. */
+static void sum_points (const summing *m, size_t k, size_t first, size_t last)
+{
+    const galerkin_slices *s = m->g->slices;
+    (m->g->dim == 3 ? sum_solid : sum_flat) (m, first, last, s->sum[k], s->low[k]);
+}
+
+/* Whole slices, each by one thread: runs, and the points between them. */
 static void sum_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
     galerkin_slices *s = m->g->slices;
+    size_t dim = (size_t) m->g->dim, stride = dim == 3 ? 4 : dim;
     (void) thread;
     for (size_t k = first; k < last; k++) {
-        size_t stride = m->g->dim == 3 ? 4 : (size_t) m->g->dim;
-        memset (s->sum[k], 0, (s->high[k] - s->low[k]) * stride * sizeof *s->sum[k]);
-        (m->g->dim == 3 ? sum_solid : sum_flat) (m, s->first[k], s->first[k + 1], s->sum[k], s->low[k]);
+        size_t at = s->first[k], range = s->high[k] - s->low[k];
+        memset (s->sum[k], 0, range * stride * sizeof *s->sum[k]);
+        if (m->x && s->has_runs) galerkin_runs_find (m->g, &s->runs[k]);
+        if (m->x && s->runs[k].n)
+            for (size_t c = 0; c < dim; c++) memset (s->part[k][c], 0, range * sizeof (double));
+        for (size_t i = 0; m->x && i < s->runs[k].n; i++) {
+            const galerkin_run *run = &s->runs[k].run[i];
+            sum_points (m, k, at, run->point);
+            galerkin_run_sum (m->g, &s->runs[k], run, (const double *const *) s->component, s->part[k],
+                              s->low[k]);
+            at = run->point + run->points * run->count;
+        }
+        sum_points (m, k, at, s->first[k + 1]);
     }
 }
 
@@ -250,16 +297,28 @@ static void add_slices (void *context, size_t first, size_t last, int thread)
     size_t dim = (size_t) m->g->dim, stride = dim == 3 ? 4 : dim;
     (void) thread;
     for (size_t k = 0; k < SLICES; k++) {
-        size_t from = first > s->low[k] ? first : s->low[k], to = last < s->high[k] ? last : s->high[k];
+        size_t low = s->low[k], from = first > low ? first : low, to = last < s->high[k] ? last : s->high[k];
         for (size_t i = from; i < to; i++)
-            for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->sum[k][(i - s->low[k]) * stride + c];
+            for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->sum[k][(i - low) * stride + c];
+        if (!m->x || !s->runs[k].n) continue;
+        for (size_t i = from; i < to; i++)
+            for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->part[k][c][i - low];
     }
+}
+
+/* Nodal values in an array for each component. */
+static void split (galerkin *g, const double *x)
+{
+    size_t dim = (size_t) g->dim;
+    for (size_t i = 0; i < g->n; i++)
+        for (size_t c = 0; c < dim; c++) g->slices->component[c][i] = x[i * dim + c];
 }
 
 /* x NULL: stresses as measured. */
 static void sum_all (galerkin *g, const double *x, double *f)
 {
     summing m = { g, x ? widened (g, x) : NULL, f };
+    if (x && g->slices->has_runs) split (g, x);
     pg_parallel_heavy (g->threads, SLICES, sum_slices, &m);
     pg_parallel (g->threads, g->n, add_slices, &m);
 }

@@ -1,0 +1,261 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Runs: evaluation points that are alike, summed eight at a time.
+ *
+ * On a lattice most cells have the same shape functions as the cell beside them: at every evaluation point
+ * the same derivatives, for nodes whose numbers are one higher. A run is a row of such cells. Its derivatives
+ * are read from its first cell only, so that a product K x reads hardly more than x itself, and eight cells
+ * are summed at once: as the nodes of cell k have the numbers of those of the first plus k, the values that
+ * eight cells need lie side by side in memory, one component after the other in arrays of their own.
+ *
+ *     1. For every point q of eight cells: H = sum_j d_j dN_j', strain, stress times weight.
+ *     2. For every node j that the cell sees: f_j += sum_q s_q dN_qj, over all points that see it, with one
+ *        addition to memory for all of them.
+ *
+ * Points of a cell are a group; with nodal integration, each point is one. Whether two groups are alike is
+ * found by comparing their rows, number by number: bodies with holes, cracks, cut cells, broken bonds and
+ * materials need no rule of their own, and what is like nothing else is summed point by point. Derivatives
+ * may differ by 1e-11 of the largest of their point, which is what rounding of positions makes of them. The
+ * runs are a function of the rows alone, so that a run that goes on from a checkpoint has the same ones. */
+#include "galerkin.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Groups of a run at least: fewer are not worth the lanes that stay empty. Points of a group at most. */
+enum { LANES = GALERKIN_LANES, LEAST = 4, MOST = 27 };
+static const double rounding = 1e-11;
+
+#define INLINE static inline __attribute__ ((always_inline))
+/* Eight numbers; the same operations in the same order with vectors of any width. */
+typedef double eight __attribute__ ((vector_size (64), aligned (8)));
+#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(PG_DEBUG) \
+    && !defined(__SANITIZE_THREAD__)
+#define WIDEST __attribute__ ((target_clones ("avx512f", "avx2", "default")))
+#else
+#define WIDEST
+#endif
+
+/* ---- which groups are alike ---------------------------------------------------------------------------- */
+/* The end of the group that begins with point p: points of the same cell, or p alone; 0: too many, or cut off
+ * by the ends of the range, which is the caller's. */
+static size_t group_end (const pg_rows *r, size_t first, size_t last, size_t p)
+{
+    size_t end = p + 1;
+    int cell = r->cell ? r->cell[p] : -1;
+    if (cell < 0) return end;
+    while (end < r->n && r->cell[end] == cell) end++;
+    int cut = end > last || (p == first && p > 0 && r->cell[p - 1] == cell);
+    return cut || end - p > MOST ? 0 : end;
+}
+
+/* Largest derivative of a point. */
+static double steepest (const pg_rows *r, size_t p)
+{
+    double most = 0;
+    for (size_t k = r->family.start[p] * (size_t) r->dim; k < r->family.start[p + 1] * (size_t) r->dim; k++)
+        most = fmax (most, fabs (r->dN[k]));
+    return most;
+}
+
+/* Has point p the derivatives of point q, up to `bound`, for nodes that are `shift` higher? */
+static int alike (const galerkin *g, size_t q, size_t p, int shift, double bound)
+{
+    const pg_rows *r = &g->sums;
+    size_t a = r->family.start[q], b = r->family.start[p], m = r->family.start[q + 1] - a,
+           dim = (size_t) r->dim, same = 0;
+    if (r->family.start[p + 1] - b != m || galerkin_plain (g, g->bulk, q) != galerkin_plain (g, g->bulk, p))
+        return 0;
+    for (size_t k = 0; k < m; k++) same += r->family.node[b + k] == r->family.node[a + k] + shift;
+    if (same < m) return 0;
+    const double *s = r->dN + a * dim, *t = r->dN + b * dim;
+    same = 0;
+    for (size_t k = 0; k < m * dim; k++) same += fabs (t[k] - s[k]) <= bound;
+    return same == m * dim;
+}
+
+/* How many groups from point p on, up to `last`, are like the first, which ends at `end`. */
+static size_t count_alike (const galerkin *g, size_t p, size_t end, size_t last)
+{
+    double bound[MOST];
+    size_t m = end - p, count = 1;
+    for (size_t q = 0; q < m; q++) bound[q] = rounding * steepest (&g->sums, p + q);
+    for (size_t at = end; at + m <= last; at += m, count++) {
+        if (group_end (&g->sums, p, last, at) != at + m) break;
+        for (size_t q = 0; q < m; q++)
+            if (!alike (g, p + q, at + q, (int) count, bound[q])) return count;
+    }
+    return count;
+}
+
+/* ---- nodes of a run ------------------------------------------------------------------------------------ */
+static int compare (const void *a, const void *b)
+{
+    const galerkin_entry *x = a, *y = b;
+    if (x->place != y->place) return (x->place > y->place) - (x->place < y->place);
+    if (x->node != y->node) return (x->node > y->node) - (x->node < y->node);
+    return (x->bond > y->bond) - (x->bond < y->bond);
+}
+
+/* Lists the bonds of the first group by their nodes. Nodes whose numbers follow each other are far apart in
+ * the list: their eight places in memory overlap, and an addition would wait for the one before. */
+static pg_status list_entries (const galerkin *g, galerkin_run_list *l, galerkin_run *run)
+{
+    pg_status status = PG_OK;
+    const pg_family *f = &g->sums.family;
+    size_t first = f->start[run->point], n = f->start[run->point + run->points] - first;
+    run->entry = l->nentry, run->entries = n;
+    PG_GROW (l->entry, l->cap_entry, l->nentry + n);
+    galerkin_entry *e = l->entry + run->entry;
+    for (size_t q = 0; q < run->points; q++)
+        for (size_t k = f->start[run->point + q]; k < f->start[run->point + q + 1]; k++)
+            e[k - first] = (galerkin_entry) { 0, f->node[k], (int) q, (unsigned) (k - first) };
+    qsort (e, n, sizeof *e, compare);
+    for (size_t k = 1; k < n; k++)
+        e[k].place = e[k].node == e[k - 1].node ? e[k - 1].place
+                     : e[k].node == e[k - 1].node + 1 ? e[k - 1].place + 1 : 0;
+    qsort (e, n, sizeof *e, compare);
+    l->nentry += n;
+done:
+    return status;
+}
+
+/* From left to right: the longest run that begins at a group, or the group is left to itself. */
+static pg_status find_runs (const galerkin *g, galerkin_run_list *l)
+{
+    pg_status status = PG_OK;
+    for (size_t p = l->first; p < l->last; ) {
+        size_t end = group_end (&g->sums, l->first, l->last, p);
+        size_t count = end ? count_alike (g, p, end, l->last) : 0;
+        if (count < LEAST) {
+            p = end ? end : p + 1;
+            continue;
+        }
+        PG_GROW (l->run, l->cap, l->n + 1);
+        galerkin_run *run = &l->run[l->n];
+        *run = (galerkin_run) { .point = p, .points = end - p, .count = count };
+        PG_TRY (list_entries (g, l, run));
+        l->n++;
+        p += run->points * count;
+    }
+done:
+    return status;
+}
+
+/* Without memory there are no runs, and all points are summed one by one. */
+void galerkin_runs_find (const galerkin *g, galerkin_run_list *l)
+{
+    if (!l->stale) return;
+    l->stale = 0, l->n = l->nentry = 0;
+    if (find_runs (g, l) != PG_OK) l->n = 0;
+}
+
+void galerkin_runs_clear (galerkin_run_list *l)
+{
+    pg_free (l->run), pg_free (l->entry);
+    memset (l, 0, sizeof *l);
+}
+
+/* ---- sums ---------------------------------------------------------------------------------------------- */
+/* Eight cells of a run: the first of them is number `lane` of the run, `left` of them exist; x, f: nodal
+ * values and forces, one array a component, f from node `low` on. */
+typedef struct {
+    const galerkin *g;
+    const galerkin_run *run;
+    const galerkin_entry *entry;
+    const double *const *x;
+    double *const *f;
+    size_t low, lane, left;
+} bundle;
+
+/* Strains of eight cells at their point p: xx yy zz xy yz zx, shears twice the tensor's. */
+INLINE void strain_solid (const bundle *b, size_t p, eight *e)
+{
+    const pg_rows *r = &b->g->sums;
+    const int *node = r->family.node;
+    const double *x = b->x[0] + b->lane, *y = b->x[1] + b->lane, *z = b->x[2] + b->lane;
+    eight xx = { 0 }, xy = { 0 }, xz = { 0 }, yx = { 0 }, yy = { 0 }, yz = { 0 }, zx = { 0 }, zy = { 0 },
+          zz = { 0 };
+    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+        size_t j = (size_t) node[k];
+        const double *q = r->dN + k * 3;
+        eight dx = *(const eight *) (x + j), dy = *(const eight *) (y + j), dz = *(const eight *) (z + j);
+        xx += q[0] * dx, xy += q[1] * dx, xz += q[2] * dx;
+        yx += q[0] * dy, yy += q[1] * dy, yz += q[2] * dy;
+        zx += q[0] * dz, zy += q[1] * dz, zz += q[2] * dz;
+    }
+    e[0] = xx, e[1] = yy, e[2] = zz, e[3] = xy + yx, e[4] = yz + zy, e[5] = zx + xz;
+}
+
+/* The same in the plane: xx yy xy. */
+INLINE void strain_plane (const bundle *b, size_t p, eight *e)
+{
+    const pg_rows *r = &b->g->sums;
+    const int *node = r->family.node;
+    const double *x = b->x[0] + b->lane, *y = b->x[1] + b->lane;
+    eight xx = { 0 }, xy = { 0 }, yx = { 0 }, yy = { 0 };
+    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+        size_t j = (size_t) node[k];
+        const double *q = r->dN + k * 2;
+        eight dx = *(const eight *) (x + j), dy = *(const eight *) (y + j);
+        xx += q[0] * dx, xy += q[1] * dx, yx += q[0] * dy, yy += q[1] * dy;
+    }
+    e[0] = xx, e[1] = yy, e[2] = xy + yx;
+}
+
+/* Stress times weight of point q of eight cells (nv, as the strain). Lanes beyond the run have weight 0. */
+INLINE void stress_of (int dim, const bundle *b, size_t q, eight *s)
+{
+    const pg_rows *r = &b->g->sums;
+    size_t p = b->run->point + q, nv = dim == 3 ? 6 : 3;
+    double w[LANES] = { 0 };
+    const double *D = galerkin_plain (b->g, b->g->bulk, p)->D;
+    eight e[6];
+    if (dim == 3) strain_solid (b, p, e);
+    else strain_plane (b, p, e);
+    for (size_t k = 0; k < b->left; k++) w[k] = r->weight[p + (b->lane + k) * b->run->points];
+    for (size_t v = 0; v < nv; v++, D += nv) {
+        eight sum = D[0] * e[0] + D[1] * e[1] + D[2] * e[2];
+        if (dim == 3) sum += D[3] * e[3] + D[4] * e[4] + D[5] * e[5];
+        s[v] = *(const eight *) w * sum;
+    }
+}
+
+/* One bundle: stresses of all points, then forces node by node. */
+INLINE void sum_bundle (int dim, const bundle *b)
+{
+    const pg_rows *r = &b->g->sums;
+    size_t nv = dim == 3 ? 6 : 3;
+    const double *dN = r->dN + r->family.start[b->run->point] * (size_t) dim;
+    const galerkin_entry *e = b->entry, *end = e + b->run->entries;
+    eight stress[6 * MOST];
+    for (size_t q = 0; q < b->run->points; q++) stress_of (dim, b, q, stress + nv * q);
+    while (e < end) {
+        int node = e->node;
+        size_t to = (size_t) node + b->lane - b->low;
+        eight x = { 0 }, y = { 0 }, z = { 0 };
+        for (; e < end && e->node == node; e++) {
+            const eight *s = stress + nv * (size_t) e->point;
+            const double *q = dN + e->bond * (size_t) dim;
+            if (dim == 3) {
+                x += q[0] * s[0] + q[1] * s[3] + q[2] * s[5];
+                y += q[0] * s[3] + q[1] * s[1] + q[2] * s[4];
+                z += q[0] * s[5] + q[1] * s[4] + q[2] * s[2];
+            } else x += q[0] * s[0] + q[1] * s[2], y += q[0] * s[2] + q[1] * s[1];
+        }
+        *(eight *) (b->f[0] + to) += x, *(eight *) (b->f[1] + to) += y;
+        if (dim == 3) *(eight *) (b->f[2] + to) += z;
+    }
+}
+
+WIDEST static void sum_solid (const bundle *b) { sum_bundle (3, b); }
+WIDEST static void sum_plane (const bundle *b) { sum_bundle (2, b); }
+
+void galerkin_run_sum (const galerkin *g, const galerkin_run_list *l, const galerkin_run *run,
+                       const double *const x[3], double *const f[3], size_t low)
+{
+    bundle b = { g, run, l->entry + run->entry, x, f, low, 0, 0 };
+    for (; b.lane < run->count; b.lane += LANES) {
+        b.left = run->count - b.lane < LANES ? run->count - b.lane : LANES;
+        (g->dim == 3 ? sum_solid : sum_plane) (&b);
+    }
+}

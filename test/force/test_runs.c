@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Points that are alike and summed many at a time: K x is that of the plain sum for every way of integration,
+ * in the plane and in space, whole, with holes, two materials and broken bonds; what has changed is looked at
+ * again, and nothing depends on what was there before or on the number of threads. */
+#include "scene_runs/run.h"
+
+static uint64_t seed = 88172645463325252u;
+static double random_number (void)
+{
+    seed ^= seed << 13, seed ^= seed >> 7, seed ^= seed << 17;
+    return (double) (seed >> 11) / 4503599627370496.0 - 1;
+}
+
+#define ROCK "rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}"
+/* The second body has holes, whose cells are cut, the third two materials. */
+static const char *const bodies[] = {
+    "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [2.1 m, 0.8 m]}}}]\nspacing: 0.1 m\n"
+    "materials: {" ROCK "}\nboundary: [{set: left, displacement: {x: 1 mm, y: 0}}]\n",
+    "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [3 m, 1 m]}}}, {subtract: {disk: "
+    "{center: [0.7 m, 0.5 m], diameter: 0.4 m}}}]\nspacing: 0.1 m\n"
+    "materials: {" ROCK "}\nboundary: [{set: left, displacement: {x: 1 mm, y: 0}}]\n",
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1.7 m, 0.4 m, 0.4 m]}}}]\nspacing: 0.1 m\n"
+    "materials: {" ROCK ", soft: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\n"
+    "blocks: [{where: z > -1, material: rock}, {where: z > 0.2, material: soft}]\n"
+    "boundary: [{set: left, displacement: {x: 1 mm, y: 0, z: 0}}]\n",
+};
+static const char *const methods[] = {
+    "method: {approximation: rkpm, integration: gauss, horizon: 2 spacing}\n",
+    "method: {approximation: rkpm, integration: consistent, horizon: 1.8 spacing}\n",
+    "method: {approximation: pddo, integration: nodal, horizon: 2 spacing}\n",
+    "method: {approximation: nosb, integration: nodal, horizon: 2 spacing, stabilization: silling}\n",
+    "method: {approximation: rkpm, integration: gauss, horizon: 2 spacing, dilatation: projected}\n",
+};
+enum { BODIES = 3, METHODS = 5 };
+
+static run body_of (int threads, int body, int method, const char *more)
+{
+    return scene_of (threads, "%s%ssolver: {kind: static%s}\n", bodies[body], methods[method], more);
+}
+
+static void multiply (const run *r, const double *x, double *y)
+{
+    void *self;
+    const pg_operator *op = pg_solver_force (r->solver, &self)->operator_ (self);
+    op->apply (op->context, x, y);
+}
+
+/* The product of a run and of its plain twin: the same up to rounding. It has to differ in some bit: else no
+ * point would have been alike, and nothing tested. */
+static void compare (const run *r, const run *plain, int differs)
+{
+    size_t n = r->state->ndof;
+    double *x = pg_calloc (3 * n, sizeof *x), *y = x + n, *z = x + 2 * n, top = 0;
+    for (size_t i = 0; i < n; i++) x[i] = random_number ();
+    multiply (r, x, y), multiply (plain, x, z);
+    for (size_t i = 0; i < n; i++) top = fmax (top, fabs (z[i]));
+    for (size_t i = 0; i < n; i++) check_scaled (y[i], z[i], 1e-12, top);
+    assert_int_equal (memcmp (y, z, n * sizeof *y) != 0, differs);
+    pg_free (x);
+}
+
+static void the_product_is_that_of_the_plain_sum (void **state)
+{
+    (void) state;
+    for (int b = 0; b < BODIES; b++)
+        for (int m = 0; m < METHODS; m++) {
+            run r = body_of (1, b, m, ""), plain = body_of (1, b, m, ", plain: true");
+            refresh (&r, NULL), refresh (&plain, NULL);
+            compare (&r, &plain, 1);
+            clear (&r), clear (&plain);
+        }
+}
+
+/* Irregular points have nothing alike: the sums are the same to the bit. */
+static void irregular_points_are_summed_one_by_one (void **state)
+{
+    (void) state;
+    run r = body_of (1, 2, 0, "}\nperturb: {amount: 0.1"),
+        plain = body_of (1, 2, 0, ", plain: true}\nperturb: {amount: 0.1");
+    refresh (&r, NULL), refresh (&plain, NULL);
+    compare (&r, &plain, 0);
+    clear (&r), clear (&plain);
+}
+
+/* Bonds break one after the other: the product stays that of the plain sum, and has the bits of a force that
+ * comes to the same bonds at once. Three threads give the same bits as one. */
+static void broken_bonds_are_no_longer_alike (void **state)
+{
+    (void) state;
+    for (int b = 0; b < BODIES; b++)
+        for (int m = 0; m < METHODS; m++) {
+            run r = body_of (1, b, m, ""), plain = body_of (1, b, m, ", plain: true"),
+                fresh = body_of (3, b, m, "");
+            size_t n = r.state->ndof;
+            double *x = pg_calloc (3 * n, sizeof *x), *y = x + n, *z = x + 2 * n;
+            refresh (&r, NULL), refresh (&plain, NULL);
+            for (size_t i = 0; i < n; i++) x[i] = random_number ();
+            for (int round = 0; round < 4; round++) {
+                size_t bond[40], count = 0;
+                for (size_t i = 0; i < r.state->nbond && count < 40; i++)
+                    if (0.5 + 0.5 * random_number () < 0.001 * round && r.state->alive[i]) bond[count++] = i;
+                for (size_t i = 0; i < count; i++) r.state->alive[bond[i]] = plain.state->alive[bond[i]] = 0;
+                refresh (&r, &(pg_changes) { count, 40, bond });
+                refresh (&plain, &(pg_changes) { count, 40, bond });
+                compare (&r, &plain, 1);
+            }
+            check_ok (pg_state_copy (fresh.state, r.state));
+            refresh (&fresh, NULL);
+            multiply (&r, x, y), multiply (&fresh, x, z);
+            assert_memory_equal (y, z, n * sizeof *y);
+            pg_free (x);
+            clear (&r), clear (&plain), clear (&fresh);
+        }
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (the_product_is_that_of_the_plain_sum),
+        cmocka_unit_test (irregular_points_are_summed_one_by_one),
+        cmocka_unit_test (broken_bonds_are_no_longer_alike),
+    };
+    return cmocka_run_group_tests_name ("force/runs", tests, NULL, NULL);
+}
