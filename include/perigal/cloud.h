@@ -258,6 +258,8 @@ double pg_segment_nearest (const double *a, const double *b, const double *x, do
                            double *distance);
 /* Does x lie on the crack, within the tolerance, whichever side it counts to? */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);
+/* 0: no crack can cut a bond inside this box (low, high: 2), which is known in the plane; else 1. */
+int pg_cracks_near (const pg_cracks *cracks, const double *low, const double *high);
 /* The same for several cracks: the first of them that the bond meets, or that x lies on; NULL: none. */
 const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
                                double tolerance);

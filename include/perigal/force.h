@@ -73,6 +73,11 @@ typedef struct {
      * (Pa), "damage", "error_estimate" (Pa); *components 0: unknown name. value: n x 6. */
     pg_status (*field) (void *self, const pg_state *state, const double *d, const char *name, int *components,
                         const char **unit, double *value);
+    /* What work_balance gives, spared its evaluation of the force: `residual` is what balance or
+     * balance_and_break gave at (t, d), with the bonds that live now; of `inertia` the entries of prescribed
+     * unknowns alone are read. The strain energy is the same to rounding. NULL: work_balance. */
+    pg_status (*work_of_residual) (void *self, double t, const double *d, const double *residual,
+                                   const double *inertia, pg_work_balance *out);
     /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
     void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);

@@ -285,6 +285,8 @@ typedef struct {
 /* At rest, or with the problem's initial velocity; pre-cracks cut. */
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components /* dofs per node */);
 pg_status pg_state_copy   (pg_state *to, const pg_state *from);
+/* All but the alive bits, of a copy whose caller knows which of them differ. */
+pg_status pg_state_copy_fields (pg_state *to, const pg_state *from);
 void      pg_state_free   (pg_state **state);
 /* The cracks that exist in a state (NULL: at the start), for all who ask whether one lies between two
  * places: bonds, sampling, gauges, pictures. Damage is not among them. */

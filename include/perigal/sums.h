@@ -229,6 +229,9 @@ void        pg_bond_loop_update (pg_bond_loop *loop, const unsigned char *alive,
 pg_status   pg_bond_loop_force  (pg_bond_loop *loop, const double *u, double *f, pg_changes *broken);
 /* Stored energy of the live bonds, J. */
 double      pg_bond_loop_energy (pg_bond_loop *loop, const double *u);
+/* 1: that energy is -1/2 f . u of the forces f at u, to the rounding of its own sum (linear stretch, bonds
+ * one by one; transforms round by the size of u and not by that of its differences: 0). */
+int         pg_bond_loop_halves (const pg_bond_loop *loop);
 /* W (n, J/m^3) = energy density of every point at displacement u: half the energy of each of its live bonds
  * over its volume, W_i = 1/4 sum_j c k beta g r s^2 V_j (theory B2); sum of W_i V_i = pg_bond_loop_energy to
  * rounding. 0 where a point has no live bond. The same bits for any number of threads. */

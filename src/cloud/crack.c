@@ -317,6 +317,12 @@ static void bond_box (const double *x, const double *y, double tolerance, double
         box[k] = fmin (x[k], y[k]) - 2 * tolerance, box[2 + k] = fmax (x[k], y[k]) + 2 * tolerance;
 }
 
+int pg_cracks_near (const pg_cracks *cracks, const double *low, const double *high)
+{
+    double box[4] = { low[0], low[1], high[0], high[1] };
+    return cracks->n > 0 && (!cracks->group || next_near (cracks, 0, box) < cracks->n);
+}
+
 /* The first crack in their order counts, so that the answer does not depend on anything else. */
 const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
                                double tolerance)

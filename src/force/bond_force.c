@@ -251,6 +251,38 @@ done:
     return status;
 }
 
+/* Strain energy -1/2 f . d of forces that are linear in d, from the residual f + P; the loads P are the pairs
+ * of `out` behind those of the supports. Summed in eight lanes, which serve vector instructions. */
+static double strain_of (const bond_force *b, const double *d, const double *residual,
+                         const pg_work_balance *out)
+{
+    double lane[8] = { 0 }, sum = 0;
+    size_t i = 0;
+    for (; i + 8 <= ndof (b); i += 8) for (size_t k = 0; k < 8; k++) lane[k] += residual[i + k] * d[i + k];
+    for (; i < ndof (b); i++) lane[0] += residual[i] * d[i];
+    for (size_t k = b->boundary.nsupport; k < out->npair; k++) sum += out->force[k] * out->displacement[k];
+    for (size_t k = 0; k < 8; k++) sum -= lane[k];
+    return fmax (0.5 * sum, 0);
+}
+
+/* Supports prescribe single unknowns: theirs are the only entries of residual and inertia that matter to the
+ * boundary. The energy follows from the forces where these are linear. */
+pg_status bond_force_work_of_residual (void *self, double t, const double *d, const double *residual,
+                                       const double *inertia, pg_work_balance *out)
+{
+    pg_status status = PG_OK;
+    bond_force *b = self;
+    for (size_t k = 0; k < b->boundary.nsupport; k++) {
+        size_t i = b->boundary.support[k].dof;
+        b->work[i] = residual[i] + (inertia ? inertia[i] : 0);
+    }
+    PG_TRY (boundary_work_balance (&b->boundary, t, d, b->work, out));
+    out->strain = pg_bond_loop_halves (b->loop) ? strain_of (b, d, residual, out)
+                                                : pg_bond_loop_energy (b->loop, d);
+done:
+    return status;
+}
+
 unsigned long bond_force_revision (const void *self) { return ((const bond_force *) self)->revision; }
 const pg_operator *bond_force_operator (void *self) { return &((bond_force *) self)->op; }
 const pg_sparse *bond_force_basis (void *self) { return boundary_basis (&((bond_force *) self)->boundary); }

@@ -4,6 +4,7 @@
  * byte and nothing else; forces bring their caches in line afterwards (refresh). Damage is the share of
  * cleared bytes of a point. */
 #include "model.h"
+#include <string.h>
 
 /* Bonds are numbered set by set and within a set point by point, so that both are found by bisection. */
 void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *point)
@@ -20,6 +21,22 @@ void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *poin
     *point = lo;
 }
 
+/* Can a crack cut any bond of point q? In the plane the box about its bonds tells, which spares most points of a
+ * body the look at each of their bonds. */
+static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
+{
+    double low[2], high[2], slack = 1e-8 * p->cloud.h;  /* more than the tolerance of a cut */
+    if (p->dim != 2) return 1;
+    for (size_t k = 0; k < 2; k++) low[k] = high[k] = rows->x[2 * q + k];
+    for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
+        for (size_t k = 0; k < 2; k++) {
+            double x = p->cloud.x[2 * (size_t) rows->family.node[e] + k];
+            low[k] = x < low[k] ? x : low[k], high[k] = x > high[k] ? x : high[k];
+        }
+    for (size_t k = 0; k < 2; k++) low[k] -= slack, high[k] += slack;
+    return pg_cracks_near (pg_state_cracks (p, NULL), low, high);
+}
+
 /* The mask at the start of a run: 0 where the segment of a bond meets a pre-crack. The bond of a point with
  * itself is never cut. */
 void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
@@ -28,12 +45,17 @@ void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
     size_t dim = (size_t) p->dim;
     for (int s = 0; s < PG_BOND_SETS; s++) {
         const pg_rows *rows = &p->rows[s];
-        for (size_t q = 0; q < rows->n; q++)
-            for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++) {
-                int j = rows->family.node[e];
-                alive[p->first_bond[s] + e] =
-                    j == rows->own[q] || !pg_cracks_cut (cracks, p->dim, rows->x + q * dim,
-                                                         p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
+        for (size_t q = 0; q < rows->n; q++) {
+            size_t first = rows->family.start[q], m = rows->family.start[q + 1] - first;
+            unsigned char *mine = alive + p->first_bond[s] + first;
+            memset (mine, 1, m);
+            if (!may_be_cut (p, rows, q)) continue;
+            for (size_t e = 0; e < m; e++) {
+                int j = rows->family.node[first + e];
+                mine[e] = j == rows->own[q] || !pg_cracks_cut (cracks, p->dim, rows->x + q * dim,
+                                                              p->cloud.x + (size_t) j * dim,
+                                                              1e-9 * p->cloud.h);
             }
+        }
     }
 }

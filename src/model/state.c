@@ -36,19 +36,27 @@ done:
     return status;
 }
 
-/* Both states must be of one problem. Paths first: this may fail. */
-pg_status pg_state_copy (pg_state *to, const pg_state *from)
+/* Copies the paths, which may fail, and then the first bytes of the block: all of it, or all before the alive
+ * bits. Both states must be of one problem. */
+static pg_status copy_bytes (pg_state *to, const pg_state *from, size_t bytes)
 {
     pg_status status = PG_OK;
     pg_crack_paths *paths = to->paths;
     if (to->ndof != from->ndof || to->nbond != from->nbond || !paths != !from->paths)
         PG_FAIL (PG_E_USAGE, "the states belong to different problems");
     if (paths) PG_TRY (pg_crack_paths_copy (paths, from->paths));
-    memcpy (to, from, from->bytes);
+    memcpy (to, from, bytes);
     place (to);
     to->paths = paths;
 done:
     return status;
+}
+
+pg_status pg_state_copy (pg_state *to, const pg_state *from) { return copy_bytes (to, from, from->bytes); }
+
+pg_status pg_state_copy_fields (pg_state *to, const pg_state *from)
+{
+    return copy_bytes (to, from, (size_t) (from->alive - (const unsigned char *) from));
 }
 
 /* A state in the plane has its own cracks; elsewhere they are those of the scene. */

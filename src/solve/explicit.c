@@ -60,8 +60,8 @@ pg_status explicit_create (pg_solver *s)
     if (T && force->impose) PG_TRY (find_prescribed (m, T, sys->ndof, s->type->name));
     PG_ALLOC (m->lists, 3 * m->nprescribed);
     m->before = m->lists, m->goal = m->before + m->nprescribed, m->next = m->goal + m->nprescribed;
-    PG_ALLOC (m->push, 2 * m->nprescribed);
-    m->push0 = m->push + m->nprescribed;
+    PG_ALLOC (m->push, 3 * m->nprescribed);
+    m->push0 = m->push + m->nprescribed, m->left = m->push0 + m->nprescribed;
     if (force->external && has_forces (s->problem)) PG_ALLOC (m->P, sys->ndof);
     m->by_work_balance = !force->external && force->work_balance
                          && (has_forces (s->problem) || has_springs (s->problem));
@@ -175,6 +175,7 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
         PG_TRY (force->balance_and_break (sys->self, t, state->d, sys->residual, reference, &b->changes));
     else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    s->evaluations++;
     if (!breaking) goto done;
     if (force->balance_and_break) PG_TRY (remove_broken (s, state, t));
     else {

@@ -11,6 +11,7 @@ typedef struct {
     size_t  nprescribed, *prescribed;                  /* prescribed unknowns, ascending */
     double *lists, *before, *goal, *next;  /* their displacement at t_n-1, t_n, t_n+1, m (nprescribed) */
     double *push, *push0;  /* force on them from outside at t_n; at the start of the step, N (nprescribed) */
+    double *left;  /* residual of them at t_n, loads less internal force, N (nprescribed) */
     double *P;  /* loads at t_n, N (ndof); NULL: none, or the force does not say */
     double *inverse;                                   /* 1 / mass; 0: no mass (ndof) */
     double *sum;  size_t nblock;                       /* of every block of unknowns (nblock x SUMS) */

@@ -170,6 +170,7 @@ static void take_reactions (pg_solver *s)
     double dt = s->options.dt;
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
+        m->left[k] = sys->residual[i];
         m->push[k] = sys->mass[i] * (((m->next[k] - m->goal[k]) - (m->goal[k] - m->before[k])) / (dt * dt))
                      - sys->residual[i] + (m->P ? m->P[i] : 0);
         sys->residual[i] = 0;
@@ -189,31 +190,48 @@ done:
 }
 
 /* ---- work_balance -------------------------------------------------------------------------------------- */
-/* What motion adds to the residual, N, for reactions: -m (a + c v), with the velocity brought from the
- * half step to t_n. */
-static void inertia (pg_solver *s, const pg_state *state, int staggered, double *out)
+/* What motion adds to the residual of unknown i, N, for reactions: -m (a + c v), with the velocity brought from
+ * the half step to t_n; prescribed unknowns are not damped. */
+static double inertia_of (const pg_solver *s, const pg_state *state, int staggered, int prescribed, size_t i)
 {
-    motion *m = motion_of (s);
-    const pg_system *sys = &s->break_loop.system;
     double c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
-           half = staggered ? 0.5 * s->options.dt : 0;
-    for (size_t i = 0; i < sys->ndof; i++)
-        out[i] = -sys->mass[i] * (state->a[i] + c * (state->v[i] - half * state->a[i]));
-    for (size_t k = 0; c > 0 && k < m->nprescribed; k++)
-        out[m->prescribed[k]] = -sys->mass[m->prescribed[k]] * state->a[m->prescribed[k]];
+           half = staggered ? 0.5 * s->options.dt : 0, v = state->v[i] - half * state->a[i];
+    return -s->break_loop.system.mass[i] * (state->a[i] + (prescribed ? 0 : c * v));
 }
 
-/* The work balance of the force at the state; inertia belongs to the reactions. book: the work since the
- * last account is added. */
+/* The work balance of the force at the state, which its last evaluation was of: the residual is still there,
+ * but for the reactions, which are put back meanwhile. A force that cannot use it, and a plain run, evaluate
+ * the force once more. */
+static pg_status measure_work (pg_solver *s, const pg_state *state, double t, int staggered)
+{
+    pg_status status = PG_OK;
+    const motion *m = motion_of (s);
+    break_loop *b = &s->break_loop;
+    pg_system *sys = &b->system;
+    int spare = sys->force->work_of_residual && !s->options.plain;
+    for (size_t i = 0; !spare && i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
+    for (size_t k = 0; k < m->nprescribed; k++) {
+        size_t i = m->prescribed[k];
+        sys->full[i] = inertia_of (s, state, staggered, 1, i);
+        if (spare) sys->residual[i] = m->left[k];
+    }
+    s->spared += spare;
+    if (spare)
+        status = sys->force->work_of_residual (sys->self, t, state->d, sys->residual, sys->full,
+                                               &b->work_balance);
+    else status = sys->force->work_balance (sys->self, t, state->d, sys->full, &b->work_balance);
+    for (size_t k = 0; spare && k < m->nprescribed; k++) sys->residual[m->prescribed[k]] = 0;
+    return status;
+}
+
+/* ... with inertia, which belongs to the reactions. book: the work since the last account is added. */
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    pg_system *sys = &b->system;
     double t0 = pg_seconds ();
-    if (!sys->force->work_balance) return PG_OK;
-    inertia (s, state, staggered, sys->full);
-    PG_TRY (sys->force->work_balance (sys->self, t, state->d, sys->full, &b->work_balance));
+    if (!b->system.force->work_balance) return PG_OK;
+    PG_TRY (measure_work (s, state, t, staggered));
     if (book) PG_TRY (break_loop_book (b, 1));
     s->report.energy_strain = b->work_balance.strain;
 done:

@@ -175,6 +175,10 @@ struct pg_solver {
     int started, finished, warned_overlap, warned_energy, warned_facets, reported_skips, reported_spared;
     long      next_level;                              /* next level to report: next_level / levels */
     pg_state *backup;                                  /* last accepted state, for refused steps */
+    long      evaluations, spared;                     /* of forces by explicit steps; for rows: not made */
+    int       reported_rows;
+    /* 1: alive bits of backup and state differ in the bonds of the last step's list alone */
+    int       follows;
     double   *reaction;
     pg_tip_values *tip; size_t ntip, cap_tip;          /* what was measured at tips */
     void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */

@@ -99,6 +99,18 @@ const pg_force_type *pg_solver_force (const pg_solver *s, void **self)
     return s->break_loop.system.force;
 }
 
+/* The accepted state before a step, by which a refused one is undone. Alive bits are most of a state, and few
+ * of them change: where the last step was accepted, those of the bonds that it broke are brought up to date,
+ * and the others are what they were. */
+static pg_status save_state (pg_solver *s, const pg_state *state)
+{
+    const break_loop *b = &s->break_loop;
+    if (!s->follows) return pg_state_copy (s->backup, state);
+    for (size_t k = 0; k < b->nbroken; k++)
+        s->backup->alive[b->broken[k].bond] = state->alive[b->broken[k].bond];
+    return pg_state_copy_fields (s->backup, state);
+}
+
 /* The method advances the state. What fails leaves the last accepted state behind, and a message with the
  * step and the load it was at. */
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -110,7 +122,8 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     break_loop *b = &s->break_loop;
     b->began = b->round, b->stopped = 0;
     if (b->round == 0) {                               /* else the step goes on where it was stopped */
-        PG_TRY (pg_state_copy (s->backup, state));
+        PG_TRY (save_state (s, state));
+        s->follows = (s->options.flags & (PG_SOLVER_EXPLICIT | PG_SOLVER_STAGED)) && !s->options.plain;
         b->work0 = b->work, b->stored0 = s->report.energy_strain + s->report.energy_kinetic;
     }
     step->number = state->step + 1;
@@ -142,6 +155,7 @@ done:
         system_forget_preconditioner (&s->break_loop.system);  /* bonds live again that it does not know */
         s->break_loop.work = s->backup->work, s->break_loop.round = 0;
         if (s->type->refused) s->type->refused (s);
+        s->follows = 0;
         if (status != PG_E_MEMORY)
             pg_error (status, PG_HERE, "step %ld after %s %.6g%s is refused: %s", s->backup->step + 1,
                       quasi ? "load factor" : "t =", quasi ? s->backup->factor : s->backup->time,
@@ -185,6 +199,17 @@ static void report_skips (pg_solver *s)
                             what,
                             "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
         s->reported_skips = 1;
+    }
+    if (s->spared && s->evaluations && !s->reported_rows) {
+        char what[96];
+        snprintf (what, sizeof what, "forces and energies of %ld rows", s->spared);
+        pg_statistics_skip (&s->report,
+                            (double) s->spared * s->report.seconds[PG_SECONDS_FORCE]
+                                / (double) s->evaluations,
+                            what,
+                            "the step before the row has left the forces, from which work and strain energy "
+                            "follow");
+        s->reported_rows = 1;
     }
     if (sys->spared && !s->reported_spared && s->report.preconditioners) {
         char what[96];

@@ -122,4 +122,5 @@ static pg_status energies (void *self, const double *u, double *W)
 const pg_bond_loop_kind pg_bond_loop_beam_list = {
     .name = "list", .state = 2, .refusal = refusal, .create = create, .free = release, .bytes = pg_list_bytes,
     .update = pg_list_update, .force = force, .energy = energy, .energies = energies,
+    .apart = 1,
 };

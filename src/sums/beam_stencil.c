@@ -219,4 +219,5 @@ const pg_bond_loop_kind pg_bond_loop_beam_stencil = {
     .force = force,
     .energy = energy,
     .energies = energies,
+    .apart = 1,
 };

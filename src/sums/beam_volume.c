@@ -168,4 +168,5 @@ const pg_bond_loop_kind pg_bond_loop_beam_volume = {
     .energies = energies,
     .remark = remark,
     .dilatation = dilatation,
+    .apart = 1,
 };

@@ -9,6 +9,7 @@
 struct pg_bond_loop {
     const pg_bond_loop_kind *kind;
     void *self;
+    int   linear;                                      /* forces are linear in u */
     char  name[32], reason[160];
 };
 
@@ -116,6 +117,7 @@ pg_status pg_bond_loop_create (pg_bond_loop **out, const pg_bond_loop_setting *s
         snprintf (s->reason + used, sizeof s->reason - used, "%s%s", used ? "; " : "",
                   s->kind->remark (s->self));
     }
+    s->linear = !setting->sums->rule.finite;
     *out = s, s = NULL;
 done:
     pg_bond_loop_free (&s);
@@ -160,6 +162,10 @@ double pg_bond_loop_energy (pg_bond_loop *loop, const double *u)
 {
     return loop->kind->energy (loop->self, u);
 }
+
+/* Both ends of a bond feel opposite forces, so that f . u is a sum over bonds of force times difference of
+ * displacement: what is rounded has the size of these products, as in the sweep that sums the energies. */
+int pg_bond_loop_halves (const pg_bond_loop *loop) { return loop->linear && loop->kind->apart; }
 
 pg_status pg_bond_loop_energies (pg_bond_loop *loop, const double *u, double *W)
 {

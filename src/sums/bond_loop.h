@@ -31,6 +31,7 @@ typedef struct {
     double    (*time) (const pg_bond_loop_setting *setting, pg_instructions set);
     const char *(*remark) (const void *self);          /* what else to say about it; NULL: nothing */
     void      (*counts) (const void *self, pg_bond_loop_counts *out);        /* NULL: none */
+    int apart;                                         /* 1: sums differences of u bond by bond */
     int plain;                                         /* 1: the same loop whatever the instructions */
     pg_status (*dilatation) (void *self, const double *u, double *theta, double *q);  /* state-based only */
 } pg_bond_loop_kind;

@@ -207,4 +207,5 @@ static pg_status energies (void *self, const double *u, double *W)
 const pg_bond_loop_kind pg_bond_loop_list = {
     .name = "list", .refusal = refusal, .create = create, .free = release, .bytes = pg_list_bytes,
     .update = pg_list_update, .force = force, .energy = energy, .energies = energies,
+    .apart = 1,
 };

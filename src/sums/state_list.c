@@ -249,4 +249,5 @@ const pg_bond_loop_kind pg_bond_loop_state_list = {
     .name = "list", .state = 1, .refusal = pg_state_loop_refusal, .create = create, .free = release,
         .bytes = bytes,
     .update = update, .force = force, .energy = energy, .energies = energies, .dilatation = dilatation,
+    .apart = 1,
 };

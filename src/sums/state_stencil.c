@@ -214,4 +214,5 @@ const pg_bond_loop_kind pg_bond_loop_state_stencil = {
     .energy = pg_state_loop_energy,
     .energies = pg_state_loop_energies,
     .dilatation = pg_state_loop_dilatation,
+    .apart = 1,
 };

@@ -545,4 +545,5 @@ const pg_bond_loop_kind pg_bond_loop_stencil = {
     .energy = energy,
     .energies = energies,
     .time = time_of,
+    .apart = 1,
 };

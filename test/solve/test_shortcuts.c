@@ -163,6 +163,61 @@ static void damping_is_in_the_matrix (void **state)
     assert_int_equal (solves[0], solves[1]);
 }
 
+#define PANEL \
+    "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [60 mm, 40 mm]}}}]\n" \
+    "spacing: 1 mm\nlattice: cells\ncracks: [{from: [-1 mm, 20 mm], to: [25 mm, 20 mm]}]\n" \
+    "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: %s, density: 2440}}\n" \
+    "failure: {criterion: stretch, critical_stretch: 0.001}\n" \
+    "layers: [{name: grip, side: bottom, thickness: 3 spacing}]\n"
+
+/* Explicit runs and relaxation with all shortcuts against none: the same bonds at the same steps, motion,
+ * energies and reactions to rounding; forces by stencils, lists and transforms, bonds, states and beams. */
+static void explicit_runs_are_those_of_the_plain_path (void **state)
+{
+    (void) state;
+    static const char *const methods[][2] = {
+        { "0.333333333333", "force: bond, kernel: constant, horizon: 3.015 spacing" },
+        { "0.333333333333", "force: bond, kernel: conical, horizon: 3.015 spacing, stretch: finite" },
+        { "0.333333333333", "force: bond, kernel: constant, horizon: 3.015 spacing, evaluation: list" },
+        { "0.333333333333", "force: fcbm, horizon: 4 spacing, evaluation: fft" },
+        { "0.22", "force: lps, horizon: 3.015 spacing" },
+        { "0.22", "force: gmpd, horizon: 3.015 spacing" },
+    };
+    static const char *const solvers[] = { "verlet, dt: 80 ns, time_steps: 240",
+                                           "central, dt: 80 ns, time_steps: 240, rayleigh: {mass: 1000}" };
+    for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
+        for (size_t k = 0; k < 2; k++) {
+            static const char scene[] = PANEL
+                "boundary: [{set: top, traction: {y: 12 MPa}, ramp: constant}, {set: grip, velocity: {y: -0.5 "
+                "m/s}}]\nmethod: {%s}\nsolver: {kind: %s%s}\noutput: {at: {rows: 40}}\n";
+            run a = scene_of (1, scene, methods[m][0], methods[m][1], solvers[k], ""),
+                b = scene_of (1, scene, methods[m][0], methods[m][1], solvers[k], ", plain: true");
+            long broken = 0;
+            while (!pg_solver_done (a.solver, a.state)) {
+                advance (&a), advance (&b);
+                const pg_statistics *r = pg_solver_report_now (a.solver),
+                                    *plain = pg_solver_report_now (b.solver);
+                double top = largest_of (b.state->d, b.state->ndof), all = fabs (plain->energy_external);
+                assert_memory_equal (a.state->alive, b.state->alive, a.state->nbond);
+                assert_true (largest_difference (a.state->d, b.state->d, a.state->ndof) <= 1e-11 * top);
+                check_scaled (r->energy_strain, plain->energy_strain, 1e-10, all);
+                check_scaled (r->energy_kinetic, plain->energy_kinetic, 1e-10, all);
+                check_scaled (r->energy_external, plain->energy_external, 1e-10, all);
+                check_scaled (a.step.reaction[4], b.step.reaction[4], 1e-8, b.step.reaction[4]);
+                broken = a.state->broken;
+            }
+            assert_true (pg_solver_done (b.solver, b.state));
+            print_message ("method %zu, solver %zu: %ld bonds broken\n", m, k, broken);
+            assert_true (broken > 50);
+            const pg_statistics *r = pg_solver_report (a.solver, a.state);
+            int told = 0;
+            for (size_t i = 0; i < r->nskipped; i++) told |= strstr (r->skipped[i].what, "rows") != NULL;
+            assert_true (told);
+            assert_int_equal (pg_solver_report (b.solver, b.state)->nskipped, 0);
+            clear (&a), clear (&b);
+        }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -172,6 +227,7 @@ int main (void)
         cmocka_unit_test (events_with_a_kept_factor_are_the_same),
         cmocka_unit_test (the_frequency_that_bounds_explicit_steps),
         cmocka_unit_test (damping_is_in_the_matrix),
+        cmocka_unit_test (explicit_runs_are_those_of_the_plain_path),
     };
     return cmocka_run_group_tests_name ("solve/shortcuts", tests, NULL, NULL);
 }
