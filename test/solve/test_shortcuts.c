@@ -164,7 +164,8 @@ static void damping_is_in_the_matrix (void **state)
 }
 
 #define PANEL \
-    "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [60 mm, 40 mm]}}}]\n" \
+    "dimension: 2\nplane: stress\nthickness: 1 mm\n" \
+    "body: [{add: {box: {low: [0, 0], high: [60 mm, 40 mm]}}}]\n" \
     "spacing: 1 mm\nlattice: cells\ncracks: [{from: [-1 mm, 20 mm], to: [25 mm, 20 mm]}]\n" \
     "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: %s, density: 2440}}\n" \
     "failure: {criterion: stretch, critical_stretch: 0.001}\n" \
@@ -188,8 +189,8 @@ static void explicit_runs_are_those_of_the_plain_path (void **state)
     for (size_t m = 0; m < sizeof methods / sizeof *methods; m++)
         for (size_t k = 0; k < 2; k++) {
             static const char scene[] = PANEL
-                "boundary: [{set: top, traction: {y: 12 MPa}, ramp: constant}, {set: grip, velocity: {y: -0.5 "
-                "m/s}}]\nmethod: {%s}\nsolver: {kind: %s%s}\noutput: {at: {rows: 40}}\n";
+                "boundary: [{set: top, traction: {y: 12 MPa}, ramp: constant}, {set: grip, velocity: {y: "
+                "-0.5 m/s}}]\nmethod: {%s}\nsolver: {kind: %s%s}\noutput: {at: {rows: 40}}\n";
             run a = scene_of (1, scene, methods[m][0], methods[m][1], solvers[k], ""),
                 b = scene_of (1, scene, methods[m][0], methods[m][1], solvers[k], ", plain: true");
             long broken = 0;
