@@ -21,8 +21,8 @@ void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *poin
     *point = lo;
 }
 
-/* Can a crack cut any bond of point q? In the plane the box about its bonds tells, which spares most points of a
- * body the look at each of their bonds. */
+/* Can a crack cut any bond of point q? In the plane the box about its bonds tells, which spares most points
+ * of a body the look at each of their bonds. */
 static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
 {
     double low[2], high[2], slack = 1e-8 * p->cloud.h;  /* more than the tolerance of a cut */

@@ -190,8 +190,8 @@ done:
 }
 
 /* ---- work_balance -------------------------------------------------------------------------------------- */
-/* What motion adds to the residual of unknown i, N, for reactions: -m (a + c v), with the velocity brought from
- * the half step to t_n; prescribed unknowns are not damped. */
+/* What motion adds to the residual of unknown i, N, for reactions: -m (a + c v), with the velocity brought
+ * from the half step to t_n; prescribed unknowns are not damped. */
 static double inertia_of (const pg_solver *s, const pg_state *state, int staggered, int prescribed, size_t i)
 {
     double c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
