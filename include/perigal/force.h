@@ -131,6 +131,13 @@ typedef struct {
     /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with
      * criteria of energies. */
     char      (*kind_of) (void *self, const double *d, size_t bond);
+    /* As balance, by one sweep that keeps no strains: for displacements of which nothing else will be asked.
+     * NULL: balance does. */
+    pg_status (*balance_lean) (void *self, double t, const double *d, double *residual, double *reference);
+    /* As work_balance, where the whole residual at d, inertia and damping included, is known already, N
+     * (ndof). NULL: work_balance finds it. */
+    pg_status (*work_balance_of) (void *self, double t, const double *d, const double *residual,
+                                  pg_work_balance *out);
     /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
      * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.
      * NULL: not known. */

@@ -129,8 +129,9 @@ done:
 }
 
 /* The test `!(pq > 0)` also catches NaN. */
-pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
-                                       double *x, double tolerance, size_t limit, size_t *iterations)
+pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_preconditioner *P, const double *b,
+                                       double *x, double tolerance, size_t limit, size_t *iterations,
+                                       void (*stepped) (void *context, double alpha), void *context)
 {
     pg_status status = PG_OK;
     vectors v = { 0 };
@@ -152,6 +153,7 @@ pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditi
                      pq, k);
         v.alpha = rz / pq;
         rr = sqrt (total (&v, step_chunks));
+        if (stepped) stepped (context, v.alpha);
     }
     if (!(rr <= goal))
         PG_FAIL (PG_E_EQUILIBRIUM, "conjugate gradients stopped after %zu iterations at residual %g of %g", k,
@@ -160,6 +162,13 @@ done:
     if (iterations) *iterations = k;
     pg_free (v.r), pg_free (v.z), pg_free (v.p), pg_free (v.q), pg_free (v.d), pg_free (v.sum);
     return status;
+}
+
+/* Nobody listens. */
+pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
+                                       double *x, double tolerance, size_t limit, size_t *iterations)
+{
+    return pg_conjugate_gradients_watched (A, P, b, x, tolerance, limit, iterations, NULL, NULL);
 }
 
 /* Without a preconditioner of the caller's there are no threads of the caller's either. */

@@ -6,13 +6,19 @@
 #include <string.h>
 
 /* Asks the force for the work balance of the state (t, d) and adds the work since the last one. With
- * motion the reactions contain inertia and damping, which `dyn` adds. */
+ * motion the reactions contain inertia and damping, which `dyn` adds, or which are in the residual that the
+ * solve has left behind. */
 pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
     if (!s->force->work_balance) return PG_OK;
     double t0 = pg_seconds ();
+    if (dyn && dyn->whole && s->known && !s->options->plain && s->force->work_balance_of) {
+        PG_TRY (s->force->work_balance_of (s->self, t, d, s->residual, &b->work_balance));
+        PG_TRY (break_loop_book (b, scale));
+        goto done;
+    }
     if (dyn) {
         memset (s->full, 0, s->ndof * sizeof *s->full);
         dyn->resist (dyn->context, d, s->full);

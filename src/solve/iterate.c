@@ -5,14 +5,16 @@
 #include "solve.h"
 #include <string.h>
 
-typedef struct { pg_system *s; const dynamics *dyn; const pg_sparse *T; } combined;
+/* image: (k K + m M) T x of the last product, all ndof rows of it */
+typedef struct { pg_system *s; const dynamics *dyn; const pg_sparse *T; const double *image; } combined;
 
 /* y = T' (k K + m M) T x */
 static void apply_combined (void *context, const double *x, double *y)
 {
-    const combined *c = context;
+    combined *c = context;
     pg_system *s = c->s;
     double *z = c->T ? s->scratch : y;
+    c->image = z;
     if (c->T) pg_sparse_multiply (c->T, x, s->full);
     const double *full = c->T ? s->full : x;
     system_multiply (s, full, z);
@@ -36,6 +38,13 @@ static void diagonal_combined (void *context, double *d)
         for (long p = c->T->start[j]; p < c->T->start[j + 1]; p++)
             d[j] += c->T->value[p] * c->T->value[p] * z[c->T->row[p]];
     }
+}
+
+/* R of all rows, those of prescribed unknowns too, goes on with the iterations. */
+static void carry_residual (void *context, double alpha)
+{
+    const combined *c = context;
+    for (size_t i = 0; i < c->s->ndof; i++) c->s->residual[i] -= alpha * c->image[i];
 }
 
 /* The factor of an earlier K as preconditioner: breaking changes K a little, so that a few iterations make
@@ -62,18 +71,22 @@ done:
     return status;
 }
 
-/* Conjugate gradients on the reduced unknowns, from zero; counts what they cost. */
+/* Conjugate gradients on the reduced unknowns, from zero; counts what they cost. In motion `residual` becomes
+ * that of the new state, by the sums that the iterations make anyway. */
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
                           size_t *used)
 {
-    combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL };
+    combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL, NULL };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
+    int carries = dyn && !s->options->plain;
     pg_preconditioner P = { s, by == BY_FACTOR ? by_factor_of_before : by_elements, s->problem->threads };
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
-    pg_status status = pg_conjugate_gradients_with (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced, s->delta,
-                                                    tolerance, limit, used);
+    pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,
+                                                       s->delta, tolerance, limit, used,
+                                                       carries ? carry_residual : NULL, &c);
+    s->carried = carries && status == PG_OK;
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     if (by != BY_FACTOR) strcpy (s->report->solver, "cg");

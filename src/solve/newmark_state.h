@@ -16,6 +16,7 @@ typedef struct {
     double    *work1, *work2, *work3, *work4;          /* room for vectors (ndof; work4: 3 x ndof) */
     double    *force0;  /* with alpha: loads less resistance at the last step's end, N */
     dynamics   dyn;                                    /* coefficients of the matrix */
+    int        joined;  /* the residual to be completed has the damping by stiffness in it */
     double    *support;                                /* motion z, z', z'' of prescribed nodes (3 x ndof) */
     long       support_updates;  /* report.updates when it was found: breaking changes z */
 } newmark;

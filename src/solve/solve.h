@@ -12,6 +12,10 @@ typedef struct pg_dynamics {                           /* what inertia and dampi
     void (*add) (void *context, const double *d, double *residual, double *reference);
     /* residual -= M a + C v at d: what reactions contain of the motion */
     void (*resist) (void *context, const double *d, double *residual);
+    /* x = d + c_K v with the velocity v that belongs to d: forces are linear, so that their residual at x has
+     * the damping by stiffness in it, which `add` then leaves out. 0, and x is not filled: there is none. */
+    int  (*join) (void *context, const double *d, double *x);
+    int    whole;  /* 1: that residual is P - F_int - M a - C v, as reactions need it */
     void  *context;
 } dynamics;
 
@@ -42,6 +46,7 @@ typedef struct {
     double   *residual, *reduced, *delta, *full, *best, *scratch;
     /* of the last state measured, N: its forces; what it lacks to balance */
     double    reference, unbalanced;
+    double    scale;  /* what its residual was divided by: the reference, or forces of rounding */
     double    borne;  /* the largest reference of an accepted state of fixed load steps, N */
     double    shift;
     /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
@@ -54,6 +59,9 @@ typedef struct {
     int       remake;  /* read back: the preconditioner is to be made from `factored` */
     double    pace;  /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
+    int       carried;  /* `residual` went with the last iterations to the state that they lead to */
+    int       known;                                   /* `residual` is that of the state last solved for */
+    long      unmeasured;                              /* states accepted by carried residuals, in this run */
     const unsigned char *alive;                        /* of the last refresh, borrowed */
     unsigned char *factored;  /* what lived when the factor or preconditioner was made */
 } pg_system;
