@@ -19,9 +19,12 @@ BUILD   := build/$(MODE)
 # the threaded parts are what the thread sanitizer is for
 THREADED := base sums force
 T       := $(or $(T),$(if $(filter tsan,$(MODE)),$(THREADED)))
-LIBS    := -lcholmod -lumfpack -lopenblas -lfftw3 -lyaml -ludunits2 -lnetcdf -lcairo -lm -lpthread
+# What every run loads when it starts; --as-needed: only those that are called directly.
+LIBS    := -Wl,--as-needed -lfftw3 -lyaml -ludunits2 -lnetcdf -lm -lpthread -ldl
 # of the tests alone: references by another library, the checks
-TESTLIBS := -lgsl -lcmocka
+TESTLIBS := -lgsl -lcmocka -lcairo -lnetcdf -lopenblas
+# Libraries that are loaded when they are needed (base/library.c): the SONAME of the one whose header is compiled with.
+soname   = -DPG_$(1)_FILE='"$(shell readelf -d "$$($(CC) -print-file-name=lib$(2).so)" | sed -n 's/.*(SONAME).*\[\(.*\)\]/\1/p')"'
 STD     := -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DPG_VERSION='"$(VERSION)"'
 WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo
@@ -72,6 +75,9 @@ $(BUILD)/src/%.o: src/%.c Makefile
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  CC   $<")
 	$(Q)$(CC) $(CFLAGS) -MMD -MP -c $< -o $@
+
+$(BUILD)/src/linalg/suitesparse.o: CFLAGS += $(call soname,BLAS,openblas) $(call soname,CHOLMOD,cholmod) $(call soname,UMFPACK,umfpack)
+$(BUILD)/src/picture/cairo_calls.o: CFLAGS += $(call soname,CAIRO,cairo)
 
 $(LIB): $(OBJECTS)
 	$(if $(V),,@echo "  AR   $@")

@@ -79,10 +79,14 @@ size_t pg_memory_calls (void);
 void   pg_memory_fail_at (size_t k);
 /* Peak resident memory of the whole process, bytes. */
 size_t pg_memory_process_peak (void);
-/* allocator.c: how glibc hands out memory. pg_memory_keep: this process keeps what it frees.
- * pg_memory_large_pages: programs that are started from here on ask for large pages. */
-void   pg_memory_keep (void);
-void   pg_memory_large_pages (void);
+/* allocator.c: how the system hands out memory. pg_memory_keep: this process keeps what it frees.
+ * pg_memory_large: asks for large pages under a block, if it is large; those above ask for theirs. */
+void   pg_memory_keep  (void);
+void   pg_memory_large (void *block, size_t bytes);
+/* malloc, calloc and realloc of C in large pages, for libraries that take such functions. */
+void  *pg_memory_malloc  (size_t bytes);
+void  *pg_memory_calloc  (size_t n, size_t size);
+void  *pg_memory_realloc (void *block, size_t bytes);
 
 /* Allocates n elements for the pointer p; in a function with `status` and `done:`. */
 #define PG_ALLOC(p, n) do { (p) = pg_calloc ((n), sizeof *(p)); \
@@ -124,6 +128,27 @@ typedef void (*pg_work) (void *context, size_t first, size_t last, int thread);
 void pg_parallel (int threads, size_t n, pg_work work, void *context);
 /* For few items, each worth a thread. */
 void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context);
+
+/* ---- libraries that are loaded when they are needed ---------------------------------------------------- */
+/* A function of such a library, and where its pointer goes: the offset in the table, bytes. */
+typedef struct { const char *name; size_t at; } pg_library_function;
+/* A library, and the table of its functions that the program calls. */
+typedef struct {
+    /* File that is loaded ("libcairo.so.2"); for messages: the Debian package that has it, and what needs it
+     * ("pictures"). */
+    const char *file, *package, *purpose;
+    /* The functions (n) and the table that receives their pointers. */
+    size_t n;
+    const pg_library_function *function;
+    void  *table;
+    /* 1: libraries that are loaded later find these functions too. */
+    int    shared;
+    /* 1: the table is filled. */
+    int    ready;
+} pg_library;
+/* Loads the library and fills its table, once per process; later calls cost one comparison. PG_E_FILE: it
+ * is not installed, or lacks a function. */
+pg_status pg_library_load (pg_library *library);
 
 /* ---- small dense algebra (row-major, n <= 16) ---------------------------------------------------------- */
 /* A = L L' in place (lower triangle). Returns 0, or 1 + the row whose pivot fell to `tiny` times its

@@ -131,6 +131,10 @@ const pg_linear_type *pg_linear_first (int symmetric, int factors);
 /* All names, separated by |, and "auto". */
 const char           *pg_linear_names (void);
 
+/* Threads that the BLAS under factorizations uses from here on. BLAS is loaded with the first factorization,
+ * and until then this does nothing: the variable OPENBLAS_NUM_THREADS of the environment counts then. */
+void pg_linear_threads (int threads);
+
 /* Predicts what the factor of a matrix with dense blocks (block x block) on `graph` will hold and cost: the
  * same ordering, and a symbolic analysis of the graph of the nodes alone. graph: upper triangle, diagonal
  * included; values are ignored. */

@@ -40,6 +40,7 @@ static char *fresh (size_t bytes)
     size_t whole = (bytes + HEAD + 63) / 64 * 64;
     char *block = whole < bytes ? NULL : aligned_alloc (64, whole);
     if (!block) return NULL;
+    pg_memory_large (block, whole);
     memcpy (block, &bytes, sizeof bytes);
     return block;
 }

@@ -1,8 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal: finds the command and starts it. Numbers of threads of the libraries (OpenBLAS,
- * OpenMP) are set before these start, since they read their environment once, when they are
- * loaded; the program therefore starts itself again with the environment changed. All else is
- * in the files of the commands. */
+ * OpenMP) are set in the environment before these are loaded, which happens when the first
+ * matrix is factored (base/library.c). All else is in the files of the commands. */
 #include "cli.h"
 #include "plot.h"
 #include <stdlib.h>
@@ -55,10 +54,10 @@ static long threads_given (int argc, char **argv)
     return n > 0 ? n : 0;
 }
 
-/* Starts the program again with an environment that limits OpenMP to one thread: the OpenMP
- * threads of CHOLMOD only slow it down beside a threaded BLAS, and only the environment at the
- * start of the process limits them. If OMP_THREAD_LIMIT is set already, by the user or by this
- * function, nothing is done. If the program cannot be started again, it goes on as it is. */
+/* An environment that limits OpenMP to one thread: the OpenMP threads of CHOLMOD only slow it
+ * down beside a threaded BLAS, and only the environment limits them, which OpenMP and BLAS read
+ * when they are loaded. If OMP_THREAD_LIMIT is set already, nothing is done: the user, or the
+ * program that started this one, has settled it. */
 static void settle_threads (int argc, char **argv)
 {
     char count[16];
@@ -69,8 +68,6 @@ static void settle_threads (int argc, char **argv)
     setenv ("OMP_THREAD_LIMIT", "1", 1);
     setenv ("OMP_WAIT_POLICY", "passive", 1);
     setenv ("OPENBLAS_NUM_THREADS", count, 0);
-    pg_memory_large_pages ();
-    execv ("/proc/self/exe", argv);                    /* goes on below where this fails */
 }
 
 /* Finds the command, keeps freed memory in the process (pg_memory_keep) and runs it. Only run

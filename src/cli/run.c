@@ -8,6 +8,7 @@
  * checkpoint and all complete steps are there. */
 #include "cli.h"
 #include <signal.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Number of the signal that asked the run to stop; 0: none. Signal handlers can reach nothing
@@ -222,16 +223,18 @@ done:
     return status;
 }
 
-/* Declared here because the header of OpenBLAS is not everywhere in the same place. */
-void openblas_set_num_threads (int threads);
-
 /* Two BLAS threads gain 7 % of a factorization with 4 000 unknowns on an idle machine, and
  * lose half the speed on a busy one: below 50 000 unknowns in 2D and 10 000 in 3D one thread
- * is used. */
+ * is used. By the environment where BLAS is not loaded yet, which then starts no threads that nobody needs:
+ * each of them would wait awake for some 20 ms. */
 static void settle_blas (const pg_problem *p)
 {
     size_t unknowns = p->cloud.n * (size_t) pg_problem_unknowns (p), enough = p->dim == 3 ? 10000 : 50000;
-    openblas_set_num_threads (unknowns < enough ? 1 : p->threads);
+    int threads = unknowns < enough ? 1 : p->threads;
+    char count[16];
+    snprintf (count, sizeof count, "%d", threads);
+    setenv ("OPENBLAS_NUM_THREADS", count, 1);
+    pg_linear_threads (threads);
 }
 
 /* What a person is told on stderr at the end, whatever ended the run: the reasons, each once,
@@ -290,6 +293,7 @@ static pg_status prepare (run *r)
     if (c->folder && fresh) PG_TRY (pg_result_may_open (c->folder, r->scene));
     PG_TRY (afford_scene (c, &forecast));
     PG_TRY (command_problem (c, r->scene, &r->problem, &r->options));
+    settle_blas (r->problem);
     PG_TRY (afford_problem (c, &forecast, r->problem, 0));
     PG_TRY (pg_patch_probe (r->problem));
     if (c->folder) snprintf (r->folder, sizeof r->folder, "%s", c->folder);
@@ -305,7 +309,6 @@ static pg_status open_run (run *r)
 {
     pg_status status = PG_OK;
     if (!r->c.quiet) plan_print (r->problem, &r->options);
-    settle_blas (r->problem);
     PG_TRY (pg_solver_create (&r->solver, r->problem, &r->options));
     PG_TRY (pg_patch_refuse (r->problem, r->scene));
     if (!r->c.quiet) plan_settled (r->solver);

@@ -8,8 +8,8 @@
  *
  * The forecast analyses the graph of the nodes alone: a column with c entries there stands for m columns of
  * the unknowns with m (c - 1) + m, ..., m (c - 1) + 1 entries; a column of e entries costs e^2 operations. */
+#include "suitesparse.h"
 #include "perigal/linalg.h"
-#include <cholmod.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -138,6 +138,7 @@ static pg_status chol_analyse (void **self, const pg_sparse *A, const pg_linear_
     pg_status status = PG_OK;
     chol *c = NULL;
     SuiteSparse_long *perm = NULL;
+    PG_TRY (pg_cholmod_load ());
     PG_ALLOC (c, 1);
     *self = c;
     start (c, CHOLMOD_SUPERNODAL);
@@ -162,6 +163,7 @@ pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info 
     chol *c = NULL;
     SuiteSparse_long *perm = NULL;
     double m = block;
+    PG_TRY (pg_cholmod_load ());
     PG_ALLOC (c, 1);
     self = c;
     start (c, CHOLMOD_SIMPLICIAL);

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Sparse LU factorisation P R A Q = L U for unsymmetric or indefinite matrices, by UMFPACK of SuiteSparse
  * (64-bit interface), with its iterative refinement. */
+#include "suitesparse.h"
 #include "perigal/linalg.h"
-#include <umfpack.h>
 #include <string.h>
 
 /* State of the solver. */
@@ -65,6 +65,7 @@ static pg_status lu_analyse (void **self, const pg_sparse *A, const pg_linear_op
     pg_status status = PG_OK;
     lu *u = NULL;
     (void) options;
+    PG_TRY (pg_umfpack_load ());
     PG_ALLOC (u, 1);
     *self = u;
     umfpack_dl_defaults (u->control);

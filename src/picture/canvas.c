@@ -4,7 +4,6 @@
  * the system's reason and leaves no half file. */
 #include "picture_private.h"
 #include "perigal/output.h"
-#include <cairo-svg.h>
 #include <errno.h>
 #include <string.h>
 #include <strings.h>
@@ -35,6 +34,7 @@ pg_status pg_canvas_open (pg_canvas *c, const char *path, double width, double h
     *c = (pg_canvas) { .path = path, .svg = ends_with (path, ".svg") };
     if (!c->svg && !ends_with (path, ".png"))
         PG_FAIL (PG_E_USAGE, "%s: a picture's file ends in .png or .svg", path);
+    PG_TRY (pg_cairo_load ());
     PG_TRY (pg_file_create (&c->file, path));
     c->surface = c->svg ? cairo_svg_surface_create_for_stream (write_bytes, c, width, height)
                         : cairo_image_surface_create (CAIRO_FORMAT_RGB24, (int) width, (int) height);

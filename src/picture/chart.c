@@ -164,6 +164,7 @@ pg_status pg_picture_chart (const char *path, size_t ncurve, const pg_curve *cur
     pg_status status = PG_OK;
     pg_canvas canvas = { 0 };
     chart *c = NULL;
+    PG_TRY (pg_cairo_load ());
     PG_ALLOC (c, 1);
     lay_out (c, ncurve, curves, style);
     PG_TRY (pg_canvas_open (&canvas, path, c->total, HEIGHT));

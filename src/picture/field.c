@@ -497,6 +497,7 @@ static pg_status draw_sheet (drawing *d, const char *path)
     PG_TRY (choose_colours (d, &low, &high));
     PG_TRY (choose_note (d, style.label, low, high));
     if (d->sheet.eye.kind == PG_LAYER && !style.section) style.title = name_layer (d);
+    PG_TRY (pg_cairo_load ());
     pg_sheet_fit (&d->sheet, &style, low, high);
     choose_arrows (d);
     PG_ALLOC (d->spots.place, 2 * d->cloud->n);

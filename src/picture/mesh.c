@@ -230,6 +230,7 @@ static pg_status draw_sheet (mesh_drawing *d, const char *path)
         if (!d->style->log) pg_sheet_leave_out (p, d->style->label, d->mesh->nnode, d->value, low, high);
     }
     p->panels = 1, p->columns = 1;
+    PG_TRY (pg_cairo_load ());
     pg_sheet_fit (p, d->style, low, high);
     choose_arrows (d);
     PG_TRY (pg_canvas_open (&canvas, path, p->total[0], p->total[1]));

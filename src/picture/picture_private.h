@@ -8,7 +8,7 @@
 #ifndef PG_PICTURE_PRIVATE_H
 #define PG_PICTURE_PRIVATE_H
 #include "perigal/picture.h"
-#include <cairo.h>
+#include "cairo_calls.h"
 #include <stdint.h>
 #include <stdio.h>
 

@@ -57,7 +57,8 @@ static void path_of_cut (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_
         for (int side = 0; side < 2; side++) {
             for (int c = 0; c < 3; c++) x[c] = end[0][c] + (side ? to : from) * (end[1][c] - end[0][c]);
             project (p, panel, x, &px, &py);
-            (side ? cairo_line_to : cairo_move_to) (cr, px, py);
+            if (side) cairo_line_to (cr, px, py);
+            else cairo_move_to (cr, px, py);
         }
     }
 }
@@ -165,7 +166,8 @@ void pg_wire_faces (const pg_sheet *p, cairo_t *cr, size_t panel, size_t n, size
         const double *a = place + 2 * i;
         if (!isfinite (a[0]) || !isfinite (a[1])) continue;
         pg_sheet_to (p, panel, a[0], a[1], &x, &y);
-        (i % m > 0 && isfinite (a[-2]) ? cairo_line_to : cairo_move_to) (cr, x, y);
+        if (i % m > 0 && isfinite (a[-2])) cairo_line_to (cr, x, y);
+        else cairo_move_to (cr, x, y);
     }
     cairo_set_source_rgb (cr, 0, 0, 0);
     cairo_set_line_width (cr, 2);

@@ -38,7 +38,6 @@ static void become (const char *program, const char *const argv[], const char *f
     settle_environment (threads);
     if (dup2 (nothing, 0) < 0 || dup2 (to, 1) < 0 || dup2 (errors, 2) < 0 || (folder && chdir (folder) != 0))
         _exit (127);
-    if (!program) pg_memory_large_pages ();
     /* POSIX: exec changes no argument, though its declaration cannot say so */
     char *const *arguments = (char *const *) (uintptr_t) argv;
     if (program) execvp (program, arguments);

@@ -31,20 +31,6 @@ expect "check: a path that is none"           65 '' 'is not a path' check plate.
 expect "a body that nothing holds is doubted"  0 'nothing holds the body along x' '' check plate.yaml --set 'boundary[1].displacement={y: 0}'
 expect "a body that nothing loads is doubted"  0 'nothing loads the body' '' check plate.yaml --set 'boundary[0].displacement={y: 0}'
 expect "loads without a name are told apart"   0 'boundary top_4 ' '' check plate.yaml --set 'boundary[2]={set: top, traction: {x: 1 Pa}}' --set 'boundary[3]={set: top, traction: {x: 2 Pa}}'
-# The number of threads reaches the libraries, which read it from the environment when they are loaded: /proc shows it.
-started_with() {   # value of OPENBLAS_NUM_THREADS in a run with these options, ended as soon as it is known
-    local pid k value=
-    env -u OMP_THREAD_LIMIT -u OPENBLAS_NUM_THREADS "$perigal" run plate.yaml -o "$work/threads" --force --quiet --set spacing='0.1 mm' "$@" \
-        > /dev/null 2>&1 & pid=$!
-    for k in $(seq 200); do
-        value=$(tr '\0' '\n' < /proc/$pid/environ 2> /dev/null | sed -n 's/^OPENBLAS_NUM_THREADS=//p')
-        [ -n "$value" ] && break; sleep 0.02
-    done
-    kill -9 $pid; wait $pid 2> /dev/null; echo "$value"
-}
-[ "$(started_with --threads 3)" = 3 ] && [ "$(started_with --threads=3)" = 3 ] && [ "$(started_with --thr=5)" = 5 ] \
-    && [ "$(started_with --threads 2 --threads=4)" = 4 ]; verdict "--threads reaches the libraries, in every spelling" $?
-
 out=$work/deep/er/result
 expect "run makes the folder and its parents"  0 'results in' '*' run plate.yaml -o "$out" --threads 1 --set solver.max_events=3
 good=0; for f in result.e history.csv events.csv report.json scene.yaml damage.png load_displacement.png; do [ -s "$out/$f" ] || good=1; done

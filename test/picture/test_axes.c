@@ -11,6 +11,7 @@ static cairo_t *cr;
 static int open_canvas (void **unused)
 {
     (void) unused;
+    assert_int_equal (pg_cairo_load (), PG_OK);
     surface = cairo_image_surface_create (CAIRO_FORMAT_A8, 1, 1);
     cr = cairo_create (surface);
     return 0;
