@@ -213,7 +213,7 @@ pg_status bond_force_external (void *self, double t, double *P)
 /* Of a bare problem, whose only load is a traction on the whole surface. */
 pg_status bond_force_surface (void *self, const double *stress, double *P)
 {
-    const bond_force *b = self;
+    bond_force *b = self;
     return b->problem->nload ? boundary_surface (&b->boundary, 0, stress, P) : PG_OK;
 }
 

@@ -107,6 +107,7 @@ void boundary_free (point_boundary *s)
     for (size_t k = 0; k < s->nload; k++)
         pg_free (s->load[k].point), pg_free (s->load[k].part), pg_free (s->load[k].pattern);
     pg_free (s->load), pg_free (s->support), pg_free (s->goal);
+    pg_nearest_free (&s->near);
     pg_sparse_clear (&s->T);
     *s = (point_boundary) { 0 };
 }

@@ -69,7 +69,7 @@ void boundary_add (point_boundary *s, double t, double *P)
 
 /* P += tractions sigma n of a uniform stress (Voigt order, Pa) on every facet of a load, given to points
  * as that load gives its own force: what the patch test is loaded with. */
-pg_status boundary_surface (const point_boundary *s, int load, const double *stress, double *P)
+pg_status boundary_surface (point_boundary *s, int load, const double *stress, double *P)
 {
     pg_status status = PG_OK;
     boundary_load l = { .load = load };

@@ -173,16 +173,15 @@ done:
 /* Shares of points in every quadrature place of the facets (two Gauss points a direction, so that
  * tractions may vary): those of the column below where the load has a depth and finds points, else those
  * nearest to the facet's centre. */
-static pg_status facet_parts (gathering *g, const point_boundary *s, const pg_load *load)
+static pg_status facet_parts (gathering *g, point_boundary *s, const pg_load *load)
 {
     pg_status status = PG_OK;
     const pg_cells *cells = &s->problem->cells;
     pg_quadrature q = { 0 };
-    pg_nearest *grid = NULL;
     columns below = { 0 };
     size_t dim = (size_t) s->dim, count = 0;
     int found[MOST_TIES], of = -1, shared;
-    PG_TRY (pg_nearest_create (&grid, s->dim, s->n, s->problem->cloud.x));
+    if (!s->near) PG_TRY (pg_nearest_create (&s->near, s->dim, s->n, s->problem->cloud.x));
     PG_TRY (pg_facet_points (&q, cells, 2));
     if (load->depth > 0) PG_TRY (find_columns (&below, s, load));
     for (size_t i = 0; i < q.n; i++) {
@@ -195,13 +194,12 @@ static pg_status facet_parts (gathering *g, const point_boundary *s, const pg_lo
             if (shared) continue;
         }
         if (of != q.cell[i])
-            count = nearest_points (s, grid, cells->facet_centre + (size_t) q.cell[i] * dim, found),
+            count = nearest_points (s, s->near, cells->facet_centre + (size_t) q.cell[i] * dim, found),
             of = q.cell[i];
         part.weight /= (double) count;
         for (size_t k = 0; k < count; k++) PG_TRY (add_part (g, found[k], part));
     }
 done:
-    pg_nearest_free (&grid);
     clear_columns (&below);
     pg_quadrature_clear (&q);
     return status;
@@ -226,7 +224,7 @@ done:
 
 /* All shares of a load, by what it acts on, with its points ascending: the order of a sum must not depend
  * on the order of facets. */
-pg_status boundary_shares (boundary_load *out, const point_boundary *s, int load)
+pg_status boundary_shares (boundary_load *out, point_boundary *s, int load)
 {
     pg_status status = PG_OK;
     const pg_load *l = &s->problem->load[load];

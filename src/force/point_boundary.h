@@ -33,6 +33,7 @@ typedef struct {
     boundary_support *support;  size_t nsupport;
     double    *goal;  /* m, of factor 1 where its load separates (nsupport) */
     boundary_load *load;  size_t nload;
+    pg_nearest *near;                                  /* points; NULL until facets ask for them */
     pg_sparse  T;                                      /* selects the free unknowns */
 } point_boundary;
 
@@ -41,10 +42,10 @@ pg_status boundary_create (point_boundary *s, const pg_problem *problem, int str
                         const unsigned char *idle);
 void      boundary_free   (point_boundary *s);
 /* Which points a load acts on and by which share (boundary_shares.c). */
-pg_status boundary_shares  (boundary_load *out, const point_boundary *s, int load);
+pg_status boundary_shares  (boundary_load *out, point_boundary *s, int load);
 void      boundary_add    (point_boundary *s, double t, double *P);              /* P += loads at t, N */
 /* P += tractions of a uniform stress (as pg_force_type.surface) on the facets of load number `load`, N. */
-pg_status boundary_surface (const point_boundary *s, int load, const double *stress, double *P);
+pg_status boundary_surface (point_boundary *s, int load, const double *stress, double *P);
 /* norm of the loads at t, N */
 double    boundary_size   (point_boundary *s, double t);
 /* NULL: nothing is prescribed */

@@ -270,7 +270,7 @@ static double distance_to (const pg_tiles *t, size_t k, double a, double b)
 {
     double dx = a - t->place[2*k], dy = b - t->place[2*k + 1];
     if (!t->loose) dy *= t->step[0] / t->step[1];
-    return hypot (dx, dy);
+    return sqrt (dx * dx + dy * dy);
 }
 
 /* Offers point k to the pixels within `reach` spacings: the nearest point owns a pixel, and one across a

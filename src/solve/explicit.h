@@ -13,6 +13,8 @@ typedef struct {
     double *push, *push0;  /* force on them from outside at t_n; at the start of the step, N (nprescribed) */
     double *left;  /* residual of them at t_n, loads less internal force, N (nprescribed) */
     double *P;  /* loads at t_n, N (ndof); NULL: none, or the force does not say */
+    /* 1 / mass where all are the same: the loops then read no array, for the same bits; 0: they differ */
+    double  only;
     double *inverse;                                   /* 1 / mass; 0: no mass (ndof) */
     double *sum;  size_t nblock;                       /* of every block of unknowns (nblock x SUMS) */
     double  most;                                      /* most external work so far, J */
@@ -63,6 +65,7 @@ double    explicit_bound   (const pg_solver *s, const char **from);    /* the st
 typedef struct {
     double *d, *v, *a;
     const double *f, *inverse, *mass, *P;              /* P: or NULL */
+    double only;                                       /* as motion.only */
     double dt, damping;                                /* s, 1/s */
     int    closing, opening;
 } half_kicks;

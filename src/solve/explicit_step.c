@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { BLOCK = 2048 };
+enum { BLOCK = 2048, LOOK = 8 };                      /* unknowns; time steps */
 
 /* Always in the same order: sums round alike with every instruction set. */
 double lane_sum (const double *s)
@@ -81,7 +81,8 @@ static double time_at (const pg_solver *s, long n)
 }
 
 /* ---- half kicks of all unknowns ------------------------------------------------------------------------ */
-typedef struct { half_kicks w; kick_range range; size_t ndof; double *sum; } kicking;
+/* look: whether all displacements are finite */
+typedef struct { half_kicks w; kick_range range; size_t ndof; double *sum; int look; } kicking;
 
 /* Blocks of unknowns for one thread: the work of loads before and after, the half kicks, a look whether
  * all is finite. One pass over memory for all of these. */
@@ -96,7 +97,7 @@ static void work_on_blocks (void *context, size_t first, size_t last, int thread
         if (w->closing && w->P) sum[SUM_A] = lane_dot (w->P, w->v, i, end);
         c->range (w, i, end, sum);
         if (w->opening && w->P) sum[SUM_B] = lane_dot (w->P, w->v, i, end);
-        if (w->opening) sum[SUM_BAD] = lane_not_finite (w->d, i, end);
+        sum[SUM_BAD] = w->opening && c->look ? lane_not_finite (w->d, i, end) : 0;
     }
 }
 
@@ -112,18 +113,19 @@ static double push_work (const pg_solver *s, double loads, const double *from, c
 
 /* Half kicks of all unknowns, closing, opening or both, and what they mean for energies: work of loads and
  * supports, energy taken by damping, kinetic energy. */
-static pg_status move (pg_solver *s, pg_state *state, kick_range range, int closing, int opening)
+static pg_status move (pg_solver *s, pg_state *state, kick_range range, int closing, int opening, int look)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds (), total[SUMS], c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
            dt = s->options.dt;
-    kicking all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, dt, c,
+    kicking all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, m->only, dt, c,
                        closing, opening },
                      range,
                      sys->ndof,
-                     m->sum };
+                     m->sum,
+                     look };
     if (opening && !closing) explicit_release (s, state);
     pg_parallel (s->problem->threads, m->nblock, work_on_blocks, &all);
     explicit_total (s, total);
@@ -352,14 +354,16 @@ pg_status explicit_step (pg_solver *s, pg_state *state, pg_step *step, kick_rang
     if (!m->fresh)
         PG_TRY (explicit_follow (s, time_at (s, n - 1), time_at (s, n), (double) (n + 1) * s->options.dt));
     while (n < last) {
-        pg_status now = move (s, state, range, !closed, 1);
+        /* What is not finite stays so: it is enough to look now and then, and before anybody else does. */
+        int looks = s->options.plain || (n + 1) % LOOK == 0 || n + 1 == last || (n + 1) % m->between == 0;
+        pg_status now = move (s, state, range, !closed, 1, looks);
         if (now != PG_OK) PG_TRY (explicit_lost (s, state, time_at (s, n + 1)));
         b->round = ++n - state->iterations;
         PG_TRY (arrive (s, state, n));
         int due = b->watch && n % m->between == 0 && n < last;
         closed = n == last || due || m->by_work_balance;
         if (!closed) continue;
-        PG_TRY (move (s, state, range, 1, 0));
+        PG_TRY (move (s, state, range, 1, 0, 0));
         show_prescribed (s, state, staggered);
         if (m->by_work_balance) PG_TRY (account (s, state, time_at (s, n), staggered, 1));
         if (due) PG_TRY (look (s, state, step, n));

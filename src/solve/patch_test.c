@@ -58,12 +58,13 @@ static void find_middle (probe *t)
 
 /* Motion m of point i about the middle, up to dim displacements (m) and its rotations times the spacing:
  * linear ones of unit strain (engineering shear; nv of them), then translations and turns. */
-static void motion_at (const probe *t, size_t m, size_t i, double *d)
+static inline void motion_at (const probe *t, size_t m, size_t i, double *d)
 {
     static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
-    double x[3] = { 0 };
-    for (size_t k = 0; k < t->dim; k++) x[k] = t->p->cloud.x[i * t->dim + k] - t->middle[k];
-    memset (d, 0, 6 * sizeof *d);
+    const double *at = t->p->cloud.x + i * t->dim;
+    double x[3] = { at[0] - t->middle[0], t->dim > 1 ? at[1] - t->middle[1] : 0,
+                    t->dim > 2 ? at[2] - t->middle[2] : 0 };
+    d[0] = d[1] = d[2] = d[3] = d[4] = d[5] = 0;
     if (m < t->nv) {
         const int *of = pair[t->dim == 2 && m == 2 ? 3 : m];
         if (of[0] == of[1]) d[of[0]] = x[of[0]];

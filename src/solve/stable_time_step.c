@@ -61,6 +61,7 @@ pg_status explicit_stable (pg_solver *s)
                                   "%s needs mass at every point: give the material a density",
                                   s->type->name));
         m->inverse[i] = 1 / sys->mass[i];
+        m->only = i == 0 || m->inverse[i] == m->only ? m->inverse[i] : 0;
     }
     PG_TRY (find_bound (s));
     if (s->options.dt > 0) PG_TRY (check_dt (s));

@@ -19,16 +19,20 @@ static void range (const half_kicks *w, size_t first, size_t last, double *sum)
         }
         sum[SUM_C] = lane_sum (before), sum[SUM_D] = lane_sum (after);
     }
-#define BOTH(i) \
+#define BOTH(i, per_mass) \
     do { \
-        double acc = f[i] * inverse[i], vn = (v[i] + h * acc) * less; \
+        double acc = f[i] * (per_mass), vn = (v[i] + h * acc) * less; \
         v[i] = vn + h * (acc - c * vn); \
         d[i] += dt * v[i]; \
     } while (0)
     size_t at = first;
     if (w->closing && w->opening) {
-        for (; at + LANES <= last; at += LANES) for (size_t k = at; k < at + LANES; k++) BOTH (k);
-        for (; at < last; at++) BOTH (at);
+        const double only = w->only;
+        for (; only > 0 && at + LANES <= last; at += LANES)
+            for (size_t k = at; k < at + LANES; k++) BOTH (k, only);
+        for (; at + LANES <= last; at += LANES)
+            for (size_t k = at; k < at + LANES; k++) BOTH (k, inverse[k]);
+        for (; at < last; at++) BOTH (at, inverse[at]);
     }
     else if (w->opening)
         for (size_t i = first; i < last; i++) {
