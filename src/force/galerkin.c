@@ -31,6 +31,7 @@ static void galerkin_free (void **self)
     galerkin_boundary_free (g);
     galerkin_basis_free (g);
     galerkin_slices_free (g);
+    galerkin_silling_free (g);
     galerkin_consistent_free (g);
     galerkin_dilatation_free (g);
     galerkin_change_free (g);
@@ -89,6 +90,7 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     PG_TRY (galerkin_boundary_create (g));
     PG_TRY (galerkin_basis_create (g));
     PG_TRY (galerkin_dilatation_create (g));
+    PG_TRY (galerkin_silling_create (g));
     PG_TRY (galerkin_slices_create (g));
     PG_TRY (galerkin_operator_create (g));
 done:
@@ -132,7 +134,10 @@ static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_c
                                               g->threads));
         if (changes) PG_TRY (galerkin_change_points (g, s, n, g->list[s], 1));
         if (s == g->bulk && g->whole) PG_TRY (galerkin_consistent_update (g, state, !changes, &n));
-        if (s == g->bulk) galerkin_slices_stale (g, n, changes ? g->list[s] : NULL);
+        if (s == g->bulk) {
+            galerkin_slices_stale (g, n, changes ? g->list[s] : NULL);
+            galerkin_silling_update (g, n, changes ? g->list[s] : NULL);
+        }
         count[s] = n;
         g->fresh[s] = known;
         if (known) galerkin_measure_list (g, s, n, g->list[s]);

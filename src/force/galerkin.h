@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
  * blocks, energy), galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
- * galerkin_sum.c (loops over points), galerkin_runs.c (points that are alike), galerkin_operator.c (K x, K),
+ * galerkin_sum.c (loops over points), galerkin_runs.c (points that are alike), galerkin_silling.c
+ * (stabilisation), galerkin_operator.c (K x, K),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c (preconditioner),
@@ -51,6 +52,7 @@ typedef struct {
     double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof) */
     int      fresh[PG_BOND_SETS];  /* the measure is that of `seen` and of the rows as they are */
     galerkin_slices *slices;
+    double  *kept, *place;  /* galerkin_silling.c; NULL: no stabilisation */
     galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere */
     pg_assembly *K;                                   /* NULL until someone asks for the matrix */
     pg_assembly *M;                                   /* consistent mass, NULL until asked for */
@@ -98,8 +100,20 @@ void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list);
 void galerkin_measure (galerkin *g, int set, const double *d);
 /* again, after a change of rows */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list);
-void galerkin_sum_stress  (galerkin *g, double *f);  /* f += sum w B' sigma of the last measure */
+/* f += sum w B' sigma of the last measure, which was at d */
+void galerkin_sum_stress  (galerkin *g, const double *d, double *f);
 void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x */
+/* silling: stabilisation of nodal integration, together with the stress */
+pg_status galerkin_silling_create (galerkin *g);
+void galerkin_silling_free (galerkin *g);
+/* The rows of these points have changed (list NULL: of the first `count`). */
+void galerkin_silling_update (galerkin *g, size_t count, const size_t *list);
+double galerkin_silling_modulus (const galerkin *g, size_t p);         /* Gs mu of a point, Pa */
+/* f += forces of the points first .. last - 1 by their stresses (NULL: those of x); x, f: 4 numbers a node, f
+ * from node `low` on. */
+void galerkin_silling_sum (const galerkin *g, size_t first, size_t last, const double *stress,
+                           const double *x, double *f, size_t low);
+double galerkin_silling_energy (const galerkin *g, size_t p, const double *d);
 /* runs: groups of points that are alike, for products with a tangent */
 /* Lanes of a vector: arrays of nodal values by components have room for so many numbers more. */
 enum { GALERKIN_LANES = 8 };
@@ -120,6 +134,18 @@ void galerkin_runs_clear (galerkin_run_list *list);
 /* f += sum w B' D B x of a run; x, f: an array for each component, f from node `low` on. */
 void galerkin_run_sum (const galerkin *g, const galerkin_run_list *list, const galerkin_run *run,
                        const double *const x[3], double *const f[3], size_t low);
+/* Eight groups of a run: the first of them is number `lane` of the run, `left` of them exist; x, f: nodal
+ * values and forces, one array a component, f from node `low` on. */
+typedef struct {
+    const galerkin *g;
+    const galerkin_run *run;
+    const galerkin_entry *entry;
+    const double *const *x;
+    double *const *f;
+    size_t low, lane, left;
+} galerkin_bundle;
+/* The same with stabilisation, whose groups are points. */
+void galerkin_silling_bundle (const galerkin_bundle *bundle);
 /* operator: K x without K, and K */
 pg_status galerkin_operator_create (galerkin *g);
 void galerkin_apply (void *context, const double *x, double *y);
@@ -229,7 +255,11 @@ typedef double four __attribute__ ((vector_size (32), aligned (8)));
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(PG_DEBUG) \
     && !defined(__SANITIZE_THREAD__)
 #define WIDE __attribute__ ((target_clones ("avx2", "default")))
+#define WIDEST __attribute__ ((target_clones ("avx512f", "avx2", "default")))
 #else
 #define WIDE
+#define WIDEST
 #endif
+/* Eight numbers, for which WIDEST is meant. */
+typedef double eight __attribute__ ((vector_size (64), aligned (8)));
 #endif

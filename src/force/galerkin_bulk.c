@@ -35,14 +35,6 @@ void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
     }
 }
 
-/* Strength at a point: none where it carries no stress. */
-static double stabilisation (const galerkin *g, size_t p)
-{
-    const pg_material *m = galerkin_material (g, g->bulk, p);
-    double mu = m->mu;
-    return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->options->silling * mu;
-}
-
 /* In the plane all four entries of a block lie in one register: row by row they are products of D B_a
  * with q[0] and q[1]. */
 WIDE static void add_plane_blocks (const double *DB, size_t m, const double *q, double *k)
@@ -100,7 +92,7 @@ void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *
     const pg_rows *r = &g->sums;
     if (r->weight[p] == 0) return;
     add_point (g, p, a, m, out);
-    double Gs = g->options->silling > 0 ? stabilisation (g, p) : 0;
+    double Gs = g->options->silling > 0 ? galerkin_silling_modulus (g, p) : 0;
     if (Gs > 0) pg_silling_add (r, &g->problem->cloud, p, a, m, Gs, r->weight[p], out);
 }
 
@@ -112,56 +104,14 @@ void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, doubl
     for (size_t p = first[cell]; p < first[cell + 1]; p++) add_point (g, p, a, m, out);
 }
 
-/* f += Silling forces of point p: f_l = c (w_l z_l - M g_l), z = eta - H xi, M = sum w z xi (theory D3a);
- * returns the energy. z is what the mean deformation H leaves of the change eta of a bond: zero for all
- * affine fields, so that the patch test stays. Three passes over the bonds: H and the weighted second
- * moment q, then M, then forces. */
-static double silling_force (const galerkin *g, size_t p, const double *d, double *f)
-{
-    const pg_rows *r = &g->rows[g->bulk];
-    size_t dim = (size_t) g->dim, own = (size_t) r->own[p];
-    double H[9] = { 0 }, M[9] = { 0 }, q = 0, energy = 0, modulus = stabilisation (g, p);
-    if (modulus == 0) return 0;
-    for (int pass = 0; pass < 3; pass++) {
-        double c = q > 0 ? r->weight[p] * modulus * (double) (dim * (dim + 2)) / q : 0;
-        for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
-            size_t j = (size_t) r->family.node[k];
-            if (r->w[k] == 0 || j == own) continue;
-            double xi[3], z[3];
-            for (size_t a = 0; a < dim; a++) xi[a] = g->problem->cloud.x[j * dim + a] - r->x[p * dim + a];
-            for (size_t a = 0; a < dim; a++) {
-                z[a] = d[j * dim + a] - d[own * dim + a];
-                if (pass > 0) for (size_t b = 0; b < dim; b++) z[a] -= H[a*3 + b] * xi[b];
-            }
-            for (size_t a = 0; a < dim; a++) {
-                double force = c * r->w[k] * z[a];
-                if (pass == 0) q += r->w[k] * xi[a] * xi[a];
-                for (size_t b = 0; b < dim; b++) {
-                    if (pass == 0) H[a*3 + b] += z[a] * r->dN[k * dim + b];
-                    if (pass == 1) M[a*3 + b] += r->w[k] * z[a] * xi[b];
-                    if (pass == 2) force -= c * M[a*3 + b] * r->dN[k * dim + b];
-                }
-                if (pass == 2 && f) f[j * dim + a] += force, f[own * dim + a] -= force;
-                if (pass == 2) energy += 0.5 * c * r->w[k] * z[a] * z[a];
-            }
-        }
-    }
-    return energy;
-}
-
 /* After galerkin_measure. */
-void galerkin_bulk_force (galerkin *g, const double *d, double *f)
-{
-    galerkin_sum_stress (g, f);
-    for (size_t p = 0; p < g->rows[g->bulk].n && g->options->silling > 0; p++) silling_force (g, p, d, f);
-}
+void galerkin_bulk_force (galerkin *g, const double *d, double *f) { galerkin_sum_stress (g, d, f); }
 
 /* K x without K. */
 void galerkin_bulk_apply (galerkin *g, const double *x, double *y)
 {
     galerkin_sum_tangent (g, x, y);
     if (g->dilatation) galerkin_dilatation_apply (g, x, y);
-    for (size_t p = 0; p < g->rows[g->bulk].n && g->options->silling > 0; p++) silling_force (g, p, x, y);
 }
 
 /* Half the work of stress on strain, and the energy of the stabilisation. */
@@ -175,7 +125,7 @@ double galerkin_bulk_energy (const galerkin *g, const double *d)
         for (size_t v = 0; v < nv; v++)
             w += 0.5 * g->stress[g->bulk][p * nv + v] * g->strain[g->bulk][p * nv + v];
         sum += r->weight[p] * w;
-        if (g->options->silling > 0) sum += silling_force (g, p, d, NULL);
+        if (g->kept) sum += galerkin_silling_energy (g, p, d);
     }
     return sum;
 }

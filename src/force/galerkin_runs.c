@@ -26,15 +26,6 @@ enum { LANES = GALERKIN_LANES, LEAST = 4, MOST = 27 };
 static const double rounding = 1e-11;
 
 #define INLINE static inline __attribute__ ((always_inline))
-/* Eight numbers; the same operations in the same order with vectors of any width. */
-typedef double eight __attribute__ ((vector_size (64), aligned (8)));
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(PG_DEBUG) \
-    && !defined(__SANITIZE_THREAD__)
-#define WIDEST __attribute__ ((target_clones ("avx512f", "avx2", "default")))
-#else
-#define WIDEST
-#endif
-
 /* ---- which groups are alike ---------------------------------------------------------------------------- */
 /* The end of the group that begins with point p: points of the same cell, or p alone; 0: too many, or cut off
  * by the ends of the range, which is the caller's. */
@@ -73,6 +64,17 @@ static int alike (const galerkin *g, size_t q, size_t p, int shift, double bound
     return same == m * dim;
 }
 
+/* Are also the weights of the bonds equal, and the own node? */
+static int weighs_alike (const galerkin *g, size_t q, size_t p, int shift)
+{
+    const pg_rows *r = &g->sums;
+    size_t a = r->family.start[q], b = r->family.start[p], m = r->family.start[q + 1] - a, same = 0;
+    double most = 0;
+    for (size_t k = 0; k < m; k++) most = fmax (most, r->w[a + k]);
+    for (size_t k = 0; k < m; k++) same += fabs (r->w[b + k] - r->w[a + k]) <= rounding * most;
+    return same == m && r->own[p] == r->own[q] + shift && r->grade[p] == r->grade[q];
+}
+
 /* How many groups from point p on, up to `last`, are like the first, which ends at `end`. */
 static size_t count_alike (const galerkin *g, size_t p, size_t end, size_t last)
 {
@@ -82,7 +84,9 @@ static size_t count_alike (const galerkin *g, size_t p, size_t end, size_t last)
     for (size_t at = end; at + m <= last; at += m, count++) {
         if (group_end (&g->sums, p, last, at) != at + m) break;
         for (size_t q = 0; q < m; q++)
-            if (!alike (g, p + q, at + q, (int) count, bound[q])) return count;
+            if (!alike (g, p + q, at + q, (int) count, bound[q])
+                || (g->kept && !weighs_alike (g, p + q, at + q, (int) count)))
+                return count;
     }
     return count;
 }
@@ -156,19 +160,8 @@ void galerkin_runs_clear (galerkin_run_list *l)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* Eight cells of a run: the first of them is number `lane` of the run, `left` of them exist; x, f: nodal
- * values and forces, one array a component, f from node `low` on. */
-typedef struct {
-    const galerkin *g;
-    const galerkin_run *run;
-    const galerkin_entry *entry;
-    const double *const *x;
-    double *const *f;
-    size_t low, lane, left;
-} bundle;
-
 /* Strains of eight cells at their point p: xx yy zz xy yz zx, shears twice the tensor's. */
-INLINE void strain_solid (const bundle *b, size_t p, eight *e)
+INLINE void strain_solid (const galerkin_bundle *b, size_t p, eight *e)
 {
     const pg_rows *r = &b->g->sums;
     const int *node = r->family.node;
@@ -187,7 +180,7 @@ INLINE void strain_solid (const bundle *b, size_t p, eight *e)
 }
 
 /* The same in the plane: xx yy xy. */
-INLINE void strain_plane (const bundle *b, size_t p, eight *e)
+INLINE void strain_plane (const galerkin_bundle *b, size_t p, eight *e)
 {
     const pg_rows *r = &b->g->sums;
     const int *node = r->family.node;
@@ -203,7 +196,7 @@ INLINE void strain_plane (const bundle *b, size_t p, eight *e)
 }
 
 /* Stress times weight of point q of eight cells (nv, as the strain). Lanes beyond the run have weight 0. */
-INLINE void stress_of (int dim, const bundle *b, size_t q, eight *s)
+INLINE void stress_of (int dim, const galerkin_bundle *b, size_t q, eight *s)
 {
     const pg_rows *r = &b->g->sums;
     size_t p = b->run->point + q, nv = dim == 3 ? 6 : 3;
@@ -221,7 +214,7 @@ INLINE void stress_of (int dim, const bundle *b, size_t q, eight *s)
 }
 
 /* One bundle: stresses of all points, then forces node by node. */
-INLINE void sum_bundle (int dim, const bundle *b)
+INLINE void sum_bundle (int dim, const galerkin_bundle *b)
 {
     const pg_rows *r = &b->g->sums;
     size_t nv = dim == 3 ? 6 : 3;
@@ -247,15 +240,16 @@ INLINE void sum_bundle (int dim, const bundle *b)
     }
 }
 
-WIDEST static void sum_solid (const bundle *b) { sum_bundle (3, b); }
-WIDEST static void sum_plane (const bundle *b) { sum_bundle (2, b); }
+WIDEST static void sum_solid (const galerkin_bundle *b) { sum_bundle (3, b); }
+WIDEST static void sum_plane (const galerkin_bundle *b) { sum_bundle (2, b); }
 
 void galerkin_run_sum (const galerkin *g, const galerkin_run_list *l, const galerkin_run *run,
                        const double *const x[3], double *const f[3], size_t low)
 {
-    bundle b = { g, run, l->entry + run->entry, x, f, low, 0, 0 };
+    galerkin_bundle b = { g, run, l->entry + run->entry, x, f, low, 0, 0 };
     for (; b.lane < run->count; b.lane += LANES) {
         b.left = run->count - b.lane < LANES ? run->count - b.lane : LANES;
-        (g->dim == 3 ? sum_solid : sum_plane) (&b);
+        if (g->kept) galerkin_silling_bundle (&b);
+        else (g->dim == 3 ? sum_solid : sum_plane) (&b);
     }
 }

@@ -15,14 +15,17 @@ enum { SLICES = 16 };
 struct galerkin_slices {
     size_t  first[SLICES + 1];                         /* points of a slice */
     size_t  low[SLICES], high[SLICES];                 /* nodes they see */
-    double *sum[SLICES];                               /* per node of the range, 4 numbers (3D) or dim */
-    double *x;                                         /* nodal values, 4 numbers a node (3D) */
+    double *sum[SLICES];                               /* per node of the range, 4 numbers or dim */
+    double *x;                                         /* nodal values, 4 numbers a node or dim */
     /* Points that are alike in each slice; what they add up to, and nodal values, an array for each
      * component. has_runs: not in one dimension, and not where the plain way is wanted. */
     int     has_runs;
     galerkin_run_list runs[SLICES];
     double *part[SLICES][3], *component[3];
 };
+
+/* Numbers of a node in sums and widened values: four are one vector load. */
+static size_t stride_of (const galerkin *g) { return g->dim == 3 || g->kept ? 4 : (size_t) g->dim; }
 
 /* Sixteen slices of the points whatever the number of threads, each with room for the nodes that its
  * points see. Points are numbered along the lattice, so that these ranges overlap little. */
@@ -31,7 +34,7 @@ pg_status galerkin_slices_create (galerkin *g)
     pg_status status = PG_OK;
     const pg_family *f = &g->sums.family;
     galerkin_slices *s = NULL;
-    size_t stride = g->dim == 3 ? 4 : (size_t) g->dim;
+    size_t stride = stride_of (g);
     PG_ALLOC (s, 1);
     g->slices = s;
     for (size_t k = 0; k <= SLICES; k++) s->first[k] = f->n * k / SLICES;
@@ -177,15 +180,18 @@ static void measure_points (void *context, size_t first, size_t last, int thread
     }
 }
 
-/* Nodal values with four numbers a node in space, so that a node is one vector load; else as they are. */
-static const double *widened (galerkin *g, const double *d)
+/* Nodal values with four numbers a node. */
+static const double *four_a_node (galerkin *g, const double *d)
 {
-    if (g->dim != 3) return d;
     double *x = g->slices->x;
+    size_t dim = (size_t) g->dim;
     for (size_t i = 0; i < g->n; i++)
-        x[4 * i] = d[3 * i], x[4 * i + 1] = d[3 * i + 1], x[4 * i + 2] = d[3 * i + 2];
+        for (size_t c = 0; c < dim; c++) x[4 * i + c] = d[dim * i + c];
     return x;
 }
+
+/* Nodal values as the loops over points take them. */
+static const double *widened (galerkin *g, const double *d) { return g->dim == 3 ? four_a_node (g, d) : d; }
 
 /* All points of a set, unless they were measured at the same displacement already: balances, fields and
  * criteria ask for the same one several times a step. */
@@ -208,8 +214,9 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
-/* x NULL: stresses of the last measure */
-typedef struct { galerkin *g; const double *x; double *f; } summing;
+/* x: nodal values whose stresses are summed; NULL: stresses of the last measure. at: the nodal values, four
+ * numbers a node, where there is a stabilisation. */
+typedef struct { galerkin *g; const double *x, *at; double *f; } summing;
 
 /* s = D e in space; a loop of constant length. */
 INLINE void tangent (const double *D, const double *e, double *s)
@@ -261,8 +268,11 @@ static void sum_flat (const summing *m, size_t first, size_t last, double *sum, 
 /* Some points one by one. */
 static void sum_points (const summing *m, size_t k, size_t first, size_t last)
 {
-    const galerkin_slices *s = m->g->slices;
-    (m->g->dim == 3 ? sum_solid : sum_flat) (m, first, last, s->sum[k], s->low[k]);
+    const galerkin *g = m->g;
+    const galerkin_slices *s = g->slices;
+    if (g->kept)
+        galerkin_silling_sum (g, first, last, m->x ? NULL : g->stress[g->bulk], m->at, s->sum[k], s->low[k]);
+    else (g->dim == 3 ? sum_solid : sum_flat) (m, first, last, s->sum[k], s->low[k]);
 }
 
 /* Whole slices, each by one thread: runs, and the points between them. */
@@ -270,7 +280,7 @@ static void sum_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
     galerkin_slices *s = m->g->slices;
-    size_t dim = (size_t) m->g->dim, stride = dim == 3 ? 4 : dim;
+    size_t dim = (size_t) m->g->dim, stride = stride_of (m->g);
     (void) thread;
     for (size_t k = first; k < last; k++) {
         size_t at = s->first[k], range = s->high[k] - s->low[k];
@@ -294,7 +304,7 @@ static void add_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
     const galerkin_slices *s = m->g->slices;
-    size_t dim = (size_t) m->g->dim, stride = dim == 3 ? 4 : dim;
+    size_t dim = (size_t) m->g->dim, stride = stride_of (m->g);
     (void) thread;
     for (size_t k = 0; k < SLICES; k++) {
         size_t low = s->low[k], from = first > low ? first : low, to = last < s->high[k] ? last : s->high[k];
@@ -314,14 +324,16 @@ static void split (galerkin *g, const double *x)
         for (size_t c = 0; c < dim; c++) g->slices->component[c][i] = x[i * dim + c];
 }
 
-/* x NULL: stresses as measured. */
-static void sum_all (galerkin *g, const double *x, double *f)
+/* x NULL: stresses as measured, at displacement d. */
+static void sum_all (galerkin *g, const double *x, const double *d, double *f)
 {
-    summing m = { g, x ? widened (g, x) : NULL, f };
+    summing m = { g, x, NULL, f };
+    if (g->kept) m.at = four_a_node (g, d);
+    else if (x) m.x = widened (g, x);
     if (x && g->slices->has_runs) split (g, x);
     pg_parallel_heavy (g->threads, SLICES, sum_slices, &m);
     pg_parallel (g->threads, g->n, add_slices, &m);
 }
 
-void galerkin_sum_stress (galerkin *g, double *f) { sum_all (g, NULL, f); }
-void galerkin_sum_tangent (galerkin *g, const double *x, double *f) { sum_all (g, x, f); }
+void galerkin_sum_stress (galerkin *g, const double *d, double *f) { sum_all (g, NULL, d, f); }
+void galerkin_sum_tangent (galerkin *g, const double *x, double *f) { sum_all (g, x, x, f); }
