@@ -131,6 +131,12 @@ typedef struct {
     /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with
      * criteria of energies. */
     char      (*kind_of) (void *self, const double *d, size_t bond);
+    /* The largest utilisation of a live bond at d, and, if it is above 1, in `over` (ascending; freed by the
+     * caller) all bonds whose utilisation is at least `from`, which is then in `utilisation` at their places,
+     * as is the kind; other places of the two arrays (one for each bond) have no meaning. NULL: utilisation
+     * tells. */
+    pg_status (*worst) (void *self, const pg_state *state, const double *d, double from, double *utilisation,
+                        char *kind, double *top, pg_changes *over);
     /* As balance, by one sweep that keeps no strains: for displacements of which nothing else will be asked.
      * NULL: balance does. */
     pg_status (*balance_lean) (void *self, double t, const double *d, double *residual, double *reference);

@@ -271,6 +271,7 @@ const pg_force_type pg_force_galerkin = {
     .basis = galerkin_basis,
     .impose = galerkin_impose,
     .utilisation = galerkin_utilisation,
+    .worst = galerkin_worst,
     .work_balance = galerkin_work_balance,
     .work_balance_of = galerkin_work_balance_of,
     .field = galerkin_field,

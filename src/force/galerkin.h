@@ -239,6 +239,8 @@ pg_status galerkin_elements (void *self, pg_elements *out);
 /* bonds and fields */
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
                                 char *kind, double *factor);
+pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
+                          double *utilisation, char *kind, double *top, pg_changes *over);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,

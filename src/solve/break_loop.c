@@ -36,7 +36,7 @@ void break_loop_free (break_loop *b)
     facet_free (b);
     system_free (&b->system);
     pg_free (b->utilisation), pg_free (b->factor), pg_free (b->kind);
-    pg_free (b->changes.bond), pg_free (b->broken);
+    pg_free (b->changes.bond), pg_free (b->over.bond), pg_free (b->broken);
     pg_work_balance_clear (&b->work_balance);
     pg_work_balance_clear (&b->before);
     pg_free (b->damage);
@@ -96,6 +96,30 @@ static double largest (const double *a, size_t n)
     return top;
 }
 
+/* The force finds the worst bonds without judging all. */
+static int judges_few (const break_loop *b)
+{
+    return b->system.force->worst && !b->system.options->plain;
+}
+
+/* One round of breaking among the bonds listed. */
+static pg_status kill_listed (break_loop *b, pg_state *state, double cut, double t)
+{
+    pg_status status = PG_OK;
+    b->changes.n = 0;
+    for (size_t k = 0; k < b->over.n; k++) {
+        size_t i = b->over.bond[k];
+        if (!(b->utilisation[i] >= cut)) continue;
+        PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
+        PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i], t));
+        state->alive[i] = 0;
+        b->changes.bond[b->changes.n++] = i;
+    }
+    state->broken += (long) b->changes.n;
+done:
+    return status;
+}
+
 /* Counts bonds that live although they are over their limit, a tie counting as at the limit: 0 in every
  * state that the loop accepts. */
 long break_loop_over (const break_loop *b, const pg_state *state, double scale, double *top)
@@ -109,6 +133,25 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
         over += u > 1 + b->system.options->tie;
     }
     return over;
+}
+
+/* The largest utilisation of all bonds; if it is above 1, `over` lists those that may break now. */
+static pg_status look (break_loop *b, const pg_state *state, const double *d, double *top)
+{
+    pg_status status = PG_OK;
+    pg_system *s = &b->system;
+    double t0 = pg_seconds ();
+    PG_TRY (break_loop_ready (b));
+    if (judges_few (b)) {
+        PG_TRY (s->force->worst (s->self, state, d, 1 - s->options->tie, b->utilisation, b->kind, top,
+                                 &b->over));
+        goto done;
+    }
+    PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
+    *top = largest (b->utilisation, state->nbond);
+done:
+    s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+    return status;
 }
 
 /* The loop: equilibrium, utilisation of all bonds, breaking of those over the limit as solver.break has
@@ -140,13 +183,12 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
             continue;
         }
         if (!break_loop_judges (b)) break;
-        double t0 = pg_seconds ();
-        PG_TRY (break_loop_ready (b));
-        PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
-        double top = step->utilisation = largest (b->utilisation, state->nbond);
-        s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
+        double top;
+        PG_TRY (look (b, state, d, &top));
+        step->utilisation = top;
         if (!(top > 1)) {
-            s->report->bonds_over_limit += break_loop_over (b, state, 1, &step->utilisation);
+            if (!judges_few (b))
+                s->report->bonds_over_limit += break_loop_over (b, state, 1, &step->utilisation);
             break;
         }
         if (step->iterations >= o->max_iterations)
@@ -160,7 +202,8 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
                 ? 1
                 : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
         if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
-        PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
+        if (judges_few (b)) PG_TRY (kill_listed (b, state, cut, t));
+        else PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
         PG_TRY (system_refresh (s, state, &b->changes));
     }
     if (step->iterations > 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));

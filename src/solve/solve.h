@@ -110,6 +110,7 @@ typedef struct {
     double    *utilisation, *factor;                   /* per bond */
     char      *kind;
     pg_changes changes;                                /* died in the last round */
+    pg_changes over;                                   /* at their limit or near it when last looked at */
     pg_broken *broken; size_t nbroken, cap_broken;     /* died in this step */
     long       round;  /* break rounds of the step at hand; > 0 between steps: it was stopped in its middle */
     long       began;                                  /* round at which this call began */
