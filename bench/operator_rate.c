@@ -2,7 +2,8 @@
  * Products K x of galerkin without a matrix, beside what the memory of the machine can do. A CSV row for each
  * kind of body: unknowns, bonds (entries of the rows that a product reads), their bytes, milliseconds of a
  * product, bytes over seconds (GB/s), and the share of the rate of a plain copy of large vectors.
- *     operator_rate [BODY [POINTS ALONG ITS EDGE]]      without arguments: all
+ *     operator_rate [BODY [POINTS ALONG ITS EDGE]]      without arguments: all bodies
+ *     operator_rate FILE.yaml [FILE.yaml ...]           scenes with this force
  * A product reads, of every bond, the derivatives of a shape function (8 bytes a component) and the number
  * of a node (4), and of a body with Silling's stabilisation the weight of the bond (8) as well. Times are
  * processor seconds of all threads; each row has the least, the median and the largest of repeats over half a
@@ -79,18 +80,15 @@ static double bonds_of (const pg_problem *p)
                                               : p->first_bond[PG_POINTS + 1] - p->first_bond[PG_POINTS]);
 }
 
-/* One body: makes it, multiplies, prints its row. */
-static pg_status measure (const body *b, size_t along, int threads, double copy)
+/* One scene: builds it, multiplies, prints its row. Takes over the scene. */
+static pg_status measure (pg_scene *scene, const char *name, int threads, double copy)
 {
     pg_status status = PG_OK;
-    pg_scene *scene = NULL;  pg_problem *problem = NULL;  pg_state *state = NULL;
+    pg_problem *problem = NULL;  pg_state *state = NULL;
     const pg_force_type *force = NULL;
     void *self = NULL;
     double *x = NULL, *y = NULL;
-    char text[2000];
     spread seconds = { 0 };
-    snprintf (text, sizeof text, "%sspacing: %.17g\nsolver: {kind: static}\n", b->text, 1.0 / (double) along);
-    PG_TRY (pg_scene_parse (&scene, text, b->name));
     PG_TRY (pg_problem_build (&problem, scene, threads));
     force = pg_force_of (problem);
     PG_TRY (force->create (&self, problem));
@@ -107,8 +105,8 @@ static pg_status measure (const body *b, size_t along, int threads, double copy)
         spread_add (&seconds, spread_processor () - t);
     }
     double bonds = bonds_of (problem);
-    double bytes = bonds * (8.0 * problem->dim + 4 + (strstr (b->name, "silling") ? 8 : 0));
-    printf ("%s,%zu,%.0f,%.0f,%d,", b->name, K->n, bonds, bytes, threads);
+    double bytes = bonds * (8.0 * problem->dim + 4 + (strstr (name, "silling") ? 8 : 0));
+    printf ("%s,%zu,%.0f,%.0f,%d,", name, K->n, bonds, bytes, threads);
     spread_print (&seconds, 1e3);
     spread_print_rate (&seconds, 1e-9 * bytes);
     printf ("%.4g\n", 1e-9 * bytes / spread_quantile (&seconds, 0) / copy);
@@ -130,10 +128,21 @@ int main (int argc, char **argv)
           "GB_s_min,GB_s_median,GB_s_max,share_of_copy");
     PG_TRY (copy_rate (&copy));
     printf ("copy,%d,0,%.0f,1,,,,%.4g,%.4g,%.4g,1\n", COPY, 2.0 * COPY * sizeof (double), copy, copy, copy);
+    for (int k = 1; k < argc; k++) {
+        pg_scene *scene = NULL;
+        if (!strstr (argv[k], ".yaml")) continue;
+        PG_TRY (pg_scene_load (&scene, argv[k]));
+        PG_TRY (measure (scene, argv[k], threads, copy));
+    }
     for (int k = 0; k < BODIES; k++) {
+        size_t along = argc > 2 ? strtoul (argv[2], NULL, 10) : bodies[k].along;
+        char scene_text[2000];
+        pg_scene *scene = NULL;
         if (argc > 1 && strcmp (argv[1], bodies[k].name) != 0) continue;
-        PG_TRY (measure (&bodies[k], argc > 2 ? strtoul (argv[2], NULL, 10) : bodies[k].along, threads,
-                         copy));
+        snprintf (scene_text, sizeof scene_text, "%sspacing: %.17g\nsolver: {kind: static}\n", bodies[k].text,
+                  1.0 / (double) along);
+        PG_TRY (pg_scene_parse (&scene, scene_text, bodies[k].name));
+        PG_TRY (measure (scene, bodies[k].name, threads, copy));
     }
 done:
     if (status != PG_OK) fprintf (stderr, "operator_rate: %s\n", pg_last_error ());
