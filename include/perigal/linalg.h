@@ -176,6 +176,8 @@ void pg_dense_substitute (size_t n, const double *A, size_t lda, const int *pivo
 /* C = alpha A B + beta C, or alpha A' B + beta C, column-major: C m x n, the inner dimension k. */
 void pg_dense_multiply (int transposed, size_t m, size_t n, size_t k, double alpha, const double *A,
                         size_t lda, const double *B, size_t ldb, double beta, double *C, size_t ldc);
+/* C += A B' (m x k, n x k, columns without gaps). */
+void pg_dense_add_product (size_t m, size_t n, size_t k, const double *A, const double *B, double *C);
 
 /* ---- multilevel preconditioner ------------------------------------------------------------------------- */
 /* Rows of a matrix of nodes, or of one like it with fewer couplings: it must have the same rigid motions,

@@ -59,3 +59,11 @@ void pg_dense_multiply (int transposed, size_t m, size_t n, size_t k, double alp
                 C, &one);
     else dgemm_ (op, "N", &rows, &columns, &inner, &alpha, A, &la, B, &lb, &beta, C, &lc);
 }
+
+void pg_dense_add_product (size_t m, size_t n, size_t k, const double *A, const double *B, double *C)
+{
+    int rows = (int) m, columns = (int) n, inner = (int) k;
+    double one = 1;
+    if (m && n && k)
+        dgemm_ ("N", "T", &rows, &columns, &inner, &one, A, &rows, B, &columns, &one, C, &rows);
+}

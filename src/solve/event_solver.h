@@ -76,7 +76,7 @@ void      event_solver_at     (const event_solver *e, int which, size_t n, const
 /* The whole displacement of a case, ndof; window: one back-substitution. */
 pg_status event_solver_full   (event_solver *e, int which, double *u);
 /* The same with u at hand (columns): adds what the last update changed, u += G dx. */
-void      event_solver_advance (const event_solver *e, int which, double *u);
+void      event_solver_advance (event_solver *e, int which, double *u);
 /* K^-1 r of any reduced residual, delta (nred): a solve with the base factor, corrected for D. */
 pg_status event_solver_correct (event_solver *e, const double *r, double *delta);
 /* What the last update left unbalanced on the touched unknowns, over the reference force of the base. */

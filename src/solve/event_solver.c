@@ -1,0 +1,398 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The event solver: bases, updates after breaks, blocks of events, functionals. Algorithm: event_solver.h;
+ * the dense system: event_touched.c. */
+#include "event_solver_data.h"
+#include <math.h>
+#include <string.h>
+
+/* More touched unknowns are never worth their dense system; Green columns beyond this memory are not made. */
+enum { MOST_TOUCHED = 2000 };
+static const double most_memory = 1.5e9;               /* bytes of Green columns */
+/* A displacement that grows this much in an event belongs to a part that has come loose: the residual of the
+ * whole body decides. */
+static const double loose = 1e6;
+/* Share of one solve that a column costs among several right-hand sides; numbers read in a second. */
+static const double column_share = 0.3, memory_rate = 1e9;
+
+/* ---- life ---------------------------------------------------------------------------------------------- */
+pg_status event_solver_create (event_solver **out, pg_system *s, int cases, const double *time)
+{
+    pg_status status = PG_OK;
+    event_solver *e = NULL;
+    *out = NULL;
+    if (s->options->plain || !s->force->change || !system_has_matrix (s) || !s->linear->factors)
+        return PG_OK;
+    PG_ALLOC (e, 1);
+    e->s = s, e->cases = cases, e->ndof = s->ndof, e->nred = s->nred, e->why = "there is no base yet";
+    PG_ALLOC (e->at, e->ndof);
+    PG_ALLOC (e->diagonal, e->ndof);
+    for (int c = 0; c < cases; c++) {
+        e->time[c] = time[c];
+        PG_ALLOC (e->base[c], e->ndof);
+        PG_ALLOC (e->constant[c], e->ndof);
+    }
+    *out = e, e = NULL;
+done:
+    event_solver_free (&e);
+    return status;
+}
+
+void event_solver_free (event_solver **solver)
+{
+    event_solver *e = *solver;
+    if (!e) return;
+    touched_free (e);
+    for (int c = 0; c < EVENT_CASES; c++) {
+        pg_free (e->base[c]), pg_free (e->constant[c]);
+        for (int k = 0; k <= EVENT_MOST; k++) pg_free (e->X[c][k]);
+    }
+    for (int k = 0; k < e->nfunctional; k++) pg_free (e->functional[k].ell), pg_free (e->functional[k].dual);
+    pg_free (e->diagonal), pg_free (e->G), pg_free (e->rhs), pg_free (e->solved);
+    pg_free (e);
+    *solver = NULL;
+}
+
+int event_solver_has_base (const event_solver *e) { return e->based; }
+const char *event_solver_why (const event_solver *e) { return e->why; }
+double event_solver_residual (const event_solver *e) { return e->residual; }
+
+const int *event_solver_nodes (const event_solver *e, size_t *n)
+{
+    *n = e->s->problem->cloud.n;
+    return NULL;
+}
+
+void event_solver_tell (const event_solver *e, event_solver_account *out)
+{
+    *out = e->account;
+    out->touched = e->t;
+}
+
+/* ---- bases --------------------------------------------------------------------------------------------- */
+/* The residual of u = 0 at each load factor: what loads and prescribed values put in, N. */
+static pg_status constant_forces (event_solver *e, double *const *out)
+{
+    pg_status status = PG_OK;
+    double *zero = NULL, reference;
+    PG_ALLOC (zero, e->ndof);
+    for (int c = 0; c < e->cases; c++)
+        PG_TRY (e->s->force->balance (e->s->self, e->time[c], zero, out[c], &reference));
+done:
+    pg_free (zero);
+    return status;
+}
+
+/* The solution at hand becomes the one before the first event of a block. */
+static pg_status remember (event_solver *e, int k)
+{
+    pg_status status = PG_OK;
+    for (int c = 0; c < e->cases; c++) {
+        size_t room = e->X[c][k] ? e->tX[k] : 0;
+        if (e->t > room || !e->X[c][k]) {
+            pg_free (e->X[c][k]);
+            e->X[c][k] = NULL;
+            PG_ALLOC (e->X[c][k], e->t + 1);
+        }
+        if (e->t) memcpy (e->X[c][k], e->x[c], e->t * sizeof *e->x[c]);
+    }
+    e->tX[k] = e->t;
+done:
+    return status;
+}
+
+static double dot (size_t n, const double *a, const double *b)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += a[i] * b[i];
+    return sum;
+}
+
+/* From the first touched unknown `first` on; first 0: its value at the base as well. */
+static void extend_functional (event_solver *e, event_functional *f, size_t first)
+{
+    for (int c = 0; c < e->cases && first == 0; c++) f->base[c] = dot (e->ndof, f->ell, e->base[c]);
+    for (size_t i = first; i < e->t; i++) f->dual[i] = dot (e->ndof, f->ell, e->G + i * e->ndof);
+}
+
+pg_status event_solver_base (event_solver *e, double *const *u, double *residual)
+{
+    pg_status status = PG_OK;
+    pg_system *s = e->s;
+    pg_stiffness_change change;
+    e->based = 0, e->why = "the system is solved without a factor";
+    touched_clear (e);
+    int factors = s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR;
+    if (s->stale && factors) PG_TRY (system_factorize (s, NULL));
+    *residual = 0;
+    for (int c = 0; c < e->cases; c++) {
+        double one;
+        PG_TRY (system_solve (s, e->time[c], u[c], NULL, &one));
+        *residual = fmax (*residual, one);
+    }
+    factors = s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR;
+    if (!factors || s->stale) goto done;
+    const pg_sparse *K = s->force->matrix (s->self);
+    for (size_t i = 0; i < e->ndof; i++) e->diagonal[i] = K->value[K->start[i + 1] - 1];
+    e->shift = s->shift * s->mean_diagonal, e->scale = s->reference > 0 ? s->reference : 1;
+    for (int c = 0; c < e->cases; c++) memcpy (e->base[c], u[c], e->ndof * sizeof *u[c]);
+    PG_TRY (constant_forces (e, e->constant));
+    PG_TRY (s->force->change (s->self, &change));      /* the record begins here */
+    for (int k = 0; k < e->nfunctional; k++) extend_functional (e, &e->functional[k], 0);
+    e->based = 1, e->why = "";
+    e->account.bases++, e->account.rent = 0;
+    event_solver_flush (e);
+done:
+    return status;
+}
+
+/* ---- updates ------------------------------------------------------------------------------------------- */
+/* Constant forces that follow shape functions have changed: measured anew; p on the unknowns where they
+ * differ from those of the base, which become touched. *fits 0: too many. */
+static pg_status change_of_forces (event_solver *e, int *fits)
+{
+    pg_status status = PG_OK;
+    double *now[EVENT_CASES] = { NULL };
+    size_t *fresh = NULL, nfresh = 0;
+    *fits = 1;
+    PG_ALLOC (fresh, e->ndof);
+    for (int c = 0; c < e->cases; c++) PG_ALLOC (now[c], e->ndof);
+    PG_TRY (constant_forces (e, now));
+    for (size_t i = 0; i < e->ndof; i++) {
+        int differs = 0;
+        for (int c = 0; c < e->cases; c++) differs |= now[c][i] != e->constant[c][i];
+        if (differs && !e->at[i]) fresh[nfresh++] = i;
+    }
+    *fits = e->t + nfresh <= MOST_TOUCHED;
+    if (!*fits) goto done;
+    PG_TRY (touched_grow (e, nfresh, fresh));
+    for (int c = 0; c < e->cases; c++)
+        for (size_t i = 0; i < e->t; i++)
+            e->p[c][i] = now[c][e->dof[i]] - e->constant[c][e->dof[i]];
+done:
+    for (int c = 0; c < e->cases; c++) pg_free (now[c]);
+    pg_free (fresh);
+    return status;
+}
+
+/* Nothing can be said of u until there is a new base. */
+static pg_status lose (event_solver *e, const char *why, event_outcome *outcome)
+{
+    e->why = why, e->based = 0;
+    *outcome = EVENT_LOST;
+    return PG_OK;
+}
+
+static double largest (const double *a, size_t n)
+{
+    double top = 0;
+    for (size_t i = 0; i < n; i++) top = fmax (top, fabs (a[i]));
+    return top;
+}
+
+/* Has a loaded part come loose? Its displacement knows no bounds, and all that can be said is what the
+ * residual of the whole body says. */
+static int runs_away (const event_solver *e)
+{
+    for (int c = 0; c < e->cases; c++)
+        if (!(largest (e->u[c], e->t) <= loose * largest (e->base[c], e->ndof))) return 1;
+    return 0;
+}
+
+/* Rent or buy: the dense algebra since the base has cost more than another factor and the columns that would
+ * be needed again. */
+static int base_is_due (const event_solver *e)
+{
+    double column = column_share * system_solve_cost (e->s), again = fmin ((double) e->t, 80) * column;
+    return e->account.rent > system_factor_cost (e->s) + again;
+}
+
+/* Room for the columns that a change may need, and a dense system that can be afforded. */
+static int affordable (const event_solver *e, size_t count)
+{
+    size_t most = e->t + count;
+    return most <= MOST_TOUCHED && (double) most * (double) e->ndof * sizeof (double) <= most_memory;
+}
+
+/* Takes the change of K and of forces in. *outcome stays EVENT_SOLVED where u is to be solved for. */
+static pg_status take_in (event_solver *e, event_outcome *outcome)
+{
+    pg_status status = PG_OK;
+    pg_stiffness_change change;
+    size_t before = e->t;
+    int fits = 1;
+    PG_TRY (e->s->force->change (e->s->self, &change));
+    *outcome = EVENT_SOLVED;
+    if (!e->based) return lose (e, e->why, outcome);
+    if (!change.known) return lose (e, "too much has broken at once", outcome);
+    if (change.basis) return lose (e, "bonds broke that carry prescribed displacements", outcome);
+    if (change.n == 0 && !change.loads) *outcome = EVENT_SAME;
+    else if (!affordable (e, change.n * (size_t) e->s->components))
+        return lose (e, "too many unknowns are touched", outcome);
+    if (*outcome == EVENT_SAME) return PG_OK;
+    PG_TRY (touched_change (e, &change));
+    if (change.loads) PG_TRY (change_of_forces (e, &fits));
+    if (!fits) return lose (e, "loads have changed at too many unknowns", outcome);
+    for (int k = 0; k < e->nfunctional && e->t > before; k++)
+        extend_functional (e, &e->functional[k], before);
+done:
+    return status;
+}
+
+pg_status event_solver_update (event_solver *e, event_outcome *outcome)
+{
+    pg_status status = PG_OK;
+    e->account.updates++;
+    PG_TRY (take_in (e, outcome));
+    if (*outcome == EVENT_LOST) goto done;
+    if (*outcome == EVENT_SOLVED) {
+        if (!touched_solve (e) || runs_away (e))
+            return lose (e, "the touched part of the body does not find its balance", outcome);
+        e->account.spared += system_factor_cost (e->s);
+        if (base_is_due (e)) *outcome = EVENT_DUE, e->why = "the touched unknowns have become many";
+    }
+    if (e->count < EVENT_MOST) PG_TRY (remember (e, ++e->count));
+done:
+    return status;
+}
+
+/* ---- the solution -------------------------------------------------------------------------------------- */
+void event_solver_at (const event_solver *e, int which, size_t n, const int *node, double *u)
+{
+    size_t m = (size_t) e->s->components;
+    for (size_t k = 0; k < n; k++) {
+        size_t from = (node ? (size_t) node[k] : k) * m;
+        for (size_t a = 0; a < m; a++) u[k * m + a] = e->base[which][from + a];
+    }
+    for (size_t i = 0; i < e->t; i++) {
+        double x = e->x[which][i];
+        const double *G = e->G + i * e->ndof;
+        for (size_t k = 0; k < n; k++) {
+            size_t from = (node ? (size_t) node[k] : k) * m;
+            for (size_t a = 0; a < m; a++) u[k * m + a] += G[from + a] * x;
+        }
+    }
+}
+
+pg_status event_solver_full (event_solver *e, int which, double *u)
+{
+    memcpy (u, e->base[which], e->ndof * sizeof *u);
+    pg_dense_multiply (0, e->ndof, 1, e->t, 1, e->G, e->ndof, e->x[which], e->cap, 1, u, e->ndof);
+    e->account.rent += (double) e->t * (double) e->ndof / memory_rate;
+    return PG_OK;
+}
+
+void event_solver_advance (event_solver *e, int which, double *u)
+{
+    e->account.rent += (double) e->t * (double) e->ndof / memory_rate;
+    pg_dense_multiply (0, e->ndof, 1, e->t, 1, e->G, e->ndof, e->dx[which], e->cap, 1, u, e->ndof);
+}
+
+/* The free unknowns of a full vector, in their order: rows of T with nothing but a 1. */
+static void reduce (const event_solver *e, const pg_sparse *T, const double *full, double *reduced)
+{
+    for (size_t j = 0; j < e->nred; j++) {
+        long q = T ? T->start[j] : 0;
+        while (T && T->value[q] != 1) q++;
+        reduced[j] = full[T ? (size_t) T->row[q] : j];
+    }
+}
+
+/* delta = A^-1 r - A^-1 W y, (1 + D H) y = D W' A^-1 r */
+pg_status event_solver_correct (event_solver *e, const double *r, double *delta)
+{
+    pg_status status = PG_OK;
+    pg_system *s = e->s;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    double *full = NULL, *part = NULL, *y = NULL;
+    PG_ALLOC (full, e->ndof);
+    PG_ALLOC (part, e->nred);
+    PG_ALLOC (y, 2 * (e->t + 1));
+    PG_TRY (s->linear->solve (s->factor, 1, r, delta));
+    if (T) pg_sparse_multiply (T, delta, full);
+    else memcpy (full, delta, e->ndof * sizeof *full);
+    for (size_t i = 0; i < e->t; i++) y[e->t + 1 + i] = full[e->dof[i]];
+    for (size_t i = 0; i < e->t; i++) y[i] = e->stay[i] * y[e->t + 1 + i];
+    pg_dense_multiply (0, e->t, 1, e->t, 1, e->D, e->cap, y + e->t + 1, e->cap, 1, y, e->cap);
+    if (!touched_substitute (e, y)) PG_FAIL (PG_E_SINGULAR, "the system of the touched unknowns is singular");
+    memset (full, 0, e->ndof * sizeof *full);
+    pg_dense_multiply (0, e->ndof, 1, e->t, 1, e->G, e->ndof, y, e->cap, 0, full, e->ndof);
+    reduce (e, T, full, part);
+    for (size_t j = 0; j < e->nred; j++) delta[j] -= part[j];
+done:
+    pg_free (full), pg_free (part), pg_free (y);
+    return status;
+}
+
+/* ---- blocks of events ---------------------------------------------------------------------------------- */
+int event_solver_count (const event_solver *e) { return e->count; }
+
+void event_solver_flush (event_solver *e)
+{
+    e->count = 0;
+    remember (e, 0);
+}
+
+/* One product of the Green columns with the forces of all events asked for; what was touched later has no
+ * force in them. */
+pg_status event_solver_block (event_solver *e, int which, int n, const int *list, double *u)
+{
+    pg_status status = PG_OK;
+    double *x = NULL;
+    size_t events = (size_t) n;
+    PG_ALLOC (x, events * (e->t + 1));
+    for (size_t k = 0; k < events; k++)
+        for (size_t i = 0; i < e->tX[list[k] + 1]; i++) x[k + i * events] = e->X[which][list[k] + 1][i];
+    for (size_t i = 0; i < e->ndof; i++)
+        for (size_t k = 0; k < events; k++) u[i * events + k] = e->base[which][i];
+    pg_dense_add_product (events, e->ndof, e->t, x, e->G, u);
+    e->account.rent += (double) events * 2 * (double) e->t * (double) e->ndof / 10e9;
+done:
+    pg_free (x);
+    return status;
+}
+
+/* What broke since event k lives again: D is as it was, up to rounding, which the next updates correct. */
+pg_status event_solver_back (event_solver *e, int k, event_outcome *outcome)
+{
+    pg_status status = PG_OK;
+    PG_TRY (take_in (e, outcome));
+    if (*outcome == EVENT_LOST) goto done;
+    *outcome = EVENT_SOLVED;
+    for (int c = 0; c < e->cases; c++) {
+        memset (e->x[c], 0, e->t * sizeof *e->x[c]);
+        memcpy (e->x[c], e->X[c][k + 1], e->tX[k + 1] * sizeof *e->x[c]);
+        memset (e->dx[c], 0, e->t * sizeof *e->dx[c]);
+        touched_displacement (e, c);
+    }
+    e->count = k + 1;
+done:
+    return status;
+}
+
+/* ---- functionals --------------------------------------------------------------------------------------- */
+pg_status event_solver_functional (event_solver *e, const double *ell, int *number)
+{
+    pg_status status = PG_OK;
+    if (e->nfunctional == FUNCTIONALS) PG_FAIL (PG_E_LIMIT, "at most %d functionals", FUNCTIONALS);
+    event_functional *f = &e->functional[e->nfunctional];
+    memset (f, 0, sizeof *f);
+    *number = e->nfunctional++;
+    PG_ALLOC (f->ell, e->ndof);
+    PG_ALLOC (f->dual, e->cap + 1);
+    memcpy (f->ell, ell, e->ndof * sizeof *ell);
+    if (e->based) extend_functional (e, f, 0);
+done:
+    return status;
+}
+
+double event_solver_value (const event_solver *e, int number, int which)
+{
+    const event_functional *f = &e->functional[number];
+    return f->base[which] + dot (e->t, f->dual, e->x[which]);
+}
+
+void event_solver_forget (event_solver *e)
+{
+    for (int k = 0; k < e->nfunctional; k++) pg_free (e->functional[k].ell), pg_free (e->functional[k].dual);
+    e->nfunctional = 0;
+}

@@ -1,0 +1,82 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private to the event solver: its data. Files: event_solver.c (life, bases, updates, blocks of events,
+ * functionals), event_touched.c (the dense system of the touched unknowns), event_columns.c (Green columns),
+ * event_window.c (window ordered last). Symbols as in event_solver.h. */
+#ifndef PG_EVENT_SOLVER_DATA_H
+#define PG_EVENT_SOLVER_DATA_H
+#include "event_solver.h"
+
+enum { FUNCTIONALS = 32 };                             /* most of them at a time */
+
+typedef struct event_window event_window;              /* event_window.c */
+
+/* A linear functional ell . u = ell . u_b + dual . x, with dual = G' ell. */
+typedef struct {
+    double *ell, base[EVENT_CASES];                    /* (ndof); of u_b */
+    double *dual;                                      /* of the touched unknowns (cap) */
+} event_functional;
+
+struct event_solver {
+    pg_system *s;
+    int     cases;
+    double  time[EVENT_CASES];                         /* load factor of each case */
+    size_t  ndof, nred;
+    /* ---- base */
+    int     based;
+    double *base[EVENT_CASES];                         /* u_b (ndof) */
+    double *constant[EVENT_CASES];                     /* residual of u = 0 at the base, N (ndof) */
+    double *diagonal;                                  /* of K at the base, N/m (ndof) */
+    double  shift;                                     /* that weak unknowns get in a factor, N/m */
+    double  scale;                                     /* reference force at the base, N */
+    /* ---- touched unknowns: t of them, arrays of cap, matrices column-major with columns cap apart */
+    size_t  t, cap;
+    size_t *dof;                                       /* their numbers among the full unknowns */
+    int    *at;                                        /* place + 1 of each full unknown (ndof) */
+    double *D;                                         /* change of K between them, N/m */
+    double *stay;  /* beside D on the diagonal of the system: holds what nothing else holds, N/m */
+    double *H;                                         /* W' A^-1 W, m/N */
+    double *M, *factor;                                /* 1 + (D + stay) H; its LU factors */
+    int    *pivot, factored;
+    double *x[EVENT_CASES], *p[EVENT_CASES];           /* forces, N */
+    double *dx[EVENT_CASES];                           /* of the last update */
+    double *u[EVENT_CASES];                            /* displacement of the touched unknowns, m */
+    double *r;                                         /* scratch: cases x cap */
+    double *pack, *product;  size_t room_pack, room_product;       /* scratch of gathered blocks */
+    double  residual;                                  /* of the last update, over scale */
+    /* ---- columns */
+    double *G;  size_t room_G;                         /* (ndof x t) */
+    double *rhs, *solved;  size_t room_rhs, room_solved;           /* (nred x new ones) */
+    /* ---- window */
+    event_window *window;                              /* NULL: columns */
+    /* ---- block of events: x of event k at X[c][k], zero beyond tX[k]; number 0 is that before the first */
+    int     count;
+    double *X[EVENT_CASES][EVENT_MOST + 1];
+    size_t  tX[EVENT_MOST + 1];
+    event_functional functional[FUNCTIONALS];
+    int     nfunctional;
+    const char *why;
+    event_solver_account account;
+};
+
+/* ---- event_touched.c ----------------------------------------------------------------------------------- */
+void      touched_free  (event_solver *e);
+void      touched_clear (event_solver *e);             /* t = 0 */
+/* Takes in unknowns that are not yet touched: H and what depends on it grow. columns: gives A^-1 W of the
+ * unknowns dof[first..t-1] as far as H needs it. */
+pg_status touched_grow  (event_solver *e, size_t count, const size_t *dof);
+/* D += change. */
+pg_status touched_change (event_solver *e, const pg_stiffness_change *change);
+/* x += dx, u of all cases; 0: the system is singular or its residual stays. */
+int       touched_solve (event_solver *e);
+/* y = (1 + D H)^-1 y */
+int       touched_substitute (event_solver *e, double *y);
+/* u of the touched unknowns from x */
+void      touched_displacement (event_solver *e, int c);
+
+/* ---- event_columns.c ----------------------------------------------------------------------------------- */
+/* Green columns of the unknowns from `first` on, which G has room for afterwards. */
+pg_status columns_make  (event_solver *e, size_t first);
+
+/* ---- event_window.c ------------------------------------------------------------------------------------ */
+void      window_free   (event_solver *e);
+#endif
