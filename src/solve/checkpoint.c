@@ -236,18 +236,19 @@ done:
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[8] = { s->mode,  s->indefinite,   s->kept,  s->marked, s->factored != NULL,
-                      s->stale, s->unshifted, s->spared };
+    long count[9] = { s->mode,  s->indefinite, s->kept,   s->marked, s->factored != NULL,
+                      s->stale, s->unshifted,  s->spared, s->base };
     double number[3] = { s->mean_diagonal, s->shift, s->extra_cost };
-    PG_TRY (k->counts (k->context, "system.counts", 8, count));
+    PG_TRY (k->counts (k->context, "system.counts", 9, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
     PG_KEEP_BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED,
            !system_has_matrix (s) && count[0] != SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_NO_FACTOR);
     PG_KEEP_BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
+    PG_KEEP_BOUND (k, "the base of events", count[8], 0, count[4]);
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
-    s->spared = count[7];
+    s->spared = count[7], s->base = (int) count[8];
     s->mean_diagonal = number[0], s->shift = number[1], s->extra_cost = number[2];
     /* K had become indefinite: the method of factoring is changed as it was in the first run. */
     if (k->reading && count[1] && !s->indefinite) {
@@ -325,7 +326,7 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
         state->alive = alive;
         PG_TRY (status);
         sys->extra_cost = extra_cost, sys->pace = pace, sys->remake = 0;
-    } else if ((sys->mode == SYSTEM_KEPT_FACTOR || !stale) && sys->factored) {
+    } else if ((sys->mode == SYSTEM_KEPT_FACTOR || sys->base || !stale) && sys->factored) {
         state->alive = sys->factored;
         status = system_refresh (sys, state, NULL);
         if (status == PG_OK)

@@ -53,6 +53,9 @@ void event_solver_free (event_solver **solver)
 }
 
 int event_solver_has_base (const event_solver *e) { return e->based; }
+
+void event_solver_drop (event_solver *e) { e->based = e->s->base = 0, e->why = "there is no base yet"; }
+
 const char *event_solver_why (const event_solver *e) { return e->why; }
 double event_solver_residual (const event_solver *e) { return e->residual; }
 
@@ -119,7 +122,7 @@ pg_status event_solver_base (event_solver *e, double *const *u, double *residual
     pg_status status = PG_OK;
     pg_system *s = e->s;
     pg_stiffness_change change;
-    e->based = 0, e->why = "the system is solved without a factor";
+    event_solver_drop (e), e->why = "the system is solved without a factor";
     touched_clear (e);
     int factors = s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR;
     if (s->stale && factors) PG_TRY (system_factorize (s, NULL));
@@ -138,9 +141,9 @@ pg_status event_solver_base (event_solver *e, double *const *u, double *residual
     PG_TRY (constant_forces (e, e->constant));
     PG_TRY (s->force->change (s->self, &change));      /* the record begins here */
     for (int k = 0; k < e->nfunctional; k++) extend_functional (e, &e->functional[k], 0);
-    e->based = 1, e->why = "";
+    e->based = s->base = 1, e->why = "", e->factorizations = s->report->factorizations;
     e->account.bases++, e->account.rent = 0;
-    event_solver_flush (e);
+    PG_TRY (event_solver_flush (e));
 done:
     return status;
 }
@@ -177,7 +180,7 @@ done:
 /* Nothing can be said of u until there is a new base. */
 static pg_status lose (event_solver *e, const char *why, event_outcome *outcome)
 {
-    e->why = why, e->based = 0;
+    event_solver_drop (e), e->why = why;
     *outcome = EVENT_LOST;
     return PG_OK;
 }
@@ -223,6 +226,8 @@ static pg_status take_in (event_solver *e, event_outcome *outcome)
     PG_TRY (e->s->force->change (e->s->self, &change));
     *outcome = EVENT_SOLVED;
     if (!e->based) return lose (e, e->why, outcome);
+    if (e->factorizations != e->s->report->factorizations)
+        return lose (e, "the factor of the base is gone", outcome);
     if (!change.known) return lose (e, "too much has broken at once", outcome);
     if (change.basis) return lose (e, "bonds broke that carry prescribed displacements", outcome);
     if (change.n == 0 && !change.loads) *outcome = EVENT_SAME;
@@ -326,10 +331,10 @@ done:
 /* ---- blocks of events ---------------------------------------------------------------------------------- */
 int event_solver_count (const event_solver *e) { return e->count; }
 
-void event_solver_flush (event_solver *e)
+pg_status event_solver_flush (event_solver *e)
 {
     e->count = 0;
-    remember (e, 0);
+    return remember (e, 0);
 }
 
 /* One product of the Green columns with the forces of all events asked for; what was touched later has no

@@ -60,6 +60,8 @@ pg_status event_solver_base   (event_solver *e, double *const *u, double *residu
 pg_status event_solver_window (event_solver *e, double *const *u, size_t n, const int *node, double *residual,
                                int *done);
 int       event_solver_has_base (const event_solver *e);
+/* The base is of no use any more. */
+void      event_solver_drop     (event_solver *e);
 /* Nodes at which u of every event is known: the window, or NULL (n = all nodes). */
 const int *event_solver_nodes (const event_solver *e, size_t *n);
 
@@ -86,7 +88,7 @@ double    event_solver_residual (const event_solver *e);
 /* Events since the base or the last flush; the next one is number `count`. A block holds EVENT_MOST. */
 int       event_solver_count  (const event_solver *e);
 /* Forgets the events of the block; the solution and D stay. */
-void      event_solver_flush  (event_solver *e);
+pg_status event_solver_flush  (event_solver *e);
 /* Whole displacements of events list[0..n-1] of the block for one case, u[unknown * n + k]: the unknowns of a
  * node side by side, event by event within each, so that loops over k are contiguous. Event -1: that before
  * the first one of the block. */
@@ -112,6 +114,9 @@ typedef struct {
     double spared;                                     /* factorizations not made, alike */
 } event_solver_account;
 void      event_solver_tell   (const event_solver *e, event_solver_account *out);
-/* Base, D, x: a run that is read back goes on bit by bit. */
+/* Base, D, x: a run that is read back goes on bit by bit. After reading, and after the force and the factor
+ * of the base (system.base: the bonds that lived then) were made again, event_solver_restore follows before
+ * anything else is asked for. */
 pg_status event_solver_keep   (event_solver *e, const pg_keeper *k);
+pg_status event_solver_restore (event_solver *e);
 #endif

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private to the event solver: its data. Files: event_solver.c (life, bases, updates, blocks of events,
  * functionals), event_touched.c (the dense system of the touched unknowns), event_columns.c (Green columns),
- * event_window.c (window ordered last). Symbols as in event_solver.h. */
+ * event_window.c (window ordered last), event_keep.c (checkpoints). Symbols as in event_solver.h. */
 #ifndef PG_EVENT_SOLVER_DATA_H
 #define PG_EVENT_SOLVER_DATA_H
 #include "event_solver.h"
@@ -23,6 +23,7 @@ struct event_solver {
     size_t  ndof, nred;
     /* ---- base */
     int     based;
+    long    factorizations;                            /* of the run when the base was made: its factor */
     double *base[EVENT_CASES];                         /* u_b (ndof) */
     double *constant[EVENT_CASES];                     /* residual of u = 0 at the base, N (ndof) */
     double *diagonal;                                  /* of K at the base, N/m (ndof) */
@@ -44,6 +45,7 @@ struct event_solver {
     double *pack, *product;  size_t room_pack, room_product;       /* scratch of gathered blocks */
     double  residual;                                  /* of the last update, over scale */
     /* ---- columns */
+    size_t *group, ngroup, room_group;  /* how many unknowns were taken in at a time */
     double *G;  size_t room_G;                         /* (ndof x t) */
     double *rhs, *solved;  size_t room_rhs, room_solved;           /* (nred x new ones) */
     /* ---- window */
@@ -54,6 +56,7 @@ struct event_solver {
     size_t  tX[EVENT_MOST + 1];
     event_functional functional[FUNCTIONALS];
     int     nfunctional;
+    int     restored;  /* 1: read back, and nothing was made again yet */
     const char *why;
     event_solver_account account;
 };
@@ -61,9 +64,11 @@ struct event_solver {
 /* ---- event_touched.c ----------------------------------------------------------------------------------- */
 void      touched_free  (event_solver *e);
 void      touched_clear (event_solver *e);             /* t = 0 */
-/* Takes in unknowns that are not yet touched: H and what depends on it grow. columns: gives A^-1 W of the
- * unknowns dof[first..t-1] as far as H needs it. */
+pg_status touched_reserve (event_solver *e, size_t count);                      /* room for so many */
+/* Takes in unknowns that are not yet touched: H and what depends on it grow. */
 pg_status touched_grow  (event_solver *e, size_t count, const size_t *dof);
+/* Green columns, or their part in the window, of the unknowns from `first` on, and their share of H. */
+pg_status touched_green (event_solver *e, size_t first);
 /* D += change. */
 pg_status touched_change (event_solver *e, const pg_stiffness_change *change);
 /* x += dx, u of all cases; 0: the system is singular or its residual stays. */

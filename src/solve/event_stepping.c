@@ -28,7 +28,29 @@ pg_status event_start (pg_solver *s, const pg_state *state)
     } else
         for (size_t i = 0; state->factor != 0 && i < state->ndof; i++)
             e->unit[i] = state->d[i] / state->factor;
+    if (!s->break_loop.growth && !e->engine)
+        PG_TRY (event_solver_create (&e->engine, &s->break_loop.system, affine ? 2 : 1,
+                                     affine ? (const double[2]) { 0, 1 } : (const double[2]) { 1, 0 }));
     PG_TRY (event_solve (s));
+done:
+    return status;
+}
+
+/* By the engine: from the last equilibria where it knows what has changed, else a new base. */
+static pg_status solve_by_engine (event_stepping *e)
+{
+    pg_status status = PG_OK;
+    double *const u[2] = { e->base ? e->base : e->unit, e->unit };
+    event_outcome outcome = EVENT_LOST;
+    if (event_solver_has_base (e->engine)) PG_TRY (event_solver_update (e->engine, &outcome));
+    if (outcome == EVENT_SAME) return PG_OK;
+    if (outcome != EVENT_LOST) {
+        for (int c = 0; c < (e->base ? 2 : 1); c++) PG_TRY (event_solver_full (e->engine, c, u[c]));
+        e->unit_residual = fmax (e->engine_residual, event_solver_residual (e->engine));
+    }
+    if (outcome == EVENT_SOLVED) return PG_OK;
+    PG_TRY (event_solver_base (e->engine, u, &e->engine_residual));
+    e->unit_residual = e->engine_residual;
 done:
     return status;
 }
@@ -40,6 +62,7 @@ pg_status event_solve (pg_solver *s)
     event_stepping *e = events_of (s);
     double first = 0, second;
     pg_system *sys = &s->break_loop.system;
+    if (e->engine) return solve_by_engine (e);
     if (e->base) PG_TRY (system_solve (sys, 0, e->base, NULL, &first));
     PG_TRY (system_solve (sys, 1, e->unit, NULL, &second));
     e->unit_residual = fmax (first, second);
@@ -70,6 +93,7 @@ void event_equilibrium_lost (pg_solver *s, const pg_state *state)
     double scale = e->base || state->factor == 0 ? 1 : 1 / state->factor;
     for (size_t i = 0; i < state->ndof; i++) e->unit[i] = scale * state->d[i];
     if (e->base) memcpy (e->base, state->d, state->ndof * sizeof *e->base);
+    if (e->engine) event_solver_drop (e->engine);
     e->balance_fresh = 0;
 }
 
@@ -337,13 +361,17 @@ done:
 
 pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
 {
+    pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     facet_growth *g = s->break_loop.growth;
+    if (e->engine) PG_TRY (event_solver_restore (e->engine));
     if (g && s->break_loop.round == 0) g->needed0 = g->needed;
     if (instability_moves (&e->unstable)) return instability_step (s, &e->unstable, state, step);
     if (e->ended != PG_OK) return pg_error (e->ended, PG_HERE, "%s", e->why);
     return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)
                                                            : proportional_step (s, state, step);
+done:
+    return status;
 }
 
 /* ---- the run ------------------------------------------------------------------------------------------- */
@@ -351,6 +379,7 @@ void event_free (pg_solver *s)
 {
     event_stepping *e = events_of (s);
     pg_free (e->unit), pg_free (e->base);
+    event_solver_free (&e->engine);
     instability_free (&e->unstable);
 }
 
@@ -394,6 +423,10 @@ pg_status event_keep (pg_solver *s, const pg_keeper *k)
     PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
     if (count[2] && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
     if (e->base) PG_TRY (k->numbers (k->context, "event_stepping.base", ndof, e->base));
+    if (e->engine) {
+        PG_TRY (k->numbers (k->context, "event_stepping.engine", 1, &e->engine_residual));
+        PG_TRY (event_solver_keep (e->engine, k));
+    }
     PG_TRY (facet_keep (&s->break_loop, k));
     PG_TRY (instability_keep (s, &e->unstable, k));
 done:

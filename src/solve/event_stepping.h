@@ -3,6 +3,7 @@
  * are a constant part and the load factor times another (event_stepping_affine.c). */
 #ifndef PG_EVENT_STEPPING_H
 #define PG_EVENT_STEPPING_H
+#include "event_solver.h"
 #include "instability.h"
 
 typedef struct {                                       /* state of `static` with stepping: event */
@@ -10,6 +11,8 @@ typedef struct {                                       /* state of `static` with
     double   *base;                                    /* affine loads: at load factor 0 (ndof); else NULL */
     long      constant_events;  /* affine loads: events at a held load factor */
     double    unit_residual;                           /* of `unit` (and `base`) */
+    event_solver *engine;  /* exact equilibria after breaks without a new factor; NULL: not used */
+    double    engine_residual;                         /* of the base of the engine */
     pg_status ended;                                   /* no step can follow: the next one fails with this */
     char      why[1024];                               /* and says why */
     int       balance_fresh;                           /* the work balance at hand is that of `unit` */

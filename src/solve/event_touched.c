@@ -20,7 +20,8 @@ static const double gone = 1e-12;
 void touched_free (event_solver *e)
 {
     pg_free (e->dof), pg_free (e->at), pg_free (e->D), pg_free (e->stay), pg_free (e->H), pg_free (e->M);
-    pg_free (e->factor), pg_free (e->pivot), pg_free (e->r), pg_free (e->pack), pg_free (e->product);
+    pg_free (e->factor), pg_free (e->pivot), pg_free (e->r), pg_free (e->group);
+    pg_free (e->pack), pg_free (e->product);
     for (int c = 0; c < EVENT_CASES; c++)
         pg_free (e->x[c]), pg_free (e->p[c]), pg_free (e->dx[c]), pg_free (e->u[c]);
 }
@@ -28,7 +29,7 @@ void touched_free (event_solver *e)
 void touched_clear (event_solver *e)
 {
     for (size_t i = 0; i < e->t; i++) e->at[e->dof[i]] = 0;
-    e->t = 0, e->factored = 0;
+    e->t = e->ngroup = 0, e->factored = 0;
 }
 
 /* A matrix of t columns moves to columns `cap` apart. */
@@ -58,7 +59,7 @@ done:
 }
 
 /* Room for `count` touched unknowns. */
-static pg_status reserve (event_solver *e, size_t count)
+pg_status touched_reserve (event_solver *e, size_t count)
 {
     pg_status status = PG_OK;
     size_t cap = e->cap ? e->cap : 64, room = e->cap, same = e->cap;
@@ -86,12 +87,15 @@ done:
 
 /* ---- growth -------------------------------------------------------------------------------------------- */
 /* H between all touched unknowns and the new ones, first .. t - 1, symmetric by construction. */
-static void green_of_touched (event_solver *e, size_t first)
+pg_status touched_green (event_solver *e, size_t first)
 {
+    pg_status status = columns_make (e, first);
+    if (status != PG_OK) return status;
     for (size_t j = first; j < e->t; j++) {
         const double *column = e->G + j * e->ndof;
         for (size_t i = 0; i <= j; i++) e->H[i + j * e->cap] = e->H[j + i * e->cap] = column[e->dof[i]];
     }
+    return PG_OK;
 }
 
 /* Columns and rows of D and M for the unknowns from `first` on, which nothing has changed yet: columns of M
@@ -116,13 +120,14 @@ pg_status touched_grow (event_solver *e, size_t count, const size_t *dof)
     pg_status status = PG_OK;
     size_t first = e->t;
     if (count == 0) return PG_OK;
-    PG_TRY (reserve (e, e->t + count));
+    PG_TRY (touched_reserve (e, e->t + count));
+    PG_GROW (e->group, e->room_group, e->ngroup + 1);
+    e->group[e->ngroup++] = count;
     for (size_t k = 0; k < count; k++) {
         e->dof[e->t] = dof[k];
         e->at[dof[k]] = (int) ++e->t;
     }
-    PG_TRY (columns_make (e, first));
-    green_of_touched (e, first);
+    PG_TRY (touched_green (e, first));
     extend (e, first);
     for (int c = 0; c < e->cases; c++)
         for (size_t i = first; i < e->t; i++) {

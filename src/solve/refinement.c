@@ -162,6 +162,13 @@ done:
     return status;
 }
 
+/* Is the next solve as good as one by a factor of this very matrix? */
+static int by_factor_at_hand (const pg_system *s, const dynamics *dyn)
+{
+    return s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED
+           || (s->mode == SYSTEM_KEPT_FACTOR && !s->stale && !dyn);
+}
+
 /* Iterative refinement: solve, add, measure, by forces of the force itself. It ends when the residual is
  * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
  * half; then the state is judged. */
@@ -181,8 +188,7 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
             s->known = 0;
             break;
         }
-        if (r <= (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_UNDECIDED ? goal
-                                                                          : 0.1 * s->options->tolerance)
+        if (r <= (by_factor_at_hand (s, dyn) ? goal : 0.1 * s->options->tolerance)
             || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last))
             break;
         memcpy (s->best, d, s->ndof * sizeof *d);

@@ -30,6 +30,7 @@ typedef struct {
     pg_statistics           *report;
     /* all_weak: every unknown gets the shift (touched) */
     int       components, stale, mode, unshifted, all_weak;
+    int       base;  /* 1: the factor is the base of an event solver, which it serves whatever has broken */
     int       indefinite;  /* K proved not positive definite: another linear solver took over */
     unsigned long revision;                            /* of K when it was last factored or found stale */
     long      spared;                                  /* solves by the factor of an earlier K */

@@ -1,0 +1,154 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Checkpoints of the event solver. Written are the displacements of the base, the touched unknowns in the
+ * groups in which they were taken in, D, M (the order of its updates shows in its last bits) and the forces
+ * of every event at hand. Green columns are made again by the factor of the base, group by group, so that
+ * all numbers have the bits that they had. */
+#include "event_solver_data.h"
+#include <string.h>
+
+/* A square of t columns, `cap` apart in memory and side by side in the file. */
+static pg_status keep_square (event_solver *e, const char *name, double *a, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    double *packed = NULL;
+    PG_ALLOC (packed, e->t * e->t + 1);
+    for (size_t j = 0; j < e->t; j++) memcpy (packed + j * e->t, a + j * e->cap, e->t * sizeof *a);
+    PG_TRY (k->numbers (k->context, name, e->t * e->t, packed));
+    for (size_t j = 0; j < e->t; j++) memcpy (a + j * e->cap, packed + j * e->t, e->t * sizeof *a);
+done:
+    pg_free (packed);
+    return status;
+}
+
+/* The touched unknowns and how they came: numbers that are no unknowns are refused before they are used. */
+static pg_status keep_touched (event_solver *e, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    long *word = NULL, count[2] = { (long) e->t, (long) e->ngroup };
+    size_t sum = 0;
+    PG_TRY (k->counts (k->context, "event_solver.touched", 2, count));
+    PG_KEEP_BOUND (k, "the number of touched unknowns", count[0], 0, (long) e->ndof);
+    PG_KEEP_BOUND (k, "the groups of touched unknowns", count[1], 0, count[0]);
+    if (k->reading) {
+        touched_clear (e);
+        PG_TRY (touched_reserve (e, (size_t) count[0]));
+        PG_GROW (e->group, e->room_group, (size_t) count[1]);
+    }
+    PG_ALLOC (word, (size_t) (count[0] + count[1]) + 1);
+    for (size_t i = 0; i < e->t; i++) word[i] = (long) e->dof[i];
+    for (size_t i = 0; i < e->ngroup; i++) word[e->t + i] = (long) e->group[i];
+    PG_TRY (k->counts (k->context, "event_solver.unknowns", (size_t) (count[0] + count[1]), word));
+    for (long i = 0; i < count[0]; i++)
+        PG_KEEP_BOUND (k, "a touched unknown", word[i], 0, (long) e->ndof - 1);
+    for (long i = 0; i < count[1]; i++) {
+        PG_KEEP_BOUND (k, "a group of touched unknowns", word[count[0] + i], 1, count[0]);
+        sum += (size_t) word[count[0] + i];
+    }
+    PG_KEEP_BOUND (k, "the sum of the groups", (long) sum, count[0], count[0]);
+    e->t = (size_t) count[0], e->ngroup = (size_t) count[1];
+    for (size_t i = 0; i < e->t; i++) e->dof[i] = (size_t) word[i], e->at[word[i]] = (int) i + 1;
+    for (size_t i = 0; i < e->ngroup; i++) e->group[i] = (size_t) word[e->t + i];
+done:
+    pg_free (word);
+    return status;
+}
+
+/* The forces of every event of the block, of as many unknowns as were touched then. */
+static pg_status keep_block (event_solver *e, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    char name[48];
+    long count = e->count, t;
+    PG_TRY (k->counts (k->context, "event_solver.events", 1, &count));
+    PG_KEEP_BOUND (k, "the events of a block", count, 0, EVENT_MOST);
+    e->count = (int) count;
+    for (int i = 0; i <= e->count; i++) {
+        t = (long) e->tX[i];
+        snprintf (name, sizeof name, "event_solver.forces.%d", i);
+        PG_TRY (k->counts (k->context, strcat (name, ".n"), 1, &t));
+        PG_KEEP_BOUND (k, "the unknowns of an event", t, 0, (long) e->t);
+        e->tX[i] = (size_t) t;
+        for (int c = 0; c < e->cases; c++) {
+            snprintf (name, sizeof name, "event_solver.forces.%d.%d", i, c);
+            if (k->reading) {
+                pg_free (e->X[c][i]);
+                e->X[c][i] = NULL;
+                PG_ALLOC (e->X[c][i], e->tX[i] + 1);
+            }
+            if (t) PG_TRY (k->numbers (k->context, name, e->tX[i], e->X[c][i]));
+        }
+    }
+done:
+    return status;
+}
+
+/* Of every load case. */
+static pg_status keep_cases (event_solver *e, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    static const char *const names[3][EVENT_CASES] = {
+        { "event_solver.base.0", "event_solver.base.1" },
+        { "event_solver.constant.0", "event_solver.constant.1" },
+        { "event_solver.x.0", "event_solver.x.1" },
+    };
+    static const char *const changes[EVENT_CASES] = { "event_solver.p.0", "event_solver.p.1" };
+    for (int c = 0; c < e->cases; c++) {
+        PG_TRY (k->numbers (k->context, names[0][c], e->ndof, e->base[c]));
+        PG_TRY (k->numbers (k->context, names[1][c], e->ndof, e->constant[c]));
+        if (e->t) PG_TRY (k->numbers (k->context, names[2][c], e->t, e->x[c]));
+        if (e->t) PG_TRY (k->numbers (k->context, changes[c], e->t, e->p[c]));
+    }
+done:
+    return status;
+}
+
+pg_status event_solver_keep (event_solver *e, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    event_solver_account *a = &e->account;
+    long count[6] = { e->based, a->bases, a->windows, a->updates, a->columns, (long) a->most_touched };
+    double number[5] = { e->shift, e->scale, e->residual, a->rent, a->spared };
+    PG_TRY (k->counts (k->context, "event_solver.counts", 6, count));
+    PG_TRY (k->numbers (k->context, "event_solver.numbers", 5, number));
+    PG_KEEP_BOUND (k, "the base of events", count[0], 0, 1);
+    a->bases = count[1], a->windows = count[2], a->updates = count[3], a->columns = count[4],
+    a->most_touched = (size_t) count[5];
+    e->shift = number[0], e->scale = number[1], e->residual = number[2], a->rent = number[3],
+    a->spared = number[4];
+    if (k->reading) e->based = (int) count[0], e->s->base = e->based;
+    if (!e->based) goto done;
+    PG_TRY (k->numbers (k->context, "event_solver.diagonal", e->ndof, e->diagonal));
+    PG_TRY (keep_touched (e, k));
+    PG_TRY (keep_cases (e, k));
+    if (e->t) {
+        PG_TRY (keep_square (e, "event_solver.D", e->D, k));
+        PG_TRY (keep_square (e, "event_solver.M", e->M, k));
+        PG_TRY (k->numbers (k->context, "event_solver.stay", e->t, e->stay));
+    }
+    PG_TRY (keep_block (e, k));
+    if (k->reading) e->restored = 1;
+done:
+    return status;
+}
+
+/* Green columns in their old groups; the record of changes of the force begins anew. */
+pg_status event_solver_restore (event_solver *e)
+{
+    pg_status status = PG_OK;
+    pg_stiffness_change change;
+    long columns = e->account.columns;
+    size_t all = e->t;
+    if (!e->restored) return PG_OK;
+    e->restored = 0;
+    if (!e->based) return PG_OK;
+    for (size_t k = 0, first = 0; k < e->ngroup; first += e->group[k++]) {
+        e->t = first + e->group[k];
+        PG_TRY (touched_green (e, first));
+    }
+    e->t = all, e->factored = 0, e->account.columns = columns;
+    for (int c = 0; c < e->cases; c++) touched_displacement (e, c);
+    e->factorizations = e->s->report->factorizations;
+    PG_TRY (e->s->force->change (e->s->self, &change));
+done:
+    return status;
+}
