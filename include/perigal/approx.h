@@ -76,6 +76,9 @@ typedef struct {
     /* 1: a place that has lost no bond keeps the basis however little its neighbours spread,
      * as long as the moment matrix has a factor (used by consistent integration). */
     int    extrapolates;
+    /* 1: places with all their bonds that see their nodes alike, to 2^-40 horizons, have the same values to
+     * the last bit, and each kind is evaluated once: for points on a lattice, where there are few kinds. */
+    int    congruent;
 } pg_approx;
 
 /* The descriptor of an approximation. */

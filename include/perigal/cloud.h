@@ -122,6 +122,8 @@ typedef struct {
     double  h;
     /* Step of the lattice along each axis; h where there is none. m. */
     double  step[3];
+    /* 1: all points lie on the vertices or in the middle of the cells of the lattice, none was moved. */
+    int     regular;
     /* Thickness in 2D (m), cross section in 1D (m^2), 1 in 3D. */
     double  thickness;
     /* Bounding box of the points, m. */

@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The loop over evaluation points that all approximations share: gather the live bonds of a
  * place, weigh them, apply the rule for too few bonds, call the formula. A row depends on
- * nothing but its own bonds, so any list, order or number of threads gives the same bits. */
+ * nothing but its own bonds, so any list, order or number of threads gives the same bits. On a
+ * lattice places whose surroundings are alike are evaluated once (congruent.h). */
+#include "congruent.h"
 #include "moment.h"
 #include <math.h>
 
@@ -13,8 +15,9 @@ typedef struct {
     pg_rows *rows;
     const unsigned char *alive;
     const size_t *list;
-    /* Scratch space, one for each thread. */
+    /* Scratch space, and surroundings evaluated lately, one for each thread. */
     pg_neighbourhood *around;
+    congruent *known;
 } evaluation;
 
 /* Kernel and its derivative at q (n). Arguments are limited to 1: a family that includes its
@@ -184,16 +187,20 @@ static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t
     return PG_GRADE_SHEPARD;
 }
 
-/* Evaluates row i. */
-static void row (const evaluation *g, size_t i, pg_neighbourhood *s)
+/* Evaluates row i, or copies it from one with the same surroundings. */
+static void row (const evaluation *g, size_t i, pg_neighbourhood *s, congruent *known)
 {
     pg_rows *rows = g->rows;
-    size_t first = rows->family.start[i], last = rows->family.start[i + 1];
+    size_t first = rows->family.start[i], last = rows->family.start[i + 1], slot = SIZE_MAX;
+    gather (g, i, s);
+    if (s->stray) return;
+    if (g->a->congruent && !s->lost && !s->ratio) {
+        congruent_round (s->n * (size_t) s->dim, s->z);
+        if (congruent_find (known, s, g->cloud->volume, rows, i, &slot)) return;
+    }
     for (size_t e = first; rows->w && e < last; e++) rows->w[e] = 0;
     clear (rows, first, last);
-    gather (g, i, s);
     weigh (g, i, s);
-    if (s->stray) return;
     double *N = rows->N ? rows->N + first : s->k;
     int grade = fill (g, s, rows, first, last);
     if (grade > PG_GRADE_PROJECTED && s->constant) for (size_t j = 0; j < s->n; j++) N[s->entry[j]] = s->w[j];
@@ -203,13 +210,15 @@ static void row (const evaluation *g, size_t i, pg_neighbourhood *s)
         grade = PG_GRADE_SHEPARD;
     }
     rows->grade[i] = (unsigned char) grade;
+    congruent_keep (known, slot, rows, i, g->cloud->volume);
 }
 
 /* The rows of one thread. */
 static void work (void *context, size_t first, size_t last, int thread)
 {
     const evaluation *g = context;
-    for (size_t k = first; k < last; k++) row (g, g->list ? g->list[k] : k, &g->around[thread]);
+    for (size_t k = first; k < last; k++) 
+        row (g, g->list ? g->list[k] : k, &g->around[thread], &g->known[thread]);
 }
 
 /* Scratch space for one thread, for families of at most `most` nodes; all vectors are parts of
@@ -242,7 +251,7 @@ pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, con
 {
     pg_status status = PG_OK;
     size_t slots = threads < 1 ? 1 : (size_t) threads, most = 0;
-    evaluation g = { formula, a, cloud, rows, alive, list, NULL };
+    evaluation g = { formula, a, cloud, rows, alive, list, NULL, NULL };
     int dim = rows->dim;
     if (dim < 1 || dim > 3 || a->order < 1 || a->order > 2 || !(a->horizon > 0))
         PG_FAIL (PG_E_USAGE, "approximation of order %d in %d dimensions with horizon %g m", a->order, dim,
@@ -252,7 +261,11 @@ pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, con
         if (n > most) most = n;
     }
     PG_ALLOC (g.around, slots);
-    for (size_t t = 0; t < slots; t++) PG_TRY (neighbourhood_create (&g.around[t], a, cloud, dim, most));
+    PG_ALLOC (g.known, slots);
+    for (size_t t = 0; t < slots; t++) {
+        PG_TRY (neighbourhood_create (&g.around[t], a, cloud, dim, most));
+        if (a->congruent) PG_TRY (congruent_create (&g.known[t], rows, count / slots + 1, most));
+    }
     pg_parallel (threads, count, work, &g);
     for (size_t t = 0; t < slots; t++)
         if (g.around[t].stray) PG_FAIL (PG_E_USAGE, "%s: a node is missing in its own family", a->type->name);
@@ -262,6 +275,8 @@ done:
         pg_free (g.around[t].ratio);
         pg_free (g.around[t].entry);
     }
+    for (size_t t = 0; g.known && t < slots; t++) congruent_clear (&g.known[t]);
+    pg_free (g.known);
     pg_free (g.around);
     return status;
 }

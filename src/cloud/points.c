@@ -177,6 +177,7 @@ static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, 
     PG_TRY (count_around (&s, l, kind && !strcmp (kind, "cells")));
     PG_TRY (place_points (c, l, &s, pg_scene_number (scene, "perturb.amount"),
                           (uint64_t) pg_scene_integer (scene, "perturb.seed")));
+    c->regular = !(pg_scene_number (scene, "perturb.amount") > 0);
 done:
     pg_free (s.around);
     return status;

@@ -37,6 +37,7 @@ static void galerkin_free (void **self)
     galerkin_change_free (g);
     pg_nearest_free (&g->near_point);
     pg_nearest_free (&g->near_node);
+    pg_family_search_free (&g->search);
     pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide),
         pg_free (g->ends);
     pg_free (g);

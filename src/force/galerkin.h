@@ -81,6 +81,7 @@ typedef struct {
     int     *ends;  /* bonds that end at each node (n), for damage; NULL until asked for */
     size_t  *list[PG_BOND_SETS];                       /* touched points (scratch of refresh) */
     pg_nearest *near_point, *near_node;  /* bulk points, nodes; NULL until a place is asked for */
+    pg_family_search *search;            /* nodes that a place sees; likewise */
 } galerkin;
 
 /* scene: entries of pg_method */

@@ -3,16 +3,19 @@
  * Which bonds live at a place: those that no crack cuts, and whose node the nearest evaluation point and the
  * nearest node on the same side of the cracks have not lost since. Where that leaves a poorer basis than the
  * evaluation point has, its first-order expansion u_q + grad u_q (x - x_q) and its stress hold. So the two
- * faces of a crack stay apart. */
+ * faces of a crack stay apart. In a body without cracks and broken bonds none of this need be asked. */
 #include "galerkin.h"
 #include <string.h>
 
-enum { CHUNK = 2048 };                                 /* places at a time: bounds the memory */
+enum { CHUNK = 8192 };                                 /* places at a time: bounds the memory */
 
 typedef struct {
     galerkin *g;
     const pg_state *state;
     const double *d;
+    /* No crack, no broken bond; and one material, every point with its whole basis: no place needs to know
+     * its nearest evaluation point. */
+    int intact, uniform;
     pg_rows rows;                                      /* of the places at hand */
     unsigned char *alive;
     size_t *at;                                        /* nearest evaluation point */
@@ -111,18 +114,51 @@ static void find_bonds (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* u and its gradient H[c * dim + k] = du_c/dx_k from row `at` of r */
-static void gradient (const sampling *s, const pg_rows *r, size_t at, double *u, double *H)
+/* The nearest evaluation point alone: where no bond is lost. */
+static void find_points (void *context, size_t first, size_t last, int thread)
 {
-    size_t dim = (size_t) s->g->dim;
-    memset (u, 0, 3 * sizeof *u), memset (H, 0, 9 * sizeof *H);
+    sampling *s = context;
+    (void) thread;
+    for (size_t p = first; p < last; p++)
+        s->at[p] = nearest_seen (s, s->g->near_point, s->rows.x + p * (size_t) s->g->dim, point_hidden);
+}
+
+/* Are all bonds of nodes and evaluation points there, and is no crack? Do all points know their material and
+ * carry their basis alike? */
+static void look_over (sampling *s)
+{
+    const galerkin *g = s->g;
+    const pg_problem *p = g->problem;
+    const pg_rows *bulk = &g->rows[g->bulk];
+    s->intact = pg_state_cracks (p, s->state)->n == 0;
+    for (int set = PG_NODES; set <= PG_POINTS && s->intact; set++) {
+        size_t bonds = p->first_bond[set + 1] - p->first_bond[set];
+        s->intact = !bonds || !memchr (s->state->alive + p->first_bond[set], 0, bonds);
+    }
+    s->uniform = s->intact && p->nmaterial == 1;
+    for (size_t q = 0; q < bulk->n && s->uniform; q++) s->uniform = bulk->grade[q] == PG_GRADE_FULL;
+}
+
+/* u and its gradient H[c * dim + k] = du_c/dx_k from row `at` of r; loops of known length. */
+static inline __attribute__ ((always_inline)) void add_up (size_t dim, const pg_rows *r, size_t at,
+                                                           const double *nodal, double *u, double *H)
+{
+    double v[3] = { 0 }, G[9] = { 0 };
     for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++) {
-        const double *d = s->d + (size_t) r->family.node[e] * dim;
+        const double *d = nodal + (size_t) r->family.node[e] * dim;
         for (size_t c = 0; c < dim; c++) {
-            u[c] += r->N[e] * d[c];
-            for (size_t k = 0; k < dim; k++) H[c*dim + k] += r->dN[e*dim + k] * d[c];
+            v[c] += r->N[e] * d[c];
+            for (size_t k = 0; k < dim; k++) G[c*dim + k] += r->dN[e*dim + k] * d[c];
         }
     }
+    memcpy (u, v, sizeof v), memcpy (H, G, sizeof G);
+}
+
+static void gradient (const sampling *s, const pg_rows *r, size_t at, double *u, double *H)
+{
+    if (s->g->dim == 3) add_up (3, r, at, s->d, u, H);
+    else if (s->g->dim == 2) add_up (2, r, at, s->d, u, H);
+    else add_up (1, r, at, s->d, u, H);
 }
 
 void pg_stress_of_gradient (const pg_material *m, int dim, const double *H, double *stress)
@@ -158,8 +194,10 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
     size_t dim = (size_t) g->dim;
     (void) thread;
     for (size_t p = first; p < last; p++) {
-        size_t q = s->at[p];
+        size_t q = s->uniform ? 0 : s->at[p];
         double *u = s->u + 3*p, H[9];
+        if (s->uniform && s->rows.grade[p] > bulk->grade[q])
+            q = (size_t) pg_nearest_find (g->near_point, s->rows.x + p * dim, NULL, NULL);
         int whole = s->rows.grade[p] <= bulk->grade[q];
         if (whole) gradient (s, &s->rows, p, u, H);
         else {
@@ -193,10 +231,17 @@ static pg_status sample_chunk (sampling *s, size_t n, const double *x, int *own)
 {
     pg_status status = PG_OK;
     const pg_problem *p = s->g->problem;
-    find_nodes (s->g, n, x, own);
-    PG_TRY (pg_rows_create (&s->rows, &p->approx, &p->cloud, n, x, NULL, own, NULL));
-    PG_ALLOC (s->alive, s->rows.family.start[n]);
-    pg_parallel (s->g->threads, n, find_bonds, s);
+    size_t bonds;
+    int about_nodes = p->approx.type->interpolates || !s->intact;
+    if (about_nodes) find_nodes (s->g, n, x, own);
+    PG_TRY (pg_rows_place (&s->rows, s->g->search, s->g->dim, n, x, NULL, about_nodes ? own : NULL, NULL,
+                           s->g->threads));
+    bonds = s->rows.family.start[n];
+    PG_ALLOC (s->rows.N, bonds);                       /* the influence is not asked for */
+    PG_ALLOC (s->rows.dN, bonds * (size_t) s->g->dim);
+    if (!s->intact) PG_ALLOC (s->alive, bonds);
+    if (!s->intact) pg_parallel (s->g->threads, n, find_bonds, s);
+    else if (!s->uniform) pg_parallel (s->g->threads, n, find_points, s);
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &s->rows, s->alive, n, NULL, s->g->threads));
     pg_parallel (s->g->threads, n, evaluate, s);
 done:
@@ -213,10 +258,12 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     const pg_rows *bulk = &g->rows[g->bulk];
     sampling s = { .g = g, .state = state, .d = d };
     int *own = NULL;
+    look_over (&s);
+    if (!g->search) PG_TRY (pg_rows_search (&g->search, &g->problem->approx, &g->problem->cloud));
     if (!g->near_point) PG_TRY (pg_nearest_create (&g->near_point, g->dim, bulk->n, bulk->x));
     if (!g->near_node) PG_TRY (pg_nearest_create (&g->near_node, g->dim, g->n, g->problem->cloud.x));
-    PG_ALLOC (s.at, CHUNK);
-    PG_ALLOC (own, CHUNK);
+    PG_ALLOC (s.at, n < CHUNK ? n : CHUNK);
+    PG_ALLOC (own, n < CHUNK ? n : CHUNK);
     if (g->dilatation && stress) s.pressure = galerkin_dilatation_of_nodes (g, d);
     for (size_t first = 0; first < n; first += CHUNK) {
         s.u = u + 3 * first, s.stress = stress ? stress + 6 * first : NULL;

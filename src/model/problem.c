@@ -162,6 +162,7 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
         PG_TRY (pg_scene_verdict (scene));
     }
     PG_TRY (pg_method_approx (&p->approx, p->method, scene, p->cloud.h));
+    p->approx.congruent = p->cloud.regular && !p->plain;
     pg_method_note_ignored (p, scene);
     PG_TRY (pg_method_check_materials (p, scene));
     PG_TRY (p->method->read (p, scene));

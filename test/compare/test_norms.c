@@ -91,6 +91,33 @@ static void linear_fields_are_sampled_exactly (void **unused)
     }
 }
 
+/* In an intact body no place asks for its nearest points; one bond broken far away makes all of them ask, and
+ * changes no bit of what they find. */
+static void intact_bodies_are_sampled_like_others (void **unused)
+{
+    (void) unused;
+    for (int m = 0; m < METHODS; m++) {
+        run r = plate (&methods[m], "");
+        refresh (&r, NULL);
+        enum { COUNT = 400 };
+        size_t n = r.problem->cloud.n, last = r.problem->first_bond[PG_NODES + 1] - 1;
+        double *d = pg_calloc (2 * n, 8), x[2 * COUNT], u[3 * COUNT], s[6 * COUNT], v[3 * COUNT],
+               t[6 * COUNT];
+        for (size_t i = 0; i < 2 * n; i++) d[i] = sin ((double) (i * i % 97));
+        for (size_t i = 0; i < COUNT; i++)
+            x[2 * i] = 0.02 + 0.4 * (double) (i % 20) / 19,
+                  x[2 * i + 1] = 0.03 + 0.3 * (double) (i / 20) / 19;
+        sample (&r, d, COUNT, x, u, s);
+        while (r.problem->rows[PG_NODES].family.node[last] == (int) n - 1) last--;
+        r.state->alive[last] = 0;
+        sample (&r, d, COUNT, x, v, t);
+        assert_memory_equal (u, v, sizeof u);
+        assert_memory_equal (s, t, sizeof s);
+        pg_free (d);
+        clear (&r);
+    }
+}
+
 /* Coefficients 0 below y = 0.4 and 1 above: with all bonds across y = 0.4 dead, by a pre-crack or broken
  * later, the field jumps there, and nothing in between appears. */
 static void check_jump (run *r)
@@ -405,7 +432,8 @@ static void points_beside_cracks_and_tears (void **unused)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (nodes_and_points_agree),
-                                        cmocka_unit_test (linear_fields_are_sampled_exactly),
+                                        cmocka_unit_test (intact_bodies_are_sampled_like_others),
+        cmocka_unit_test (linear_fields_are_sampled_exactly),
                                         cmocka_unit_test (faces_of_a_crack_stay_apart),
                                         cmocka_unit_test (known_difference),
                                         cmocka_unit_test (perturbed_patch),

@@ -1,0 +1,41 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * congruent.h: places around which the nodes lie alike have the same shape functions, and on a lattice
+ * almost all places do: in a body of 4 x 1 x 1 m with 40 x 10 x 10 cells 32 000 Gauss points have some
+ * 1 000 different surroundings. Each is evaluated once and copied for the others.
+ *
+ * "Alike" must not hang on rounding, nor on which of several places came first, which would make the answer
+ * depend on the number of threads: bonds are rounded to 2^-40 horizons before anything is computed of them,
+ * and places whose rounded bonds have the same bits are alike. What a row holds is a function of its own
+ * rounded bonds; whether it was computed or copied changes no bit of it. Against unrounded bonds shape
+ * functions change by some 1e-12 of themselves, as much as by the rounding of coordinates in a body of
+ * 1 000 horizons. */
+#ifndef PERIGAL_APPROX_CONGRUENT_H
+#define PERIGAL_APPROX_CONGRUENT_H
+#include "moment.h"
+
+/* Surroundings that were evaluated lately, each in the slot of its fingerprint, where a later one replaces it.
+ * One for each thread; values that a call does not ask for are not kept. */
+typedef struct {
+    int     dim, with_N, with_dN;
+    /* Slots (a power of two; 0: nothing is kept); bonds that a slot has room for. */
+    size_t  slots, most;
+    struct congruent_slot *slot;
+    /* For each slot: bonds in horizons (most x dim), volumes (most), then the values of the row: w
+     * (most), N (most), dN (most x dim). */
+    double *store;
+    /* Rows copied; rows in a series that found nothing to copy. */
+    size_t  copied, missed;
+} congruent;
+
+/* Room for `count` rows of at most `most` bonds. */
+pg_status congruent_create (congruent *out, const pg_rows *rows, size_t count, size_t most);
+void      congruent_clear  (congruent *c);
+/* Rounds the bonds of a place (n x dim, horizons). */
+void      congruent_round  (size_t n, double *z);
+/* Writes row i, all of whose bonds live, if an equal one is known: 1. Else 0, and *slot is where it is to
+ * be kept once it is known (SIZE_MAX: nowhere). volume: of every point of the cloud, m^3. */
+int       congruent_find   (congruent *c, const pg_neighbourhood *s, const double *volume, pg_rows *rows,
+                            size_t i, size_t *slot);
+/* Keeps row i, which has just been computed. */
+void      congruent_keep   (congruent *c, size_t slot, const pg_rows *rows, size_t i, const double *volume);
+#endif
