@@ -10,7 +10,7 @@ SIZE    ?= full
 # ---- nothing to change below this line -------------------------------------------------------------------------------
 VERSION := 0.1.0
 # One-way order of the folders: a file may include headers of its own folder and of folders to its left only.
-ORDER   := base scene kernel material criterion linalg mesh mesh_files cloud cells approx integration sums model force fracture symbol solve output picture compare results study cli
+ORDER   := base scene kernel material criterion linalg netcdf mesh mesh_files cloud cells approx integration sums model force fracture symbol solve output picture compare results study cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libcmocka-dev
@@ -20,7 +20,7 @@ BUILD   := build/$(MODE)
 THREADED := base sums force
 T       := $(or $(T),$(if $(filter tsan,$(MODE)),$(THREADED)))
 # What every run loads when it starts; --as-needed: only those that are called directly.
-LIBS    := -Wl,--as-needed -lfftw3 -lyaml -ludunits2 -lnetcdf -lm -lpthread -ldl
+LIBS    := -Wl,--as-needed -lfftw3 -lyaml -ludunits2 -lm -lpthread -ldl
 # of the tests alone: references by another library, the checks
 TESTLIBS := -lgsl -lcmocka -lcairo -lnetcdf -lopenblas
 # Libraries that are loaded when they are needed (base/library.c): the SONAME of the one whose header is compiled with.
@@ -77,6 +77,7 @@ $(BUILD)/src/%.o: src/%.c Makefile
 	$(Q)$(CC) $(CFLAGS) -MMD -MP -c $< -o $@
 
 $(BUILD)/src/linalg/suitesparse.o: CFLAGS += $(call soname,BLAS,openblas) $(call soname,CHOLMOD,cholmod) $(call soname,UMFPACK,umfpack)
+$(BUILD)/src/netcdf/library.o: CFLAGS += $(call soname,NETCDF,netcdf)
 $(BUILD)/src/picture/cairo_calls.o: CFLAGS += $(call soname,CAIRO,cairo)
 
 $(LIB): $(OBJECTS)

@@ -21,6 +21,7 @@
 #include "perigal/material.h"
 #include "perigal/criterion.h"
 #include "perigal/linalg.h"
+#include "perigal/netcdf.h"
 #include "perigal/mesh.h"
 #include "perigal/mesh_files.h"
 #include "perigal/cloud.h"

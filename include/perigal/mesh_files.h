@@ -32,12 +32,5 @@ pg_status pg_mesh_read  (pg_mesh *out, const char *path);
 pg_status pg_mesh_result (pg_mesh *out, const char *path, int step, size_t *nfield, pg_mesh_field **fields,
                           double *time);
 
-/* Does the header of a classic netCDF file, by the published grammar of the format, fit into the file? To
- * be called before the netCDF library opens one (mesh, result, checkpoint): the library trusts the counts
- * in the header, so that a few bytes of a broken file make it allocate gigabytes. PG_E_FILE: it does not,
- * and near which byte; or there is no such file, or it is empty or no regular file. Files of netCDF-4
- * (HDF5) have no such header: PG_OK. */
-pg_status pg_netcdf_check_header (const char *path);
-
 PG_API_END
 #endif

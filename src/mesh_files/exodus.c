@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Meshes and nodal results of Exodus II files (any kind of netCDF), by the netCDF library.
+ * Meshes and nodal results of Exodus II files (any kind of netCDF).
  *
  * Dimensions and variables used: num_dim, num_nodes, num_elem, num_el_blk; coordx, coordy, coordz (or
  * coord); num_el_in_blk1, num_nod_per_el1, connect1 with the attribute elem_type, eb_names; node_ns1,
@@ -9,11 +9,9 @@
  * Nodes and elements go by their place in the file while it is read; the numbers that node_num_map and
  * elem_num_map give them are assigned last. */
 #include "format.h"
+#include "perigal/netcdf.h"
 #include <ctype.h>
 #include <math.h>
-#include <netcdf.h>
-#include <netcdf_mem.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -24,8 +22,7 @@ enum { NAME = 256 };
 /* The open file. */
 typedef struct {
     const char *path;
-    /* Number of the file within netCDF; 1: it is open. */
-    int    ncid, open;
+    pg_netcdf  *file;
     /* Numbers of nodes, elements and blocks; size of the file. */
     size_t nnode, n, nblock, bytes;
     /* Receives the mesh; NULL while fields are read. */
@@ -34,46 +31,17 @@ typedef struct {
     unsigned char *shell;
 } reader;
 
-/* Leaves with a fault where a call of netCDF fails. */
-#define NC_TRY(r, call) \
-    do { \
-        int rc_ = (call); \
-        if (rc_ != NC_NOERR) \
-            PG_FAIL (rc_ == NC_ENOMEM ? PG_E_MEMORY : PG_E_FILE, "%.400s: %s", (r)->path, \
-                     nc_strerror (rc_)); \
-    } while (0)
-
-/* ---- netCDF -------------------------------------------------------------------------------------------- */
-/* Length of a dimension; 0: there is none of that name. Exodus stores most counts as lengths of
- * dimensions. */
-static size_t length_of (int ncid, const char *name)
-{
-    int dim;
-    size_t n = 0;
-    if (nc_inq_dimid (ncid, name, &dim) != NC_NOERR || nc_inq_dimlen (ncid, dim, &n) != NC_NOERR) return 0;
-    return n;
-}
-
-/* The variable of that name, which must have n values; *var = -1: there is none. */
+/* The variable of that name, which must have n values; *var = -1: there is none. A variable of another size
+ * would overrun the arrays that receive it. */
 static pg_status find (const reader *r, const char *name, size_t n, int *var)
 {
     pg_status status = PG_OK;
-    int dims[NC_MAX_VAR_DIMS], ndims;
-    size_t all = 1, length;
-    *var = -1;
-    if (nc_inq_varid (r->ncid, name, var) != NC_NOERR) {
-        *var = -1;
-        goto done;
-    }
-    NC_TRY (r, nc_inq_varndims (r->ncid, *var, &ndims));
-    if (ndims > 4) PG_FAIL (PG_E_FILE, "%.400s: '%s' has %d dimensions", r->path, name, ndims);
-    NC_TRY (r, nc_inq_vardimid (r->ncid, *var, dims));
-    for (int k = 0; k < ndims; k++) {
-        NC_TRY (r, nc_inq_dimlen (r->ncid, dims[k], &length));
-        all *= length;
-    }
-    /* A variable of another size would overrun the arrays that receive it. */
-    if (all != n) PG_FAIL (PG_E_FILE, "%.400s: '%s' has %zu values, expected %zu", r->path, name, all, n);
+    pg_netcdf_variable about;
+    *var = pg_netcdf_find (r->file, name);
+    if (*var < 0) goto done;
+    pg_netcdf_about (r->file, *var, &about);
+    if (about.n != n)
+        PG_FAIL (PG_E_FILE, "%.400s: '%s' has %zu values, expected %zu", r->path, name, about.n, n);
 done:
     return status;
 }
@@ -87,7 +55,7 @@ static pg_status whole_numbers (const reader *r, const char *name, size_t n, lon
     PG_TRY (find (r, name, n, &var));
     if (var < 0) goto done;
     PG_ALLOC (*value, n);
-    NC_TRY (r, nc_get_var_long (r->ncid, var, *value));
+    PG_TRY (pg_netcdf_longs (r->file, var, 0, n, *value));
 done:
     if (status != PG_OK) pg_free (*value), *value = NULL;
     return status;
@@ -105,20 +73,15 @@ static pg_status must (const reader *r, const char *name, size_t n, long **value
 /* Row k of a table of names without trailing blanks; "" where there is none. */
 static void name_of (const reader *r, const char *table, size_t k, char name[NAME])
 {
-    int var, dims[NC_MAX_VAR_DIMS], ndims;
-    size_t rows = 0, width = 0;
+    pg_netcdf_variable about;
+    int var = pg_netcdf_find (r->file, table);
     memset (name, 0, NAME);
-    if (nc_inq_varid (r->ncid, table, &var) != NC_NOERR || nc_inq_varndims (r->ncid, var, &ndims) != NC_NOERR
-        || ndims != 2)
-        return;
-    if (nc_inq_vardimid (r->ncid, var, dims) != NC_NOERR
-        || nc_inq_dimlen (r->ncid, dims[0], &rows) != NC_NOERR)
-        return;
-    if (nc_inq_dimlen (r->ncid, dims[1], &width) != NC_NOERR || k >= rows) return;
+    if (var < 0) return;
+    pg_netcdf_about (r->file, var, &about);
+    if (about.ndim != 2 || k >= about.first) return;
     /* Rows of the table have a fixed width and are padded by zeros or blanks. */
-    if (width > NAME - 1) width = NAME - 1;
-    if (nc_get_vara_text (r->ncid, var, (size_t[2]){ k, 0 }, (size_t[2]){ 1, width }, name) != NC_NOERR)
-        name[0] = 0;
+    size_t width = about.last < NAME - 1 ? about.last : NAME - 1;
+    if (pg_netcdf_chars (r->file, var, k * about.last, width, name) != PG_OK) name[0] = 0;
     for (size_t m = strlen (name); m > 0 && name[m - 1] == ' '; m--) name[m - 1] = 0;
 }
 
@@ -126,19 +89,15 @@ static void name_of (const reader *r, const char *table, size_t k, char name[NAM
  * byte. */
 static int too_many (const reader *r, size_t n) { return n > 4096 * r->bytes || n > 0x7fffffff; }
 
-/* Opens the file from memory, after its header has been checked. */
+/* Opens the file from memory. */
 static pg_status open_file (reader *r, const mesh_file *file)
 {
     pg_status status = PG_OK;
     r->path = file->path, r->bytes = file->size;
-    /* The library trusts the counts in a header. */
-    PG_TRY (mesh_netcdf_check_header (file));
-    /* netCDF does not change the bytes, though its declaration does not say so */
-    NC_TRY (r, nc_open_mem (file->path, NC_NOWRITE, file->size, (void *) (uintptr_t) file->text, &r->ncid));
-    r->open = 1;
-    r->nnode = length_of (r->ncid, "num_nodes");
-    r->n = length_of (r->ncid, "num_elem");
-    r->nblock = length_of (r->ncid, "num_el_blk");
+    PG_TRY (pg_netcdf_parse (&r->file, file->path, file->text, file->size));
+    r->nnode = pg_netcdf_length (r->file, "num_nodes");
+    r->n = pg_netcdf_length (r->file, "num_elem");
+    r->nblock = pg_netcdf_length (r->file, "num_el_blk");
     if (r->nnode == 0) PG_FAIL (PG_E_FILE, "%.400s: no nodes: not an Exodus file", r->path);
     if (too_many (r, r->nnode) || too_many (r, r->n) || r->nblock > r->bytes)
         PG_FAIL (PG_E_FILE, "%.400s: %zu nodes and %zu elements are more than it can hold", r->path, r->nnode,
@@ -150,7 +109,7 @@ done:
 /* Closes the file if it was opened. */
 static void close_file (reader *r)
 {
-    if (r->open) nc_close (r->ncid);
+    pg_netcdf_close (&r->file);
     pg_free (r->shell);
 }
 
@@ -162,14 +121,14 @@ static pg_status read_nodes (reader *r)
     double *x[3] = { NULL, NULL, NULL }, *together = NULL;
     char name[16];
     int var;
-    size_t dim = length_of (r->ncid, "num_dim");
+    size_t dim = pg_netcdf_length (r->file, "num_dim");
     if (dim < 1 || dim > 3) PG_FAIL (PG_E_FILE, "%.400s: %zu dimensions", r->path, dim);
     for (size_t a = 0; a < 3; a++) PG_ALLOC (x[a], r->nnode);
     /* Old files have one table of all coordinates. */
     PG_TRY (find (r, "coord", dim * r->nnode, &var));
     if (var >= 0) {
         PG_ALLOC (together, dim * r->nnode);
-        NC_TRY (r, nc_get_var_double (r->ncid, var, together));
+        PG_TRY (pg_netcdf_doubles (r->file, var, 0, dim * r->nnode, together));
         for (size_t a = 0; a < dim; a++) memcpy (x[a], together + a * r->nnode, r->nnode * sizeof (double));
     }
     /* Files of today: one variable for each coordinate. */
@@ -178,7 +137,7 @@ static pg_status read_nodes (reader *r)
         snprintf (name, sizeof name, "coord%c", "xyz"[a]);
         PG_TRY (find (r, name, r->nnode, &one));
         if (one < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s'", r->path, name);
-        NC_TRY (r, nc_get_var_double (r->ncid, one, x[a]));
+        PG_TRY (pg_netcdf_doubles (r->file, one, 0, r->nnode, x[a]));
     }
     /* Coordinates beyond num_dim stay zero. */
     for (size_t i = 0; i < r->nnode; i++)
@@ -228,20 +187,18 @@ static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_elemen
 {
     pg_status status = PG_OK;
     char name[64], type[NAME] = "";
-    int var;
-    size_t length = 0;
     snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
-    *count = length_of (r->ncid, name);
+    *count = pg_netcdf_length (r->file, name);
     snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
-    size_t nodes = length_of (r->ncid, name);
+    size_t nodes = pg_netcdf_length (r->file, name);
     *kind = PG_ELEMENTS;
     /* An empty block has no connectivity. */
     if (*count == 0) goto done;
     snprintf (name, sizeof name, "connect%zu", k + 1);
     /* The type is an attribute of the connectivity. */
-    NC_TRY (r, nc_inq_varid (r->ncid, name, &var));
-    if (nc_inq_attlen (r->ncid, var, "elem_type", &length) == NC_NOERR && length < NAME)
-        NC_TRY (r, nc_get_att_text (r->ncid, var, "elem_type", type));
+    int var = pg_netcdf_find (r->file, name);
+    if (var < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s': not a whole Exodus file", r->path, name);
+    (void) pg_netcdf_text (r->file, var, "elem_type", type, sizeof type);
     *kind = kind_of (type, nodes, shell);
     if (*kind == PG_ELEMENTS)
         PG_FAIL (PG_E_FILE,
@@ -299,13 +256,13 @@ static pg_status read_node_sets (reader *r)
 {
     pg_status status = PG_OK;
     long *id = NULL, *node = NULL;
-    size_t n = length_of (r->ncid, "num_node_sets");
+    size_t n = pg_netcdf_length (r->file, "num_node_sets");
     char name[NAME];
     if (n == 0 || n > r->bytes) goto done;
     PG_TRY (whole_numbers (r, "ns_prop1", n, &id));
     for (size_t k = 0; k < n; k++) {
         snprintf (name, sizeof name, "num_nod_ns%zu", k + 1);
-        size_t m = length_of (r->ncid, name);
+        size_t m = pg_netcdf_length (r->file, name);
         name_of (r, "ns_names", k, name);
         PG_TRY (pg_mesh_builder_nodeset (r->builder, name, id ? id[k] : (long) k + 1));
         /* An empty set has a name and a number, but no variable. */
@@ -341,13 +298,13 @@ static pg_status read_side_sets (reader *r)
 {
     pg_status status = PG_OK;
     long *id = NULL, *element = NULL, *side = NULL;
-    size_t n = length_of (r->ncid, "num_side_sets");
+    size_t n = pg_netcdf_length (r->file, "num_side_sets");
     char name[NAME];
     if (n == 0 || n > r->bytes) goto done;
     PG_TRY (whole_numbers (r, "ss_prop1", n, &id));
     for (size_t k = 0; k < n; k++) {
         snprintf (name, sizeof name, "num_side_ss%zu", k + 1);
-        size_t m = length_of (r->ncid, name);
+        size_t m = pg_netcdf_length (r->file, name);
         name_of (r, "ss_names", k, name);
         PG_TRY (pg_mesh_builder_sideset (r->builder, name, id ? id[k] : (long) k + 1));
         if (m == 0) continue;
@@ -442,8 +399,7 @@ static pg_status read_values (const reader *r, const variable *v, size_t step, c
 {
     pg_status status = PG_OK;
     size_t c = v->part < 0 ? 0 : (size_t) v->part % 10, m = (size_t) field->components;
-    NC_TRY (r,
-            nc_get_vara_double (r->ncid, v->var, (size_t[2]){ step, 0 }, (size_t[2]){ 1, r->nnode }, work));
+    PG_TRY (pg_netcdf_doubles (r->file, v->var, step * r->nnode, r->nnode, work));
     for (size_t i = 0; i < mesh->nnode; i++) {
         double value = work[at[i]];
         /* A field must be finite wherever the mesh has a node. */
@@ -530,14 +486,14 @@ static pg_status fields_exodus (mesh_fields *out, const pg_mesh *mesh, const mes
     int time;
     size_t chosen;
     PG_TRY (open_file (&r, file));
-    size_t steps = length_of (r.ncid, "time_step"), n = length_of (r.ncid, "num_nod_var");
+    size_t steps = pg_netcdf_length (r.file, "time_step"), n = pg_netcdf_length (r.file, "num_nod_var");
     if (n > r.bytes) PG_FAIL (PG_E_FILE, "%.400s: %zu variables are more than it can hold", r.path, n);
     /* Steps without nodal variables are no steps here. */
     PG_TRY (mesh_fields_step (r.path, n ? steps : 0, step, &chosen));
     PG_ALLOC (v, n);
     PG_TRY (list_variables (&r, steps, n, v));
-    if (nc_inq_varid (r.ncid, "time_whole", &time) == NC_NOERR)
-        NC_TRY (&r, nc_get_var1_double (r.ncid, time, &chosen, &out->time));
+    time = pg_netcdf_find (r.file, "time_whole");
+    if (time >= 0) PG_TRY (pg_netcdf_doubles (r.file, time, chosen, 1, &out->time));
     PG_TRY (read_fields (out, &r, mesh, n, v, chosen));
 done:
     close_file (&r);

@@ -45,8 +45,6 @@ pg_status mesh_fields_add (mesh_fields *f, size_t nnode, const char *name, int c
 /* The step as a number from 0 of `steps` steps; a step that does not exist is a fault that says which there
  * are. */
 pg_status mesh_fields_step (const char *path, size_t steps, int step, size_t *out);
-/* pg_netcdf_check_header of a file in memory. */
-pg_status mesh_netcdf_check_header (const mesh_file *file);
 
 /* ---- text ---------------------------------------------------------------------------------------------- */
 /* A place in a text file: the next byte, the end, and the number of the last line read, from 1. */

@@ -8,8 +8,7 @@
  * one that was cut off or changed. A checkpoint is trusted to restore the state of a run
  * exactly; a wrong value would otherwise go unnoticed. */
 #include "disk.h"
-#include "exodus.h"
-#include "perigal/mesh_files.h"
+#include "netcdf_write.h"
 #include <errno.h>
 #include <stdint.h>
 #include <stdio.h>
@@ -18,69 +17,80 @@
 /* What a checkpoint whose sum is right, but whose pieces are others, must be. */
 #define OTHER_VERSION "another version of the program wrote it, and only that one can continue the run"
 
-/* A checkpoint that is being written or read. open: the netCDF file is open; defining: this
- * visit defines variables and writes nothing yet; sum: the hash so far. */
-typedef struct { const char *path; int ncid, open, defining, reading; uint64_t sum; } checkpoint;
+/* A checkpoint that is being written (to) or read (from); defining: this visit defines variables and writes
+ * nothing yet; sum: the hash so far. */
+typedef struct {
+    const char    *path;
+    netcdf_writer *to;
+    pg_netcdf     *from;
+    int      defining, reading;
+    uint64_t sum;
+} checkpoint;
 
 /* Bytes of one value. */
-static size_t size_of (nc_type type) { return type == NC_BYTE ? 1 : 8; }
+static size_t size_of (int type) { return type == PG_NC_BYTE ? 1 : 8; }
 
 /* Adds name, length and type of a variable to the sum. */
-static void sum_head (checkpoint *c, const char *name, size_t n, nc_type type)
+static void sum_head (checkpoint *c, const char *name, size_t n, int type)
 {
     const uint64_t head[2] = { (uint64_t) n, (uint64_t) type };
     c->sum = pg_fingerprint (pg_fingerprint (c->sum, name, strlen (name) + 1), head, sizeof head);
 }
 
-/* Defines a variable. Variables of equal length share one dimension, named after the length.
- * PG_E_USAGE: the same name twice. */
-static pg_status define (checkpoint *c, const char *name, size_t n, nc_type type)
+/* Defines a variable. Variables of equal length share one dimension, named after the length. */
+static void define (checkpoint *c, const char *name, size_t n, int type)
+{
+    char length[40];
+    snprintf (length, sizeof length, "length_%zu", n);
+    int dim = netcdf_dimension_of (c->to, length);
+    if (dim < 0) dim = netcdf_define_dimension (c->to, length, n);
+    netcdf_define_variable (c->to, name, type, 1, &dim);
+}
+
+/* Finds the variable of a name; PG_E_FILE if its length or type is not the expected one. */
+static pg_status find (const checkpoint *c, const char *name, size_t n, int type, int *var)
 {
     pg_status status = PG_OK;
-    char length[40];
-    int dim, var;
-    snprintf (length, sizeof length, "length_%zu", n);
-    if (nc_inq_dimid (c->ncid, length, &dim) != NC_NOERR)
-        NC_TRY (c->path, nc_def_dim (c->ncid, length, n, &dim));
-    int code = nc_def_var (c->ncid, name, type, 1, &dim, &var);
-    if (code != NC_NOERR) PG_FAIL (PG_E_USAGE, "%s: '%s': %s", c->path, name, nc_strerror (code));
+    pg_netcdf_variable about;
+    *var = pg_netcdf_find (c->from, name);
+    if (*var < 0) PG_FAIL (PG_E_FILE, "%s lacks '%s': " OTHER_VERSION, c->path, name);
+    pg_netcdf_about (c->from, *var, &about);
+    size_t m = about.ndim == 1 ? about.n : 0;
+    if (m != n || about.type != type)
+        PG_FAIL (PG_E_FILE, "%s: '%s' has %zu values, not %zu: " OTHER_VERSION, c->path, name, m, n);
 done:
     return status;
 }
 
-/* Finds the variable of a name; PG_E_FILE if its length or type is not the expected one. */
-static pg_status find (const checkpoint *c, const char *name, size_t n, nc_type type, int *var)
+/* Reads values of a variable as they are. */
+static pg_status get (const checkpoint *c, int var, int type, size_t first, size_t n, void *value)
 {
-    pg_status status = PG_OK;
-    nc_type found;
-    int ndim, dim[NC_MAX_VAR_DIMS];
-    size_t m = 0;
-    if (nc_inq_varid (c->ncid, name, var) != NC_NOERR)
-        PG_FAIL (PG_E_FILE, "%s lacks '%s': " OTHER_VERSION, c->path, name);
-    NC_TRY (c->path, nc_inq_var (c->ncid, *var, NULL, &found, &ndim, dim, NULL));
-    if (ndim == 1) NC_TRY (c->path, nc_inq_dimlen (c->ncid, dim[0], &m));
-    if (m != n || found != type)
-        PG_FAIL (PG_E_FILE, "%s: '%s' has %zu values, not %zu: " OTHER_VERSION, c->path, name, m, n);
-done:
-    return status;
+    switch (type) {
+    case PG_NC_DOUBLE: return pg_netcdf_doubles (c->from, var, first, n, value);
+    case PG_NC_INT64: return pg_netcdf_longs (c->from, var, first, n, value);
+    default: return pg_netcdf_chars (c->from, var, first, n, value);
+    }
 }
 
 /* One piece of the checkpoint: defines it, writes it or reads it, depending on the visit.
  * While writing, the sum grows with each piece in its order; while reading it has been
  * compared before. Empty arrays are left out, because a dimension of length 0 would mean
  * "unlimited" to netCDF. */
-static pg_status keep (checkpoint *c, const char *name, size_t n, nc_type type, void *value)
+static pg_status keep (checkpoint *c, const char *name, size_t n, int type, void *value)
 {
     pg_status status = PG_OK;
     int var;
     if (n == 0) goto done;                             /* netCDF knows no empty dimension */
     if (c->defining) {
-        status = define (c, name, n, type);
+        define (c, name, n, type);
         goto done;
     }
-    PG_TRY (find (c, name, n, type, &var));
-    NC_TRY (c->path, c->reading ? nc_get_var (c->ncid, var, value) : nc_put_var (c->ncid, var, value));
-    if (c->reading) goto done;
+    if (c->reading) {
+        PG_TRY (find (c, name, n, type, &var));
+        PG_TRY (get (c, var, type, 0, n, value));
+        goto done;
+    }
+    PG_TRY (netcdf_put (c->to, netcdf_variable_of (c->to, name), 0, n, value));
     sum_head (c, name, n, type);
     c->sum = pg_fingerprint (c->sum, value, n * size_of (type));
 done:
@@ -88,20 +98,20 @@ done:
 }
 
 /* The three functions that a keeper offers, for doubles, counts and bytes. */
-/* netCDF has a 64-bit integer type but no `long`; the two are the same on all systems that
- * this library supports. */
+/* The format has a 64-bit integer type; `long` is the same on all systems that this library
+ * supports. */
 _Static_assert (sizeof (long) == sizeof (int64_t), "counts are kept as 64-bit integers");
 static pg_status keep_numbers (void *c, const char *name, size_t n, double *value)
 {
-    return keep (c, name, n, NC_DOUBLE, value);
+    return keep (c, name, n, PG_NC_DOUBLE, value);
 }
 static pg_status keep_counts (void *c, const char *name, size_t n, long *value)
 {
-    return keep (c, name, n, NC_INT64, value);
+    return keep (c, name, n, PG_NC_INT64, value);
 }
 static pg_status keep_bytes (void *c, const char *name, size_t n, void *value)
 {
-    return keep (c, name, n, NC_BYTE, value);
+    return keep (c, name, n, PG_NC_BYTE, value);
 }
 
 /* Adds a variable of the file to the sum, read in pieces of 64 KiB. */
@@ -110,19 +120,15 @@ static pg_status sum_variable (checkpoint *c, int var)
     pg_status status = PG_OK;
     enum { PIECE = 1 << 13 };
     uint64_t part[PIECE];
-    char name[NC_MAX_NAME + 1];
-    int ndim, dim[NC_MAX_VAR_DIMS];
-    nc_type type;
-    size_t n = 0;
-    NC_TRY (c->path, nc_inq_var (c->ncid, var, name, &type, &ndim, dim, NULL));
-    if (ndim != 1 || (type != NC_BYTE && type != NC_DOUBLE && type != NC_INT64))
-        PG_FAIL (PG_E_FILE, "%s: '%s' is none of a checkpoint", c->path, name);
-    NC_TRY (c->path, nc_inq_dimlen (c->ncid, dim[0], &n));
-    sum_head (c, name, n, type);
-    for (size_t from = 0; from < n; from += PIECE) {
-        size_t count = n - from < PIECE ? n - from : PIECE;
-        NC_TRY (c->path, nc_get_vara (c->ncid, var, &from, &count, part));
-        c->sum = pg_fingerprint (c->sum, part, count * size_of (type));
+    pg_netcdf_variable v;
+    pg_netcdf_about (c->from, var, &v);
+    if (v.ndim != 1 || (v.type != PG_NC_BYTE && v.type != PG_NC_DOUBLE && v.type != PG_NC_INT64))
+        PG_FAIL (PG_E_FILE, "%s: '%s' is none of a checkpoint", c->path, v.name);
+    sum_head (c, v.name, v.n, v.type);
+    for (size_t from = 0; from < v.n; from += PIECE) {
+        size_t count = v.n - from < PIECE ? v.n - from : PIECE;
+        PG_TRY (get (c, var, v.type, from, count, part));
+        c->sum = pg_fingerprint (c->sum, part, count * size_of (v.type));
     }
 done:
     return status;
@@ -133,15 +139,14 @@ done:
 static pg_status check_sum (checkpoint *c)
 {
     pg_status status = PG_OK;
-    int n, last;
-    int64_t found = 0;
-    NC_TRY (c->path, nc_inq_nvars (c->ncid, &n));
-    if (n < 1 || nc_inq_varid (c->ncid, "checksum", &last) != NC_NOERR || last != n - 1)
+    int n = (int) pg_netcdf_variables (c->from), last = pg_netcdf_find (c->from, "checksum");
+    long found = 0;
+    if (last < 0 || last != n - 1)
         PG_FAIL (PG_E_FILE, "%s is no checkpoint, or not complete: it has no checksum", c->path);
-    PG_TRY (find (c, "checksum", 1, NC_INT64, &last));
+    PG_TRY (find (c, "checksum", 1, PG_NC_INT64, &last));
     for (int var = 0; var < last; var++) PG_TRY (sum_variable (c, var));
-    NC_TRY (c->path, nc_get_var (c->ncid, last, &found));
-    if (found != (int64_t) c->sum)
+    PG_TRY (pg_netcdf_longs (c->from, last, 0, 1, &found));
+    if (found != (long) c->sum)
         PG_FAIL (PG_E_FILE,
                  "%s is damaged or cut off: its checksum is not that of its values; start anew with --force",
                  c->path);
@@ -164,30 +169,21 @@ done:
     return status;
 }
 
-/* Writes the whole file and syncs it: first all definitions, then all values, as netCDF
- * demands. It is created by our own function first, whose message says why that fails;
- * nc__create then truncates it. 1 MiB of buffer keeps the number of system calls small. */
+/* Writes the whole file and syncs it: first all definitions, then all values, in the order of
+ * the format. */
 static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
-    int before;
-    size_t buffer = 1 << 20;
-    FILE *probe;                                       /* netCDF does not always tell the system's reason */
-    PG_TRY (pg_file_create (&probe, c->path));
-    fclose (probe);
-    NC_TRY (c->path, nc__create (c->path, NC_CLOBBER | NC_64BIT_DATA, 0, &buffer, &c->ncid));
-    c->open = 1;
-    NC_TRY (c->path, nc_set_fill (c->ncid, NC_NOFILL, &before));
+    PG_TRY (netcdf_create (&c->to, c->path, 5));
     c->defining = 1;
     PG_TRY (make_walk (c, walk, context));
-    NC_TRY (c->path, nc_enddef (c->ncid));
+    PG_TRY (netcdf_end_header (c->to));
     c->defining = 0;
     PG_TRY (make_walk (c, walk, context));
-    c->open = 0;
-    NC_TRY (c->path, nc_close (c->ncid));
+    PG_TRY (netcdf_finish (&c->to));
     PG_TRY (pg_disk_sync (c->path));
 done:
-    if (c->open) nc_close (c->ncid);
+    netcdf_abandon (&c->to);
     return status;
 }
 
@@ -224,17 +220,14 @@ done:
     return status;
 }
 
-/* The header is checked before netCDF opens the file, then the checksum, and only then are
- * values handed out. */
+/* The header is checked first, then the checksum, and only then are values handed out. */
 pg_status pg_checkpoint_read (const char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
     checkpoint c = { .path = path, .reading = 1 };
-    PG_TRY (pg_netcdf_check_header (path));
-    NC_TRY (path, nc_open (path, NC_NOWRITE, &c.ncid));
-    c.open = 1;
+    PG_TRY (pg_netcdf_open (&c.from, path));
     PG_TRY (make_walk (&c, walk, context));
 done:
-    if (c.open) nc_close (c.ncid);
+    pg_netcdf_close (&c.from);
     return status;
 }

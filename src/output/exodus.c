@@ -1,18 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Writes result.e so that it can be read at any instant: while the run goes on, after it was
- * killed, and after the disk was full. netCDF itself does not promise this, therefore steps
- * are written directly.
+ * killed, and after the disk was full.
  *
- * exodus_layout.c writes the header, the points and the variables without steps by the netCDF
- * library under another name, and the file is moved to its place when it is whole. A step is
- * one record behind that, by the published layout of the classic format: one value of
+ * exodus_layout.c writes the header, the points and the variables without steps under another
+ * name, and the file is moved to its place when it is whole. A step is one record behind that,
+ * by the published layout of the classic format: one value of
  * time_whole, then n values for each vals_nod_var<k>, each the most significant byte first.
  * The values are written first, time_whole next, and last the number of records, 4 or 8 bytes
  * from byte 4 of the file on; readers see the step only then. A step that cannot be written
  * whole is cut off again. */
 #include "disk.h"
 #include "exodus.h"
-#include "perigal/mesh_files.h"
+#include "perigal/netcdf.h"
 #include <errno.h>
 #include <fcntl.h>
 #include <stdint.h>
@@ -160,18 +159,14 @@ static pg_status count_records (pg_exodus *f, size_t count)
 static pg_status check_sizes (const pg_exodus *f)
 {
     pg_status status = PG_OK;
-    int ncid, open = 0, dim;
-    size_t n = 0, m = 0;
-    PG_TRY (pg_netcdf_check_header (f->path));
-    NC_TRY (f->path, nc_open (f->path, NC_NOWRITE, &ncid));
-    open = 1;
-    if (nc_inq_dimid (ncid, "num_nodes", &dim) == NC_NOERR) nc_inq_dimlen (ncid, dim, &n);
-    if (nc_inq_dimid (ncid, "num_nod_var", &dim) == NC_NOERR) nc_inq_dimlen (ncid, dim, &m);
+    pg_netcdf *file = NULL;
+    PG_TRY (pg_netcdf_open (&file, f->path));
+    size_t n = pg_netcdf_length (file, "num_nodes"), m = pg_netcdf_length (file, "num_nod_var");
     if (n != f->n || m != f->nvar)
         PG_FAIL (PG_E_FILE, "%s holds %zu values at %zu points, not %zu at %zu: it is of another run",
                  f->path, m, n, f->nvar, f->n);
 done:
-    if (open) nc_close (ncid);
+    pg_netcdf_close (&file);
     return status;
 }
 

@@ -1,19 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What the files behind result.e and checkpoint.nc share: the error messages of netCDF calls,
- * and the layout of result.e that the header and the records of a step have in common. */
+ * The layout of result.e that the header and the records of a step have in common. */
 #ifndef PERIGAL_OUTPUT_EXODUS_H
 #define PERIGAL_OUTPUT_EXODUS_H
 #include "perigal/output.h"
-#include <netcdf.h>
-
-/* Fails with the message of netCDF for a call that does not return NC_NOERR. Its codes are
- * negative for faults of its own and positive for those of the system; nc_strerror knows both. */
-#define NC_TRY(path, call) \
-    do { \
-        int rc_ = (call); \
-        if (rc_ != NC_NOERR) \
-            PG_FAIL (rc_ == NC_ENOMEM ? PG_E_MEMORY : PG_E_FILE, "%s: %s", (path), nc_strerror (rc_)); \
-    } while (0)
 
 /* Name of the block of lines. */
 #define EXODUS_CRACKS "cracks"

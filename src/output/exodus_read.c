@@ -3,12 +3,10 @@
  * out), and fields, whose components are grouped by the attribute `field` of vals_nod_var<k>. Files of other
  * programs do not have that attribute; there every variable is a field with one component.
  *
- * Headers are checked by pg_netcdf_check_header before netCDF sees them, because netCDF trusts
- * the counts in them and would allocate gigabytes for a few damaged bytes. Each function opens
- * and closes the file: they are called a few times per run of a program, and no state is left
- * between calls. */
+ * Each function opens and closes the file: they are called a few times per run of a program,
+ * and no state is left between calls. */
 #include "exodus.h"
-#include "perigal/mesh_files.h"
+#include "perigal/netcdf.h"
 #include <stdio.h>
 #include <string.h>
 
@@ -19,42 +17,27 @@ typedef struct { char base[NAME], unit[16]; int var; } part;
 /* A file that is open for reading, with all its components. */
 typedef struct {
     const char *path;
-    int     ncid, open;
+    pg_netcdf  *file;
     size_t  n, nstep, npart;
     part   *part;
 } reader;
 
-/* Length of a dimension; 0 when there is none: files of other programs lack some, and callers decide
- * whether they can do without. */
-static size_t length_of (int ncid, const char *name)
-{
-    int dim;
-    size_t n = 0;
-    if (nc_inq_dimid (ncid, name, &dim) != NC_NOERR || nc_inq_dimlen (ncid, dim, &n) != NC_NOERR) return 0;
-    return n;
-}
-
 /* Number of points: of the nodes those before the ends of lines; all, where the file does not say. */
-static size_t points_of (int ncid)
+static size_t points_of (const pg_netcdf *file)
 {
-    size_t n = length_of (ncid, "num_nodes"), m;
-    int points;
-    if (nc_inq_attlen (ncid, NC_GLOBAL, "points", &m) == NC_NOERR && m == 1
-        && nc_get_att_int (ncid, NC_GLOBAL, "points", &points) == NC_NOERR && points > 0
-        && (size_t) points < n)
+    size_t n = pg_netcdf_length (file, "num_nodes");
+    double points;
+    if (pg_netcdf_numbers (file, -1, "points", 1, &points) && points > 0 && points < (double) n)
         return (size_t) points;
     return n;
 }
 
-/* Reads a text attribute; 0 if there is none or it does not fit. */
-static int text_attribute (int ncid, int var, const char *name, char *text, size_t size)
+/* The variable of that name, which a file of results must have. */
+static pg_status must_find (const reader *r, const char *name, int *variable)
 {
-    size_t n;
-    if (nc_inq_attlen (ncid, var, name, &n) != NC_NOERR || n >= size
-        || nc_get_att_text (ncid, var, name, text) != NC_NOERR)
-        return 0;
-    text[n] = 0;
-    return 1;
+    *variable = pg_netcdf_find (r->file, name);
+    return *variable >= 0 ? PG_OK
+                          : pg_error (PG_E_FILE, PG_HERE, "%s: no '%s': not a whole result", r->path, name);
 }
 
 /* Reads name and unit of component k from its attributes, or else the name from name_nod_var,
@@ -66,11 +49,11 @@ static pg_status read_part (reader *r, size_t k, size_t width, char *row)
     char name[64];
     int names;
     snprintf (name, sizeof name, "vals_nod_var%zu", k + 1);
-    NC_TRY (r->path, nc_inq_varid (r->ncid, name, &p->var));
-    if (!text_attribute (r->ncid, p->var, "units", p->unit, sizeof p->unit)) p->unit[0] = 0;
-    if (text_attribute (r->ncid, p->var, "field", p->base, sizeof p->base)) goto done;
-    NC_TRY (r->path, nc_inq_varid (r->ncid, "name_nod_var", &names));
-    NC_TRY (r->path, nc_get_vara_text (r->ncid, names, (size_t[2]) { k, 0 }, (size_t[2]) { 1, width }, row));
+    PG_TRY (must_find (r, name, &p->var));
+    if (!pg_netcdf_text (r->file, p->var, "units", p->unit, sizeof p->unit)) p->unit[0] = 0;
+    if (pg_netcdf_text (r->file, p->var, "field", p->base, sizeof p->base)) goto done;
+    PG_TRY (must_find (r, "name_nod_var", &names));
+    PG_TRY (pg_netcdf_chars (r->file, names, k * width, width, row));
     row[width] = 0;
     for (size_t m = strlen (row); m > 0 && row[m - 1] == ' '; m--) row[m - 1] = 0;
     snprintf (p->base, sizeof p->base, "%.31s", row);
@@ -81,7 +64,7 @@ done:
 /* May be called for a file that never opened. */
 static void reader_close (reader *r)
 {
-    if (r->open) nc_close (r->ncid);
+    pg_netcdf_close (&r->file);
     pg_free (r->part);
     *r = (reader) { 0 };
 }
@@ -94,15 +77,13 @@ static pg_status reader_open (reader *r, const char *path)
     pg_status status = PG_OK;
     char *row = NULL;
     *r = (reader) { .path = path };
-    PG_TRY (pg_netcdf_check_header (path));
-    NC_TRY (path, nc_open (path, NC_NOWRITE, &r->ncid));
-    r->open = 1;
-    r->n = points_of (r->ncid);
-    r->nstep = length_of (r->ncid, "time_step");
-    r->npart = length_of (r->ncid, "num_nod_var");
+    PG_TRY (pg_netcdf_open (&r->file, path));
+    r->n = points_of (r->file);
+    r->nstep = pg_netcdf_length (r->file, "time_step");
+    r->npart = pg_netcdf_length (r->file, "num_nod_var");
     if (r->n == 0) PG_FAIL (PG_E_FILE, "%s: no points: not a result file", path);
-    size_t width = length_of (r->ncid, "len_name");
-    if (width == 0) width = length_of (r->ncid, "len_string");
+    size_t width = pg_netcdf_length (r->file, "len_name");
+    if (width == 0) width = pg_netcdf_length (r->file, "len_string");
     PG_ALLOC (row, width + 1);
     PG_ALLOC (r->part, r->npart);
     for (size_t k = 0; k < r->npart; k++) PG_TRY (read_part (r, k, width, row));
@@ -164,13 +145,13 @@ pg_status pg_exodus_read (const char *path, const char *field, int step, size_t 
     if (r.nstep == 0) PG_FAIL (PG_E_USAGE, "%s holds no step yet", path);
     if (step < -1 || (step >= 0 && (size_t) step >= r.nstep))
         PG_FAIL (PG_E_USAGE, "%s has no step %d; its steps are 0 to %zu", path, step, r.nstep - 1);
-    size_t m = (size_t) *components, start[2] = { step < 0 ? r.nstep - 1 : (size_t) step, 0 },
-           count[2] = { 1, r.n };
+    size_t m = (size_t) *components, at = step < 0 ? r.nstep - 1 : (size_t) step,
+           nodes = pg_netcdf_length (r.file, "num_nodes");
     PG_ALLOC (all, r.n * m);
     PG_ALLOC (one, r.n);
     for (size_t k = first; k < r.npart; k++) {
         if (strcmp (r.part[k].base, field) != 0) continue;
-        NC_TRY (path, nc_get_vara_double (r.ncid, r.part[k].var, start, count, one));
+        PG_TRY (pg_netcdf_doubles (r.file, r.part[k].var, at * nodes, r.n, one));
         for (size_t i = 0; i < r.n; i++) all[i * m + c] = one[i];
         c++;
     }
@@ -216,15 +197,6 @@ done:
     return status;
 }
 
-/* Reads a global attribute of m numbers; leaves the value as it is if there is none or it has
- * another length. */
-static void numbers (int ncid, const char *name, size_t m, double *value)
-{
-    size_t n;
-    if (nc_inq_attlen (ncid, NC_GLOBAL, name, &n) == NC_NOERR && n == m)
-        nc_get_att_double (ncid, NC_GLOBAL, name, value);
-}
-
 /* Reads coordinates, the box, steps, spacing, thickness and volumes, all in m and m^3. Without a box in
  * the file it is that of the points. Whatever else a file of another program lacks stays as the caller
  * set it: 0, and a thickness of 1. */
@@ -235,8 +207,8 @@ static pg_status read_places (const reader *r, pg_cloud *cloud, double *work)
     int var;
     size_t dim = (size_t) cloud->dim;
     for (size_t a = 0; a < dim; a++) {
-        NC_TRY (r->path, nc_inq_varid (r->ncid, name[a], &var));
-        NC_TRY (r->path, nc_get_vara_double (r->ncid, var, (size_t[1]) { 0 }, &r->n, work));
+        PG_TRY (must_find (r, name[a], &var));
+        PG_TRY (pg_netcdf_doubles (r->file, var, 0, r->n, work));
         cloud->low[a] = cloud->high[a] = work[0];
         for (size_t i = 0; i < r->n; i++) {
             cloud->x[i * dim + a] = work[i];
@@ -244,13 +216,13 @@ static pg_status read_places (const reader *r, pg_cloud *cloud, double *work)
             if (work[i] > cloud->high[a]) cloud->high[a] = work[i];
         }
     }
-    numbers (r->ncid, "box_low", 3, cloud->low);
-    numbers (r->ncid, "box_high", 3, cloud->high);
-    numbers (r->ncid, "lattice_step", 3, cloud->step);
-    numbers (r->ncid, "spacing", 1, &cloud->h);
-    numbers (r->ncid, "thickness", 1, &cloud->thickness);
-    if (nc_inq_varid (r->ncid, "point_volume", &var) == NC_NOERR)
-        NC_TRY (r->path, nc_get_vara_double (r->ncid, var, (size_t[1]) { 0 }, &r->n, cloud->volume));
+    pg_netcdf_numbers (r->file, -1, "box_low", 3, cloud->low);
+    pg_netcdf_numbers (r->file, -1, "box_high", 3, cloud->high);
+    pg_netcdf_numbers (r->file, -1, "lattice_step", 3, cloud->step);
+    pg_netcdf_numbers (r->file, -1, "spacing", 1, &cloud->h);
+    pg_netcdf_numbers (r->file, -1, "thickness", 1, &cloud->thickness);
+    var = pg_netcdf_find (r->file, "point_volume");
+    if (var >= 0) PG_TRY (pg_netcdf_doubles (r->file, var, 0, r->n, cloud->volume));
 done:
     return status;
 }
@@ -260,32 +232,34 @@ done:
 static pg_status read_blocks (const reader *r, pg_cloud *cloud)
 {
     pg_status status = PG_OK;
-    int *id = NULL, *node = NULL, var;
-    size_t m = length_of (r->ncid, "num_el_blk");
-    int has_lines = r->n < length_of (r->ncid, "num_nodes");
+    long *id = NULL, *node = NULL;
+    int var;
+    size_t m = pg_netcdf_length (r->file, "num_el_blk");
+    int has_lines = r->n < pg_netcdf_length (r->file, "num_nodes");
     char name[64], type[NAME];
     PG_ALLOC (id, m);
     PG_ALLOC (node, r->n);
     if (m == 0) goto done;
-    NC_TRY (r->path, nc_inq_varid (r->ncid, "eb_prop1", &var));
-    NC_TRY (r->path, nc_get_var_int (r->ncid, var, id));
+    PG_TRY (must_find (r, "eb_prop1", &var));
+    PG_TRY (pg_netcdf_longs (r->file, var, 0, m, id));
     for (size_t k = 0; k < m; k++) {
         snprintf (name, sizeof name, "connect%zu", k + 1);
-        if (has_lines && nc_inq_varid (r->ncid, name, &var) == NC_NOERR
-            && text_attribute (r->ncid, var, "elem_type", type, sizeof type) && strcmp (type, "BAR2") == 0)
+        var = pg_netcdf_find (r->file, name);
+        if (has_lines && var >= 0 && pg_netcdf_text (r->file, var, "elem_type", type, sizeof type)
+            && strcmp (type, "BAR2") == 0)
             continue;
         snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
-        size_t count = length_of (r->ncid, name);
+        size_t count = pg_netcdf_length (r->file, name);
         snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
-        if (count > r->n || length_of (r->ncid, name) != 1)
+        if (count > r->n || pg_netcdf_length (r->file, name) != 1)
             PG_FAIL (PG_E_FILE, "%s: block %zu is not one of points", r->path, k + 1);
         snprintf (name, sizeof name, "connect%zu", k + 1);
-        NC_TRY (r->path, nc_inq_varid (r->ncid, name, &var));
-        NC_TRY (r->path, nc_get_var_int (r->ncid, var, node));
+        PG_TRY (must_find (r, name, &var));
+        PG_TRY (pg_netcdf_longs (r->file, var, 0, count, node));
         for (size_t i = 0; i < count; i++) {
             if (node[i] < 1 || (size_t) node[i] > r->n)
-                PG_FAIL (PG_E_FILE, "%s: block %zu names node %d", r->path, k + 1, node[i]);
-            cloud->block[node[i] - 1] = id[k] - 1;
+                PG_FAIL (PG_E_FILE, "%s: block %zu names node %ld", r->path, k + 1, node[i]);
+            cloud->block[node[i] - 1] = (int) id[k] - 1;
         }
     }
 done:
@@ -307,7 +281,7 @@ pg_status pg_exodus_points (const char *path, pg_cloud *cloud, size_t *nstep, do
     if (nstep) *nstep = 0;
     PG_TRY (reader_open (&r, path));
     cloud->n = r.n;
-    cloud->dim = (int) length_of (r.ncid, "num_dim");
+    cloud->dim = (int) pg_netcdf_length (r.file, "num_dim");
     if (cloud->dim < 1 || cloud->dim > 3) PG_FAIL (PG_E_FILE, "%s: %d dimensions", path, cloud->dim);
     PG_ALLOC (cloud->x, r.n * (size_t) cloud->dim);
     PG_ALLOC (cloud->volume, r.n);
@@ -319,8 +293,8 @@ pg_status pg_exodus_points (const char *path, pg_cloud *cloud, size_t *nstep, do
         int var;
         PG_ALLOC (*time, r.nstep);
         if (r.nstep > 0) {
-            NC_TRY (path, nc_inq_varid (r.ncid, "time_whole", &var));
-            NC_TRY (path, nc_get_var_double (r.ncid, var, *time));
+            PG_TRY (must_find (&r, "time_whole", &var));
+            PG_TRY (pg_netcdf_doubles (r.file, var, 0, r.nstep, *time));
         }
     }
     if (nstep) *nstep = r.nstep;

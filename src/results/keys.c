@@ -11,7 +11,7 @@ static const pg_key keys[] = {
       "Fields of result.e; rotation: of points, gmpd only; error_estimate: of the stress, by recovery." },
     { "output.pictures", PG_NAMES, NULL, NULL, "[damage]", NULL, NULL, NULL,
       "Pictures of the last state: a field, or a part of one (displacement.y, stress.xx). Of a mesh: on its "
-      "elements, while no bond is broken." },
+      "elements, while no bond is broken. []: none, and no charts either." },
     { "output.views", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
       "More pictures of the last state, each with its own view, range or name: {field: damage, view: "
       "back}." },

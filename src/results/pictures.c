@@ -189,10 +189,12 @@ done:
     return status;
 }
 
-/* A curve needs two points at least. */
+/* A run that asks for no picture gets no charts either: cairo is not loaded, which takes longer than many a
+ * small run. A curve needs two points at least. */
 pg_status pg_result_draw (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
+    if (r->npicture == 0) return PG_OK;
     PG_TRY (draw_all (r, state, "", "", 1));
     if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (pg_result_curve_picture (r));
     PG_TRY (pg_result_tips_pictures (r));

@@ -490,7 +490,7 @@ static void any_allocation_may_fail (void **state)
     fill (&s, 0);
     size_t before = pg_memory_used (), k = 1;
     pg_status status = PG_E_MEMORY;
-    for (; status != PG_OK && k < 100; k++) {
+    for (; status != PG_OK && k < 1000; k++) {
         pg_memory_fail_at (k);
         status = whole_life (&s, path);
         pg_memory_fail_at (0);
