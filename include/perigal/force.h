@@ -128,6 +128,9 @@ typedef struct {
     /* Finite elements on the points, whose energies are about those of K at the last refresh, for
      * preconditioners of the operator. NULL: none can be had. */
     pg_status (*elements) (void *self, pg_elements *out);
+    /* What shortcuts of the force have spared so far, one at a time: what (96), why (160), seconds; returns 0
+     * past the last. NULL: none. */
+    int       (*spared)  (const void *self, size_t k, char *what, char *why, double *seconds);
     /* What the bond breaks of at d: 't' tension, 's' shear, 'b' bending ... NULL: tension, or energy with
      * criteria of energies. */
     char      (*kind_of) (void *self, const double *d, size_t bond);

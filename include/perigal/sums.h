@@ -195,6 +195,7 @@ struct pg_bond_loop_setting {
      * moments in f over the law's length, N; linear rule only */
     const pg_beam_law *beams;
     int              threads;
+    int              plain;                            /* 1: no folding: every sum looks at every bond */
     const char      *instructions;  /* "avx512", "avx2", "scalar"; NULL: the best that this machine has */
 };
 typedef struct pg_bond_loop pg_bond_loop;
@@ -215,6 +216,8 @@ typedef struct {  /* of a loop by transforms ("fft avx2") since it was made; all
     long   forward, back;                              /* real transforms of the padded box */
     /* blocks of 32 sites, summed over forces; looked at bond by bond; with cut bonds */
     size_t blocks, bonds, cut;
+    size_t looks, folded;  /* of a stencil: looks at the bonds of whole blocks, forces of such (folded) */
+    double saved;  /* about, s: what folding has spared, by stored rates */
     size_t gone;                                       /* points all whose bonds are dead, now */
 } pg_bond_loop_counts;
 void        pg_bond_loop_counted (const pg_bond_loop *loop, pg_bond_loop_counts *out);

@@ -166,6 +166,8 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     const reason reasons[] = {
         { !fails, "bond failure", "there is no failure criterion" },
         { steps, "stiffness matrix and factorization", "explicit time steps need neither" },
+        { steps && !o->plain, "forces and energies for rows of history.csv",
+          "the step before a row leaves the forces, from which work and energy follow" },
         { relaxed, "stiffness matrix and factorization", "relaxation needs neither" },
         { by_events && !fails, "all solves but one",
           "nothing can break: the answer is linear in the load factor" },

@@ -70,7 +70,7 @@ static pg_status make_loop (bond_force *b, pg_bond_loop **out, const pg_sums *su
 {
     pg_bond_loop_setting *s = &b->setting;             /* constants: of the theory */
     s->sums = sums, s->family = b->family, s->limit = limit, s->threads = b->threads;
-    s->exempt = b->problem->exempt[PG_NODES];
+    s->exempt = b->problem->exempt[PG_NODES], s->plain = b->problem->plain;
     return pg_bond_loop_create (out, s);
 }
 

@@ -149,6 +149,7 @@ pg_status bond_force_energy_utilisation (bond_force *b, const pg_state *state, c
                                    char *kind, double *factor);
 /* words */
 int         bond_force_describe (const void *self, size_t line, char *text, size_t size);
+int         bond_force_spared   (const void *self, size_t k, char *what, char *why, double *seconds);
 const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
 
 /* Entries of pg_force_type but for `create`; BOND_FORCE_COMMON: without a matrix. */
@@ -165,5 +166,6 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .balance_and_break = bond_force_balance_and_break, .external = bond_force_external, \
     .bound = bond_force_bound, \
     .row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
-    .couplings = bond_force_couplings, .surface = bond_force_surface
+    .couplings = bond_force_couplings, .surface = bond_force_surface, \
+    .spared = bond_force_spared
 #endif

@@ -26,6 +26,8 @@ void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *poin
 static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
 {
     double low[2], high[2], slack = 1e-8 * p->cloud.h;  /* more than the tolerance of a cut */
+    const pg_cracks *cracks = pg_state_cracks (p, NULL);
+    if (cracks->n == 0) return 0;
     if (p->dim != 2) return 1;
     for (size_t k = 0; k < 2; k++) low[k] = high[k] = rows->x[2 * q + k];
     for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
@@ -34,7 +36,7 @@ static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
             low[k] = x < low[k] ? x : low[k], high[k] = x > high[k] ? x : high[k];
         }
     for (size_t k = 0; k < 2; k++) low[k] -= slack, high[k] += slack;
-    return pg_cracks_near (pg_state_cracks (p, NULL), low, high);
+    return pg_cracks_near (cracks, low, high);
 }
 
 /* The mask at the start of a run: 0 where the segment of a bond meets a pre-crack. The bond of a point with

@@ -186,7 +186,6 @@ struct pg_solver {
     long      next_level;                              /* next level to report: next_level / levels */
     pg_state *backup;                                  /* last accepted state, for refused steps */
     long      evaluations, spared;                     /* of forces by explicit steps; for rows: not made */
-    int       reported_rows;
     /* 1: alive bits of backup and state differ in the bonds of the last step's list alone */
     int       follows;
     double   *reaction;

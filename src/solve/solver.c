@@ -185,6 +185,24 @@ static double largest_displacement (const pg_solver *s, const pg_state *state)
     return top;
 }
 
+/* Shortcuts of explicit steps and of the force, as far as they go by now. */
+static void report_sums (pg_solver *s)
+{
+    const pg_system *sys = &s->break_loop.system;
+    pg_skip one;
+    if (s->spared && s->evaluations) {
+        snprintf (one.what, sizeof one.what, "forces and energies of %ld rows", s->spared);
+        pg_statistics_skip (&s->report,
+                            (double) s->spared * s->report.seconds[PG_SECONDS_FORCE]
+                                / (double) s->evaluations,
+                            one.what,
+                            "the step before a row leaves the forces, from which work and energy follow");
+    }
+    for (size_t k = 0;
+         sys->force->spared && sys->force->spared (sys->self, k, one.what, one.why, &one.seconds_saved); k++)
+        pg_statistics_skip (&s->report, one.seconds_saved, one.what, one.why);
+}
+
 /* Work that breaking did not cost: factors and preconditioners that were kept. The time saved is an
  * estimate, number of times kept * mean seconds of one that was made. Told once. */
 static void report_skips (pg_solver *s)
@@ -199,17 +217,6 @@ static void report_skips (pg_solver *s)
                             what,
                             "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
         s->reported_skips = 1;
-    }
-    if (s->spared && s->evaluations && !s->reported_rows) {
-        char what[96];
-        snprintf (what, sizeof what, "forces and energies of %ld rows", s->spared);
-        pg_statistics_skip (&s->report,
-                            (double) s->spared * s->report.seconds[PG_SECONDS_FORCE]
-                                / (double) s->evaluations,
-                            what,
-                            "the step before the row has left the forces, from which work and strain energy "
-                            "follow");
-        s->reported_rows = 1;
     }
     if (sys->spared && !s->reported_spared && s->report.preconditioners) {
         char what[96];
@@ -284,6 +291,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
         s->report.overlap_max = fmax (s->report.overlap_max,
                                       sys->force->overlap (sys->self, state, state->d));
     report_skips (s);
+    report_sums (s);
     warn_at_end (s, state);
     return &s->report;
 }

@@ -3,6 +3,7 @@
 #include "perigal/solve.h"
 #include <stdarg.h>
 #include <stdio.h>
+#include <string.h>
 
 /* Warnings beyond the room for them are dropped: the first are the ones that matter. */
 void pg_statistics_warn (pg_statistics *report, const char *format, ...)
@@ -14,10 +15,14 @@ void pg_statistics_warn (pg_statistics *report, const char *format, ...)
     va_end (args);
 }
 
+/* The same reason told again takes the place of what was told before: counts grow while a run goes on. */
 void pg_statistics_skip (pg_statistics *report, double seconds, const char *what, const char *why)
 {
-    if (report->nskipped >= sizeof report->skipped / sizeof *report->skipped) return;
-    pg_skip *s = &report->skipped[report->nskipped++];
+    size_t k = 0;
+    while (k < report->nskipped && strcmp (report->skipped[k].why, why) != 0) k++;
+    if (k >= sizeof report->skipped / sizeof *report->skipped) return;
+    pg_skip *s = &report->skipped[k];
+    report->nskipped += k == report->nskipped;
     snprintf (s->what, sizeof s->what, "%s", what);
     snprintf (s->why, sizeof s->why, "%s", why);
     s->seconds_saved = seconds;

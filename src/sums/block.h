@@ -20,6 +20,17 @@ enum {
     PG_AT_BEND_SHARE = 9
 };
 enum { PG_AT_WV = 3, PG_AT_WVV = 4, PG_AT_INVERSE = 5 };               /* state-based */
+/* Folded stencils (fold_kernel.h): sites that columns reach to either side, rows above and below with that of
+ * the point, blocks summed together at most. */
+enum { PG_FOLD_HALO = 8, PG_FOLD_ROWS = 9, PG_FOLD_BLOCKS = 4 };
+typedef struct {
+    int      reach;                                    /* columns to a side, rows above: the larger of both */
+    size_t   pitch;                                    /* padded places of a row */
+    double   own[2];                                   /* K_xx, K_yy of a point with all bonds, N/m */
+    const double *pull;  /* a x^2, a x y, a y^2 of column x and row y, N/m (columns x PG_FOLD_ROWS x 3) */
+    const double *inverse;                             /* 1 / r^2 of each bond, 1/m^2 */
+    double  *low, *high;                               /* least, largest change of u of a block, m (x 2) */
+} pg_fold;
 typedef struct {
     size_t   base;                                     /* padded place of its first site */
     size_t   site;                                     /* of its first site */
@@ -53,6 +64,7 @@ typedef struct {
     double          lever;                             /* 1 / (2 length), 1/m */
     int             single;                            /* any one limit, not all together */
     uint32_t       *over;                              /* as alive: those at their limit */
+    const pg_fold  *fold;                              /* NULL: not folded */
     double          volume;                            /* of a lattice cell, m^3 */
 } pg_block_job;
 
@@ -65,6 +77,10 @@ typedef struct {
      * job->hit); job->f; job->energy, J */
     pg_block_loop dilate[2][3][2], pull[2][2], store[2][2];            /* [check][weighted] */
     pg_block_loop beam[2][2], beam_energy[2][2], beam_look[2], beam_over[2];  /* [dim - 2][weighted] */
+    /* [reach - 1]: forces of blocks of a row whose bonds all live, u less ref; largest stretch of a block */
+    void   (*fold[PG_FOLD_HALO]) (const pg_block_job *job, size_t k, size_t count, const double *ref);
+    double (*most_stretch) (const pg_block_job *job, size_t k);
+    void   (*spread_and_measure) (const pg_block_job *job, const double *u, size_t first, size_t last);
     int fused;                                         /* a b + c is rounded once */
     /* u (n x dim) to job->u */
     void (*spread) (const pg_block_job *job, const double *u, size_t first, size_t last);

@@ -10,6 +10,7 @@
  *     limit (of those in bits),
  *   zip (out, a, b), unzip (in, &a, &b): pairs in memory from and to two vectors. */
 #include "block.h"
+#include <math.h>
 
 #include "inline.h"
 
@@ -72,6 +73,7 @@ static TARGET void spread (const pg_block_job *job, const double *u, size_t firs
 #include "pair_kernel.h"
 #include "state_kernel.h"
 #include "beam_kernel.h"
+#include "fold_kernel.h"
 
 /* The tables of the functions made above, by dimension, strain measure, check and weighting. */
 #define ROW(D, F) \
@@ -94,5 +96,8 @@ static TARGET void spread (const pg_block_job *job, const double *u, size_t firs
         .beam_energy = { { beam_energy_20, beam_energy_21 }, { beam_energy_30, beam_energy_31 } },
         .beam_over = { beam_over_2, beam_over_3 },
         .spread = spread,
+        .fold = { fold_1, fold_2, fold_3, fold_4, fold_5, fold_6, fold_7, fold_8 },
+        .most_stretch = most_stretch,
+        .spread_and_measure = spread_and_measure,
         .fused = FUSED,
     };

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The bonds of points on a lattice: sites in blocks of 32 of a row, one bit per bond and site, displacements
  * in padded arrays. */
-#include "stencil_loop.h"
+#include "folded_stencil.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -29,6 +29,7 @@ void pg_stencil_loop_free (void *self)
 {
     stencil *s = self;
     if (!s) return;
+    folding_free (&s->fold);
     for (int t = 0; t < MAX_THREADS; t++) pg_free (s->found[t].bond);
     void *blocks[] = { s->block, s->block_at, s->place, s->jump, s->term, s->field,
                        s->p,     s->energy,   s->alive, s->may,  s->hit };
@@ -216,6 +217,7 @@ void pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_ch
     if (!changes) {
         renewal r = { .s = s, .live = alive };         /* every bond was found when this was created */
         pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, renew_blocks, &r);
+        if (s->fold) folding_renew (s);
         return;
     }
     for (size_t c = 0; c < changes->n; c++) {
@@ -223,6 +225,7 @@ void pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_ch
         unsigned bit;
         size_t k = pg_stencil_loop_block (s, s->place[low], &bit), b = bond_of (s, jump_of (s, low, e), 0);
         if (b < s->job.n) s->alive[k * s->job.n + b] &= ~(1u << bit);
+        if (s->fold) folding_lose (s, k);
     }
 }
 
@@ -312,10 +315,17 @@ done:
     return status;
 }
 
-/* Bond-based theory needs nothing beside the stencil. */
+/* Bond-based theory needs nothing beside the stencil; where its constants are even, mirror images are summed
+ * together. */
 static pg_status create (void **self, const pg_bond_loop_setting *setting, pg_instructions set)
 {
-    return pg_stencil_loop_create (self, setting, set, sizeof (stencil));
+    pg_status status = PG_OK;
+    PG_TRY (pg_stencil_loop_create (self, setting, set, sizeof (stencil)));
+    stencil *s = *self;
+    PG_TRY (folding_create (&s->fold, s));
+    if (s->fold) folding_renew (s);
+done:
+    return status;
 }
 
 /* Bytes that a sum moves: bits by the bond; unknowns, forces and padded copies by the point. */
@@ -363,7 +373,7 @@ static double measure (const stencil *s, size_t place, size_t b)
 }
 
 /* Kills the bonds of a block that are over their limit, and notes them by their entries in the family. */
-static pg_status kill_bonds (stencil *s, size_t k, pg_changes *found)
+pg_status pg_stencil_loop_kill (stencil *s, size_t k, pg_changes *found)
 {
     pg_status status = PG_OK;
     const pg_block *block = s->block + k;
@@ -374,6 +384,7 @@ static pg_status kill_bonds (stencil *s, size_t k, pg_changes *found)
             unsigned bit = (unsigned) __builtin_ctz (live);
             if (!(measure (s, block->base + bit, b) >= s->term[b * PG_TERMS + PG_AT_LIMIT])) continue;
             *word &= ~(1u << bit);
+            if (s->fold) folding_lose (s, k);
             PG_GROW (found->bond, found->cap, found->n + 1);
             found->bond[found->n++] = pg_stencil_loop_entry (s, s->job.point[block->site + bit],
                                                              block->base + bit,
@@ -414,7 +425,7 @@ static void force_blocks (void *context, size_t first, size_t last, int thread)
         if (p->list) p->loop (&s->job, k, k + 1);
         if (!p->again || !s->hit[k]) continue;
         s->hit[k] = 0;
-        pg_status now = kill_bonds (s, k, &s->found[thread]);
+        pg_status now = pg_stencil_loop_kill (s, k, &s->found[thread]);
         if (now != PG_OK) s->failed[thread] = now;
         if (p->lost) p->lost (s, k);
         p->again (&s->job, k, k + 1);
@@ -424,7 +435,10 @@ static void force_blocks (void *context, size_t first, size_t last, int thread)
 /* All blocks, by threads. */
 void pg_stencil_loop_spread (stencil *s, const double *u)
 {
-    pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, spread_blocks, &(pass) { .s = s, .u = u });
+    if (s->fold) folding_spread (s, u);
+    else
+        pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, spread_blocks,
+                           &(pass) { .s = s, .u = u });
 }
 
 /* One pass over p->n blocks; bonds that died are collected in the order of the family. */
@@ -467,6 +481,7 @@ static pg_status force (void *self, const double *u, double *f, pg_changes *brok
 {
     stencil *s = self;
     pg_stencil_loop_spread (s, u);
+    if (s->fold) return folding_force (s, f, broken && s->setting.limit, broken);
     return pg_stencil_loop_force_some (s, s->nblock, NULL, f, broken);
 }
 
@@ -534,6 +549,12 @@ static double time_of (const pg_bond_loop_setting *setting, pg_instructions set)
     return (double) sums->cloud->n * (double) sums->stencil.n / rate[set][sums->cloud->dim == 3];
 }
 
+static void counts (const void *self, pg_bond_loop_counts *out)
+{
+    const stencil *s = self;
+    if (s->fold) folding_counts (s, out);
+}
+
 const pg_bond_loop_kind pg_bond_loop_stencil = {
     .name = "stencil",
     .refusal = pg_stencil_loop_refusal,
@@ -544,6 +565,7 @@ const pg_bond_loop_kind pg_bond_loop_stencil = {
     .force = force,
     .energy = energy,
     .energies = energies,
+    .counts = counts,
     .time = time_of,
     .apart = 1,
 };

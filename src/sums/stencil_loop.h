@@ -23,6 +23,7 @@ typedef struct {
     double    *term, *field, *p, *energy;
     uint32_t  *alive, *may;
     unsigned char *hit;
+    struct folding *fold;                              /* folded_stencil.h; NULL: all bonds one by one */
     pg_changes found[MAX_THREADS];                     /* of each thread */
     pg_status  failed[MAX_THREADS];
 } stencil;
@@ -42,6 +43,8 @@ size_t    pg_stencil_loop_places (const stencil *s);           /* of the padded 
 size_t    pg_stencil_loop_block  (const stencil *s, size_t place, unsigned *bit);
 size_t    pg_stencil_loop_owner  (const stencil *s, size_t entry);  /* point of an entry of the family */
 void      pg_stencil_loop_spread (stencil *s, const double *u);  /* u (n x dim) to job.u */
+/* Bonds of a block at or over their limit at job.u die and are noted. */
+pg_status pg_stencil_loop_kill   (stencil *s, size_t block, pg_changes *found);
 /* Position in the family of bond b of the site at `place`, whose point is i. */
 size_t    pg_stencil_loop_entry  (const stencil *s, int i, size_t place, size_t b);
 /* The loop over all blocks; where it says `hit` the bonds over their limit die, `lost` (or NULL) is told, and
