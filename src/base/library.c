@@ -35,14 +35,16 @@ done:
 
 /* `ready` is read without the lock by those who find the library loaded; the release after the table is
  * filled, and the acquire here, make its entries visible to them. A library stays until the process ends:
- * some leave threads and handlers behind that must not lose their code. */
+ * some leave threads and handlers behind that must not lose their code. Lazy: what a library calls in others
+ * is looked up when it is called first; OpenBLAS has ten thousand such places, of which a run meets a few
+ * dozen. */
 pg_status pg_library_load (pg_library *library)
 {
     pg_status status = PG_OK;
     if (__atomic_load_n (&library->ready, __ATOMIC_ACQUIRE)) return PG_OK;
     pthread_mutex_lock (&loading);
     if (library->ready) goto done;
-    void *handle = dlopen (library->file, RTLD_NOW | (library->shared ? RTLD_GLOBAL : RTLD_LOCAL));
+    void *handle = dlopen (library->file, RTLD_LAZY | (library->shared ? RTLD_GLOBAL : RTLD_LOCAL));
     if (!handle) {
         const char *reason = dlerror ();
         PG_FAIL (PG_E_FILE, "%s need the library %s, which cannot be loaded (%s): install the Debian package "

@@ -176,14 +176,20 @@ static size_t place_of (const char *text)
 
 /* Units that most scenes make do with: reading the database takes longer than a small run. The same bits as
  * udunits2 gives. */
-static const struct { const char *text; double factor, m, kg, s;
+static const struct { const char *text; double factor, m, kg, s, angle;
 } common[] = {
-    { "m", 1, 1, 0, 0 },     { "mm", 1e-3, 1, 0, 0 },   { "m2", 1, 2, 0, 0 },      { "m3", 1, 3, 0, 0 },
-    { "kg", 1, 0, 1, 0 },    { "s", 1, 0, 0, 1 },       { "1/s", 1, 0, 0, -1 },    { "m/s", 1, 1, 0, -1 },
-    { "m/s2", 1, 1, 0, -2 }, { "N", 1, 1, 1, -2 },      { "kN", 1e3, 1, 1, -2 },   { "J", 1, 2, 1, -2 },
-    { "Pa", 1, -1, 1, -2 },  { "MPa", 1e6, -1, 1, -2 }, { "GPa", 1e9, -1, 1, -2 }, { "N/m", 1, 0, 1, -2 },
-    { "J/m2", 1, 0, 1, -2 }, { "N/m3", 1, -2, 1, -2 },  { "kg/m3", 1, -3, 1, 0 },  { "%", 0.01, 0, 0, 0 },
-    { "min", 60, 0, 0, 1 },
+    { "m", 1, 1, 0, 0, 0 },         { "mm", 1e-3, 1, 0, 0, 0 },     { "m2", 1, 2, 0, 0, 0 },
+    { "m3", 1, 3, 0, 0, 0 },        { "kg", 1, 0, 1, 0, 0 },        { "s", 1, 0, 0, 1, 0 },
+    { "1/s", 1, 0, 0, -1, 0 },      { "m/s", 1, 1, 0, -1, 0 },      { "m/s2", 1, 1, 0, -2, 0 },
+    { "N", 1, 1, 1, -2, 0 },        { "kN", 1e3, 1, 1, -2, 0 },     { "J", 1, 2, 1, -2, 0 },
+    { "Pa", 1, -1, 1, -2, 0 },      { "MPa", 1e6, -1, 1, -2, 0 },   { "GPa", 1e9, -1, 1, -2, 0 },
+    { "N/m", 1, 0, 1, -2, 0 },      { "J/m2", 1, 0, 1, -2, 0 },     { "N/m3", 1, -2, 1, -2, 0 },
+    { "kg/m3", 1, -3, 1, 0, 0 },    { "%", 0.01, 0, 0, 0, 0 },      { "min", 60, 0, 0, 1, 0 },
+    { "cm", 1e-2, 1, 0, 0, 0 },     { "um", 1e-6, 1, 0, 0, 0 },     { "ms", 1e-3, 0, 0, 1, 0 },
+    { "us", 1e-6, 0, 0, 1, 0 },     { "m^2", 1, 2, 0, 0, 0 },       { "m^3", 1, 3, 0, 0, 0 },
+    { "m^4", 1, 4, 0, 0, 0 },       { "m4", 1, 4, 0, 0, 0 },        { "mm/s", 1e-3, 1, 0, -1, 0 },
+    { "kPa", 1e3, -1, 1, -2, 0 },   { "N/m2", 1, -1, 1, -2, 0 },    { "rad", 1, 0, 0, 0, 1 },
+    { "deg", 0.017453292519943295, 0, 0, 0, 1 },
 };
 
 /* Is it one of these? */
@@ -191,7 +197,8 @@ static int is_common (pg_measure *m, const char *text, size_t n)
 {
     for (size_t k = 0; k < sizeof common / sizeof *common; k++) {
         if (strncmp (common[k].text, text, n) != 0 || common[k].text[n] != '\0') continue;
-        *m = (pg_measure) { .factor = common[k].factor, .power = { common[k].m, common[k].kg, common[k].s } };
+        *m = (pg_measure) { .factor = common[k].factor, .power = { common[k].m, common[k].kg, common[k].s },
+                             .angle = common[k].angle };
         return 1;
     }
     return 0;

@@ -59,7 +59,12 @@ static void common_units_are_those_of_the_database (void **state)
                                            { "N", "N^1" },        { "kN", "kN^1" },     { "J", "J^1" },
                                            { "Pa", "Pa^1" },      { "MPa", "MPa^1" },   { "GPa", "GPa^1" },
                                            { "N/m", "N m-1" },    { "J/m2", "J m-2" },  { "N/m3", "N m-3" },
-                                           { "kg/m3", "kg m-3" }, { "%", "percent" },   { "min", "minute" } };
+                                           { "kg/m3", "kg m-3" }, { "%", "percent" },   { "min", "minute" },
+                                           { "cm", "cm^1" },      { "um", "um^1" },     { "ms", "ms^1" },
+                                           { "us", "us^1" },      { "m^2", "meter^2" }, { "m^3", "meter3" },
+                                           { "m^4", "meter^4" },  { "m4", "meter4" },   { "mm/s", "mm s-1" },
+                                           { "kPa", "kPa^1" },    { "N/m2", "N m-2" },  { "rad", "radian" },
+                                           { "deg", "arc_degree" } };
     for (size_t k = 0; k < sizeof pair / sizeof *pair; k++) {
         pg_measure a, b;
         check_ok (pg_measure_read (&a, pair[k][0], strlen (pair[k][0])));
