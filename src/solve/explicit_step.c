@@ -120,8 +120,8 @@ static pg_status move (pg_solver *s, pg_state *state, kick_range range, int clos
     const pg_system *sys = &s->break_loop.system;
     double t0 = pg_seconds (), total[SUMS], c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
            dt = s->options.dt;
-    kicking all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, m->only, dt, c,
-                       closing, opening },
+    kicking all = { { state->d, state->v, state->a, sys->residual, m->inverse, sys->mass, m->P, m->only, dt,
+                       c, closing, opening },
                      range,
                      sys->ndof,
                      m->sum,

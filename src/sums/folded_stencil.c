@@ -287,8 +287,8 @@ void folding_counts (const stencil *s, pg_bond_loop_counts *out)
     const struct folding *g = s->fold;
     out->sums = (long) g->sums, out->blocks = g->sums * s->nblock;
     for (int t = 0; t < MAX_THREADS; t++) out->looks += g->looks[t], out->folded += g->folded[t];
-    /* Half of the time of a block bond by bond, 7 bonds a nanosecond (AVX-512, one thread of an AMD EPYC), and
-     * as much again for a look as for a block. */
+    /* Half of the time of a block bond by bond, 7 bonds a nanosecond (AVX-512, one thread of an AMD EPYC); a
+     * look takes as long as a block. */
     double block = 1e-9 * PG_BLOCK * (double) s->job.n / 7;
     out->saved = block * (0.5 * (double) out->folded - (double) out->looks);
 }

@@ -219,6 +219,28 @@ static void explicit_runs_are_those_of_the_plain_path (void **state)
         }
 }
 
+/* Of the state before a step only what changes is kept: a step that is refused leaves the bonds that had died
+ * before it dead, and those that died in it alive. */
+static void a_refused_step_restores_all_bonds (void **state)
+{
+    (void) state;
+    run r = scene_of (1,
+                      PANEL "boundary: [{set: top, traction: {y: 12 MPa}, ramp: constant}, {set: grip, "
+                            "velocity: {y: -0.5 m/s}}]\nmethod: {force: bond, horizon: 3.015 spacing}\nsolver: {kind: "
+                            "verlet, dt: 80 ns, time_steps: 240}\noutput: {at: {rows: 40}}\n",
+                      "0.333333333333");
+    while (r.state->broken < 300) advance (&r);
+    unsigned char *alive = pg_calloc (r.state->nbond, 1);
+    memcpy (alive, r.state->alive, r.state->nbond);
+    long before = r.state->broken;
+    r.state->v[1] = INFINITY;                          /* bonds of that point break in the step */
+    assert_int_equal (pg_solver_step (r.solver, r.state, &r.step), PG_E_EQUILIBRIUM);
+    assert_int_equal (r.state->broken, before);
+    assert_memory_equal (r.state->alive, alive, r.state->nbond);
+    pg_free (alive);
+    clear (&r);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -229,6 +251,7 @@ int main (void)
         cmocka_unit_test (the_frequency_that_bounds_explicit_steps),
         cmocka_unit_test (damping_is_in_the_matrix),
         cmocka_unit_test (explicit_runs_are_those_of_the_plain_path),
+        cmocka_unit_test (a_refused_step_restores_all_bonds),
     };
     return cmocka_run_group_tests_name ("solve/shortcuts", tests, NULL, NULL);
 }
