@@ -5,6 +5,7 @@
  *
  * The pattern of row i is the union of the nodes of all elements that contain node i, ascending. */
 #include "perigal/linalg.h"
+#include "wide.h"
 #include <string.h>
 
 void pg_block_clear (pg_block_matrix *A)
@@ -158,13 +159,44 @@ void pg_block_add_diagonal (pg_block_matrix *A, size_t unknown, double value)
 /* ---- products ------------------------------------------------------------------------------------------ */
 typedef struct { const pg_block_matrix *A; const double *x; double *y; } product;
 
-/* Rows times x; solids and planes with lengths that the compiler knows. */
+/* y += one block of a solid times x. */
+static void add_block (const float *v, const double *x, double *y)
+{
+    for (int a = 0; a < 3; a++, v += 3)
+        y[a] += (double) v[0] * x[0] + (double) v[1] * x[1] + (double) v[2] * x[2];
+}
+
+/* Rows of blocks of 3 x 3. */
+WIDE static void multiply_solid (const pg_block_matrix *A, const double *x, double *y, size_t first,
+                                 size_t last)
+{
+    for (size_t i = first; i < last; i++) {
+        four s0 = { 0 }, s1 = { 0 }, s2 = { 0 };
+        const float *v = A->value + A->start[i] * 9;
+        size_t e = A->start[i], end = A->start[i + 1];
+        for (; e + 1 < end; e++, v += 9) {
+            four d = *(const four *) (x + 3 * (size_t) A->node[e]);
+            s0 += __builtin_convertvector (*(const four_floats *) v, four) * d;
+            s1 += __builtin_convertvector (*(const four_floats *) (v + 3), four) * d;
+            s2 += __builtin_convertvector (*(const four_floats *) (v + 6), four) * d;
+        }
+        double *to = y + 3 * i;
+        to[0] = three_lanes (&s0), to[1] = three_lanes (&s1), to[2] = three_lanes (&s2);
+        if (e < end) add_block (v, x + 3 * (size_t) A->node[e], to);
+    }
+}
+
+/* Rows times x; planes with lengths that the compiler knows. */
 static void multiply_rows (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
     const product *w = context;
     const pg_block_matrix *A = w->A;
     size_t block = (size_t) A->block, bb = block * block;
+    if (block == 3) {
+        multiply_solid (A, w->x, w->y, first, last);
+        return;
+    }
     for (size_t i = first; i < last; i++) {
         double y[6] = { 0 };
         const float *v = A->value + A->start[i] * bb;
@@ -173,11 +205,7 @@ static void multiply_rows (void *context, size_t first, size_t last, int thread)
             if (block == 2)
                 y[0] += (double) v[0] * x[0] + (double) v[1] * x[1],
                     y[1] += (double) v[2] * x[0] + (double) v[3] * x[1];
-            else if (block == 3) {
-                y[0] += (double) v[0] * x[0] + (double) v[1] * x[1] + (double) v[2] * x[2];
-                y[1] += (double) v[3] * x[0] + (double) v[4] * x[1] + (double) v[5] * x[2];
-                y[2] += (double) v[6] * x[0] + (double) v[7] * x[1] + (double) v[8] * x[2];
-            } else
+            else
                 for (size_t a = 0; a < block; a++)
                     for (size_t c = 0; c < block; c++) y[a] += (double) v[a * block + c] * x[c];
         }

@@ -17,6 +17,7 @@
  * p interpolates a given function at the Chebyshev nodes of [low, high] and is evaluated by the recurrence
  * T_k+1 = 2 s T_k - T_k-1 of s = (x - middle) / half. */
 #include "perigal/linalg.h"
+#include "wide.h"
 #include <math.h>
 #include <string.h>
 
@@ -92,7 +93,18 @@ typedef struct {
     double *last, *sum;
 } step;
 
-static void recur (void *context, size_t first, size_t last, int thread)
+/* s (3) = row i of A times x. */
+static inline __attribute__ ((always_inline)) void row_times (const pg_node_matrix *A, size_t i,
+                                                              const double *x, double *s)
+{
+    four sum = { 0 };
+    size_t e = A->start[i], end = A->start[i + 1];
+    for (; e + 1 < end; e++) sum += (double) A->value[e] * *(const four *) (x + 3 * (size_t) A->node[e]);
+    for (size_t k = 0; k < 3; k++)
+        s[k] = sum[k] + (e < end ? (double) A->value[e] * x[3 * (size_t) A->node[e] + k] : 0);
+}
+
+WIDE static void recur (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
     const step *w = context;
@@ -102,12 +114,7 @@ static void recur (void *context, size_t first, size_t last, int thread)
         double s[6] = { 0 };
         const double *now = w->now + i * block;
         double *before = w->last + i * block, *sum = w->sum + i * block;
-        if (block == 3)
-            for (size_t e = A->start[i]; e < A->start[i + 1]; e++) {
-                const double *x = w->now + (size_t) A->node[e] * 3;
-                double a = A->value[e];
-                s[0] += a * x[0], s[1] += a * x[1], s[2] += a * x[2];
-            }
+        if (block == 3) row_times (A, i, w->now, s);
         else
             for (size_t e = A->start[i]; e < A->start[i + 1]; e++)
                 for (size_t k = 0; k < block; k++)
