@@ -26,8 +26,15 @@ static const double pi = 3.14159265358979323846;
 /* Terms at most. */
 enum { MOST_TERMS = 32 };
 
+/* Rows of a matrix that are alike: row first + k has the numbers of row `first`, for nodes that are k higher.
+ * On a lattice most are. They are multiplied eight numbers at a time, which lie side by side in x. */
+typedef struct { size_t first, count; } run;
+typedef struct { size_t n, cap; run *run; } runs;
+
 struct pg_element_preconditioner {
     pg_elements elements;
+    /* Rows of N and of N' that are alike. */
+    runs    alike, alike_transposed;
     /* N', by rows. */
     pg_node_matrix transposed;
     pg_multilevel *multilevel;
@@ -67,6 +74,43 @@ done:
     return status;
 }
 
+/* ---- rows that are alike ------------------------------------------------------------------------------- */
+/* Fewest rows of a run: eight numbers have to fit in. Values may differ by what floats can tell apart. */
+enum { LEAST = 8 };
+static const float rounding = 1e-6f;
+
+/* Is row i that of `first`, with the same shift? */
+static int is_alike (const pg_node_matrix *A, size_t first, size_t i)
+{
+    size_t a = A->start[first], b = A->start[i], m = A->start[first + 1] - a;
+    int shift = (int) (i - first);
+    float most = 0;
+    if (A->start[i + 1] - b != m || m == 0) return 0;
+    for (size_t k = 0; k < m; k++) {
+        if (A->node[b + k] != A->node[a + k] + shift) return 0;
+        most = fmaxf (most, fabsf (A->value[a + k]));
+    }
+    for (size_t k = 0; k < m; k++) if (fabsf (A->value[b + k] - A->value[a + k]) > rounding * most) return 0;
+    return 1;
+}
+
+/* From row 0 on: the longest run that begins at a row, or the row is left to itself. */
+static pg_status find_runs (runs *out, const pg_node_matrix *A)
+{
+    pg_status status = PG_OK;
+    for (size_t i = 0, end; i < A->n; i = end) {
+        for (end = i + 1; end < A->n && is_alike (A, i, end);) end++;
+        if (end - i < LEAST) {
+            end = i + 1;
+            continue;
+        }
+        PG_GROW (out->run, out->cap, out->n + 1);
+        out->run[out->n++] = (run) { i, end - i };
+    }
+done:
+    return status;
+}
+
 /* ---- the polynomial ------------------------------------------------------------------------------------ */
 /* Coefficients of the Chebyshev polynomials from the values at their nodes (a discrete cosine transform). */
 static void interpolate (pg_element_preconditioner *P, double low, double high,
@@ -87,6 +131,7 @@ static void interpolate (pg_element_preconditioner *P, double low, double high,
  * first step, where there is no T_-1, else 2. */
 typedef struct {
     const pg_node_matrix *A;
+    const runs *runs;
     size_t block;
     double middle, scale, keep, c;
     const double *now;
@@ -104,39 +149,94 @@ static inline __attribute__ ((always_inline)) void row_times (const pg_node_matr
         s[k] = sum[k] + (e < end ? (double) A->value[e] * x[3 * (size_t) A->node[e] + k] : 0);
 }
 
-WIDE static void recur (void *context, size_t first, size_t last, int thread)
+/* The recurrence at number i, where A times `now` is s. */
+static inline __attribute__ ((always_inline)) void recur_at (const step *w, size_t i, double s)
 {
-    (void) thread;
-    const step *w = context;
+    double next = w->scale * (s - w->middle * w->now[i]) - w->keep * w->last[i];
+    w->last[i] = next;
+    w->sum[i] += w->c * next;
+}
+
+/* Rows one by one. */
+WIDE static void recur_rows (const step *w, size_t first, size_t last)
+{
     const pg_node_matrix *A = w->A;
     size_t block = w->block;
     for (size_t i = first; i < last; i++) {
         double s[6] = { 0 };
-        const double *now = w->now + i * block;
-        double *before = w->last + i * block, *sum = w->sum + i * block;
         if (block == 3) row_times (A, i, w->now, s);
         else
             for (size_t e = A->start[i]; e < A->start[i + 1]; e++)
                 for (size_t k = 0; k < block; k++)
                     s[k] += (double) A->value[e] * w->now[(size_t) A->node[e] * block + k];
-        for (size_t k = 0; k < block; k++) {
-            double next = w->scale * (s[k] - w->middle * now[k]) - w->keep * before[k];
-            before[k] = next;
-            sum[k] += w->c * next;
-        }
+        for (size_t k = 0; k < block; k++) recur_at (w, i * block + k, s[k]);
     }
 }
 
+/* `count` rows like row `model`, from row `first` on. The last eight numbers may overlap those before: what
+ * has been done is not done again. */
+WIDEST static void recur_alike (const step *w, size_t model, size_t first, size_t count)
+{
+    const pg_node_matrix *A = w->A;
+    size_t length = count * w->block, to = first * w->block, shift = (first - model) * w->block;
+    for (size_t done = 0; done < length; ) {
+        size_t at = length - done < 8 ? length - 8 : done;
+        eight s = { 0 };
+        for (size_t e = A->start[model]; e < A->start[model + 1]; e++)
+            s += (double) A->value[e]
+                 * *(const eight *) (w->now + (size_t) A->node[e] * w->block + shift + at);
+        for (; done < at + 8; done++) recur_at (w, to + done, s[done - at]);
+    }
+}
+
+/* A few rows of a run, whose rest another thread has: number by number, in the same order. */
+static void recur_few (const step *w, size_t model, size_t first, size_t count)
+{
+    const pg_node_matrix *A = w->A;
+    size_t shift = (first - model) * w->block;
+    for (size_t k = 0; k < count * w->block; k++) {
+        double s = 0;
+        for (size_t e = A->start[model]; e < A->start[model + 1]; e++)
+            s += (double) A->value[e] * w->now[(size_t) A->node[e] * w->block + shift + k];
+        recur_at (w, first * w->block + k, s);
+    }
+}
+
+/* The rows first .. last - 1: runs, or what of them lies there, and rows between them. What a row becomes
+ * does not depend on the range. */
+static void recur (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const step *w = context;
+    size_t low = 0, high = w->runs->n;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (w->runs->run[middle].first + w->runs->run[middle].count <= first) low = middle + 1;
+        else high = middle;
+    }
+    for (; low < w->runs->n && w->runs->run[low].first < last; low++) {
+        const run *r = &w->runs->run[low];
+        size_t from = r->first > first ? r->first : first,
+               end = r->first + r->count < last ? r->first + r->count : last;
+        recur_rows (w, first, from);
+        if (end - from >= LEAST) recur_alike (w, r->first, from, end - from);
+        else recur_few (w, r->first, from, end - from);
+        first = end;
+    }
+    recur_rows (w, first, last);
+}
+
 /* y = p (A) r */
-static void polynomial (const pg_element_preconditioner *P, const pg_node_matrix *A, const double *r,
-                        double *y)
+static void polynomial (const pg_element_preconditioner *P, const pg_node_matrix *A, const runs *alike,
+                        const double *r, double *y)
 {
     const pg_block_matrix *Q = &P->elements.Q;
     size_t ndof = Q->n * (size_t) Q->block;
     double *now = P->t[0], *last = P->t[1];
     for (size_t i = 0; i < ndof; i++) now[i] = r[i], last[i] = 0, y[i] = P->c[0] * r[i];
     for (int k = 1; k < P->terms; k++) {
-        step w = { A, (size_t) Q->block, P->middle, (k > 1 ? 2 : 1) / P->half, k > 1, P->c[k], now, last, y };
+        step w = { A, alike, (size_t) Q->block, P->middle, (k > 1 ? 2 : 1) / P->half, k > 1, P->c[k],
+                   now, last, y };
         pg_parallel (Q->threads, Q->n, recur, &w);
         double *swap = now;
         now = last, last = swap;
@@ -157,6 +257,7 @@ void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
     pg_elements_clear (&P->elements);
     pg_node_matrix_clear (&P->transposed);
     pg_multilevel_free (&P->multilevel);
+    pg_free (P->alike.run), pg_free (P->alike_transposed.run);
     pg_free (P->t[0]), pg_free (P->t[1]), pg_free (P->left), pg_free (P->right);
     pg_free (P);
     *preconditioner = NULL;
@@ -196,6 +297,8 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
         P->terms = s->terms > 0 ? (s->terms < MOST_TERMS ? s->terms : MOST_TERMS) : 6;
         interpolate (P, s->low > 0 ? s->low : 0.1, s->high > 0 ? s->high : 1.1, inverse, 0);
         PG_TRY (transpose (&P->transposed, &P->elements.N));
+        PG_TRY (find_runs (&P->alike, &P->elements.N));
+        PG_TRY (find_runs (&P->alike_transposed, &P->transposed));
         PG_ALLOC (P->t[0], ndof);
         PG_ALLOC (P->t[1], ndof);
         PG_ALLOC (P->left, ndof);
@@ -215,9 +318,9 @@ static pg_status solve (void *context, const double *r, double *z)
     pg_element_preconditioner *P = context;
     pg_preconditioner V = pg_multilevel_preconditioner (P->multilevel);
     if (!P->elements.N.start) return V.solve (V.context, r, z);
-    polynomial (P, &P->transposed, r, P->left);
+    polynomial (P, &P->transposed, &P->alike_transposed, r, P->left);
     PG_TRY (V.solve (V.context, P->left, P->right));
-    polynomial (P, &P->elements.N, P->right, z);
+    polynomial (P, &P->elements.N, &P->alike, P->right, z);
 done:
     return status;
 }
