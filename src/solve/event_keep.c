@@ -91,12 +91,14 @@ static pg_status keep_cases (event_solver *e, const pg_keeper *k)
         { "event_solver.constant.0", "event_solver.constant.1" },
         { "event_solver.x.0", "event_solver.x.1" },
     };
-    static const char *const changes[EVENT_CASES] = { "event_solver.p.0", "event_solver.p.1" };
+    static const char *const changes[EVENT_CASES] = { "event_solver.p.0", "event_solver.p.1" },
+                             *const left[EVENT_CASES] = { "event_solver.q.0", "event_solver.q.1" };
     for (int c = 0; c < e->cases; c++) {
         PG_TRY (k->numbers (k->context, names[0][c], e->ndof, e->base[c]));
         PG_TRY (k->numbers (k->context, names[1][c], e->ndof, e->constant[c]));
         if (e->t) PG_TRY (k->numbers (k->context, names[2][c], e->t, e->x[c]));
         if (e->t) PG_TRY (k->numbers (k->context, changes[c], e->t, e->p[c]));
+        if (e->t) PG_TRY (k->numbers (k->context, left[c], e->t, e->q[c]));
     }
 done:
     return status;

@@ -31,6 +31,7 @@ pg_status event_solver_create (event_solver **out, pg_system *s, int cases, cons
         PG_ALLOC (e->base[c], e->ndof);
         PG_ALLOC (e->constant[c], e->ndof);
     }
+    s->serves = 1;
     *out = e, e = NULL;
 done:
     event_solver_free (&e);
@@ -250,8 +251,10 @@ pg_status event_solver_update (event_solver *e, event_outcome *outcome)
     PG_TRY (take_in (e, outcome));
     if (*outcome == EVENT_LOST) goto done;
     if (*outcome == EVENT_SOLVED) {
-        if (!touched_solve (e) || runs_away (e))
+        if (!touched_solve (e) || runs_away (e)) {
+            touched_undo (e);
             return lose (e, "the touched part of the body does not find its balance", outcome);
+        }
         e->account.spared += system_factor_cost (e->s);
         if (base_is_due (e)) *outcome = EVENT_DUE, e->why = "the touched unknowns have become many";
     }
@@ -284,12 +287,6 @@ pg_status event_solver_full (event_solver *e, int which, double *u)
     pg_dense_multiply (0, e->ndof, 1, e->t, 1, e->G, e->ndof, e->x[which], e->cap, 1, u, e->ndof);
     e->account.rent += (double) e->t * (double) e->ndof / memory_rate;
     return PG_OK;
-}
-
-void event_solver_advance (event_solver *e, int which, double *u)
-{
-    e->account.rent += (double) e->t * (double) e->ndof / memory_rate;
-    pg_dense_multiply (0, e->ndof, 1, e->t, 1, e->G, e->ndof, e->dx[which], e->cap, 1, u, e->ndof);
 }
 
 /* The free unknowns of a full vector, in their order: rows of T with nothing but a 1. */
@@ -325,6 +322,36 @@ pg_status event_solver_correct (event_solver *e, const double *r, double *delta)
     for (size_t j = 0; j < e->nred; j++) delta[j] -= part[j];
 done:
     pg_free (full), pg_free (part), pg_free (y);
+    return status;
+}
+
+/* The solution is equilibrium up to what the base has left unbalanced, springs of weak unknowns above all:
+ * that is taken out of the base itself. */
+pg_status event_solver_settle (event_solver *e, int which, double *u, double *residual)
+{
+    pg_status status = PG_OK;
+    pg_system *s = e->s;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    double *force = NULL, *delta = NULL, reference;
+    PG_ALLOC (force, e->ndof);
+    PG_ALLOC (delta, e->ndof);
+    PG_TRY (event_solver_full (e, which, u));
+    PG_TRY (s->force->balance (s->self, e->time[which], u, force, &reference));
+    if (T) pg_sparse_multiply_transposed (T, force, delta);
+    else memcpy (delta, force, e->ndof * sizeof *delta);
+    *residual = sqrt (dot (e->nred, delta, delta)) / (reference > 0 ? reference : e->scale);
+    memcpy (force, delta, e->nred * sizeof *delta);
+    PG_TRY (event_solver_correct (e, force, delta));
+    if (T) pg_sparse_multiply (T, delta, force);
+    for (size_t i = 0; i < e->ndof; i++) {
+        double step = T ? force[i] : delta[i];
+        u[i] += step, e->base[which][i] += step;
+    }
+    touched_balance (e, which);
+    for (int k = 0; k < e->nfunctional; k++)
+        e->functional[k].base[which] = dot (e->ndof, e->functional[k].ell, e->base[which]);
+done:
+    pg_free (force), pg_free (delta);
     return status;
 }
 
@@ -366,7 +393,6 @@ pg_status event_solver_back (event_solver *e, int k, event_outcome *outcome)
     for (int c = 0; c < e->cases; c++) {
         memset (e->x[c], 0, e->t * sizeof *e->x[c]);
         memcpy (e->x[c], e->X[c][k + 1], e->tX[k + 1] * sizeof *e->x[c]);
-        memset (e->dx[c], 0, e->t * sizeof *e->dx[c]);
         touched_displacement (e, c);
     }
     e->count = k + 1;

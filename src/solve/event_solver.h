@@ -77,8 +77,9 @@ const char *event_solver_why  (const event_solver *e);
 void      event_solver_at     (const event_solver *e, int which, size_t n, const int *node, double *u);
 /* The whole displacement of a case, ndof; window: one back-substitution. */
 pg_status event_solver_full   (event_solver *e, int which, double *u);
-/* The same with u at hand (columns): adds what the last update changed, u += G dx. */
-void      event_solver_advance (event_solver *e, int which, double *u);
+/* The same, measured by the force itself and corrected once, the base with it; *residual: before, over the
+ * reference force. Of the events of the block no displacement may be asked for afterwards: flush it. */
+pg_status event_solver_settle (event_solver *e, int which, double *u, double *residual);
 /* K^-1 r of any reduced residual, delta (nred): a solve with the base factor, corrected for D. */
 pg_status event_solver_correct (event_solver *e, const double *r, double *delta);
 /* What the last update left unbalanced on the touched unknowns, over the reference force of the base. */

@@ -39,7 +39,8 @@ struct event_solver {
     double *M, *factor;                                /* 1 + (D + stay) H; its LU factors */
     int    *pivot, factored;
     double *x[EVENT_CASES], *p[EVENT_CASES];           /* forces, N */
-    double *dx[EVENT_CASES];                           /* of the last update */
+    double *q[EVENT_CASES];  /* what a correction of the base leaves to be balanced, N: beside p */
+    double *old[EVENT_CASES];                          /* x before the last update */
     double *u[EVENT_CASES];                            /* displacement of the touched unknowns, m */
     double *r;                                         /* scratch: cases x cap */
     double *pack, *product;  size_t room_pack, room_product;       /* scratch of gathered blocks */
@@ -73,6 +74,9 @@ pg_status touched_green (event_solver *e, size_t first);
 pg_status touched_change (event_solver *e, const pg_stiffness_change *change);
 /* x += dx, u of all cases; 0: the system is singular or its residual stays. */
 int       touched_solve (event_solver *e);
+void      touched_undo  (event_solver *e);             /* x and u as before the last touched_solve */
+/* q such that the solution at hand is balanced */
+void      touched_balance (event_solver *e, int c);
 /* y = (1 + D H)^-1 y */
 int       touched_substitute (event_solver *e, double *y);
 /* u of the touched unknowns from x */

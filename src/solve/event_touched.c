@@ -23,7 +23,7 @@ void touched_free (event_solver *e)
     pg_free (e->factor), pg_free (e->pivot), pg_free (e->r), pg_free (e->group);
     pg_free (e->pack), pg_free (e->product);
     for (int c = 0; c < EVENT_CASES; c++)
-        pg_free (e->x[c]), pg_free (e->p[c]), pg_free (e->dx[c]), pg_free (e->u[c]);
+        pg_free (e->x[c]), pg_free (e->p[c]), pg_free (e->old[c]), pg_free (e->q[c]), pg_free (e->u[c]);
 }
 
 void touched_clear (event_solver *e)
@@ -76,7 +76,8 @@ pg_status touched_reserve (event_solver *e, size_t count)
     for (int c = 0; c < e->cases; c++) {
         PG_TRY (lengthen (&e->x[c], e->t, cap));
         PG_TRY (lengthen (&e->p[c], e->t, cap));
-        PG_TRY (lengthen (&e->dx[c], e->t, cap));
+        PG_TRY (lengthen (&e->old[c], e->t, cap));
+        PG_TRY (lengthen (&e->q[c], e->t, cap));
         PG_TRY (lengthen (&e->u[c], e->t, cap));
     }
     for (int k = 0; k < e->nfunctional; k++) PG_TRY (lengthen (&e->functional[k].dual, e->t, cap));
@@ -131,7 +132,7 @@ pg_status touched_grow (event_solver *e, size_t count, const size_t *dof)
     extend (e, first);
     for (int c = 0; c < e->cases; c++)
         for (size_t i = first; i < e->t; i++) {
-            e->x[c][i] = e->p[c][i] = e->dx[c][i] = 0;
+            e->x[c][i] = e->p[c][i] = e->q[c][i] = e->old[c][i] = 0;
             double sum = 0;
             for (size_t j = 0; j < first; j++) sum += e->H[j + i * e->cap] * e->x[c][j];
             e->u[c][i] = e->base[c][dof[i - first]] + sum;
@@ -220,11 +221,11 @@ void touched_displacement (event_solver *e, int c)
     pg_dense_multiply (0, e->t, 1, e->t, 1, e->H, e->cap, e->x[c], e->cap, 1, e->u[c], e->cap);
 }
 
-/* r = p - x - D u_T; its Euclidean norm over the reference force. */
+/* r = p + q - x - D u_T; its Euclidean norm over the reference force. */
 static double unbalanced (event_solver *e, int c, double *r)
 {
     double sum = 0;
-    for (size_t i = 0; i < e->t; i++) r[i] = e->p[c][i] - e->x[c][i];
+    for (size_t i = 0; i < e->t; i++) r[i] = e->p[c][i] + e->q[c][i] - e->x[c][i];
     pg_dense_multiply (0, e->t, 1, e->t, -1, e->D, e->cap, e->u[c], e->cap, 1, r, e->cap);
     for (size_t i = 0; i < e->t; i++) sum += r[i] * r[i];
     return sqrt (sum) / e->scale;
@@ -247,10 +248,9 @@ int touched_substitute (event_solver *e, double *y)
 static int solve_case (event_solver *e, int c)
 {
     double last = INFINITY, now = unbalanced (e, c, e->r);
-    memset (e->dx[c], 0, e->t * sizeof *e->dx[c]);
     for (int k = 0; k < MOST_ROUNDS && now > fine && now < 0.5 * last; k++) {
         if (!touched_substitute (e, e->r)) return 0;
-        for (size_t i = 0; i < e->t; i++) e->x[c][i] += e->r[i], e->dx[c][i] += e->r[i];
+        for (size_t i = 0; i < e->t; i++) e->x[c][i] += e->r[i];
         touched_displacement (e, c);
         last = now, now = unbalanced (e, c, e->r);
     }
@@ -262,6 +262,22 @@ static int solve_case (event_solver *e, int c)
 int touched_solve (event_solver *e)
 {
     e->residual = 0;
+    for (int c = 0; c < e->cases && e->t; c++) memcpy (e->old[c], e->x[c], e->t * sizeof *e->x[c]);
     for (int c = 0; c < e->cases; c++) if (!solve_case (e, c)) return 0;
     return 1;
+}
+
+void touched_undo (event_solver *e)
+{
+    for (int c = 0; c < e->cases && e->t; c++) {
+        memcpy (e->x[c], e->old[c], e->t * sizeof *e->x[c]);
+        touched_displacement (e, c);
+    }
+}
+
+void touched_balance (event_solver *e, int c)
+{
+    touched_displacement (e, c);
+    for (size_t i = 0; i < e->t; i++) e->q[c][i] = e->x[c][i] - e->p[c][i];
+    pg_dense_multiply (0, e->t, 1, e->t, 1, e->D, e->cap, e->u[c], e->cap, 1, e->q[c], e->cap);
 }

@@ -338,6 +338,12 @@ static int by_bond_loops (const pg_system *s, int can)
            && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
 }
 
+/* A factor that serves many events pays for itself up to here in 3D (unknowns): 60 unknowns that an event
+ * touches for the first time are as many right-hand sides, 2.4e-8 s for each entry of a factor of about 190
+ * n^(4/3) of them, where iterations with a new preconditioner take about 1.5e-5 s an unknown, several times
+ * more with an old one. */
+enum { EVENTS_FACTOR = 20000 };
+
 /* How systems are solved, chosen once: solver.linear says it, a force without a matrix leaves no choice,
  * and in a small time step the mass dominates: then a few iterations without any factor do, which is
  * simply tried. Large static 3D bodies have factors that outgrow everything else. */
@@ -361,7 +367,7 @@ static pg_status choose_mode (pg_system *s, const dynamics *dyn)
                             "so many points: conjugate gradients with sums over the bonds are "
                             "cheaper by stored rates");
     } else if (automatic && operator_of (s) && s->problem->dim == 3
-             && (s->ndof > 200000 || (can && s->ndof > 6000)))
+             && (s->ndof > 200000 || (can && s->ndof > (s->serves ? EVENTS_FACTOR : 6000))))
         s->mode = SYSTEM_NO_FACTOR;
 done:
     return status;
