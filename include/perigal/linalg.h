@@ -102,6 +102,8 @@ typedef struct {
     double factor_entries, flops;
     /* Iterative solvers: sum over all solves. */
     size_t iterations;
+    /* Smallest over largest pivot of the last symmetric factor, about; 0: not known. */
+    double pivots;
 } pg_linear_info;
 
 /* An entry of the catalogue. */

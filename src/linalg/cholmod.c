@@ -22,6 +22,8 @@ typedef struct {
     const char *ordering;
     /* Predicted entries of L and operations of a factorisation. */
     double entries, flops;
+    /* Smallest over largest pivot of the last factorisation. */
+    double pivots;
 } chol;
 
 /* A diagnosis asks for it after a failed factorisation, on the same thread. */
@@ -203,6 +205,7 @@ static pg_status chol_factor (void *self, const pg_sparse *A)
     if (c->common.status < 0)
         PG_FAIL (PG_E_MEMORY, "the factorization needs %.3g MB and failed (CHOLMOD status %d)",
                  c->entries * 8e-6, c->common.status);
+    c->pivots = cholmod_l_rcond (c->L, &c->common);
 done:
     return status;
 }
@@ -227,7 +230,7 @@ done:
 static void chol_info (const void *self, pg_linear_info *info)
 {
     const chol *c = self;
-    *info = (pg_linear_info) { c->ordering, c->entries, c->flops, 0 };
+    *info = (pg_linear_info) { c->ordering, c->entries, c->flops, 0, c->pivots };
 }
 
 const pg_linear_type pg_linear_cholmod = {

@@ -71,7 +71,7 @@ pg_status pg_blas_load (void);
 #define PG_CHOLMOD_CALLS(X) \
     X (cholmod_l_amd) X (cholmod_l_analyze_p) X (cholmod_l_factorize) X (cholmod_l_finish) \
     X (cholmod_l_free_dense) X (cholmod_l_free_factor) X (cholmod_l_metis) X (cholmod_l_solve2) \
-    X (cholmod_l_solve) X (cholmod_l_start) X (cholmod_l_updown) PG_SUITESPARSE_MEMORY (X)
+    X (cholmod_l_rcond) X (cholmod_l_solve) X (cholmod_l_start) X (cholmod_l_updown) PG_SUITESPARSE_MEMORY (X)
 struct pg_cholmod_calls {
 #define X(name) __typeof__ (name) *name;
     PG_CHOLMOD_CALLS (X)
@@ -91,6 +91,7 @@ pg_status pg_cholmod_load (void);
 #define cholmod_l_solve2(...)      pg_cholmod.cholmod_l_solve2 (__VA_ARGS__)
 #define cholmod_l_start(...)       pg_cholmod.cholmod_l_start (__VA_ARGS__)
 #define cholmod_l_updown(...)      pg_cholmod.cholmod_l_updown (__VA_ARGS__)
+#define cholmod_l_rcond(...)       pg_cholmod.cholmod_l_rcond (__VA_ARGS__)
 #define cholmod_l_solve(...)       pg_cholmod.cholmod_l_solve (__VA_ARGS__)
 
 /* UMFPACK. */

@@ -236,10 +236,10 @@ done:
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[9] = { s->mode,  s->indefinite, s->kept,   s->marked, s->factored != NULL,
-                      s->stale, s->unshifted,  s->spared, s->base };
+    long count[10] = { s->mode,  s->indefinite, s->kept,   s->marked, s->factored != NULL,
+                      s->stale, s->unshifted,  s->spared, s->base,   s->loose };
     double number[3] = { s->mean_diagonal, s->shift, s->extra_cost };
-    PG_TRY (k->counts (k->context, "system.counts", 9, count));
+    PG_TRY (k->counts (k->context, "system.counts", 10, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
@@ -247,8 +247,9 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
            !system_has_matrix (s) && count[0] != SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_NO_FACTOR);
     PG_KEEP_BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
     PG_KEEP_BOUND (k, "the base of events", count[8], 0, count[4]);
+    PG_KEEP_BOUND (k, "whether parts are loose", count[9], 0, 1);
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
-    s->spared = count[7], s->base = (int) count[8];
+    s->spared = count[7], s->base = (int) count[8], s->loose = (int) count[9];
     s->mean_diagonal = number[0], s->shift = number[1], s->extra_cost = number[2];
     /* K had become indefinite: the method of factoring is changed as it was in the first run. */
     if (k->reading && count[1] && !s->indefinite) {

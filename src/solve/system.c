@@ -156,7 +156,10 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
         double now = K->value[q], first = s->diagonal0[j];
         int weak = s->touched[j / (size_t) s->components] || !(first > 1e-9 * s->mean_diagonal)
                    || fabs (now - first) > 1e-12 * first;
-        if (m == 0 && weak) value[q] += s->shift * s->mean_diagonal;
+        int gone = !(now > 1e-12 * fmax (first, 1e-9 * s->mean_diagonal));
+        if (m == 0 && weak && s->shift == 0 && gone)
+            value[q] += first > 1e-9 * s->mean_diagonal ? first : s->mean_diagonal;
+        else if (m == 0 && weak) value[q] += s->shift * s->mean_diagonal;
     }
     if (m != 0) system_add_mass_matrix (s, m, K, value);
     /* a point that no evaluation point sees has no consistent mass either */
@@ -213,7 +216,19 @@ done:
     return status;
 }
 
-/* Factors. A matrix that is not positive definite gets a larger shift on its weak unknowns (1e-11, 1e-9,
+/* The smallest pivot of the last factorization over the largest: parts that nothing holds leave one of the
+ * size of rounding. */
+static double pivots (const pg_system *s)
+{
+    pg_linear_info info;
+    s->linear->info (s->factor, &info);
+    return info.pivots;
+}
+static const double least_pivot = 1e-13;
+
+/* Factors. Where the factor serves many events the springs of weak unknowns would show in all of them: they
+ * are left out as long as no part is loose, and unknowns without stiffness, which nothing is coupled to, get
+ * their old one. A matrix that is not positive definite gets a larger shift on its weak unknowns (1e-11, 1e-9,
  * 1e-7 of the mean diagonal), then on all of them where bonds leave motions free (chains, sheets);
  * Galerkin forms go to a solver for general matrices under linear: auto, as Nitsche's terms with too
  * small a factor make K indefinite. */
@@ -221,7 +236,8 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
     int automatic = strcmp (s->options->linear, "auto") == 0;
-    s->shift = 1e-11;
+    int try = s->serves && !s->loose && !dyn && !s->indefinite;
+    s->shift = try ? 0 : 1e-11;
     for (;;) {
         double t0 = pg_seconds ();
         PG_TRY (build_matrix (s, dyn));
@@ -231,8 +247,12 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
         pg_status now = s->linear->factor (s->factor, &s->A);
         s->report->factorizations++;
         s->report->seconds[PG_SECONDS_FACTOR] += pg_seconds () - t0;
-        if (now == PG_OK) break;
+        if (now == PG_OK && !(s->shift == 0 && pivots (s) < least_pivot)) break;
         if (now != PG_E_NOT_SPD) PG_TRY (now);
+        if (s->shift == 0) {
+            s->shift = 1e-11, s->loose = 1;
+            continue;
+        }
         if (s->shift < 1e-8) {
             s->shift *= 100;
             continue;

@@ -195,6 +195,76 @@ static void a_partial_update_equals_a_fresh_one (void **state)
         }
 }
 
+/* Kills every bond of some points near the middle of each set. */
+static void kill_near_the_middle (run *r, pg_changes *dead)
+{
+    const pg_problem *p = r->problem;
+    dead->n = 0;
+    for (int s = 0; s < PG_BOND_SETS; s++) {
+        size_t n = p->rows[s].n, last = n / 2 + 3 < n ? n / 2 + 3 : n;
+        for (size_t e = p->rows[s].family.start[n / 2]; e < p->rows[s].family.start[last]; e++) {
+            size_t bond = p->first_bond[s] + e;
+            if (e % 3 || !r->state->alive[bond]) continue;
+            r->state->alive[bond] = 0;
+            dead->bond[dead->n++] = bond;
+        }
+    }
+}
+
+/* K x by the change that the force tells, added to y. */
+static void add_change (const pg_stiffness_change *c, size_t dim, const double *x, double *y)
+{
+    for (size_t i = 0; i < c->n * dim; i++)
+        for (size_t j = 0; j < c->n * dim; j++)
+            y[(size_t) c->node[i / dim] * dim + i % dim] +=
+                c->K[i * c->width + j] * x[(size_t) c->node[j / dim] * dim + j % dim];
+}
+
+/* What a refresh tells to have changed of K is the difference of the products before and after; constant
+ * forces that it does not call changed are those of before. */
+static void the_change_of_K_is_told (void **state)
+{
+    (void) state;
+    int told = 0;
+    for (int b = 0; b < BODIES; b++)
+        for (int m = 0; m < METHODS; m++) {
+            if (methods[m].transformation && b == 0) continue;
+            run r = body_of (b, m);
+            refresh (&r, NULL);
+            void *self;
+            const pg_force_type *f = pg_solver_force (r.solver, &self);
+            const pg_operator *op = f->operator_ (self);
+            size_t n = r.state->ndof, dim = (size_t) r.problem->dim;
+            double *x = pg_calloc (6 * n, sizeof *x), *before = x + n, *after = x + 2 * n, *zero = x + 3 * n,
+                   *load0 = x + 4 * n, *load1 = x + 5 * n, reference, top = 0;
+            pg_stiffness_change c;
+            pg_changes dead = { .bond = pg_calloc (r.state->nbond, sizeof *dead.bond) };
+            for (size_t i = 0; i < n; i++) x[i] = random_number ();
+            check_ok (f->change (self, &c));
+            assert_int_equal (c.known, 0);             /* the record begins */
+            check_ok (f->balance (self, 1, zero, load0, &reference));
+            op->apply (op->context, x, before);
+            kill_near_the_middle (&r, &dead);
+            pg_status status = f->refresh (self, r.state, &dead);
+            if (status == PG_OK) {
+                check_ok (f->change (self, &c));
+                op->apply (op->context, x, after);
+                for (size_t i = 0; i < n; i++) top = fmax (top, fabs (after[i]));
+                assert_true (dead.n > 0);
+                if (c.known) add_change (&c, dim, x, before);
+                for (size_t i = 0; c.known && i < n; i++) check_scaled (before[i], after[i], 1e-11, top);
+                told += c.known && c.n > 0;
+                check_ok (f->balance (self, 1, zero, load1, &reference));
+                for (size_t i = 0; !c.loads && i < n; i++) check_scaled (load0[i], load1[i], 1e-12, reference);
+                check_ok (f->change (self, &c));
+                assert_true (c.known && c.n == 0 && !c.loads && !c.basis);     /* nothing since */
+            } else assert_true (methods[m].transformation && status == PG_E_SINGULAR);
+            pg_free (x), pg_free (dead.bond);
+            clear (&r);
+        }
+    assert_true (told > 30);
+}
+
 static void threads_change_no_bit (void **state)
 {
     (void) state;
@@ -214,6 +284,7 @@ int main (void)
         cmocka_unit_test (also_when_bonds_are_broken),
         cmocka_unit_test (the_force_is_the_derivative_of_the_energy),
         cmocka_unit_test (a_partial_update_equals_a_fresh_one),
+        cmocka_unit_test (the_change_of_K_is_told),
         cmocka_unit_test (threads_change_no_bit),
     };
     return cmocka_run_group_tests_name ("force/tangent", tests, NULL, NULL);
