@@ -45,7 +45,8 @@ static void multiply (const run *r, const double *x, double *y)
     op->apply (op->context, x, y);
 }
 
-/* The product of a run and of its plain twin: the same up to rounding. It has to differ in some bit: else no
+/* The product of a run and of its plain twin: the same up to rounding, also that of bonds (2^-40 horizons)
+ * before shape functions are evaluated. It has to differ in some bit: else no
  * point would have been alike, and nothing tested. */
 static void compare (const run *r, const run *plain, int differs)
 {
@@ -54,7 +55,7 @@ static void compare (const run *r, const run *plain, int differs)
     for (size_t i = 0; i < n; i++) x[i] = random_number ();
     multiply (r, x, y), multiply (plain, x, z);
     for (size_t i = 0; i < n; i++) top = fmax (top, fabs (z[i]));
-    for (size_t i = 0; i < n; i++) check_scaled (y[i], z[i], 1e-12, top);
+    for (size_t i = 0; i < n; i++) check_scaled (y[i], z[i], 1e-11, top);
     assert_int_equal (memcmp (y, z, n * sizeof *y) != 0, differs);
     pg_free (x);
 }
