@@ -282,10 +282,13 @@ typedef struct {
     /* Spacing of the nodes; no two nodes of an element are further apart than `reach`; steps of the
      * lattice that the nodes form, 0: none. m. */
     double spacing, reach, lattice[3];
+    /* Terms of the polynomial p, which interpolates 1 / sqrt (x^2 + floor^2) on [low, high]. */
+    int     terms;
+    double  low, high, floor;
 } pg_elements;
 void pg_elements_clear (pg_elements *elements);
 
-/* How the preconditioner is made; 0: the usual choice. */
+/* How the preconditioner is made. */
 typedef struct {
     /* Dimension of space. */
     int     dim;
@@ -293,9 +296,6 @@ typedef struct {
     const double *x;
     /* 1: the displacement of this unknown is prescribed (n x block); NULL: none is. Borrowed. */
     const unsigned char *fixed;
-    /* Terms of the polynomial for N^-1, and the interval on which it is good. */
-    int     terms;
-    double  low, high;
 } pg_element_setting;
 typedef struct pg_element_preconditioner pg_element_preconditioner;
 /* z = p (N) V p (N)' r, V one cycle of pg_multilevel on Q, p a polynomial for 1 / x. Symmetric positive

@@ -263,10 +263,10 @@ void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
     *preconditioner = NULL;
 }
 
+/* 1 / x, bounded. */
 static double inverse (double x, double parameter)
 {
-    (void) parameter;
-    return 1 / x;
+    return 1 / sqrt (x * x + parameter * parameter);
 }
 
 /* Takes over the elements, also where it fails. */
@@ -294,8 +294,8 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
     memcpy (m.rows.lattice, P->elements.lattice, sizeof m.rows.lattice);
     PG_TRY (pg_multilevel_create (&P->multilevel, &m));
     if (P->elements.N.start) {
-        P->terms = s->terms > 0 ? (s->terms < MOST_TERMS ? s->terms : MOST_TERMS) : 6;
-        interpolate (P, s->low > 0 ? s->low : 0.1, s->high > 0 ? s->high : 1.1, inverse, 0);
+        P->terms = P->elements.terms < MOST_TERMS ? P->elements.terms : MOST_TERMS;
+        interpolate (P, P->elements.low, P->elements.high, inverse, P->elements.floor);
         PG_TRY (transpose (&P->transposed, &P->elements.N));
         PG_TRY (find_runs (&P->alike, &P->elements.N));
         PG_TRY (find_runs (&P->alike_transposed, &P->transposed));

@@ -11,7 +11,7 @@
 
 enum { RENEWAL = 20, MOST_ITERATIONS = 200 };  /* a new preconditioner costs about so many iterations */
 /* Finite elements fit worse near Poisson's ratio 1/2 and on smooth kernels with a wide support. */
-enum { MOST_BY_ELEMENTS = 500 };
+enum { MOST_BY_ELEMENTS = 300 };
 
 int system_has_preconditioner (const pg_system *s) { return s->multilevel || s->elements; }
 
@@ -68,7 +68,7 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     *can = 0;
     if ((!s->force->couplings && !s->force->elements) || !s->force->operator_ || dyn
-        || strcmp (s->options->preconditioner, "jacobi") == 0)
+        || strcmp (s->options->preconditioner, "jacobi") == 0 || (s->force->elements && s->options->plain))
         return PG_OK;
     if (s->fixed) {
         *can = s->precondition;
@@ -187,13 +187,14 @@ pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, doub
 {
     pg_status status = PG_OK;
     size_t used = 0;
+    long made = s->report->preconditioners;
     system_remember_diagonal (s, NULL);
     if (!system_has_preconditioner (s) || s->extra_cost > RENEWAL) PG_TRY (system_make_preconditioner (s));
     else s->spared += s->stale;
     strcpy (s->report->solver, "cg");
     pg_status now = iterate (s, dyn, tolerance, &used);
     /* made before the last break: once more */
-    if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->stale) {
+    if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->report->preconditioners == made) {
         PG_TRY (system_make_preconditioner (s));
         now = iterate (s, dyn, tolerance, &used);
     }

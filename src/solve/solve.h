@@ -79,6 +79,11 @@ void      system_switch  (pg_system *s, int mode);
 /* Seconds by stored rates: a factorization; two triangular solves of one right-hand side. */
 double    system_factor_cost (const pg_system *s);
 double    system_solve_cost  (const pg_system *s);
+/* choice.c: how systems are solved; seconds of one product K x, and of assembly and factor before there is
+ * any, both by stored rates */
+pg_status system_choose (pg_system *s, const dynamics *dyn);
+double    system_apply_cost  (const pg_system *s);
+double    system_direct_cost (const pg_system *s);
 /* y = K x, by operator or matrix */
 void      system_multiply (const pg_system *s, const double *x, double *y);
 /* delta = (k K + m M)^-1 reduced by conjugate gradients, preconditioned by the diagonal, the factor at hand

@@ -298,16 +298,6 @@ static const double worth_keeping = 15;
 double system_factor_cost (const pg_system *s) { return s->report->factor_flops / 20e9; }
 /* Four passes over the factor: two triangular solves, each read twice over a refinement. */
 double system_solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
-/* Seconds of one product K x: visits of bonds times a stored rate, by stencil, list or shape functions. */
-static double apply_cost (const pg_system *s)
-{
-    const pg_problem *p = s->problem;
-    if (p->sums) return (p->sums->stencil.n ? 0.6e-9 : 3e-9) * (double) p->first_bond[PG_BOND_SETS];
-    return 4e-9
-           * (double) (p->first_bond[PG_BOND_SETS]
-                       - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
-}
-
 /* Factors where K has changed, then two triangular solves. A factor that is dear against its solves is
  * kept as a preconditioner from then on, as a few broken bonds change K little. */
 static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
@@ -340,55 +330,11 @@ static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double
     }
     s->spared += s->stale;
     pg_status now = system_iterate (s, dyn, BY_FACTOR, tolerance, 200, &used);
-    if (used > 2) s->extra_cost += (double) (used - 2) * (system_solve_cost (s) + apply_cost (s));
+    if (used > 2) s->extra_cost += (double) (used - 2) * (system_solve_cost (s) + system_apply_cost (s));
     if (now == PG_OK) return PG_OK;
     if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
     s->stale = 1, s->extra_cost = 0;
     status = solve_by_factor (s, dyn);
-done:
-    return status;
-}
-
-/* Would conjugate gradients with sums over bonds be cheaper than a factor? By measured rates
- * (pg_method_iterates); can: the multilevel preconditioner is at hand. */
-static int by_bond_loops (const pg_system *s, int can)
-{
-    const pg_problem *p = s->problem;
-    return p->sums && (can || p->sums->stencil.n)
-           && pg_method_iterates (p->method, can, p->dim, (double) s->ndof);
-}
-
-/* A factor that serves many events pays for itself up to here in 3D (unknowns): 60 unknowns that an event
- * touches for the first time are as many right-hand sides, 2.4e-8 s for each entry of a factor of about 190
- * n^(4/3) of them, where iterations with a new preconditioner take about 1.5e-5 s an unknown, several times
- * more with an old one. */
-enum { EVENTS_FACTOR = 20000 };
-
-/* How systems are solved, chosen once: solver.linear says it, a force without a matrix leaves no choice,
- * and in a small time step the mass dominates: then a few iterations without any factor do, which is
- * simply tried. Large static 3D bodies have factors that outgrow everything else. */
-static pg_status choose_mode (pg_system *s, const dynamics *dyn)
-{
-    pg_status status = PG_OK;
-    int can;
-    int automatic = strcmp (s->options->linear, "auto") == 0;
-    PG_TRY (system_can_precondition (s, dyn, &can));
-    if (!can && strcmp (s->options->preconditioner, "multilevel") == 0)
-        pg_statistics_warn (s->report, "preconditioner: multilevel needs a body at rest and a force that "
-                                       "tells the rows of K, with supports on points: the diagonal instead "
-                                       "where there is no factor");
-    s->mode = SYSTEM_FACTOR;
-    if (!system_has_matrix (s) || (!s->linear->factors && operator_of (s)))
-        s->mode = SYSTEM_NO_FACTOR;
-    else if (automatic && operator_of (s) && dyn) s->mode = SYSTEM_TRIAL;
-    else if (automatic && operator_of (s) && by_bond_loops (s, can)) {
-        s->mode = SYSTEM_NO_FACTOR;
-        pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization",
-                            "so many points: conjugate gradients with sums over the bonds are "
-                            "cheaper by stored rates");
-    } else if (automatic && operator_of (s) && s->problem->dim == 3
-             && (s->ndof > 200000 || (can && s->ndof > (s->serves ? EVENTS_FACTOR : 6000))))
-        s->mode = SYSTEM_NO_FACTOR;
 done:
     return status;
 }
@@ -408,8 +354,25 @@ static void tell_small_step (pg_system *s, size_t used)
 
 /* iterations by the diagonal where the better preconditioner failed: probably a loaded part has come loose */
 enum { LAST_TRY = 2000 };
+/* a factor that takes longer is none to fall back to */
+static const double MOST_SECONDS = 600;
 
-/* Conjugate gradients with the multilevel preconditioner where it can be made, else with the diagonal.
+/* Finite elements fitted badly, and nothing converged: a factor instead from now on, where it can be had at
+ * all. */
+static int falls_back (pg_system *s)
+{
+    if (!s->elements || !system_has_matrix (s) || strcmp (s->options->linear, "auto") != 0
+        || system_direct_cost (s) > MOST_SECONDS)
+        return 0;
+    pg_statistics_warn (s->report, "the iterations with finite elements as preconditioner do not converge: a "
+                                   "factor of K from step %ld on", s->report->steps);
+    system_forget_preconditioner (s);
+    s->mode = SYSTEM_FACTOR, s->stale = 1, s->report->preconditioner[0] = 0;
+    memset (s->delta, 0, s->nred * sizeof *s->delta);
+    return 1;
+}
+
+/* Conjugate gradients with a preconditioner of several levels where it can be made, else with the diagonal.
  * Where the better one fails, the diagonal has a last, limited try: mostly a loaded part has come loose,
  * and nothing converges. */
 static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double tolerance)
@@ -421,6 +384,7 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
     if (can) {
         pg_status now = system_iterate_preconditioned (s, dyn, tolerance);
         if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) return now;
+        if (falls_back (s)) return PG_OK;
         limit = LAST_TRY;
     }
     pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, limit, &used);
@@ -440,7 +404,7 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
 {
     pg_status status = PG_OK;
     size_t used = 0;
-    if (s->mode == SYSTEM_UNDECIDED) PG_TRY (choose_mode (s, dyn));
+    if (s->mode == SYSTEM_UNDECIDED) PG_TRY (system_choose (s, dyn));
     if (s->mode == SYSTEM_TRIAL) {
         pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, FEW_ITERATIONS, &used);
         if (now != PG_OK && now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
