@@ -42,6 +42,15 @@ typedef struct {
     const int *node;
     const double *K;
 } pg_stiffness_change;
+/* Some bonds that are looked at again and again, while most of the body is not. */
+typedef struct {
+    size_t  n, *bond;                                  /* ascending: indices of pg_state.alive */
+    size_t  first[PG_BOND_SETS + 1];                   /* those of each set */
+    size_t *owner;                                     /* the point of its set that owns each bond (n) */
+    size_t  npoint[PG_BOND_SETS], *point[PG_BOND_SETS];        /* ends of the bonds, ascending */
+    size_t  nnode;  int *node;  /* nodes whose unknowns make displacement and stress there, ascending */
+} pg_bond_group;
+void pg_bond_group_clear (pg_bond_group *group);
 
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest
  * may be NULL. */
@@ -147,6 +156,21 @@ typedef struct {
      * (ndof). NULL: work_balance finds it. */
     pg_status (*work_balance_of) (void *self, double t, const double *d, const double *residual,
                                   pg_work_balance *out);
+    /* Groups of bonds (all three entries, or none). gather: fills in what belongs to group->bond, whatever it
+     * held before; *can 0: not with this problem, as stresses reach further than the bonds. judge_group: as
+     * utilisation, for the bonds of the group in their order (n each), d being read at the nodes of the group
+     * alone; any of the three arrays may be NULL. judge_others: of all bonds that live and are not marked in
+     * `left_out` (nbond bytes), top[k] = the largest utilisation at displacement k of `count`,
+     * d[unknown * count + k]; of_unit: these are displacements of load factor 1, and top[k] is one over the
+     * least factor instead. No bits are promised here: sums may run in another order. */
+    pg_status (*gather) (void *self, pg_bond_group *group, int *can);
+    pg_status (*judge_group) (void *self, const pg_state *state, const pg_bond_group *group, const double *d,
+                              double *utilisation, char *kind, double *factor);
+    pg_status (*judge_others) (void *self, const pg_state *state, const unsigned char *left_out, int of_unit,
+                               size_t count, const double *d, double *top);
+    /* As work_balance, of a static state in equilibrium, at the cost of the boundary alone: `strain` is half
+     * the work of the forces at hand on the displacements at hand (Clapeyron's theorem). NULL: work_balance. */
+    pg_status (*equilibrium_balance) (void *self, double t, const double *d, pg_work_balance *out);
     /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
      * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.
      * NULL: not known. */

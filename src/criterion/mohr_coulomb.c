@@ -37,6 +37,15 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     for (size_t b = 0; b < m->n; b++) f[b] = f[b] > 0 ? 1 / f[b] : INFINITY;
 }
 
+/* Tension and shear. */
+static int planes (const pg_criterion *c, double form[2][2])
+{
+    double sine = sin (c->parameter[ANGLE]), bound = c->parameter[COHESION] * cos (c->parameter[ANGLE]);
+    form[0][0] = 1 / c->parameter[STRENGTH], form[0][1] = 0;
+    form[1][0] = (1 + sine) / (2 * bound), form[1][1] = (sine - 1) / (2 * bound);
+    return 2;
+}
+
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     double phi = c->parameter[ANGLE], strength = 2 * c->parameter[COHESION] * cos (phi) / (1 - sin (phi));
@@ -69,5 +78,6 @@ const pg_criterion_type pg_criterion_mohr_coulomb = {
     .read = read,
     .utilisation = utilisation,
     .factor = factor,
+    .planes = planes,
     .describe = describe
 };

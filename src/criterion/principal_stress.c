@@ -28,6 +28,12 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     for (size_t b = 0; b < m->n; b++) f[b] = m->s1[b] > 0 ? c->parameter[STRENGTH] / m->s1[b] : INFINITY;
 }
 
+static int planes (const pg_criterion *c, double form[2][2])
+{
+    form[0][0] = 1 / c->parameter[STRENGTH], form[0][1] = 0;
+    return 1;
+}
+
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     snprintf (text, size, "principal stress >= %.6g Pa (mean of both ends)", c->parameter[STRENGTH]);
@@ -41,5 +47,6 @@ const pg_criterion_type pg_criterion_principal_stress = {
     .read = read,
     .utilisation = utilisation,
     .factor = factor,
+    .planes = planes,
     .describe = describe
 };

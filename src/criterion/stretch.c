@@ -101,6 +101,19 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     }
 }
 
+/* xi . eta / (xi . xi limit), of the stretch along the undeformed bond. */
+static int linear (const pg_criterion *c, const pg_bond_measures *m, double *a)
+{
+    if (c->parameter[FINITE] > 0) return 0;
+    for (size_t b = 0; b < m->n; b++) {
+        const double *xi = m->xi + b * (size_t) m->dim;
+        double rr = 0, limit = limit_of (c, m, b);
+        for (int k = 0; k < m->dim; k++) rr += xi[k] * xi[k];
+        for (int k = 0; k < m->dim; k++) a[b * (size_t) m->dim + (size_t) k] = xi[k] / (rr * limit);
+    }
+    return 1;
+}
+
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     int energy = c->parameter[FROM_ENERGY] > 0;
@@ -152,5 +165,6 @@ const pg_criterion_type pg_criterion_stretch = {
     .read = read,
     .utilisation = utilisation,
     .factor = factor,
+    .linear = linear,
     .describe = describe
 };

@@ -89,3 +89,11 @@ done:
     pg_problem_free (&p);
     return status;
 }
+
+/* May be called on one that was never filled. */
+void pg_bond_group_clear (pg_bond_group *group)
+{
+    pg_free (group->bond), pg_free (group->owner), pg_free (group->node);
+    for (int set = 0; set < PG_BOND_SETS; set++) pg_free (group->point[set]);
+    memset (group, 0, sizeof *group);
+}

@@ -248,6 +248,28 @@ done:
     return status;
 }
 
+/* The same at the cost of the boundary: facets and, where something acts there, nodes are measured, and half
+ * the work of all pairs is what is stored, at rest and in balance. Reactions of eliminated unknowns need forces
+ * of the whole body, as a body force needs its displacements: then it is the dear way. */
+static pg_status galerkin_equilibrium_balance (void *self, double t, const double *d, pg_work_balance *out)
+{
+    galerkin *g = self;
+    int points = g->side[0].n + g->side[1].n + g->side[2].n > 0, nodes = g->npenalty > 0;
+    for (size_t l = 0; l < g->problem->nload; l++) {
+        pg_load_kind kind = g->problem->load[l].kind;
+        points |= kind == PG_BODY_FORCE || g->problem->load[l].cracks;
+        nodes |= kind == PG_POINT_FORCE;
+    }
+    if (!out->force || points || g->dilatation) return galerkin_work_balance (self, t, d, NULL, out);
+    memset (out->reaction, 0, 3 * g->problem->nload * sizeof *out->reaction);
+    galerkin_measure (g, PG_FACETS, d);
+    if (nodes) galerkin_measure (g, PG_NODES, d);
+    galerkin_boundary_work_balance (g, t, d, out);
+    out->strain = 0;
+    for (size_t k = 0; k < out->npair; k++) out->strain += 0.5 * out->force[k] * out->displacement[k];
+    return PG_OK;
+}
+
 const pg_force_type pg_force_galerkin = {
     .method = { .name = "galerkin",
                 .summary = "weak form with the shape functions of method.approximation (Cui 2022)",
@@ -273,6 +295,10 @@ const pg_force_type pg_force_galerkin = {
     .impose = galerkin_impose,
     .utilisation = galerkin_utilisation,
     .worst = galerkin_worst,
+    .gather = galerkin_gather,
+    .judge_group = galerkin_judge_group,
+    .judge_others = galerkin_judge_others,
+    .equilibrium_balance = galerkin_equilibrium_balance,
     .work_balance = galerkin_work_balance,
     .work_balance_of = galerkin_work_balance_of,
     .field = galerkin_field,

@@ -3,7 +3,8 @@
  * blocks, energy), galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
  * galerkin_sum.c (loops over points), galerkin_runs.c (points that are alike), galerkin_silling.c
  * (stabilisation), galerkin_operator.c (K x, K),
- * galerkin_bonds.c (utilisation, overlap, census), galerkin_dilatation.c, galerkin_dilatation_facet.c (near
+ * galerkin_bonds.c (utilisation, overlap, census), galerkin_groups.c (bonds outside of a group),
+ * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c (preconditioner),
  * galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
@@ -101,6 +102,8 @@ void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list);
 void galerkin_measure (galerkin *g, int set, const double *d);
 /* again, after a change of rows */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list);
+void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count, const size_t *list,
+                            size_t nnode, const int *node);
 /* f += sum w B' sigma of the last measure, which was at d */
 void galerkin_sum_stress  (galerkin *g, const double *d, double *f);
 void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x */
@@ -242,6 +245,18 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
                                 char *kind, double *factor);
 pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
                           double *utilisation, char *kind, double *top, pg_changes *over);
+/* g->judged, once */
+pg_status galerkin_find_judged (galerkin *g);
+/* Of graded clouds: support of a bond of an entry of a set over the horizon, by which limits scale. */
+double galerkin_reach (const galerkin *g, int set, size_t point, size_t entry);
+/* The only material that the ends of these bonds are made of, or -1. */
+int galerkin_one_material (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point);
+/* groups */
+pg_status galerkin_gather (void *self, pg_bond_group *group, int *can);
+pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond_group *group,
+                                const double *d, double *utilisation, char *kind, double *factor);
+pg_status galerkin_judge_others (void *self, const pg_state *state, const unsigned char *left_out, int of_unit,
+                                 size_t count, const double *d, double *top);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,

@@ -17,28 +17,27 @@ typedef struct {
 enum { BATCH = 128 };
 static const double NEVER = -1e300;
 
-/* What `count` bonds (entries `bond` of the set) show against one law: utilisation, and the factor by
- * which a proportional load may grow. Of two laws that judge one bond the weaker decides: the larger
+/* What some bonds show against one law: utilisation, and the factor by which a proportional load may grow;
+ * `to`: their places in the arrays. Of two laws that judge one bond the weaker decides: the larger
  * utilisation, the smaller factor. */
-static void judge_by (const judging *s, const pg_criterion *c, const pg_bond_measures *m, const size_t *bond)
+static void judge_by (const judging *s, const pg_criterion *c, const pg_bond_measures *m, const size_t *to)
 {
-    size_t base = s->g->problem->first_bond[s->set];
     double out[BATCH];
     char kind[BATCH];
     if (s->utilisation) c->type->utilisation (c, m, out, kind);
     for (size_t k = 0; s->utilisation && k < m->n; k++) {
-        if (out[k] < s->utilisation[base + bond[k]]) continue;
-        s->utilisation[base + bond[k]] = out[k];
-        if (s->kind) s->kind[base + bond[k]] = kind[k];
+        if (out[k] < s->utilisation[to[k]]) continue;
+        s->utilisation[to[k]] = out[k];
+        if (s->kind) s->kind[to[k]] = kind[k];
     }
     if (s->factor) c->type->factor (c, m, out);
     for (size_t k = 0; s->factor && k < m->n; k++)
-        if (!(out[k] > s->factor[base + bond[k]])) s->factor[base + bond[k]] = out[k];
+        if (!(out[k] > s->factor[to[k]])) s->factor[to[k]] = out[k];
 }
 
 /* Of a batch those bonds that have an end in a material, copied together and judged by its law. */
 static void judge_material (const judging *s, int material, pg_bond_measures m, const size_t *bond,
-                            const size_t *point)
+                            const size_t *point, const size_t *to)
 {
     const galerkin *g = s->g;
     const int *node = g->rows[s->set].family.node;
@@ -52,7 +51,7 @@ static void judge_material (const judging *s, int material, pg_bond_measures m, 
                 memcpy (eta + count * dim, m.eta + k * dim, dim * sizeof *eta);
         if (m.reach) reach[count] = m.reach[k];
         if (m.s1) s1[count] = m.s1[k], s3[count] = m.s3[k];
-        some[count++] = bond[k];
+        some[count++] = to[k];
     }
     m = (pg_bond_measures){ .n = count,
                             .dim = m.dim,
@@ -64,8 +63,7 @@ static void judge_material (const judging *s, int material, pg_bond_measures m, 
     if (count) judge_by (s, &g->problem->criterion[material], &m, some);
 }
 
-/* The only material that the ends of these bonds are made of, or -1. */
-static int one_material (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point)
+int galerkin_one_material (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point)
 {
     const int *node = g->rows[set].family.node;
     int first = g->material[set][point[0]], same = 1;
@@ -74,10 +72,17 @@ static int one_material (const galerkin *g, int set, size_t count, const size_t 
     return same ? first : -1;
 }
 
+/* Mean of both ends: the same from either end. */
+double galerkin_reach (const galerkin *g, int set, size_t point, size_t entry)
+{
+    const pg_cloud *c = &g->problem->cloud;
+    return 0.5 * (pg_problem_spacing (g->problem, set, point) + c->size[g->rows[set].family.node[entry]]) / c->h;
+}
+
 /* Measures `count` live bonds and hands them to the laws: bond vector xi and relative displacement eta
  * (m), principal stresses as the mean of both ends (Pa), and in graded clouds the local spacing over h,
  * by which limits of stretch scale. Most batches are of one material and need no second copy. */
-static void judge (const judging *s, size_t count, const size_t *bond, const size_t *point)
+static void judge (const judging *s, size_t count, const size_t *bond, const size_t *point, const size_t *to)
 {
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
@@ -86,7 +91,7 @@ static void judge (const judging *s, size_t count, const size_t *bond, const siz
     int graded = g->problem->cloud.size != NULL;
     int needs = g->problem->criterion->type->needs, stretch = needs & PG_NEEDS_STRETCH,
         stress = needs & PG_NEEDS_STRESS;
-    int material = one_material (g, s->set, count, bond, point);
+    int material = galerkin_one_material (g, s->set, count, bond, point);
     for (size_t k = 0; stretch && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         for (size_t a = 0; a < dim; a++) {
@@ -94,11 +99,7 @@ static void judge (const judging *s, size_t count, const size_t *bond, const siz
             eta[k * dim + a] = g->u[PG_NODES][j * dim + a] - g->u[s->set][p * dim + a];
         }
     }
-    for (size_t k = 0; graded && k < count; k++)           /* mean of both ends: the same from either end */
-        reach[k] = 0.5
-                   * (pg_problem_spacing (g->problem, s->set, point[k])
-                      + g->problem->cloud.size[r->family.node[bond[k]]])
-                   / g->problem->cloud.h;
+    for (size_t k = 0; graded && k < count; k++) reach[k] = galerkin_reach (g, s->set, point[k], bond[k]);
     for (size_t k = 0; stress && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];
         s1[k] = 0.5 * (g->s1[s->set][p] + g->s1[PG_NODES][j]);
@@ -111,8 +112,9 @@ static void judge (const judging *s, size_t count, const size_t *bond, const siz
                            .reach = graded ? reach : NULL,
                            .s1 = stress ? s1 : NULL,
                            .s3 = stress ? s3 : NULL };
-    if (material >= 0) judge_by (s, &g->problem->criterion[material], &m, bond);
-    else for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point);
+    if (material >= 0) judge_by (s, &g->problem->criterion[material], &m, to);
+    else
+        for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point, to);
 }
 
 /* Live bonds of a range of points in batches; bonds that never break have utilisation 0 and an infinite
@@ -124,21 +126,22 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const pg_rows *r = &g->rows[s->set];
     const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set],
                         *judged = g->judged[s->set];
-    size_t base = g->problem->first_bond[s->set], bond[BATCH], point[BATCH], count = 0;
+    size_t base = g->problem->first_bond[s->set], bond[BATCH], point[BATCH], to[BATCH],
+           count = 0;
     (void) thread;
     for (size_t p = first; p < last; p++)
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             if (s->utilisation) s->utilisation[base + e] = 0;
             if (s->factor) s->factor[base + e] = INFINITY;
             if (!alive[e] || !judged[e]) continue;
-            bond[count] = e, point[count++] = p;
-            if (count == BATCH) judge (s, count, bond, point), count = 0;
+            bond[count] = e, to[count] = base + e, point[count++] = p;
+            if (count == BATCH) judge (s, count, bond, point, to), count = 0;
         }
-    if (count) judge (s, count, bond, point);
+    if (count) judge (s, count, bond, point, to);
 }
 
 /* Which bonds are looked at, once for all: those of no length and those of exempt ends never break. */
-static pg_status find_judged (galerkin *g)
+pg_status galerkin_find_judged (galerkin *g)
 {
     pg_status status = PG_OK;
     const pg_problem *q = g->problem;
@@ -214,7 +217,7 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
 {
     pg_status status = PG_OK;
     galerkin *g = self;
-    PG_TRY (find_judged (g));
+    PG_TRY (galerkin_find_judged (g));
     for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_rows *r = &g->rows[set];
         if (r->n == 0) continue;
@@ -248,10 +251,11 @@ static pg_status judge_collected (search *s)
     pg_status status = PG_OK;
     size_t base = s->judge.g->problem->first_bond[s->judge.set];
     double *u = s->judge.utilisation;
-    for (size_t k = 0; k < s->count; k++) u[base + s->bond[k]] = 0;
-    if (s->count) judge (&s->judge, s->count, s->bond, s->point);
+    size_t to[BATCH];
+    for (size_t k = 0; k < s->count; k++) to[k] = base + s->bond[k], u[to[k]] = 0;
+    if (s->count) judge (&s->judge, s->count, s->bond, s->point, to);
     for (size_t k = 0; k < s->count; k++) {
-        size_t i = base + s->bond[k];
+        size_t i = to[k];
         if (u[i] > s->top) s->top = u[i];
         if (!s->list || !(u[i] >= s->least)) continue;
         PG_GROW (s->list->bond, s->list->cap, s->list->n + 1);
@@ -349,6 +353,42 @@ pg_status galerkin_worst (void *self, const pg_state *state, const double *d, do
     PG_TRY (search_all (&s));
 done:
     for (int set = 0; set < PG_BOND_SETS; set++) pg_free (s.alone[set]);
+    return status;
+}
+
+/* The same for the bonds of a group, of which those that are not judged have utilisation 0 and an infinite
+ * factor: stresses and displacements are measured at their ends alone. */
+pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond_group *group,
+                                const double *d, double *utilisation, char *kind, double *factor)
+{
+    pg_status status = PG_OK;
+    galerkin *g = self;
+    size_t bond[BATCH], point[BATCH], to[BATCH];
+    PG_TRY (galerkin_find_judged (g));
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        double principal[3];
+        galerkin_measure_some (g, set, d, group->npoint[set], group->point[set], group->nnode, group->node);
+        for (size_t k = 0; (g->problem->criterion->type->needs & PG_NEEDS_STRESS) && k < group->npoint[set];
+             k++) {
+            size_t p = group->point[set][k];
+            pg_principal (g->dim, 1, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p, principal);
+            g->s1[set][p] = principal[0], g->s3[set][p] = principal[2];
+        }
+    }
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        judging s = { g, state, set, utilisation, factor, kind };
+        size_t base = g->problem->first_bond[set], count = 0;
+        for (size_t k = group->first[set]; k < group->first[set + 1]; k++) {
+            size_t e = group->bond[k] - base;
+            if (utilisation) utilisation[k] = 0;
+            if (factor) factor[k] = INFINITY;
+            if (!state->alive[base + e] || !g->judged[set][e]) continue;
+            bond[count] = e, to[count] = k, point[count++] = group->owner[k];
+            if (count == BATCH) judge (&s, count, bond, point, to), count = 0;
+        }
+        if (count) judge (&s, count, bond, point, to);
+    }
+done:
     return status;
 }
 

@@ -213,6 +213,19 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
     measure_points (&m, 0, count, 0);
 }
 
+/* Some points at a displacement that is known at some nodes only, all that these points see. What was measured
+ * before at the other points belongs to another displacement: nothing of the set is known any more. */
+void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count, const size_t *list,
+                            size_t nnode, const int *node)
+{
+    double *x = g->slices->x;
+    for (size_t k = 0; g->dim == 3 && k < nnode; k++)
+        for (size_t c = 0, i = (size_t) node[k]; c < 3; c++) x[4 * i + c] = d[3 * i + c];
+    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], g->dim == 3 ? x : d, list };
+    g->fresh[set] = 0;
+    measure_points (&m, 0, count, 0);
+}
+
 /* ---- forces -------------------------------------------------------------------------------------------- */
 /* x: nodal values whose stresses are summed; NULL: stresses of the last measure. at: the nodal values, four
  * numbers a node, where there is a stabilisation. */

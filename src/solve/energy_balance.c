@@ -30,6 +30,21 @@ done:
     return status;
 }
 
+/* The same of a state at rest and in balance, for what the boundary costs where the force can do so. */
+pg_status break_loop_account_rest (break_loop *b, double t, const double *d, double scale)
+{
+    pg_status status = PG_OK;
+    pg_system *s = &b->system;
+    if (s->problem->plain || !s->force->equilibrium_balance)
+        return break_loop_account (b, t, d, NULL, scale);
+    double t0 = pg_seconds ();
+    PG_TRY (s->force->equilibrium_balance (s->self, t, d, &b->work_balance));
+    PG_TRY (break_loop_book (b, scale));
+done:
+    s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    return status;
+}
+
 /* Trapezoids: the work between two states is the mean force times the change of displacement, pair by
  * pair. The balance at hand becomes the last one. */
 pg_status break_loop_book (break_loop *b, double scale)

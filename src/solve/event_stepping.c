@@ -111,7 +111,7 @@ static pg_status go_to (pg_solver *s, pg_state *state, double factor)
     event_stepping *e = events_of (s);
     event_move (s, state, factor);
     state->factor = state->time = factor;
-    if (!e->balance_fresh) PG_TRY (break_loop_account (&s->break_loop, 1, e->unit, NULL, factor));
+    if (!e->balance_fresh) PG_TRY (break_loop_account_rest (&s->break_loop, 1, e->unit, factor));
     else PG_TRY (break_loop_book (&s->break_loop, factor));
     e->balance_fresh = 1;
     s->report.energy_strain = factor * factor * s->break_loop.work_balance.strain;
@@ -207,26 +207,41 @@ done:
     return status;
 }
 
-/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the
- * next step is refused. */
-static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
+/* The bonds within the width of the worst one die, by factors of all bonds. */
+static pg_status kill_at (pg_solver *s, pg_state *state, double factor, double scale)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
-    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 1,
-           stiff;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 1;
     /* utilisation here */
     for (size_t i = 0; i < state->nbond; i++) b->factor[i] = b->factor[i] > 0 ? factor / b->factor[i] : 0;
     if (e->unstable.held) PG_TRY (worst_here (s, state, &top, &scale));
     instability_before (s, &e->unstable, state);
     PG_TRY (break_loop_kill (b, state, b->factor, (1 - width) * top, scale, factor));
+    ahead_forget (e->ahead);
+done:
+    return status;
+}
+
+/* Breaks what reaches its limit at `factor` and finds the next unit displacement; where there is none the
+ * next step is refused. Events that were found together bring both with them. */
+static pg_status break_at (pg_solver *s, pg_state *state, double factor, double scale, pg_step *step)
+{
+    pg_status status = PG_OK, now = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    int ahead = ahead_waits (e->ahead);
+    double stiff;
+    if (ahead) PG_TRY (ahead_kill (s, state));
+    else PG_TRY (kill_at (s, state, factor, scale));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;
     state->events++, s->report.events++;
     double strain = s->report.energy_strain, work = b->work;
     PG_TRY (system_refresh (&b->system, state, &b->changes));
-    pg_status now = event_solve (s);
+    if (ahead) PG_TRY (ahead_take (s));
+    else now = event_solve (s);
     int moves;
     PG_TRY (instability_after (s, &e->unstable, state, factor, now, &moves));
     if (moves) {
@@ -235,7 +250,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     }
     if (event_ended (s, state, factor, now)) goto done;
     PG_TRY (now);
-    PG_TRY (break_loop_account (b, 1, e->unit, NULL, factor));
+    PG_TRY (break_loop_account_rest (b, 1, e->unit, factor));
     s->report.energy_strain = factor * factor * b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &stiff));
@@ -318,11 +333,14 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
-    double next = INFINITY, level = (double) s->next_level / (double) s->options.levels, scale,
+    double next = INFINITY, level = (double) s->next_level / (double) s->options.levels, scale = 1,
            t0 = pg_seconds ();
     b->nbroken = 0;
     step->iterations = 1;
+    if (!ahead_waits (e->ahead)) PG_TRY (ahead_look (s, state, level));
+    int ahead = ahead_waits (e->ahead);
     if (b->growth) PG_TRY (facet_next (s, state, &next));
+    else if (ahead) next = ahead_factor (e->ahead, &step->utilisation);
     else if (break_loop_judges (b)) {
         PG_TRY (break_loop_ready (b));
         PG_TRY (b->system.force->utilisation (b->system.self, state, e->unit, b->utilisation, b->kind,
@@ -340,7 +358,7 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
     if (e->secant0 == 0) PG_TRY (event_secant (s, &e->secant0));
     step->factor = step->time = factor;
     step->residual = e->unit_residual;
-    PG_TRY (look_over (s, state, factor, &scale, step));
+    if (!ahead) PG_TRY (look_over (s, state, factor, &scale, step));
     if (next <= level && b->growth) PG_TRY (facet_event (s, state, factor, step));
     else if (next <= level) PG_TRY (break_at (s, state, factor, scale, step));
     if (!(level > factor)) {
@@ -355,6 +373,7 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
         }
     }
     event_limit (s, state, factor);
+    if (s->finished) ahead_tell (s);
 done:
     return status;
 }
@@ -366,6 +385,7 @@ pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
     facet_growth *g = s->break_loop.growth;
     if (e->engine) PG_TRY (event_solver_restore (e->engine));
     if (g && s->break_loop.round == 0) g->needed0 = g->needed;
+    ahead_begin (e->ahead);
     if (instability_moves (&e->unstable)) return instability_step (s, &e->unstable, state, step);
     if (e->ended != PG_OK) return pg_error (e->ended, PG_HERE, "%s", e->why);
     return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)
@@ -379,6 +399,7 @@ void event_free (pg_solver *s)
 {
     event_stepping *e = events_of (s);
     pg_free (e->unit), pg_free (e->base);
+    ahead_free (&e->ahead);
     event_solver_free (&e->engine);
     instability_free (&e->unstable);
 }
@@ -387,6 +408,7 @@ void event_free (pg_solver *s)
 void event_refused (pg_solver *s)
 {
     facet_growth *g = s->break_loop.growth;
+    ahead_refused (events_of (s)->ahead);
     if (g) g->fresh = 0, g->needed = s->report.energy_fracture = g->needed0;
 }
 
@@ -423,6 +445,7 @@ pg_status event_keep (pg_solver *s, const pg_keeper *k)
     PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
     if (count[2] && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));
     if (e->base) PG_TRY (k->numbers (k->context, "event_stepping.base", ndof, e->base));
+    PG_TRY (ahead_keep (s, k));
     if (e->engine) {
         PG_TRY (k->numbers (k->context, "event_stepping.engine", 1, &e->engine_residual));
         PG_TRY (event_solver_keep (e->engine, k));

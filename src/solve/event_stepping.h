@@ -19,6 +19,7 @@ typedef struct {                                       /* state of `static` with
     double    secant0;                                 /* first work per squared load factor, J */
     double    secant, top_factor;                      /* that of now over the first; largest load factor */
     instability unstable;                              /* where growth goes on by itself */
+    struct event_ahead *ahead;                         /* events that were found together; NULL: never */
 } event_stepping;
 static inline event_stepping *events_of (const pg_solver *s) { return s->own; }
 
@@ -36,6 +37,20 @@ void      event_move   (const pg_solver *s, pg_state *state, double factor);
 /* Work per squared load factor, of what grows with it: a stiffness under displacements, a compliance under
  * forces. After break_loop_account of the equilibria at hand. */
 pg_status event_secant (pg_solver *s, double *out);
+
+/* Looking ahead (event_ahead.c): finds the next events together, if it can, below this level; 1: some are
+ * waiting; the bonds of the first of them die; the equilibrium after it becomes that of `unit`. */
+pg_status ahead_look   (pg_solver *s, pg_state *state, double level);
+int       ahead_waits  (const struct event_ahead *q);
+double    ahead_factor (const struct event_ahead *q, double *top);  /* load factor of the first that waits */
+pg_status ahead_kill   (pg_solver *s, pg_state *state);
+pg_status ahead_take   (pg_solver *s);
+void      ahead_forget (struct event_ahead *q);        /* bonds broke otherwise */
+void      ahead_begin  (struct event_ahead *q);        /* a step */
+void      ahead_refused (struct event_ahead *q);       /* the step that began */
+void      ahead_tell   (pg_solver *s);                 /* for the report, once at the end */
+pg_status ahead_keep   (pg_solver *s, const pg_keeper *k);
+void      ahead_free   (struct event_ahead **q);
 
 /* Affine loads: one event or level; facets: where the next one grows, *end, at most at full load. */
 pg_status affine_step  (pg_solver *s, pg_state *state, pg_step *step);

@@ -31,8 +31,7 @@ static double force_of_rounding (const pg_system *s, const double *d)
 }
 
 /* The out-of-balance force of the state, from the force itself, and what it is measured against. */
-static pg_status measure_residual (pg_system *s, double t, const double *d, const dynamics *dyn,
-                                   double *relative)
+pg_status system_residual (pg_system *s, double t, const double *d, const dynamics *dyn, double *relative)
 {
     pg_status status = PG_OK;
     double reference = 0, t0 = pg_seconds ();
@@ -180,7 +179,7 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
     struct { double unbalanced, reference; } before = { 0, 0 };
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
     for (int k = 0; k <= MOST_REFINEMENTS; k++) {
-        PG_TRY (measure_residual (s, t, d, dyn, &r));
+        PG_TRY (system_residual (s, t, d, dyn, &r));
         s->known = 1;
         if (k > 1 && r > last) {                       /* the last refinement made it worse: take it back */
             memcpy (d, s->best, s->ndof * sizeof *d);

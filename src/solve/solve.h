@@ -103,6 +103,8 @@ pg_status system_remember_alive (pg_system *s);        /* in `factored` */
 pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance);
 /* d becomes the equilibrium at t (refinement.c); *residual relative to the reference force.
  * PG_E_EQUILIBRIUM when it stays above the tolerance. */
+/* The out-of-balance force of (t, d), from the force itself, relative to what it is measured against. */
+pg_status system_residual (pg_system *s, double t, const double *d, const dynamics *dyn, double *relative);
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */
@@ -152,6 +154,8 @@ long      break_loop_over   (const break_loop *b, const pg_state *state, double 
 /* The work_balance of (t, d), and with it the work done between the last accounted state and this one (loads
  * scaled by `scale`). */
 pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale);
+/* The same of a static state in equilibrium. */
+pg_status break_loop_account_rest (break_loop *b, double t, const double *d, double scale);
 /* The work alone, from the work balance at hand. */
 pg_status break_loop_book    (break_loop *b, double scale);
 /* Has the damage of a point of options.stop_set reached options.stop_damage? */

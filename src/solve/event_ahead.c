@@ -1,0 +1,478 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Looking ahead under proportional loads (event_ahead.h). What is found is the same list of events as with a
+ * look at all bonds after every one: within the group the choice is that of event_stepping.c, bond by bond,
+ * and all others are looked at before anything is handed out. Load factors differ by the rounding of the
+ * equilibria, as these come from dense algebra on what breaking has touched (event_solver.h). */
+#include "event_stepping.h"
+#include "event_ahead.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static const double near_limit = 0.85;                 /* of the worst bond: around such bonds the group lies */
+
+void ahead_free (event_ahead **ahead)
+{
+    event_ahead *q = *ahead;
+    if (!q) return;
+    event_zone_clear (&q->zone);
+    pg_free (q->utilisation), pg_free (q->factor), pg_free (q->kind);
+    pg_free (q->d), pg_free (q->scaled), pg_free (q->some), pg_free (q->block);
+    pg_free (q->broken), pg_free (q->undone.bond);
+    pg_free (q);
+    *ahead = NULL;
+}
+
+static pg_status create (event_ahead **out, size_t ndof)
+{
+    pg_status status = PG_OK;
+    event_ahead *q = NULL;
+    PG_ALLOC (q, 1);
+    PG_ALLOC (q->d, ndof);
+    PG_ALLOC (q->scaled, ndof);
+    PG_ALLOC (q->some, ndof);
+    q->cold = -1;
+    *out = q;
+    q = NULL;
+done:
+    ahead_free (&q);
+    return status;
+}
+
+/* Loads proportional to the load factor, bonds judged one by one, the path of equilibria; a force that knows
+ * groups, and a solver that knows displacements without a factorization. */
+static int possible (const pg_solver *s)
+{
+    const event_stepping *e = events_of (s);
+    const break_loop *b = &s->break_loop;
+    const pg_force_type *f = b->system.force;
+    return !s->problem->plain && e->engine && !e->base && !b->growth && break_loop_judges (b)
+           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->gather && f->judge_group && f->judge_others
+           && event_solver_has_base (e->engine);
+}
+
+int ahead_waits (const event_ahead *q) { return q && q->at < q->nevent; }
+
+void ahead_forget (event_ahead *q)
+{
+    if (q) q->cold = -1;
+}
+
+/* ---- bonds that die and live again --------------------------------------------------------------------- */
+static pg_status refresh (pg_solver *s, const pg_state *state, const pg_changes *changes)
+{
+    pg_system *sys = &s->break_loop.system;
+    long updates = s->report.updates, kept = sys->kept;
+    pg_status status = system_refresh (sys, state, changes);
+    s->report.updates = updates, sys->kept = kept;         /* a trial is no event of the run */
+    return status;
+}
+
+/* For qsort. */
+static int ascending (const void *a, const void *b)
+{
+    size_t i = *(const size_t *) a, j = *(const size_t *) b;
+    return (i > j) - (i < j);
+}
+
+/* The events from k on have not happened: their bonds live again, and shape functions are those before. */
+static pg_status revive (pg_solver *s, event_ahead *q, pg_state *state, size_t k)
+{
+    pg_status status = PG_OK;
+    size_t first = k < q->nevent ? q->event[k].first : q->nbroken;
+    q->undone.n = 0;
+    for (size_t i = first; i < q->nbroken; i++) {
+        PG_GROW (q->undone.bond, q->undone.cap, q->undone.n + 1);
+        state->alive[q->broken[i].bond] = 1;
+        q->undone.bond[q->undone.n++] = q->broken[i].bond;
+    }
+    if (q->undone.n == 0) return PG_OK;
+    qsort (q->undone.bond, q->undone.n, sizeof *q->undone.bond, ascending);
+    PG_TRY (refresh (s, state, &q->undone));
+done:
+    return status;
+}
+
+/* ---- finding ------------------------------------------------------------------------------------------- */
+static pg_status room_for_group (event_ahead *q)
+{
+    pg_status status = PG_OK;
+    pg_free (q->utilisation), pg_free (q->factor), pg_free (q->kind);
+    q->utilisation = q->factor = NULL, q->kind = NULL;
+    PG_ALLOC (q->utilisation, q->zone.group.n);
+    PG_ALLOC (q->factor, q->zone.group.n);
+    PG_ALLOC (q->kind, q->zone.group.n);
+done:
+    return status;
+}
+
+/* All bonds at the displacement at hand: the group around those near their limit, and the largest utilisation
+ * per load factor outside of it. *found 0: there is none. */
+static pg_status make_zone (pg_solver *s, event_ahead *q, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    double best = INFINITY, share;
+    PG_TRY (break_loop_ready (b));
+    PG_TRY (b->system.force->utilisation (b->system.self, state, e->unit, NULL, NULL, b->factor));
+    for (size_t i = 0; i < state->nbond; i++) if (b->factor[i] < best) best = b->factor[i];
+    q->zone.known = 0;
+    if (!isfinite (best)) goto done;
+    for (size_t i = 0; i < state->nbond; i++) b->factor[i] = best / b->factor[i];
+    PG_TRY (event_zone_make (&q->zone, &b->system, state, b->factor, near_limit, ahead_most_of_body, &share));
+    if (!q->zone.known) goto done;
+    q->cold = 0;
+    for (size_t i = 0; i < state->nbond; i++)
+        if (!q->zone.left_out[i] && b->factor[i] > q->cold) q->cold = b->factor[i];
+    q->cold /= best;
+    PG_TRY (room_for_group (q));
+done:
+    return status;
+}
+
+/* Displacement at the nodes of the group: of the solver, or of a whole field. */
+static void take (const pg_solver *s, event_ahead *q, const double *whole)
+{
+    const pg_bond_group *g = &q->zone.group;
+    size_t c = (size_t) s->break_loop.system.components;
+    if (!whole) event_solver_at (events_of (s)->engine, 0, g->nnode, g->node, q->some);
+    for (size_t k = 0; k < g->nnode; k++)
+        memcpy (q->d + (size_t) g->node[k] * c, whole ? whole + (size_t) g->node[k] * c : q->some + k * c,
+                c * sizeof *q->d);
+}
+
+/* The utilisations of the state at this factor, from those of the unit displacement; measured anew where they
+ * do not grow in proportion. As event_stepping.c does. */
+static pg_status look_over_group (pg_solver *s, event_ahead *q, const pg_state *state, double factor,
+                                  double *top)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    const pg_bond_group *g = &q->zone.group;
+    size_t worst = 0, c = (size_t) b->system.components;
+    for (size_t i = 1; i < g->n; i++) if (q->utilisation[i] > q->utilisation[worst]) worst = i;
+    *top = factor * q->utilisation[worst];
+    if (*top <= 1 + s->options.tie && fabs (q->utilisation[worst] * q->factor[worst] - 1) <= 1e-9) {
+        for (size_t i = 0; i < g->n; i++) q->utilisation[i] *= factor;
+        goto done;
+    }
+    for (size_t k = 0; k < g->nnode; k++)
+        for (size_t i = (size_t) g->node[k] * c; i < ((size_t) g->node[k] + 1) * c; i++)
+            q->scaled[i] = factor * q->d[i];
+    PG_TRY (b->system.force->judge_group (b->system.self, state, g, q->scaled, q->utilisation, q->kind, NULL));
+    *top = 0;
+    for (size_t i = 0; i < g->n; i++) *top = fmax (*top, q->utilisation[i]);
+done:
+    return status;
+}
+
+/* Appends the next event: bonds within the width of the worst one. *why 0: found; 1: at the next level or
+ * beyond, or none at all; 2: it lies outside the inner part. */
+static pg_status choose (pg_solver *s, event_ahead *q, pg_state *state, double level, int *why)
+{
+    pg_status status = PG_OK;
+    break_loop *b = &s->break_loop;
+    const pg_bond_group *g = &q->zone.group;
+    const pg_solver_options *o = &s->options;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie,
+           best = INFINITY, top;
+    ahead_event *v = &q->event[q->nevent];
+    PG_TRY (b->system.force->judge_group (b->system.self, state, g, q->d, q->utilisation, q->kind, q->factor));
+    for (size_t i = 0; i < g->n; i++) if (q->factor[i] < best) best = q->factor[i];
+    *why = 1;
+    if (!(best < level) || !(best > 0)) goto done;
+    *why = 2;
+    for (size_t i = 0; i < g->n; i++)
+        if (best / q->factor[i] >= 1 - width && !event_zone_inner (&q->zone, i)) goto done;
+    *why = 0;
+    PG_TRY (look_over_group (s, q, state, best, &top));
+    *v = (ahead_event) { .factor = best, .top = top, .first = q->nbroken };
+    b->changes.n = 0;
+    for (size_t i = 0; i < g->n; i++) {
+        if (!(best / q->factor[i] >= 1 - width)) continue;
+        PG_GROW (q->broken, q->cap_broken, q->nbroken + 1);
+        PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
+        q->broken[q->nbroken++] = (pg_broken) { .bond = g->bond[i], .kind = q->kind[i],
+                                                .utilisation = q->utilisation[i] };
+        b->changes.bond[b->changes.n++] = g->bond[i];
+        state->alive[g->bond[i]] = 0;
+        v->n++;
+    }
+    q->nevent++;
+done:
+    return status;
+}
+
+/* Event after event in the group, up to a block full. *retry: a new group may find what this one could not. */
+static pg_status find (pg_solver *s, event_ahead *q, pg_state *state, double level, int *retry)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    int why = 0;
+    *retry = 0;
+    take (s, q, e->unit);
+    while (q->nevent < AHEAD_MOST && state->events + (long) q->nevent < s->options.max_events) {
+        event_outcome outcome;
+        PG_TRY (choose (s, q, state, level, &why));
+        if (why) break;
+        PG_TRY (refresh (s, state, &b->changes));
+        PG_TRY (event_solver_update (e->engine, &outcome));
+        if (outcome == EVENT_LOST) {
+            PG_TRY (revive (s, q, state, q->nevent - 1));
+            q->nbroken = q->event[--q->nevent].first;
+            q->cold = -1;                              /* for the next one: a plain event first */
+            goto done;
+        }
+        q->due |= outcome == EVENT_DUE;
+        take (s, q, NULL);
+    }
+    *retry = why == 2;
+done:
+    return status;
+}
+
+/* ---- checking ------------------------------------------------------------------------------------------ */
+/* All other bonds at all events found: the first event at which one of them is within the width of its limit
+ * has not happened, nor any after it. */
+static pg_status check (pg_solver *s, event_ahead *q, pg_state *state, size_t *good)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    pg_system *sys = &s->break_loop.system;
+    const pg_solver_options *o = &s->options;
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie,
+           top[AHEAD_MOST], cold = q->cold, relative;
+    int list[AHEAD_MOST];
+    for (size_t k = 0; k < q->nevent; k++) list[k] = (int) k;
+    q->stride = q->nevent;
+    if (!q->block) PG_ALLOC (q->block, sys->ndof * AHEAD_MOST);
+    PG_TRY (event_solver_block (e->engine, 0, (int) q->nevent, list, q->block));
+    PG_TRY (sys->force->judge_others (sys->self, state, q->zone.left_out, 1, q->stride, q->block, top));
+    for (*good = 0; *good < q->nevent && q->event[*good].factor * cold < 1 - width; ++*good)
+        cold = top[*good];
+    if (*good < q->nevent) {
+        event_outcome outcome;
+        q->taken_back++;
+        PG_TRY (revive (s, q, state, *good));
+        PG_TRY (event_solver_back (e->engine, (int) *good - 1, &outcome));
+        q->due |= outcome == EVENT_DUE || outcome == EVENT_LOST;
+        q->nbroken = q->event[*good].first, q->nevent = *good;
+        cold = -1;
+    }
+    q->cold = cold;
+    if (q->nevent == 0) goto done;
+    for (size_t i = 0; i < sys->ndof; i++) q->scaled[i] = q->block[i * q->stride + q->nevent - 1];
+    PG_TRY (system_residual (sys, 1, q->scaled, NULL, &relative));
+    q->residual = relative;
+    if (relative <= o->tolerance) goto done;
+    event_outcome outcome;                             /* not good enough: as if nothing had been found */
+    PG_TRY (revive (s, q, state, 0));
+    PG_TRY (event_solver_back (e->engine, -1, &outcome));
+    q->cold = -1, *good = q->nevent = q->nbroken = 0;
+done:
+    return status;
+}
+
+/* ---- looking ahead ------------------------------------------------------------------------------------- */
+/* Factors the stiffness of now where the solver says that this pays. */
+static pg_status renew (pg_solver *s, event_ahead *q)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    if (q->due) {
+        PG_TRY (event_solver_base (e->engine, &e->unit, &e->engine_residual));
+        q->bases++;
+    } else PG_TRY (event_solver_flush (e->engine));
+    q->due = 0;
+done:
+    return status;
+}
+
+/* Seconds that count as something else already. */
+static double seconds_of_others (const pg_solver *s)
+{
+    double sum = 0;
+    for (int k = 0; k < PG_SECONDS_COUNT; k++) if (k != PG_SECONDS_BREAK) sum += s->report.seconds[k];
+    return sum;
+}
+
+/* Fills the queue, if it can: afterwards ahead_waits. */
+pg_status ahead_look (pg_solver *s, pg_state *state, double level)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    double t0 = pg_seconds (), others = seconds_of_others (s);
+    size_t good = 0;
+    if (!possible (s)) return PG_OK;
+    if (!e->ahead) PG_TRY (create (&e->ahead, state->ndof));
+    event_ahead *q = e->ahead;
+    if (q->wait > 0) {
+        q->wait--;
+        return PG_OK;
+    }
+    for (int retry = 1, tries = 0; retry && tries < 2; tries++) {
+        q->nevent = q->at = q->nbroken = 0;
+        if (q->cold < 0 || !q->zone.known || tries) PG_TRY (make_zone (s, q, state));
+        if (!q->zone.known) {
+            q->wait = AHEAD_MOST;
+            goto done;
+        }
+        PG_TRY (renew (s, q));
+        q->looks++;
+        PG_TRY (find (s, q, state, level, &retry));
+        if (q->nevent == 0) continue;
+        size_t found = q->nevent;
+        PG_TRY (check (s, q, state, &good));
+        retry = good == 0 && found > 0;
+        PG_TRY (revive (s, q, state, 0));
+        if (good) break;
+    }
+    if (q->nevent == 0) q->cold = -1;
+    q->found += (long) q->nevent;
+done:
+    s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0 - (seconds_of_others (s) - others);
+    return status;
+}
+
+/* The event at the head of the queue: its bonds die in `state`, are logged and listed for the force. */
+pg_status ahead_kill (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    event_ahead *q = events_of (s)->ahead;
+    break_loop *b = &s->break_loop;
+    const ahead_event *v = &q->event[q->at];
+    b->changes.n = 0;
+    for (size_t i = v->first; i < v->first + v->n; i++) {
+        const pg_broken *k = &q->broken[i];
+        PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
+        PG_TRY (break_loop_log (b, k->bond, k->kind, k->utilisation, v->factor));
+        state->alive[k->bond] = 0;
+        b->changes.bond[b->changes.n++] = k->bond;
+    }
+    state->broken += (long) v->n;
+done:
+    return status;
+}
+
+/* Of the event at the head of the queue; *top: the largest utilisation there. */
+double ahead_factor (const event_ahead *q, double *top)
+{
+    *top = q->event[q->at].top;
+    return q->event[q->at].factor;
+}
+
+/* The equilibrium after it. What the force has noted of changes since the solver was asked last is nothing
+ * but rounding when the queue is empty: the solver has seen these events. */
+pg_status ahead_take (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    event_ahead *q = e->ahead;
+    pg_system *sys = &s->break_loop.system;
+    pg_stiffness_change none;
+    for (size_t i = 0; i < sys->ndof; i++) e->unit[i] = q->block[i * q->stride + q->at];
+    e->unit_residual = q->residual;
+    if (++q->at == q->nevent) PG_TRY (sys->force->change (sys->self, &none));
+done:
+    return status;
+}
+
+/* A step begins, or the one that began is refused: what it took from the queue waits again. */
+void ahead_begin (event_ahead *q)
+{
+    if (q) q->began = q->at;
+}
+
+void ahead_refused (event_ahead *q)
+{
+    if (q) q->at = q->began;
+}
+
+/* What was spared: a look at all bonds for each event found together with others, at a stored rate. */
+void ahead_tell (pg_solver *s)
+{
+    const event_ahead *q = events_of (s)->ahead;
+    static const double rate = 15e-9;                  /* s: to measure and judge a bond */
+    char what[96], why[160];
+    if (!q || q->found == 0) return;
+    snprintf (what, sizeof what, "a look at all bonds after %ld of %ld events", q->found, s->report.events);
+    snprintf (why, sizeof why,
+              "found near the tips, up to %d at a time; all others checked together afterwards%s",
+              AHEAD_MOST, q->taken_back ? ", some blocks cut short by that" : "");
+    pg_statistics_skip (&s->report, (double) q->found * rate * (double) s->problem->first_bond[PG_BOND_SETS],
+                        what, why);
+}
+
+/* ---- checkpoints --------------------------------------------------------------------------------------- */
+/* The events that wait: where they are in the lists, and their bonds. */
+static pg_status keep_events (event_ahead *q, const pg_problem *p, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    long count[2 * AHEAD_MOST] = { 0 };
+    double number[2 * AHEAD_MOST] = { 0 };
+    for (size_t i = 0; i < q->nevent && !k->reading; i++) {
+        count[2 * i] = (long) q->event[i].first, count[2 * i + 1] = (long) q->event[i].n;
+        number[2 * i] = q->event[i].factor, number[2 * i + 1] = q->event[i].top;
+    }
+    PG_TRY (k->counts (k->context, "event_ahead.events", 2 * AHEAD_MOST, count));
+    PG_TRY (k->numbers (k->context, "event_ahead.factors", 2 * AHEAD_MOST, number));
+    for (size_t i = 0; i < q->nevent && k->reading; i++) {
+        PG_KEEP_BOUND (k, "the bonds of an event", count[2 * i], 0, (long) q->nbroken);
+        PG_KEEP_BOUND (k, "the bonds of an event", count[2 * i + 1], 1, (long) q->nbroken - count[2 * i]);
+        q->event[i] = (ahead_event) { number[2 * i], number[2 * i + 1], (size_t) count[2 * i],
+                                      (size_t) count[2 * i + 1] };
+    }
+    if (k->reading) PG_GROW (q->broken, q->cap_broken, q->nbroken + 1);
+    PG_TRY (pg_broken_keep (p, "event_ahead.broken", q->nbroken, q->broken, k));
+done:
+    return status;
+}
+
+/* Where the next looks begin depends on how far this one came: all of it is kept, so that a run that is read
+ * back finds its events in the same blocks, and with the same bits. */
+pg_status ahead_keep (pg_solver *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    event_ahead *q = e->ahead;
+    const pg_system *sys = &s->break_loop.system;
+    long count[12] = { q != NULL };
+    double number[2] = { 0 }, share;
+    if (q)
+        memcpy (count + 1,
+                (const long[]) { (long) q->nevent, (long) q->at, (long) q->stride, (long) q->nbroken, q->wait,
+                                 q->due, q->zone.known, q->looks, q->found, q->taken_back, q->bases },
+                11 * sizeof *count);
+    if (q) number[0] = q->cold, number[1] = q->residual;
+    PG_TRY (k->counts (k->context, "event_ahead.counts", 12, count));
+    PG_TRY (k->numbers (k->context, "event_ahead.numbers", 2, number));
+    if (!count[0]) return PG_OK;
+    PG_KEEP_BOUND (k, "the number of events found", count[1], 0, AHEAD_MOST);
+    PG_KEEP_BOUND (k, "the next event", count[2], 0, count[1]);
+    PG_KEEP_BOUND (k, "the width of a block", count[3], 0, AHEAD_MOST);
+    PG_KEEP_BOUND (k, "the bonds found", count[4], 0, (long) s->problem->first_bond[PG_BOND_SETS]);
+    if (!q) PG_TRY (create (&e->ahead, sys->ndof));
+    q = e->ahead;
+    if (k->reading) {
+        q->nevent = (size_t) count[1], q->at = (size_t) count[2], q->stride = (size_t) count[3];
+        q->nbroken = (size_t) count[4], q->wait = count[5], q->due = (int) count[6];
+        q->looks = count[8], q->found = count[9], q->taken_back = count[10], q->bases = count[11];
+        q->cold = number[0], q->residual = number[1];
+    }
+    PG_TRY (keep_events (q, s->problem, k));
+    if (q->at < q->nevent) {
+        if (!q->block) PG_ALLOC (q->block, sys->ndof * AHEAD_MOST);
+        PG_TRY (k->numbers (k->context, "event_ahead.block", sys->ndof * q->stride, q->block));
+    }
+    if (!count[7]) return PG_OK;
+    PG_TRY (event_zone_room (&q->zone, s->problem));
+    PG_TRY (k->bytes (k->context, "event_ahead.levels", s->problem->cloud.n, q->zone.level));
+    if (!k->reading) goto done;
+    PG_TRY (event_zone_fill (&q->zone, sys, ahead_most_of_body, &share));
+    PG_TRY (room_for_group (q));
+done:
+    return status;
+}

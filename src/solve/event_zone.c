@@ -1,0 +1,121 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The group of bonds that events are looked for in: around places near their limit, by steps from node to
+ * node through families, which are of the size of what a break can reach, whatever the spacing and the
+ * dimension. Nodes at the ends of such bonds are level 0, nodes in their families level 1, and so on; a point
+ * has the least level of the nodes that it sees. */
+#include "event_ahead.h"
+#include <string.h>
+
+enum { INNER = 2, FAR = 255 };
+
+/* Families beyond the inner part that a break there can touch: the points that see a touched node; with
+ * consistent integration also those of the cells beside. */
+static int outer (const pg_problem *p) { return INNER + (p->integration->consistent ? 3 : 1); }
+
+void event_zone_clear (event_zone *z)
+{
+    pg_bond_group_clear (&z->group);
+    pg_free (z->left_out), pg_free (z->level), pg_free (z->front);
+    for (int set = 0; set < PG_BOND_SETS; set++) pg_free (z->inner[set]);
+    memset (z, 0, sizeof *z);
+}
+
+pg_status event_zone_room (event_zone *z, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    if (z->left_out) return PG_OK;
+    PG_ALLOC (z->level, p->cloud.n);
+    PG_ALLOC (z->front, 2 * p->cloud.n);
+    for (int set = 0; set < PG_BOND_SETS; set++) PG_ALLOC (z->inner[set], p->rows[set].n);
+    PG_ALLOC (z->left_out, p->first_bond[PG_BOND_SETS]);
+done:
+    return status;
+}
+
+/* Levels of all nodes from the ends of the bonds near their limit. */
+static void spread (event_zone *z, const pg_problem *p, const pg_state *state, const double *near, double cut)
+{
+    int *now = z->front, *next = z->front + p->cloud.n;
+    size_t n = 0;
+    memset (z->level, FAR, p->cloud.n);
+    for (int set = 0; set < PG_BOND_SETS; set++)
+        for (size_t i = p->first_bond[set]; i < p->first_bond[set + 1]; i++) {
+            if (!(near[i] >= cut) || !state->alive[i]) continue;
+            int j = p->rows[set].family.node[i - p->first_bond[set]];
+            if (z->level[j] == FAR) now[n++] = j;
+            z->level[j] = 0;
+        }
+    for (int level = 1; level <= outer (p); level++) {
+        const pg_family *f = &p->rows[PG_NODES].family;
+        size_t count = 0;
+        for (size_t k = 0; k < n; k++)
+            for (size_t e = f->start[now[k]]; e < f->start[now[k] + 1]; e++) {
+                int j = f->node[e];
+                if (z->level[j] != FAR) continue;
+                z->level[j] = (unsigned char) level, next[count++] = j;
+            }
+        int *swap = now;
+        now = next, next = swap, n = count;
+    }
+}
+
+/* Least level that a point sees. */
+static int level_of (const event_zone *z, const pg_family *f, size_t p)
+{
+    int least = FAR;
+    for (size_t e = f->start[p]; e < f->start[p + 1] && least > 0; e++)
+        if (z->level[f->node[e]] < least) least = z->level[f->node[e]];
+    return least;
+}
+
+/* All bonds of the points up to the outer level, from the levels of the nodes; they are counted first. A node
+ * is in the inner part by its own level, as all that see it must be in the group. */
+pg_status event_zone_fill (event_zone *z, const pg_system *sys, double most, double *share)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = sys->problem;
+    size_t nbond = p->first_bond[PG_BOND_SETS], n = 0;
+    int can;
+    z->known = 0;
+    memset (z->left_out, 0, nbond);
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_family *f = &p->rows[set].family;
+        for (size_t q = 0; q < f->n; q++) {
+            int level = level_of (z, f, q);
+            z->inner[set][q] = (set == PG_NODES ? z->level[q] : level) <= INNER;
+            if (level > outer (p)) continue;
+            memset (z->left_out + p->first_bond[set] + f->start[q], 1, f->start[q + 1] - f->start[q]);
+            n += f->start[q + 1] - f->start[q];
+        }
+    }
+    *share = nbond ? (double) n / (double) nbond : 1;
+    if (n == 0 || *share > most) goto done;
+    pg_free (z->group.bond), z->group.bond = NULL;
+    PG_ALLOC (z->group.bond, n);
+    z->group.n = 0;
+    for (size_t i = 0; i < nbond; i++) if (z->left_out[i]) z->group.bond[z->group.n++] = i;
+    PG_TRY (sys->force->gather (sys->self, &z->group, &can));
+    if (!can) *share = 1;
+    z->known = can;
+done:
+    return status;
+}
+
+pg_status event_zone_make (event_zone *z, const pg_system *sys, const pg_state *state, const double *near,
+                           double cut, double most, double *share)
+{
+    pg_status status = PG_OK;
+    PG_TRY (event_zone_room (z, sys->problem));
+    spread (z, sys->problem, state, near, cut);
+    PG_TRY (event_zone_fill (z, sys, most, share));
+done:
+    return status;
+}
+
+/* Bonds are owned by points, and a break changes the shape functions of the owner alone. */
+int event_zone_inner (const event_zone *z, size_t k)
+{
+    int set = 0;
+    while (set + 1 < PG_BOND_SETS && k >= z->group.first[set + 1]) set++;
+    return z->inner[set][z->group.owner[k]];
+}

@@ -1,0 +1,140 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Events that are found together near the tips, all other bonds being checked afterwards, are those of a look
+ * at all bonds after every event: same bonds, same order, equilibria and energies to the tolerance of the
+ * solver; also where another tip takes over, so that what was found has to be taken back. */
+#include "scene_runs/run.h"
+#include <stdint.h>
+#include <string.h>
+#include "tape.h"
+
+#define PLATE \
+    "dimension: 2\nplane: %s\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [50 mm, 50 mm]}}}]\n" \
+    "spacing: 1 mm\nlattice: cells\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n" \
+    "sets: {grips: {where: \"y <= 5 mm or y >= 45 mm\"}}\n" \
+    "boundary: [{set: top, displacement: {x: 0, y: 50 um}}, {set: bottom, displacement: {x: 0, y: -50 um}}]\n" \
+    "cracks: [%s]\nfailure: {%s, exclude: [grips]}\nmethod: {%s}\n" \
+    "solver: {kind: static, stepping: event, max_events: %d, break: %s, plain: %s}\noutput: {at: {levels: 3}}\n"
+#define EDGE "{from: [-1 mm, 25 mm], to: [20 mm, 25 mm]}"
+#define TWO "{from: [-1 mm, 18 mm], to: [12 mm, 18 mm]}, {from: [38.6 mm, 33 mm], to: [51 mm, 33 mm]}"
+#define STRETCH "criterion: stretch, critical_stretch: 1e-3"
+#define MOHR "criterion: mohr_coulomb, tensile_strength: 3 MPa, cohesion: 6 MPa, friction_angle: 35 deg"
+
+/* How many events the report says were found together; *back: that some were taken back. */
+static long found_together (run *r, int *back)
+{
+    const pg_statistics *s = pg_solver_report (r->solver, r->state);
+    long n = 0;
+    *back = 0;
+    for (size_t k = 0; k < s->nskipped; k++)
+        if (sscanf (s->skipped[k].what, "a look at all bonds after %ld", &n) == 1)
+            *back = strstr (s->skipped[k].why, "cut short") != NULL;
+    return n;
+}
+
+/* Step by step until both are done; what one does not have the other has not either. */
+static void same (const char *plane, const char *cracks, const char *failure, const char *method, int events,
+                  const char *mode, long least, int taken_back)
+{
+    run a = scene_of (1, PLATE, plane, cracks, failure, method, events, mode, "false"),
+        b = scene_of (1, PLATE, plane, cracks, failure, method, events, mode, "true");
+    double top = 0;
+    int back;
+    while (!pg_solver_done (a.solver, a.state)) {
+        assert_false (pg_solver_done (b.solver, b.state));
+        advance (&a), advance (&b);
+        assert_int_equal (a.step.nbroken, b.step.nbroken);
+        for (size_t k = 0; k < a.step.nbroken; k++) {
+            assert_int_equal (a.step.broken[k].bond, b.step.broken[k].bond);
+            assert_int_equal (a.step.broken[k].kind, b.step.broken[k].kind);
+            assert_true (fabs (a.step.broken[k].utilisation - b.step.broken[k].utilisation) < 1e-7);
+        }
+        assert_memory_equal (a.state->alive, b.state->alive, a.state->nbond);
+        assert_true (fabs (a.step.factor - b.step.factor) <= 1e-7 * b.step.factor);
+        assert_true (fabs (a.step.utilisation - b.step.utilisation) <= 1e-7);
+        assert_int_equal (a.step.level, b.step.level);
+        assert_true (a.step.residual <= 1e-8);
+        top = fmax (top, largest_of (b.state->d, b.state->ndof));
+        assert_true (largest_difference (a.state->d, b.state->d, a.state->ndof) <= 1e-8 * top);
+        const pg_statistics *ra = pg_solver_report_now (a.solver), *rb = pg_solver_report_now (b.solver);
+        double energy = rb->energy_external;
+        assert_true (fabs (ra->energy_external - energy) <= 1e-8 * energy);
+        assert_true (fabs (ra->energy_strain - rb->energy_strain) <= 1e-8 * energy);
+        for (size_t k = 0; k < 3 * a.problem->nload; k++)
+            assert_true (fabs (a.step.reaction[k] - b.step.reaction[k])
+                         <= 1e-7 * energy / (1e-4 * fmax (b.step.factor, 1e-3)));
+    }
+    assert_true (pg_solver_done (b.solver, b.state));
+    long together = found_together (&a, &back);
+    print_message ("%ld events, %ld found together%s\n", a.state->events, together,
+                   back ? ", some taken back" : "");
+    assert_true (together >= least);
+    if (taken_back) assert_true (back);
+    assert_int_equal (found_together (&b, &back), 0);
+    clear (&a), clear (&b);
+}
+
+static void one_tip_by_stretch (void **state)
+{
+    (void) state;
+    same ("stress", EDGE, STRETCH, "integration: gauss", 150, "worst", 120, 0);
+    same ("stress", EDGE, STRETCH ", stretch: finite", "integration: gauss", 40, "worst", 30, 0);
+}
+
+static void by_nodal_and_consistent_integration (void **state)
+{
+    (void) state;
+    same ("strain", EDGE, STRETCH, "integration: nodal, silling: 0.5", 60, "worst", 40, 0);
+    same ("strain", EDGE, STRETCH, "integration: consistent", 60, "worst", 40, 0);
+}
+
+static void by_stresses (void **state)
+{
+    (void) state;
+    same ("stress", EDGE, MOHR, "integration: gauss", 100, "worst", 60, 0);
+    same ("strain", EDGE, "criterion: principal_stress, tensile_strength: 3 MPa", "integration: gauss", 60,
+          "worst", 40, 0);
+}
+
+static void a_width_of_some_percent (void **state)
+{
+    (void) state;
+    same ("stress", EDGE, STRETCH, "integration: gauss", 40, "fraction, break_fraction: 4 %", 30, 0);
+}
+
+/* The second tip becomes the worst while events are found at the first one. */
+static void a_tip_elsewhere_takes_back (void **state)
+{
+    (void) state;
+    same ("stress", TWO, STRETCH, "integration: gauss", 200, "worst", 100, 1);
+}
+
+/* Stopped after any event of a block, a run goes on with the same bits. */
+static void goes_on_in_the_middle_of_a_block (void **state)
+{
+    (void) state;
+    run a = scene_of (1, PLATE, "stress", EDGE, STRETCH, "integration: gauss", 90, "worst", "false");
+    for (int k = 0; k < 45; k++) advance (&a);
+    for (int k = 0; k < 3; k++) {
+        run b = scene_of (1, PLATE, "stress", EDGE, STRETCH, "integration: gauss", 90, "worst", "false");
+        tape t = { 0 };
+        keep (&a, &t, 0);
+        keep (&b, &t, 1);
+        for (int i = 0; i < 13; i++) advance_alike (&a, &b);
+        pg_free (t.byte);
+        clear (&b);
+    }
+    clear (&a);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (one_tip_by_stretch),
+        cmocka_unit_test (by_nodal_and_consistent_integration),
+        cmocka_unit_test (by_stresses),
+        cmocka_unit_test (a_width_of_some_percent),
+        cmocka_unit_test (a_tip_elsewhere_takes_back),
+        cmocka_unit_test (goes_on_in_the_middle_of_a_block),
+    };
+    return cmocka_run_group_tests (tests, NULL, NULL);
+}
