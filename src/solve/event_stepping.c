@@ -333,11 +333,11 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
-    double next = INFINITY, level = (double) s->next_level / (double) s->options.levels, scale = 1,
-           t0 = pg_seconds ();
+    double next = INFINITY, level = (double) s->next_level / (double) s->options.levels, scale = 1;
     b->nbroken = 0;
     step->iterations = 1;
     if (!ahead_waits (e->ahead)) PG_TRY (ahead_look (s, state, level));
+    double t0 = pg_seconds ();
     int ahead = ahead_waits (e->ahead);
     if (b->growth) PG_TRY (facet_next (s, state, &next));
     else if (ahead) next = ahead_factor (e->ahead, &step->utilisation);

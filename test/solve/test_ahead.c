@@ -10,12 +10,13 @@
 #define PLATE \
     "dimension: 2\nplane: %s\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [50 mm, 50 mm]}}}]\n" \
     "spacing: 1 mm\nlattice: cells\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n" \
-    "sets: {grips: {where: \"y <= 5 mm or y >= 45 mm\"}}\n" \
+    "sets: {grips: {where: \"y <= 5 mm or y >= 45 mm\"},\n" \
+    "  hard: {where: \"y >= 10 mm and y <= 23 mm and x >= 15 mm and x <= 23 mm\"}}\n" \
     "boundary: [{set: top, displacement: {x: 0, y: 50 um}}, {set: bottom, displacement: {x: 0, y: -50 um}}]\n" \
-    "cracks: [%s]\nfailure: {%s, exclude: [grips]}\nmethod: {%s}\n" \
+    "cracks: [%s]\nfailure: {%s, exclude: [%s]}\nmethod: {%s}\n" \
     "solver: {kind: static, stepping: event, max_events: %d, break: %s, plain: %s}\noutput: {at: {levels: 3}}\n"
 #define EDGE "{from: [-1 mm, 25 mm], to: [20 mm, 25 mm]}"
-#define TWO "{from: [-1 mm, 18 mm], to: [12 mm, 18 mm]}, {from: [38.6 mm, 33 mm], to: [51 mm, 33 mm]}"
+#define TWO "{from: [-1 mm, 18 mm], to: [13 mm, 18 mm]}, {from: [40 mm, 33 mm], to: [51 mm, 33 mm]}"
 #define STRETCH "criterion: stretch, critical_stretch: 1e-3"
 #define MOHR "criterion: mohr_coulomb, tensile_strength: 3 MPa, cohesion: 6 MPa, friction_angle: 35 deg"
 
@@ -35,8 +36,9 @@ static long found_together (run *r, int *back)
 static void same (const char *plane, const char *cracks, const char *failure, const char *method, int events,
                   const char *mode, long least, int taken_back)
 {
-    run a = scene_of (1, PLATE, plane, cracks, failure, method, events, mode, "false"),
-        b = scene_of (1, PLATE, plane, cracks, failure, method, events, mode, "true");
+    const char *never = taken_back ? "grips, hard" : "grips";
+    run a = scene_of (1, PLATE, plane, cracks, failure, never, method, events, mode, "false"),
+        b = scene_of (1, PLATE, plane, cracks, failure, never, method, events, mode, "true");
     double top = 0;
     int back;
     while (!pg_solver_done (a.solver, a.state)) {
@@ -83,7 +85,7 @@ static void one_tip_by_stretch (void **state)
 static void by_nodal_and_consistent_integration (void **state)
 {
     (void) state;
-    same ("strain", EDGE, STRETCH, "integration: nodal, silling: 0.5", 60, "worst", 40, 0);
+    same ("strain", EDGE, STRETCH, "approximation: nosb, integration: nodal", 60, "worst", 40, 0);
     same ("strain", EDGE, STRETCH, "integration: consistent", 60, "worst", 40, 0);
 }
 
@@ -101,21 +103,21 @@ static void a_width_of_some_percent (void **state)
     same ("stress", EDGE, STRETCH, "integration: gauss", 40, "fraction, break_fraction: 4 %", 30, 0);
 }
 
-/* The second tip becomes the worst while events are found at the first one. */
+/* The first crack grows into bonds that never break; the second tip is far off and takes over. */
 static void a_tip_elsewhere_takes_back (void **state)
 {
     (void) state;
-    same ("stress", TWO, STRETCH, "integration: gauss", 200, "worst", 100, 1);
+    same ("stress", TWO, STRETCH, "integration: gauss", 200, "worst", 90, 1);
 }
 
 /* Stopped after any event of a block, a run goes on with the same bits. */
 static void goes_on_in_the_middle_of_a_block (void **state)
 {
     (void) state;
-    run a = scene_of (1, PLATE, "stress", EDGE, STRETCH, "integration: gauss", 90, "worst", "false");
+    run a = scene_of (1, PLATE, "stress", EDGE, STRETCH, "grips", "integration: gauss", 90, "worst", "false");
     for (int k = 0; k < 45; k++) advance (&a);
     for (int k = 0; k < 3; k++) {
-        run b = scene_of (1, PLATE, "stress", EDGE, STRETCH, "integration: gauss", 90, "worst", "false");
+        run b = scene_of (1, PLATE, "stress", EDGE, STRETCH, "grips", "integration: gauss", 90, "worst", "false");
         tape t = { 0 };
         keep (&a, &t, 0);
         keep (&b, &t, 1);
