@@ -11,7 +11,7 @@
     "dimension: 2\nplane: %s\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [50 mm, 50 mm]}}}]\n" \
     "spacing: 1 mm\nlattice: cells\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n" \
     "sets: {grips: {where: \"y <= 5 mm or y >= 45 mm\"},\n" \
-    "  hard: {where: \"y >= 10 mm and y <= 23 mm and x >= 15 mm and x <= 23 mm\"}}\n" \
+    "  hard: {where: \"y >= 8 mm and y <= 28 mm and x >= 13.5 mm and x <= 32 mm\"}}\n" \
     "boundary: [{set: top, displacement: {x: 0, y: 50 um}}, {set: bottom, displacement: {x: 0, y: -50 um}}]\n" \
     "cracks: [%s]\nfailure: {%s, exclude: [%s]}\nmethod: {%s}\n" \
     "solver: {kind: static, stepping: event, max_events: %d, break: %s, plain: %s}\noutput: {at: {levels: 3}}\n"
@@ -107,7 +107,7 @@ static void a_width_of_some_percent (void **state)
 static void a_tip_elsewhere_takes_back (void **state)
 {
     (void) state;
-    same ("stress", TWO, STRETCH, "integration: gauss", 200, "worst", 90, 1);
+    same ("stress", TWO, STRETCH, "integration: gauss", 250, "worst", 150, 1);
 }
 
 /* Stopped after any event of a block, a run goes on with the same bits. */
