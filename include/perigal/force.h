@@ -169,7 +169,8 @@ typedef struct {
     pg_status (*judge_others) (void *self, const pg_state *state, const unsigned char *left_out, int of_unit,
                                size_t count, const double *d, double *top);
     /* As work_balance, of a static state in equilibrium, at the cost of the boundary alone: `strain` is half
-     * the work of the forces at hand on the displacements at hand (Clapeyron's theorem). NULL: work_balance. */
+     * the work of the forces at hand on the displacements at hand (Clapeyron's theorem). NULL:
+     * work_balance. */
     pg_status (*equilibrium_balance) (void *self, double t, const double *d, pg_work_balance *out);
     /* P += nodal forces, N (ndof), of the tractions of a uniform stress (xx yy zz xy yz zx of a solid, xx yy
      * xy of a plane, Pa) on all facets that this force bears loads on: of pg_problem_bare the whole surface.

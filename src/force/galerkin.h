@@ -255,8 +255,8 @@ int galerkin_one_material (const galerkin *g, int set, size_t count, const size_
 pg_status galerkin_gather (void *self, pg_bond_group *group, int *can);
 pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond_group *group,
                                 const double *d, double *utilisation, char *kind, double *factor);
-pg_status galerkin_judge_others (void *self, const pg_state *state, const unsigned char *left_out, int of_unit,
-                                 size_t count, const double *d, double *top);
+pg_status galerkin_judge_others (void *self, const pg_state *state, const unsigned char *left_out,
+                                 int of_unit, size_t count, const double *d, double *top);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,

@@ -76,7 +76,8 @@ int galerkin_one_material (const galerkin *g, int set, size_t count, const size_
 double galerkin_reach (const galerkin *g, int set, size_t point, size_t entry)
 {
     const pg_cloud *c = &g->problem->cloud;
-    return 0.5 * (pg_problem_spacing (g->problem, set, point) + c->size[g->rows[set].family.node[entry]]) / c->h;
+    int node = g->rows[set].family.node[entry];
+    return 0.5 * (pg_problem_spacing (g->problem, set, point) + c->size[node]) / c->h;
 }
 
 /* Measures `count` live bonds and hands them to the laws: bond vector xi and relative displacement eta

@@ -99,8 +99,8 @@ typedef struct {
     galerkin *g;
     const pg_state *state;
     const unsigned char *left_out;
-    int       set, stress;                             /* stress: the criterion judges stresses, not stretch */
-    size_t    count, width;                            /* displacements; numbers of a point for each of them */
+    int       set, stress;  /* stress: the criterion judges stresses, not stretch */
+    size_t    count, width;  /* displacements; numbers of a point for each of them */
     const double *d;
     /* nodes: displacement, or largest and smallest principal stress, [node][number][displacement]; then of
      * each thread a place for one point more, and its top */
@@ -217,7 +217,8 @@ static void judge_by_law (const others *o, const pg_criterion *c, size_t p, size
     }
     for (size_t i = 0; i < n; i++) {
         size_t j = (size_t) r->family.node[entry[i]];
-        for (size_t k = 0; k < dim; k++) xi[i * dim + k] = g->problem->cloud.x[j * dim + k] - r->x[p * dim + k];
+        for (size_t k = 0; k < dim; k++)
+            xi[i * dim + k] = g->problem->cloud.x[j * dim + k] - r->x[p * dim + k];
         if (graded) reach[i] = galerkin_reach (g, o->set, p, entry[i]);
     }
     pg_bond_measures m = { .n = n, .dim = g->dim, .xi = xi, .reach = graded ? reach : NULL };
@@ -307,8 +308,8 @@ static int is_linear (const pg_problem *p, int stress)
 }
 
 /* Nodes first, as every bond ends at one; then the points of each set in turn. */
-pg_status galerkin_judge_others (void *self, const pg_state *state, const unsigned char *left_out, int of_unit,
-                                 size_t count, const double *d, double *top)
+pg_status galerkin_judge_others (void *self, const pg_state *state, const unsigned char *left_out,
+                                 int of_unit, size_t count, const double *d, double *top)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
@@ -325,7 +326,8 @@ pg_status galerkin_judge_others (void *self, const pg_state *state, const unsign
     PG_ALLOC (o.top, threads * count);
     o.set = PG_NODES;
     pg_parallel (g->threads, g->n, show_nodes, &o);
-    for (o.set = 0; o.set < PG_BOND_SETS; o.set++) pg_parallel (g->threads, g->rows[o.set].n, judge_points, &o);
+    for (o.set = 0; o.set < PG_BOND_SETS; o.set++)
+        pg_parallel (g->threads, g->rows[o.set].n, judge_points, &o);
     for (size_t t = 0; t < threads; t++)
         for (size_t k = 0; k < count; k++) top[k] = fmax (top[k], o.top[t * count + k]);
 done:

@@ -10,7 +10,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-static const double near_limit = 0.85;                 /* of the worst bond: around such bonds the group lies */
+/* Share of the utilisation of the worst bond: around such bonds the group lies. */
+static const double near_limit = 0.85;
 
 void ahead_free (event_ahead **ahead)
 {
@@ -48,8 +49,8 @@ static int possible (const pg_solver *s)
     const break_loop *b = &s->break_loop;
     const pg_force_type *f = b->system.force;
     return !s->problem->plain && e->engine && !e->base && !b->growth && break_loop_judges (b)
-           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->gather && f->judge_group && f->judge_others
-           && event_solver_has_base (e->engine);
+           && s->options.on_instability == PG_UNSTABLE_FOLLOW && f->gather && f->judge_group
+           && f->judge_others && event_solver_has_base (e->engine);
 }
 
 int ahead_waits (const event_ahead *q) { return q && q->at < q->nevent; }
@@ -161,7 +162,8 @@ static pg_status look_over_group (pg_solver *s, event_ahead *q, const pg_state *
     for (size_t k = 0; k < g->nnode; k++)
         for (size_t i = (size_t) g->node[k] * c; i < ((size_t) g->node[k] + 1) * c; i++)
             q->scaled[i] = factor * q->d[i];
-    PG_TRY (b->system.force->judge_group (b->system.self, state, g, q->scaled, q->utilisation, q->kind, NULL));
+    PG_TRY (
+        b->system.force->judge_group (b->system.self, state, g, q->scaled, q->utilisation, q->kind, NULL));
     *top = 0;
     for (size_t i = 0; i < g->n; i++) *top = fmax (*top, q->utilisation[i]);
 done:
@@ -179,7 +181,8 @@ static pg_status choose (pg_solver *s, event_ahead *q, pg_state *state, double l
     double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie,
            best = INFINITY, top;
     ahead_event *v = &q->event[q->nevent];
-    PG_TRY (b->system.force->judge_group (b->system.self, state, g, q->d, q->utilisation, q->kind, q->factor));
+    PG_TRY (
+        b->system.force->judge_group (b->system.self, state, g, q->d, q->utilisation, q->kind, q->factor));
     for (size_t i = 0; i < g->n; i++) if (q->factor[i] < best) best = q->factor[i];
     *why = 1;
     if (!(best < level) || !(best > 0)) goto done;
@@ -205,7 +208,8 @@ done:
     return status;
 }
 
-/* Event after event in the group, up to a block full. *retry: a new group may find what this one could not. */
+/* Event after event in the group, up to a block full. *retry: a new group may find what this one could
+ * not. */
 static pg_status find (pg_solver *s, event_ahead *q, pg_state *state, double level, int *retry)
 {
     pg_status status = PG_OK;

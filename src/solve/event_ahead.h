@@ -10,12 +10,13 @@
 #define PG_EVENT_AHEAD_H
 #include "event_solver.h"
 
-/* The group, and where in it bonds may break: an event in the inner part changes the shape functions of points
- * in the group alone, so that what other bonds show follows from those that were there before. */
+/* The group, and where in it bonds may break: an event in the inner part changes the shape functions of
+ * points in the group alone, so that what other bonds show follows from those that were there before. */
 typedef struct {
     pg_bond_group  group;
     unsigned char *left_out;                           /* 1: a bond of the group (nbond) */
-    unsigned char *inner[PG_BOND_SETS];                /* 1: bonds of this point may break (points of a set) */
+    /* 1: bonds of this point may break (points of each set) */
+    unsigned char *inner[PG_BOND_SETS];
     unsigned char *level;                              /* scratch: families away from the seeds (nodes) */
     int           *front;                              /* scratch (2 nodes) */
     int            known;                              /* 1: there is a group */

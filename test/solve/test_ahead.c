@@ -12,9 +12,11 @@
     "spacing: 1 mm\nlattice: cells\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n" \
     "sets: {grips: {where: \"y <= 5 mm or y >= 45 mm\"},\n" \
     "  hard: {where: \"y >= 8 mm and y <= 28 mm and x >= 13.5 mm and x <= 32 mm\"}}\n" \
-    "boundary: [{set: top, displacement: {x: 0, y: 50 um}}, {set: bottom, displacement: {x: 0, y: -50 um}}]\n" \
+    "boundary: [{set: top, displacement: {x: 0, y: 50 um}},\n" \
+    "  {set: bottom, displacement: {x: 0, y: -50 um}}]\n" \
     "cracks: [%s]\nfailure: {%s, exclude: [%s]}\nmethod: {%s}\n" \
-    "solver: {kind: static, stepping: event, max_events: %d, break: %s, plain: %s}\noutput: {at: {levels: 3}}\n"
+    "solver: {kind: static, stepping: event, max_events: %d, break: %s, plain: %s}\n" \
+    "output: {at: {levels: 3}}\n"
 #define EDGE "{from: [-1 mm, 25 mm], to: [20 mm, 25 mm]}"
 #define TWO "{from: [-1 mm, 18 mm], to: [13 mm, 18 mm]}, {from: [40 mm, 33 mm], to: [51 mm, 33 mm]}"
 #define STRETCH "criterion: stretch, critical_stretch: 1e-3"
@@ -117,7 +119,8 @@ static void goes_on_in_the_middle_of_a_block (void **state)
     run a = scene_of (1, PLATE, "stress", EDGE, STRETCH, "grips", "integration: gauss", 90, "worst", "false");
     for (int k = 0; k < 45; k++) advance (&a);
     for (int k = 0; k < 3; k++) {
-        run b = scene_of (1, PLATE, "stress", EDGE, STRETCH, "grips", "integration: gauss", 90, "worst", "false");
+        run b = scene_of (1, PLATE, "stress", EDGE, STRETCH, "grips", "integration: gauss", 90, "worst",
+                          "false");
         tape t = { 0 };
         keep (&a, &t, 0);
         keep (&b, &t, 1);
