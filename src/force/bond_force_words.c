@@ -70,11 +70,9 @@ int bond_force_spared (const void *self, size_t k, char *what, char *why, double
     pg_bond_loop_counts count;
     pg_bond_loop_counted (b->loop, &count);
     if (k > 0 || count.folded == 0 || count.blocks == 0) return 0;
-    snprintf (what, 96, "bonds one by one in %.3g %% of the sums, looks at all bonds in %.3g %%",
-              100 * (double) count.folded / (double) count.blocks,
-              100 * ((double) count.folded - (double) count.looks) / (double) count.blocks);
-    snprintf (why, 160, "where all bonds live mirror images are summed together, and a bound of what they "
-                        "have been stretched tells when to look");
+    snprintf (what, 96, "bonds one by one, and looks at all of them, where all bonds of a block live");
+    snprintf (why, 160, "mirror images are summed together, and a bound of what bonds have been stretched "
+                        "tells when to look");
     *seconds = count.saved;
     return 1;
 }
