@@ -5,6 +5,7 @@
  * cleared once. Results do not depend on it. With other systems these functions do little or nothing. */
 #define _DEFAULT_SOURCE                                /* madvise */
 #include "perigal/base.h"
+#include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <sys/mman.h>
@@ -12,25 +13,39 @@
 #include <malloc.h>
 #endif
 
-/* Blocks up to 1 GiB come from the heap, and the heap is not returned to the system. */
+/* Bytes by which the heap grows; bytes of a large page; the smallest block that asks for such pages. */
+enum { HEAP_STEP = 16 << 20, PAGE = 1 << 21, LARGE = 1 << 16 };
+
+/* Where large pages were asked for last, so that blocks that lie there do not ask again. Any thread may see
+ * the ends of two different requests: then one is made that is not needed, or pages stay small. */
+static atomic_uintptr_t asked[2];
+
+/* Blocks up to 1 GiB come from the heap, and the heap is not returned to the system. It grows by 16 MiB at a
+ * time, and the first of these, where the small blocks of a run lie, are asked for in large pages: a page is
+ * given when it is touched first, and a large one costs as much as some ten small ones of its five hundred. */
 void pg_memory_keep (void)
 {
 #if defined (__GLIBC__)
     mallopt (M_MMAP_THRESHOLD, 1 << 30);
     mallopt (M_TRIM_THRESHOLD, 1 << 30);
+    mallopt (M_TOP_PAD, HEAP_STEP);
+    void *first = malloc (1);
+    if (first) pg_memory_large (first, HEAP_STEP);
+    free (first);
 #endif
 }
 
-/* The request covers all large pages that the block touches: those at its ends hold small blocks of the heap
- * besides, which profit too. A part that is not mapped makes madvise report a fault, but it has then done the
+/* The request covers all large pages that the block touches, and those that the heap will grow into: what
+ * lies there profits too. A part that is not mapped makes madvise report a fault, but it has then done the
  * rest; whether pages are granted is the system's affair, so that the answer is not looked at. */
 void pg_memory_large (void *block, size_t bytes)
 {
 #if defined (MADV_HUGEPAGE)
-    const uintptr_t page = (uintptr_t) 1 << 21, first = (uintptr_t) block & ~(page - 1),
-                    end = ((uintptr_t) block + bytes + page - 1) & ~(page - 1);
-    /* Smaller ones would not be worth a call of the system. */
-    if (bytes >= page / 2) (void) madvise ((void *) first, end - first, MADV_HUGEPAGE);
+    const uintptr_t at = (uintptr_t) block, page = PAGE, ahead = bytes > HEAP_STEP ? bytes : HEAP_STEP,
+                    first = at & ~(page - 1), end = (at + ahead + page - 1) & ~(page - 1);
+    if (bytes < LARGE || (at >= atomic_load (&asked[0]) && at + bytes <= atomic_load (&asked[1]))) return;
+    atomic_store (&asked[0], first), atomic_store (&asked[1], end);
+    (void) madvise ((void *) first, end - first, MADV_HUGEPAGE);
 #else
     (void) block, (void) bytes;
 #endif
