@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Whole runs with all shortcuts beside the same with `solver.plain`, which factors at every change of K and
- * looks at every bond and evaluates everything anew: the same bonds die in the same steps, load factors,
- * times, energies and displacements agree to 1e-8 of the largest. Solves are asked for a residual of 1e-11. */
+ * looks at every bond and evaluates all anew: the same bonds die in the same steps, load factors,
+ * times, energies and displacements agree to 1e-8 of the largest. Solves leave a residual of 1e-11. */
 #include "run.h"
 #include <string.h>
 
