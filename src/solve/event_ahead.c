@@ -268,13 +268,12 @@ static pg_status check (pg_solver *s, event_ahead *q, pg_state *state, size_t *g
     }
     q->cold = cold;
     if (q->nevent == 0) goto done;
-    for (size_t i = 0; i < sys->ndof; i++) q->scaled[i] = q->block[i * q->stride + q->nevent - 1];
-    PG_TRY (system_residual (sys, 1, q->scaled, NULL, &relative));
+    PG_TRY (event_solver_settle (e->engine, 0, q->scaled, &relative));
+    for (size_t i = 0; i < sys->ndof; i++) q->block[i * q->stride + q->nevent - 1] = q->scaled[i];
     q->residual = relative;
     if (relative <= o->tolerance) goto done;
-    event_outcome outcome;                             /* not good enough: as if nothing had been found */
-    PG_TRY (revive (s, q, state, 0));
-    PG_TRY (event_solver_back (e->engine, -1, &outcome));
+    PG_TRY (revive (s, q, state, 0));                  /* not good enough: as if nothing had been found */
+    event_solver_drop (e->engine);
     q->cold = -1, *good = q->nevent = q->nbroken = 0;
 done:
     return status;
