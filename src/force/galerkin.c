@@ -308,6 +308,7 @@ const pg_force_type pg_force_galerkin = {
     .assemble = galerkin_assemble,
     .mass_matrix = galerkin_mass_matrix,
     .sample = galerkin_sample,
+    .spared = galerkin_spared,
     .estimate = galerkin_estimate,
     .surface = galerkin_surface,
     .change = galerkin_change_of,

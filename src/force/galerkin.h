@@ -107,6 +107,8 @@ void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count,
 /* f += sum w B' sigma of the last measure, which was at d */
 void galerkin_sum_stress  (galerkin *g, const double *d, double *f);
 void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x */
+/* pg_force_type.spared: what runs have spared */
+int  galerkin_spared (const void *self, size_t k, char *what, char *why, double *seconds);
 /* silling: stabilisation of nodal integration, together with the stress */
 pg_status galerkin_silling_create (galerkin *g);
 void galerkin_silling_free (galerkin *g);
@@ -126,9 +128,10 @@ enum { GALERKIN_LANES = 8 };
 typedef struct { int place, node, point; unsigned bond; } galerkin_entry;
 /* `count` groups of `points` points, the first from point `point` on; its bonds in the order of summation. */
 typedef struct { size_t point, points, count, entry, entries; } galerkin_run;
-/* Runs among the points first .. last - 1, ascending; to be found anew if stale. */
+/* Runs among the points first .. last - 1, ascending; to be found anew if stale. bonds: of all their
+ * points. */
 typedef struct {
-    size_t first, last, n, cap, nentry, cap_entry;
+    size_t first, last, n, cap, nentry, cap_entry, bonds;
     int    stale;
     galerkin_run   *run;
     galerkin_entry *entry;

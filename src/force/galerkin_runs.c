@@ -22,7 +22,7 @@
 #include <string.h>
 
 /* Groups of a run at least: fewer are not worth the lanes that stay empty. Points of a group at most. */
-enum { LANES = GALERKIN_LANES, LEAST = 4, MOST = 27 };
+enum { LANES = GALERKIN_LANES, LEAST = 3, MOST = 27 };
 static const double rounding = 1e-11;
 
 #define INLINE static inline __attribute__ ((always_inline))
@@ -138,7 +138,7 @@ static pg_status find_runs (const galerkin *g, galerkin_run_list *l)
         galerkin_run *run = &l->run[l->n];
         *run = (galerkin_run) { .point = p, .points = end - p, .count = count };
         PG_TRY (list_entries (g, l, run));
-        l->n++;
+        l->n++, l->bonds += run->entries * count;
         p += run->points * count;
     }
 done:
@@ -149,8 +149,8 @@ done:
 void galerkin_runs_find (const galerkin *g, galerkin_run_list *l)
 {
     if (!l->stale) return;
-    l->stale = 0, l->n = l->nentry = 0;
-    if (find_runs (g, l) != PG_OK) l->n = 0;
+    l->stale = 0, l->n = l->nentry = l->bonds = 0;
+    if (find_runs (g, l) != PG_OK) l->n = l->bonds = 0;
 }
 
 void galerkin_runs_clear (galerkin_run_list *l)

@@ -6,6 +6,7 @@
  * threads. Points that are like others, most of those of a lattice, are summed many at a time
  * (galerkin_runs.c), unless the scene wants the plain way. */
 #include "galerkin.h"
+#include <stdio.h>
 #include <string.h>
 
 enum { SLICES = 16 };
@@ -22,6 +23,9 @@ struct galerkin_slices {
     int     has_runs;
     galerkin_run_list runs[SLICES];
     double *part[SLICES][3], *component[3];
+    /* Products so far, and bonds of points that were alike in them. */
+    size_t  products;
+    double  alike;
 };
 
 /* Numbers of a node in sums and widened values: four are one vector load. */
@@ -346,6 +350,22 @@ static void sum_all (galerkin *g, const double *x, const double *d, double *f)
     if (x && g->slices->has_runs) split (g, x);
     pg_parallel_heavy (g->threads, SLICES, sum_slices, &m);
     pg_parallel (g->threads, g->n, add_slices, &m);
+    for (size_t k = 0; x && k < SLICES; k++) g->slices->alike += (double) g->slices->runs[k].bonds;
+    g->slices->products += x != NULL;
+}
+
+/* By stored rates: what a bond takes longer alone than as one of eight, s. */
+int galerkin_spared (const void *self, size_t k, char *what, char *why, double *seconds)
+{
+    const galerkin *g = self;
+    const galerkin_slices *s = g->slices;
+    const pg_family *f = &g->sums.family;
+    if (k > 0 || !(s->alike > 0)) return 0;
+    snprintf (what, 96, "shape functions point by point in %.3g %% of %zu products K x",
+              100 * s->alike / ((double) s->products * (double) f->start[f->n]), s->products);
+    snprintf (why, 160, "points of a lattice that see their nodes alike are summed eight at a time");
+    *seconds = (g->dim == 3 ? 1.4e-9 : 3e-9) * s->alike;
+    return 1;
 }
 
 void galerkin_sum_stress (galerkin *g, const double *d, double *f) { sum_all (g, NULL, d, f); }

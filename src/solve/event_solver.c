@@ -31,7 +31,7 @@ pg_status event_solver_create (event_solver **out, pg_system *s, int cases, cons
         PG_ALLOC (e->base[c], e->ndof);
         PG_ALLOC (e->constant[c], e->ndof);
     }
-    s->serves = 1;
+    s->serves = s->problem->criterion->type != NULL;   /* else there is one solve only */
     *out = e, e = NULL;
 done:
     event_solver_free (&e);
