@@ -152,11 +152,14 @@ static pg_element straight (pg_element kind)
     return kind;
 }
 
-/* The cell as an element: its kind, and its nodes in the order of that kind; NO_CELL: it is none. */
+/* The cell as an element: its kind, and its nodes in the order of that kind; NO_CELL: it is none. A cell
+ * that the surface cuts has the corners of the box. */
 static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last, int *node)
 {
+    static const pg_element box[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
     int kind = g->problem->cells.kind[cell];
-    if (kind >= PG_ELEMENTS || first == last) return NO_CELL;
+    if (first == last) return NO_CELL;
+    if (kind == PG_CUT) kind = (int) box[g->dim];
     if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) {
         kind = (int) straight ((pg_element) kind);
         if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) return NO_CELL;
@@ -217,6 +220,16 @@ static pg_status append_point (builder *b, size_t p, double weight)
     return append (b, p, NO_CELL, weight, near_nodes (b->g, p, node), node);
 }
 
+/* Share of a cell that the surface cuts which lies in the body. */
+static double share_of (const galerkin *g, size_t cell)
+{
+    const pg_cells *c = &g->problem->cells;
+    double whole = c->thickness;
+    if (c->kind[cell] != PG_CUT) return 1;
+    for (int k = 0; k < g->dim; k++) whole *= g->problem->lattice.step[k];
+    return fmin (1, c->volume[cell] / whole);
+}
+
 /* Cells with Gauss points: whole, or point by point. Points of a cell follow one another. */
 static pg_status list_cells (builder *b)
 {
@@ -228,7 +241,8 @@ static pg_status list_cells (builder *b)
         for (last = first; last < r->n && r->cell[last] == cell; last++) continue;
         int kind = whole_cell (g, (size_t) cell, first, last, node);
         if (kind != NO_CELL)
-            PG_TRY (append (b, (size_t) cell, kind, 1, (size_t) pg_element_types[kind].nodes, node));
+            PG_TRY (append (b, (size_t) cell, kind, share_of (g, (size_t) cell),
+                            (size_t) pg_element_types[kind].nodes, node));
         else
             for (size_t p = first; p < last; p++) PG_TRY (append_point (b, p, r->weight[p]));
     }
@@ -331,16 +345,23 @@ static int same_as_last (builder *b, int kind, const pg_material *material, size
     return same;
 }
 
+/* The matrix of the last cell times a share. */
+static const double *scaled (builder *b, size_t width, double share)
+{
+    if (share == 1) return b->last;
+    for (size_t k = 0; k < width * width; k++) b->K[k] = share * b->last[k];
+    return b->K;
+}
+
 /* Stiffness of a whole cell. Nodes that were moved so far that the element turns inside out somewhere count
  * with the size of that place. */
-static const double *cell_matrix (builder *b, size_t cell, int kind, size_t m, const int *node, size_t p)
+static const double *cell_matrix (builder *b, double share, int kind, size_t m, const int *node, size_t p)
 {
     const galerkin *g = b->g;
     const pg_material *material = galerkin_plain (g, g->bulk, p);
     size_t dim = (size_t) g->dim, width = m * dim;
     double xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], q[PG_ELEMENT_NODES * 3];
-    (void) cell;
-    if (same_as_last (b, kind, material, m, node)) return b->last;
+    if (same_as_last (b, kind, material, m, node)) return scaled (b, width, share);
     memset (b->last, 0, width * width * sizeof *b->last);
     int n = pg_element_rule ((pg_element) kind, pg_element_types[kind].order == 1 ? 2 : 3, xi, weight);
     for (int k = 0; k < n; k++) {
@@ -348,7 +369,7 @@ static const double *cell_matrix (builder *b, size_t cell, int kind, size_t m, c
         add_strain (g, m, q, material->D, fabs (size) * weight[k] * g->problem->cells.thickness, b->last);
     }
     mirror (width, b->last);
-    return b->last;
+    return scaled (b, width, share);
 }
 
 /* Stiffness of the element of point p. */
@@ -414,13 +435,49 @@ static pg_status add_elements (builder *b, pg_block_matrix *Q)
         pg_block_add (Q, m, node,
                       b->cell[k] == NO_CELL
                           ? point_matrix (b, b->of[k], b->weight[k], m, node)
-                          : cell_matrix (b, b->of[k], b->cell[k], m, node, point_of (b->g, b->of[k], &at)));
+                          : cell_matrix (b, b->weight[k], b->cell[k], m, node, point_of (b->g, b->of[k], &at)));
     }
 done:
     return status;
 }
 
 /* ---- supports, N --------------------------------------------------------------------------------------- */
+/* A penalty so much above E / h that springs of the elements would not do: the polynomial is not exact, and
+ * what it leaves of the displacement of the node would be multiplied by it. */
+static int is_stiff (const galerkin *g, const constraint *q)
+{
+    return g->problem->load[q->load].penalty > 30;
+}
+
+/* Columns of W: the shape functions at the nodes that stiff penalties hold. */
+static pg_status list_stiff (const galerkin *g, pg_elements *out)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = &g->rows[PG_NODES];
+    size_t dim = (size_t) g->dim, n = 0, nnz = 0;
+    for (size_t i = 0; i < g->npenalty; i++) {
+        size_t node = (size_t) g->penalty_node[g->penalty[i].point];
+        if (!is_stiff (g, &g->penalty[i]) || r->grade[node] >= PG_GRADE_DEAD) continue;
+        n++, nnz += r->family.start[node + 1] - r->family.start[node];
+    }
+    if (n == 0) return PG_OK;
+    PG_TRY (pg_sparse_create (&out->W, g->n * dim, n, nnz, 0));
+    PG_ALLOC (out->held, n);
+    PG_ALLOC (out->holds, n);
+    size_t at = 0, c = 0;
+    for (size_t i = 0; i < g->npenalty; i++) {
+        const constraint *q = &g->penalty[i];
+        size_t node = (size_t) g->penalty_node[q->point], k = (size_t) q->component;
+        if (!is_stiff (g, q) || r->grade[node] >= PG_GRADE_DEAD) continue;
+        for (size_t e = r->family.start[node]; e < r->family.start[node + 1]; e++, at++)
+            out->W.row[at] = (long) ((size_t) r->family.node[e] * dim + k), out->W.value[at] = r->N[e];
+        out->held[c] = galerkin_penalty_stiffness (g, q), out->holds[c] = node * dim + k;
+        out->W.start[++c] = (long) at;
+    }
+done:
+    return status;
+}
+
 /* Springs of the supports: on the node nearest to each facet point; penalties of nodes. */
 static void add_supports (const galerkin *g, pg_block_matrix *Q)
 {
@@ -436,6 +493,7 @@ static void add_supports (const galerkin *g, pg_block_matrix *Q)
     }
     for (size_t i = 0; i < g->npenalty; i++) {
         const constraint *q = &g->penalty[i];
+        if (is_stiff (g, q)) continue;
         pg_block_add_diagonal (Q, (size_t) g->penalty_node[q->point] * dim + (size_t) q->component,
                                galerkin_penalty_stiffness (g, q));
     }
@@ -503,6 +561,7 @@ pg_status galerkin_elements (void *self, pg_elements *out)
     PG_TRY (pg_block_create (&out->Q, g->n, g->dim, &b.list, g->threads));
     PG_TRY (add_elements (&b, &out->Q));
     add_supports (g, &out->Q);
+    PG_TRY (list_stiff (g, out));
     if (!g->problem->approx.type->interpolates) PG_TRY (copy_values (g, &out->N));
     choose_polynomial (g->problem, out);
     out->spacing = g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);

@@ -41,8 +41,14 @@ struct pg_element_preconditioner {
     pg_operator    Q;
     int     terms;
     double  middle, half, c[MOST_TERMS];
-    /* Unknowns that V leaves at zero (ndof), or NULL; borrowed. */
-    const unsigned char *fixed;
+    /* Unknowns that V leaves at zero (ndof). */
+    unsigned char *fixed;
+    /* Factor of W'W, and vectors of its length; NULL: no stiff springs. */
+    const pg_linear_type *direct;
+    void   *factor;
+    double *force, *along, *part;
+    /* residual without the forces along W (ndof) */
+    double *rest;
     /* Vectors of the recurrence and of the two halves (ndof). */
     double *t[2], *left, *right;
 };
@@ -248,6 +254,9 @@ void pg_elements_clear (pg_elements *e)
 {
     pg_block_clear (&e->Q);
     pg_node_matrix_clear (&e->N);
+    pg_sparse_clear (&e->W);
+    pg_free (e->held), pg_free (e->holds);
+    e->held = NULL, e->holds = NULL;
 }
 
 void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
@@ -258,7 +267,9 @@ void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
     pg_node_matrix_clear (&P->transposed);
     pg_multilevel_free (&P->multilevel);
     pg_free (P->alike.run), pg_free (P->alike_transposed.run);
+    if (P->factor) P->direct->free (&P->factor);
     pg_free (P->t[0]), pg_free (P->t[1]), pg_free (P->left), pg_free (P->right);
+    pg_free (P->fixed), pg_free (P->force), pg_free (P->along), pg_free (P->part), pg_free (P->rest);
     pg_free (P);
     *preconditioner = NULL;
 }
@@ -269,6 +280,40 @@ static double inverse (double x, double parameter)
     return 1 / sqrt (x * x + parameter * parameter);
 }
 
+/* Unknowns that are prescribed or held by stiff springs take no part in V. */
+static pg_status find_fixed (pg_element_preconditioner *P, const unsigned char *fixed, size_t ndof)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (P->fixed, ndof);
+    if (fixed) memcpy (P->fixed, fixed, ndof);
+    for (size_t c = 0; c < P->elements.W.ncol; c++) P->fixed[P->elements.holds[c]] = 1;
+done:
+    return status;
+}
+
+/* W'W by Cholesky: the congruence of the unit matrix. */
+static pg_status factor_springs (pg_element_preconditioner *P, size_t ndof, int threads)
+{
+    pg_status status = PG_OK;
+    pg_sparse unit = { 0 }, G = { 0 };
+    pg_linear_options o = { 1, 3, threads, 0 };
+    size_t n = P->elements.W.ncol;
+    if (n == 0) return PG_OK;
+    P->direct = pg_linear_first (1, 1);
+    PG_TRY (pg_sparse_create (&unit, ndof, ndof, ndof, 1));
+    for (size_t i = 0; i < ndof; i++) unit.row[i] = (long) i, unit.value[i] = 1, unit.start[i + 1] = (long) i + 1;
+    PG_TRY (pg_sparse_congruence (&G, &unit, &P->elements.W));
+    PG_TRY (P->direct->analyse (&P->factor, &G, &o));
+    PG_TRY (P->direct->factor (P->factor, &G));
+    PG_ALLOC (P->force, n);
+    PG_ALLOC (P->along, n);
+    PG_ALLOC (P->part, n);
+    PG_ALLOC (P->rest, ndof);
+done:
+    pg_sparse_clear (&unit), pg_sparse_clear (&G);
+    return status;
+}
+
 /* Takes over the elements, also where it fails. */
 pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_elements *elements,
                                             const pg_element_setting *s)
@@ -277,17 +322,20 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
     pg_element_preconditioner *P = NULL;
     *out = NULL;
     PG_ALLOC (P, 1);
-    P->elements = *elements, P->fixed = s->fixed;
+    P->elements = *elements;
     memset (elements, 0, sizeof *elements);
     pg_block_matrix *Q = &P->elements.Q;
     size_t ndof = Q->n * (size_t) Q->block;
     P->Q = pg_block_operator (Q);
+    for (size_t i = 0; s->extra && i < ndof; i++) pg_block_add_diagonal (Q, i, s->extra[i]);
+    PG_TRY (find_fixed (P, s->fixed, ndof));
+    PG_TRY (factor_springs (P, ndof, Q->threads));
     pg_multilevel_setting m = { .dim = s->dim,
                                 .block = Q->block,
                                 .threads = Q->threads,
                                 .n = Q->n,
                                 .x = s->x,
-                                .fixed = s->fixed,
+                                .fixed = P->fixed,
                                 .A = &P->Q,
                                 .rows = pg_block_couplings (Q, P->elements.reach),
                                 .step = 2.5 * P->elements.spacing / P->elements.reach };
@@ -312,15 +360,49 @@ done:
 }
 
 /* z = p (N) V (Q) p (N') r */
-static pg_status solve (void *context, const double *r, double *z)
+static pg_status solve_elements (pg_element_preconditioner *P, const double *r, double *z)
 {
     pg_status status = PG_OK;
-    pg_element_preconditioner *P = context;
     pg_preconditioner V = pg_multilevel_preconditioner (P->multilevel);
     if (!P->elements.N.start) return V.solve (V.context, r, z);
     polynomial (P, &P->transposed, &P->alike_transposed, r, P->left);
     PG_TRY (V.solve (V.context, P->left, P->right));
     polynomial (P, &P->elements.N, &P->alike, P->right, z);
+done:
+    return status;
+}
+
+/* c = (W'W)^-1 W' x */
+static pg_status take_along (pg_element_preconditioner *P, const double *x, double *c)
+{
+    pg_sparse_multiply_transposed (&P->elements.W, x, P->part);
+    return P->direct->solve (P->factor, 1, P->part, c);
+}
+
+/* to = x - W c */
+static void take_off (pg_element_preconditioner *P, const double *x, const double *c, double *to)
+{
+    const pg_sparse *W = &P->elements.W;
+    if (to != x) memcpy (to, x, W->nrow * sizeof *to);
+    for (size_t j = 0; j < W->ncol; j++)
+        for (long q = W->start[j]; q < W->start[j + 1]; q++) to[W->row[q]] -= W->value[q] * c[j];
+}
+
+/* With stiff springs: what they take, by themselves; the rest by the elements. */
+static pg_status solve (void *context, const double *r, double *z)
+{
+    pg_status status = PG_OK;
+    pg_element_preconditioner *P = context;
+    if (!P->factor) return solve_elements (P, r, z);
+    PG_TRY (take_along (P, r, P->force));
+    take_off (P, r, P->force, P->rest);
+    PG_TRY (solve_elements (P, P->rest, z));
+    PG_TRY (take_along (P, z, P->along));
+    take_off (P, z, P->along, z);
+    for (size_t c = 0; c < P->elements.W.ncol; c++) P->force[c] /= P->elements.held[c];
+    PG_TRY (P->direct->solve (P->factor, 1, P->force, P->along));
+    for (size_t c = 0; c < P->elements.W.ncol; c++) P->along[c] = -P->along[c];
+    take_off (P, z, P->along, z);
 done:
     return status;
 }

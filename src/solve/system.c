@@ -361,7 +361,7 @@ static const double MOST_SECONDS = 600;
  * all. */
 static int falls_back (pg_system *s)
 {
-    if (!s->elements || !system_has_matrix (s) || strcmp (s->options->linear, "auto") != 0
+    if (!s->force->elements || !system_has_matrix (s) || strcmp (s->options->linear, "auto") != 0
         || system_direct_cost (s) > MOST_SECONDS)
         return 0;
     pg_statistics_warn (s->report, "the iterations with finite elements as preconditioner do not converge: a "
