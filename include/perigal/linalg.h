@@ -282,9 +282,9 @@ typedef struct {
     /* Spacing of the nodes; no two nodes of an element are further apart than `reach`; steps of the
      * lattice that the nodes form, 0: none. m. */
     double spacing, reach, lattice[3];
-    /* Constraints by stiff springs, each a column of W (unknowns x constraints) that makes the displacement it
-     * holds, their stiffness (W.ncol), N/m, and the unknown of the elements that this displacement is. None:
-     * W.ncol 0. */
+    /* Constraints by stiff springs, each a column of W (unknowns x constraints) that makes the displacement
+     * it holds, their stiffness (W.ncol), N/m, and the unknown of the elements that this displacement is.
+     * None: W.ncol 0. */
     pg_sparse W;
     double *held;
     size_t *holds;
@@ -302,15 +302,12 @@ typedef struct {
     const double *x;
     /* 1: the displacement of this unknown is prescribed (n x block); NULL: none is. Borrowed. */
     const unsigned char *fixed;
-    /* Added to the diagonal of Q (n x block), N/m: inertia; NULL: nothing. Borrowed during creation. */
-    const double *extra;
 } pg_element_setting;
 typedef struct pg_element_preconditioner pg_element_preconditioner;
 /* z = p (N) V p (N)' r, V one cycle of pg_multilevel on Q, p a polynomial for 1 / x. Symmetric positive
- * definite where no unknown is fixed. Stiff springs beside K, K + W h W' with h >> K, are taken on their own: with
- * S = I - W (W'W)^-1 W' and p V p' of elements that are held there, S p V p' S + W (W'W)^-1 h^-1 (W'W)^-1 W'.
- * Takes over the elements, which are empty afterwards, also where it
- * fails. */
+ * definite where no unknown is fixed. Stiff springs beside K, K + W h W' with h >> K, are taken on their
+ * own: S p V p' S + W (W'W)^-1 h^-1 (W'W)^-1 W' with S = I - W (W'W)^-1 W' and elements that are held there.
+ * Takes over the elements, which are empty afterwards, also where it fails. */
 pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_elements *elements,
                                             const pg_element_setting *setting);
 void      pg_element_preconditioner_free   (pg_element_preconditioner **preconditioner);

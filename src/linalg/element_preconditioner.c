@@ -301,7 +301,8 @@ static pg_status factor_springs (pg_element_preconditioner *P, size_t ndof, int 
     if (n == 0) return PG_OK;
     P->direct = pg_linear_first (1, 1);
     PG_TRY (pg_sparse_create (&unit, ndof, ndof, ndof, 1));
-    for (size_t i = 0; i < ndof; i++) unit.row[i] = (long) i, unit.value[i] = 1, unit.start[i + 1] = (long) i + 1;
+    for (size_t i = 0; i < ndof; i++)
+        unit.row[i] = (long) i, unit.value[i] = 1, unit.start[i + 1] = (long) i + 1;
     PG_TRY (pg_sparse_congruence (&G, &unit, &P->elements.W));
     PG_TRY (P->direct->analyse (&P->factor, &G, &o));
     PG_TRY (P->direct->factor (P->factor, &G));
@@ -327,7 +328,6 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
     pg_block_matrix *Q = &P->elements.Q;
     size_t ndof = Q->n * (size_t) Q->block;
     P->Q = pg_block_operator (Q);
-    for (size_t i = 0; s->extra && i < ndof; i++) pg_block_add_diagonal (Q, i, s->extra[i]);
     PG_TRY (find_fixed (P, s->fixed, ndof));
     PG_TRY (factor_springs (P, ndof, Q->threads));
     pg_multilevel_setting m = { .dim = s->dim,
