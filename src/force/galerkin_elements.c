@@ -432,10 +432,10 @@ static pg_status add_elements (builder *b, pg_block_matrix *Q)
     for (size_t k = 0; k < b->list.n; k++) {
         size_t m = b->list.start[k + 1] - b->list.start[k];
         const int *node = b->list.node + b->list.start[k];
-        pg_block_add (Q, m, node,
-                      b->cell[k] == NO_CELL
-                          ? point_matrix (b, b->of[k], b->weight[k], m, node)
-                          : cell_matrix (b, b->weight[k], b->cell[k], m, node, point_of (b->g, b->of[k], &at)));
+        const double *K = b->cell[k] == NO_CELL ? point_matrix (b, b->of[k], b->weight[k], m, node)
+                                                : cell_matrix (b, b->weight[k], b->cell[k], m, node,
+                                                               point_of (b->g, b->of[k], &at));
+        pg_block_add (Q, m, node, K);
     }
 done:
     return status;
