@@ -236,10 +236,11 @@ done:
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[10] = { s->mode,  s->indefinite, s->kept,   s->marked, s->factored != NULL,
-                      s->stale, s->unshifted,  s->spared, s->base,   s->loose };
+    long count[11] = { s->mode,  s->indefinite, s->kept,   s->marked, s->factored != NULL,
+                      s->stale, s->unshifted,  s->spared, s->base,   s->loose,
+                       s->by_columns };
     double number[3] = { s->mean_diagonal, s->shift, s->extra_cost };
-    PG_TRY (k->counts (k->context, "system.counts", 10, count));
+    PG_TRY (k->counts (k->context, "system.counts", 11, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
@@ -250,6 +251,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     PG_KEEP_BOUND (k, "whether parts are loose", count[9], 0, 1);
     s->mode = (int) count[0], s->kept = count[2], s->marked = (int) count[3], s->unshifted = (int) count[6],
     s->spared = count[7], s->base = (int) count[8], s->loose = (int) count[9];
+    s->by_columns = count[10];
     s->mean_diagonal = number[0], s->shift = number[1], s->extra_cost = number[2];
     /* K had become indefinite: the method of factoring is changed as it was in the first run. */
     if (k->reading && count[1] && !s->indefinite) {

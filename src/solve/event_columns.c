@@ -29,18 +29,37 @@ pg_status columns_make (event_solver *e, size_t first)
     pg_system *s = e->s;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     size_t count = e->t - first;
-    PG_GROW (e->G, e->room_G, e->t * e->ndof);
-    PG_GROW (e->rhs, e->room_rhs, count * e->nred);
-    unit_forces (e, first, T);
-    if (!T) {
-        PG_TRY (s->linear->solve (s->factor, count, e->rhs, e->G + first * e->ndof));
-        goto done;
+    PG_GROW (e->chunk, e->room_chunk, (e->t + CHUNK - 1) / CHUNK);
+    for (; e->nchunk * CHUNK < e->t; e->nchunk++) {
+        e->chunk[e->nchunk] = NULL;
+        PG_ALLOC (e->chunk[e->nchunk], CHUNK * e->ndof);
     }
+    PG_GROW (e->rhs, e->room_rhs, count * e->nred);
     PG_GROW (e->solved, e->room_solved, count * e->nred);
+    unit_forces (e, first, T);
     PG_TRY (s->linear->solve (s->factor, count, e->rhs, e->solved));
-    for (size_t k = 0; k < count; k++)
-        pg_sparse_multiply (T, e->solved + k * e->nred, e->G + (first + k) * e->ndof);
+    for (size_t k = 0; k < count; k++) {
+        double *to = e->chunk[(first + k) / CHUNK] + (first + k) % CHUNK * e->ndof;
+        if (T) pg_sparse_multiply (T, e->solved + k * e->nred, to);
+        else memcpy (to, e->solved + k * e->nred, e->ndof * sizeof *to);
+    }
+    e->account.columns += (long) count;
 done:
-    if (status == PG_OK) e->account.columns += (long) count;
     return status;
+}
+
+void columns_times (const event_solver *e, double a, const double *x, double *y)
+{
+    if (e->t == 0 && a == 0) memset (y, 0, e->ndof * sizeof *y);
+    for (size_t i = 0; i < e->t; i += CHUNK) {
+        size_t some = e->t - i < CHUNK ? e->t - i : CHUNK;
+        pg_dense_multiply (0, e->ndof, 1, some, 1, green_column (e, i), e->ndof, x + i, some, i ? 1 : a, y,
+                           e->ndof);
+    }
+}
+
+void columns_free (event_solver *e)
+{
+    for (size_t k = 0; k < e->nchunk; k++) pg_free (e->chunk[k]);
+    pg_free (e->chunk), pg_free (e->rhs), pg_free (e->solved);
 }

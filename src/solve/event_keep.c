@@ -108,15 +108,14 @@ pg_status event_solver_keep (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     event_solver_account *a = &e->account;
-    long count[6] = { e->based, a->bases, a->windows, a->updates, a->columns, (long) a->most_touched };
-    double number[5] = { e->shift, e->scale, e->residual, a->rent, a->spared };
-    PG_TRY (k->counts (k->context, "event_solver.counts", 6, count));
-    PG_TRY (k->numbers (k->context, "event_solver.numbers", 5, number));
+    long count[5] = { e->based, a->bases, a->updates, a->columns, (long) a->most_touched };
+    double number[4] = { e->shift, e->scale, e->residual, a->rent };
+    PG_TRY (k->counts (k->context, "event_solver.counts", 5, count));
+    PG_TRY (k->numbers (k->context, "event_solver.numbers", 4, number));
     PG_KEEP_BOUND (k, "the base of events", count[0], 0, 1);
-    a->bases = count[1], a->windows = count[2], a->updates = count[3], a->columns = count[4],
-    a->most_touched = (size_t) count[5];
-    e->shift = number[0], e->scale = number[1], e->residual = number[2], a->rent = number[3],
-    a->spared = number[4];
+    a->bases = count[1], a->updates = count[2], a->columns = count[3];
+    a->most_touched = (size_t) count[4];
+    e->shift = number[0], e->scale = number[1], e->residual = number[2], a->rent = number[3];
     if (k->reading) e->based = (int) count[0], e->s->base = e->based;
     if (!e->based) goto done;
     PG_TRY (k->numbers (k->context, "event_solver.diagonal", e->ndof, e->diagonal));

@@ -48,7 +48,8 @@ void event_solver_free (event_solver **solver)
         for (int k = 0; k <= EVENT_MOST; k++) pg_free (e->X[c][k]);
     }
     for (int k = 0; k < e->nfunctional; k++) pg_free (e->functional[k].ell), pg_free (e->functional[k].dual);
-    pg_free (e->diagonal), pg_free (e->G), pg_free (e->rhs), pg_free (e->solved);
+    pg_free (e->diagonal);
+    columns_free (e);
     pg_free (e);
     *solver = NULL;
 }
@@ -59,12 +60,6 @@ void event_solver_drop (event_solver *e) { e->based = e->s->base = 0, e->why = "
 
 const char *event_solver_why (const event_solver *e) { return e->why; }
 double event_solver_residual (const event_solver *e) { return e->residual; }
-
-const int *event_solver_nodes (const event_solver *e, size_t *n)
-{
-    *n = e->s->problem->cloud.n;
-    return NULL;
-}
 
 void event_solver_tell (const event_solver *e, event_solver_account *out)
 {
@@ -115,7 +110,7 @@ static double dot (size_t n, const double *a, const double *b)
 static void extend_functional (event_solver *e, event_functional *f, size_t first)
 {
     for (int c = 0; c < e->cases && first == 0; c++) f->base[c] = dot (e->ndof, f->ell, e->base[c]);
-    for (size_t i = first; i < e->t; i++) f->dual[i] = dot (e->ndof, f->ell, e->G + i * e->ndof);
+    for (size_t i = first; i < e->t; i++) f->dual[i] = dot (e->ndof, f->ell, green_column (e, i));
 }
 
 pg_status event_solver_base (event_solver *e, double *const *u, double *residual)
@@ -255,7 +250,7 @@ pg_status event_solver_update (event_solver *e, event_outcome *outcome)
             touched_undo (e);
             return lose (e, "the touched part of the body does not find its balance", outcome);
         }
-        e->account.spared += system_factor_cost (e->s);
+        e->s->by_columns++;
         if (base_is_due (e)) *outcome = EVENT_DUE, e->why = "the touched unknowns have become many";
     }
     if (e->count < EVENT_MOST) PG_TRY (remember (e, ++e->count));
@@ -273,7 +268,7 @@ void event_solver_at (const event_solver *e, int which, size_t n, const int *nod
     }
     for (size_t i = 0; i < e->t; i++) {
         double x = e->x[which][i];
-        const double *G = e->G + i * e->ndof;
+        const double *G = green_column (e, i);
         for (size_t k = 0; k < n; k++) {
             size_t from = (node ? (size_t) node[k] : k) * m;
             for (size_t a = 0; a < m; a++) u[k * m + a] += G[from + a] * x;
@@ -284,7 +279,7 @@ void event_solver_at (const event_solver *e, int which, size_t n, const int *nod
 pg_status event_solver_full (event_solver *e, int which, double *u)
 {
     memcpy (u, e->base[which], e->ndof * sizeof *u);
-    pg_dense_multiply (0, e->ndof, 1, e->t, 1, e->G, e->ndof, e->x[which], e->cap, 1, u, e->ndof);
+    columns_times (e, 1, e->x[which], u);
     e->account.rent += (double) e->t * (double) e->ndof / memory_rate;
     return PG_OK;
 }
@@ -316,8 +311,7 @@ pg_status event_solver_correct (event_solver *e, const double *r, double *delta)
     for (size_t i = 0; i < e->t; i++) y[i] = e->stay[i] * y[e->t + 1 + i];
     pg_dense_multiply (0, e->t, 1, e->t, 1, e->D, e->cap, y + e->t + 1, e->cap, 1, y, e->cap);
     if (!touched_substitute (e, y)) PG_FAIL (PG_E_SINGULAR, "the system of the touched unknowns is singular");
-    memset (full, 0, e->ndof * sizeof *full);
-    pg_dense_multiply (0, e->ndof, 1, e->t, 1, e->G, e->ndof, y, e->cap, 0, full, e->ndof);
+    columns_times (e, 0, y, full);
     reduce (e, T, full, part);
     for (size_t j = 0; j < e->nred; j++) delta[j] -= part[j];
 done:
@@ -376,7 +370,9 @@ pg_status event_solver_block (event_solver *e, int which, int n, const int *list
         for (size_t i = 0; i < e->tX[list[k] + 1]; i++) x[k + i * events] = e->X[which][list[k] + 1][i];
     for (size_t i = 0; i < e->ndof; i++)
         for (size_t k = 0; k < events; k++) u[i * events + k] = e->base[which][i];
-    pg_dense_add_product (events, e->ndof, e->t, x, e->G, u);
+    for (size_t i = 0; i < e->t; i += CHUNK)
+        pg_dense_add_product (events, e->ndof, e->t - i < CHUNK ? e->t - i : CHUNK, x + i * events,
+                              green_column (e, i), u);
     e->account.rent += (double) events * 2 * (double) e->t * (double) e->ndof / 10e9;
 done:
     pg_free (x);

@@ -11,14 +11,8 @@
  *
  * each event solves (1 + D H) dx = r and adds dx to x, so that errors of earlier events are corrected and do
  * not add up, and what nothing holds any more stays where the last event left it. No sparse matrix is
- * touched. Two ways to know G and H stand behind one interface:
- *
- *   columns  G is computed when an unknown is touched for the first time: a solve with the factor for each.
- *            Any dimension, breaks anywhere. u is known at all nodes, one product with G.
- *   window   the unknowns of a chosen set of nodes are ordered last in the factor, so that the dense trailing
- *            block of L gives all of H between them at once; breaks may touch the window only, and events see
- *            the displacement in the window only. Elsewhere it follows for a block of events by one
- *            back-substitution with many right-hand sides.
+ * touched. A Green column is computed when its unknown is touched for the first time, by a solve with the
+ * factor, together with all others that an event touches.
  *
  * When t grows so far that the dense algebra since the base has cost more than a new base would (counted, by
  * stored rates: rent or buy), the solver says that a new base is due; the caller decides when. Nothing here
@@ -38,8 +32,8 @@ typedef enum {
     EVENT_SAME,                                        /* neither K nor forces changed: u stays */
     EVENT_SOLVED,                                      /* u is the new equilibrium */
     EVENT_DUE,                                         /* the same, but a new base would pay from now on */
-    /* Not solved, a new base is needed: the force cannot tell its change, elimination (T) changed, a break
-     * outside the window, too many touched unknowns, or a result that the residual does not bear out. */
+    /* Not solved, a new base is needed: the force cannot tell its change, elimination (T) changed, too many
+     * touched unknowns, or a result that the residual does not bear out. */
     EVENT_LOST
 } event_outcome;
 
@@ -51,19 +45,13 @@ pg_status event_solver_create (event_solver **out, pg_system *s, int cases, cons
 void      event_solver_free   (event_solver **e);
 
 /* A new base: K of the last refresh is factored if it is stale, and u[c] (ndof, full unknowns, first guesses
- * on entry) become equilibria of it by system_solve, with its failures; *residual: the larger one. Green
- * columns from here on. The block is empty. There may be no base afterwards, where the system has come to be
+ * on entry) become equilibria of it by system_solve, with its failures; *residual: the larger one. The
+ * block is empty. There may be no base afterwards, where the system has come to be
  * solved without a factor: then every update is lost. */
 pg_status event_solver_base   (event_solver *e, double *const *u, double *residual);
-/* The same with a window of these nodes (ascending). *done 0: not possible here (nodes whose elimination
- * couples, no memory): a base of columns was made instead. */
-pg_status event_solver_window (event_solver *e, double *const *u, size_t n, const int *node, double *residual,
-                               int *done);
 int       event_solver_has_base (const event_solver *e);
 /* The base is of no use any more. */
 void      event_solver_drop     (event_solver *e);
-/* Nodes at which u of every event is known: the window, or NULL (n = all nodes). */
-const int *event_solver_nodes (const event_solver *e, size_t *n);
 
 /* After system_refresh: takes in what K lost and solves for the new equilibria. The event is the next one of
  * the block. EVENT_LOST leaves u as it was. */
@@ -72,10 +60,9 @@ pg_status event_solver_update (event_solver *e, event_outcome *outcome);
 const char *event_solver_why  (const event_solver *e);
 
 /* ---- the solution of the last update ------------------------------------------------------------------- */
-/* Unknowns of node[k] of a case, for the nodes known (list NULL: all known nodes, in their order): n x
- * components. Columns: one product with G, as many rows as nodes. */
+/* Unknowns of node[k] of a case (list NULL: all nodes): n x components, by as many rows of G. */
 void      event_solver_at     (const event_solver *e, int which, size_t n, const int *node, double *u);
-/* The whole displacement of a case, ndof; window: one back-substitution. */
+/* The whole displacement of a case, ndof. */
 pg_status event_solver_full   (event_solver *e, int which, double *u);
 /* The same, measured by the force itself and corrected once, the base with it; *residual: before, over the
  * reference force. Of the events of the block no displacement may be asked for afterwards: flush it. */
@@ -99,7 +86,7 @@ pg_status event_solver_block  (event_solver *e, int which, int n, const int *lis
 pg_status event_solver_back   (event_solver *e, int k, event_outcome *outcome);
 
 /* ---- linear functionals -------------------------------------------------------------------------------- */
-/* From the next base or window on (and from now on, if there is a base), the value of ell . u is known
+/* From the next base on (and from now on, if there is a base), the value of ell . u is known
  * at every event for the cost of t products; ell (ndof) is copied. *number: by which it is asked for.
  * Forgotten by event_solver_forget. Supports and forces that touch broken bonds change their own ell:
  * the caller's affair. */
@@ -109,10 +96,9 @@ void      event_solver_forget (event_solver *e);
 
 /* ---- for reports and checkpoints ----------------------------------------------------------------------- */
 typedef struct {
-    long   bases, windows, updates, columns;           /* made; columns: solves for them */
+    long   bases, updates, columns;                    /* made */
     size_t touched, most_touched;                      /* t now; the largest so far */
     double rent;  /* dense algebra since the base, in seconds by stored rates */
-    double spared;                                     /* factorizations not made, alike */
 } event_solver_account;
 void      event_solver_tell   (const event_solver *e, event_solver_account *out);
 /* Base, D, x: a run that is read back goes on bit by bit. After reading, and after the force and the factor

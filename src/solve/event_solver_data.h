@@ -1,14 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private to the event solver: its data. Files: event_solver.c (life, bases, updates, blocks of events,
  * functionals), event_touched.c (the dense system of the touched unknowns), event_columns.c (Green columns),
- * event_window.c (window ordered last), event_keep.c (checkpoints). Symbols as in event_solver.h. */
+ * event_keep.c (checkpoints). Symbols as in event_solver.h. */
 #ifndef PG_EVENT_SOLVER_DATA_H
 #define PG_EVENT_SOLVER_DATA_H
 #include "event_solver.h"
 
-enum { FUNCTIONALS = 32 };                             /* most of them at a time */
-
-typedef struct event_window event_window;              /* event_window.c */
+enum { FUNCTIONALS = 32, CHUNK = 64 };                 /* most of them at a time; columns in a piece of G */
 
 /* A linear functional ell . u = ell . u_b + dual . x, with dual = G' ell. */
 typedef struct {
@@ -47,10 +45,8 @@ struct event_solver {
     double  residual;                                  /* of the last update, over scale */
     /* ---- columns */
     size_t *group, ngroup, room_group;  /* how many unknowns were taken in at a time */
-    double *G;  size_t room_G;                         /* (ndof x t) */
+    double **chunk; size_t nchunk, room_chunk;         /* G, in pieces of CHUNK columns (ndof x CHUNK) */
     double *rhs, *solved;  size_t room_rhs, room_solved;           /* (nred x new ones) */
-    /* ---- window */
-    event_window *window;                              /* NULL: columns */
     /* ---- block of events: x of event k at X[c][k], zero beyond tX[k]; number 0 is that before the first */
     int     count;
     double *X[EVENT_CASES][EVENT_MOST + 1];
@@ -68,7 +64,7 @@ void      touched_clear (event_solver *e);             /* t = 0 */
 pg_status touched_reserve (event_solver *e, size_t count);                      /* room for so many */
 /* Takes in unknowns that are not yet touched: H and what depends on it grow. */
 pg_status touched_grow  (event_solver *e, size_t count, const size_t *dof);
-/* Green columns, or their part in the window, of the unknowns from `first` on, and their share of H. */
+/* Green columns of the unknowns from `first` on, and their share of H. */
 pg_status touched_green (event_solver *e, size_t first);
 /* D += change. */
 pg_status touched_change (event_solver *e, const pg_stiffness_change *change);
@@ -83,9 +79,15 @@ int       touched_substitute (event_solver *e, double *y);
 void      touched_displacement (event_solver *e, int c);
 
 /* ---- event_columns.c ----------------------------------------------------------------------------------- */
-/* Green columns of the unknowns from `first` on, which G has room for afterwards. */
+/* Green columns of the unknowns from `first` on. */
 pg_status columns_make  (event_solver *e, size_t first);
 
-/* ---- event_window.c ------------------------------------------------------------------------------------ */
-void      window_free   (event_solver *e);
+/* Column i of G. */
+static inline const double *green_column (const event_solver *e, size_t i)
+{
+    return e->chunk[i / CHUNK] + (i % CHUNK) * e->ndof;
+}
+/* y = a y + G x */
+void      columns_times (const event_solver *e, double a, const double *x, double *y);
+void      columns_free  (event_solver *e);
 #endif

@@ -93,7 +93,7 @@ pg_status touched_green (event_solver *e, size_t first)
     pg_status status = columns_make (e, first);
     if (status != PG_OK) return status;
     for (size_t j = first; j < e->t; j++) {
-        const double *column = e->G + j * e->ndof;
+        const double *column = green_column (e, j);
         for (size_t i = 0; i <= j; i++) e->H[i + j * e->cap] = e->H[j + i * e->cap] = column[e->dof[i]];
     }
     return PG_OK;

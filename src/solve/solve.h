@@ -31,6 +31,7 @@ typedef struct {
     /* all_weak: every unknown gets the shift (touched) */
     int       components, stale, mode, unshifted, all_weak;
     int       serves;  /* 1: asked for before the first solve: a factor is to serve many events */
+    long      by_columns;                              /* equilibria by an event solver, no new factor */
     int       loose;  /* 1: K was found to leave parts free to move */
     int       base;  /* 1: the factor is the base of an event solver, which it serves whatever has broken */
     int       indefinite;  /* K proved not positive definite: another linear solver took over */

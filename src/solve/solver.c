@@ -218,6 +218,16 @@ static void report_skips (pg_solver *s)
                             "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
         s->reported_skips = 1;
     }
+    if (sys->by_columns && s->report.factorizations) {
+        char what[96];
+        snprintf (what, sizeof what, "factorization after %ld events", sys->by_columns);
+        pg_statistics_skip (&s->report,
+                            (double) sys->by_columns * s->report.seconds[PG_SECONDS_FACTOR]
+                                / (double) s->report.factorizations,
+                            what,
+                            "the factor of an earlier K and a dense system of the touched unknowns gave the "
+                            "same answer (their time is not taken off)");
+    }
     if (sys->spared && !s->reported_spared && s->report.preconditioners) {
         char what[96];
         snprintf (what, sizeof what, "preconditioner in %ld solves after a break", sys->spared);

@@ -255,7 +255,8 @@ static void the_change_of_K_is_told (void **state)
                 for (size_t i = 0; c.known && i < n; i++) check_scaled (before[i], after[i], 1e-11, top);
                 told += c.known && c.n > 0;
                 check_ok (f->balance (self, 1, zero, load1, &reference));
-                for (size_t i = 0; !c.loads && i < n; i++) check_scaled (load0[i], load1[i], 1e-12, reference);
+                for (size_t i = 0; !c.loads && i < n; i++)
+                    check_scaled (load0[i], load1[i], 1e-12, reference);
                 check_ok (f->change (self, &c));
                 assert_true (c.known && c.n == 0 && !c.loads && !c.basis);     /* nothing since */
             } else assert_true (methods[m].transformation && status == PG_E_SINGULAR);
