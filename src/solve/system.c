@@ -229,8 +229,7 @@ static const double least_pivot = 1e-13;
 /* Factors. Where the factor serves many events the springs of weak unknowns would show in all of them: they
  * are left out as long as no part is loose, and unknowns without stiffness, which nothing is coupled to, get
  * their old one. A matrix that is not positive definite gets a larger shift on its weak unknowns (1e-11,
- * 1e-9,
- * 1e-7 of the mean diagonal), then on all of them where bonds leave motions free (chains, sheets);
+ * 1e-9, 1e-7 of the mean diagonal), then on all of them where bonds leave motions free (chains, sheets);
  * Galerkin forms go to a solver for general matrices under linear: auto, as Nitsche's terms with too
  * small a factor make K indefinite. */
 pg_status system_factorize (pg_system *s, const dynamics *dyn)
