@@ -3,24 +3,25 @@
  * each from the system anew, which clears it page by page: up to 40 % of a short run. Kept in the process,
  * and in large pages where the system grants them on request (transparent huge pages: madvise), pages are
  * cleared once. Results do not depend on it. With other systems these functions do little or nothing. */
-#define _DEFAULT_SOURCE                                /* madvise */
+#define _DEFAULT_SOURCE                                /* madvise, sbrk */
 #include "perigal/base.h"
 #include <stdatomic.h>
 #include <stdint.h>
 #include <stdlib.h>
 #include <sys/mman.h>
+#include <unistd.h>
 #if defined (__GLIBC__)
 #include <malloc.h>
 #endif
 
 /* Bytes by which the heap grows; bytes of a large page; the smallest block that asks for such pages. */
-enum { HEAP_STEP = 16 << 20, PAGE = 1 << 21, LARGE = 1 << 16 };
+enum { HEAP_STEP = 64 << 20, PAGE = 1 << 21, LARGE = 1 << 16 };
 
 /* Where large pages were asked for last, so that blocks that lie there do not ask again. Any thread may see
  * the ends of two different requests: then one is made that is not needed, or pages stay small. */
 static atomic_uintptr_t asked[2];
 
-/* Blocks up to 1 GiB come from the heap, and the heap is not returned to the system. It grows by 16 MiB at a
+/* Blocks up to 1 GiB come from the heap, and the heap is not returned to the system. It grows by 64 MiB at a
  * time, and the first of these, where the small blocks of a run lie, are asked for in large pages: a page is
  * given when it is touched first, and a large one costs as much as some ten small ones of its five hundred. */
 void pg_memory_keep (void)
@@ -35,17 +36,20 @@ void pg_memory_keep (void)
 #endif
 }
 
-/* The request covers all large pages that the block touches, and those that the heap will grow into: what
- * lies there profits too. A part that is not mapped makes madvise report a fault, but it has then done the
- * rest; whether pages are granted is the system's affair, so that the answer is not looked at. */
+/* The request covers all large pages that the block touches, and what the heap has behind it: the small blocks
+ * there profit too. What it grows by later asks again. Whether pages are granted is the system's affair, so
+ * that the answer is not looked at. */
 void pg_memory_large (void *block, size_t bytes)
 {
 #if defined (MADV_HUGEPAGE)
-    const uintptr_t at = (uintptr_t) block, page = PAGE, ahead = bytes > HEAP_STEP ? bytes : HEAP_STEP,
-                    first = at & ~(page - 1), end = (at + ahead + page - 1) & ~(page - 1);
-    if (bytes < LARGE || (at >= atomic_load (&asked[0]) && at + bytes <= atomic_load (&asked[1]))) return;
+    if (bytes < LARGE) return;
+    const uintptr_t at = (uintptr_t) block, page = PAGE, top = (uintptr_t) sbrk (0);
+    uintptr_t first = at & ~(page - 1), end = at + bytes;
+    if (at >= atomic_load (&asked[0]) && end <= atomic_load (&asked[1])) return;
+    /* the rest of the heap, which mostly is what it has just grown by */
+    if (at < top && top - at < bytes + 2 * (uintptr_t) HEAP_STEP) end = top;
     atomic_store (&asked[0], first), atomic_store (&asked[1], end);
-    (void) madvise ((void *) first, end - first, MADV_HUGEPAGE);
+    (void) madvise ((void *) first, ((end + 4095) & ~(uintptr_t) 4095) - first, MADV_HUGEPAGE);
 #else
     (void) block, (void) bytes;
 #endif
