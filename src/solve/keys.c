@@ -55,8 +55,8 @@ static const pg_key linear[] = {
       "Linear solver; auto: the first, or one for indefinite matrices where K is not positive definite." },
     ROW ("solver.preconditioner", PG_NAME, NULL, NULL, "auto", "auto|jacobi|multilevel",
          "Of conjugate gradients without a matrix: the diagonal (jacobi), or grids of partition-of-unity "
-         "functions over the points, split by cracks (multilevel: static problems with forces that provide "
-         "the rows of K); auto: multilevel where possible."),
+         "functions over the points, split by cracks (multilevel: forces that provide the rows of K, static; "
+         "galerkin: by finite elements on the points); auto: multilevel where possible."),
 };
 const pg_key_table solver_keys_linear = { "solve", linear, sizeof linear / sizeof *linear };
 

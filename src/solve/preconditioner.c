@@ -135,7 +135,8 @@ pg_status system_make_preconditioner (pg_system *s)
     double t0 = pg_seconds ();
     int can;
     system_forget_preconditioner (s);
-    PG_TRY (system_can_precondition (s, NULL, &can));  /* finds what constraints leave, also in a resumed run */
+    /* finds what constraints leave, also in a resumed run */
+    PG_TRY (system_can_precondition (s, NULL, &can));
     PG_TRY (s->force->elements ? make_by_elements (s) : make_by_rows (s));
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;
