@@ -173,6 +173,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
             PG_TRY (b->watch (b->watching, state, step));
             b->stopped = 0;
         }
+        s->begins = step->iterations == 0;
         PG_TRY (system_solve (s, t, d, dyn, &step->residual));
         /* later rounds: loads and goals stay */
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));

@@ -223,6 +223,7 @@ static pg_status keep_preconditioner (pg_system *s, int solves, long factored, c
     PG_KEEP_BOUND (k, "the multilevel preconditioner", made, 0, can ? 1 : 0);
     PG_KEEP_BOUND (k, "a factor of the bonds", made ? 0 : factored, 0, system_has_matrix (s) ? 1 : 0);
     PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
+    PG_TRY (k->numbers (k->context, "system.made", 2, s->made));
     PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
     if (k->reading) s->remake = made != 0;
     if (k->reading && factored && !s->factored) PG_ALLOC (s->factored, nbond);
@@ -245,7 +246,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
     PG_KEEP_BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED,
-           !system_has_matrix (s) && count[0] != SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_NO_FACTOR);
+           !system_has_matrix (s) && count[0] < SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_DIAGONAL);
     PG_KEEP_BOUND (k, "a kept factor", count[4], count[0] == SYSTEM_KEPT_FACTOR, solves ? 1 : 0);
     PG_KEEP_BOUND (k, "the base of events", count[8], 0, count[4]);
     PG_KEEP_BOUND (k, "whether parts are loose", count[9], 0, 1);
@@ -260,6 +261,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
         s->indefinite = 1;
     }
     PG_TRY (keep_preconditioner (s, solves, count[4], k));
+    PG_TRY (system_guess_keep (s, k));
     s->stale = (int) count[5];
 done:
     return status;
@@ -320,13 +322,13 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     /* Making caches counts factorisations and solves; the report must not show those that the first run
      * did not make, only their seconds. */
     pg_statistics counts = s->report;
-    int stale = sys->stale;
+    int stale = sys->stale, fresh = sys->guess.fresh;
     unsigned char *alive = state->alive;
     double extra_cost = sys->extra_cost, pace = sys->pace;
     if (sys->remake && sys->factored) {
         state->alive = sys->factored;
         status = system_refresh (sys, state, NULL);
-        if (status == PG_OK) status = system_make_preconditioner (sys);
+        if (status == PG_OK) status = system_make_preconditioner (sys, sys->made[0], sys->made[1]);
         state->alive = alive;
         PG_TRY (status);
         sys->extra_cost = extra_cost, sys->pace = pace, sys->remake = 0;
@@ -339,7 +341,7 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
         PG_TRY (status);
     } else stale = 1;
     PG_TRY (system_refresh (sys, state, NULL));
-    sys->stale = stale;
+    sys->stale = stale, sys->guess.fresh = fresh;
     memcpy (counts.seconds, s->report.seconds, sizeof counts.seconds);
     s->report = counts;
 done:

@@ -121,7 +121,8 @@ pg_status system_choose (pg_system *s, const dynamics *dyn)
                                        "tells the rows of K, with supports on points: the diagonal instead "
                                        "where there is no factor");
     s->mode = SYSTEM_FACTOR;
-    if (!system_has_matrix (s) || (!s->linear->factors && operates)) s->mode = SYSTEM_NO_FACTOR;
+    if (!system_has_matrix (s) || (!s->linear->factors && operates))
+        s->mode = dyn && can ? SYSTEM_TRIAL : SYSTEM_NO_FACTOR;
     else if (automatic && dyn) s->mode = SYSTEM_TRIAL;
     else if (automatic && (by_bond_loops (s, can) || by_elements (s, can))) {
         s->mode = SYSTEM_NO_FACTOR;

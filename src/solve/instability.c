@@ -100,7 +100,7 @@ static void enter (pg_solver *s, instability *u, int phase)
     u->phase = phase;
     set_scheme (s, u);
     int mode = u->mode[phase == PHASE_RUNNING];
-    if (phase == PHASE_SETTLING && mode != SYSTEM_NO_FACTOR) mode = SYSTEM_FACTOR;
+    if (phase == PHASE_SETTLING && mode < SYSTEM_NO_FACTOR) mode = SYSTEM_FACTOR;
     system_switch (sys, mode);
 }
 
@@ -377,7 +377,7 @@ pg_status instability_keep (pg_solver *s, instability *u, const pg_keeper *k)
     PG_KEEP_BOUND (k, "the phase of a motion", count[0], PHASE_REST, dynamic ? PHASE_SETTLING : PHASE_REST);
     PG_KEEP_BOUND (k, "a step of settling", count[3], 0, MOST_SETTLING);
     for (int i = 4; i < 6; i++)
-        PG_KEEP_BOUND (k, "the way to solve", count[i], SYSTEM_UNDECIDED, SYSTEM_NO_FACTOR);
+        PG_KEEP_BOUND (k, "the way to solve", count[i], SYSTEM_UNDECIDED, SYSTEM_DIAGONAL);
     u->phase = (int) count[0], u->held = (int) count[1], u->count = count[2], u->settling = count[3];
     u->mode[0] = (int) count[4], u->mode[1] = (int) count[5];
     u->time = number[0], u->last_break = number[1];

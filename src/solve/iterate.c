@@ -23,14 +23,17 @@ static void apply_combined (void *context, const double *x, double *y)
     if (c->T) pg_sparse_multiply_transposed (c->T, z, y);
 }
 
-/* With T: of T' diag (k K + m M) T, which preconditions as well. */
+/* With T: of T' diag (k K + m M) T, which preconditions as well. Where the mass dominates, the diagonal of
+ * the first K does as well, and need not be summed over all bonds again after each break. */
 static void diagonal_combined (void *context, double *d)
 {
     const combined *c = context;
     pg_system *s = c->s;
     const pg_operator *op = s->force->operator_ (s->self);
     double *z = c->T ? s->scratch : d;
-    op->diagonal (op->context, z);
+    if (c->dyn && s->mode == SYSTEM_DIAGONAL && !s->options->plain)
+        memcpy (z, s->diagonal0, s->ndof * sizeof *z);
+    else op->diagonal (op->context, z);
     for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] *= c->dyn->k;
     if (c->dyn) system_add_mass_diagonal (s, c->dyn->m, z);
     for (size_t j = 0; c->T && j < s->nred; j++) {

@@ -61,14 +61,15 @@ done:
 }
 
 /* Static systems of forces that know the rows of K, with supports that prescribe single unknowns; systems of
- * forces with finite elements. */
+ * forces with finite elements, in motion too. */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     *can = 0;
-    if ((!s->force->couplings && !s->force->elements) || !s->force->operator_ || dyn
-        || strcmp (s->options->preconditioner, "jacobi") == 0 || (s->force->elements && s->options->plain))
+    if ((!s->force->couplings && !s->force->elements) || !s->force->operator_
+        || (dyn && !s->force->elements) || strcmp (s->options->preconditioner, "jacobi") == 0
+        || (s->force->elements && s->options->plain))
         return PG_OK;
     if (s->fixed) {
         *can = s->precondition;
@@ -115,13 +116,19 @@ done:
     return status;
 }
 
-static pg_status make_by_elements (pg_system *s)
+/* In motion the elements have the matrix k K + m M, with the mass of the displacements lumped: patterns of
+ * unknowns that hardly move the nodes have less of it than here, and no stiffness either. */
+static pg_status make_by_elements (pg_system *s, double k, double m)
 {
     pg_status status = PG_OK;
     pg_elements elements = { 0 };
     pg_element_setting setting = { .dim = s->problem->dim, .x = s->problem->cloud.x,
                                    .fixed = s->own_row ? s->fixed : NULL };
     PG_TRY (s->force->elements (s->self, &elements));
+    pg_block_matrix *Q = &elements.Q;
+    size_t entries = Q->start[Q->n] * (size_t) (Q->block * Q->block);
+    for (size_t q = 0; k != 1 && q < entries; q++) Q->value[q] = (float) (k * Q->value[q]);
+    for (size_t i = 0; m != 0 && i < s->ndof; i++) pg_block_add_diagonal (Q, i, m * s->mass[i]);
     PG_TRY (pg_element_preconditioner_create (&s->elements, &elements, &setting));
 done:
     pg_elements_clear (&elements);
@@ -129,7 +136,7 @@ done:
 }
 
 /* Made of the bonds that live now; what it costs is counted as a factor would be. */
-pg_status system_make_preconditioner (pg_system *s)
+pg_status system_make_preconditioner (pg_system *s, double k, double m)
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
@@ -137,9 +144,10 @@ pg_status system_make_preconditioner (pg_system *s)
     system_forget_preconditioner (s);
     /* finds what constraints leave, also in a resumed run */
     PG_TRY (system_can_precondition (s, NULL, &can));
-    PG_TRY (s->force->elements ? make_by_elements (s) : make_by_rows (s));
+    PG_TRY (s->force->elements ? make_by_elements (s, k, m) : make_by_rows (s));
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;
+    s->made[0] = k, s->made[1] = m;
     tell (s);
     PG_TRY (system_remember_alive (s));
 done:
@@ -191,14 +199,17 @@ pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, doub
     pg_status status = PG_OK;
     size_t used = 0;
     long made = s->report->preconditioners;
+    double k = dyn ? dyn->k : 1, m = dyn ? dyn->m : 0;
     system_remember_diagonal (s, NULL);
-    if (!system_has_preconditioner (s) || s->extra_cost > RENEWAL) PG_TRY (system_make_preconditioner (s));
+    int other = fabs (m * s->made[0] - s->made[1] * k) > 0.3 * fmax (m * s->made[0], s->made[1] * k);
+    if (!system_has_preconditioner (s) || s->extra_cost > RENEWAL || other)
+        PG_TRY (system_make_preconditioner (s, k, m));
     else s->spared += s->stale;
     strcpy (s->report->solver, "cg");
     pg_status now = iterate (s, dyn, tolerance, &used);
     /* made before the last break: once more */
     if ((now == PG_E_EQUILIBRIUM || now == PG_E_NOT_SPD) && s->report->preconditioners == made) {
-        PG_TRY (system_make_preconditioner (s));
+        PG_TRY (system_make_preconditioner (s, k, m));
         now = iterate (s, dyn, tolerance, &used);
     }
     PG_TRY (now);

@@ -168,6 +168,29 @@ static int by_factor_at_hand (const pg_system *s, const dynamics *dyn)
            || (s->mode == SYSTEM_KEPT_FACTOR && !s->stale && !dyn);
 }
 
+/* 1: the state to be solved for begins a step of a motion that is solved by iterations. */
+static int guesses (const pg_system *s, const dynamics *dyn)
+{
+    return dyn && s->begins && !s->options->plain && s->mode != SYSTEM_FACTOR;
+}
+
+/* The prediction of the scheme is improved by what the last steps have learnt of it, and measured again. */
+static pg_status improve (pg_system *s, double t, double *d, const dynamics *dyn, double *r)
+{
+    pg_status status = PG_OK;
+    double before = *r;
+    int used;
+    PG_TRY (system_guess (s, dyn, d, &used));
+    if (used == 0) goto done;
+    PG_TRY (system_residual (s, t, d, dyn, r));
+    if (*r > before) {
+        system_guess_undo (s, d);
+        PG_TRY (system_residual (s, t, d, dyn, r));
+    }
+done:
+    return status;
+}
+
 /* Iterative refinement: solve, add, measure, by forces of the force itself. It ends when the residual is
  * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
  * half; then the state is judged. */
@@ -180,6 +203,7 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
     for (int k = 0; k <= MOST_REFINEMENTS; k++) {
         PG_TRY (system_residual (s, t, d, dyn, &r));
+        if (k == 0 && guesses (s, dyn)) PG_TRY (improve (s, t, d, dyn, &r));
         s->known = 1;
         if (k > 1 && r > last) {                       /* the last refinement made it worse: take it back */
             memcpy (d, s->best, s->ndof * sizeof *d);
@@ -197,11 +221,13 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
         if (T) pg_sparse_multiply (T, s->delta, s->full);
         const double *step = T ? s->full : s->delta;
         for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];
+        if (guesses (s, dyn)) system_guess_add (s, step);
         if (k > 0) restless = restlessness (s, step, d);
         s->known = accept_carried (s, &r);
         if (s->known) break;
     }
     PG_TRY (judge (s, d, dyn, r, restless, residual));
+    if (guesses (s, dyn)) system_guess_learn (s);
 done:
     return status;
 }

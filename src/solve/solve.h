@@ -20,7 +20,16 @@ typedef struct pg_dynamics {                           /* what inertia and dampi
 } dynamics;
 
 /* How the linear systems are solved; TRIAL: not known yet, a few iterations are tried first. */
-enum { SYSTEM_UNDECIDED, SYSTEM_TRIAL, SYSTEM_FACTOR, SYSTEM_KEPT_FACTOR, SYSTEM_NO_FACTOR };
+enum {
+    SYSTEM_UNDECIDED, SYSTEM_TRIAL, SYSTEM_FACTOR, SYSTEM_KEPT_FACTOR, SYSTEM_NO_FACTOR,
+    SYSTEM_DIAGONAL                                    /* no factor, and no better preconditioner either */
+};
+
+/* Corrections x of the last steps and what they changed in the residual, y (first_guess.c): rings of
+ * GUESS_PAIRS + 1 vectors of ndof, of which the last n before `next` are complete. fresh: K is that of all
+ * y. */
+enum { GUESS_PAIRS = 5 };
+typedef struct { double *x, *y; int n, next, fresh; } pg_guess;
 
 typedef struct {
     const pg_problem    *problem;
@@ -57,12 +66,15 @@ typedef struct {
     double    extra_cost;
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
     pg_element_preconditioner *elements;               /* the same */
+    double    made[2];                                 /* k and m of the preconditioner */
     int      *own_row;  /* unknown that each reduced one is (nred); with elements only */
     unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
     int       precondition;  /* with `fixed`: the constraints allow a preconditioner of several levels */
     int       remake;  /* read back: the preconditioner is to be made from `factored` */
     double    pace;  /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
+    pg_guess  guess;
+    int       begins;                                  /* the state to be solved for begins a step */
     int       carried;  /* `residual` went with the last iterations to the state that they lead to */
     int       known;                                   /* `residual` is that of the state last solved for */
     long      unmeasured;                              /* states accepted by carried residuals, in this run */
@@ -95,11 +107,19 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
 /* The same by conjugate gradients with a preconditioner of several levels, by the rows of K (multilevel; K
  * alone) or by finite elements, made when needed (preconditioner.c). */
 pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, double tolerance);
-pg_status system_make_preconditioner (pg_system *s);  /* from the last refresh */
+/* Of k K + m M, from the last refresh. */
+pg_status system_make_preconditioner (pg_system *s, double k, double m);
 void      system_forget_preconditioner (pg_system *s);
 int       system_has_preconditioner (const pg_system *s);
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
 pg_status system_remember_alive (pg_system *s);        /* in `factored` */
+pg_status system_guess       (pg_system *s, const dynamics *dyn, double *d, int *used);
+void      system_guess_undo  (pg_system *s, double *d);
+void      system_guess_add   (pg_system *s, const double *step);
+void      system_guess_learn (pg_system *s);
+void      system_guess_free  (pg_system *s);
+pg_status system_guess_ready (pg_system *s);
+pg_status system_guess_keep  (pg_system *s, const pg_keeper *k);
 /* One solve for `delta` from `reduced`, by the way that was chosen or is chosen now (system.c). */
 pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance);
 /* d becomes the equilibrium at t (refinement.c); *residual relative to the reference force.

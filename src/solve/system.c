@@ -13,6 +13,7 @@
 void system_free (pg_system *s)
 {
     if (s->factor) s->linear->free (&s->factor);
+    system_guess_free (s);
     system_forget_preconditioner (s);
     if (s->force && s->self) s->force->free (&s->self);
     if (s->copy) pg_sparse_clear (&s->A);
@@ -100,7 +101,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     if (!changes && !s->marked) mark_touched (s, state), s->marked = 1;
     s->alive = state->alive;
     unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
-    if (now != s->revision) s->stale = 1;
+    if (now != s->revision) s->stale = 1, s->guess.fresh = 0;
     else s->kept++;
     s->revision = now;
     s->report->updates += changes != NULL;
@@ -112,7 +113,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
  * is no preconditioner of the new one: its next use makes a new one. */
 void system_switch (pg_system *s, int mode)
 {
-    s->mode = mode, s->stale = 1;
+    s->mode = mode, s->stale = 1, s->guess.n = 0;
     s->extra_cost = mode == SYSTEM_KEPT_FACTOR ? 1e300 : 0;
     system_forget_preconditioner (s);
     s->remake = 0;
@@ -381,6 +382,7 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
     size_t used = 0, limit = 20 * s->ndof + 1000;
     int can;
     PG_TRY (system_can_precondition (s, dyn, &can));
+    can = can && s->mode != SYSTEM_DIAGONAL;
     if (can) {
         pg_status now = system_iterate_preconditioned (s, dyn, tolerance);
         if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) return now;
@@ -399,6 +401,23 @@ done:
     return status;
 }
 
+/* Solids of fewer unknowns are factored in motion, where one factor serves many steps. */
+enum { LEAST_IN_MOTION = 15000 };
+
+/* Where the diagonal does, it stays. Else large solids take finite elements, as at rest, and so does what has
+ * no matrix to be factored. */
+static pg_status after_trial (pg_system *s, const dynamics *dyn, int did)
+{
+    pg_status status = PG_OK;
+    int can, factors = system_has_matrix (s) && s->linear->factors;
+    PG_TRY (system_can_precondition (s, dyn, &can));
+    s->mode = did ? (can ? SYSTEM_DIAGONAL : SYSTEM_NO_FACTOR)
+              : can && (!factors || (s->problem->dim == 3 && s->ndof > LEAST_IN_MOTION)) ? SYSTEM_NO_FACTOR
+                                                                                          : SYSTEM_FACTOR;
+done:
+    return status;
+}
+
 /* One linear solve by the way that was chosen; a trial decides between iterations and a factor. */
 pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance)
 {
@@ -408,14 +427,15 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
     if (s->mode == SYSTEM_TRIAL) {
         pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, FEW_ITERATIONS, &used);
         if (now != PG_OK && now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
-        s->mode = now == PG_OK ? SYSTEM_NO_FACTOR : SYSTEM_FACTOR;
+        PG_TRY (after_trial (s, dyn, now == PG_OK));
         if (now == PG_OK) {
             tell_small_step (s, used);
             goto done;
         }
         memset (s->delta, 0, s->nred * sizeof *s->delta);
     }
-    if (s->mode == SYSTEM_NO_FACTOR) PG_TRY (solve_without_factor (s, dyn, tolerance));
+    if (s->mode == SYSTEM_NO_FACTOR || s->mode == SYSTEM_DIAGONAL)
+        PG_TRY (solve_without_factor (s, dyn, tolerance));
     if (s->mode == SYSTEM_KEPT_FACTOR) PG_TRY (solve_by_kept_factor (s, dyn, tolerance));
     else if (s->mode == SYSTEM_FACTOR) PG_TRY (solve_by_factor (s, dyn));
 done:
