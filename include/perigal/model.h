@@ -287,6 +287,8 @@ pg_status pg_state_create (pg_state **out, const pg_problem *problem, int compon
 pg_status pg_state_copy   (pg_state *to, const pg_state *from);
 /* All but the alive bits, of a copy whose caller knows which of them differ. */
 pg_status pg_state_copy_fields (pg_state *to, const pg_state *from);
+/* Alive bits at the start of the bonds of one point of a set: 0 where a pre-crack cuts. */
+void      pg_bonds_cut_at (const pg_problem *problem, int set, size_t point, unsigned char *alive);
 void      pg_state_free   (pg_state **state);
 /* The cracks that exist in a state (NULL: at the start), for all who ask whether one lies between two
  * places: bonds, sampling, gauges, pictures. Damage is not among them. */

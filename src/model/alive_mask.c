@@ -41,23 +41,23 @@ static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
 
 /* The mask at the start of a run: 0 where the segment of a bond meets a pre-crack. The bond of a point with
  * itself is never cut. */
-void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
+void pg_bonds_cut_at (const pg_problem *p, int set, size_t q, unsigned char *alive)
 {
     const pg_cracks *cracks = pg_state_cracks (p, NULL);
-    size_t dim = (size_t) p->dim;
-    for (int s = 0; s < PG_BOND_SETS; s++) {
-        const pg_rows *rows = &p->rows[s];
-        for (size_t q = 0; q < rows->n; q++) {
-            size_t first = rows->family.start[q], m = rows->family.start[q + 1] - first;
-            unsigned char *mine = alive + p->first_bond[s] + first;
-            memset (mine, 1, m);
-            if (!may_be_cut (p, rows, q)) continue;
-            for (size_t e = 0; e < m; e++) {
-                int j = rows->family.node[first + e];
-                mine[e] = j == rows->own[q] || !pg_cracks_cut (cracks, p->dim, rows->x + q * dim,
-                                                              p->cloud.x + (size_t) j * dim,
-                                                              1e-9 * p->cloud.h);
-            }
-        }
+    const pg_rows *rows = &p->rows[set];
+    size_t dim = (size_t) p->dim, first = rows->family.start[q], m = rows->family.start[q + 1] - first;
+    memset (alive, 1, m);
+    if (!may_be_cut (p, rows, q)) return;
+    for (size_t e = 0; e < m; e++) {
+        int j = rows->family.node[first + e];
+        alive[e] = j == rows->own[q] || !pg_cracks_cut (cracks, p->dim, rows->x + q * dim,
+                                                       p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
     }
+}
+
+void pg_bonds_cut (const pg_problem *p, unsigned char *alive)
+{
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        for (size_t q = 0; q < p->rows[s].n; q++)
+            pg_bonds_cut_at (p, s, q, alive + p->first_bond[s] + p->rows[s].family.start[q]);
 }

@@ -114,14 +114,15 @@ static int spreads (const pg_cloud *cloud, int axis, double *work)
 {
     double step = cloud->step[axis] > 0 ? cloud->step[axis] : cloud->h, c = 0, s = 0;
     size_t own = 1, n = cloud->n;
-    if (!(step > 0)) return 0;
+    if (!(step > 0) || cloud->regular) return 0;
     for (size_t i = 0; i < n; i++) {
         work[i] = cloud->x[2 * i + (size_t) axis];
         c += cos (6.283185307179586 * work[i] / step), s += sin (6.283185307179586 * work[i] / step);
     }
+    if (hypot (c, s) >= 0.3 * (double) n) return 0;
     qsort (work, n, sizeof *work, ascending);
     for (size_t i = 1; i < n; i++) own += work[i] - work[i - 1] > 1e-6 * step;
-    return hypot (c, s) < 0.3 * (double) n && 3 * own > n;
+    return 3 * own > n;
 }
 
 /* The spacing about a point follows from its volume, compared with the median volume. */

@@ -11,8 +11,9 @@
  * and parallel or smeared cracks count as often as they are. */
 #include "results_private.h"
 #include <math.h>
+#include <string.h>
 
-/* Area of what has broken at one point of a bond set since `before`, m2. */
+/* Area of what has broken at one point of a bond set since `before` (of its own bonds), m2. */
 static double area_of (const pg_problem *p, int set, size_t i, double volume, const unsigned char *before,
                        const unsigned char *now)
 {
@@ -27,19 +28,20 @@ static double area_of (const pg_problem *p, int set, size_t i, double volume, co
             square += xi * xi;
         }
         sum += sqrt (square);
-        broken += before[p->first_bond[set] + b] && !now[p->first_bond[set] + b];
+        broken += before[b - f->start[i]] && !now[p->first_bond[set] + b];
     }
     return sum > 0 ? volume * (double) broken / (mean[dim] * sum) : 0;
 }
 
 /* Uses the bonds of evaluation points where there are some, else those of the points
- * themselves. The state at the start, with the pre-cracks cut, is built anew. A run does not
- * fail for want of memory for this estimate. */
+ * themselves. What pre-cracks cut at the start is found anew for points with dead bonds. A run
+ * does not fail for want of memory for this estimate. */
 pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
-    pg_state *start = NULL;
+    unsigned char *start = NULL;
+    size_t widest = 0;
     int set = p->rows[PG_POINTS].n ? PG_POINTS : PG_NODES;
     double area = 0;
     r->crack = (result_crack) { .length = NAN, .dissipated = NAN };
@@ -51,14 +53,21 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
         return PG_OK;
     }
     if (!p->criterion->type || state->broken == 0) return PG_OK;
-    if (pg_state_create (&start, p, pg_solver_components (r->solver)) != PG_OK) return PG_OK;
+    const size_t *first = p->rows[set].family.start;
     for (size_t i = 0; i < p->rows[set].n; i++)
-        area += area_of (p, set, i, set == PG_NODES ? p->cloud.volume[i] : p->rows[set].weight[i],
-                         start->alive, state->alive);
+        widest = first[i + 1] - first[i] > widest ? first[i + 1] - first[i] : widest;
+    start = pg_calloc (widest + 1, 1);
+    if (!start) return PG_OK;
+    for (size_t i = 0; i < p->rows[set].n; i++) {
+        if (!memchr (state->alive + p->first_bond[set] + first[i], 0, first[i + 1] - first[i])) continue;
+        pg_bonds_cut_at (p, set, i, start);
+        area += area_of (p, set, i, set == PG_NODES ? p->cloud.volume[i] : p->rows[set].weight[i], start,
+                         state->alive);
+    }
     r->crack.found = area > 0;
     r->crack.area = area;
     if (p->dim == 2) r->crack.length = area / p->cloud.thickness;
     if (area > 0) r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / area;
-    pg_state_free (&start);
+    pg_free (start);
     return status;
 }
