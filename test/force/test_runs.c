@@ -21,7 +21,7 @@ static const char *const bodies[] = {
     "materials: {" ROCK "}\nboundary: [{set: left, displacement: {x: 1 mm, y: 0}}]\n",
     "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1.7 m, 0.4 m, 0.4 m]}}}]\nspacing: 0.1 m\n"
     "materials: {" ROCK ", soft: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\n"
-    "blocks: [{where: z > -1, material: rock}, {where: z > 0.2, material: soft}]\n"
+    "blocks: [{where: z > -1, material: rock}, {where: x > 0.8, material: soft}]\n"
     "boundary: [{set: left, displacement: {x: 1 mm, y: 0, z: 0}}]\n",
 };
 static const char *const methods[] = {
