@@ -17,13 +17,10 @@
  * so that every node that anything sees has a stiffness: elements that were only left out where they are cut
  * would leave nodes beside a crack without any. Supports: constraints of Nitsche's method become springs at
  * the node nearest to each facet point, penalties springs at their node. */
-#include "galerkin.h"
+#include "galerkin_elements.h"
 #include <math.h>
 #include <string.h>
 
-/* Nodes of an element around a point: within this many spacings; by `wider` farther until there are
- * enough. */
-static const double near_by = 1.45, wider = 0.3;
 /* Share of Nitsche's factor that the springs of the facet points get: between 0.25 and 0.5 iterations are
  * fewest (measured). */
 static const double spring_share = 0.3;
@@ -33,234 +30,6 @@ static const double deviation = 8, least_spread = 0.02;
 /* Row of N at nodes that lost bonds: this share of it and the rest of the unit row (measured: 1 and 0 need
  * 1.4 and 2.5 times the iterations). */
 static const double row_share = 0.85;
-
-enum { MOST_NODES = 64, NO_CELL = -1 };
-
-/* The elements while they are listed: nodes of each, the evaluation point or cell it belongs to, and the
- * share of the weight of the point. */
-typedef struct {
-    galerkin *g;
-    pg_adjacency list;
-    size_t cap_start, cap_node, cap_of, cap_cell, cap_weight;
-    size_t *of;                                        /* point, or cell */
-    int    *cell;                                      /* kind of element, NO_CELL: of a point */
-    double *weight;                                    /* of the point */
-    double *rest;                                      /* nodal: volume that no whole cell has taken (n) */
-    double  reach;
-    double *K, *last;                                  /* matrix of an element; of the last whole cell */
-    double  shape[MOST_NODES * 3]; int shape_kind; const pg_material *shape_material;
-} builder;
-
-/* ---- which nodes --------------------------------------------------------------------------------------- */
-static double distance2 (int dim, const double *a, const double *b)
-{
-    double s = 0;
-    for (int k = 0; k < dim; k++) s += (a[k] - b[k]) * (a[k] - b[k]);
-    return s;
-}
-
-static const double *place (const galerkin *g, int node)
-{
-    return g->problem->cloud.x + (size_t) node * (size_t) g->dim;
-}
-
-/* Where node j stands in the family of point p; SIZE_MAX: nowhere. */
-static size_t entry_of (const pg_rows *r, size_t p, int j)
-{
-    size_t low = r->family.start[p], high = r->family.start[p + 1];
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (r->family.node[middle] < j) low = middle + 1;
-        else high = middle;
-    }
-    return low < r->family.start[p + 1] && r->family.node[low] == j ? low : SIZE_MAX;
-}
-
-/* Is entry e of point p a broken bond? Beyond the support of a node and on its edge there is no influence
- * either. */
-static int broken (const galerkin *g, const pg_rows *r, size_t p, size_t e)
-{
-    int j = r->family.node[e];
-    double support = 0.999 * g->problem->approx.horizon * pg_cloud_ratio (&g->problem->cloud, (size_t) j);
-    return !(r->w[e] > 0) && r->own[p] != j
-           && distance2 (g->dim, r->x + p * (size_t) g->dim, place (g, j)) < support * support;
-}
-
-/* The node nearest to x among those that point p sees, *d2 its squared distance. */
-static int nearest_seen (const galerkin *g, const pg_rows *r, size_t p, const double *x, double *d2)
-{
-    int best = -1;
-    *d2 = INFINITY;
-    for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-        double d = distance2 (g->dim, x, place (g, r->family.node[e]));
-        if (d < *d2) *d2 = d, best = r->family.node[e];
-    }
-    return best;
-}
-
-/* The evaluation point first .. last - 1 that is nearest to x. */
-static size_t nearest_point (const galerkin *g, const pg_rows *r, size_t first, size_t last, const double *x)
-{
-    size_t best = first;
-    double least = INFINITY;
-    for (size_t p = first; p < last; p++) {
-        double d = distance2 (g->dim, x, r->x + p * (size_t) g->dim);
-        if (d < least) least = d, best = p;
-    }
-    return best;
-}
-
-/* The nodes at the places of the first m nodes of a cell; 0: some have none of their own within 0.6
- * spacings. points first .. last - 1 are those of the cell. */
-static int find_nodes (const galerkin *g, size_t cell, size_t m, size_t first, size_t last, int *node)
-{
-    const pg_rows *r = &g->rows[g->bulk];
-    const pg_cells *c = &g->problem->cells;
-    for (size_t k = 0; k < m; k++) {
-        const double *x = c->x + (c->start[cell] + k) * (size_t) g->dim;
-        double d2;
-        size_t p = nearest_point (g, r, first, last, x);
-        node[k] = nearest_seen (g, r, p, x, &d2);
-        double h = 0.6 * pg_problem_spacing (g->problem, g->bulk, p);
-        if (node[k] < 0 || d2 > h * h) return 0;
-        for (size_t i = 0; i < k; i++) if (node[i] == node[k]) return 0;
-    }
-    return 1;
-}
-
-/* Has a point of the cell lost sight of one of its m nodes? */
-static int separated (const galerkin *g, size_t m, const int *node, size_t first, size_t last)
-{
-    const pg_rows *r = &g->rows[g->bulk];
-    for (size_t p = first; p < last; p++) {
-        if (r->grade[p] >= PG_GRADE_SHEPARD) return 1;
-        for (size_t k = 0; k < m; k++) {
-            size_t e = entry_of (r, p, node[k]);
-            if (e != SIZE_MAX && broken (g, r, p, e)) return 1;
-        }
-    }
-    return 0;
-}
-
-/* The kind of element with the same corners and straight edges. */
-static pg_element straight (pg_element kind)
-{
-    for (int k = 0; k < PG_ELEMENTS; k++)
-        if (pg_element_types[k].dim == pg_element_types[kind].dim && pg_element_types[k].order == 1
-            && pg_element_types[k].nodes == pg_element_types[kind].corners)
-            return (pg_element) k;
-    return kind;
-}
-
-/* The cell as an element: its kind, and its nodes in the order of that kind; NO_CELL: it is none. A cell
- * that the surface cuts has the corners of the box. */
-static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last, int *node)
-{
-    static const pg_element box[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
-    int kind = g->problem->cells.kind[cell];
-    if (first == last) return NO_CELL;
-    if (kind == PG_CUT) kind = (int) box[g->dim];
-    if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) {
-        kind = (int) straight ((pg_element) kind);
-        if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) return NO_CELL;
-    }
-    return separated (g, (size_t) pg_element_types[kind].nodes, node, first, last) ? NO_CELL : kind;
-}
-
-/* Nodes that point p still sees near by, itself where it is a node. */
-static size_t near_nodes (const galerkin *g, size_t p, int *node)
-{
-    const pg_rows *r = &g->rows[g->bulk];
-    size_t enough = (size_t) g->dim + 2, m = 0, seen = 0;
-    double h = pg_problem_spacing (g->problem, g->bulk, p), reach = near_by * h;
-    const double *x = r->x + p * (size_t) g->dim;
-    for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
-        seen += r->w[e] > 0 || r->family.node[e] == r->own[p];
-    for (;; reach += wider * h) {
-        m = 0;
-        for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && m < MOST_NODES; e++)
-            if ((r->w[e] > 0 || r->family.node[e] == r->own[p])
-                && distance2 (g->dim, x, place (g, r->family.node[e])) <= reach * reach)
-                node[m++] = r->family.node[e];
-        if (m >= enough || m >= seen || m == MOST_NODES) break;
-    }
-    return m;
-}
-
-/* ---- the list ------------------------------------------------------------------------------------------ */
-static pg_status append (builder *b, size_t of, int kind, double weight, size_t m, const int *node)
-{
-    pg_status status = PG_OK;
-    pg_adjacency *l = &b->list;
-    if (m == 0) return PG_OK;
-    if (!l->start) {
-        PG_GROW (l->start, b->cap_start, 1);
-        l->start[0] = 0;
-    }
-    PG_GROW (l->start, b->cap_start, l->n + 2);
-    PG_GROW (l->node, b->cap_node, l->start[l->n] + m);
-    PG_GROW (b->of, b->cap_of, l->n + 1);
-    PG_GROW (b->cell, b->cap_cell, l->n + 1);
-    PG_GROW (b->weight, b->cap_weight, l->n + 1);
-    memcpy (l->node + l->start[l->n], node, m * sizeof *node);
-    b->of[l->n] = of, b->cell[l->n] = kind, b->weight[l->n] = weight;
-    l->start[l->n + 1] = l->start[l->n] + m;
-    l->n++;
-    /* no two nodes of it are further apart than twice the farthest from the first */
-    for (size_t k = 1; k < m; k++)
-        for (size_t i = 0; i < k; i++)
-            b->reach = fmax (b->reach, distance2 (b->g->dim, place (b->g, node[i]), place (b->g, node[k])));
-done:
-    return status;
-}
-
-static pg_status append_point (builder *b, size_t p, double weight)
-{
-    int node[MOST_NODES];
-    return append (b, p, NO_CELL, weight, near_nodes (b->g, p, node), node);
-}
-
-/* Share of a cell that the surface cuts which lies in the body. */
-static double share_of (const galerkin *g, size_t cell)
-{
-    const pg_cells *c = &g->problem->cells;
-    double whole = c->thickness;
-    if (c->kind[cell] != PG_CUT) return 1;
-    for (int k = 0; k < g->dim; k++) whole *= g->problem->lattice.step[k];
-    return fmin (1, c->volume[cell] / whole);
-}
-
-/* Cells with Gauss points: whole, or point by point. Points of a cell follow one another. */
-static pg_status list_cells (builder *b)
-{
-    pg_status status = PG_OK;
-    const galerkin *g = b->g;
-    const pg_rows *r = &g->rows[g->bulk];
-    for (size_t first = 0, last; first < r->n; first = last) {
-        int node[MOST_NODES], cell = r->cell[first];
-        for (last = first; last < r->n && r->cell[last] == cell; last++) continue;
-        int kind = whole_cell (g, (size_t) cell, first, last, node);
-        if (kind != NO_CELL)
-            PG_TRY (append (b, (size_t) cell, kind, share_of (g, (size_t) cell),
-                            (size_t) pg_element_types[kind].nodes, node));
-        else
-            for (size_t p = first; p < last; p++) PG_TRY (append_point (b, p, r->weight[p]));
-    }
-done:
-    return status;
-}
-
-/* Nodal integration: whole cells where the corners see each other; the rest of each node's volume by the
- * node itself. */
-static pg_status list_nodes (builder *b)
-{
-    pg_status status = PG_OK;
-    const galerkin *g = b->g;
-    const pg_problem *p = g->problem;
-    for (size_t i = 0; i < g->n; i++) PG_TRY (append_point (b, i, p->cloud.volume[i]));
-done:
-    return status;
-}
 
 /* ---- their matrices ------------------------------------------------------------------------------------ */
 /* K += w B' D B for gradients q (m x dim) of the m nodes, blocks on and above the diagonal. */
@@ -330,7 +99,7 @@ static double gradients (const galerkin *g, pg_element kind, const int *node, co
 }
 
 /* Is this cell of the same shape, kind and material as the last one? Then its matrix is the same. */
-static int same_as_last (builder *b, int kind, const pg_material *material, size_t m, const int *node)
+static int same_as_last (element_list *b, int kind, const pg_material *material, size_t m, const int *node)
 {
     size_t dim = (size_t) b->g->dim;
     double shape[MOST_NODES * 3], least = 1e-10 * b->g->problem->cloud.h;
@@ -346,19 +115,20 @@ static int same_as_last (builder *b, int kind, const pg_material *material, size
 }
 
 /* The matrix of the last cell times a share. */
-static const double *scaled (builder *b, size_t width, double share)
+static const double *scaled (element_list *b, size_t width, double share)
 {
     if (share == 1) return b->last;
     for (size_t k = 0; k < width * width; k++) b->K[k] = share * b->last[k];
     return b->K;
 }
 
-/* Stiffness of a whole cell. Nodes that were moved so far that the element turns inside out somewhere count
- * with the size of that place. */
-static const double *cell_matrix (builder *b, double share, int kind, size_t m, const int *node, size_t p)
+/* Stiffness of a whole cell, of the material of point p. Nodes that were moved so far that the element turns
+ * inside out somewhere count with the size of that place. */
+static const double *cell_matrix (element_list *b, double share, int kind, size_t m, const int *node,
+                                  size_t p)
 {
     const galerkin *g = b->g;
-    const pg_material *material = galerkin_plain (g, g->bulk, p);
+    const pg_material *material = galerkin_plain (g, b->set, p);
     size_t dim = (size_t) g->dim, width = m * dim;
     double xi[3 * PG_ELEMENT_POINTS], weight[PG_ELEMENT_POINTS], q[PG_ELEMENT_NODES * 3];
     if (same_as_last (b, kind, material, m, node)) return scaled (b, width, share);
@@ -373,13 +143,13 @@ static const double *cell_matrix (builder *b, double share, int kind, size_t m, 
 }
 
 /* Stiffness of the element of point p. */
-static const double *point_matrix (builder *b, size_t p, double w, size_t m, const int *node)
+static const double *point_matrix (element_list *b, size_t p, double w, size_t m, const int *node)
 {
     const galerkin *g = b->g;
-    const pg_material *material = galerkin_plain (g, g->bulk, p);
+    const pg_material *material = galerkin_plain (g, b->set, p);
     size_t dim = (size_t) g->dim, width = m * dim;
     double c[3] = { 0 }, A[9] = { 0 }, q[MOST_NODES * 3], R[MOST_NODES * MOST_NODES], *K = b->K,
-                    h = pg_problem_spacing (g->problem, g->bulk, p);
+                    h = pg_problem_spacing (g->problem, b->set, p);
     for (size_t a = 0; a < m; a++)
         for (size_t k = 0; k < dim; k++) c[k] += place (g, node[a])[k] / (double) m;
     for (size_t a = 0; a < m; a++)
@@ -410,16 +180,17 @@ static const double *point_matrix (builder *b, size_t p, double w, size_t m, con
     return K;
 }
 
-/* An evaluation point of each cell, for its material. */
-static size_t point_of (const galerkin *g, size_t cell, size_t *at)
+/* An evaluation point of each cell, for its material; of a box its first node. */
+static size_t point_of (const element_list *b, size_t cell, size_t *at)
 {
-    const pg_rows *r = &g->rows[g->bulk];
+    const pg_rows *r = &b->g->rows[b->g->bulk];
+    if (b->set == PG_NODES) return cell;
     while (*at + 1 < r->n && (size_t) r->cell[*at] < cell) ++*at;
     return *at;
 }
 
 /* Sums them up. */
-static pg_status add_elements (builder *b, pg_block_matrix *Q)
+static pg_status add_elements (element_list *b, pg_block_matrix *Q)
 {
     pg_status status = PG_OK;
     size_t most = 0, at = 0;
@@ -434,7 +205,7 @@ static pg_status add_elements (builder *b, pg_block_matrix *Q)
         const int *node = b->list.node + b->list.start[k];
         const double *K = b->cell[k] == NO_CELL ? point_matrix (b, b->of[k], b->weight[k], m, node)
                                                 : cell_matrix (b, b->weight[k], b->cell[k], m, node,
-                                                               point_of (b->g, b->of[k], &at));
+                                                               point_of (b, b->of[k], &at));
         pg_block_add (Q, m, node, K);
     }
 done:
@@ -478,6 +249,19 @@ done:
     return status;
 }
 
+/* The spring of a constraint at a facet point. Where its node stands behind the facet, the material between
+ * them, as deep as the node, gives way as well: springs in series. */
+static double spring_of (const galerkin *g, const constraint *q, int node)
+{
+    const pg_rows *r = &g->rows[PG_FACETS];
+    size_t dim = (size_t) g->dim;
+    double depth = 0, k = spring_share * galerkin_nitsche_stiffness (g, q);
+    for (size_t c = 0; c < dim; c++)
+        depth += (r->x[q->point * dim + c] - place (g, node)[c]) * g->problem->facet_normal[q->point * dim + c];
+    double between = galerkin_plain (g, PG_FACETS, q->point)->D[0] * r->weight[q->point];
+    return k / (1 + k * fmax (0, depth) / between);
+}
+
 /* Springs of the supports: on the node nearest to each facet point; penalties of nodes. */
 static void add_supports (const galerkin *g, pg_block_matrix *Q)
 {
@@ -486,10 +270,9 @@ static void add_supports (const galerkin *g, pg_block_matrix *Q)
     double d2;
     for (size_t i = 0; i < g->nnitsche; i++) {
         const constraint *q = &g->nitsche[i];
-        int node = nearest_seen (g, r, q->point, r->x + q->point * dim, &d2);
+        int node = elements_nearest (g, r, q->point, r->x + q->point * dim, &d2);
         if (node >= 0)
-            pg_block_add_diagonal (Q, (size_t) node * dim + (size_t) q->component,
-                                   spring_share * galerkin_nitsche_stiffness (g, q));
+            pg_block_add_diagonal (Q, (size_t) node * dim + (size_t) q->component, spring_of (g, q, node));
     }
     for (size_t i = 0; i < g->npenalty; i++) {
         const constraint *q = &g->penalty[i];
@@ -515,7 +298,7 @@ static pg_status copy_values (const galerkin *g, pg_node_matrix *N)
     for (size_t i = 0; i < g->n; i++) {
         int lost = 0, unit = r->grade[i] >= PG_GRADE_SHEPARD, own = 0;
         for (size_t e = r->family.start[i]; e < r->family.start[i + 1] && !lost; e++)
-            lost = broken (g, r, i, e);
+            lost = elements_broken (g, r, i, e);
         double share = unit ? 0 : lost ? row_share : 1;
         for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
             int self = (size_t) r->family.node[e] == i;
@@ -544,10 +327,10 @@ static void choose_polynomial (const pg_problem *p, pg_elements *out)
     out->terms = choice[k].terms, out->low = choice[k].low, out->high = 1.1, out->floor = choice[k].floor;
 }
 
-static void builder_clear (builder *b)
+static void element_list_clear (element_list *b)
 {
     pg_free (b->list.start), pg_free (b->list.node), pg_free (b->of), pg_free (b->cell), pg_free (b->weight);
-    pg_free (b->rest), pg_free (b->K), pg_free (b->last);
+    pg_free (b->K), pg_free (b->last);
 }
 
 /* Of the bonds that live at the last refresh. */
@@ -555,9 +338,9 @@ pg_status galerkin_elements (void *self, pg_elements *out)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
-    builder b = { .g = g };
+    element_list b = { .g = g, .set = g->bulk };
     memset (out, 0, sizeof *out);
-    PG_TRY (g->problem->integration->at_nodes ? list_nodes (&b) : list_cells (&b));
+    PG_TRY (elements_find (&b));
     PG_TRY (pg_block_create (&out->Q, g->n, g->dim, &b.list, g->threads));
     PG_TRY (add_elements (&b, &out->Q));
     add_supports (g, &out->Q);
@@ -566,7 +349,7 @@ pg_status galerkin_elements (void *self, pg_elements *out)
     choose_polynomial (g->problem, out);
     out->spacing = g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);
 done:
-    builder_clear (&b);
+    element_list_clear (&b);
     if (status != PG_OK) pg_elements_clear (out);
     return status;
 }

@@ -23,6 +23,7 @@ static const struct { const char *body, *points; double nu; const char *method; 
     { "", "", 0.2, gauss, 45 },
     { "", moved, 0.2, gauss, 65 },
     { "", "", 0.4, gauss, 75 },
+    { "", "lattice: cells", 0.2, gauss, 260 },
     { "", disc, 0.2, gauss, 75 },
     { ball, "", 0.2, gauss, 110 },
     { "", "", 0.2, "horizon: 1.5 spacing", 35 },

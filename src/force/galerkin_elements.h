@@ -1,0 +1,43 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: finite elements on the nodes of the Galerkin form while they are made. galerkin_elements_list.c
+ * finds them, galerkin_elements.c sums up their matrices. */
+#ifndef PG_GALERKIN_ELEMENTS_H
+#define PG_GALERKIN_ELEMENTS_H
+#include "galerkin.h"
+
+enum { MOST_NODES = 64, NO_CELL = -1 };
+
+/* The elements while they are listed: nodes of each, the evaluation point or cell it belongs to, and the
+ * share of the weight of the point. */
+typedef struct {
+    galerkin *g;
+    int set;                                           /* bond set of the points with elements of their own */
+    pg_adjacency list;
+    size_t cap_start, cap_node, cap_of, cap_cell, cap_weight;
+    size_t *of;                                        /* point, or cell */
+    int    *cell;                                      /* kind of element, NO_CELL: of a point */
+    double *weight;                                    /* of the point */
+    double  reach;
+    double *K, *last;                                  /* matrix of an element; of the last whole cell */
+    double  shape[MOST_NODES * 3]; int shape_kind; const pg_material *shape_material;
+} element_list;
+
+/* Lists the elements of all cells and points, of the bonds that live. */
+pg_status elements_find (element_list *b);
+/* Squared distance, m^2. */
+static inline double distance2 (int dim, const double *a, const double *b)
+{
+    double s = 0;
+    for (int k = 0; k < dim; k++) s += (a[k] - b[k]) * (a[k] - b[k]);
+    return s;
+}
+/* Of a node. */
+static inline const double *place (const galerkin *g, int node)
+{
+    return g->problem->cloud.x + (size_t) node * (size_t) g->dim;
+}
+/* The node nearest to x among those that point p sees, *d2 its squared distance. */
+int       elements_nearest (const galerkin *g, const pg_rows *r, size_t p, const double *x, double *d2);
+/* Is entry e of point p a broken bond? */
+int       elements_broken (const galerkin *g, const pg_rows *r, size_t p, size_t e);
+#endif

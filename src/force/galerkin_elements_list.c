@@ -1,0 +1,291 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which cells and points become finite elements of the preconditioner, and over which nodes: whole cells
+ * where their points see all corners, boxes between points at the centres of the cells, else elements around
+ * evaluation points. */
+#include "galerkin_elements.h"
+#include <math.h>
+#include <string.h>
+
+/* Nodes of an element around a point: within this many spacings; by `wider` farther until there are
+ * enough. */
+static const double near_by = 1.45, wider = 0.3;
+
+/* ---- which nodes --------------------------------------------------------------------------------------- */
+/* Where node j stands in the family of point p; SIZE_MAX: nowhere. */
+static size_t entry_of (const pg_rows *r, size_t p, int j)
+{
+    size_t low = r->family.start[p], high = r->family.start[p + 1];
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (r->family.node[middle] < j) low = middle + 1;
+        else high = middle;
+    }
+    return low < r->family.start[p + 1] && r->family.node[low] == j ? low : SIZE_MAX;
+}
+
+/* Is entry e of point p a broken bond? Beyond the support of a node and on its edge there is no influence
+ * either. */
+int elements_broken (const galerkin *g, const pg_rows *r, size_t p, size_t e)
+{
+    int j = r->family.node[e];
+    double support = 0.999 * g->problem->approx.horizon * pg_cloud_ratio (&g->problem->cloud, (size_t) j);
+    return !(r->w[e] > 0) && r->own[p] != j
+           && distance2 (g->dim, r->x + p * (size_t) g->dim, place (g, j)) < support * support;
+}
+
+/* The node nearest to x among those that point p sees, *d2 its squared distance. */
+int elements_nearest (const galerkin *g, const pg_rows *r, size_t p, const double *x, double *d2)
+{
+    int best = -1;
+    *d2 = INFINITY;
+    for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+        double d = distance2 (g->dim, x, place (g, r->family.node[e]));
+        if (d < *d2) *d2 = d, best = r->family.node[e];
+    }
+    return best;
+}
+
+/* The evaluation point first .. last - 1 that is nearest to x. */
+static size_t nearest_point (const galerkin *g, const pg_rows *r, size_t first, size_t last, const double *x)
+{
+    size_t best = first;
+    double least = INFINITY;
+    for (size_t p = first; p < last; p++) {
+        double d = distance2 (g->dim, x, r->x + p * (size_t) g->dim);
+        if (d < least) least = d, best = p;
+    }
+    return best;
+}
+
+/* The nodes at the places of the first m nodes of a cell; 0: some have none of their own within 0.6
+ * spacings. points first .. last - 1 are those of the cell. */
+static int find_nodes (const galerkin *g, size_t cell, size_t m, size_t first, size_t last, int *node)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    const pg_cells *c = &g->problem->cells;
+    for (size_t k = 0; k < m; k++) {
+        const double *x = c->x + (c->start[cell] + k) * (size_t) g->dim;
+        double d2;
+        size_t p = nearest_point (g, r, first, last, x);
+        node[k] = elements_nearest (g, r, p, x, &d2);
+        double h = 0.6 * pg_problem_spacing (g->problem, g->bulk, p);
+        if (node[k] < 0 || d2 > h * h) return 0;
+        for (size_t i = 0; i < k; i++) if (node[i] == node[k]) return 0;
+    }
+    return 1;
+}
+
+/* Has a point of the cell lost sight of one of its m nodes? */
+static int separated (const galerkin *g, size_t m, const int *node, size_t first, size_t last)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    for (size_t p = first; p < last; p++) {
+        if (r->grade[p] >= PG_GRADE_SHEPARD) return 1;
+        for (size_t k = 0; k < m; k++) {
+            size_t e = entry_of (r, p, node[k]);
+            if (e != SIZE_MAX && elements_broken (g, r, p, e)) return 1;
+        }
+    }
+    return 0;
+}
+
+/* The kind of element with the same corners and straight edges. */
+static pg_element straight (pg_element kind)
+{
+    for (int k = 0; k < PG_ELEMENTS; k++)
+        if (pg_element_types[k].dim == pg_element_types[kind].dim && pg_element_types[k].order == 1
+            && pg_element_types[k].nodes == pg_element_types[kind].corners)
+            return (pg_element) k;
+    return kind;
+}
+
+/* The cell as an element: its kind, and its nodes in the order of that kind; NO_CELL: it is none. A cell
+ * that the surface cuts has the corners of the box. */
+static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last, int *node)
+{
+    static const pg_element box[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
+    int kind = g->problem->cells.kind[cell];
+    if (first == last) return NO_CELL;
+    if (kind == PG_CUT) kind = (int) box[g->dim];
+    if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) {
+        kind = (int) straight ((pg_element) kind);
+        if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) return NO_CELL;
+    }
+    return separated (g, (size_t) pg_element_types[kind].nodes, node, first, last) ? NO_CELL : kind;
+}
+
+/* Nodes that point p of a set still sees near by, itself where it is a node. */
+static size_t near_nodes (const galerkin *g, int set, size_t p, int *node)
+{
+    const pg_rows *r = &g->rows[set];
+    size_t enough = (size_t) g->dim + 2, m = 0, seen = 0;
+    double h = pg_problem_spacing (g->problem, set, p), reach = near_by * h;
+    const double *x = r->x + p * (size_t) g->dim;
+    for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
+        seen += r->w[e] > 0 || r->family.node[e] == r->own[p];
+    for (;; reach += wider * h) {
+        m = 0;
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && m < MOST_NODES; e++)
+            if ((r->w[e] > 0 || r->family.node[e] == r->own[p])
+                && distance2 (g->dim, x, place (g, r->family.node[e])) <= reach * reach)
+                node[m++] = r->family.node[e];
+        if (m >= enough || m >= seen || m == MOST_NODES) break;
+    }
+    return m;
+}
+
+/* ---- the list ------------------------------------------------------------------------------------------ */
+static pg_status append (element_list *b, size_t of, int kind, double weight, size_t m, const int *node)
+{
+    pg_status status = PG_OK;
+    pg_adjacency *l = &b->list;
+    if (m == 0) return PG_OK;
+    if (!l->start) {
+        PG_GROW (l->start, b->cap_start, 1);
+        l->start[0] = 0;
+    }
+    PG_GROW (l->start, b->cap_start, l->n + 2);
+    PG_GROW (l->node, b->cap_node, l->start[l->n] + m);
+    PG_GROW (b->of, b->cap_of, l->n + 1);
+    PG_GROW (b->cell, b->cap_cell, l->n + 1);
+    PG_GROW (b->weight, b->cap_weight, l->n + 1);
+    memcpy (l->node + l->start[l->n], node, m * sizeof *node);
+    b->of[l->n] = of, b->cell[l->n] = kind, b->weight[l->n] = weight;
+    l->start[l->n + 1] = l->start[l->n] + m;
+    l->n++;
+    /* no two nodes of it are further apart than twice the farthest from the first */
+    for (size_t k = 1; k < m; k++)
+        for (size_t i = 0; i < k; i++)
+            b->reach = fmax (b->reach, distance2 (b->g->dim, place (b->g, node[i]), place (b->g, node[k])));
+done:
+    return status;
+}
+
+static pg_status append_point (element_list *b, size_t p, double weight)
+{
+    int node[MOST_NODES];
+    return append (b, p, NO_CELL, weight, near_nodes (b->g, b->set, p, node), node);
+}
+
+/* Share of a cell that the surface cuts which lies in the body. */
+static double share_of (const galerkin *g, size_t cell)
+{
+    const pg_cells *c = &g->problem->cells;
+    double whole = c->thickness;
+    if (c->kind[cell] != PG_CUT) return 1;
+    for (int k = 0; k < g->dim; k++) whole *= g->problem->lattice.step[k];
+    return fmin (1, c->volume[cell] / whole);
+}
+
+/* Cells with Gauss points: whole, or point by point. Points of a cell follow one another. */
+static pg_status list_cells (element_list *b)
+{
+    pg_status status = PG_OK;
+    const galerkin *g = b->g;
+    const pg_rows *r = &g->rows[g->bulk];
+    for (size_t first = 0, last; first < r->n; first = last) {
+        int node[MOST_NODES], cell = r->cell[first];
+        for (last = first; last < r->n && r->cell[last] == cell; last++) continue;
+        int kind = whole_cell (g, (size_t) cell, first, last, node);
+        if (kind != NO_CELL)
+            PG_TRY (append (b, (size_t) cell, kind, share_of (g, (size_t) cell),
+                            (size_t) pg_element_types[kind].nodes, node));
+        else
+            for (size_t p = first; p < last; p++) PG_TRY (append_point (b, p, r->weight[p]));
+    }
+done:
+    return status;
+}
+
+/* Nodal integration: every node. */
+static pg_status list_nodes (element_list *b)
+{
+    pg_status status = PG_OK;
+    const galerkin *g = b->g;
+    const pg_problem *p = g->problem;
+    for (size_t i = 0; i < g->n; i++) PG_TRY (append_point (b, i, p->cloud.volume[i]));
+done:
+    return status;
+}
+
+/* ---- points at the centres of the cells ---------------------------------------------------------------- */
+/* The nodes one step along from node i towards + on all axes, itself first, in the order of a box; 0: there
+ * are not as many. */
+static size_t box_of (const galerkin *g, size_t i, int *node)
+{
+    static const unsigned char corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+                                                { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+    size_t m = (size_t) 1 << g->dim;
+    double x[3], d2, h = 0.6 * g->problem->cloud.h;
+    for (size_t k = 0; k < m; k++) {
+        for (int c = 0; c < g->dim; c++)
+            x[c] = place (g, (int) i)[c] + corner[k][c] * g->problem->cloud.step[c];
+        node[k] = elements_nearest (g, &g->rows[PG_NODES], i, x, &d2);
+        if (node[k] < 0 || d2 > h * h) return 0;
+        for (size_t l = 0; l < k; l++) if (node[l] == node[k]) return 0;
+    }
+    return m;
+}
+
+/* Does a crack part two nodes of a box? */
+static int parted (const galerkin *g, size_t m, const int *node)
+{
+    const pg_rows *r = &g->rows[PG_NODES];
+    for (size_t k = 0; k < m; k++)
+        for (size_t l = 0; l < m; l++) {
+            size_t e = entry_of (r, (size_t) node[k], node[l]);
+            if (e != SIZE_MAX && elements_broken (g, r, (size_t) node[k], e)) return 1;
+        }
+    return 0;
+}
+
+/* Boxes between points that stand at the centres of the cells. The volume of each point is shared among its
+ * boxes, so that those at the surface also count for the half cells outside of them; what belongs to parted
+ * boxes, and points without any, become elements around the points. */
+static pg_status list_boxes (element_list *b)
+{
+    static const pg_element kind[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
+    pg_status status = PG_OK;
+    const galerkin *g = b->g;
+    const pg_problem *p = g->problem;
+    double *part = NULL, *own = NULL, whole = p->cloud.thickness;
+    int *count = NULL, node[8];
+    PG_ALLOC (part, g->n);
+    PG_ALLOC (own, g->n);
+    PG_ALLOC (count, g->n);
+    b->set = PG_NODES;
+    for (int k = 0; k < g->dim; k++) whole *= p->cloud.step[k];
+    for (size_t i = 0; i < g->n; i++)
+        for (size_t k = 0, m = box_of (g, i, node); k < m; k++) count[node[k]]++;
+    for (size_t i = 0; i < g->n; i++)
+        part[i] = count[i] ? p->cloud.volume[i] / count[i] : 0, own[i] = count[i] ? 0 : p->cloud.volume[i];
+    for (size_t i = 0; i < g->n; i++) {
+        size_t m = box_of (g, i, node);
+        double share = 0;
+        int apart = m && parted (g, m, node);
+        for (size_t k = 0; k < m; k++) share += part[node[k]] / whole;
+        for (size_t k = 0; k < m && apart; k++) own[node[k]] += part[node[k]];
+        if (m && !apart) PG_TRY (append (b, i, kind[g->dim], share, m, node));
+    }
+    for (size_t i = 0; i < g->n; i++) if (own[i] > 0) PG_TRY (append_point (b, i, own[i]));
+done:
+    pg_free (part), pg_free (own), pg_free (count);
+    return status;
+}
+
+/* As many points as cells of the lattice in the body. */
+static int at_centres (const pg_problem *p)
+{
+    size_t kept = 0, n = (size_t) p->lattice.count[0] * (size_t) p->lattice.count[1]
+                         * (size_t) p->lattice.count[2];
+    if (!p->lattice.dim || !p->lattice.in) return 0;
+    for (size_t i = 0; i < n; i++) kept += p->lattice.in[i] != 0;
+    return kept == p->cloud.n;
+}
+
+/* By where the evaluation points are. */
+pg_status elements_find (element_list *b)
+{
+    if (b->g->problem->integration->at_nodes) return list_nodes (b);
+    return at_centres (b->g->problem) ? list_boxes (b) : list_cells (b);
+}
