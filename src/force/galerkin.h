@@ -6,8 +6,8 @@
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_groups.c (bonds outside of a group),
  * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
- * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c (preconditioner),
- * galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
+ * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
+ * (preconditioner), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"

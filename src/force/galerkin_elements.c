@@ -122,6 +122,26 @@ static const double *scaled (element_list *b, size_t width, double share)
     return b->K;
 }
 
+/* Where the dilatation is projected K has it as means over patches, which the elements cannot follow: with all
+ * of lambda on the mean of each element they lock (1854 iterations at a Poisson's ratio of 0.49). With at most
+ * mu of it, mu V b b', b the mean of the gradients, iterations are fewest (140; without 153). */
+static void add_dilatation (element_list *b, size_t p, size_t width, int n, const double *xi,
+                            const double *weight, int kind, const int *node)
+{
+    const galerkin *g = b->g;
+    double q[PG_ELEMENT_NODES * 3], mean[PG_ELEMENT_NODES * 3] = { 0 }, volume = 0,
+           lambda = g->dilatation ? g->problem->patches->lambda[g->material[b->set][p]] : 0;
+    lambda = fmin (lambda, galerkin_plain (g, b->set, p)->mu);
+    for (int k = 0; k < n && lambda > 0; k++) {
+        double w = fabs (gradients (g, (pg_element) kind, node, xi + k * g->dim, q)) * weight[k]
+                   * g->problem->cells.thickness;
+        volume += w;
+        for (size_t i = 0; i < width; i++) mean[i] += w * q[i];
+    }
+    for (size_t i = 0; i < width && lambda > 0; i++)
+        for (size_t j = i; j < width; j++) b->last[i * width + j] += lambda / volume * mean[i] * mean[j];
+}
+
 /* Stiffness of a whole cell, of the material of point p. Nodes that were moved so far that the element turns
  * inside out somewhere count with the size of that place. */
 static const double *cell_matrix (element_list *b, double share, int kind, size_t m, const int *node,
@@ -138,6 +158,7 @@ static const double *cell_matrix (element_list *b, double share, int kind, size_
         double size = gradients (g, (pg_element) kind, node, xi + (size_t) k * dim, q);
         add_strain (g, m, q, material->D, fabs (size) * weight[k] * g->problem->cells.thickness, b->last);
     }
+    add_dilatation (b, p, width, n, xi, weight, kind, node);
     mirror (width, b->last);
     return scaled (b, width, share);
 }
@@ -255,9 +276,9 @@ static double spring_of (const galerkin *g, const constraint *q, int node)
 {
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim;
+    const double *normal = g->problem->facet_normal + q->point * dim;
     double depth = 0, k = spring_share * galerkin_nitsche_stiffness (g, q);
-    for (size_t c = 0; c < dim; c++)
-        depth += (r->x[q->point * dim + c] - place (g, node)[c]) * g->problem->facet_normal[q->point * dim + c];
+    for (size_t c = 0; c < dim; c++) depth += (r->x[q->point * dim + c] - place (g, node)[c]) * normal[c];
     double between = galerkin_plain (g, PG_FACETS, q->point)->D[0] * r->weight[q->point];
     return k / (1 + k * fmax (0, depth) / between);
 }
