@@ -122,9 +122,9 @@ static const double *scaled (element_list *b, size_t width, double share)
     return b->K;
 }
 
-/* Where the dilatation is projected K has it as means over patches, which the elements cannot follow: with all
- * of lambda on the mean of each element they lock (1854 iterations at a Poisson's ratio of 0.49). With at most
- * mu of it, mu V b b', b the mean of the gradients, iterations are fewest (140; without 153). */
+/* Where the dilatation is projected K has it as means over patches, which the elements cannot follow: with
+ * all of lambda on the mean of each element they lock (1854 iterations at a Poisson's ratio of 0.49). With at
+ * most mu of it, mu V b b', b the mean of the gradients, iterations are fewest (140; without 153). */
 static void add_dilatation (element_list *b, size_t p, size_t width, int n, const double *xi,
                             const double *weight, int kind, const int *node)
 {
