@@ -16,11 +16,18 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     return PG_OK;
 }
 
+/* Sine of the angle of friction, and what cohesion bears. */
+static void friction (const pg_criterion *c, double *sine, double *bound)
+{
+    *sine = sin (c->parameter[ANGLE]), *bound = c->parameter[COHESION] * cos (c->parameter[ANGLE]);
+}
+
 /* The larger of the two: tension over the tensile strength, and the shear stress on the critical plane
  * over what cohesion and friction bear. Compression in all directions gives a negative one, which is none. */
 static void utilisation (const pg_criterion *c, const pg_bond_measures *m, double *u, char *kind)
 {
-    double sine = sin (c->parameter[ANGLE]), bound = c->parameter[COHESION] * cos (c->parameter[ANGLE]);
+    double sine, bound;
+    friction (c, &sine, &bound);
     for (size_t b = 0; b < m->n; b++) {
         double tension = m->s1[b] / c->parameter[STRENGTH];
         double shear = ((m->s1[b] - m->s3[b]) / 2 + (m->s1[b] + m->s3[b]) / 2 * sine) / bound;
@@ -40,7 +47,8 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
 /* Tension and shear. */
 static int planes (const pg_criterion *c, double form[2][2])
 {
-    double sine = sin (c->parameter[ANGLE]), bound = c->parameter[COHESION] * cos (c->parameter[ANGLE]);
+    double sine, bound;
+    friction (c, &sine, &bound);
     form[0][0] = 1 / c->parameter[STRENGTH], form[0][1] = 0;
     form[1][0] = (1 + sine) / (2 * bound), form[1][1] = (sine - 1) / (2 * bound);
     return 2;
