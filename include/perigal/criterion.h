@@ -93,9 +93,9 @@ struct pg_criterion_type {
     /* Load factor (> 0; INFINITY: never) at which each bond reaches its limit when the measures are those of
      * load factor 1 and all loads are proportional (events, section 4). */
     void (*factor) (const pg_criterion *c, const pg_bond_measures *m, double *factor);
-    /* Where utilisation is that of a form linear in what bonds show: of eta: a . eta if that is positive, else
-     * 0, a (n x dim); of principal stresses: the largest of [i][0] s1 + [i][1] s3, or 0. Returns the number
-     * of forms (at most 2), 0: it is not so. NULL: never. */
+    /* Where utilisation is that of a form linear in what bonds show: of eta: a . eta if that is positive,
+     * else 0, a (n x dim); of principal stresses: the largest of [i][0] s1 + [i][1] s3, or 0. Returns the
+     * number of forms (at most 2), 0: it is not so. NULL: never. */
     int  (*linear)   (const pg_criterion *c, const pg_bond_measures *m, double *a);
     int  (*planes)   (const pg_criterion *c, double form[2][2]);
     /* Criteria of tips: the limits at x (m) for growth at `angle` from the x axis (rad). */
