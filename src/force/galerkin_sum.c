@@ -178,7 +178,8 @@ static void measure_points (void *context, size_t first, size_t last, int thread
     for (size_t i = first; i < last; i++) {
         size_t p = m->list ? m->list[i] : i;
         double *e = g->strain[m->set] + p * nv;
-        if (dim < 3) strain_flat (g->dim, m->rows, p, m->x, g->u[m->set] + p * dim, e);
+        if (dim == 2) strain_flat (2, m->rows, p, m->x, g->u[m->set] + p * dim, e);
+        if (dim == 1) strain_flat (1, m->rows, p, m->x, g->u[m->set] + p * dim, e);
         const pg_material *mat = galerkin_plain (g, m->set, p);
         mat->type->stress (mat, 1, e, g->stress[m->set] + p * nv, g->zz[m->set] + p);
     }
@@ -261,25 +262,35 @@ WIDE static void sum_solid (const summing *m, size_t first, size_t last, double 
     }
 }
 
-/* The same in one and two dimensions. */
-static void sum_flat (const summing *m, size_t first, size_t last, double *sum, size_t low)
+/* The same in one and two dimensions, `dim` being a number that the compiler knows. */
+INLINE void sum_flat (int dim, const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
     const pg_rows *r = &g->sums;
-    size_t nv = (size_t) g->nv;
+    size_t nv = dim == 2 ? 3 : 1;
     double e[3], own[3];
     for (size_t p = first; p < last; p++) {
         const double *s = g->stress[g->bulk] + nv * p, *D = galerkin_plain (g, g->bulk, p)->D;
         if (m->x) {
-            strain_flat (g->dim, r, p, m->x, NULL, e);
+            strain_flat (dim, r, p, m->x, NULL, e);
             for (size_t v = 0; v < nv; v++) {
                 own[v] = 0;
                 for (size_t w = 0; w < nv; w++) own[v] += D[v * nv + w] * e[w];
             }
             s = own;
         }
-        force_flat (g->dim, r, p, s, sum, low);
+        force_flat (dim, r, p, s, sum, low);
     }
+}
+
+WIDE static void sum_plane (const summing *m, size_t first, size_t last, double *sum, size_t low)
+{
+    sum_flat (2, m, first, last, sum, low);
+}
+
+static void sum_line (const summing *m, size_t first, size_t last, double *sum, size_t low)
+{
+    sum_flat (1, m, first, last, sum, low);
 }
 
 /* Some points one by one. */
@@ -289,7 +300,9 @@ static void sum_points (const summing *m, size_t k, size_t first, size_t last)
     const galerkin_slices *s = g->slices;
     if (g->kept)
         galerkin_silling_sum (g, first, last, m->x ? NULL : g->stress[g->bulk], m->at, s->sum[k], s->low[k]);
-    else (g->dim == 3 ? sum_solid : sum_flat) (m, first, last, s->sum[k], s->low[k]);
+    else
+        (g->dim == 3 ? sum_solid : g->dim == 2 ? sum_plane : sum_line) (m, first, last, s->sum[k],
+                                                                         s->low[k]);
 }
 
 /* Whole slices, each by one thread: runs, and the points between them. */
