@@ -58,13 +58,14 @@ static void make_N (pg_node_matrix *N, double noise)
 static pg_element_preconditioner *make (int block, int threads, double noise, double *x)
 {
     pg_element_preconditioner *P;
-    pg_elements elements = { .spacing = 1, .reach = 2, .lattice = { 1, 1, 1 } };
+    pg_elements elements = { .spacing = 1, .reach = 2, .lattice = { 1, 1, 1 },
+                             .terms = 6, .low = 0.1, .high = 1.1 };
     systems_seed = 88172645463325252u;
     make_bricks (&elements.Q, block, threads);
     make_N (&elements.N, noise);
     for (int i = 0; i < NODES; i++)
         x[3*i] = i % ALONG, x[3*i + 1] = i / ALONG % ACROSS, x[3*i + 2] = i / ALONG / ACROSS;
-    pg_element_setting setting = { .dim = 3, .x = x, .terms = 6, .low = 0.1, .high = 1.1 };
+    pg_element_setting setting = { .dim = 3, .x = x };
     check_ok (pg_element_preconditioner_create (&P, &elements, &setting));
     assert_null (elements.Q.value);
     return P;
