@@ -164,11 +164,12 @@ pg_status system_guess_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     pg_guess *g = &s->guess;
-    long count[3] = { g->n, g->next, g->fresh };
-    PG_TRY (k->counts (k->context, "system.guess", 3, count));
+    long count[4] = { g->n, g->next, g->fresh, s->unmeasured };
+    PG_TRY (k->counts (k->context, "system.guess", 4, count));
     PG_KEEP_BOUND (k, "the pairs of a first guess", count[0], 0, PAIRS);
     PG_KEEP_BOUND (k, "the next pair of a first guess", count[1], 0, PAIRS);
     g->n = (int) count[0], g->next = (int) count[1], g->fresh = count[2] != 0;
+    s->unmeasured = count[3];
     if (g->n == 0) goto done;
     PG_TRY (system_guess_ready (s));
     PG_TRY (k->numbers (k->context, "system.guess.x", (PAIRS + 1) * s->ndof, g->x));

@@ -77,7 +77,7 @@ typedef struct {
     int       begins;                                  /* the state to be solved for begins a step */
     int       carried;  /* `residual` went with the last iterations to the state that they lead to */
     int       known;                                   /* `residual` is that of the state last solved for */
-    long      unmeasured;                              /* states accepted by carried residuals, in this run */
+    long      unmeasured;                              /* states accepted by carried residuals */
     const unsigned char *alive;                        /* of the last refresh, borrowed */
     unsigned char *factored;  /* what lived when the factor or preconditioner was made */
 } pg_system;

@@ -156,6 +156,26 @@ static void what_cannot_be_is_refused (void **state)
     clear (&a);
 }
 
+/* Corrections of earlier steps, from which first guesses are made, are kept as well: the other run goes on
+ * bit by bit. */
+static void a_motion_goes_on_bit_by_bit (void **state)
+{
+    (void) state;
+    run a = plate (solvers[2]), b = plate (solvers[2]);
+    memory m = { .n = 0 };
+    for (int k = 0; k < 7; k++) advance (&a);
+    check_ok (walk (&m, &a, 0));
+    check_ok (walk (&m, &b, 1));
+    assert_true (*(const long *) (const void *) item_of (&m, "system.guess")->value >= 3);
+    while (!pg_solver_done (a.solver, a.state)) {
+        advance (&a), advance (&b);
+        assert_memory_equal (a.state->d, b.state->d, a.state->ndof * sizeof *a.state->d);
+        assert_memory_equal (a.state->v, b.state->v, a.state->ndof * sizeof *a.state->v);
+    }
+    forget (&m);
+    clear (&a), clear (&b);
+}
+
 static void texts_end_whatever_was_read (void **state)
 {
     (void) state;
@@ -172,6 +192,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (what_is_read_back_is_written_again),
                                         cmocka_unit_test (what_cannot_be_is_refused),
+                                        cmocka_unit_test (a_motion_goes_on_bit_by_bit),
                                         cmocka_unit_test (texts_end_whatever_was_read) };
     return cmocka_run_group_tests_name ("solve/kept", tests, NULL, NULL);
 }

@@ -1,0 +1,144 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What Newmark's method spares changes no result: residuals carried by the iterations, one sweep for K d and
+ * K v, first guesses from earlier steps, finite elements as preconditioner, and bonds that are not judged
+ * because their ends rule them out, against the same run by plain sums. */
+#include <math.h>
+#include "scene_runs/run.h"
+
+/* A plate with a crack, torn and sheared until bonds break; ends of the pulled side are exempt. */
+static const char plate[] =
+    "dimension: 2\nplane: stress\nthickness: 1 mm\n"
+    "body: [{add: {box: {low: [0, 0], high: [20 mm, 10 mm]}}}]\n"
+    "spacing: 1 mm\ncracks: [{from: [0, 5.2 mm], to: [6 mm, 5.2 mm]}]\n"
+    "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22, density: 2500 kg/m3}}\n"
+    "failure: {criterion: %s, exclude: [top]}\n"
+    "method: {integration: %s, essential: %s}\n"
+    "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n"
+    "  - {set: top, displacement: {y: 10 um, x: 2 um}}\n"
+    "solver: {kind: newmark, dt: %s, end: %s, rayleigh: {stiffness: 0.05 us, mass: 100}, break: %s, "
+    "tolerance: 1e-12, plain: %s}\noutput: {at: {levels: 3}}\n";
+
+static const struct { const char *criterion, *integration, *essential, *dt, *end, *broken; } runs[] = {
+    { "principal_stress, tensile_strength: 30 MPa", "gauss", "transformation", "0.5 us", "20 us", "worst" },
+    { "mohr_coulomb, tensile_strength: 30 MPa, cohesion: 40 MPa, friction_angle: 30 deg", "nodal", "nitsche",
+      "0.5 us", "20 us", "fraction" },
+    { "stretch, critical_stretch: 5e-4", "gauss", "penalty", "0.1 us", "4 us", "fraction" },
+};
+
+static run start (int k, int plain)
+{
+    return scene_of (1, plate, runs[k].criterion, runs[k].integration, runs[k].essential, runs[k].dt,
+                     runs[k].end, runs[k].broken, plain ? "true" : "false");
+}
+
+static double size (const double *a, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += a[i] * a[i];
+    return sqrt (sum);
+}
+
+/* The same bonds in the same step and order, displacements and velocities to 1e-8. */
+static void shortcuts_change_no_result (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 3; k++) {
+        run a = start (k, 0), b = start (k, 1);
+        size_t n = a.state->ndof, broken = 0;
+        double d = 0, v = 0;
+        while (!pg_solver_done (b.solver, b.state)) {
+            advance (&a), advance (&b);
+            assert_int_equal (a.step.nbroken, b.step.nbroken);
+            for (size_t i = 0; i < a.step.nbroken; i++) {
+                assert_int_equal (a.step.broken[i].bond, b.step.broken[i].bond);
+                assert_int_equal (a.step.broken[i].kind, b.step.broken[i].kind);
+                check_relative (a.step.broken[i].utilisation, b.step.broken[i].utilisation, 1e-8);
+            }
+            check_scaled (a.step.utilisation, b.step.utilisation, 1e-8, 1);
+            broken += a.step.nbroken;
+            for (size_t i = 0; i < n; i++) {
+                d = fmax (d, fabs (a.state->d[i] - b.state->d[i]));
+                v = fmax (v, fabs (a.state->v[i] - b.state->v[i]));
+            }
+        }
+        const pg_statistics *fast = pg_solver_report (a.solver, a.state),
+                            *slow = pg_solver_report (b.solver, b.state);
+        int told = 0;
+        for (size_t i = 0; i < fast->nskipped; i++)
+            told += strcmp (fast->skipped[i].what, "measures of the residual") == 0;
+        print_message ("run %d: %zu bonds, d %.1e, v %.1e; iterations %zu, plain %zu\n", k, broken,
+                       d / size (b.state->d, n), v / size (b.state->v, n), (size_t) fast->cg_iterations,
+                       (size_t) slow->cg_iterations);
+        assert_true (broken > 0 && told <= 1);
+        assert_true (d <= 1e-8 * size (b.state->d, n) && v <= 1e-8 * size (b.state->v, n));
+        check_relative (fast->energy_external, slow->energy_external, 1e-8);
+        check_relative (fast->energy_strain, slow->energy_strain, 1e-8);
+        clear (&a), clear (&b);
+    }
+}
+
+/* In a smooth motion first guesses spare iterations. */
+static void guesses_spare_iterations (void **state)
+{
+    (void) state;
+    size_t used[2];
+    for (int plain = 0; plain < 2; plain++) {
+        run r = scene_of (1, plate, "principal_stress, tensile_strength: 1 GPa", "gauss", "transformation",
+                          "0.1 us", "6 us", "worst", plain ? "true" : "false");
+        to_the_end (&r);
+        const pg_statistics *report = pg_solver_report (r.solver, r.state);
+        used[plain] = (size_t) report->cg_iterations;
+        int told = 0;
+        for (size_t i = 0; i < report->nskipped; i++)
+            told += strcmp (report->skipped[i].what, "measures of the residual") == 0;
+        assert_int_equal (told, !plain);
+        clear (&r);
+    }
+    print_message ("iterations %zu, plain %zu\n", used[0], used[1]);
+    assert_true (used[0] < 0.85 * (double) used[1]);
+}
+
+/* The worst bonds and the largest utilisation are those of a look at all bonds, bit by bit. */
+static void the_worst_bonds_are_found (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 3; k++) {
+        run r = start (k, 0);
+        void *self;
+        const pg_force_type *force = pg_solver_force (r.solver, &self);
+        size_t n = r.state->nbond;
+        double *all = calloc (n, sizeof *all), *few = calloc (n, sizeof *few), top = 0;
+        char *kind = calloc (n, 1), *same = calloc (n, 1);
+        pg_changes over = { 0 };
+        assert_true (force->worst && all && few && kind && same);
+        while (!pg_solver_done (r.solver, r.state)) {
+            advance (&r);
+            /* louder than the state that was accepted, so that bonds are over their limit */
+            for (size_t i = 0; i < r.state->ndof; i++) r.state->d[i] *= 1.5;
+            check_ok (force->utilisation (self, r.state, r.state->d, all, kind, NULL));
+            check_ok (force->worst (self, r.state, r.state->d, 0.9, few, same, &top, &over));
+            double most = 0;
+            size_t at = 0;
+            for (size_t i = 0; i < n; i++) most = fmax (most, all[i]);
+            assert_true (most == top);
+            for (size_t i = 0; i < n && top > 1; i++) {
+                if (!r.state->alive[i] || !(all[i] >= 0.9)) continue;
+                assert_true (at < over.n && over.bond[at] == i && few[i] == all[i] && kind[i] == same[i]);
+                at++;
+            }
+            assert_int_equal (at, over.n);
+            for (size_t i = 0; i < r.state->ndof; i++) r.state->d[i] /= 1.5;
+        }
+        free (all), free (few), free (kind), free (same);
+        pg_free (over.bond);
+        clear (&r);
+    }
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = { cmocka_unit_test (shortcuts_change_no_result),
+                                        cmocka_unit_test (guesses_spare_iterations),
+                                        cmocka_unit_test (the_worst_bonds_are_found) };
+    return cmocka_run_group_tests_name ("solve/newmark_shortcuts", tests, NULL, NULL);
+}
