@@ -206,6 +206,45 @@ static void move_body (body *b, int step)
     }
 }
 
+/* ... that opens slowly between two blocks of 32 sites, each of which moves as a whole. */
+static void open_body (body *b, int step)
+{
+    double part = step / 200.0, gap = b->cloud.low[0] + 64 * cell_side;
+    for (size_t i = 0; i < b->cloud.n; i++) {
+        const double *x = b->cloud.x + 2 * i;
+        b->u[2 * i] = x[0] > gap ? 1.3e-3 * part * cell_side : 0;
+        b->u[2 * i + 1] = 0;
+    }
+}
+
+/* Looks that are spared while a body moves slowly come in time. */
+static void looks_come_in_time (void **state)
+{
+    (void) state;
+    body b;
+    body_create (&b, &(body_wish){ { 160, 24, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0,
+                                   PG_EVALUATE_STENCIL }, 3);
+    size_t values = 2 * b.cloud.n;
+    double *f = pg_calloc (values, sizeof *f), *g = pg_calloc (values, sizeof *g);
+    pg_bond_loop *plain = folded_or_plain (&b, NULL, 1, 0, 1), *folded = folded_or_plain (&b, NULL, 1, 0, 0);
+    pg_changes torn = { 0 }, broken = { 0 };
+    for (int step = 0; step <= 200; step++) {
+        open_body (&b, step);
+        check_ok (pg_bond_loop_force (plain, b.u, g, &torn));
+        check_ok (pg_bond_loop_force (folded, b.u, f, &broken));
+        assert_int_equal (broken.n, torn.n);
+        if (torn.n) assert_memory_equal (broken.bond, torn.bond, torn.n * sizeof *torn.bond);
+        close_to (f, g, values, 1e-11);
+    }
+    pg_bond_loop_counts count;
+    pg_bond_loop_counted (folded, &count);
+    print_message ("%zu bonds broke; %zu folded, %zu looks\n", torn.n, count.folded, count.looks);
+    assert_true (torn.n > 20 && 3 * count.looks < count.folded);
+    pg_bond_loop_free (&plain), pg_bond_loop_free (&folded);
+    pg_free (f), pg_free (g), pg_free (torn.bond), pg_free (broken.bond);
+    body_free (&b);
+}
+
 static const body_wish wide[] = {
     { { 130, 24, 1 }, 0, 0, 0, 2, 1.5, PG_SURFACE_NONE, PG_PARTIAL_NONE, 0, PG_EVALUATE_STENCIL },
     { { 230, 24, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_STENCIL },
@@ -329,6 +368,7 @@ int main (void)
         cmocka_unit_test (changes_equal_a_whole_update),
         cmocka_unit_test (rigid_motions_pull_at_nothing),
         cmocka_unit_test (folding_changes_nothing),
+        cmocka_unit_test (looks_come_in_time),
         cmocka_unit_test (wrong_wishes_are_refused),
         cmocka_unit_test (lack_of_memory_is_reported),
         cmocka_unit_test (steady_sums_allocate_nothing),
