@@ -249,8 +249,8 @@ done:
 }
 
 /* The same at the cost of the boundary: facets and, where something acts there, nodes are measured, and half
- * the work of all pairs is what is stored, at rest and in balance. Reactions of eliminated unknowns need forces
- * of the whole body, as a body force needs its displacements: then it is the dear way. */
+ * the work of all pairs is what is stored, at rest and in balance. Reactions of eliminated unknowns need
+ * forces of the whole body, as a body force needs its displacements: then it is the dear way. */
 static pg_status galerkin_equilibrium_balance (void *self, double t, const double *d, pg_work_balance *out)
 {
     galerkin *g = self;

@@ -218,8 +218,9 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
     measure_points (&m, 0, count, 0);
 }
 
-/* Some points at a displacement that is known at some nodes only, all that these points see. What was measured
- * before at the other points belongs to another displacement: nothing of the set is known any more. */
+/* Some points at a displacement that is known at some nodes only, all that these points see. What was
+ * measured before at the other points belongs to another displacement: nothing of the set is known any
+ * more. */
 void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count, const size_t *list,
                             size_t nnode, const int *node)
 {
