@@ -402,7 +402,7 @@ done:
 }
 
 /* Solids of fewer unknowns are factored in motion, where one factor serves many steps. */
-enum { LEAST_IN_MOTION = 15000 };
+enum { LEAST_IN_MOTION = 40000 };
 
 /* Where the diagonal does, it stays. Else large solids take finite elements, as at rest, and so does what has
  * no matrix to be factored. */
