@@ -49,34 +49,23 @@ static int lay (pg_boxes *b, const pg_cloud *cloud, const int *list, const doubl
 }
 
 pg_status pg_boxes_create (pg_boxes *out, int *fits, const pg_cloud *cloud, size_t n, const int *list,
-                           const double *width, const double *reach, double all, pg_nearness near)
+                           const double *width, double reach)
 {
     pg_status status = PG_OK;
     size_t dim = (size_t) cloud->dim, boxes, *next = NULL;
-    *out = (pg_boxes) { .dim = cloud->dim, .n = n };
+    *out = (pg_boxes) { .dim = cloud->dim, .n = n, .reach = reach };
     *fits = n == 0 || lay (out, cloud, list, width);
     if (n == 0 || !*fits) return PG_OK;
     boxes = out->count[0] * out->count[1] * out->count[2];
     PG_ALLOC (out->start, boxes + 1);
     PG_ALLOC (next, boxes);
     PG_ALLOC (out->item, n);
-    PG_ALLOC (out->x, n * dim);
-    if (reach) PG_ALLOC (out->own, n);
     for (size_t i = 0; i < n; i++) next[box_of (out, cloud->x + (size_t) list[i] * dim)]++;
     for (size_t b = 0; b < boxes; b++) {
         out->start[b + 1] = out->start[b] + next[b];
         next[b] = out->start[b];
     }
-    out->limit = near.shape == PG_RADIAL ? all * all : all;
-    for (size_t i = 0; i < n; i++) {
-        const double *x = cloud->x + (size_t) list[i] * dim;
-        size_t place = next[box_of (out, x)]++;
-        double far = reach ? reach[i] : all;
-        out->item[place] = list[i];
-        memcpy (out->x + place * dim, x, dim * sizeof *x);
-        if (reach) out->own[place] = near.shape == PG_RADIAL ? far * far : far;
-        out->reach = fmax (out->reach, far * (1 + 1e-7));
-    }
+    for (size_t i = 0; i < n; i++) out->item[next[box_of (out, cloud->x + (size_t) list[i] * dim)]++] = list[i];
 done:
     pg_free (next);
     if (status != PG_OK) pg_boxes_clear (out);
@@ -85,79 +74,42 @@ done:
 
 void pg_boxes_clear (pg_boxes *b)
 {
-    pg_free (b->start), pg_free (b->item), pg_free (b->x), pg_free (b->own);
+    pg_free (b->start), pg_free (b->item);
     memset (b, 0, sizeof *b);
 }
 
 /* ---- what a place sees --------------------------------------------------------------------------------- */
-/* Distance of a coordinate from the layer of boxes `at` along an axis, m; 0 inside. A little less than it is,
- * for the borders of boxes are rounded. */
-INLINE double gap (const pg_boxes *b, int axis, size_t at, double x)
+/* Distance along an axis between the layer of boxes `at` and the stretch low .. high, m; 0 where they meet. A
+ * little less than it is, for the borders of boxes are rounded. */
+static double gap (const pg_boxes *b, int axis, size_t at, double low, double high)
 {
-    double step = 1 / b->inverse[axis], low = b->low[axis] + (double) at * step,
-           away = x < low ? low - x : x > low + step ? x - low - step : 0;
+    double step = 1 / b->inverse[axis], from = b->low[axis] + (double) at * step, to = from + step,
+           away = high < from ? from - high : low > to ? low - to : 0;
     away -= 1e-6 * step;
-    /* the outermost layers hold whatever lies beyond them */
     return away > 0 ? away : 0;
 }
 
-/* Members of one stretch of points; `far`: whether each has its own reach. */
-INLINE size_t members (const pg_boxes *b, int dim, int shape, int closed, int far, const double *at,
-                       size_t first, size_t last, size_t most, size_t found, int *out)
-{
-    for (size_t e = first; e < last && found < most; e++) {
-        const double *x = b->x + e * (size_t) dim;
-        double d = 0, limit = far ? b->own[e] : b->limit;
-        for (int k = 0; k < dim; k++) {
-            double z = fabs (x[k] - at[k]);
-            d = shape == PG_RADIAL ? d + z * z : z > d ? z : d;
-        }
-        if (out) out[found] = b->item[e];
-        found += closed ? d <= limit : d < limit;
-    }
-    return found;
-}
-
-/* Row after row of boxes that come within reach; of a ball each row gives the chord that it cuts. */
-INLINE size_t rows (const pg_boxes *b, int dim, int shape, int closed, int far, const double *at, size_t most,
-                    int *out)
+/* Row after row of boxes that come within reach; of balls each row gives the stretch that they can cut. */
+size_t pg_boxes_near (const pg_boxes *b, const double *low, const double *high, int ball, int *item)
 {
     size_t found = 0, first[3] = { 0 }, last[3] = { 0 };
     double reach = b->reach;
-    for (int k = 1; k < dim; k++)
-        first[k] = box_along (b, k, at[k] - reach), last[k] = box_along (b, k, at[k] + reach);
-    for (size_t z = first[2]; z <= last[2] && found < most; z++) {
-        double dz = dim > 2 ? gap (b, 2, z, at[2]) : 0;
-        for (size_t y = first[1]; y <= last[1] && found < most; y++) {
-            double dy = dim > 1 ? gap (b, 1, y, at[1]) : 0, half = reach * reach - dy * dy - dz * dz;
-            if (shape == PG_RADIAL && !(half >= 0)) continue;
-            half = shape == PG_RADIAL ? sqrt (half) : reach;
-            size_t row = (z * b->count[1] + y) * b->count[0], low = box_along (b, 0, at[0] - half),
-                   high = box_along (b, 0, at[0] + half);
-            found = members (b, dim, shape, closed, far, at, b->start[row + low], b->start[row + high + 1],
-                             most, found, out);
+    if (b->n == 0) return 0;
+    for (int k = 1; k < b->dim; k++)
+        first[k] = box_along (b, k, low[k] - reach), last[k] = box_along (b, k, high[k] + reach);
+    for (size_t z = first[2]; z <= last[2]; z++) {
+        double dz = b->dim > 2 ? gap (b, 2, z, low[2], high[2]) : 0;
+        for (size_t y = first[1]; y <= last[1]; y++) {
+            double dy = b->dim > 1 ? gap (b, 1, y, low[1], high[1]) : 0,
+                   half = reach * reach - dy * dy - dz * dz;
+            if (ball && !(half >= 0)) continue;
+            half = ball ? sqrt (half) : reach;
+            size_t row = (z * b->count[1] + y) * b->count[0],
+                   from = b->start[row + box_along (b, 0, low[0] - half)],
+                   to = b->start[row + box_along (b, 0, high[0] + half) + 1];
+            if (item) for (size_t e = from; e < to; e++) item[found + e - from] = b->item[e];
+            found += to - from;
         }
     }
     return found;
-}
-
-/* The loops for every dimension, their lengths known. */
-INLINE size_t search (const pg_boxes *b, int shape, int closed, const double *at, size_t most, int *out)
-{
-    if (b->n == 0) return 0;
-    if (b->own) return rows (b, b->dim, shape, closed, 1, at, most, out);
-    if (b->dim == 3) return rows (b, 3, shape, closed, 0, at, most, out);
-    if (b->dim == 2) return rows (b, 2, shape, closed, 0, at, most, out);
-    return rows (b, 1, shape, closed, 0, at, most, out);
-}
-
-size_t pg_boxes_list (const pg_boxes *b, const double *at, pg_nearness near, size_t most, int *out)
-{
-    if (near.shape != PG_RADIAL) return search (b, PG_TENSOR, near.closed, at, most, out);
-    return near.closed ? search (b, PG_RADIAL, 1, at, most, out) : search (b, PG_RADIAL, 0, at, most, out);
-}
-
-size_t pg_boxes_count (const pg_boxes *b, const double *at, pg_nearness near)
-{
-    return pg_boxes_list (b, at, near, b->n, NULL);
 }

@@ -21,24 +21,19 @@ typedef struct {
     double  low[3], inverse[3];
     /* Points of box b: places start[b] to start[b + 1] - 1 of the order (boxes + 1). */
     size_t *start;
-    /* Number in the cloud of the point of a place (n), ascending in each box; its position, m (n x dim). */
+    /* Number in the cloud of the point of a place (n), ascending in each box. */
     int    *item;
-    double *x;
-    /* Largest distance at which each point is seen, m (of a ball: its square); NULL: `limit` for all (n). */
-    double *own;
-    double  limit;
-    /* A little more than the largest of these distances, m. */
+    /* No less than the distance at which any of the points is seen, m. */
     double  reach;
 } pg_boxes;
 
-/* Sorts those points list[0] .. list[n - 1] of the cloud. width: of a box along each axis, m. 0 in *fits and
- * nothing else: the points are scattered so thinly over their surroundings that boxes of this width would be
- * many times as many as they. reach[i]: distance at which point list[i] is seen, m; NULL: `all` of each. */
+/* Sorts the points list[0] .. list[n - 1] of the cloud, which are seen from at most `reach` (m). width: of a
+ * box along each axis, m. 0 in *fits and nothing else: the points are scattered so thinly over their
+ * surroundings that boxes of this width would be many times as many as they. */
 pg_status pg_boxes_create (pg_boxes *out, int *fits, const pg_cloud *cloud, size_t n, const int *list,
-                           const double *width, const double *reach, double all, pg_nearness near);
+                           const double *width, double reach);
 void      pg_boxes_clear  (pg_boxes *boxes);
-/* The number of points that a place sees. */
-size_t    pg_boxes_count  (const pg_boxes *boxes, const double *at, pg_nearness near);
-/* Writes the numbers of the first `most` of them, box after box, and returns how many that were. */
-size_t    pg_boxes_list   (const pg_boxes *boxes, const double *at, pg_nearness near, size_t most, int *out);
+/* The points that can be seen from anywhere in the box low .. high (m), and some more: their number, and
+ * unless `item` is NULL their numbers. ball: 1: each is seen from a ball, 0: from a cube. */
+size_t    pg_boxes_near   (const pg_boxes *boxes, const double *low, const double *high, int ball, int *item);
 #endif
