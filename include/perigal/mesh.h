@@ -54,6 +54,9 @@ void       pg_gauss_rule    (int order, double *x, double *w);
  * of nodes of pg_element_face (a point in 1D: +1); zero for other elements. */
 double pg_element_map (pg_element kind, int dim, const double *x, const double *xi, double *place,
                        double *normal);
+/* The same from N and dN at xi (pg_element_shape), which all elements of a kind share. */
+double pg_element_map_by (pg_element kind, int dim, const double *x, const double *N, const double *dN,
+                          double *place, double *normal);
 /* Reference coordinates of a place in an element with d = dim, by Newton's method; 0: it did not converge.
  * Whether the place is inside is for the caller to judge (pg_element_outside). */
 int        pg_element_invert  (pg_element kind, const double *x, const double *place, double *xi);

@@ -13,8 +13,8 @@ static const double ROUNDING = 6144;
 
 struct congruent_slot {
     uint64_t print;
-    /* Bonds in the row; of these left out, as the place is a node that expands about itself (n + 1: none). */
-    size_t   n, own;
+    /* Bonds in the row. */
+    size_t   n;
     /* 0: empty. */
     int      used;
     unsigned char grade;
@@ -80,8 +80,7 @@ static int same_volumes (const double *kept, const double *volume, const int *no
 int congruent_find (congruent *c, const pg_neighbourhood *s, const double *volume, pg_rows *rows, size_t i,
                     size_t *slot)
 {
-    size_t first = rows->family.start[i], n = rows->family.start[i + 1] - first, dim = (size_t) c->dim,
-           own = s->constant ? n + 1 : s->own;
+    size_t first = rows->family.start[i], n = rows->family.start[i + 1] - first, dim = (size_t) c->dim;
     const int *node = rows->family.node + first;
     *slot = SIZE_MAX;
     if (!c->slots || c->missed > PATIENCE) return 0;
@@ -90,10 +89,10 @@ int congruent_find (congruent *c, const pg_neighbourhood *s, const double *volum
     struct congruent_slot *k = &c->slot[*slot];
     double *z = c->store + *slot * stride (c), *v = z + c->most * dim, *w = v + c->most, *N = w + c->most,
            *dN = N + c->most;
-    if (!k->used || k->print != print || k->n != n || k->own != own
+    if (!k->used || k->print != print || k->n != n
         || memcmp (z, s->z, s->n * dim * sizeof *z) != 0 || !same_volumes (v, volume, node, n)) {
         /* The bonds are kept now, for computing the row reorders them. */
-        *k = (struct congruent_slot) { print, n, own, 0, 0 };
+        *k = (struct congruent_slot) { print, n, 0, 0 };
         memcpy (z, s->z, s->n * dim * sizeof *z);
         c->missed++;
         return 0;

@@ -13,8 +13,8 @@
 #define PERIGAL_APPROX_CONGRUENT_H
 #include "moment.h"
 
-/* Surroundings that were evaluated lately, each in the slot of its fingerprint, where a later one replaces it.
- * One for each thread; values that a call does not ask for are not kept. */
+/* Surroundings that were evaluated lately, each in the slot of its fingerprint, where a later one replaces
+ * it. One for each thread; values that a call does not ask for are not kept. */
 typedef struct {
     int     dim, with_N, with_dN;
     /* Slots (a power of two; 0: nothing is kept); bonds that a slot has room for. */

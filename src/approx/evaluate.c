@@ -6,6 +6,7 @@
 #include "congruent.h"
 #include "moment.h"
 #include <math.h>
+#include <string.h>
 
 /* The arguments of one call. */
 typedef struct {
@@ -116,6 +117,28 @@ static void gather (const evaluation *g, size_t i, pg_neighbourhood *s)
     if (own >= 0 && !seen) s->stray = 1;
 }
 
+/* The same of a row that has all its bonds and is no node that expands about itself, of a cloud of one
+ * spacing, its bonds rounded (congruent.h); 0: it is none such. */
+static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
+{
+    const pg_rows *rows = g->rows;
+    size_t dim = (size_t) s->dim, first = rows->family.start[i], n = rows->family.start[i + 1] - first;
+    const int *node = rows->family.node + first;
+    double per_horizon = 1 / g->a->horizon;
+    if (g->cloud->size || (g->formula->about_node && rows->own[i] >= 0)
+        || (g->alive && memchr (g->alive + first, 0, n)))
+        return 0;
+    s->constant = 1, s->lost = 0, s->n = n, s->a = g->a->horizon, s->h = g->cloud->h;
+    for (size_t k = 0; k < n; k++) s->entry[k] = k;
+    for (size_t k = 0; k < dim; k++) {
+        double at = rows->x[i * dim + k];
+        for (size_t e = 0; e < n; e++)
+            s->z[e * dim + k] = (g->cloud->x[(size_t) node[e] * dim + k] - at) * per_horizon;
+    }
+    congruent_round (n * dim, s->z);
+    return 1;
+}
+
 /* Writes the influence times volume of each bond into rows->w, drops bonds without a weight,
  * and scales the others to the sum 1. */
 static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
@@ -192,12 +215,10 @@ static void row (const evaluation *g, size_t i, pg_neighbourhood *s, congruent *
 {
     pg_rows *rows = g->rows;
     size_t first = rows->family.start[i], last = rows->family.start[i + 1], slot = SIZE_MAX;
-    gather (g, i, s);
+    int rounded = g->a->congruent && gather_rounded (g, i, s);
+    if (!rounded) gather (g, i, s);
     if (s->stray) return;
-    if (g->a->congruent && !s->lost && !s->ratio) {
-        congruent_round (s->n * (size_t) s->dim, s->z);
-        if (congruent_find (known, s, g->cloud->volume, rows, i, &slot)) return;
-    }
+    if (rounded && congruent_find (known, s, g->cloud->volume, rows, i, &slot)) return;
     for (size_t e = first; rows->w && e < last; e++) rows->w[e] = 0;
     clear (rows, first, last);
     weigh (g, i, s);

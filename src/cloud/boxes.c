@@ -65,7 +65,10 @@ pg_status pg_boxes_create (pg_boxes *out, int *fits, const pg_cloud *cloud, size
         out->start[b + 1] = out->start[b] + next[b];
         next[b] = out->start[b];
     }
-    for (size_t i = 0; i < n; i++) out->item[next[box_of (out, cloud->x + (size_t) list[i] * dim)]++] = list[i];
+    for (size_t i = 0; i < n; i++) {
+        size_t box = box_of (out, cloud->x + (size_t) list[i] * dim);
+        out->item[next[box]++] = list[i];
+    }
 done:
     pg_free (next);
     if (status != PG_OK) pg_boxes_clear (out);

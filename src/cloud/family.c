@@ -277,8 +277,8 @@ static void size_up (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Measures how far the candidates are and returns the number of those that the centre sees. Loops of known length over all of them,
- * several at a time; the same operations in any instruction set. */
+/* Measures how far the candidates are and returns the number of those that the centre sees. Loops of known
+ * length over all of them, several at a time; the same operations in any instruction set. */
 #define INLINE static inline __attribute__ ((always_inline))
 INLINE size_t measure_those (const candidates *c, int dim, int shape, int closed, const double *at)
 {

@@ -47,14 +47,18 @@ static int finite_all (const double *a, int n, int bits)
     return 1;
 }
 
-/* s : D^-1 : s for a stress s in the Voigt components of the dimension: twice the
- * complementary energy density. */
+/* s : D^-1 : s = |L^-1 s|^2 for a stress s in the Voigt components of the dimension: twice the complementary
+ * energy density. */
 static double complementary (const measuring *m, size_t material, const double *s)
 {
-    double e[6], sum = 0;
-    memcpy (e, s, (size_t) m->nv * sizeof *e);
-    pg_dense_solve (m->nv, m->L + 36 * material, e);
-    for (int k = 0; k < m->nv; k++) sum += e[k] * s[k];
+    const double *L = m->L + 36 * material;
+    double y[6], sum = 0;
+    for (int k = 0; k < m->nv; k++) {
+        double rest = s[k];
+        for (int l = 0; l < k; l++) rest -= L[k * m->nv + l] * y[l];
+        y[k] = rest / L[k * m->nv + k];
+        sum += y[k] * y[k];
+    }
     return sum;
 }
 

@@ -66,20 +66,32 @@ done:
     return status;
 }
 
-/* Appends the n points (xi, w) of a rule in element e, mapped; factor multiplies the weights. */
-static void add (pg_quadrature *out, const mesh *m, size_t e, int n, const double *xi, const double *w,
-                 double factor)
+/* The rule of a kind of element: weights, and the shape functions of the element at its points with their
+ * derivatives, PG_ELEMENT_NODES of them or three times as many a point. */
+typedef struct { int kind, n; double w[PG_ELEMENT_POINTS], *N, *dN; } rule;
+
+/* Fills the rule for another kind. */
+static void choose_rule (rule *r, int kind, int order)
+{
+    double xi[3 * PG_ELEMENT_POINTS];
+    int d = pg_element_types[kind].dim;
+    r->kind = kind, r->n = pg_element_rule ((pg_element) kind, order, xi, r->w);
+    for (int k = 0; k < r->n; k++)
+        pg_element_shape ((pg_element) kind, xi + k * d, r->N + k * PG_ELEMENT_NODES,
+                          r->dN + k * 3 * PG_ELEMENT_NODES);
+}
+
+/* Appends the points of a rule in element e, mapped; factor multiplies the weights. */
+static void add (pg_quadrature *out, const mesh *m, size_t e, const rule *r, double factor)
 {
     size_t dim = (size_t) m->dim;
     pg_element kind = (pg_element) m->kind[e];
-    int d = pg_element_types[kind].dim;
     const double *corner = m->x + m->start[e] * dim;
-    for (int k = 0; k < n; k++, out->n++) {
+    for (int k = 0; k < r->n; k++, out->n++) {
         double *normal = m->facets ? out->normal + out->n * dim : NULL;
-        out->weight[out->n] = w[k]
-                              * fabs (pg_element_map (kind, m->dim, corner, xi + k * d, out->x + out->n * dim,
-                                                      normal))
-                              * factor;
+        double size = pg_element_map_by (kind, m->dim, corner, r->N + k * PG_ELEMENT_NODES,
+                                         r->dN + k * 3 * PG_ELEMENT_NODES, out->x + out->n * dim, normal);
+        out->weight[out->n] = r->w[k] * fabs (size) * factor;
         out->cell[out->n] = (int) e;
     }
 }
@@ -106,20 +118,21 @@ static void add_cut (pg_quadrature *out, mesh *m, size_t e)
 static pg_status fill (pg_quadrature *out, mesh *m, double factor)
 {
     pg_status status = PG_OK;
-    double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS];
-    int last = -1, n = 0;
+    rule r = { .kind = -1 };
     memset (out, 0, sizeof *out);
+    PG_ALLOC (r.N, 4 * PG_ELEMENT_POINTS * PG_ELEMENT_NODES);
+    r.dN = r.N + PG_ELEMENT_POINTS * PG_ELEMENT_NODES;
     PG_TRY (find_cut (m));
     PG_TRY (reserve (out, m));
     for (size_t e = 0; e < m->n; e++) {
         if (m->kind[e] == PG_CUT) add_cut (out, m, e);
         else {
-            if (m->kind[e] != last)
-                n = pg_element_rule ((pg_element) m->kind[e], m->order, xi, w), last = m->kind[e];
-            add (out, m, e, n, xi, w, factor);
+            if (m->kind[e] != r.kind) choose_rule (&r, m->kind[e], m->order);
+            add (out, m, e, &r, factor);
         }
     }
 done:
+    pg_free (r.N);
     pg_free (m->first);
     pg_cut_points_clear (&m->cut);
     if (status != PG_OK) pg_quadrature_clear (out);

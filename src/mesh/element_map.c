@@ -4,13 +4,11 @@
 #include "element.h"
 #include <math.h>
 
-/* x and J[axis][reference axis] = dx / dxi at xi. */
-static void place_and_slope (pg_element kind, int dim, const double *x, const double *xi, double place[3],
-                             double J[3][3])
+/* x and J[axis][reference axis] = dx / dxi from the shape functions there and their derivatives. */
+static void combine (pg_element kind, int dim, const double *x, const double *N, const double *dN,
+                     double place[3], double J[3][3])
 {
     int d = pg_element_types[kind].dim, nodes = pg_element_types[kind].nodes;
-    double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES];
-    pg_element_shape (kind, xi, N, dN);
     for (int a = 0; a < dim; a++) {
         place[a] = 0;
         for (int r = 0; r < 3; r++) J[a][r] = 0;
@@ -20,6 +18,15 @@ static void place_and_slope (pg_element kind, int dim, const double *x, const do
             place[a] += N[i] * x[i * dim + a];
             for (int r = 0; r < d; r++) J[a][r] += dN[i * d + r] * x[i * dim + a];
         }
+}
+
+/* The same at xi. */
+static void place_and_slope (pg_element kind, int dim, const double *x, const double *xi, double place[3],
+                             double J[3][3])
+{
+    double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES];
+    pg_element_shape (kind, xi, N, dN);
+    combine (kind, dim, x, N, dN, place, J);
 }
 
 /* Length, area or volume of the image of the unit cube of dimension d; n: normal, not of unit length. */
@@ -46,9 +53,17 @@ static double size_of (int d, int dim, double J[3][3], double n[3])
 double pg_element_map (pg_element kind, int dim, const double *x, const double *xi, double *place,
                        double *normal)
 {
+    double N[PG_ELEMENT_NODES], dN[3 * PG_ELEMENT_NODES];
+    pg_element_shape (kind, xi, N, dN);
+    return pg_element_map_by (kind, dim, x, N, dN, place, normal);
+}
+
+double pg_element_map_by (pg_element kind, int dim, const double *x, const double *N, const double *dN,
+                          double *place, double *normal)
+{
     int d = pg_element_types[kind].dim;
     double J[3][3], at[3] = { 0 }, n[3];
-    place_and_slope (kind, dim, x, xi, at, J);
+    combine (kind, dim, x, N, dN, at, J);
     double size = size_of (d, dim, J, n);
     for (int a = 0; place && a < dim; a++) place[a] = at[a];
     for (int a = 0; normal && a < dim; a++) normal[a] = d == dim - 1 && size > 0 ? n[a] / size : 0;
