@@ -56,6 +56,8 @@ typedef struct {
     double *w;
     /* PG_GRADE_... (n). */
     unsigned char *grade;
+    /* Places so far whose values were copied from others that see their nodes alike, and their bonds. */
+    size_t  copied, copied_bonds;
 } pg_rows;
 
 typedef struct pg_approx_type pg_approx_type;

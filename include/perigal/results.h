@@ -44,7 +44,7 @@ pg_status pg_result_stage (pg_result *result, const pg_state *state, const pg_st
 void      pg_result_refused (pg_result *result);
 /* Writes the last fields, the pictures and report.json. failure: NULL, or the message of what
  * ended the run; search and total: seconds spent in the search for neighbours and in the whole
- * run. */
+ * run before this call, whose own are added in the report. */
 pg_status pg_result_finish (pg_result *result, const pg_state *state, const char *failure, double search,
                             double total);
 /* Closes the files and gives up the lock; accepts a pointer to NULL. */

@@ -5,7 +5,7 @@
 
 /* Slots at most; rows below which keeping costs more than it spares; rows that may find nothing to copy,
  * one behind the other, before no more are looked for. */
-enum { SLOTS = 4096, FEW = 16, PATIENCE = 3 * SLOTS };
+enum { SLOTS = 1024, FEW = 16, PATIENCE = 8 * SLOTS };
 
 /* Adding and subtracting this rounds a number of size 1 to a multiple of 2^-40: from 4096 on numbers are
  * 2^-40 apart. */
@@ -101,7 +101,7 @@ int congruent_find (congruent *c, const pg_neighbourhood *s, const double *volum
     if (c->with_dN) memcpy (rows->dN + first * dim, dN, n * dim * sizeof *dN);
     if (rows->w) memcpy (rows->w + first, w, n * sizeof *w);
     rows->grade[i] = k->grade;
-    c->copied++, c->missed = 0;
+    c->copied++, c->copied_bonds += n, c->missed = 0;
     return 1;
 }
 

@@ -23,8 +23,8 @@ typedef struct {
     /* For each slot: bonds in horizons (most x dim), volumes (most), then the values of the row: w
      * (most), N (most), dN (most x dim). */
     double *store;
-    /* Rows copied; rows in a series that found nothing to copy. */
-    size_t  copied, missed;
+    /* Rows copied and their bonds; rows in a series that found nothing to copy. */
+    size_t  copied, copied_bonds, missed;
 } congruent;
 
 /* Room for `count` rows of at most `most` bonds. */

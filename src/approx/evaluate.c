@@ -296,7 +296,10 @@ done:
         pg_free (g.around[t].ratio);
         pg_free (g.around[t].entry);
     }
-    for (size_t t = 0; g.known && t < slots; t++) congruent_clear (&g.known[t]);
+    for (size_t t = 0; g.known && t < slots; t++) {
+        rows->copied += g.known[t].copied, rows->copied_bonds += g.known[t].copied_bonds;
+        congruent_clear (&g.known[t]);
+    }
     pg_free (g.known);
     pg_free (g.around);
     return status;

@@ -4,6 +4,7 @@
  * redone. */
 #include "galerkin.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The unknowns of a point. They are coefficients of shape functions; what is recorded is the displacement
@@ -270,6 +271,20 @@ static pg_status galerkin_equilibrium_balance (void *self, double t, const doubl
     return PG_OK;
 }
 
+/* Shape functions of places that see their nodes alike (approx/congruent.h), then what products spare. The
+ * time saved is by the seconds that a bond costs, of one that is computed less one that is copied. */
+static int spared (const void *self, size_t k, char *what, char *why, double *seconds)
+{
+    const galerkin *g = self;
+    size_t places = 0, bonds = 0;
+    for (int s = 0; s < PG_BOND_SETS; s++) places += g->rows[s].copied, bonds += g->rows[s].copied_bonds;
+    if (k > 0 || places == 0) return galerkin_spared (self, k - (places > 0 && k > 0), what, why, seconds);
+    snprintf (what, 96, "shape functions at %zu places", places);
+    snprintf (why, 160, "places of a lattice that see their nodes alike have the same ones: evaluated once");
+    *seconds = 5e-8 * (double) bonds;
+    return 1;
+}
+
 const pg_force_type pg_force_galerkin = {
     .method = { .name = "galerkin",
                 .summary = "weak form with the shape functions of method.approximation (Cui 2022)",
@@ -308,7 +323,7 @@ const pg_force_type pg_force_galerkin = {
     .assemble = galerkin_assemble,
     .mass_matrix = galerkin_mass_matrix,
     .sample = galerkin_sample,
-    .spared = galerkin_spared,
+    .spared = spared,
     .estimate = galerkin_estimate,
     .surface = galerkin_surface,
     .change = galerkin_change_of,

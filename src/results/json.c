@@ -37,6 +37,7 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics
     pg_json_number (j, "force", r->seconds[PG_SECONDS_FORCE]);
     pg_json_number (j, "break", r->seconds[PG_SECONDS_BREAK]);
     pg_json_number (j, "write", res->seconds);
+    if (res->problem->patch.measured) pg_json_number (j, "patch", res->problem->patch.seconds);
     if (e) pg_json_number (j, "estimate", e->seconds);
     if (res->measured) pg_json_number (j, "error", res->errors.seconds);
     pg_json_number (j, "total", total);

@@ -265,7 +265,8 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
 done:
     r->seconds += pg_seconds () - t0;
     /* the report comes also without pictures */
-    pg_status written = pg_result_json (r, state, failure, search, r->earlier + total);
+    /* With what finishing took: fields, pictures, errors against the reference, the estimate. */
+    pg_status written = pg_result_json (r, state, failure, search, r->earlier + total + pg_seconds () - t0);
     if (status == PG_OK) status = written;
     if (status == PG_OK && !failure) status = pg_result_remove (r, "checkpoint.nc");
     return status;

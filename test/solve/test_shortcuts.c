@@ -60,7 +60,7 @@ static void a_large_step_factors (void **state)
     advance (&a);
     const pg_statistics *r = pg_solver_report (a.solver, a.state);
     assert_true (r->factorizations >= 1);
-    assert_int_equal (r->nskipped, 0);
+    for (size_t k = 0; k < r->nskipped; k++) assert_null (strstr (r->skipped[k].what, "factorization"));
     clear (&a);
 }
 
