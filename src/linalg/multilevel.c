@@ -84,13 +84,15 @@ static pg_status factor_coarsest (pg_multilevel *m, level *l)
 {
     pg_status status = PG_OK;
     pg_sparse A = { 0 };
-    pg_linear_options o = { l->block, l->dim, l->threads, 0 };
+    pg_linear_options o = { l->block, l->dim, 1, 0 };
     m->direct = pg_linear_first (1, 1);
     for (double lift = 1e-10; ; lift *= 100) {
         pg_sparse_clear (&A);
         PG_TRY (coarsest_matrix (&A, l, lift));
         if (!m->factor) PG_TRY (m->direct->analyse (&m->factor, &A, &o));
+        pg_linear_threads (1);
         pg_status now = m->direct->factor (m->factor, &A);
+        pg_linear_threads (l->threads);
         if (now == PG_E_NOT_SPD && lift < 1e-5) continue;
         PG_TRY (now);
         break;

@@ -171,7 +171,13 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
 {
     pg_status status = PG_OK;
     level *l = &m->at[k];
-    if (k + 1 == m->count && m->factor) return m->direct->solve (m->factor, 1, b, z);
+    /* On one thread: BLAS adds in another order on two, and the bits must not depend on their number. */
+    if (k + 1 == m->count && m->factor) {
+        pg_linear_threads (1);
+        status = m->direct->solve (m->factor, 1, b, z);
+        pg_linear_threads (l->threads);
+        return status;
+    }
     smooth (l, m->degree, b, z);
     if (k + 1 == m->count) return PG_OK;
     level *c = &m->at[k + 1];
