@@ -168,7 +168,7 @@ static pg_status by_factor (job *j)
     void *factor = NULL;
     spread set_up = { 0 }, solve = { 0 }, wall = { 0 };
     double t0 = spread_processor (), *b = NULL, *q = NULL;
-    pg_linear_options o = { 1, j->problem->dim, j->problem->threads, 0 };
+    pg_linear_options o = { 1, j->problem->dim, j->problem->threads, 0, 0 };
     PG_ALLOC (b, j->n);
     PG_ALLOC (q, j->n);
     PG_ALLOC (j->exact, j->n);

@@ -92,6 +92,8 @@ typedef struct {
     int    threads;
     /* Iterative solvers stop at |r| <= tolerance |b| (Euclidean norms). */
     double tolerance;
+    /* 1: many factorisations or solves will follow, so that an order with fewer operations is worth finding. */
+    int    many;
 } pg_linear_options;
 
 /* What a solver reports. */
@@ -139,8 +141,8 @@ void pg_linear_threads (int threads);
 
 /* Predicts what the factor of a matrix with dense blocks (block x block) on `graph` will hold and cost: the
  * same ordering, and a symbolic analysis of the graph of the nodes alone. graph: upper triangle, diagonal
- * included; values are ignored. */
-pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info *info);
+ * included; values are ignored. many: as in pg_linear_options. */
+pg_status pg_linear_forecast (const pg_sparse *graph, int block, int many, pg_linear_info *info);
 
 /* Conjugate gradients with the diagonal as preconditioner. x: first guess in, solution out. Stops at |r| <=
  * tolerance |b|. PG_E_EQUILIBRIUM after `limit` iterations, PG_E_NOT_SPD where p.A p <= 0. Sums are taken

@@ -187,7 +187,7 @@ static pg_status update_side (galerkin *g, elimination *e, int *index)
     for (size_t i = 0; i < g->n; i++) index[i] = -1;
     for (size_t s = 0; s < e->n; s++) index[e->slave[s]] = (int) s;
     PG_TRY (slave_matrix (g, e, index, &C));
-    PG_TRY (lu->analyse (&solver, &C, &(pg_linear_options) { 1, g->dim, g->threads, 0 }));
+    PG_TRY (lu->analyse (&solver, &C, &(pg_linear_options) { 1, g->dim, g->threads, 0, 0 }));
     PG_TRY (lu->factor (solver, &C));
     PG_ALLOC (unit, e->n);
     for (size_t s = 0; s < e->n; s++) {                /* column s of C_s'^-1 is row s of C_s^-1 */

@@ -104,8 +104,10 @@ static double count_flops (chol *c, cholmod_sparse *graph, SuiteSparse_long *nod
  * saves more than a sixth of them below some ten thousand unknowns; in slender bodies, and with the wide rows
  * of meshfree shape functions, AMD often is the better one: then it is only asked when that sixth is more
  * than its own cost, and has to be better by count. It counts in 32 bits where it was built so; a graph too
- * large for that stays with AMD. `unknowns`: of all nodes together. */
-static pg_status order_nodes (chol *c, const pg_sparse *G, size_t unknowns, SuiteSparse_long *node)
+ * large for that stays with AMD. `unknowns`: of all nodes together; many: some twenty factorisations or more
+ * will follow. */
+static pg_status order_nodes (chol *c, const pg_sparse *G, size_t unknowns, int many,
+                              SuiteSparse_long *node)
 {
     pg_status status = PG_OK;
     cholmod_sparse S = pattern_of (G);
@@ -116,7 +118,7 @@ static pg_status order_nodes (chol *c, const pg_sparse *G, size_t unknowns, Suit
         PG_FAIL (PG_E_MEMORY, "%s could not order %zu nodes", c->ordering, G->ncol);
     /* AMD's own estimate, of the graph: blocks of m unknowns take m^3 times as many operations */
     double flops = block * block * block * c->common.fl;
-    if (flops / 6 < 6000 * (double) G->start[G->ncol]) goto done;
+    if (flops / 6 * (many ? 20 : 1) < 6000 * (double) G->start[G->ncol]) goto done;
     PG_ALLOC (other, G->ncol);
     if (!cholmod_l_metis (&S, NULL, 0, 1, other, &c->common)) {
         if (c->common.status == CHOLMOD_TOO_LARGE) goto done;
@@ -139,7 +141,7 @@ static pg_status order (chol *c, const pg_sparse *A, const pg_linear_options *o,
     int block = o->block > 0 && A->ncol % (size_t) o->block == 0 ? o->block : 1;
     PG_TRY (node_graph (&G, A, block));
     PG_ALLOC (node, G.ncol);
-    PG_TRY (order_nodes (c, &G, A->ncol, node));
+    PG_TRY (order_nodes (c, &G, A->ncol, o->many, node));
     for (size_t k = 0; k < G.ncol; k++)
         for (int a = 0; a < block; a++) perm[k * (size_t) block + (size_t) a] = node[k] * block + a;
 done:
@@ -184,7 +186,7 @@ done:
 }
 
 /* Simplicial analysis, because only the column counts are wanted. */
-pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info *info)
+pg_status pg_linear_forecast (const pg_sparse *graph, int block, int many, pg_linear_info *info)
 {
     pg_status status = PG_OK;
     void *self = NULL;
@@ -196,7 +198,7 @@ pg_status pg_linear_forecast (const pg_sparse *graph, int block, pg_linear_info 
     self = c;
     start (c, CHOLMOD_SIMPLICIAL);
     PG_ALLOC (perm, graph->ncol);
-    PG_TRY (order_nodes (c, graph, graph->ncol * (size_t) block, perm));
+    PG_TRY (order_nodes (c, graph, graph->ncol * (size_t) block, many, perm));
     cholmod_sparse S = pattern_of (graph);
     c->L = cholmod_l_analyze_p (&S, perm, NULL, 0, &c->common);
     if (!c->L) PG_FAIL (PG_E_MEMORY, "no memory for the symbolic analysis of %zu nodes", graph->ncol);

@@ -296,7 +296,7 @@ static pg_status factor_springs (pg_element_preconditioner *P, size_t ndof, int 
 {
     pg_status status = PG_OK;
     pg_sparse unit = { 0 }, G = { 0 };
-    pg_linear_options o = { 1, 3, threads, 0 };
+    pg_linear_options o = { 1, 3, threads, 0, 1 };
     size_t n = P->elements.W.ncol;
     if (n == 0) return PG_OK;
     P->direct = pg_linear_first (1, 1);

@@ -84,7 +84,7 @@ static pg_status factor_coarsest (pg_multilevel *m, level *l)
 {
     pg_status status = PG_OK;
     pg_sparse A = { 0 };
-    pg_linear_options o = { l->block, l->dim, 1, 0 };
+    pg_linear_options o = { l->block, l->dim, 1, 0, 1 };
     m->direct = pg_linear_first (1, 1);
     for (double lift = 1e-10; ; lift *= 100) {
         pg_sparse_clear (&A);

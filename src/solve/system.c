@@ -205,7 +205,7 @@ static pg_status analyse (pg_system *s)
     double t0 = pg_seconds ();
     int reduced = s->nred != s->ndof;
     pg_linear_options o = { reduced ? 1 : s->components, s->problem->dim, s->problem->threads,
-                            0.01 * s->options->tolerance };
+                            0.01 * s->options->tolerance, s->problem->criterion->type != NULL };
     PG_TRY (s->linear->analyse (&s->factor, &s->A, &o));
     pg_linear_info info;
     s->linear->info (s->factor, &info);

@@ -34,10 +34,10 @@ static void forecast_of (size_t side, int dim, int reach, int block)
     pg_linear_info told, found;
     void *self = NULL;
     const pg_linear_type *chol = pg_linear_find ("cholmod");
-    pg_linear_options o = { block, dim, 1, 0 };
+    pg_linear_options o = { block, dim, 1, 0, 0 };
     lattice_matrix (&G, side, dim, reach, 1);
     lattice_matrix (&A, side, dim, reach, (size_t) block);
-    check_ok (pg_linear_forecast (&G, block, &told));
+    check_ok (pg_linear_forecast (&G, block, 0, &told));
     check_ok (chol->analyse (&self, &A, &o));
     chol->info (self, &found);
     assert_string_equal (told.ordering, found.ordering);
@@ -61,7 +61,7 @@ static void test_dense_block_is_a_triangle (void **state)
     pg_sparse G;
     pg_linear_info info;
     lattice_matrix (&G, 5, 1, 5, 1);
-    check_ok (pg_linear_forecast (&G, 3, &info));
+    check_ok (pg_linear_forecast (&G, 3, 0, &info));
     assert_true (info.factor_entries == 15 * 16 / 2);
     assert_true (info.flops == 15 * 16 * 31 / 6);
     pg_sparse_clear (&G);
@@ -76,7 +76,7 @@ static void test_failing_allocations (void **state)
     size_t used = pg_memory_used ();
     for (size_t k = 1;; k++) {
         pg_memory_fail_at (k);
-        pg_status status = pg_linear_forecast (&G, 2, &info);
+        pg_status status = pg_linear_forecast (&G, 2, 0, &info);
         pg_memory_fail_at (0);
         assert_int_equal (pg_memory_used (), used);
         if (status == PG_OK) break;

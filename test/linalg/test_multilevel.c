@@ -78,7 +78,7 @@ static void answers_are_those_of_the_factor (void **state)
         springs s = springs_of (&rules[k]);
         pg_multilevel_setting setting = springs_setting (&s, 1);
         pg_sparse A = springs_matrix (&s);
-        pg_linear_options o = { s.block, s.dim, 1, 0 };
+        pg_linear_options o = { s.block, s.dim, 1, 0, 0 };
         const pg_linear_type *cholmod = pg_linear_find ("cholmod");
         double *b = draw (&s), *x = pg_calloc (s.ndof, sizeof *x), *y = pg_calloc (s.ndof, sizeof *y);
         void *factor = NULL;

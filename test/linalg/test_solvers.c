@@ -31,7 +31,7 @@ static void systems_of_few_unknowns (void **state)
         double b[9], x[9];
         for (size_t i = 0; i < n; i++) b[i] = random_number ();
         for (int k = 0; k < NAMES; k++) {
-            check_ok (solve_with (names[k], &A, &(pg_linear_options) { 1, 1, 1, 1e-14 }, 1, b, x));
+            check_ok (solve_with (names[k], &A, &(pg_linear_options) { 1, 1, 1, 1e-14, 0 }, 1, b, x));
             check_below (misfit (&D, 1, x, b), 1e-12);
         }
         pg_sparse_clear (&A);
@@ -65,7 +65,7 @@ static void every_solver_on_every_lattice (void **state)
             for (size_t i = 0; i < MOST_RHS * D.nrow; i++) b[i] = random_number ();
             for (int k = 0; k < NAMES; k++)
                 for (size_t nrhs = 1; nrhs <= MOST_RHS; nrhs += MOST_RHS - 1) {
-                    pg_linear_options o = { (int) block, lattices[l].dim, 1, 1e-13 };
+                    pg_linear_options o = { (int) block, lattices[l].dim, 1, 1e-13, 0 };
                     /* NaN: the old content must not count */
                     memset (x, 0xff, MOST_RHS * D.nrow * sizeof *x);
                     check_ok (solve_with (names[k], &A, &o, nrhs, b, x));
@@ -100,7 +100,7 @@ static void order_cube (size_t side, const char *ordering)
     const pg_linear_type *type = pg_linear_find ("cholmod");
     void *solver = NULL;
     pg_linear_info info;
-    check_ok (type->analyse (&solver, &A, &(pg_linear_options) { (int) block, 3, 1, 0 }));
+    check_ok (type->analyse (&solver, &A, &(pg_linear_options) { (int) block, 3, 1, 0, 0 }));
     check_ok (type->factor (solver, &A));
     check_ok (type->solve (solver, 1, b, x));
     type->info (solver, &info);
@@ -132,7 +132,7 @@ static void one_analysis_serves_many_factorizations (void **state)
     for (size_t i = 0; i < n; i++) b[i] = random_number ();
     for (int k = 0; k < NAMES; k++) {
         const pg_linear_type *type = pg_linear_find (names[k]);
-        pg_linear_options o = { 2, 2, 1, 1e-13 };
+        pg_linear_options o = { 2, 2, 1, 1e-13, 0 };
         void *solver = NULL;
         check_ok (type->analyse (&solver, &A, &o));
         for (int round = 0; round < 5; round++) {
@@ -164,7 +164,7 @@ static void cholesky_refuses_what_is_not_positive_definite (void **state)
     void *solver = NULL;
     double *b = pg_calloc (D.nrow, sizeof *b), *x = pg_calloc (D.nrow, sizeof *x);
     b[3] = 1;
-    check_ok (type->analyse (&solver, &A, &(pg_linear_options) { 2, 2, 1, 0 }));
+    check_ok (type->analyse (&solver, &A, &(pg_linear_options) { 2, 2, 1, 0, 0 }));
     for (size_t bad = 0; bad < D.nrow; bad += 9) {
         double keep = A.value[A.start[bad + 1] - 1];
         A.value[A.start[bad + 1] - 1] = -100;
@@ -192,7 +192,7 @@ static void conjugate_gradients_refuse_what_is_not_positive_definite (void **sta
     pg_sparse A = sparse_of (&D, 1);
     double b[49], x[49];
     for (int i = 0; i < 49; i++) b[i] = random_number ();
-    check_fails (solve_with ("pcg", &A, &(pg_linear_options) { 1, 2, 1, 1e-12 }, 1, b, x), PG_E_NOT_SPD);
+    check_fails (solve_with ("pcg", &A, &(pg_linear_options) { 1, 2, 1, 1e-12, 0 }, 1, b, x), PG_E_NOT_SPD);
     pg_sparse_clear (&A);
     dense_free (&D);
 }
@@ -237,7 +237,7 @@ static void lu_sees_a_singular_matrix (void **state)
     pg_sparse A = sparse_of (&D, 1);
     double b[36], x[36];
     for (int i = 0; i < 36; i++) b[i] = random_number ();
-    check_fails (solve_with ("umfpack", &A, &(pg_linear_options) { 1, 2, 1, 0 }, 1, b, x), PG_E_SINGULAR);
+    check_fails (solve_with ("umfpack", &A, &(pg_linear_options) { 1, 2, 1, 0, 0 }, 1, b, x), PG_E_SINGULAR);
     pg_sparse_clear (&A);
     dense_free (&D);
 }
@@ -258,7 +258,7 @@ static void lu_solves_indefinite_and_unsymmetric_systems (void **state)
         pg_sparse A = sparse_of (&D, symmetric);
         double b[180], x[180];
         for (int i = 0; i < 180; i++) b[i] = random_number ();
-        check_ok (solve_with ("umfpack", &A, &(pg_linear_options) { 1, 2, 1, 0 }, 3, b, x));
+        check_ok (solve_with ("umfpack", &A, &(pg_linear_options) { 1, 2, 1, 0, 0 }, 3, b, x));
         check_below (misfit (&D, 3, x, b), 1e-10);
         pg_sparse_clear (&A);
         dense_free (&D);
@@ -277,7 +277,7 @@ static void each_failed_allocation_is_reported (void **state)
         size_t k = 0;
         while (status != PG_OK) {
             pg_memory_fail_at (++k);
-            status = solve_with (names[s], &A, &(pg_linear_options) { 2, 2, 1, 1e-12 }, 1, b, x);
+            status = solve_with (names[s], &A, &(pg_linear_options) { 2, 2, 1, 1e-12, 0 }, 1, b, x);
             pg_memory_fail_at (0);
             if (status != PG_OK) assert_int_equal (status, PG_E_MEMORY);
             assert_int_equal (pg_memory_used (), used);
@@ -313,7 +313,7 @@ static void a_new_factor_takes_the_place_of_the_old_one (void **state)
     b[3] = 1;
     for (int k = 0; k < NAMES; k++) {
         const pg_linear_type *type = pg_linear_find (names[k]);
-        pg_linear_options o = { 2, 2, 1, 1e-12 };
+        pg_linear_options o = { 2, 2, 1, 1e-12, 0 };
         check_ok (solve_with (names[k], &A, &o, 1, b, x));     /* what a library keeps for good it has now */
         double empty = given_out (), one = 0;
         for (int round = 0; round < ROUNDS; round++) {

@@ -172,7 +172,7 @@ static void factor_is_near (const char *text, double tolerance)
     const pg_family *bulk = &b.problem->rows[f.nodal ? PG_NODES : PG_POINTS].family;
     pg_sparse G;
     check_ok (pg_assembly_graph (&G, b.problem->cloud.n, 1, &bulk));
-    check_ok (pg_linear_forecast (&G, f.dim, &info));
+    check_ok (pg_linear_forecast (&G, f.dim, 0, &info));
     assert_false (f.analysed);
     check_relative (f.factor_entries, info.factor_entries, tolerance);
     check_relative (f.factor_flops, info.flops, 2 * tolerance);
@@ -197,7 +197,7 @@ static pg_forecast analysed (const built *b, const char *text)
     pg_linear_info info;
     check_ok (pg_forecast_problem (&f, b->problem));
     check_ok (pg_assembly_graph (&G, b->problem->cloud.n, 2, seen));
-    check_ok (pg_linear_forecast (&G, b->problem->dim, &info));
+    check_ok (pg_linear_forecast (&G, b->problem->dim, b->problem->criterion->type != NULL, &info));
     pg_forecast_analysed (&f, (double) G.start[G.ncol], info.ordering, info.factor_entries, info.flops);
     pg_sparse_clear (&G);
     return f;
