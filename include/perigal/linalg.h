@@ -92,7 +92,7 @@ typedef struct {
     int    threads;
     /* Iterative solvers stop at |r| <= tolerance |b| (Euclidean norms). */
     double tolerance;
-    /* 1: many factorisations or solves will follow, so that an order with fewer operations is worth finding. */
+    /* 1: many factorisations or solves will follow, so that an order of fewer operations pays. */
     int    many;
 } pg_linear_options;
 

@@ -23,7 +23,7 @@ static atomic_uintptr_t asked[2];
 
 /* Blocks up to 1 GiB come from the heap, and the heap is not returned to the system. It grows by 64 MiB at a
  * time, and the first of these, where the small blocks of a run lie, are asked for in large pages: a page is
- * given when it is touched first, and a large one costs as much as some ten small ones of its five hundred. */
+ * given when it is touched first, and a large one costs as much as ten of its small ones. */
 void pg_memory_keep (void)
 {
 #if defined (__GLIBC__)
@@ -36,7 +36,7 @@ void pg_memory_keep (void)
 #endif
 }
 
-/* The request covers all large pages that the block touches, and what the heap has behind it: the small blocks
+/* The request covers all large pages that the block touches, and what the heap has behind: small blocks
  * there profit too. What it grows by later asks again. Whether pages are granted is the system's affair, so
  * that the answer is not looked at. */
 void pg_memory_large (void *block, size_t bytes)
