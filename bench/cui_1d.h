@@ -19,8 +19,11 @@ static inline pg_status bar_create (bar *out, const char *approximation, size_t 
                   L,
                   D,
                   { .dim = 1, .n = cells + 1, .h = D, .step = { D }, .thickness = 1 },
-                  { pg_approx_find (approximation), pg_kernel_find ("cubic_spline"), 1, PG_RADIAL, 0,
-                    a_over_D * D, 0, 0 } };
+                  { .type = pg_approx_find (approximation),
+                    .kernel = pg_kernel_find ("cubic_spline"),
+                    .order = 1,
+                    .shape = PG_RADIAL,
+                    .horizon = a_over_D * D } };
     PG_ALLOC (out->cloud.x, cells + 1);
     PG_ALLOC (out->cloud.volume, cells + 1);
     for (size_t i = 0; i <= cells; i++) {
