@@ -193,7 +193,8 @@ done:
 
 /* Iterative refinement: solve, add, measure, by forces of the force itself. It ends when the residual is
  * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
- * half; then the state is judged. */
+ * half, in itself or against the forces (which vanish with it in a body that is unloaded); then the state is
+ * judged. */
 pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
@@ -205,14 +206,16 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
         PG_TRY (system_residual (s, t, d, dyn, &r));
         if (k == 0 && guesses (s, dyn)) PG_TRY (improve (s, t, d, dyn, &r));
         s->known = 1;
-        if (k > 1 && r > last) {                       /* the last refinement made it worse: take it back */
+        /* the last refinement made it worse: take it back */
+        if (k > 1 && r > last && s->unbalanced > before.unbalanced) {
             memcpy (d, s->best, s->ndof * sizeof *d);
             r = last, s->unbalanced = before.unbalanced, s->reference = before.reference;
             s->known = 0;
             break;
         }
         if (r <= (by_factor_at_hand (s, dyn) ? goal : 0.1 * s->options->tolerance)
-            || k == MOST_REFINEMENTS || (k > 1 && r > 0.5 * last))
+            || k == MOST_REFINEMENTS
+            || (k > 1 && r > 0.5 * last && s->unbalanced > 0.5 * before.unbalanced))
             break;
         memcpy (s->best, d, s->ndof * sizeof *d);
         last = r, before.unbalanced = s->unbalanced, before.reference = s->reference;

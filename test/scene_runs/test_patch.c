@@ -16,7 +16,8 @@
 #include "run.h"
 
 static const char *const materials = "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
-                                     "solver: {steps: 1, stepping: fixed}\noutput: {at: {levels: 1}}\n";
+                                     "solver: {steps: 1, stepping: fixed, tolerance: 1e-12}\noutput: {at: "
+                                     "{levels: 1}}\n";
 static const char *const approximations[] = { "nosb", "pddo", "rkpm" }, *const bases[] = { "linear",
                                                                                            "quadratic" };
 static const char *const integrations[] = { "nodal", "gauss" }, *const supports[] = { "radial", "tensor" };
