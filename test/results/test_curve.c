@@ -7,7 +7,8 @@
 
 #define PLATE \
     "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\n" \
-    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\noutput: {pictures: [], estimate: " \
+    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n" \
+    "output: {pictures: [damage], estimate: " \
     "off, at: {levels: 1}, gauges: [{name: mouth, from: [0.5, 0.2], to: [0.5, 0.8]}]}\n"
 
 static char where[64], *report, *history, words[3][400];

@@ -14,7 +14,8 @@
 #define PLATE PLATE_OF ("")
 #define WAVES PLATE "solver: {kind: newmark, dt: 0.5 us, end: 40 us}\n"
 #define TIPS \
-    "output: {pictures: [], fields: [displacement], tips: [{name: right, from: [10 mm, 0], along: [2, 0]}, " \
+    "output: {pictures: [damage], fields: [displacement], " \
+    "tips: [{name: right, from: [10 mm, 0], along: [2, 0]}, " \
     "{name: up, from: [10 mm, 0], along: [1, 0], damage: 60 %, where: y > 0}," \
     " {name: never, from: [10 mm, 0], along: [-1, 0]}, {name: just, from: [10 mm, 0], along: [1, 0], " \
     "damage: 50 %}, {name: beyond, from: [90 mm, 0], along: [1, 0]}]}\n"
@@ -83,7 +84,7 @@ static void lengths_and_speeds_are_those_of_the_front (void **state)
     check_ok (go_on (&r, result, 1000));
     assert_true (asked >= 60 && asked <= 62);              /* not asked again when nothing has broken; */
     check_ok (pg_result_finish (result, r.state, NULL, 0, 0));
-    assert_int_equal (pg_result_pictures (result), 3);     /* load-displacement, tip, tip_speed */
+    assert_int_equal (pg_result_pictures (result), 4);     /* damage, load-displacement, tip, tip_speed */
     assert_true (size_of (inside (where, "tip.png")) > 5000
                  && size_of (inside (where, "tip_speed.png")) > 5000);
     char *text = slurp (inside (where, "history.csv")), *report = slurp (inside (where, "report.json"));
@@ -251,7 +252,8 @@ static void a_static_crack_has_a_length (void **state)
            "nosb, integration: nodal, essential: transformation, horizon: 3.015 spacing}\n"
            "failure: {criterion: stretch, critical_stretch: 1e-3}\nboundary: [{set: bottom, displacement: "
            "{x: 0, y: 0}}, {name: lid, set: top, displacement: {y: 0.1 mm}}]\n"
-           "solver: {stepping: event, max_events: 200, stop: {stiffness: 20 %%}}\noutput: {pictures: [], "
+           "solver: {stepping: event, max_events: 200, stop: {stiffness: 20 %%}}\n"
+           "output: {pictures: [damage], "
            "tips: [{name: tip, from: [0, 20 mm], along: [1, 0], damage: 30 %%}]}\n");
     pg_result *result = NULL;
     make_folder (where);
