@@ -330,6 +330,27 @@ double    pg_tip_nearest (const pg_problem *problem, const pg_state *state, size
                           double *place, int *what);
 double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t tip, double limit);
 
+/* ---- costs of linear solves, forces on shape functions --------------------------------------------------- */
+typedef struct {
+    int    dim, components, order;                     /* unknowns of a point; order of the basis */
+    int    interpolates;                               /* 1: N is the identity at the nodes */
+    int    projected;                                  /* 1: the dilatation is projected (near nu = 1/2) */
+    /* 1: points at the centres of cells, behind the surface, where the supports are */
+    int    behind;
+    double points, evaluation, bonds;  /* of evaluation; evaluation-point-to-node bonds */
+    double reach;                                      /* horizon over spacing */
+    double edge[3];                                    /* nodes along the body */
+} pg_solve_counts;
+pg_solve_counts pg_solve_count (const pg_problem *problem);
+/* Seconds, by stored rates: assembly, analysis and factor; one solve with finite elements. */
+double pg_solve_direct_cost   (const pg_solve_counts *c);
+double pg_solve_elements_cost (const pg_solve_counts *c);
+/* Seconds of K x for each bond. */
+static const double pg_solve_apply_rate = 4e-9;
+/* 1: systems are solved by conjugate gradients. available: finite elements can be had as preconditioner;
+ * events: a factor would serve many events; motion: implicit dynamics, where the diagonal does not do. */
+int    pg_solve_by_elements   (const pg_solve_counts *c, int available, int events, int motion);
+
 /* ---- forecast: sizes and memory of a run before anything large is allocated ---------------------------- */
 enum {
     PG_BYTES_PROGRAM,
@@ -357,6 +378,9 @@ typedef struct {
     /* what will factor K; NULL: conjugate gradients, no matrix */
     const struct pg_linear_type *linear;
     int    automatic, dynamic;                         /* solver.linear: auto; newmark */
+    /* events: a factor would serve many; elements: finite elements may precondition */
+    int    events, elements;
+    int    order, interpolates, behind;                /* as in pg_solve_counts */
     double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
     char   ordering[16];                               /* of an analysed factor */
     double spacing, step[3], horizon;                  /* m */

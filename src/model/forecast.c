@@ -57,16 +57,34 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
 
 /* ---- the linear solver --------------------------------------------------------------------------------- */
 /* As the solver decides under `auto`: no factor where the mass dominates (conjugate gradients then need some
- * 40 iterations at most, which takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor for large solids at
- * rest. */
+ * 40 iterations at most, which takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor where finite elements
+ * cost less (solve_costs.c). */
+static int by_elements (const pg_forecast *f)
+{
+    int set = f->nodal ? PG_NODES : PG_POINTS;
+    pg_solve_counts c = { .dim = f->dim,
+                          .components = f->dim,
+                          .order = f->order,
+                          .interpolates = f->interpolates,
+                          .projected = f->patched > 0,
+                          .behind = f->behind,
+                          .points = f->points,
+                          .evaluation = f->nodal ? f->points : f->evaluation,
+                          .bonds = f->bonds[set],
+                          .reach = f->horizon / f->spacing };
+    for (int k = 0; k < 3; k++) c.edge[k] = f->edge[k];
+    return pg_solve_by_elements (&c, f->elements, f->events, f->dynamic);
+}
+
 static void choose_linear (pg_forecast *f)
 {
     if (!f->automatic) return;
     int none = f->explicit_ || f->matrixless ? 1
-               : f->dynamic                  ? f->weight <= 9 * f->spacing * f->spacing
+               : f->dynamic && f->weight <= 9 * f->spacing * f->spacing ? 1
                : !f->method->shape_functions
-                   ? pg_method_iterates (f->method, 1, f->dim, f->points * (f->dim + f->rotations))
-                                             : f->dim == 3 && f->points * 3 > 200000;
+                   ? !f->dynamic
+                         && pg_method_iterates (f->method, 1, f->dim, f->points * (f->dim + f->rotations))
+                   : by_elements (f);
     f->linear = none ? NULL : pg_linear_first (1, 1);
 }
 
@@ -116,6 +134,8 @@ static double vector_bytes (const pg_forecast *f)
     if (f->matrixless && at_rest) bytes += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));      /* lps_rows.c */
     if (!f->method->shape_functions && !f->linear && at_rest)
         bytes += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
+    if (f->method->shape_functions && !f->linear && f->elements)   /* elements' matrix, N twice, levels */
+        bytes += n * (pow (3, d) * (4 * m * m + 4) + 64 * m) + 16 * f->bonds[PG_NODES];
     return bytes;
 }
 

@@ -72,6 +72,10 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     f->linear = f->automatic ? pg_linear_first (1, 1) : pg_linear_find (linear);
     if (f->linear && !f->linear->factors) f->linear = NULL;
     if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
+    const char *stepping = pg_scene_text (scene, "solver.stepping");
+    f->elements = f->method->shape_functions && !pg_scene_bool (scene, "solver.plain")
+                  && !is (pg_scene_text (scene, "solver.preconditioner"), "jacobi");
+    f->events = f->breaks && !f->dynamic && !pg_scene_bool (scene, "solver.plain") && !is (stepping, "fixed");
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }
 
@@ -142,6 +146,8 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->facets = !f->method->shape_functions ? 0 : facets * per;
     widen (f, how->approx->horizon / lattice_step (l));
     f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
+    f->order = how->approx->order, f->interpolates = how->approx->type && how->approx->type->interpolates;
+    f->behind = how->centred;
     f->width = 0.93 * radius_of (f->dim, t->coupled);
     f->counted = !t->sampled && finer == 1 && t->crossed == 0;
     for (int k = 0; k < 3; k++)
@@ -268,6 +274,7 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
     if (!f->method->shape_functions)
         coupled = f->bonds[PG_NODES] / f->points, f->bonds[PG_NODES] -= f->points;
     f->pairs = 0.5 * f->points * (coupled + 1);
+    f->order = a.order, f->interpolates = a.type && a.type->interpolates;
     f->width = 0.93 * radius_of (f->dim, coupled);
     for (int k = 0; k < 3; k++)
         f->step[k] = c.h, f->edge[k] = k < f->dim ? (c.high[k] - c.low[k]) / c.h + 1 : 1, side *= f->edge[k];

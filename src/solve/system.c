@@ -401,9 +401,6 @@ done:
     return status;
 }
 
-/* Solids of fewer unknowns are factored in motion, where one factor serves many steps. */
-enum { LEAST_IN_MOTION = 40000 };
-
 /* Where the diagonal does, it stays. Else large solids take finite elements, as at rest, and so does what has
  * no matrix to be factored. */
 static pg_status after_trial (pg_system *s, const dynamics *dyn, int did)
@@ -411,9 +408,10 @@ static pg_status after_trial (pg_system *s, const dynamics *dyn, int did)
     pg_status status = PG_OK;
     int can, factors = system_has_matrix (s) && s->linear->factors;
     PG_TRY (system_can_precondition (s, dyn, &can));
+    pg_solve_counts c = pg_solve_count (s->problem);
     s->mode = did ? (can ? SYSTEM_DIAGONAL : SYSTEM_NO_FACTOR)
-              : can && (!factors || (s->problem->dim == 3 && s->ndof > LEAST_IN_MOTION)) ? SYSTEM_NO_FACTOR
-                                                                                          : SYSTEM_FACTOR;
+              : can && (!factors || pg_solve_by_elements (&c, 1, 0, 1)) ? SYSTEM_NO_FACTOR
+                                                                         : SYSTEM_FACTOR;
 done:
     return status;
 }
