@@ -383,15 +383,14 @@ done:
     return status;
 }
 
-/* A step begins, or the one that began is refused: what it took from the queue waits again. */
-void ahead_begin (event_ahead *q)
-{
-    if (q) q->began = q->at;
-}
-
+/* A step is refused, maybe in the middle of a look: what was found may not have been checked, nor what is
+ * known of the group. All of it is found anew. */
 void ahead_refused (event_ahead *q)
 {
-    if (q) q->at = q->began;
+    if (!q) return;
+    q->nevent = q->at = q->nbroken = 0;
+    q->zone.known = q->due = 0;
+    q->cold = -1;
 }
 
 /* What was spared: a look at all bonds for each event found together with others, at a stored rate. */

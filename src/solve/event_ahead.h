@@ -46,7 +46,6 @@ typedef struct event_ahead {
     double       residual;                             /* of the last event that was found */
     /* found, and handed out up to `at`; stride: events that the block was made for */
     ahead_event  event[AHEAD_MOST];  size_t nevent, at, stride;
-    size_t       began;  /* `at` when the step began, for steps that are refused */
     pg_broken   *broken;  size_t nbroken, cap_broken;  /* bonds of all events, one after the other */
     pg_changes   undone;
     long         wait;                                 /* plain events before the next look */

@@ -385,9 +385,10 @@ pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
     facet_growth *g = s->break_loop.growth;
     if (e->engine) PG_TRY (event_solver_restore (e->engine));
     if (g && s->break_loop.round == 0) g->needed0 = g->needed;
-    ahead_begin (e->ahead);
     if (instability_moves (&e->unstable)) return instability_step (s, &e->unstable, state, step);
     if (e->ended != PG_OK) return pg_error (e->ended, PG_HERE, "%s", e->why);
+    if (e->lost) PG_TRY (event_solve (s));
+    e->lost = 0;
     return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)
                                                            : proportional_step (s, state, step);
 done:
@@ -404,11 +405,19 @@ void event_free (pg_solver *s)
     instability_free (&e->unstable);
 }
 
-/* What was measured on the way is not that of the state that is gone back to. */
+/* What was measured on the way is not that of the state that is gone back to. Nor are the displacements, as
+ * a step may fail after it has solved for those without the bonds that it broke: they are solved for anew
+ * when the step is repeated. (d of the state is of no use for that: it is the one before its last bonds
+ * broke.) A motion has its own; a run that has ended fails before it has changed anything. */
 void event_refused (pg_solver *s)
 {
+    event_stepping *e = events_of (s);
     facet_growth *g = s->break_loop.growth;
-    ahead_refused (events_of (s)->ahead);
+    ahead_refused (e->ahead);
+    if (s->options.event && e->ended == PG_OK && !instability_moves (&e->unstable)) {
+        event_equilibrium_lost (s, s->backup);
+        e->lost = 1;
+    }
     if (g) g->fresh = 0, g->needed = s->report.energy_fracture = g->needed0;
 }
 
@@ -435,12 +444,13 @@ pg_status event_keep (pg_solver *s, const pg_keeper *k)
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     size_t ndof = s->break_loop.system.ndof;
-    long count[4] = { (long) e->ended, e->balance_fresh, e->unit != NULL, e->constant_events };
+    long count[5] = { (long) e->ended, e->balance_fresh, e->unit != NULL, e->constant_events, e->lost };
     double number[2] = { e->unit_residual, e->secant0 };
-    PG_TRY (k->counts (k->context, "event_stepping.counts", 4, count));
+    PG_TRY (k->counts (k->context, "event_stepping.counts", 5, count));
     PG_TRY (k->numbers (k->context, "event_stepping.numbers", 2, number));
     PG_KEEP_BOUND (k, "the end of the run", count[0], 0, 63);
     e->ended = (pg_status) count[0], e->balance_fresh = (int) count[1], e->constant_events = count[3];
+    e->lost = count[4] != 0;
     e->unit_residual = number[0], e->secant0 = number[1];
     PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
     if (count[2] && e->unit) PG_TRY (k->numbers (k->context, "event_stepping.unit", ndof, e->unit));

@@ -13,6 +13,7 @@ typedef struct {                                       /* state of `static` with
     double    unit_residual;                           /* of `unit` (and `base`) */
     event_solver *engine;  /* exact equilibria after breaks without a new factor; NULL: not used */
     double    engine_residual;                         /* of the base of the engine */
+    int       lost;  /* a step was refused: `unit` and `base` are first guesses only */
     pg_status ended;                                   /* no step can follow: the next one fails with this */
     char      why[1024];                               /* and says why */
     int       balance_fresh;                           /* the work balance at hand is that of `unit` */
@@ -46,8 +47,7 @@ double    ahead_factor (const struct event_ahead *q, double *top);  /* load fact
 pg_status ahead_kill   (pg_solver *s, pg_state *state);
 pg_status ahead_take   (pg_solver *s);
 void      ahead_forget (struct event_ahead *q);        /* bonds broke otherwise */
-void      ahead_begin  (struct event_ahead *q);        /* a step */
-void      ahead_refused (struct event_ahead *q);       /* the step that began */
+void      ahead_refused (struct event_ahead *q);       /* a step: nothing waits any more */
 void      ahead_tell   (pg_solver *s);                 /* for the report, once at the end */
 pg_status ahead_keep   (pg_solver *s, const pg_keeper *k);
 void      ahead_free   (struct event_ahead **q);
