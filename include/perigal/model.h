@@ -330,7 +330,7 @@ double    pg_tip_nearest (const pg_problem *problem, const pg_state *state, size
                           double *place, int *what);
 double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t tip, double limit);
 
-/* ---- costs of linear solves, forces on shape functions --------------------------------------------------- */
+/* ---- costs of linear solves, forces on shape functions ------------------------------------------------- */
 typedef struct {
     int    dim, components, order;                     /* unknowns of a point; order of the basis */
     int    interpolates;                               /* 1: N is the identity at the nodes */

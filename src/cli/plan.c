@@ -302,11 +302,11 @@ static void print_times (const plan *p)
 static void print_factor (const pg_forecast *f)
 {
     printf ("  %-18s  %s", "linear solver",
-            !f->linear
-                ? !f->method->shape_functions && !f->dynamic
-                      ? "conjugate gradients, no matrix, preconditioned on several grids\n"
-                      : "conjugate gradients, no matrix\n"
-                : f->linear->name);
+            f->linear      ? f->linear->name
+            : f->dynamic   ? "conjugate gradients, no matrix\n"
+            : f->elements  ? "conjugate gradients, no matrix, preconditioned by finite elements\n"
+            : f->method->shape_functions ? "conjugate gradients, no matrix\n"
+                           : "conjugate gradients, no matrix, preconditioned on several grids\n");
     if (!f->linear) return;
     printf (", %.4g entries in the upper triangle of K\n", f->matrix_entries);
     printf ("  %-18s  %.4g entries, %.3g operations, about %.2g s each at 20 GFLOP/s (%s%s)\n", "factor",

@@ -57,8 +57,8 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
 
 /* ---- the linear solver --------------------------------------------------------------------------------- */
 /* As the solver decides under `auto`: no factor where the mass dominates (conjugate gradients then need some
- * 40 iterations at most, which takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor where finite elements
- * cost less (solve_costs.c). */
+ * 40 iterations at most, which takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor where iterations
+ * with finite elements cost less (solve_costs.c). */
 static int by_elements (const pg_forecast *f)
 {
     int set = f->nodal ? PG_NODES : PG_POINTS;

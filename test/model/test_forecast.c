@@ -247,6 +247,20 @@ static void test_small_time_steps_factor_nothing (void **state)
     assert_string_equal (pg_forecast_linear (&lu), "umfpack");
 }
 
+/* Large solids at rest are forecast as they are solved, by the same costs: without a factor; small ones, and
+ * plain runs, with one. */
+static void test_solids_are_forecast_as_they_are_solved (void **state)
+{
+    (void) state;
+    pg_forecast small = forecast (CUBE "spacing: 0.25\n"), large = forecast (CUBE "spacing: 0.04\n"),
+                plain = forecast (CUBE "spacing: 0.04\nsolver: {plain: on}\n");
+    assert_string_equal (pg_forecast_linear (&small), "cholmod");
+    assert_string_equal (pg_forecast_linear (&large), "cg");
+    assert_string_equal (pg_forecast_linear (&plain), "cholmod");
+    assert_true (large.bytes[PG_BYTES_FACTOR] == 0 && large.bytes[PG_BYTES_MATRIX] == 0);
+    check_below (5 * large.peak, plain.peak);
+}
+
 /* ---- refusals ------------------------------------------------------------------------------------------ */
 static void test_what_fits_is_no_error (void **state)
 {
@@ -259,7 +273,7 @@ static void test_what_fits_is_no_error (void **state)
 static void test_refusal_has_the_numbers (void **state)
 {
     (void) state;
-    pg_forecast f = forecast (CUBE "spacing: 0.04\n");
+    pg_forecast f = forecast (CUBE "spacing: 0.04\nsolver: {linear: cholmod}\n");
     check_fails (pg_forecast_afford (&f, 0.9 * f.peak), PG_E_LIMIT);
     check_contains (pg_last_error (), " GB of memory, and ");
     check_contains (pg_last_error (), "points at spacing 0.04 m");
@@ -427,6 +441,7 @@ int main (void)
         cmocka_unit_test (test_law_of_wide_bonds),
         cmocka_unit_test (test_analysis_is_that_of_a_run),
         cmocka_unit_test (test_small_time_steps_factor_nothing),
+        cmocka_unit_test (test_solids_are_forecast_as_they_are_solved),
         cmocka_unit_test (test_what_fits_is_no_error),
         cmocka_unit_test (test_refusal_has_the_numbers),
         cmocka_unit_test (test_the_spacing_that_fits_fits),
