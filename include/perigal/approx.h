@@ -128,7 +128,7 @@ pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *clou
 void      pg_rows_clear  (pg_rows *rows);
 /* The same in steps, for large bodies and for several lots of places: the points of the cloud sorted for a
  * search (which borrows the cloud; pg_family_search_free), places with their families but without memory for
- * shape functions, found by any number of threads, and that memory. */
+ * shape functions and grades, found by any number of threads, and that memory. */
 pg_status pg_rows_search (pg_family_search **out, const pg_approx *a, const pg_cloud *cloud);
 pg_status pg_rows_place  (pg_rows *out, const pg_family_search *search, int dim, size_t n, const double *x,
                           const double *weight, const int *own, const int *cell, int threads);

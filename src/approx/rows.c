@@ -9,8 +9,7 @@ pg_status pg_rows_search (pg_family_search **out, const pg_approx *a, const pg_c
     return pg_family_search_create (out, cloud, a->horizon, a->shape, a->kernel->closed);
 }
 
-/* All places count as dead until they are evaluated. Families include the nodes at exactly the
- * horizon if the kernel is not zero there (`closed`). */
+/* Families include the nodes at exactly the horizon if the kernel is not zero there (`closed`). */
 pg_status pg_rows_place (pg_rows *out, const pg_family_search *search, int dim, size_t n, const double *x,
                          const double *weight, const int *own, const int *cell, int threads)
 {
@@ -20,13 +19,11 @@ pg_status pg_rows_place (pg_rows *out, const pg_family_search *search, int dim, 
     PG_ALLOC (out->weight, n);
     PG_ALLOC (out->own, n);
     PG_ALLOC (out->cell, n);
-    PG_ALLOC (out->grade, n);
     if (n) memcpy (out->x, x, n * (size_t) dim * sizeof *x);
     for (size_t i = 0; i < n; i++) {
         out->weight[i] = weight ? weight[i] : 0;
         out->own[i] = own ? own[i] : -1;
         out->cell[i] = cell ? cell[i] : -1;
-        out->grade[i] = PG_GRADE_DEAD;                 /* until evaluated */
     }
     PG_TRY (pg_family_find (&out->family, search, n, out->x, threads));
 done:
@@ -34,6 +31,7 @@ done:
     return status;
 }
 
+/* All places count as dead until they are evaluated. */
 pg_status pg_rows_values (pg_rows *rows)
 {
     pg_status status = PG_OK;
@@ -41,6 +39,8 @@ pg_status pg_rows_values (pg_rows *rows)
     PG_ALLOC (rows->N, bonds);
     PG_ALLOC (rows->dN, bonds * (size_t) rows->dim);
     PG_ALLOC (rows->w, bonds);
+    PG_ALLOC (rows->grade, rows->n);
+    if (rows->n) memset (rows->grade, PG_GRADE_DEAD, rows->n);  /* until evaluated */
 done:
     return status;
 }

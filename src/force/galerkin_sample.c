@@ -239,6 +239,7 @@ static pg_status sample_chunk (sampling *s, size_t n, const double *x, int *own)
     bonds = s->rows.family.start[n];
     PG_ALLOC (s->rows.N, bonds);                       /* the influence is not asked for */
     PG_ALLOC (s->rows.dN, bonds * (size_t) s->g->dim);
+    PG_ALLOC (s->rows.grade, n);
     if (!s->intact) PG_ALLOC (s->alive, bonds);
     if (!s->intact) pg_parallel (s->g->threads, n, find_bonds, s);
     else if (!s->uniform) pg_parallel (s->g->threads, n, find_points, s);

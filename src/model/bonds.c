@@ -16,6 +16,7 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
     pg_rows *r = &p->rows[set];
     char at[100];
     if (p->lattice.dim || r->n == 0) goto done;
+    PG_ALLOC (r->grade, r->n);                         /* for this check only: the problem keeps geometry */
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n; q++) {
         int used = 0;
@@ -33,6 +34,7 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
         PG_TRY (pg_scene_verdict (scene));
     }
 done:
+    pg_free (r->grade), r->grade = NULL;
     return status;
 }
 
