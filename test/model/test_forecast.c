@@ -228,7 +228,7 @@ static void test_analysis_is_that_of_a_run (void **state)
     run_has_this_factor (
         "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.02\n" ROCK HELD);
     run_has_this_factor (CUBE "spacing: 0.125\nboundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, "
-                              "{set: top, displacement: {y: 1 mm}}]\n");
+                              "{set: top, displacement: {y: 1 mm}}]\nsolver: {linear: cholmod}\n");
 }
 
 /* ---- who solves ---------------------------------------------------------------------------------------- */
