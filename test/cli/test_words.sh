@@ -42,7 +42,7 @@ if pid == 0:
     os.read (0, 1)                                     # the size is set
     null = os.open (os.devnull, os.O_WRONLY)
     os.dup2 (null, 1)
-    os.execv (sys.argv[1], [sys.argv[1], 'run', 'plate.yaml', '-o', sys.argv[2] + '/tty', '--threads', '1', '--set', 'spacing=0.4 mm', '--set', 'solver.max_events=150'])
+    os.execv (sys.argv[1], [sys.argv[1], 'run', 'plate.yaml', '-o', sys.argv[2] + '/tty', '--threads', '1', '--set', 'spacing=0.2 mm', '--set', 'solver.max_events=300'])
 fcntl.ioctl (fd, termios.TIOCSWINSZ, struct.pack ('HHHH', 24, 60, 0, 0))
 os.write (fd, b'\n')
 text = b''
