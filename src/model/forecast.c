@@ -76,11 +76,17 @@ static int by_elements (const pg_forecast *f)
     return pg_solve_by_elements (&c, f->elements, f->events, f->dynamic);
 }
 
+/* In small time steps of implicit dynamics, where the diagonal does as preconditioner. */
+static int mass_dominates (const pg_forecast *f)
+{
+    return f->dynamic && f->weight <= 9 * f->spacing * f->spacing;
+}
+
 static void choose_linear (pg_forecast *f)
 {
     if (!f->automatic) return;
     int none = f->explicit_ || f->matrixless ? 1
-               : f->dynamic && f->weight <= 9 * f->spacing * f->spacing ? 1
+               : mass_dominates (f) ? 1
                : !f->method->shape_functions
                    ? !f->dynamic
                          && pg_method_iterates (f->method, 1, f->dim, f->points * (f->dim + f->rotations))
@@ -125,17 +131,21 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
 
 /* Vectors of the unknowns (two states of three, thirteen of solvers, two of five numbers a point for
  * results), and what solves at rest without a factor add: rows of state-based forces, and the multilevel
- * preconditioner with its finest level and its first coarse matrix. */
+ * preconditioner with its finest level and its first coarse matrix. Products with K by shape functions: runs
+ * of points that are alike and sums of slices that overlap, 0.1 kB a point as measured on cubes of 3 000 to
+ * 55 000 nodes; their preconditioner at rest: values of shape functions at the nodes and their transpose, 12
+ * bytes an entry each, and the matrix of finite elements, whose nodes see 3^dim others. */
 static double vector_bytes (const pg_forecast *f)
 {
     double d = f->dim, n = f->points, m = d + f->rotations, corners = pow (2, d), bytes;
-    int at_rest = !f->explicit_ && !f->dynamic;
+    int at_rest = !f->explicit_ && !f->dynamic, small = f->explicit_ || mass_dominates (f);
     bytes = (2 * 3 + 13 + 2 * 5) * 8 * f->dofs;
     if (f->matrixless && at_rest) bytes += n * (8 * d * d + 19 + (d == 3 ? 72 : 32));      /* lps_rows.c */
     if (!f->method->shape_functions && !f->linear && at_rest)
         bytes += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
-    if (f->method->shape_functions && !f->linear && f->elements)   /* elements' matrix, N twice, levels */
-        bytes += n * (pow (3, d) * (4 * m * m + 4) + 64 * m) + 16 * f->bonds[PG_NODES];
+    if (f->method->shape_functions && !f->linear) bytes += 100 * (f->nodal ? n : f->evaluation);
+    if (f->method->shape_functions && !f->linear && f->elements && !small)
+        bytes += 24 * f->bonds[PG_NODES] + 8 * m * m * pow (3, d) * n;
     return bytes;
 }
 
@@ -159,8 +169,17 @@ static void add_matrix_bytes (pg_forecast *f)
     b[PG_BYTES_FACTOR] = 8 * 1.45 * entries + 16 * f->matrix_entries + (lu ? 48 * f->matrix_entries : 0);
 }
 
-/* Bytes from counts, and their sum. Of each pair of phases that do not meet, the larger counts. 35e6:
- * program and libraries; 15e6: pictures. */
+/* Program and libraries, which are loaded when they are first needed: a run that draws nothing and solves by
+ * products alone takes 5 MB besides its arrays. Factors, and the coarsest level of preconditioners,
+ * take SuiteSparse and BLAS with 9 MB. */
+static double program_bytes (const pg_forecast *f)
+{
+    int factors = f->linear || !(f->explicit_ || mass_dominates (f));
+    return 5e6 + (factors ? 9e6 : 0);
+}
+
+/* Bytes from counts, and their sum. Of each pair of phases that do not meet, the larger counts. 1.5e6: of any
+ * run, however small; 22e6: pictures, with the libraries that draw them. */
 void pg_forecast_sum (pg_forecast *f)
 {
     double d = f->dim, n = f->points, m = d + f->rotations, *b = f->bytes;
@@ -168,14 +187,14 @@ void pg_forecast_sum (pg_forecast *f)
     choose_linear (f);
     f->dofs = n * m;
     f->matrix_entries = (f->pairs - n) * m * m + n * m * (m + 1) / 2;
-    b[PG_BYTES_PROGRAM] = 35e6;
+    b[PG_BYTES_PROGRAM] = program_bytes (f);
     b[PG_BYTES_POINTS] = n * (8 * d + 12) + f->cells * 8 * d * pow (2, d);  /* pg_cloud, pg_cells */
     b[PG_BYTES_BONDS] = 4 * all + rows * (8 * d + 25);                                     /* pg_rows */
     b[PG_BYTES_SHAPES] = shape_bytes (f, all, rows);
     /* states; break_loop; factored */
     b[PG_BYTES_BREAKING] = (2 + (f->explicit_ || !f->breaks ? 0 : 17) + (f->linear != NULL)) * all;
     b[PG_BYTES_VECTORS] = vector_bytes (f);
-    b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 4e6 + (f->pictures ? 15e6 : 0);
+    b[PG_BYTES_RESULTS] = (f->fields + 2) * 6 * 8 * n + 1.5e6 + (f->pictures ? 22e6 : 0);
     add_matrix_bytes (f);
     f->peak = 0;
     for (int i = 0; i < PG_BYTES_COUNT; i++) f->peak += b[i];
