@@ -83,6 +83,127 @@ def solve_large(bench):
     return solved(bench, "solve_large", [block(28, 0), block(43, 0)], 3)
 
 
+CUBE = """title: Cube, held at the bottom, pulled and sheared at the top
+dimension: 3
+body:
+  - add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}
+%s
+spacing: %.17g
+materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}
+method: {approximation: rkpm, integration: gauss, kernel: cubic_spline, horizon: 2.0 spacing}
+%sboundary:
+  - {name: bottom, set: bottom, displacement: {x: 0, y: 0, z: 0}}
+  - {name: top, set: top, traction: {y: 1 MPa, x: 0.3 MPa}}
+solver: {kind: static, stepping: fixed, steps: 1, linear: pcg}
+output: {at: {levels: 1}, pictures: []}
+"""
+CRACK = "cracks:\n  - disc: {center: [0.5, 0.5, 0.5], normal: [0.3, 1, 0.2], radius: 0.3}\n"
+HOLE = "  - subtract: {sphere: {center: [0.5, 0.5, 0.5], radius: 0.27}}"
+MOVED = "perturb={amount: 0.3, seed: 1}"
+# what is varied: body, crack, settings; each at the two sizes
+VARIED = [
+    ("cube", "", "", []), ("points moved by 0.3 spacings", "", "", [MOVED]), ("penny crack", "", CRACK, []), ("penny crack, points moved", "", CRACK, [MOVED]),
+    ("spherical hole, cut cells", HOLE, "", []), ("spherical hole, staircase", HOLE, "", ["cells=staircase"]),
+    ("Poisson's ratio 0.4", "", "", ["materials.m.poissons_ratio=0.4"]), ("0.45", "", "", ["materials.m.poissons_ratio=0.45"]),
+    ("0.49", "", "", ["materials.m.poissons_ratio=0.49"]),
+    ("horizon 1.5 spacings", "", "", ["method.horizon=1.5 spacing"]), ("2.5 spacings", "", "", ["method.horizon=2.5 spacing"]),
+    ("quadratic basis, 2.5 spacings", "", "", ["method.basis=quadratic", "method.horizon=2.5 spacing"]),
+    ("penalty", "", "", ["method.essential=penalty"]), ("elimination", "", "", ["method.essential=transformation"]),
+    ("consistent integration", "", "", ["method.integration=consistent"]), ("nodal integration", "", "", ["method.integration=nodal"]),
+    ("NOSB, nodal", "", "", ["method.approximation=nosb", "method.integration=nodal"]),
+    ("NOSB, nodal, penny crack", "", CRACK, ["method.approximation=nosb", "method.integration=nodal"]), ("PDDO", "", "", ["method.approximation=pddo"]),
+]
+
+
+def iterations(bench):
+    """Iterations with finite elements as preconditioner, over what makes them more; a tolerance of 1e-9."""
+    lines = []
+    for side in (16, 24):
+        for number, (name, body, crack, settings) in enumerate(VARIED):
+            scene = "out/bench/cube_%d_%d.yaml" % (side, number)
+            os.makedirs("out/bench", exist_ok=True)
+            with open(scene, "w") as out:
+                out.write(CUBE % (body, 1 / side, crack))
+            r = bench.run("iterations", scene, settings)
+            if side == 16:
+                lines.append([name, "%d" % r["dofs"], "%d" % r["cg_iterations"], r["preconditioner"].split(",")[0], "", ""])
+            else:
+                lines[number][4:] = ["%d" % r["dofs"], "%d" % r["cg_iterations"]]
+    return command("make bench T=iterations") + table(["cube", "unknowns", "iterations", "preconditioner", "unknowns", "iterations"], lines)
+
+
+EDGE = """title: Edge crack, from intact to cut in two, bond by bond
+dimension: 2
+plane: stress
+thickness: 1 mm
+body:
+  - add: {box: {low: [0, 0], high: [100 mm, 100 mm]}}
+spacing: 1 mm
+lattice: cells
+cracks:
+  - {from: [-1 mm, 50 mm], to: [30 mm, 50 mm]}
+materials:
+  rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}
+failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [grips]}
+sets:
+  grips: {where: "y <= 10 mm or y >= 90 mm"}
+method: {approximation: rkpm, integration: gauss, kernel: cubic_spline, horizon: 2.01 spacing, essential: nitsche}
+boundary:
+  - {name: top, set: top, displacement: {x: 0, y: 50 um}}
+  - {name: bottom, set: bottom, displacement: {x: 0, y: -50 um}}
+solver: {kind: static, stepping: event, break: worst, max_events: 1000000}
+output:
+  at: {levels: 1}
+  pictures: []
+  fields: [displacement, damage]
+"""
+NOTCHED = """title: Notched block in tension, bond by bond
+dimension: 3
+body:
+  - add: {box: {low: [0, 0, 0], high: [48 mm, 20 mm, 16 mm]}}
+spacing: %s mm
+cracks:
+  - polygon: [[24.2 mm, -1 mm, -1 mm], [24.2 mm, 7 mm, -1 mm], [24.2 mm, 7 mm, 17 mm], [24.2 mm, -1 mm, 17 mm]]
+materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}
+failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [ends]}
+sets:
+  ends: {where: "x <= 6 mm or x >= 42 mm"}
+boundary:
+  - {name: left, set: left, displacement: {x: 0, y: 0, z: 0}}
+  - {name: right, set: right, displacement: {x: 0.1 mm}}
+solver: {kind: static, stepping: event, break: worst}
+output: {at: {levels: 1}, pictures: []}
+"""
+
+
+def events_run(bench, name, text, settings, repeats):
+    os.makedirs("out/bench", exist_ok=True)
+    scene = "out/bench/%s.yaml" % name
+    with open(scene, "w") as out:
+        out.write(text)
+    return [bench.run(name, scene, settings) for _ in range(repeats)]
+
+
+def cuts(bench):
+    """Seconds an event: a run with some events less one with one event, over the events between them; as events are solved
+    by themselves, and with a factorization each."""
+    cases = [("edge crack, 1 mm, all its events", "edge", EDGE, [], 0, 400), ("edge crack, 0.5 mm", "edge", EDGE, ["spacing=0.5 mm"], 300, 12),
+             ("notched block, 2 mm", "notched", NOTCHED % 2, [], 100, 25), ("notched block, 1.1 mm", "notched", NOTCHED % 1.1, [], 60, 4)]
+    lines = []
+    for title, name, text, settings, many, few in cases:
+        row = []
+        for plain, count in ((0, many), (1, few)):
+            more = ["solver.plain=true"] if plain else []
+            first = events_run(bench, name, text, [*settings, *more, "solver.max_events=1"], 1)[0]
+            last = events_run(bench, name, text, [*settings, *more, *(["solver.max_events=%d" % count] if count else [])], 1)[0]
+            row.append((last, (last["cpu"] - first["cpu"]) / (last["events"] - first["events"])))
+        (ours, each), (_, plain) = row
+        lines.append([title, "%d" % ours["points"], "%d" % ours["events"], short(ours["cpu"]), "%d" % ours["factorizations"], short(1e3 * each),
+                      short(1e3 * plain), short(plain / each), megabytes(ours)])
+    return command("make bench T=cuts") + table(
+        ["scene", "points", "events", "CPU s of the run", "factorizations", "ms an event", "plain, ms an event", "ratio", "peak MB"], lines)
+
+
 def engines(bench):
     """Events of single bonds, as they are solved by themselves and with a factorization each."""
     return beside_plain(bench, "engines", [("disk in the plane, %s mm, 200 events" % h, "data/cui_disk_plane/scene.yaml",
@@ -139,6 +260,8 @@ GROUPS = {
     "start": (start, 0, "start of the program, as a user pays it"),
     "solve_3d": (solve_3d, 0, "solves in space up to 107 000 unknowns, plain ones beside"),
     "engines": (engines, 0, "events of single bonds, plain ones beside"),
+    "iterations": (iterations, 0, "iterations with finite elements as preconditioner, over what makes them more"),
+    "cuts": (cuts, 0, "events of single bonds up to the cut, plain ones beside"),
     "newmark": (newmark, 0, "implicit motion with breaking bonds, plain beside"),
     "explicit": (explicit, 0, "explicit motion and relaxation, plain beside"),
     "profile": (profile, 0, "six scenes by phases (doc/performance.md); PERIGAL_BENCH_BEFORE: folder of an older program"),

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What linear solves of forces on shape functions cost: by a factor of K, and by conjugate gradients with
+ * finite elements on the same nodes as preconditioner. Seconds by stored rates, from numbers of points, bonds
+ * and unknowns: never measured, as a run must not depend on the clock. The solver chooses by these costs, and
+ * the forecast of a run by the same. */
+#include "model.h"
+#include <math.h>
+
+/* Nested dissection parts a body across its longest axis by separators as thick as two nodes can be apart
+ * that one point sees, 2 horizons. With s unknowns of the largest separator the factor costs about 3 s^3
+ * operations (solids of n1 >= n2 >= n3 nodes along the axes: s^3 n1 / n2), in the plane 10 s^3. The numbers 3
+ * and 10 were set by few bodies: a rough measure, which decides between ways that differ by factors. */
+static double factor_flops (const pg_solve_counts *c)
+{
+    double n[3] = { c->edge[0], c->edge[1], c->edge[2] };
+    for (int k = 0; k < 2; k++)
+        for (int l = k + 1; l < 3; l++)
+            if (n[l] > n[k]) {
+                double swap = n[k];
+                n[k] = n[l], n[l] = swap;
+            }
+    double separator = 2 * c->reach * c->components * n[1] * (c->dim > 2 ? n[2] : 1);
+    return (c->dim > 2 ? 3 : 10) * separator * separator * separator * fmax (1, n[0] / n[1]);
+}
+
+/* Assembly visits every pair of nodes of every evaluation point. */
+double pg_solve_direct_cost (const pg_solve_counts *c)
+{
+    double pairs = c->evaluation > 0 ? 0.5 * c->bonds * c->bonds / c->evaluation : 0;
+    return 8e-9 * pairs + 5e-6 * c->points * c->components + factor_flops (c) / 20e9;
+}
+
+/* Iterations to a tolerance of 1e-9, as seen: the shape functions of a wide support are far from those of
+ * elements, and so is a dilatation that is projected. */
+static double iterations (const pg_solve_counts *c)
+{
+    double count = 45;
+    if (c->interpolates) count = 30;
+    else if (c->order == 2) count = c->reach > 2.7 ? 200 : 100;
+    else if (c->reach > 2.2) count = c->reach > 2.7 ? 1000 : 100;
+    return count * (c->projected ? 3 : 1) * (c->behind ? 6 : 1);
+}
+
+/* Set-up counts as 20 iterations; beside K x an iteration takes 0.9 us for each node: products with the
+ * element matrix and its coarse levels, and with the polynomial. */
+double pg_solve_elements_cost (const pg_solve_counts *c)
+{
+    return (iterations (c) + 20) * (pg_solve_apply_rate * c->bonds + 0.9e-6 * c->points);
+}
+
+/* A factor that serves many events pays for itself up to here in 3D (unknowns), and its memory can be
+ * afforded: some 2 GB in a cube. */
+enum { EVENTS_FACTOR = 40000 };
+/* In motion solids of fewer unknowns are factored, where one factor serves many steps. */
+enum { MOTION_FACTOR = 40000 };
+
+int pg_solve_by_elements (const pg_solve_counts *c, int available, int events, int motion)
+{
+    double unknowns = c->points * c->components;
+    if (c->dim < 3) return 0;
+    if (motion) return available && unknowns > MOTION_FACTOR;
+    if (events && unknowns <= EVENTS_FACTOR) return 0;
+    if (available && pg_solve_elements_cost (c) < pg_solve_direct_cost (c)) return 1;
+    return unknowns > 200000;
+}
+
+/* The evaluation points are those of the bulk; nodes along the edges are those of a box of the body's
+ * proportions that holds as many. */
+pg_solve_counts pg_solve_count (const pg_problem *p)
+{
+    int set = p->integration->at_nodes ? PG_NODES : PG_POINTS;
+    double low[3] = { 0 }, high[3] = { 0 }, box = 1;
+    pg_solve_counts c = { .dim = p->dim,
+                          .components = pg_problem_unknowns (p),
+                          .order = p->approx.order,
+                          .interpolates = p->approx.type->interpolates,
+                          .projected = p->patches != NULL,
+                          .behind = p->lattice.dim && p->cells.n == p->cloud.n,
+                          .points = (double) p->cloud.n,
+                          .evaluation = (double) p->rows[set].n,
+                          .bonds = (double) (p->first_bond[set + 1] - p->first_bond[set]),
+                          .reach = p->approx.horizon / p->cloud.h,
+                          .edge = { 1, 1, 1 } };
+    pg_problem_box (p, low, high);
+    for (int k = 0; k < p->dim; k++) box *= c.edge[k] = fmax (high[k] - low[k], p->cloud.h);
+    for (int k = 0; k < p->dim; k++) c.edge[k] *= pow (c.points / box, 1.0 / p->dim);
+    return c;
+}
