@@ -366,7 +366,7 @@ static void sum_all (galerkin *g, const double *x, const double *d, double *f)
     for (size_t k = 0; x && k < SLICES; k++) g->slices->alike += (double) g->slices->runs[k].bonds;
 }
 
-/* By stored rates: what a bond takes longer alone than as one of eight, s. No counts in the words, which would
+/* By stored rates: what a bond takes longer alone than as one of eight, s. No counts in the words: they would
  * begin anew with a run that is resumed. */
 int galerkin_spared (const void *self, size_t k, char *what, char *why, double *seconds)
 {
