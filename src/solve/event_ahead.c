@@ -268,7 +268,9 @@ static pg_status check (pg_solver *s, event_ahead *q, pg_state *state, size_t *g
     }
     q->cold = cold;
     if (q->nevent == 0) goto done;
-    PG_TRY (event_solver_settle (e->engine, 0, q->scaled, &relative));
+    pg_status now = event_solver_settle (e->engine, 0, q->scaled, &relative);
+    if (now == PG_E_SINGULAR) relative = INFINITY;         /* a part has come loose: the plain way decides */
+    else PG_TRY (now);
     for (size_t i = 0; i < sys->ndof; i++) q->block[i * q->stride + q->nevent - 1] = q->scaled[i];
     q->residual = relative;
     if (relative <= o->tolerance) goto done;

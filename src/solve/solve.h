@@ -230,6 +230,10 @@ struct pg_solver {
 pg_status solver_note_tip  (pg_solver *s, const pg_tip_values *values);
 pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k);
 
+/* ---- warnings.c ---------------------------------------------------------------------------------------- */
+/* 1: at rest the prescribed displacements leave a translation along an axis or a rotation free. */
+int supports_leave_free (const pg_problem *p);
+
 /* ---- progress.c ---------------------------------------------------------------------------------------- */
 /* One of the ends that a run may come to, and how far it has come towards it: the nearest counts. */
 void progress_offer (pg_progress *p, double share, const char *end, int even);

@@ -227,12 +227,24 @@ static double pivots (const pg_system *s)
 }
 static const double least_pivot = 1e-13;
 
+/* No bond has negative energy, but those of a chain or a sheet leave motions free. So do supports that hold
+ * the body along some axes only: rounding decides whether such a matrix passes for positive definite. All
+ * unknowns get the shift, once; loads that need no support are in balance all the same, which the residual
+ * tells. */
+static int weaken_all (pg_system *s, const dynamics *dyn)
+{
+    if (s->all_weak || !(s->problem->sums || (!dyn && supports_leave_free (s->problem)))) return 0;
+    memset (s->touched, 1, s->problem->cloud.n);
+    s->all_weak = 1, s->shift = 1e-11;
+    return 1;
+}
+
 /* Factors. Where the factor serves many events the springs of weak unknowns would show in all of them: they
  * are left out as long as no part is loose, and unknowns without stiffness, which nothing is coupled to, get
  * their old one. A matrix that is not positive definite gets a larger shift on its weak unknowns (1e-11,
- * 1e-9, 1e-7 of the mean diagonal), then on all of them where bonds leave motions free (chains, sheets);
- * Galerkin forms go to a solver for general matrices under linear: auto, as Nitsche's terms with too
- * small a factor make K indefinite. */
+ * 1e-9, 1e-7 of the mean diagonal), then on all of them where bonds (chains, sheets) or supports leave
+ * motions free; other Galerkin forms go to a solver for general matrices under linear: auto, as terms of
+ * Nitsche with too small a factor make K indefinite. */
 pg_status system_factorize (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
@@ -258,12 +270,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
             s->shift *= 100;
             continue;
         }
-        /* no bond has negative energy, but those of a chain or a sheet leave motions free */
-        if (s->problem->sums && !s->all_weak) {
-            memset (s->touched, 1, s->problem->cloud.n);
-            s->all_weak = 1, s->shift = 1e-11;
-            continue;
-        }
+        if (weaken_all (s, dyn)) continue;
         if (s->problem->sums)
             PG_FAIL (
                 PG_E_NOT_SPD,

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What a scene asks for that is legal, yet hardly meant: the warnings that a run has before its first
  * step. */
-#include "perigal/solve.h"
+#include "solve.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -57,18 +57,31 @@ static int may_turn (const pg_problem *p)
     return value[n - 1] < 1e-12 * value[0];
 }
 
+/* Does a load prescribe displacements along axis k? */
+static int held_along (const pg_problem *p, int k)
+{
+    for (size_t l = 0; l < p->nload; l++)
+        if (pg_load_prescribes (&p->load[l]) && !pg_load_rotates (&p->load[l]) && p->load[l].value[k])
+            return 1;
+    return 0;
+}
+
+int supports_leave_free (const pg_problem *p)
+{
+    for (int k = 0; k < p->dim; k++) if (!held_along (p, k)) return 1;
+    return may_turn (p);
+}
+
 /* Warns of rigid motions that nothing prevents, and of bodies without a load. In dynamics inertia holds a
  * body, and only the load is asked for. */
 static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
     int moving = 0, everywhere = 1;
     for (int k = 0; k < p->dim; k++) {
-        int held = !(o->flags & PG_SOLVER_QUASI_STATIC);
-        for (size_t l = 0; l < p->nload; l++) {
-            held |= pg_load_prescribes (&p->load[l]) && !pg_load_rotates (&p->load[l]) && p->load[l].value[k];
+        int held = !(o->flags & PG_SOLVER_QUASI_STATIC) || held_along (p, k);
+        for (size_t l = 0; l < p->nload; l++)
             moving |= acts (p, &p->load[l], k, (o->flags & PG_SOLVER_QUASI_STATIC) ? 1 : o->end)
                       || p->load[l].kind == PG_PRESSURE;
-        }
         everywhere &= held;
         if (!held)
             pg_statistics_warn (
