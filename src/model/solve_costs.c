@@ -65,9 +65,10 @@ int pg_solve_by_elements (const pg_solve_counts *c, int available, int events, i
 }
 
 /* The evaluation points are those of the bulk; nodes along the edges are those of a box of the body's
- * proportions that holds as many. */
+ * proportions that holds as many. Without shape functions there is nothing to count. */
 pg_solve_counts pg_solve_count (const pg_problem *p)
 {
+    if (!p->approx.type || !p->integration) return (pg_solve_counts) { .dim = p->dim };
     int set = p->integration->at_nodes ? PG_NODES : PG_POINTS;
     double low[3] = { 0 }, high[3] = { 0 }, box = 1;
     pg_solve_counts c = { .dim = p->dim,
