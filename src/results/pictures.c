@@ -183,7 +183,8 @@ pg_status pg_result_measure (pg_result *r, const pg_state *state)
     PG_TRY (pg_errors_measure (&r->errors, r->reference, r->problem, &solution,
                                r->dynamic ? state->time : state->factor));
     r->measured = 1;
-    if (r->errors.difference && r->errors.norms.displacement) PG_TRY (error_picture (r, state));
+    if (r->npicture && r->errors.difference && r->errors.norms.displacement)
+        PG_TRY (error_picture (r, state));
 done:
     pg_sampler_clear (&solution);
     return status;
