@@ -39,6 +39,7 @@ void break_loop_free (break_loop *b)
     pg_free (b->changes.bond), pg_free (b->over.bond), pg_free (b->broken);
     pg_work_balance_clear (&b->work_balance);
     pg_work_balance_clear (&b->before);
+    pg_work_balance_clear (&b->start);
     pg_free (b->damage);
 }
 

@@ -292,9 +292,9 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     long pairs = -1;
     long count[9] = { s->finished, s->warned_overlap,  s->warned_energy, s->reported_skips, s->next_level,
                       b->round,    s->reported_spared, s->spared,        s->evaluations };
-    double number[3] = { b->work, b->work0, b->stored0 };
+    double number[5] = { b->work, b->work0, b->stored0, b->strain0, b->kinetic0 };
     PG_TRY (k->counts (k->context, "solver.counts", 9, count));
-    PG_TRY (k->numbers (k->context, "solver.numbers", 3, number));
+    PG_TRY (k->numbers (k->context, "solver.numbers", 5, number));
     PG_KEEP_BOUND (k, "the next level", count[4], 0, s->options.levels + 1);
     PG_KEEP_BOUND (k, "the round", count[5], 0, most);
     s->finished = (int) count[0], s->warned_overlap = (int) count[1], s->warned_energy = (int) count[2],
@@ -302,6 +302,7 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     s->next_level = count[4], b->round = count[5], s->reported_spared = (int) count[6];
     s->spared = count[7], s->evaluations = count[8];
     b->work = number[0], b->work0 = number[1], b->stored0 = number[2];
+    b->strain0 = number[3], b->kinetic0 = number[4], b->saved = b->round > 0;
     PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
     PG_TRY (keep_broken (b, s->problem, k));
@@ -309,6 +310,7 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     if (k->reading) PG_TRY (count_pairs (s, &pairs));
     PG_TRY (keep_work_balance (&b->work_balance, "work_balance", nload, pairs, 1, k));
     PG_TRY (keep_work_balance (&b->before, "before", nload, pairs, 0, k));
+    PG_TRY (keep_work_balance (&b->start, "start", nload, pairs, 0, k));
 done:
     return status;
 }

@@ -63,3 +63,36 @@ pg_status break_loop_book (break_loop *b, double scale)
 done:
     return status;
 }
+
+pg_status break_loop_save (break_loop *b)
+{
+    pg_status status = PG_OK;
+    size_t bytes = b->before.npair * sizeof *b->before.force;
+    b->saved = 0;
+    if (b->before.force && !b->start.force) {
+        PG_ALLOC (b->start.displacement, b->before.npair);
+        PG_ALLOC (b->start.force, b->before.npair);
+        b->start.npair = b->before.npair;
+    }
+    if (b->before.force) {
+        memcpy (b->start.force, b->before.force, bytes);
+        memcpy (b->start.displacement, b->before.displacement, bytes);
+    }
+    b->strain0 = b->system.report->energy_strain, b->kinetic0 = b->system.report->energy_kinetic;
+    b->saved = 1;
+done:
+    if (status != PG_OK) pg_work_balance_clear (&b->start);
+    return status;
+}
+
+/* A first step that is refused leaves no state that work was accounted for. */
+void break_loop_return (break_loop *b)
+{
+    size_t bytes = b->start.npair * sizeof *b->start.force;
+    if (!b->saved) return;
+    if (b->start.force) {
+        memcpy (b->before.force, b->start.force, bytes);
+        memcpy (b->before.displacement, b->start.displacement, bytes);
+    } else pg_work_balance_clear (&b->before);
+    b->system.report->energy_strain = b->strain0, b->system.report->energy_kinetic = b->kinetic0;
+}

@@ -150,6 +150,8 @@ typedef struct {
     double     work0, stored0;                         /* at the start of the step, J */
     pg_work_balance  work_balance, before;                         /* now; at the last accounted state */
     double     work;                                   /* external work, J */
+    /* as they were at the start of the step, for one that is refused; saved 1: they are at hand */
+    pg_work_balance  start; double strain0, kinetic0; int saved;
     double    *damage;                                 /* with stop.set (6 n) */
     struct facet_growth *growth;  /* break: facet: tips are judged instead of bonds; else NULL */
     /* largest damage of stop.set: now, when it was first looked at */
@@ -179,6 +181,10 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
 pg_status break_loop_account_rest (break_loop *b, double t, const double *d, double scale);
 /* The work alone, from the work balance at hand. */
 pg_status break_loop_book    (break_loop *b, double scale);
+/* What work is summed from, and the energies of the report, kept at the start of a step; put back where it is
+ * refused. */
+pg_status break_loop_save    (break_loop *b);
+void      break_loop_return  (break_loop *b);
 /* Has the damage of a point of options.stop_set reached options.stop_damage? */
 pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double *d, int *arrived);
 

@@ -122,7 +122,9 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     break_loop *b = &s->break_loop;
     b->began = b->round, b->stopped = 0;
     if (b->round == 0) {                               /* else the step goes on where it was stopped */
+        b->saved = 0;
         PG_TRY (save_state (s, state));
+        PG_TRY (break_loop_save (b));
         s->follows = (s->options.flags & (PG_SOLVER_EXPLICIT | PG_SOLVER_STAGED)) && !s->options.plain;
         b->work0 = b->work, b->stored0 = s->report.energy_strain + s->report.energy_kinetic;
     }
@@ -154,6 +156,7 @@ done:
         system_refresh (&s->break_loop.system, s->backup, NULL);
         system_forget_preconditioner (&s->break_loop.system);  /* bonds live again that it does not know */
         s->break_loop.work = s->backup->work, s->break_loop.round = 0;
+        break_loop_return (&s->break_loop);
         if (s->type->refused) s->type->refused (s);
         s->follows = 0;
         if (status != PG_E_MEMORY)
