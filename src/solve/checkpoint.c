@@ -290,17 +290,15 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     break_loop *b = &s->break_loop;
     size_t nload = s->problem->nload;
     long pairs = -1;
-    long count[9] = { s->finished, s->warned_overlap,  s->warned_energy, s->reported_skips, s->next_level,
-                      b->round,    s->reported_spared, s->spared,        s->evaluations };
+    long count[7] = { s->finished, s->warned_overlap, s->warned_energy, s->next_level,
+                      b->round,    s->spared,         s->evaluations };
     double number[5] = { b->work, b->work0, b->stored0, b->strain0, b->kinetic0 };
-    PG_TRY (k->counts (k->context, "solver.counts", 9, count));
+    PG_TRY (k->counts (k->context, "solver.counts", 7, count));
     PG_TRY (k->numbers (k->context, "solver.numbers", 5, number));
-    PG_KEEP_BOUND (k, "the next level", count[4], 0, s->options.levels + 1);
-    PG_KEEP_BOUND (k, "the round", count[5], 0, most);
-    s->finished = (int) count[0], s->warned_overlap = (int) count[1], s->warned_energy = (int) count[2],
-    s->reported_skips = (int) count[3];
-    s->next_level = count[4], b->round = count[5], s->reported_spared = (int) count[6];
-    s->spared = count[7], s->evaluations = count[8];
+    PG_KEEP_BOUND (k, "the next level", count[3], 0, s->options.levels + 1);
+    PG_KEEP_BOUND (k, "the round", count[4], 0, most);
+    s->finished = (int) count[0], s->warned_overlap = (int) count[1], s->warned_energy = (int) count[2];
+    s->next_level = count[3], b->round = count[4], s->spared = count[5], s->evaluations = count[6];
     b->work = number[0], b->work0 = number[1], b->stored0 = number[2];
     b->strain0 = number[3], b->kinetic0 = number[4], b->saved = b->round > 0;
     PG_TRY (keep_report (&s->report, k));

@@ -287,10 +287,8 @@ static pg_status renew (pg_solver *s, event_ahead *q)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
-    if (q->due) {
-        PG_TRY (event_solver_base (e->engine, &e->unit, &e->engine_residual));
-        q->bases++;
-    } else PG_TRY (event_solver_flush (e->engine));
+    if (q->due) PG_TRY (event_solver_base (e->engine, &e->unit, &e->engine_residual));
+    else PG_TRY (event_solver_flush (e->engine));
     q->due = 0;
 done:
     return status;
@@ -326,7 +324,6 @@ pg_status ahead_look (pg_solver *s, pg_state *state, double level)
             goto done;
         }
         PG_TRY (renew (s, q));
-        q->looks++;
         PG_TRY (find (s, q, state, level, &retry));
         if (q->nevent == 0) continue;
         size_t found = q->nevent;
@@ -443,15 +440,15 @@ pg_status ahead_keep (pg_solver *s, const pg_keeper *k)
     event_stepping *e = events_of (s);
     event_ahead *q = e->ahead;
     const pg_system *sys = &s->break_loop.system;
-    long count[12] = { q != NULL };
+    long count[10] = { q != NULL };
     double number[2] = { 0 }, share;
     if (q)
         memcpy (count + 1,
                 (const long[]) { (long) q->nevent, (long) q->at, (long) q->stride, (long) q->nbroken, q->wait,
-                                 q->due, q->zone.known, q->looks, q->found, q->taken_back, q->bases },
-                11 * sizeof *count);
+                                 q->due, q->zone.known, q->found, q->taken_back },
+                9 * sizeof *count);
     if (q) number[0] = q->cold, number[1] = q->residual;
-    PG_TRY (k->counts (k->context, "event_ahead.counts", 12, count));
+    PG_TRY (k->counts (k->context, "event_ahead.counts", 10, count));
     PG_TRY (k->numbers (k->context, "event_ahead.numbers", 2, number));
     if (!count[0]) return PG_OK;
     PG_KEEP_BOUND (k, "the number of events found", count[1], 0, AHEAD_MOST);
@@ -463,7 +460,7 @@ pg_status ahead_keep (pg_solver *s, const pg_keeper *k)
     if (k->reading) {
         q->nevent = (size_t) count[1], q->at = (size_t) count[2], q->stride = (size_t) count[3];
         q->nbroken = (size_t) count[4], q->wait = count[5], q->due = (int) count[6];
-        q->looks = count[8], q->found = count[9], q->taken_back = count[10], q->bases = count[11];
+        q->found = count[8], q->taken_back = count[9];
         q->cold = number[0], q->residual = number[1];
     }
     PG_TRY (keep_events (q, s->problem, k));

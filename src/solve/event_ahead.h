@@ -50,6 +50,6 @@ typedef struct event_ahead {
     pg_changes   undone;
     long         wait;                                 /* plain events before the next look */
     int          due;                                  /* a new base of the solver would pay */
-    long         looks, found, taken_back, bases;      /* for the report */
+    long         found, taken_back;                    /* for the report */
 } event_ahead;
 #endif

@@ -43,7 +43,6 @@ pg_status columns_make (event_solver *e, size_t first)
         if (T) pg_sparse_multiply (T, e->solved + k * e->nred, to);
         else memcpy (to, e->solved + k * e->nred, e->ndof * sizeof *to);
     }
-    e->account.columns += (long) count;
 done:
     return status;
 }

@@ -107,15 +107,12 @@ done:
 pg_status event_solver_keep (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    event_solver_account *a = &e->account;
-    long count[5] = { e->based, a->bases, a->updates, a->columns, (long) a->most_touched };
-    double number[4] = { e->shift, e->scale, e->residual, a->rent };
-    PG_TRY (k->counts (k->context, "event_solver.counts", 5, count));
+    long count[1] = { e->based };
+    double number[4] = { e->shift, e->scale, e->residual, e->rent };
+    PG_TRY (k->counts (k->context, "event_solver.counts", 1, count));
     PG_TRY (k->numbers (k->context, "event_solver.numbers", 4, number));
     PG_KEEP_BOUND (k, "the base of events", count[0], 0, 1);
-    a->bases = count[1], a->updates = count[2], a->columns = count[3];
-    a->most_touched = (size_t) count[4];
-    e->shift = number[0], e->scale = number[1], e->residual = number[2], a->rent = number[3];
+    e->shift = number[0], e->scale = number[1], e->residual = number[2], e->rent = number[3];
     if (k->reading) e->based = (int) count[0], e->s->base = e->based;
     if (!e->based) goto done;
     PG_TRY (k->numbers (k->context, "event_solver.diagonal", e->ndof, e->diagonal));
@@ -137,7 +134,6 @@ pg_status event_solver_restore (event_solver *e)
 {
     pg_status status = PG_OK;
     pg_stiffness_change change;
-    long columns = e->account.columns;
     size_t all = e->t;
     if (!e->restored) return PG_OK;
     e->restored = 0;
@@ -146,7 +142,7 @@ pg_status event_solver_restore (event_solver *e)
         e->t = first + e->group[k];
         PG_TRY (touched_green (e, first));
     }
-    e->t = all, e->factored = 0, e->account.columns = columns;
+    e->t = all, e->factored = 0;
     for (int c = 0; c < e->cases; c++) touched_displacement (e, c);
     e->factorizations = e->s->report->factorizations;
     PG_TRY (e->s->force->change (e->s->self, &change));

@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The event solver: bases, updates after breaks, blocks of events, functionals. Algorithm: event_solver.h;
+ * The event solver: bases, updates after breaks, blocks of events. Algorithm: event_solver.h;
  * the dense system: event_touched.c. */
 #include "event_solver_data.h"
 #include <math.h>
@@ -47,7 +47,6 @@ void event_solver_free (event_solver **solver)
         pg_free (e->base[c]), pg_free (e->constant[c]);
         for (int k = 0; k <= EVENT_MOST; k++) pg_free (e->X[c][k]);
     }
-    for (int k = 0; k < e->nfunctional; k++) pg_free (e->functional[k].ell), pg_free (e->functional[k].dual);
     pg_free (e->diagonal);
     columns_free (e);
     pg_free (e);
@@ -60,12 +59,6 @@ void event_solver_drop (event_solver *e) { e->based = e->s->base = 0, e->why = "
 
 const char *event_solver_why (const event_solver *e) { return e->why; }
 double event_solver_residual (const event_solver *e) { return e->residual; }
-
-void event_solver_tell (const event_solver *e, event_solver_account *out)
-{
-    *out = e->account;
-    out->touched = e->t;
-}
 
 /* ---- bases --------------------------------------------------------------------------------------------- */
 /* The residual of u = 0 at each load factor: what loads and prescribed values put in, N. */
@@ -106,13 +99,6 @@ static double dot (size_t n, const double *a, const double *b)
     return sum;
 }
 
-/* From the first touched unknown `first` on; first 0: its value at the base as well. */
-static void extend_functional (event_solver *e, event_functional *f, size_t first)
-{
-    for (int c = 0; c < e->cases && first == 0; c++) f->base[c] = dot (e->ndof, f->ell, e->base[c]);
-    for (size_t i = first; i < e->t; i++) f->dual[i] = dot (e->ndof, f->ell, green_column (e, i));
-}
-
 pg_status event_solver_base (event_solver *e, double *const *u, double *residual)
 {
     pg_status status = PG_OK;
@@ -136,9 +122,8 @@ pg_status event_solver_base (event_solver *e, double *const *u, double *residual
     for (int c = 0; c < e->cases; c++) memcpy (e->base[c], u[c], e->ndof * sizeof *u[c]);
     PG_TRY (constant_forces (e, e->constant));
     PG_TRY (s->force->change (s->self, &change));      /* the record begins here */
-    for (int k = 0; k < e->nfunctional; k++) extend_functional (e, &e->functional[k], 0);
     e->based = s->base = 1, e->why = "", e->factorizations = s->report->factorizations;
-    e->account.bases++, e->account.rent = 0;
+    e->rent = 0;
     PG_TRY (event_solver_flush (e));
 done:
     return status;
@@ -202,7 +187,7 @@ static int runs_away (const event_solver *e)
 static int base_is_due (const event_solver *e)
 {
     double column = column_share * system_solve_cost (e->s), again = fmin ((double) e->t, 80) * column;
-    return e->account.rent > system_factor_cost (e->s) + again;
+    return e->rent > system_factor_cost (e->s) + again;
 }
 
 /* Room for the columns that a change may need, and a dense system that can be afforded. */
@@ -217,7 +202,6 @@ static pg_status take_in (event_solver *e, event_outcome *outcome)
 {
     pg_status status = PG_OK;
     pg_stiffness_change change;
-    size_t before = e->t;
     int fits = 1;
     PG_TRY (e->s->force->change (e->s->self, &change));
     *outcome = EVENT_SOLVED;
@@ -233,8 +217,6 @@ static pg_status take_in (event_solver *e, event_outcome *outcome)
     PG_TRY (touched_change (e, &change));
     if (change.loads) PG_TRY (change_of_forces (e, &fits));
     if (!fits) return lose (e, "loads have changed at too many unknowns", outcome);
-    for (int k = 0; k < e->nfunctional && e->t > before; k++)
-        extend_functional (e, &e->functional[k], before);
 done:
     return status;
 }
@@ -242,7 +224,6 @@ done:
 pg_status event_solver_update (event_solver *e, event_outcome *outcome)
 {
     pg_status status = PG_OK;
-    e->account.updates++;
     PG_TRY (take_in (e, outcome));
     if (*outcome == EVENT_LOST) goto done;
     if (*outcome == EVENT_SOLVED) {
@@ -280,7 +261,7 @@ pg_status event_solver_full (event_solver *e, int which, double *u)
 {
     memcpy (u, e->base[which], e->ndof * sizeof *u);
     columns_times (e, 1, e->x[which], u);
-    e->account.rent += (double) e->t * (double) e->ndof / memory_rate;
+    e->rent += (double) e->t * (double) e->ndof / memory_rate;
     return PG_OK;
 }
 
@@ -342,8 +323,6 @@ pg_status event_solver_settle (event_solver *e, int which, double *u, double *re
         u[i] += step, e->base[which][i] += step;
     }
     touched_balance (e, which);
-    for (int k = 0; k < e->nfunctional; k++)
-        e->functional[k].base[which] = dot (e->ndof, e->functional[k].ell, e->base[which]);
 done:
     pg_free (force), pg_free (delta);
     return status;
@@ -373,7 +352,7 @@ pg_status event_solver_block (event_solver *e, int which, int n, const int *list
     for (size_t i = 0; i < e->t; i += CHUNK)
         pg_dense_add_product (events, e->ndof, e->t - i < CHUNK ? e->t - i : CHUNK, x + i * events,
                               green_column (e, i), u);
-    e->account.rent += (double) events * 2 * (double) e->t * (double) e->ndof / 10e9;
+    e->rent += (double) events * 2 * (double) e->t * (double) e->ndof / 10e9;
 done:
     pg_free (x);
     return status;
@@ -394,32 +373,4 @@ pg_status event_solver_back (event_solver *e, int k, event_outcome *outcome)
     e->count = k + 1;
 done:
     return status;
-}
-
-/* ---- functionals --------------------------------------------------------------------------------------- */
-pg_status event_solver_functional (event_solver *e, const double *ell, int *number)
-{
-    pg_status status = PG_OK;
-    if (e->nfunctional == FUNCTIONALS) PG_FAIL (PG_E_LIMIT, "at most %d functionals", FUNCTIONALS);
-    event_functional *f = &e->functional[e->nfunctional];
-    memset (f, 0, sizeof *f);
-    *number = e->nfunctional++;
-    PG_ALLOC (f->ell, e->ndof);
-    PG_ALLOC (f->dual, e->cap + 1);
-    memcpy (f->ell, ell, e->ndof * sizeof *ell);
-    if (e->based) extend_functional (e, f, 0);
-done:
-    return status;
-}
-
-double event_solver_value (const event_solver *e, int number, int which)
-{
-    const event_functional *f = &e->functional[number];
-    return f->base[which] + dot (e->t, f->dual, e->x[which]);
-}
-
-void event_solver_forget (event_solver *e)
-{
-    for (int k = 0; k < e->nfunctional; k++) pg_free (e->functional[k].ell), pg_free (e->functional[k].dual);
-    e->nfunctional = 0;
 }

@@ -85,22 +85,7 @@ pg_status event_solver_block  (event_solver *e, int which, int n, const int *lis
  * with the bonds of the later events alive again; the change of K is taken in here. */
 pg_status event_solver_back   (event_solver *e, int k, event_outcome *outcome);
 
-/* ---- linear functionals -------------------------------------------------------------------------------- */
-/* From the next base on (and from now on, if there is a base), the value of ell . u is known
- * at every event for the cost of t products; ell (ndof) is copied. *number: by which it is asked for.
- * Forgotten by event_solver_forget. Supports and forces that touch broken bonds change their own ell:
- * the caller's affair. */
-pg_status event_solver_functional (event_solver *e, const double *ell, int *number);
-double    event_solver_value  (const event_solver *e, int number, int which);
-void      event_solver_forget (event_solver *e);
-
-/* ---- for reports and checkpoints ----------------------------------------------------------------------- */
-typedef struct {
-    long   bases, updates, columns;                    /* made */
-    size_t touched, most_touched;                      /* t now; the largest so far */
-    double rent;  /* dense algebra since the base, in seconds by stored rates */
-} event_solver_account;
-void      event_solver_tell   (const event_solver *e, event_solver_account *out);
+/* ---- for checkpoints ----------------------------------------------------------------------------------- */
 /* Base, D, x: a run that is read back goes on bit by bit. After reading, and after the force and the factor
  * of the base (system.base: the bonds that lived then) were made again, event_solver_restore follows before
  * anything else is asked for. */

@@ -1,18 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private to the event solver: its data. Files: event_solver.c (life, bases, updates, blocks of events,
- * functionals), event_touched.c (the dense system of the touched unknowns), event_columns.c (Green columns),
+ * Private to the event solver: its data. Files: event_solver.c (life, bases, updates, blocks of events),
+ * event_touched.c (the dense system of the touched unknowns), event_columns.c (Green columns),
  * event_keep.c (checkpoints). Symbols as in event_solver.h. */
 #ifndef PG_EVENT_SOLVER_DATA_H
 #define PG_EVENT_SOLVER_DATA_H
 #include "event_solver.h"
 
-enum { FUNCTIONALS = 32, CHUNK = 64 };                 /* most of them at a time; columns in a piece of G */
-
-/* A linear functional ell . u = ell . u_b + dual . x, with dual = G' ell. */
-typedef struct {
-    double *ell, base[EVENT_CASES];                    /* (ndof); of u_b */
-    double *dual;                                      /* of the touched unknowns (cap) */
-} event_functional;
+enum { CHUNK = 64 };                                   /* columns in a piece of G */
 
 struct event_solver {
     pg_system *s;
@@ -51,11 +45,9 @@ struct event_solver {
     int     count;
     double *X[EVENT_CASES][EVENT_MOST + 1];
     size_t  tX[EVENT_MOST + 1];
-    event_functional functional[FUNCTIONALS];
-    int     nfunctional;
     int     restored;  /* 1: read back, and nothing was made again yet */
     const char *why;
-    event_solver_account account;
+    double  rent;  /* dense algebra since the base, in seconds by stored rates */
 };
 
 /* ---- event_touched.c ----------------------------------------------------------------------------------- */

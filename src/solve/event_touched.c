@@ -80,7 +80,6 @@ pg_status touched_reserve (event_solver *e, size_t count)
         PG_TRY (lengthen (&e->q[c], e->t, cap));
         PG_TRY (lengthen (&e->u[c], e->t, cap));
     }
-    for (int k = 0; k < e->nfunctional; k++) PG_TRY (lengthen (&e->functional[k].dual, e->t, cap));
     e->cap = cap, e->factored = 0;
 done:
     return status;
@@ -137,7 +136,6 @@ pg_status touched_grow (event_solver *e, size_t count, const size_t *dof)
             for (size_t j = 0; j < first; j++) sum += e->H[j + i * e->cap] * e->x[c][j];
             e->u[c][i] = e->base[c][dof[i - first]] + sum;
         }
-    if (e->t > e->account.most_touched) e->account.most_touched = e->t;
 done:
     return status;
 }
@@ -238,7 +236,7 @@ int touched_substitute (event_solver *e, double *y)
             memcpy (e->factor + j * e->t, e->M + j * e->cap, e->t * sizeof *e->M);
         if (!pg_dense_factor (e->t, e->factor, e->t, e->pivot)) return 0;
         e->factored = 1;
-        e->account.rent += (double) e->t * (double) e->t * (double) e->t * 2 / 3 / 10e9;
+        e->rent += (double) e->t * (double) e->t * (double) e->t * 2 / 3 / 10e9;
     }
     pg_dense_substitute (e->t, e->factor, e->t, e->pivot, 1, y, e->t);
     return 1;
@@ -254,7 +252,7 @@ static int solve_case (event_solver *e, int c)
         touched_displacement (e, c);
         last = now, now = unbalanced (e, c, e->r);
     }
-    e->account.rent += 3 * 8.0 * (double) e->t * (double) e->t / 8e9;
+    e->rent += 3 * 8.0 * (double) e->t * (double) e->t / 8e9;
     e->residual = fmax (e->residual, now);
     return isfinite (now) && now <= enough;
 }

@@ -220,7 +220,7 @@ struct pg_solver {
     const pg_problem *problem;
     break_loop   break_loop;
     pg_statistics report;
-    int started, finished, warned_overlap, warned_energy, warned_facets, reported_skips, reported_spared;
+    int started, finished, warned_overlap, warned_energy, warned_facets;
     long      next_level;                              /* next level to report: next_level / levels */
     pg_state *backup;                                  /* last accepted state, for refused steps */
     long      evaluations, spared;                     /* of forces by explicit steps; for rows: not made */

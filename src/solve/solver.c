@@ -206,75 +206,41 @@ static void report_sums (pg_solver *s)
         pg_statistics_skip (&s->report, one.seconds_saved, one.what, one.why);
 }
 
-/* Steps in motion whose residual the iterations carried along: a sweep over all bonds each, and another for
- * its damping, by a stored rate. Told with the count of now, once. */
-static void report_unmeasured (pg_solver *s)
+/* Work that was spared so often: the time saved is that of so many, `made` of which took the seconds of a
+ * phase. */
+static void report_spared (pg_solver *s, long times, const char *what, size_t made, const char *why)
 {
-    static const char what[] = "measures of the residual";
-    const pg_system *sys = &s->break_loop.system;
-    pg_statistics *r = &s->report;
-    char why[200];
-    size_t k = 0;
-    if (!sys->unmeasured) return;
-    while (k < r->nskipped && strcmp (r->skipped[k].what, what) != 0) k++;
-    if (k < r->nskipped) r->nskipped--, memmove (r->skipped + k, r->skipped + k + 1,
-                                                 (r->nskipped - k) * sizeof *r->skipped);
-    snprintf (why, sizeof why,
-              "in %ld of %ld solves in motion the iterations carried it along, and every sixteenth was "
-              "measured",
-              sys->unmeasured, r->solves);
-    pg_statistics_skip (r, 8e-9 * (double) (sys->unmeasured * (long) s->problem->first_bond[PG_BOND_SETS]),
-                        what, why);
+    char text[96];
+    if (!times || !made) return;
+    snprintf (text, sizeof text, what, times);
+    pg_statistics_skip (&s->report,
+                        (double) times * s->report.seconds[PG_SECONDS_FACTOR] / (double) made, text, why);
 }
 
-/* Work that breaking did not cost: factors and preconditioners that were kept. The time saved is an
- * estimate, number of times kept * mean seconds of one that was made. Told once. */
+/* Work that breaking and steps in motion did not cost: factors and preconditioners that were kept, and
+ * residuals that the iterations carried along: a sweep over all bonds each, and another for its damping, by a
+ * stored rate. With the counts of now. */
 static void report_skips (pg_solver *s)
 {
     const pg_system *sys = &s->break_loop.system;
-    if (sys->kept && !s->reported_skips && s->report.factorizations) {
-        char what[96];
-        snprintf (what, sizeof what, "factorization after %ld break rounds", sys->kept);
-        pg_statistics_skip (&s->report,
-                            (double) sys->kept * s->report.seconds[PG_SECONDS_FACTOR]
-                                / (double) s->report.factorizations,
-                            what,
-                            "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
-        s->reported_skips = 1;
-    }
-    report_unmeasured (s);
-    if (sys->by_columns && s->report.factorizations) {
-        char what[96];
-        snprintf (what, sizeof what, "factorization after %ld events", sys->by_columns);
-        pg_statistics_skip (&s->report,
-                            (double) sys->by_columns * s->report.seconds[PG_SECONDS_FACTOR]
-                                / (double) s->report.factorizations,
-                            what,
-                            "the factor of an earlier K and a dense system of the touched unknowns gave the "
-                            "same answer (their time is not taken off)");
-    }
-    if (sys->spared && !s->reported_spared && s->report.preconditioners) {
-        char what[96];
-        snprintf (what, sizeof what, "preconditioner in %ld solves after a break", sys->spared);
-        pg_statistics_skip (&s->report,
-                            (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR]
-                                / (double) s->report.preconditioners,
-                            what,
-                            "that of an earlier K serves until the iterations it costs would have paid for "
-                            "another (their time is not taken off)");
-        s->reported_spared = 1;
-    }
-    if (sys->spared && !s->reported_spared && s->report.factorizations) {
-        char what[96];
-        snprintf (what, sizeof what, "factorization in %ld solves after a break", sys->spared);
-        pg_statistics_skip (&s->report,
-                            (double) sys->spared * s->report.seconds[PG_SECONDS_FACTOR]
-                                / (double) s->report.factorizations,
-                            what,
-                            "the factor of an earlier K preconditions conjugate gradients until a new one "
-                            "would pay (their time is not taken off)");
-        s->reported_spared = 1;
-    }
+    const pg_statistics *r = &s->report;
+    size_t factors = (size_t) r->factorizations, preconditioners = (size_t) r->preconditioners;
+    report_spared (s, sys->kept, "factorization after %ld break rounds", factors,
+                   "only bonds broke that do not enter K (node-node bonds under Gauss integration)");
+    report_spared (s, sys->by_columns, "factorization after %ld events", factors,
+                   "the factor of an earlier K and a dense system of the touched unknowns gave the same "
+                   "answer (their time is not taken off)");
+    report_spared (s, sys->spared, "preconditioner in %ld solves after a break", preconditioners,
+                   "that of an earlier K serves until the iterations it costs would have paid for another "
+                   "(their time is not taken off)");
+    report_spared (s, preconditioners ? 0 : sys->spared, "factorization in %ld solves after a break", factors,
+                   "the factor of an earlier K preconditions conjugate gradients until a new one would pay "
+                   "(their time is not taken off)");
+    if (!sys->unmeasured) return;
+    pg_statistics_skip (&s->report,
+                        8e-9 * (double) sys->unmeasured * (double) s->problem->first_bond[PG_BOND_SETS],
+                        "measures of the residual",
+                        "in motion the iterations carried it along, and every sixteenth was measured");
 }
 
 /* What growing cracks dissipate along equilibria is what their area takes; said at the end. */
