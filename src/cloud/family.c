@@ -296,12 +296,7 @@ INLINE size_t measure_those (const candidates *c, int dim, int shape, int closed
     return found;
 }
 
-/* Not under the thread sanitizer: the choice of instructions is made before it has started. */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(PG_DEBUG) \
-    && !defined(__SANITIZE_THREAD__)
-__attribute__ ((target_clones ("avx512f", "avx2", "default")))
-#endif
-static size_t measure (const candidates *c, int dim, pg_nearness near, const double *at)
+PG_WIDEST static size_t measure (const candidates *c, int dim, pg_nearness near, const double *at)
 {
     if (near.shape == PG_RADIAL && dim == 3)
         return near.closed ? measure_those (c, 3, PG_RADIAL, 1, at) : measure_those (c, 3, PG_RADIAL, 0, at);
@@ -310,40 +305,37 @@ static size_t measure (const candidates *c, int dim, pg_nearness near, const dou
     return measure_those (c, dim, near.shape, near.closed, at);
 }
 
-/* First pass: the number of members of each family, at the place where it will end. */
-static void count (void *context, size_t first, size_t last, int thread)
+/* The families of the centres first .. last - 1: in the first pass the number of members of each, at the
+ * place where it will end, in the second one, `listing`, the members, ascending as the candidates are. */
+static void find_those (const finding *f, size_t first, size_t last, candidates *c, int listing)
 {
-    const finding *f = context;
-    candidates *c = &f->of[thread];
-    double low[3], high[3];
-    for (size_t end; first < last; first = end) {
-        end = group_of (f, first, last, low, high);
-        look_around (f, low, high, c);
-        for (size_t i = first; i < end; i++)
-            f->out->start[i + 1] = measure (c, f->s->cloud->dim, f->s->near,
-                                            f->centre + i * (size_t) f->s->cloud->dim);
-    }
-}
-
-/* Second pass: the members, ascending as the candidates are. */
-static void list (void *context, size_t first, size_t last, int thread)
-{
-    const finding *f = context;
-    candidates *c = &f->of[thread];
     double low[3], high[3];
     for (size_t end; first < last; first = end) {
         end = group_of (f, first, last, low, high);
         look_around (f, low, high, c);
         for (size_t i = first; i < end; i++) {
-            size_t n = 0;
-            measure (c, f->s->cloud->dim, f->s->near, f->centre + i * (size_t) f->s->cloud->dim);
-            for (size_t k = 0; k < c->n; k++) {
+            size_t n = 0, found = measure (c, f->s->cloud->dim, f->s->near,
+                                           f->centre + i * (size_t) f->s->cloud->dim);
+            if (!listing) f->out->start[i + 1] = found;
+            for (size_t k = 0; listing && k < c->n; k++) {
                 c->chosen[n] = c->item[k];
                 n += c->away[k] < c->limit[k] || (f->s->near.closed && c->away[k] == c->limit[k]);
             }
             if (n) memcpy (f->out->node + f->out->start[i], c->chosen, n * sizeof *c->chosen);
         }
     }
+}
+
+static void count (void *context, size_t first, size_t last, int thread)
+{
+    const finding *f = context;
+    find_those (f, first, last, &f->of[thread], 0);
+}
+
+static void list (void *context, size_t first, size_t last, int thread)
+{
+    const finding *f = context;
+    find_those (f, first, last, &f->of[thread], 1);
 }
 
 /* Room for the candidates of one thread, whose number at most is known. */

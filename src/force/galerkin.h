@@ -272,15 +272,6 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
 
 /* Four numbers at a time; the same operations in the same order with and without AVX. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));
-/* not under the thread sanitizer: the choice is made before it has started */
-#if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(PG_DEBUG) \
-    && !defined(__SANITIZE_THREAD__)
-#define WIDE __attribute__ ((target_clones ("avx2", "default")))
-#define WIDEST __attribute__ ((target_clones ("avx512f", "avx2", "default")))
-#else
-#define WIDE
-#define WIDEST
-#endif
-/* Eight numbers, for which WIDEST is meant. */
+/* Eight numbers, for which PG_WIDEST is meant. */
 typedef double eight __attribute__ ((vector_size (64), aligned (8)));
 #endif

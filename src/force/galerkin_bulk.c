@@ -37,7 +37,7 @@ void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
 
 /* In the plane all four entries of a block lie in one register: row by row they are products of D B_a
  * with q[0] and q[1]. */
-WIDE static void add_plane_blocks (const double *DB, size_t m, const double *q, double *k)
+PG_WIDE static void add_plane_blocks (const double *DB, size_t m, const double *q, double *k)
 {
     const four x = { DB[0], DB[2], DB[3], DB[5] }, y = { DB[2], DB[1], DB[5], DB[4] };
     four *block = (four *) (void *) k;

@@ -109,7 +109,7 @@ typedef struct {
 } others;
 
 /* u [dim][count] of a point */
-WIDE static void displacements (const others *o, size_t p, double *u)
+PG_WIDE static void displacements (const others *o, size_t p, double *u)
 {
     const pg_rows *r = rows_of (o->g, o->set);
     size_t dim = (size_t) o->g->dim, m = dim * o->count;
@@ -122,7 +122,7 @@ WIDE static void displacements (const others *o, size_t p, double *u)
 }
 
 /* H [dim: component][dim: derivative][count] of a point */
-WIDE static void gradients (const others *o, size_t p, double *H)
+PG_WIDE static void gradients (const others *o, size_t p, double *H)
 {
     const pg_rows *r = rows_of (o->g, o->set);
     size_t dim = (size_t) o->g->dim, n = o->count;
@@ -177,7 +177,7 @@ static void show_nodes (void *context, size_t first, size_t last, int thread)
 }
 
 /* top[k] = max (top[k], a . (u_j - u_p)) */
-WIDE static void stretch_of_all (size_t dim, size_t n, const double *a, const double *uj, const double *up,
+PG_WIDE static void stretch_of_all (size_t dim, size_t n, const double *a, const double *uj, const double *up,
                                  double *top)
 {
     for (size_t k = 0; k < n; k++) {
@@ -189,7 +189,8 @@ WIDE static void stretch_of_all (size_t dim, size_t n, const double *a, const do
 }
 
 /* top[k] = max (top[k], form of the mean of both ends) */
-WIDE static void stress_of_all (size_t n, const double *form, const double *sj, const double *sp, double *top)
+PG_WIDE static void stress_of_all (size_t n, const double *form, const double *sj, const double *sp,
+                                   double *top)
 {
     double a = 0.5 * form[0], b = 0.5 * form[1];
     for (size_t k = 0; k < n; k++) {

@@ -240,8 +240,8 @@ INLINE void sum_bundle (int dim, const galerkin_bundle *b)
     }
 }
 
-WIDEST static void sum_solid (const galerkin_bundle *b) { sum_bundle (3, b); }
-WIDEST static void sum_plane (const galerkin_bundle *b) { sum_bundle (2, b); }
+PG_WIDEST static void sum_solid (const galerkin_bundle *b) { sum_bundle (3, b); }
+PG_WIDEST static void sum_plane (const galerkin_bundle *b) { sum_bundle (2, b); }
 
 void galerkin_run_sum (const galerkin *g, const galerkin_run_list *l, const galerkin_run *run,
                        const double *const x[3], double *const f[3], size_t low)

@@ -131,13 +131,13 @@ INLINE void sum_point (int dim, const galerkin *g, size_t p, const double *s, co
 }
 
 /* Points first .. last - 1; stress: 3 or 6 numbers a point, NULL: of x. */
-WIDE static void sum_solid (const galerkin *g, size_t first, size_t last, const double *stress,
+PG_WIDE static void sum_solid (const galerkin *g, size_t first, size_t last, const double *stress,
                             const double *x, double *f, size_t low)
 {
     for (size_t p = first; p < last; p++) sum_point (3, g, p, stress ? stress + 6 * p : NULL, x, f, low);
 }
 
-WIDE static void sum_plane (const galerkin *g, size_t first, size_t last, const double *stress,
+PG_WIDE static void sum_plane (const galerkin *g, size_t first, size_t last, const double *stress,
                             const double *x, double *f, size_t low)
 {
     for (size_t p = first; p < last; p++) sum_point (2, g, p, stress ? stress + 3 * p : NULL, x, f, low);
@@ -229,8 +229,8 @@ INLINE void sum_eight (int dim, const galerkin_bundle *b)
     for (int a = 0; a < dim; a++) *(eight *) (b->f[a] + (own + b->lane - b->low)) -= e.c * sum[a];
 }
 
-WIDEST static void eight_solid (const galerkin_bundle *b) { sum_eight (3, b); }
-WIDEST static void eight_plane (const galerkin_bundle *b) { sum_eight (2, b); }
+PG_WIDEST static void eight_solid (const galerkin_bundle *b) { sum_eight (3, b); }
+PG_WIDEST static void eight_plane (const galerkin_bundle *b) { sum_eight (2, b); }
 
 void galerkin_silling_bundle (const galerkin_bundle *b) { (b->g->dim == 3 ? eight_solid : eight_plane) (b); }
 

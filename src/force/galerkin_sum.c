@@ -156,7 +156,7 @@ INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, do
 /* ---- measures ------------------------------------------------------------------------------------------ */
 typedef struct { galerkin *g; int set; const pg_rows *rows; const double *x; const size_t *list; } measuring;
 
-WIDE static void measure_solid (const measuring *m, size_t first, size_t last)
+PG_WIDE static void measure_solid (const measuring *m, size_t first, size_t last)
 {
     galerkin *g = m->g;
     for (size_t i = first; i < last; i++) {
@@ -246,7 +246,7 @@ INLINE void tangent (const double *D, const double *e, double *s)
 }
 
 /* Forces of some points in space: by the stresses at hand, or (x given) by those of displacement x. */
-WIDE static void sum_solid (const summing *m, size_t first, size_t last, double *sum, size_t low)
+PG_WIDE static void sum_solid (const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     galerkin *g = m->g;
     const pg_rows *r = &g->sums;
@@ -283,7 +283,7 @@ INLINE void sum_flat (int dim, const summing *m, size_t first, size_t last, doub
     }
 }
 
-WIDE static void sum_plane (const summing *m, size_t first, size_t last, double *sum, size_t low)
+PG_WIDE static void sum_plane (const summing *m, size_t first, size_t last, double *sum, size_t low)
 {
     sum_flat (2, m, first, last, sum, low);
 }

@@ -167,7 +167,7 @@ static void add_block (const float *v, const double *x, double *y)
 }
 
 /* Rows of blocks of 3 x 3. */
-WIDE static void multiply_solid (const pg_block_matrix *A, const double *x, double *y, size_t first,
+PG_WIDE static void multiply_solid (const pg_block_matrix *A, const double *x, double *y, size_t first,
                                  size_t last)
 {
     for (size_t i = first; i < last; i++) {

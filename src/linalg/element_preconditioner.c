@@ -164,7 +164,7 @@ static inline __attribute__ ((always_inline)) void recur_at (const step *w, size
 }
 
 /* Rows one by one. */
-WIDE static void recur_rows (const step *w, size_t first, size_t last)
+PG_WIDE static void recur_rows (const step *w, size_t first, size_t last)
 {
     const pg_node_matrix *A = w->A;
     size_t block = w->block;
@@ -181,7 +181,7 @@ WIDE static void recur_rows (const step *w, size_t first, size_t last)
 
 /* `count` rows like row `model`, from row `first` on. The last eight numbers may overlap those before: what
  * has been done is not done again. */
-WIDEST static void recur_alike (const step *w, size_t model, size_t first, size_t count)
+PG_WIDEST static void recur_alike (const step *w, size_t model, size_t first, size_t count)
 {
     const pg_node_matrix *A = w->A;
     size_t length = count * w->block, to = first * w->block, shift = (first - model) * w->block;

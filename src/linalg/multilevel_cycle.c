@@ -24,7 +24,7 @@ static const double margin = 1.05;
 typedef struct { const level *l; const double *x, *y; double *out; double c1, c2; } smoothing;
 
 /* Rows of blocks of 3 x 3. */
-WIDE static void multiply_solid (const level *l, const double *x, double *y, size_t first, size_t last)
+PG_WIDE static void multiply_solid (const level *l, const double *x, double *y, size_t first, size_t last)
 {
     for (size_t i = first; i < last; i++) {
         four s0 = { 0 }, s1 = { 0 }, s2 = { 0 };

@@ -171,6 +171,35 @@ static void copy_wide (void *to, const unsigned char *at, size_t n)
     }
 }
 
+/* Converts n values of a file that lie in a row; 0: one of them does not fit. */
+typedef int converting (const unsigned char *at, int type, size_t n, void *to);
+
+static int to_doubles (const unsigned char *at, int type, size_t n, void *to)
+{
+    double *value = to;
+    size_t size = nc_size_of (type);
+    if (type == PG_NC_DOUBLE) copy_wide (value, at, n);
+    else for (size_t i = 0; i < n; i++) value[i] = double_at (at + i * size, type);
+    return 1;
+}
+
+static int to_longs (const unsigned char *at, int type, size_t n, void *to)
+{
+    long *value = to;
+    size_t size = nc_size_of (type);
+    int fits = 1;
+    if (type == PG_NC_INT64) copy_wide (value, at, n);
+    else for (size_t i = 0; i < n && fits; i++) fits = long_at (at + i * size, type, &value[i]);
+    return fits;
+}
+
+static int to_chars (const unsigned char *at, int type, size_t n, void *to)
+{
+    (void) type;
+    memcpy (to, at, n);
+    return 1;
+}
+
 /* The place of value k of a classic variable, and how many values lie there in a row; PG_E_FILE: the file
  * ends before the next `n` of them. */
 static pg_status place (const pg_netcdf *f, const nc_variable *v, size_t k, size_t n,
@@ -205,56 +234,46 @@ done:
     return status;
 }
 
-pg_status pg_netcdf_doubles (const pg_netcdf *file, int variable, size_t first, size_t n, double *value)
+/* Values of a classic file whose range has been checked, each of `bytes` bytes once converted. */
+static pg_status convert (const pg_netcdf *file, int variable, size_t first, size_t n, converting *to_those,
+                          size_t bytes, void *value)
 {
     pg_status status = PG_OK;
-    const unsigned char *at;
+    const unsigned char *at = NULL;
     const nc_variable *v = &file->var[variable];
-    size_t row, size = nc_size_of (v->about.type);
-    PG_TRY (check_range (file, variable, first, n, 0));
-    if (!file->version) return nc_library_doubles (file, variable, first, n, value);
+    size_t row;
     for (size_t k = 0; k < n; k += row) {
         PG_TRY (place (file, v, first + k, n - k, &at, &row));
-        if (v->about.type == PG_NC_DOUBLE) copy_wide (value + k, at, row);
-        else for (size_t i = 0; i < row; i++) value[k + i] = double_at (at + i * size, v->about.type);
+        if (!to_those (at, v->about.type, row, (char *) value + k * bytes))
+            PG_FAIL (PG_E_FILE, "%.400s: '%s' has values too large for a whole number", file->path,
+                     v->about.name);
     }
 done:
     return status;
+}
+
+pg_status pg_netcdf_doubles (const pg_netcdf *file, int variable, size_t first, size_t n, double *value)
+{
+    pg_status status = check_range (file, variable, first, n, 0);
+    if (status != PG_OK) return status;
+    if (!file->version) return nc_library_doubles (file, variable, first, n, value);
+    return convert (file, variable, first, n, to_doubles, sizeof *value, value);
 }
 
 pg_status pg_netcdf_longs (const pg_netcdf *file, int variable, size_t first, size_t n, long *value)
 {
-    pg_status status = PG_OK;
-    const unsigned char *at;
-    const nc_variable *v = &file->var[variable];
-    size_t row, size = nc_size_of (v->about.type);
-    PG_TRY (check_range (file, variable, first, n, 0));
+    pg_status status = check_range (file, variable, first, n, 0);
+    if (status != PG_OK) return status;
     if (!file->version) return nc_library_longs (file, variable, first, n, value);
-    for (size_t k = 0; k < n; k += row) {
-        PG_TRY (place (file, v, first + k, n - k, &at, &row));
-        if (v->about.type == PG_NC_INT64) copy_wide (value + k, at, row);
-        else for (size_t i = 0; i < row; i++)
-            if (!long_at (at + i * size, v->about.type, &value[k + i]))
-                PG_FAIL (PG_E_FILE, "%.400s: '%s' has values too large for a whole number", file->path,
-                         v->about.name);
-    }
-done:
-    return status;
+    return convert (file, variable, first, n, to_longs, sizeof *value, value);
 }
 
 pg_status pg_netcdf_chars (const pg_netcdf *file, int variable, size_t first, size_t n, char *value)
 {
-    pg_status status = PG_OK;
-    const unsigned char *at;
-    size_t row;
-    PG_TRY (check_range (file, variable, first, n, 1));
+    pg_status status = check_range (file, variable, first, n, 1);
+    if (status != PG_OK) return status;
     if (!file->version) return nc_library_chars (file, variable, first, n, value);
-    for (size_t k = 0; k < n; k += row) {
-        PG_TRY (place (file, &file->var[variable], first + k, n - k, &at, &row));
-        memcpy (value + k, at, row);
-    }
-done:
-    return status;
+    return convert (file, variable, first, n, to_chars, sizeof *value, value);
 }
 
 /* ---- attributes ---------------------------------------------------------------------------------------- */

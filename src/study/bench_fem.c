@@ -90,6 +90,9 @@ pg_status pg_bench_fem_run (pg_bench_case *c, const pg_bench_request *q)
     snprintf (job, sizeof job, "%s/%s", folder, name);
     PG_TRY (pg_bench_mesh_make (c, q));
     PG_TRY (pg_process_run (child, "ccx", argv, folder, NULL, 1));
+    /* the log of its equations, which it writes into the folder where it is started */
+    snprintf (log, sizeof log, "%s/spooles.out", folder);
+    remove (log);
     snprintf (log, sizeof log, "%s.frd", job);
     if (child->code != 0 || stat (log, &made) != 0 || made.st_size == 0)
         PG_FAIL (PG_E_EQUILIBRIUM, "ccx %s ended with code %d and without a result", name, child->code);

@@ -49,7 +49,10 @@ def write(name, kind, output, steps=1, options=''):
                 if not any(abs(t) < 1e-9 or abs(t - 2) < 1e-9 for t in x[:2 if plane else 3]): continue
                 for a in range(2 if plane else 3): f.write(f'{i}, {a + 1}, {a + 1}, {step * sum(A[a][b] * x[b] for b in range(3)):.9g}\n')
             f.write(f'*NODE {output}{options}\nU\n*{"ELEMENT" if output == "OUTPUT" else "EL"} {output}{options}\nS, E\n*END STEP\n')
-    subprocess.run(['ccx', '-i', name], check=True, stdout=subprocess.DEVNULL)
+    try:
+        subprocess.run(['ccx', '-i', name], check=True, stdout=subprocess.DEVNULL)
+    finally:
+        if os.path.exists('spooles.out'): os.remove('spooles.out')
     for end in ('inp', 'sta', 'cvg', 'dat', '12d'):
         if os.path.exists(f'{name}.{end}'): os.remove(f'{name}.{end}')
 
@@ -59,4 +62,3 @@ write('c3d20_binary', 'C3D20', 'OUTPUT')
 write('cps8_steps', 'CPS8', 'FILE', steps=2)
 write('cps8_solid', 'CPS8', 'OUTPUT', options=', OUTPUT=3D')
 write('cps6_solid', 'CPS6', 'FILE', options=', OUTPUT=3D')
-if os.path.exists('spooles.out'): os.remove('spooles.out')
