@@ -41,6 +41,18 @@ done:
     return status;
 }
 
+/* u = sum N_j d_j at the nodes. */
+static void displacement (const galerkin *g, const double *d, double *u)
+{
+    const pg_rows *r = &g->rows[PG_NODES];
+    size_t dim = (size_t) g->dim;
+    memset (u, 0, g->n * dim * sizeof *u);
+    for (size_t p = 0; p < g->n; p++)
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
+            for (size_t c = 0; c < dim; c++)
+                u[p * dim + c] += r->N[e] * d[(size_t) r->family.node[e] * dim + c];
+}
+
 /* A field of results by name, value: n x components. Displacement and velocity are those that the shape
  * functions make, not their coefficients, which a field of its own shows; *components = 0: unknown here. */
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
@@ -65,8 +77,7 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
     }
     if (strcmp (name, "displacement") == 0 || strcmp (name, "velocity") == 0) {
         *components = g->dim, *unit = *name == 'd' ? "m" : "m/s";
-        galerkin_measure (g, PG_NODES, *name == 'd' ? d : state->v);
-        memcpy (value, g->u[PG_NODES], g->n * dim * sizeof *value);
+        displacement (g, *name == 'd' ? d : state->v, value);
     } else if (strcmp (name, "strain") == 0 || strcmp (name, "stress") == 0) {
         *components = g->nv, *unit = strcmp (name, "stress") == 0 ? "Pa" : "";
         galerkin_measure (g, PG_NODES, d);

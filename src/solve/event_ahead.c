@@ -12,6 +12,8 @@
 
 /* Share of the utilisation of the worst bond: around such bonds the group lies. */
 static const double near_limit = 0.85;
+/* Share of the tolerance above which the last equilibrium of a block is corrected by a solve of its own. */
+static const double settled = 1e-3;
 
 void ahead_free (event_ahead **ahead)
 {
@@ -134,14 +136,20 @@ done:
 }
 
 /* Displacement at the nodes of the group: of the solver, or of a whole field. */
-static void take (const pg_solver *s, event_ahead *q, const double *whole)
+static pg_status take (const pg_solver *s, event_ahead *q, const double *whole)
 {
+    pg_status status = PG_OK;
     const pg_bond_group *g = &q->zone.group;
     size_t c = (size_t) s->break_loop.system.components;
-    if (!whole) event_solver_at (events_of (s)->engine, 0, g->nnode, g->node, q->some);
+    if (!whole) {
+        PG_TRY (event_solver_watch (events_of (s)->engine, g->nnode, g->node));
+        PG_TRY (event_solver_watched (events_of (s)->engine, 0, q->some));
+    }
     for (size_t k = 0; k < g->nnode; k++)
         memcpy (q->d + (size_t) g->node[k] * c, whole ? whole + (size_t) g->node[k] * c : q->some + k * c,
                 c * sizeof *q->d);
+done:
+    return status;
 }
 
 /* The utilisations of the state at this factor, from those of the unit displacement; measured anew where they
@@ -217,7 +225,7 @@ static pg_status find (pg_solver *s, event_ahead *q, pg_state *state, double lev
     break_loop *b = &s->break_loop;
     int why = 0;
     *retry = 0;
-    take (s, q, e->unit);
+    PG_TRY (take (s, q, e->unit));
     while (q->nevent < AHEAD_MOST && state->events + (long) q->nevent < s->options.max_events) {
         event_outcome outcome;
         PG_TRY (choose (s, q, state, level, &why));
@@ -231,7 +239,7 @@ static pg_status find (pg_solver *s, event_ahead *q, pg_state *state, double lev
             goto done;
         }
         q->due |= outcome == EVENT_DUE;
-        take (s, q, NULL);
+        PG_TRY (take (s, q, NULL));
     }
     *retry = why == 2;
 done:
@@ -268,7 +276,8 @@ static pg_status check (pg_solver *s, event_ahead *q, pg_state *state, size_t *g
     }
     q->cold = cold;
     if (q->nevent == 0) goto done;
-    pg_status now = event_solver_settle (e->engine, 0, q->scaled, &relative);
+    pg_status now = event_solver_settle (e->engine, 0, settled * o->tolerance, q->scaled,
+                                          &relative);
     if (now == PG_E_SINGULAR) relative = INFINITY;         /* a part has come loose: the plain way decides */
     else PG_TRY (now);
     for (size_t i = 0; i < sys->ndof; i++) q->block[i * q->stride + q->nevent - 1] = q->scaled[i];

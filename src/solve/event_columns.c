@@ -57,8 +57,25 @@ void columns_times (const event_solver *e, double a, const double *x, double *y)
     }
 }
 
+/* Columns of full length are far apart in memory: of those that came since the last call the few numbers that
+ * are wanted again and again are gathered once. */
+pg_status columns_watch (event_solver *e)
+{
+    pg_status status = PG_OK;
+    size_t m = (size_t) e->s->components, size = e->nwatched * m;
+    PG_GROW (e->rows, e->room_rows, size * e->t);
+    for (; e->filled < e->t; e->filled++) {
+        const double *G = green_column (e, e->filled);
+        double *to = e->rows + e->filled * size;
+        for (size_t k = 0; k < e->nwatched; k++)
+            for (size_t a = 0; a < m; a++) to[k * m + a] = G[(size_t) e->watched[k] * m + a];
+    }
+done:
+    return status;
+}
+
 void columns_free (event_solver *e)
 {
     for (size_t k = 0; k < e->nchunk; k++) pg_free (e->chunk[k]);
-    pg_free (e->chunk), pg_free (e->rhs), pg_free (e->solved);
+    pg_free (e->chunk), pg_free (e->rhs), pg_free (e->solved), pg_free (e->watched), pg_free (e->rows);
 }

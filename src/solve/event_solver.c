@@ -240,21 +240,28 @@ done:
 }
 
 /* ---- the solution -------------------------------------------------------------------------------------- */
-void event_solver_at (const event_solver *e, int which, size_t n, const int *node, double *u)
+pg_status event_solver_watch (event_solver *e, size_t n, const int *node)
 {
-    size_t m = (size_t) e->s->components;
-    for (size_t k = 0; k < n; k++) {
-        size_t from = (node ? (size_t) node[k] : k) * m;
-        for (size_t a = 0; a < m; a++) u[k * m + a] = e->base[which][from + a];
-    }
-    for (size_t i = 0; i < e->t; i++) {
-        double x = e->x[which][i];
-        const double *G = green_column (e, i);
-        for (size_t k = 0; k < n; k++) {
-            size_t from = (node ? (size_t) node[k] : k) * m;
-            for (size_t a = 0; a < m; a++) u[k * m + a] += G[from + a] * x;
-        }
-    }
+    pg_status status = PG_OK;
+    if (n == e->nwatched && (n == 0 || memcmp (node, e->watched, n * sizeof *node) == 0)) return PG_OK;
+    pg_free (e->watched), e->watched = NULL, e->nwatched = e->filled = 0;
+    PG_ALLOC (e->watched, n + 1);
+    memcpy (e->watched, node, n * sizeof *node);
+    e->nwatched = n;
+done:
+    return status;
+}
+
+pg_status event_solver_watched (event_solver *e, int which, double *u)
+{
+    pg_status status = PG_OK;
+    size_t m = (size_t) e->s->components, size = e->nwatched * m;
+    PG_TRY (columns_watch (e));
+    for (size_t k = 0; k < e->nwatched; k++)
+        for (size_t a = 0; a < m; a++) u[k * m + a] = e->base[which][(size_t) e->watched[k] * m + a];
+    if (e->t && size) pg_dense_multiply (0, size, 1, e->t, 1, e->rows, size, e->x[which], e->t, 1, u, size);
+done:
+    return status;
 }
 
 pg_status event_solver_full (event_solver *e, int which, double *u)
@@ -302,7 +309,7 @@ done:
 
 /* The solution is equilibrium up to what the base has left unbalanced, springs of weak unknowns above all:
  * that is taken out of the base itself. */
-pg_status event_solver_settle (event_solver *e, int which, double *u, double *residual)
+pg_status event_solver_settle (event_solver *e, int which, double enough, double *u, double *residual)
 {
     pg_status status = PG_OK;
     pg_system *s = e->s;
@@ -315,6 +322,7 @@ pg_status event_solver_settle (event_solver *e, int which, double *u, double *re
     if (T) pg_sparse_multiply_transposed (T, force, delta);
     else memcpy (delta, force, e->ndof * sizeof *delta);
     *residual = sqrt (dot (e->nred, delta, delta)) / (reference > 0 ? reference : e->scale);
+    if (*residual <= enough) goto done;
     memcpy (force, delta, e->nred * sizeof *delta);
     PG_TRY (event_solver_correct (e, force, delta));
     if (T) pg_sparse_multiply (T, delta, force);

@@ -60,13 +60,16 @@ pg_status event_solver_update (event_solver *e, event_outcome *outcome);
 const char *event_solver_why  (const event_solver *e);
 
 /* ---- the solution of the last update ------------------------------------------------------------------- */
-/* Unknowns of node[k] of a case (list NULL: all nodes): n x components, by as many rows of G. */
-void      event_solver_at     (const event_solver *e, int which, size_t n, const int *node, double *u);
+/* From now on displacements of these nodes will be asked for, after every update: their rows of G are kept
+ * together, so that all of them are one product of a small matrix and x. Sorted, and copied. */
+pg_status event_solver_watch  (event_solver *e, size_t n, const int *node);
+/* Unknowns of the watched nodes, in their order, of a case: n x components. */
+pg_status event_solver_watched (event_solver *e, int which, double *u);
 /* The whole displacement of a case, ndof. */
 pg_status event_solver_full   (event_solver *e, int which, double *u);
-/* The same, measured by the force itself and corrected once, the base with it; *residual: before, over the
- * reference force. Of the events of the block no displacement may be asked for afterwards: flush it. */
-pg_status event_solver_settle (event_solver *e, int which, double *u, double *residual);
+/* The same, measured by the force itself; *residual: over the reference force. Above `enough` it is corrected
+ * once, the base with it; of the events of the block no displacement may be asked for then: flush it. */
+pg_status event_solver_settle (event_solver *e, int which, double enough, double *u, double *residual);
 /* K^-1 r of any reduced residual, delta (nred): a solve with the base factor, corrected for D. */
 pg_status event_solver_correct (event_solver *e, const double *r, double *delta);
 /* What the last update left unbalanced on the touched unknowns, over the reference force of the base. */

@@ -41,6 +41,9 @@ struct event_solver {
     size_t *group, ngroup, room_group;  /* how many unknowns were taken in at a time */
     double **chunk; size_t nchunk, room_chunk;         /* G, in pieces of CHUNK columns (ndof x CHUNK) */
     double *rhs, *solved;  size_t room_rhs, room_solved;           /* (nred x new ones) */
+    /* watched nodes; their rows of G (node by node, components x t), of which `filled` columns are there */
+    int    *watched;  size_t nwatched, filled;
+    double *rows;  size_t room_rows;
     /* ---- block of events: x of event k at X[c][k], zero beyond tX[k]; number 0 is that before the first */
     int     count;
     double *X[EVENT_CASES][EVENT_MOST + 1];
@@ -79,6 +82,8 @@ static inline const double *green_column (const event_solver *e, size_t i)
 {
     return e->chunk[i / CHUNK] + (i % CHUNK) * e->ndof;
 }
+/* Those that are missing of the rows of the watched nodes. */
+pg_status columns_watch (event_solver *e);
 /* y = a y + G x */
 void      columns_times (const event_solver *e, double a, const double *x, double *y);
 void      columns_free  (event_solver *e);

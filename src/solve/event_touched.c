@@ -29,7 +29,7 @@ void touched_free (event_solver *e)
 void touched_clear (event_solver *e)
 {
     for (size_t i = 0; i < e->t; i++) e->at[e->dof[i]] = 0;
-    e->t = e->ngroup = 0, e->factored = 0;
+    e->t = e->ngroup = e->filled = 0, e->factored = 0;
 }
 
 /* A matrix of t columns moves to columns `cap` apart. */

@@ -152,6 +152,8 @@ static void blocks_and_going_back (void **state)
         int list[6] = { -1, 0, 1, 2, 3, 4 };
         begin (&b, some[k]);
         size_t n = b.s.ndof, nodes = b.r.problem->cloud.n;
+        int *every = pg_calloc (nodes, sizeof *every);
+        for (size_t i = 0; i < nodes; i++) every[i] = (int) i;
         double *kept[6], *block = pg_calloc (6 * n, sizeof *block);
         for (int m = 0; m < 6; m++) {
             if (m > 0) {
@@ -164,7 +166,8 @@ static void blocks_and_going_back (void **state)
             check_solution (&b, 1e-6);
             kept[m] = pg_calloc (n, sizeof **kept);
             memcpy (kept[m], b.u[1], n * sizeof **kept);
-            event_solver_at (b.e, 1, nodes, NULL, b.shown);
+            check_ok (event_solver_watch (b.e, nodes, every));
+            check_ok (event_solver_watched (b.e, 1, b.shown));
             check_below (largest_difference (b.shown, b.u[1], n), 1e-12 * largest_of (b.u[1], n));
         }
         check_ok (event_solver_block (b.e, 1, 6, list, block));
@@ -181,13 +184,13 @@ static void blocks_and_going_back (void **state)
         check_ok (event_solver_update (b.e, &outcome));
         check_solution (&b, 1e-6);
         double residual;
-        check_ok (event_solver_settle (b.e, 1, b.u[1], &residual));
+        check_ok (event_solver_settle (b.e, 1, 0, b.u[1], &residual));
         check_below (residual, 1e-8);
-        check_ok (event_solver_settle (b.e, 1, b.u[1], &residual));
+        check_ok (event_solver_settle (b.e, 1, 0, b.u[1], &residual));
         /* springs of a penalty are so stiff that the forces of rounding are large */
         check_below (residual, strstr (cases[some[k]], "penalty") ? 1e-8 : 1e-12);
         for (int m = 0; m < 6; m++) pg_free (kept[m]);
-        pg_free (block);
+        pg_free (block), pg_free (every);
         end (&b);
     }
 }
