@@ -135,10 +135,8 @@ static pg_status refuse (pg_system *s, double residual, double restless)
                          s->unbalanced, s->reference > 0 ? s->unbalanced / s->reference : 1,
                          s->options->tolerance, where, restless);
     return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
-                     "the residual stays at %.3g of the reference force (allowed %.3g), %s: "
-                     "probably a loaded part has come loose; try prescribed displacements, newmark, or a "
-                     "coarser criterion",
-                     residual, s->options->tolerance, where);
+                     "the residual stays at %.3g of the reference force (allowed %.3g), %s; %s", residual,
+                     s->options->tolerance, where, why_out_of_balance (p, s->options));
 }
 
 /* The state is judged by its own forces. Those of a body without load vanish: then by the largest that an

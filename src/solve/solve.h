@@ -239,6 +239,8 @@ pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k);
 /* ---- warnings.c ---------------------------------------------------------------------------------------- */
 /* 1: at rest the prescribed displacements leave a translation along an axis or a rotation free. */
 int supports_leave_free (const pg_problem *p);
+/* For messages: the probable cause of forces that find no balance, and what to do. Borrowed. */
+const char *why_out_of_balance (const pg_problem *p, const pg_solver_options *o);
 
 /* ---- progress.c ---------------------------------------------------------------------------------------- */
 /* One of the ends that a run may come to, and how far it has come towards it: the nearest counts. */

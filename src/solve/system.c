@@ -399,10 +399,7 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
     pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, limit, &used);
     int free_to_move = (can && now == PG_E_EQUILIBRIUM) || (s->problem->sums && now == PG_E_NOT_SPD);
     if (free_to_move)
-        PG_FAIL (now,
-                 "%s; probably a loaded part has come loose: try prescribed displacements, newmark, or a "
-                 "coarser criterion",
-                 pg_last_error ());
+        PG_FAIL (now, "%s; %s", pg_last_error (), why_out_of_balance (s->problem, s->options));
     PG_TRY (now);
 done:
     return status;

@@ -64,7 +64,7 @@ run "contradicting supports: a fault with both lines" 65 '' ':9:40: boundary\[1\
 run "equal supports are fine"                 0 '*' '*' contradiction.yaml 'boundary[1].displacement.x=0' 'boundary[2].displacement.y=1 mm'
 for method in '{approximation: pddo}' '{approximation: nosb}' '{approximation: rkpm}' '{approximation: pddo, integration: consistent}' '{approximation: rkpm, integration: nodal}' \
               '{force: bond, accept_inexact: yes}' '{force: lps}'; do
-    run "nothing holds the body, $method" 70 'warning: nothing holds the body along x' 'nothing holds the body\|a loaded part has come loose\|a part that can move freely' nothing_holds.yaml "method=$method"
+    run "nothing holds the body, $method" 70 'warning: nothing holds the body along x' 'nothing holds the body' nothing_holds.yaml "method=$method"
 done
 
 # ---- discretisations that do not carry a linear field ----------------------------------------------------------------------
