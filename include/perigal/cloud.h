@@ -236,16 +236,20 @@ typedef struct {
     int    sided;
     double width;
 } pg_crack;
-/* Several cracks. box: of each segment, as far as it cuts, low x, low y, high x, high y (n x 4, m); group:
- * the same of PG_CRACK_GROUP segments that follow each other. With these (pg_cracks_index), questions to many
- * segments in the plane look only at those near by; the answers are the same. NULL: without. */
+/* Several cracks. box: of each crack, as far as it cuts, the low and then the high coordinates (n x 2 dim,
+ * m); order: the cracks so that neighbours lie near each other (n); block: the boxes of PG_CRACK_GROUP cracks
+ * that follow each other in that order, of as many such blocks, and so on (2 dim values each, n at most).
+ * With these (pg_cracks_index) questions to many cracks look only at those near by; the answers are the same.
+ * NULL: without. */
 enum { PG_CRACK_GROUP = 8 };
-typedef struct { int dim; pg_crack *crack; size_t n; double *box, *group; } pg_cracks;
+typedef struct { int dim; pg_crack *crack; size_t n; double *box, *block; size_t *order; } pg_cracks;
 /* Reads `cracks`. Each must meet the body; what is wrong is a fault of the scene. */
 pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
 void      pg_cracks_clear (pg_cracks *cracks);
-/* Fills box and group, which hold 4 n values each at least (2D); for cracks in 3D nothing. To be called again
- * when a segment was added or changed. */
+/* The box of one crack, as above. */
+void      pg_crack_box (const pg_crack *crack, int dim, double *box);
+/* Fills box and block, which hold 2 dim n values each at least, and order. To be called again when a crack
+ * was added or changed. */
 void      pg_cracks_fill_index (pg_cracks *cracks);
 /* Makes room for them first. */
 pg_status pg_cracks_index (pg_cracks *cracks);
@@ -260,7 +264,7 @@ double pg_segment_nearest (const double *a, const double *b, const double *x, do
                            double *distance);
 /* Does x lie on the crack, within the tolerance, whichever side it counts to? */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance);
-/* 0: no crack can cut a bond inside this box (low, high: 2), which is known in the plane; else 1. */
+/* 0: no crack can cut a bond inside this box (low, high: dim), as its boxes tell; else 1. */
 int pg_cracks_near (const pg_cracks *cracks, const double *low, const double *high);
 /* The same for several cracks: the first of them that the bond meets, or that x lies on; NULL: none. */
 const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,

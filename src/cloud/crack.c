@@ -250,99 +250,6 @@ int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double to
     return crosses (crack, dim, x, x, tolerance);
 }
 
-/* ---- several cracks ------------------------------------------------------------------------------------ */
-/* The box of what a segment cuts; its width stands for rounding, too. */
-static void box_of (const pg_crack *c, double *box)
-{
-    const double *p = c->vertex, t[2] = { c->normal[1], -c->normal[0] };
-    double over[2] = { c->retreat ? fmax (0, -c->retreat[0]) : 0, c->retreat ? fmax (0, -c->retreat[1]) : 0 };
-    for (int k = 0; k < 2; k++) {
-        double a = p[k] - over[0] * t[k], b = p[2 + k] + over[1] * t[k],
-               slack = c->width + 1e-12 * (fabs (a) + fabs (b));
-        box[k] = fmin (fmin (a, b), fmin (p[k], p[2 + k])) - slack;
-        box[2 + k] = fmax (fmax (a, b), fmax (p[k], p[2 + k])) + slack;
-    }
-}
-
-void pg_cracks_fill_index (pg_cracks *cracks)
-{
-    if (cracks->dim != 2) return;
-    for (size_t c = 0; c < cracks->n; c++) {
-        double *box = cracks->box + 4*c, *group = cracks->group + 4 * (c / PG_CRACK_GROUP);
-        box_of (&cracks->crack[c], box);
-        for (int k = 0; k < 2; k++) {
-            group[k] = c % PG_CRACK_GROUP ? fmin (group[k], box[k]) : box[k];
-            group[2 + k] = c % PG_CRACK_GROUP ? fmax (group[2 + k], box[2 + k]) : box[2 + k];
-        }
-    }
-}
-
-pg_status pg_cracks_index (pg_cracks *cracks)
-{
-    pg_status status = PG_OK;
-    if (cracks->dim != 2) return PG_OK;
-    pg_free (cracks->box), pg_free (cracks->group), cracks->box = cracks->group = NULL;
-    PG_ALLOC (cracks->box, 4 * cracks->n);
-    PG_ALLOC (cracks->group, 4 * cracks->n);
-    pg_cracks_fill_index (cracks);
-done:
-    return status;
-}
-
-/* Do two boxes, low x, low y, high x, high y, have a place in common? */
-static int overlap (const double *a, const double *b)
-{
-    return a[0] <= b[2] && b[0] <= a[2] && a[1] <= b[3] && b[1] <= a[3];
-}
-
-/* The first crack from number `from` on whose box the bond's box meets, by groups; n: none. Without boxes
- * `from` itself. */
-static size_t next_near (const pg_cracks *cracks, size_t from, const double *bond)
-{
-    size_t c = from;
-    if (!cracks->group) return c;
-    while (c < cracks->n) {
-        size_t g = c / PG_CRACK_GROUP, end = (g + 1) * PG_CRACK_GROUP;
-        if (overlap (cracks->group + 4*g, bond))
-            for (; c < end && c < cracks->n; c++) if (overlap (cracks->box + 4*c, bond)) return c;
-        c = end;
-    }
-    return cracks->n;
-}
-
-/* The box about a bond, a little wider than the tolerance. */
-static void bond_box (const double *x, const double *y, double tolerance, double *box)
-{
-    for (int k = 0; k < 2; k++)
-        box[k] = fmin (x[k], y[k]) - 2 * tolerance, box[2 + k] = fmax (x[k], y[k]) + 2 * tolerance;
-}
-
-int pg_cracks_near (const pg_cracks *cracks, const double *low, const double *high)
-{
-    double box[4] = { low[0], low[1], high[0], high[1] };
-    return cracks->n > 0 && (!cracks->group || next_near (cracks, 0, box) < cracks->n);
-}
-
-/* The first crack in their order counts, so that the answer does not depend on anything else. */
-const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
-                               double tolerance)
-{
-    double box[4] = { 0 };
-    if (cracks->group) bond_box (x, y, tolerance, box);
-    for (size_t c = next_near (cracks, 0, box); c < cracks->n; c = next_near (cracks, c + 1, box))
-        if (pg_crack_cuts (&cracks->crack[c], dim, x, y, tolerance)) return &cracks->crack[c];
-    return NULL;
-}
-
-const pg_crack *pg_cracks_touch (const pg_cracks *cracks, int dim, const double *x, double tolerance)
-{
-    double box[4] = { 0 };
-    if (cracks->group) bond_box (x, x, tolerance, box);
-    for (size_t c = next_near (cracks, 0, box); c < cracks->n; c = next_near (cracks, c + 1, box))
-        if (pg_crack_touches (&cracks->crack[c], dim, x, tolerance)) return &cracks->crack[c];
-    return NULL;
-}
-
 void pg_crack_orient (pg_crack *c)
 {
     double t[2] = { c->vertex[2] - c->vertex[0], c->vertex[3] - c->vertex[1] }, size = hypot (t[0], t[1]);
@@ -353,6 +260,6 @@ void pg_cracks_clear (pg_cracks *cracks)
 {
     for (size_t i = 0; cracks->crack && i < cracks->n; i++)
         pg_free (cracks->crack[i].vertex), pg_free (cracks->crack[i].retreat);
-    pg_free (cracks->crack), pg_free (cracks->box), pg_free (cracks->group);
+    pg_free (cracks->crack), pg_free (cracks->box), pg_free (cracks->block), pg_free (cracks->order);
     memset (cracks, 0, sizeof *cracks);
 }

@@ -208,6 +208,7 @@ pg_status pg_cracks_read (pg_cracks *out, const pg_scene *scene)
         if (!crack_may_meet (&body, &out->crack[i])) fault_outside (scene, at, &body, out->dim);
     }
     PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (pg_cracks_index (out));
 done:
     pg_body_clear (&body);
     if (status != PG_OK) pg_cracks_clear (out);

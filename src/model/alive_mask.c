@@ -21,21 +21,21 @@ void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *poin
     *point = lo;
 }
 
-/* Can a crack cut any bond of point q? In the plane the box about its bonds tells, which spares most points
- * of a body the look at each of their bonds. */
+/* Can a crack cut any bond of point q? The box about its bonds tells, which spares most points of a body the
+ * look at each of their bonds. */
 static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
 {
-    double low[2], high[2], slack = 1e-8 * p->cloud.h;  /* more than the tolerance of a cut */
+    double low[3], high[3], slack = 1e-8 * p->cloud.h; /* more than the tolerance of a cut */
     const pg_cracks *cracks = pg_state_cracks (p, NULL);
+    size_t dim = (size_t) p->dim;
     if (cracks->n == 0) return 0;
-    if (p->dim != 2) return 1;
-    for (size_t k = 0; k < 2; k++) low[k] = high[k] = rows->x[2 * q + k];
+    for (size_t k = 0; k < dim; k++) low[k] = high[k] = rows->x[dim * q + k];
     for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
-        for (size_t k = 0; k < 2; k++) {
-            double x = p->cloud.x[2 * (size_t) rows->family.node[e] + k];
+        for (size_t k = 0; k < dim; k++) {
+            double x = p->cloud.x[dim * (size_t) rows->family.node[e] + k];
             low[k] = x < low[k] ? x : low[k], high[k] = x > high[k] ? x : high[k];
         }
-    for (size_t k = 0; k < 2; k++) low[k] -= slack, high[k] += slack;
+    for (size_t k = 0; k < dim; k++) low[k] -= slack, high[k] += slack;
     return pg_cracks_near (cracks, low, high);
 }
 

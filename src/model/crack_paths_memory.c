@@ -29,7 +29,8 @@ pg_status pg_crack_paths_reserve (pg_crack_paths *w, size_t n)
     size_t most = 2 * n + 16;
     GROW_TO (w->cracks.crack, most);
     GROW_TO (w->cracks.box, 4 * most);
-    GROW_TO (w->cracks.group, 4 * most);
+    GROW_TO (w->cracks.block, 4 * most);
+    GROW_TO (w->cracks.order, most);
     GROW_TO (w->parent, most);
     GROW_TO (w->path, most);
     GROW_TO (w->owner, most);
@@ -122,7 +123,8 @@ void pg_crack_paths_free (pg_crack_paths **paths)
 {
     pg_crack_paths *w = *paths;
     if (!w) return;
-    pg_free (w->cracks.crack), pg_free (w->cracks.box), pg_free (w->cracks.group), pg_free (w->parent);
+    pg_free (w->cracks.crack), pg_free (w->cracks.box), pg_free (w->cracks.block), pg_free (w->cracks.order);
+    pg_free (w->parent);
     pg_free (w->path), pg_free (w->owner), pg_free (w->store), pg_free (w->tip);
     pg_free (w);
     *paths = NULL;

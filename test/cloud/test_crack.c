@@ -3,6 +3,8 @@
  * w), w = 0 the crack's plane, mapped to a tilted plane in space. */
 #include "check.h"
 #include "perigal/cloud.h"
+#include <math.h>
+#include <string.h>
 
 typedef struct { long u, v, w; } whole;
 
@@ -330,7 +332,52 @@ static void boxes_change_no_answer (void **state)
         found += first != NULL;
     }
     assert_true (found > 1000);
-    pg_free (boxed.box), pg_free (boxed.group);
+    pg_free (boxed.box), pg_free (boxed.block), pg_free (boxed.order);
+}
+
+/* Cracks in space: triangles on a wavy sheet, in the order of its rows, and discs anywhere; few and many. */
+static void boxes_change_no_answer_in_space (void **state)
+{
+    (void) state;
+    enum { MOST = 700 };
+    static double v[9 * MOST];
+    static pg_crack c[MOST];
+    const size_t many[] = { 1, 2, 8, 9, 64, 65, 513, MOST };
+    for (size_t m = 0; m < sizeof many / sizeof *many; m++) {
+        size_t n = many[m], found = 0, missed = 0;
+        memset (c, 0, sizeof c);
+        for (size_t k = 0; k < n; k++) {
+            double low[2] = { -5 + 0.4 * (double) (k % 25), -5 + 0.4 * (double) (k / 25) };
+            for (int i = 0; i < 3; i++) {
+                double *x = v + 9*k + 3*i;
+                x[0] = low[0] + (i == 1 ? 0.5 : 0), x[1] = low[1] + (i == 2 ? 0.5 : 0);
+                x[2] = sin (x[0]) + 0.3 * cos (2 * x[1]);
+            }
+            double *p = v + 9*k, u[3], w[3], N[3];
+            for (int i = 0; i < 3; i++) u[i] = p[3 + i] - p[i], w[i] = p[6 + i] - p[i];
+            for (int i = 0; i < 3; i++)
+                N[i] = u[(i + 1) % 3] * w[(i + 2) % 3] - u[(i + 2) % 3] * w[(i + 1) % 3];
+            double size = sqrt (N[0] * N[0] + N[1] * N[1] + N[2] * N[2]);
+            c[k].kind = k % 5 == 4 ? PG_CRACK_DISC : PG_CRACK_POLYGON;
+            c[k].vertex = p, c[k].nvertex = 3, c[k].radius = k % 5 == 4 ? 0.6 : 0;
+            for (int i = 0; i < 3; i++) c[k].normal[i] = N[i] / size, c[k].centre[i] = p[i];
+        }
+        pg_cracks plain = { .dim = 3, .crack = c, .n = n }, boxed = plain;
+        check_ok (pg_cracks_index (&boxed));
+        for (int k = 0; k < 20000; k++) {
+            double x[3] = { 5 * real (), 5 * real (), 1.5 * real () }, low[3], high[3];
+            double y[3] = { x[0] + real (), x[1] + real (), x[2] + real () };
+            const pg_crack *first = pg_cracks_cut (&plain, 3, x, y, 1e-9);
+            assert_ptr_equal (pg_cracks_cut (&boxed, 3, x, y, 1e-9), first);
+            assert_ptr_equal (pg_cracks_touch (&boxed, 3, x, 1e-2), pg_cracks_touch (&plain, 3, x, 1e-2));
+            for (int i = 0; i < 3; i++) low[i] = fmin (x[i], y[i]), high[i] = fmax (x[i], y[i]);
+            int near = pg_cracks_near (&boxed, low, high);
+            assert_true (near || !first);
+            found += first != NULL, missed += !near;
+        }
+        assert_true (missed > 100 && found > (n < 9 ? 0 : 20));
+        pg_free (boxed.box), pg_free (boxed.block), pg_free (boxed.order);
+    }
 }
 
 int main (void)
@@ -347,6 +394,7 @@ int main (void)
         cmocka_unit_test (sided_segments_agree_with_integers),
         cmocka_unit_test (the_width_of_a_sided_segment_is_its_left),
         cmocka_unit_test (boxes_change_no_answer),
+        cmocka_unit_test (boxes_change_no_answer_in_space),
     };
     return cmocka_run_group_tests_name ("cloud/crack", tests, NULL, NULL);
 }

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which of many cracks does a bond meet? A bond looks only at the cracks whose boxes it meets; the answers
+ * are those of asking every crack in turn.
+ *
+ * The cracks are put in an order in which neighbours lie near each other, PG_CRACK_GROUP at a time in a
+ * block, as many blocks in a larger one, and so on up to one block that holds all. Block b of level l holds
+ * the places b s to (b + 1) s - 1 of the order, s = PG_CRACK_GROUP^(l + 1); the boxes of the levels follow
+ * each other in `block`. The order comes from dividing the cracks along the axis in which their centres
+ * extend farthest, at a place where blocks of all levels end. */
+#include "perigal/cloud.h"
+#include <math.h>
+#include <string.h>
+
+enum { LEVELS = 22 };                                  /* 8^22 cracks are more than there can be */
+
+/* ---- boxes --------------------------------------------------------------------------------------------- */
+/* A segment, with what it cuts beyond its ends. */
+static void box_of_segment (const pg_crack *c, double *low, double *high)
+{
+    const double *p = c->vertex, t[2] = { c->normal[1], -c->normal[0] };
+    double over[2] = { c->retreat ? fmax (0, -c->retreat[0]) : 0, c->retreat ? fmax (0, -c->retreat[1]) : 0 };
+    for (int k = 0; k < 2; k++) {
+        double a = p[k] - over[0] * t[k], b = p[2 + k] + over[1] * t[k];
+        low[k] = fmin (fmin (a, b), fmin (p[k], p[2 + k]));
+        high[k] = fmax (fmax (a, b), fmax (p[k], p[2 + k]));
+    }
+}
+
+/* A disc reaches radius * sqrt (1 - n_k^2) along axis k. */
+static void box_of_disc (const pg_crack *c, double *low, double *high)
+{
+    for (int k = 0; k < 3; k++) {
+        double reach = c->radius * sqrt (fmax (0, 1 - c->normal[k] * c->normal[k]));
+        low[k] = c->centre[k] - reach, high[k] = c->centre[k] + reach;
+    }
+}
+
+static void box_of_polygon (const pg_crack *c, double *low, double *high)
+{
+    for (int k = 0; k < 3; k++) {
+        low[k] = high[k] = c->vertex[k];
+        for (size_t i = 1; i < c->nvertex; i++)
+            low[k] = fmin (low[k], c->vertex[3*i + (size_t) k]),
+            high[k] = fmax (high[k], c->vertex[3*i + (size_t) k]);
+    }
+}
+
+/* The slack stands for rounding, of a disc in proportion to its size. */
+void pg_crack_box (const pg_crack *c, int dim, double *box)
+{
+    double *low = box, *high = box + dim;
+    if (c->kind == PG_CRACK_SEGMENT) box_of_segment (c, low, high);
+    else if (c->kind == PG_CRACK_DISC) box_of_disc (c, low, high);
+    else box_of_polygon (c, low, high);
+    for (int k = 0; k < dim; k++) {
+        double slack = (c->sided ? c->width : 0) + 1e-12 * (fabs (low[k]) + fabs (high[k]) + c->radius);
+        low[k] -= slack, high[k] += slack;
+    }
+}
+
+/* Do two boxes have a place in common? */
+static int overlap (int dim, const double *a, const double *b)
+{
+    for (int k = 0; k < dim; k++) if (!(a[k] <= b[dim + k] && b[k] <= a[dim + k])) return 0;
+    return 1;
+}
+
+/* ---- the order ----------------------------------------------------------------------------------------- */
+/* Twice the centre of the crack at a place of the order. */
+static double centre (const pg_cracks *c, size_t place, int axis)
+{
+    const double *box = c->box + 2 * (size_t) c->dim * c->order[place];
+    return box[axis] + box[c->dim + axis];
+}
+
+static void swap (const pg_cracks *c, size_t a, size_t b)
+{
+    size_t t = c->order[a];
+    c->order[a] = c->order[b], c->order[b] = t;
+}
+
+/* Puts those with the smallest centres along the axis before place `middle` of first .. last - 1. */
+static void part (const pg_cracks *c, size_t first, size_t last, size_t middle, int axis)
+{
+    while (last - first > 1) {
+        double pivot = centre (c, first + (last - first) / 2, axis);
+        size_t less = first, more = last, i = first;
+        while (i < more) {
+            double v = centre (c, i, axis);
+            if (v < pivot) swap (c, i++, less++);
+            else if (v > pivot) swap (c, i, --more);
+            else i++;
+        }
+        if (middle < less) last = less;
+        else if (middle >= more) first = more;
+        else return;
+    }
+}
+
+/* The axis along which the centres extend farthest. */
+static int longest_axis (const pg_cracks *c, size_t first, size_t last)
+{
+    int best = 0;
+    double most = -1;
+    for (int k = 0; k < c->dim; k++) {
+        double low = INFINITY, high = -INFINITY;
+        for (size_t i = first; i < last; i++)
+            low = fmin (low, centre (c, i, k)), high = fmax (high, centre (c, i, k));
+        if (high - low > most) most = high - low, best = k;
+    }
+    return best;
+}
+
+/* Divides a range that begins with a block of the largest size that is smaller than it, at the end of such a
+ * block near the middle. */
+static void sort (const pg_cracks *c, size_t first, size_t last)
+{
+    size_t n = last - first, size = PG_CRACK_GROUP;
+    if (n <= PG_CRACK_GROUP) return;
+    while (size < (n + PG_CRACK_GROUP - 1) / PG_CRACK_GROUP) size *= PG_CRACK_GROUP;
+    size_t middle = first + size * ((n / size + 1) / 2);
+    part (c, first, last, middle, longest_axis (c, first, last));
+    sort (c, first, middle), sort (c, middle, last);
+}
+
+/* The first block of each level in `block`; returns the number of levels. */
+static int levels_of (const pg_cracks *c, size_t *start)
+{
+    size_t n = c->n;
+    int level = 0;
+    start[0] = 0;
+    do {
+        n = (n + PG_CRACK_GROUP - 1) / PG_CRACK_GROUP;
+        start[level + 1] = start[level] + n;
+        level++;
+    } while (n > 1);
+    return level;
+}
+
+/* Widens a box so that it holds another, or takes the other's place. */
+static void unite (int dim, double *box, const double *other, int first)
+{
+    for (int k = 0; k < dim; k++) {
+        box[k] = first ? other[k] : fmin (box[k], other[k]);
+        box[dim + k] = first ? other[dim + k] : fmax (box[dim + k], other[dim + k]);
+    }
+}
+
+void pg_cracks_fill_index (pg_cracks *c)
+{
+    size_t start[LEVELS + 1], wide = 2 * (size_t) c->dim;
+    if (c->n == 0) return;
+    for (size_t k = 0; k < c->n; k++) pg_crack_box (&c->crack[k], c->dim, c->box + wide * k), c->order[k] = k;
+    sort (c, 0, c->n);
+    int levels = levels_of (c, start);
+    for (int l = 0; l < levels; l++) {
+        size_t n = l ? start[l] - start[l - 1] : c->n;
+        for (size_t k = 0; k < n; k++)
+            unite (c->dim, c->block + wide * (start[l] + k / PG_CRACK_GROUP),
+                   l ? c->block + wide * (start[l - 1] + k) : c->box + wide * c->order[k],
+                   k % PG_CRACK_GROUP == 0);
+    }
+}
+
+pg_status pg_cracks_index (pg_cracks *c)
+{
+    pg_status status = PG_OK;
+    pg_free (c->box), pg_free (c->block), pg_free (c->order);
+    c->box = c->block = NULL, c->order = NULL;
+    if (c->n == 0) return PG_OK;
+    PG_ALLOC (c->box, 2 * (size_t) c->dim * c->n);
+    PG_ALLOC (c->block, 2 * (size_t) c->dim * c->n);
+    PG_ALLOC (c->order, c->n);
+    pg_cracks_fill_index (c);
+done:
+    return status;
+}
+
+/* ---- questions ----------------------------------------------------------------------------------------- */
+/* A bond x - y, or with y = x a place; what of it is asked. NULL: only whether the boxes meet. */
+typedef int (*question) (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance);
+typedef struct {
+    const pg_cracks *cracks;
+    question ask;
+    const double *x, *y;
+    double tolerance, box[6];
+    size_t start[LEVELS + 1], found;                   /* found: the first crack that says yes; n: none */
+} inquiry;
+
+static int meets (const inquiry *q, size_t crack)
+{
+    const pg_cracks *c = q->cracks;
+    if (!overlap (c->dim, c->box + 2 * (size_t) c->dim * crack, q->box)) return 0;
+    return !q->ask || q->ask (&c->crack[crack], c->dim, q->x, q->y, q->tolerance);
+}
+
+/* Goes through block b of a level; only cracks before the one found so far count. */
+static void look (inquiry *q, int level, size_t b)
+{
+    const pg_cracks *c = q->cracks;
+    size_t n = level ? q->start[level] - q->start[level - 1] : c->n;
+    if (!overlap (c->dim, c->block + 2 * (size_t) c->dim * (q->start[level] + b), q->box)) return;
+    for (size_t k = b * PG_CRACK_GROUP; k < (b + 1) * PG_CRACK_GROUP && k < n; k++) {
+        if (level) look (q, level - 1, k);
+        else if (c->order[k] < q->found && meets (q, c->order[k])) q->found = c->order[k];
+    }
+}
+
+/* The first crack in their order of the scene counts, so that the answer does not depend on the blocks. */
+static const pg_crack *first_of (const pg_cracks *c, question ask, const double *x, const double *y,
+                                 double tolerance)
+{
+    if (!c->block) {
+        for (size_t k = 0; k < c->n; k++)
+            if (ask (&c->crack[k], c->dim, x, y, tolerance)) return &c->crack[k];
+        return NULL;
+    }
+    if (c->n == 0) return NULL;
+    inquiry q = { .cracks = c, .ask = ask, .x = x, .y = y, .tolerance = tolerance, .found = c->n };
+    /* a little wider than the tolerance */
+    for (int k = 0; k < c->dim; k++)
+        q.box[k] = fmin (x[k], y[k]) - 2 * tolerance, q.box[c->dim + k] = fmax (x[k], y[k]) + 2 * tolerance;
+    look (&q, levels_of (c, q.start) - 1, 0);
+    return q.found < c->n ? &c->crack[q.found] : NULL;
+}
+
+static int touches (const pg_crack *crack, int dim, const double *x, const double *y, double tolerance)
+{
+    (void) y;
+    return pg_crack_touches (crack, dim, x, tolerance);
+}
+
+const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
+                               double tolerance)
+{
+    (void) dim;
+    return first_of (cracks, pg_crack_cuts, x, y, tolerance);
+}
+
+const pg_crack *pg_cracks_touch (const pg_cracks *cracks, int dim, const double *x, double tolerance)
+{
+    (void) dim;
+    return first_of (cracks, touches, x, x, tolerance);
+}
+
+int pg_cracks_near (const pg_cracks *c, const double *low, const double *high)
+{
+    if (c->n == 0 || !c->block) return c->n > 0;
+    inquiry q = { .cracks = c, .found = c->n };
+    memcpy (q.box, low, (size_t) c->dim * sizeof *low);
+    memcpy (q.box + c->dim, high, (size_t) c->dim * sizeof *high);
+    look (&q, levels_of (c, q.start) - 1, 0);
+    return q.found < c->n;
+}
