@@ -39,6 +39,7 @@ static void galerkin_free (void **self)
     pg_nearest_free (&g->near_point);
     pg_nearest_free (&g->near_node);
     pg_family_search_free (&g->search);
+    galerkin_alike_free (&g->alike);
     pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide),
         pg_free (g->ends);
     pg_free (g);

@@ -7,7 +7,8 @@
  * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
- * (preconditioner), galerkin_sample.c (any place), galerkin_estimate.c (error of the stress). */
+ * (preconditioner), galerkin_sample.c (any place), galerkin_sample_alike.c (places that are alike),
+ * galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
 #include "perigal/force.h"
@@ -83,6 +84,7 @@ typedef struct {
     size_t  *list[PG_BOND_SETS];                       /* touched points (scratch of refresh) */
     pg_nearest *near_point, *near_node;  /* bulk points, nodes; NULL until a place is asked for */
     pg_family_search *search;            /* nodes that a place sees; likewise */
+    struct galerkin_alike *alike;        /* places that see them alike; likewise, where there are such */
 } galerkin;
 
 /* scene: entries of pg_method */
@@ -269,6 +271,21 @@ pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, doub
 pg_status galerkin_surface (void *self, const double *stress, double *P);
 pg_status galerkin_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
                            double *u, double *stress, double *gradient);
+/* sample_alike: places of a lattice that see their nodes alike, rows kept by keys 0, 1, ... */
+typedef struct galerkin_alike galerkin_alike;
+pg_status galerkin_alike_create (galerkin_alike **out, const pg_problem *problem);
+void   galerkin_alike_free (galerkin_alike **alike);
+/* Key of each place, or -1: these n = *nrest places are listed in `rest`, each with the key that its own row
+ * is to be kept for, or -1. volume: of the nodes. */
+pg_status galerkin_alike_sort (galerkin_alike *alike, const double *volume, size_t n, const double *x,
+                               int *which, size_t *rest, int *leaves, size_t *nrest);
+void   galerkin_alike_keep (galerkin_alike *alike, int key, const pg_rows *rows, size_t at, const double *x);
+int    galerkin_alike_good (const galerkin_alike *alike, int key);      /* 0: the row serves nobody else */
+/* u (3) and H (9) at place x; value: galerkin_alike_scratch numbers of the thread, held: of which block,
+ * SIZE_MAX at first. */
+size_t galerkin_alike_scratch (const galerkin_alike *alike);
+void   galerkin_alike_values (const galerkin_alike *alike, int key, const double *x, const double *d,
+                              double *value, size_t *held, double *u, double *H);
 
 /* Four numbers at a time; the same operations in the same order with and without AVX. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));

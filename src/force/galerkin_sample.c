@@ -3,11 +3,15 @@
  * Which bonds live at a place: those that no crack cuts, and whose node the nearest evaluation point and the
  * nearest node on the same side of the cracks have not lost since. Where that leaves a poorer basis than the
  * evaluation point has, its first-order expansion u_q + grad u_q (x - x_q) and its stress hold. So the two
- * faces of a crack stay apart. In a body without cracks and broken bonds none of this need be asked. */
+ * faces of a crack stay apart. In a body without cracks and broken bonds none of this need be asked, and on a
+ * lattice most places are like others (galerkin_sample_alike.c). */
 #include "galerkin.h"
+#include <stdint.h>
 #include <string.h>
 
-enum { CHUNK = 8192 };                                 /* places at a time: bounds the memory */
+/* Places at a time, which bounds the memory. MANY: from how many places on, and one for so many nodes
+ * (SHARE), it pays to look for places that are alike. */
+enum { CHUNK = 8192, MANY = 1024, SHARE = 8 };
 
 typedef struct {
     galerkin *g;
@@ -227,27 +231,101 @@ static void find_nodes (const galerkin *g, size_t n, const double *x, int *own)
     }
 }
 
-static pg_status sample_chunk (sampling *s, size_t n, const double *x, int *own)
+/* The places of a chunk that need rows of their own. Those that are the first of their kind leave their rows
+ * for others (leaves: key or -1; NULL: none does). */
+static pg_status sample_each (sampling *s, size_t n, const double *x, int *own, const int *leaves)
 {
     pg_status status = PG_OK;
     const pg_problem *p = s->g->problem;
-    size_t bonds;
+    size_t bonds, dim = (size_t) s->g->dim;
     int about_nodes = p->approx.type->interpolates || !s->intact;
     if (about_nodes) find_nodes (s->g, n, x, own);
     PG_TRY (pg_rows_place (&s->rows, s->g->search, s->g->dim, n, x, NULL, about_nodes ? own : NULL, NULL,
                            s->g->threads));
     bonds = s->rows.family.start[n];
     PG_ALLOC (s->rows.N, bonds);                       /* the influence is not asked for */
-    PG_ALLOC (s->rows.dN, bonds * (size_t) s->g->dim);
+    PG_ALLOC (s->rows.dN, bonds * dim);
     PG_ALLOC (s->rows.grade, n);
     if (!s->intact) PG_ALLOC (s->alive, bonds);
     if (!s->intact) pg_parallel (s->g->threads, n, find_bonds, s);
     else if (!s->uniform) pg_parallel (s->g->threads, n, find_points, s);
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &s->rows, s->alive, n, NULL, s->g->threads));
     pg_parallel (s->g->threads, n, evaluate, s);
+    for (size_t i = 0; leaves && i < n; i++)
+        if (leaves[i] >= 0) galerkin_alike_keep (s->g->alike, leaves[i], &s->rows, i, x + i * dim);
 done:
     pg_free (s->alive), s->alive = NULL;
     pg_rows_clear (&s->rows);
+    return status;
+}
+
+/* ---- places that are alike ----------------------------------------------------------------------------- */
+/* Places of a chunk by kept rows: which (n), scratch of each thread. */
+typedef struct { const sampling *s; const double *x; const int *which; double *value; } by_rows;
+
+static void evaluate_alike (void *context, size_t first, size_t last, int thread)
+{
+    const by_rows *b = context;
+    const sampling *s = b->s;
+    const galerkin *g = s->g;
+    size_t held = SIZE_MAX;
+    double *value = b->value + (size_t) thread * galerkin_alike_scratch (g->alike), H[9];
+    for (size_t p = first; p < last; p++) {
+        if (b->which[p] < 0) continue;
+        galerkin_alike_values (g->alike, b->which[p], b->x + p * (size_t) g->dim, s->d, value, &held,
+                               s->u + 3*p, H);
+        if (s->gradient) memcpy (s->gradient + 9*p, H, sizeof H);
+        if (s->stress)
+            pg_stress_of_gradient (galerkin_plain (g, g->bulk, 0), g->dim, H, s->stress + 6*p);
+    }
+}
+
+/* Samples the listed places one by one into the places of the chunk's arrays. */
+static pg_status sample_rest (const sampling *chunk, size_t n, const size_t *rest, const int *leaves,
+                              const double *x, int *own)
+{
+    pg_status status = PG_OK;
+    sampling s = *chunk;
+    size_t dim = (size_t) s.g->dim;
+    double *at = NULL;
+    if (n == 0) return PG_OK;
+    PG_ALLOC (at, n * (dim + 18));
+    s.u = at + n * dim, s.stress = chunk->stress ? s.u + 3 * n : NULL;
+    s.gradient = chunk->gradient ? s.u + 9 * n : NULL;
+    for (size_t i = 0; i < n; i++) memcpy (at + i * dim, x + rest[i] * dim, dim * sizeof *x);
+    PG_TRY (sample_each (&s, n, at, own, leaves));
+    for (size_t i = 0; i < n; i++) {
+        memcpy (chunk->u + 3 * rest[i], s.u + 3 * i, 3 * sizeof *at);
+        if (s.stress) memcpy (chunk->stress + 6 * rest[i], s.stress + 6 * i, 6 * sizeof *at);
+        if (s.gradient) memcpy (chunk->gradient + 9 * rest[i], s.gradient + 9 * i, 9 * sizeof *at);
+    }
+done:
+    pg_free (at);
+    return status;
+}
+
+/* Those like others by the rows of these; first the ones that are not. Those whose first is no model for
+ * others come last. */
+static pg_status sample_alike (sampling *s, size_t n, const double *x, int *own)
+{
+    pg_status status = PG_OK;
+    galerkin *g = s->g;
+    by_rows b = { s, x, NULL, NULL };
+    size_t *rest = NULL, nrest, threads = g->threads < 1 ? 1 : (size_t) g->threads;
+    int *which = NULL;
+    PG_ALLOC (which, 2 * n);
+    PG_ALLOC (rest, n);
+    PG_ALLOC (b.value, threads * galerkin_alike_scratch (g->alike));
+    PG_TRY (galerkin_alike_sort (g->alike, g->problem->cloud.volume, n, x, which, rest, which + n, &nrest));
+    PG_TRY (sample_rest (s, nrest, rest, which + n, x, own));
+    nrest = 0;
+    for (size_t p = 0; p < n; p++)
+        if (which[p] >= 0 && !galerkin_alike_good (g->alike, which[p])) rest[nrest++] = p, which[p] = -1;
+    PG_TRY (sample_rest (s, nrest, rest, NULL, x, own));
+    b.which = which;
+    pg_parallel (g->threads, n, evaluate_alike, &b);
+done:
+    pg_free (which), pg_free (rest), pg_free (b.value);
     return status;
 }
 
@@ -266,10 +344,15 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     PG_ALLOC (s.at, n < CHUNK ? n : CHUNK);
     PG_ALLOC (own, n < CHUNK ? n : CHUNK);
     if (g->dilatation && stress) s.pressure = galerkin_dilatation_of_nodes (g, d);
+    int alike = s.uniform && !s.pressure && n >= MANY && SHARE * n >= g->n;
+    if (alike && !g->alike) PG_TRY (galerkin_alike_create (&g->alike, g->problem));
     for (size_t first = 0; first < n; first += CHUNK) {
         s.u = u + 3 * first, s.stress = stress ? stress + 6 * first : NULL;
         s.gradient = gradient ? gradient + 9 * first : NULL;
-        PG_TRY (sample_chunk (&s, n - first < CHUNK ? n - first : CHUNK, x + first * (size_t) g->dim, own));
+        size_t some = n - first < CHUNK ? n - first : CHUNK;
+        const double *at = x + first * (size_t) g->dim;
+        if (alike && g->alike) PG_TRY (sample_alike (&s, some, at, own));
+        else PG_TRY (sample_each (&s, some, at, own, NULL));
     }
 done:
     pg_free (s.at), pg_free (own);
