@@ -272,7 +272,7 @@ void galerkin_alike_keep (galerkin_alike *a, int k, const pg_rows *r, size_t at,
 int galerkin_alike_good (const galerkin_alike *a, int k) { return a->key[k].used > 0; }
 
 /* Sum of a vector's lanes, in pairs. */
-static inline double total (eight s)
+static inline __attribute__ ((always_inline)) double total (eight s)
 {
     return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
 }
@@ -293,12 +293,12 @@ static inline __attribute__ ((always_inline)) void multiply_rows (size_t dim, si
     }
 }
 
-WIDEST static void multiply_solid (size_t lanes, const double *rows, const double *value, double *out)
+PG_WIDEST static void multiply_solid (size_t lanes, const double *rows, const double *value, double *out)
 {
     multiply_rows (3, lanes, rows, value, out);
 }
 
-WIDEST static void multiply_plane (size_t lanes, const double *rows, const double *value, double *out)
+PG_WIDEST static void multiply_plane (size_t lanes, const double *rows, const double *value, double *out)
 {
     multiply_rows (2, lanes, rows, value, out);
 }
