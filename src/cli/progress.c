@@ -59,9 +59,10 @@ static void add (char *line, const char *text)
 static void add_step (char *line, const progress *p, const pg_progress *at, const pg_step *step,
                       const pg_statistics *r, double now, int within)
 {
-    char text[96];
+    char text[96], rate[32] = "";
     double passed = now - p->mark[0].at,
            pace = passed > 0.5 ? ((double) r->events - p->mark[0].events) / passed : 0;
+    if (pace > 0) snprintf (rate, sizeof rate, " (%.3g/s)", pace);
     if (p->steps_in_time)
         snprintf (text, sizeof text, "step %ld, %.4g s", r->iterations + (within ? step->iterations : 0),
                   step->time);
@@ -69,8 +70,7 @@ static void add_step (char *line, const progress *p, const pg_progress *at, cons
         snprintf (text, sizeof text, "step %ld, %s %ld", step->number, p->staged ? "iteration" : "round",
                   step->iterations);
     else if (!at->event) snprintf (text, sizeof text, "step %ld", step->number);
-    else if (r->events && pace > 0) snprintf (text, sizeof text, "%ld events (%.3g/s)", r->events, pace);
-    else snprintf (text, sizeof text, "%ld event%s", r->events, r->events == 1 ? "" : "s");
+    else snprintf (text, sizeof text, "%ld event%s%s", r->events, r->events == 1 ? "" : "s", rate);
     add (line, text);
 }
 

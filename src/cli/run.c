@@ -247,6 +247,8 @@ static void tell_outcome (const command *c, pg_status outcome, const char *failu
     if (written != PG_OK && (outcome == PG_OK || strcmp (failure, fault) != 0))
         command_complain (written, fault);
     if (kept && (outcome == PG_OK || ended_early)) command_again (c);
+    else if (outcome == PG_E_INTERRUPTED)
+        fprintf (stderr, "perigal: nothing had been computed yet: the same command begins anew\n");
 }
 
 /* Everything between an open result and the last message. The checkpoint comes before the

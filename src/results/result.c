@@ -254,11 +254,13 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
+    /* ended before anything was done: pictures would only show the body as the scene describes it */
+    int nothing = failure && state->step == 0 && r->rounds == 0;
     if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
     r->last_written = 1;
     PG_TRY (pg_result_curve_read (r));
     PG_TRY (pg_result_crack_measure (r, state));
-    PG_TRY (pg_result_draw (r, state));
+    if (!nothing) PG_TRY (pg_result_draw (r, state));
     PG_TRY (pg_result_measure (r, state));
     if (!failure) PG_TRY (pg_result_paths_lines (r, state));
     if (!failure) PG_TRY (estimate (r, state));

@@ -29,6 +29,8 @@ void pg_patch_words (const pg_problem *p, char *out, size_t size)
                   t->compliance > 0 ? "soft" : "stiff");
     if (t->error < 1e-5)
         snprintf (out, size, "under uniform stress the displacement is off by less than 0.001 %%");
+    else if (isinf (t->error))
+        snprintf (out, size, "under uniform stress %s the displacement has no bound", pg_patch_state (p));
     else
         snprintf (out, size, "under uniform stress %s the displacement is off by %s%.4g %%%s",
                   pg_patch_state (p), t->settled ? "" : "at least ", percent (t->error), by);

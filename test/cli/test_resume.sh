@@ -75,6 +75,19 @@ for k in $(seq 28); do
     rm -rf "$out"
 done
 
+# ---- before the first step: nothing to go on with, and nothing that a picture would show
+early=(plate.yaml --set spacing='0.2 mm'); delay=200
+for _ in $(seq 20); do                                 # 143: before the program listens; else after its first step
+    disturb TERM $delay "${early[@]}" -o "$work/early"
+    [ $code -eq 130 ] && [ ! -e "$work/early/checkpoint.nc" ] && break
+    [ $code -eq 143 ] && delay=$((delay * 3 / 2)) || delay=$((delay / 2))
+    rm -rf "$work/early"
+done
+[ $code -eq 130 ] && grep -q 'nothing had been computed yet: the same command begins anew' "$work/err" && ! grep -q -- --resume "$work/err"
+verdict "TERM before the first step: said, and what to do" $?
+[ -s "$work/early/report.json" ] && ! ls "$work/early"/*.png > /dev/null 2>&1; verdict "no pictures of nothing" $?
+run plate.yaml --set spacing='1 mm' -o "$work/early"; code=$?; [ $code -eq 0 ] && [ -s "$work/early/damage.png" ]; verdict "the same command begins anew" $?
+
 # ---- refusals
 "$perigal" run "${event[@]}" --quiet --threads 1 --set output.checkpoint='0.05 s' -o "$work/event" --resume > "$work/out" 2> "$work/err"
 verdict "a finished run has nothing to go on with" $?
