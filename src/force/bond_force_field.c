@@ -163,15 +163,21 @@ static void damage_at (const bond_force *b, const unsigned char *alive, const do
     *out = all > 0 ? dead / all : 0;
 }
 
-/* The same for damage: most points have all their bonds, which one look at their bits shows, and
+/* The same for damage: most points have all their bonds, which one look at the bits of many points shows, and
  * histories ask for this at every row. */
 static void paint_damage (void *context, size_t first, size_t last, int thread)
 {
+    enum { AT_ONCE = 128 };
     const painting *p = context;
     const size_t *start = p->b->family->start;
     point_bonds s;
-    for (size_t i = first; i < last; i++) {
+    for (size_t i = first, whole = first; i < last; i++) {
         p->value[i] = 0;
+        if (i >= whole && (i - first) % AT_ONCE == 0) {    /* whole: no bond of points before it is broken */
+            size_t end = i + AT_ONCE < last ? i + AT_ONCE : last;
+            if (!memchr (p->alive + start[i], 0, start[end] - start[i])) whole = end;
+        }
+        if (i < whole) continue;
         if (start[i + 1] == start[i] || !memchr (p->alive + start[i], 0, start[i + 1] - start[i])) continue;
         point_bonds_at (p->b, i, thread, &s);
         damage_at (p->b, p->alive, p->d, i, &s, p->value + i);

@@ -21,6 +21,19 @@ void pg_problem_locate (const pg_problem *p, size_t bond, int *set, size_t *poin
     *point = lo;
 }
 
+/* Is every crack farther from point q than its bonds are long? Bonds between points of one spacing end within
+ * the horizon and half a spacing: twice the horizon, which is a spacing at least, is more. 0: not known. */
+static int far_from_cracks (const pg_problem *p, const pg_rows *rows, size_t q)
+{
+    double low[3], high[3];
+    if (p->method->shape_functions || p->cloud.size) return 0;
+    for (size_t k = 0, dim = (size_t) p->dim; k < dim; k++) {
+        low[k] = rows->x[dim * q + k] - 2 * p->approx.horizon;
+        high[k] = rows->x[dim * q + k] + 2 * p->approx.horizon;
+    }
+    return !pg_cracks_near (pg_state_cracks (p, NULL), low, high);
+}
+
 /* Can a crack cut any bond of point q? The box about its bonds tells, which spares most points of a body the
  * look at each of their bonds. */
 static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
@@ -28,7 +41,7 @@ static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
     double low[3], high[3], slack = 1e-8 * p->cloud.h; /* more than the tolerance of a cut */
     const pg_cracks *cracks = pg_state_cracks (p, NULL);
     size_t dim = (size_t) p->dim;
-    if (cracks->n == 0) return 0;
+    if (cracks->n == 0 || far_from_cracks (p, rows, q)) return 0;
     for (size_t k = 0; k < dim; k++) low[k] = high[k] = rows->x[dim * q + k];
     for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
         for (size_t k = 0; k < dim; k++) {

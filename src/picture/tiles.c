@@ -162,16 +162,23 @@ static int on_crack (const pg_tiles *t, size_t k)
 }
 
 /* Marks the points with a pre-crack within about two spacings, found by 16 rays. Only these
- * need the costly question whether a crack lies between a pixel and a point. */
+ * need the costly question whether a crack lies between a pixel and a point. In the plane the
+ * box about the rays tells of most points that no crack can be near. */
 static pg_status find_cracked (pg_tiles *t)
 {
     pg_status status = PG_OK;
+    enum { RAYS = 16 };
+    double ray[RAYS][2];
     PG_ALLOC (t->cracked, t->n);
+    for (int s = 0; s < RAYS; s++)
+        ray[s][0] = cos (0.39269908 * s + 0.1), ray[s][1] = sin (0.39269908 * s + 0.1);
     for (size_t k = 0; t->cracks && t->cracks->n && k < t->n; k++) {
-        for (int s = 0; s < 16 && !t->cracked[k]; s++) {
-            double r = 2.1 * t->spacing[k], end[2] = { t->place[2 * k] + r * cos (0.39269908 * s + 0.1),
-                                                       t->place[2 * k + 1] + r * sin (0.39269908 * s + 0.1) };
-            t->cracked[k] = (unsigned char) pg_tiles_cut (t, t->place + 2 * k, end);
+        const double *at = t->place + 2 * k;
+        double r = 2.1 * t->spacing[k], low[2] = { at[0] - r, at[1] - r }, high[2] = { at[0] + r, at[1] + r };
+        if (t->dim == 2 && !pg_cracks_near (t->cracks, low, high)) continue;
+        for (int s = 0; s < RAYS && !t->cracked[k]; s++) {
+            double end[2] = { at[0] + r * ray[s][0], at[1] + r * ray[s][1] };
+            t->cracked[k] = (unsigned char) pg_tiles_cut (t, at, end);
         }
         if (t->cracked[k] && on_crack (t, k)) t->cracked[k] = ON_CRACK;
     }

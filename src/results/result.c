@@ -28,7 +28,7 @@ static pg_status prepare_field (pg_field_view *f, double **value, const pg_probl
         f->components = components[known_fields[k].kind];
         snprintf (f->unit, sizeof f->unit, "%s", known_fields[k].unit);
     }
-    PG_ALLOC (*value, 6 * p->cloud.n);
+    PG_ALLOC (*value, (size_t) (f->components > 0 ? f->components : 6) * p->cloud.n);
     f->value = *value;
 done:
     return status;

@@ -243,7 +243,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     double number[3] = { s->mean_diagonal, s->shift, s->extra_cost };
     PG_TRY (k->counts (k->context, "system.counts", 11, count));
     PG_TRY (k->numbers (k->context, "system.numbers", 3, number));
-    PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
+    if (s->diagonal0) PG_TRY (k->numbers (k->context, "system.diagonal", s->ndof, s->diagonal0));
     PG_TRY (keep_flags ("system.touched", s->problem->cloud.n, s->touched, k));
     PG_KEEP_BOUND (k, "the way to solve", count[0], SYSTEM_UNDECIDED,
            !system_has_matrix (s) && count[0] < SYSTEM_NO_FACTOR ? SYSTEM_UNDECIDED : SYSTEM_DIAGONAL);

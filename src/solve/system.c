@@ -64,11 +64,13 @@ pg_status system_create (pg_system *s)
     PG_ALLOC (s->scratch, s->ndof);
     PG_ALLOC (s->mass, s->ndof);
     PG_ALLOC (s->residual, s->ndof);
-    PG_ALLOC (s->reduced, s->ndof);
-    PG_ALLOC (s->delta, s->ndof);
     PG_ALLOC (s->full, s->ndof);
-    PG_ALLOC (s->best, s->ndof);
-    PG_ALLOC (s->diagonal0, s->ndof);
+    if (!(s->options->flags & PG_SOLVER_EXPLICIT)) {   /* what linear solves alone need */
+        PG_ALLOC (s->reduced, s->ndof);
+        PG_ALLOC (s->delta, s->ndof);
+        PG_ALLOC (s->best, s->ndof);
+        PG_ALLOC (s->diagonal0, s->ndof);
+    }
     PG_ALLOC (s->touched, s->problem->cloud.n);
     if (s->force->mass) PG_TRY (s->force->mass (s->self, s->mass));
     int automatic = strcmp (s->options->linear, "auto") == 0;
