@@ -122,6 +122,9 @@ typedef struct pg_linear_type {
     pg_status (*factor)  (void *self, const pg_sparse *A);
     /* Solves for nrhs right-hand sides, column by column (n x nrhs); b and x may not overlap. */
     pg_status (*solve)   (void *self, size_t nrhs, const double *b, double *x);
+    /* The same for right-hand sides that are zero but for a few places near each other, such as unit forces;
+     * NULL: solve does. */
+    pg_status (*solve_few) (void *self, size_t nrhs, const double *b, double *x);
     /* Fills in the report; frees the state. */
     void      (*info)    (const void *self, pg_linear_info *info);
     void      (*free)    (void **self);

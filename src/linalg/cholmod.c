@@ -7,8 +7,7 @@
  *
  * The forecast analyses the graph of the nodes alone: a column with c entries there stands for m columns of
  * the unknowns with m (c - 1) + m, ..., m (c - 1) + 1 entries; a column of e entries costs e^2 operations. */
-#include "suitesparse.h"
-#include "perigal/linalg.h"
+#include "supernodal.h"
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -24,6 +23,7 @@ typedef struct {
     double entries, flops;
     /* Smallest over largest pivot of the last factorisation. */
     double pivots;
+    supernodal_solver few;
 } chol;
 
 /* A diagnosis asks for it after a failed factorisation, on the same thread. */
@@ -45,6 +45,7 @@ static void chol_free (void **self)
     cholmod_l_free_dense (&c->Y, &c->common);
     cholmod_l_free_dense (&c->E, &c->common);
     cholmod_l_finish (&c->common);
+    supernodal_clear (&c->few);
     pg_free (c);
     *self = NULL;
 }
@@ -255,6 +256,13 @@ done:
     return status;
 }
 
+static pg_status chol_solve_few (void *self, size_t nrhs, const double *b, double *x)
+{
+    chol *c = self;
+    return c->L->is_super && c->L->xtype == CHOLMOD_REAL ? supernodal_solve_few (c->L, &c->few, nrhs, b, x)
+                                                         : chol_solve (self, nrhs, b, x);
+}
+
 static void chol_info (const void *self, pg_linear_info *info)
 {
     const chol *c = self;
@@ -263,5 +271,5 @@ static void chol_info (const void *self, pg_linear_info *info)
 
 const pg_linear_type pg_linear_cholmod = {
     "cholmod", "supernodal Cholesky factorization (SuiteSparse CHOLMOD)", 1, 1,
-    chol_analyse, chol_factor, chol_solve, chol_info, chol_free
+    chol_analyse, chol_factor, chol_solve, chol_solve_few, chol_info, chol_free
 };

@@ -37,7 +37,8 @@ pg_status columns_make (event_solver *e, size_t first)
     PG_GROW (e->rhs, e->room_rhs, count * e->nred);
     PG_GROW (e->solved, e->room_solved, count * e->nred);
     unit_forces (e, first, T);
-    PG_TRY (s->linear->solve (s->factor, count, e->rhs, e->solved));
+    PG_TRY ((s->linear->solve_few ? s->linear->solve_few : s->linear->solve) (s->factor, count, e->rhs,
+                                                                             e->solved));
     for (size_t k = 0; k < count; k++) {
         double *to = e->chunk[(first + k) / CHUNK] + (first + k) % CHUNK * e->ndof;
         if (T) pg_sparse_multiply (T, e->solved + k * e->nred, to);

@@ -1,0 +1,123 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * x = P' L'^-1 L^-1 P b by the supernodal factor P A P' = L L' of CHOLMOD, for right-hand sides that are zero
+ * but for a few places. Columns of L with the same rows below are a supernode, a dense block: L11 (a triangle)
+ * over L21. Forward,
+ *
+ *     y_1 = L11^-1 y_1,    y_2 = y_2 - L21 y_1,
+ *
+ * a supernode has something to do only if y_1 is not zero: those on the way from the supernodes of the given
+ * places to the root, where the parent of a supernode is that of the first row of L21 (the theorem on paths of
+ * the elimination tree: Gilbert, SIAM J. Matrix Anal. Appl. 15, 1994, 62-79). Of a body in the plane these are
+ * a few per cent of the factor. Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all of them, as the solution is
+ * nowhere zero. Right-hand sides lie side by side (Y [place][right-hand side]), so that rows that are not
+ * neighbours are gathered and scattered in pieces that are. */
+#include "supernodal.h"
+#include <string.h>
+
+void supernodal_clear (supernodal_solver *s)
+{
+    pg_free (s->place), pg_free (s->parent), pg_free (s->of), pg_free (s->reached);
+    pg_free (s->Y), pg_free (s->E);
+    memset (s, 0, sizeof *s);
+}
+
+/* CHOLMOD's arrays of a supernode: its columns first .. first + m - 1, its `rows` rows of which the first m are
+ * its own, and the block, column by column. */
+typedef struct { long first; int m, rows; const SuiteSparse_long *row; const double *block; } supernode;
+static supernode take (const cholmod_factor *L, size_t k)
+{
+    const SuiteSparse_long *super = L->super, *pi = L->pi, *px = L->px, *row = L->s;
+    const double *x = L->x;
+    return (supernode) { super[k], (int) (super[k + 1] - super[k]), (int) (pi[k + 1] - pi[k]), row + pi[k],
+                         x + px[k] };
+}
+
+/* Once for a factor: its pattern stays. */
+static pg_status prepare (const cholmod_factor *L, supernodal_solver *s)
+{
+    pg_status status = PG_OK;
+    const SuiteSparse_long *perm = L->Perm;
+    if (s->reached) return PG_OK;
+    PG_ALLOC (s->place, L->n);
+    PG_ALLOC (s->of, L->n);
+    PG_ALLOC (s->parent, L->nsuper);
+    PG_ALLOC (s->reached, L->nsuper);
+    for (size_t i = 0; i < L->n; i++) s->place[perm[i]] = (long) i;
+    for (size_t k = 0; k < L->nsuper; k++) {
+        supernode n = take (L, k);
+        for (int i = 0; i < n.m; i++) s->of[n.first + i] = (long) k;
+    }
+    for (size_t k = 0; k < L->nsuper; k++) {
+        supernode n = take (L, k);
+        s->parent[k] = n.rows > n.m ? s->of[n.row[n.m]] : -1;
+    }
+done:
+    return status;
+}
+
+/* Y = P b, and the supernodes that it reaches; the others are not looked at on the way forward. */
+static void permute (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b)
+{
+    memset (s->Y, 0, L->n * nrhs * sizeof *s->Y);
+    memset (s->reached, 0, L->nsuper);
+    for (size_t j = 0; j < nrhs; j++)
+        for (size_t i = 0; i < L->n; i++) {
+            double value = b[j * L->n + i];
+            if (value == 0) continue;
+            s->Y[(size_t) s->place[i] * nrhs + j] = value;
+            for (long k = s->of[s->place[i]]; k >= 0 && !s->reached[k]; k = s->parent[k]) s->reached[k] = 1;
+        }
+}
+
+/* Y' is a matrix of nrhs rows: Y_1' = Y_1' L11'^-1, E' = Y_1' L21', Y_2' = Y_2' - E'. */
+static void forward (const supernode *n, int nrhs, double *Y, double *E)
+{
+    static const double one = 1, zero = 0;
+    int below = n->rows - n->m;
+    double *own = Y + n->first * nrhs;
+    dtrsm_ ("R", "L", "T", "N", &nrhs, &n->m, &one, n->block, &n->rows, own, &nrhs);
+    if (below == 0) return;
+    dgemm_ ("N", "T", &nrhs, &below, &n->m, &one, own, &nrhs, n->block + n->m, &n->rows, &zero, E, &nrhs);
+    for (int i = 0; i < below; i++) {
+        double *to = Y + n->row[n->m + i] * nrhs;
+        for (int j = 0; j < nrhs; j++) to[j] -= E[(size_t) i * (size_t) nrhs + (size_t) j];
+    }
+}
+
+/* Y_1' = (Y_1' - Y_2' L21) L11^-1 */
+static void backward (const supernode *n, int nrhs, double *Y, double *E)
+{
+    static const double one = 1, minus = -1;
+    int below = n->rows - n->m;
+    double *own = Y + n->first * nrhs;
+    for (int i = 0; i < below; i++)
+        memcpy (E + (size_t) i * (size_t) nrhs, Y + n->row[n->m + i] * nrhs, (size_t) nrhs * sizeof *E);
+    if (below > 0)
+        dgemm_ ("N", "N", &nrhs, &n->m, &below, &minus, E, &nrhs, n->block + n->m, &n->rows, &one, own,
+                &nrhs);
+    dtrsm_ ("R", "L", "N", "N", &nrhs, &n->m, &one, n->block, &n->rows, own, &nrhs);
+}
+
+pg_status supernodal_solve_few (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b,
+                                double *x)
+{
+    pg_status status = PG_OK;
+    PG_TRY (prepare (L, s));
+    PG_GROW (s->Y, s->room_Y, L->n * nrhs);
+    PG_GROW (s->E, s->room_E, L->maxesize * nrhs);
+    permute (L, s, nrhs, b);
+    for (size_t k = 0; k < L->nsuper; k++) {
+        supernode n = take (L, k);
+        if (s->reached[k]) forward (&n, (int) nrhs, s->Y, s->E);
+    }
+    for (size_t k = L->nsuper; k-- > 0;) {
+        supernode n = take (L, k);
+        backward (&n, (int) nrhs, s->Y, s->E);
+    }
+    for (size_t i = 0; i < L->n; i++) {
+        const double *from = s->Y + (size_t) s->place[i] * nrhs;
+        for (size_t j = 0; j < nrhs; j++) x[j * L->n + i] = from[j];
+    }
+done:
+    return status;
+}
