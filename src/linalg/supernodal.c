@@ -1,16 +1,16 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * x = P' L'^-1 L^-1 P b by the supernodal factor P A P' = L L' of CHOLMOD, for right-hand sides that are zero
- * but for a few places. Columns of L with the same rows below are a supernode, a dense block: L11 (a triangle)
- * over L21. Forward,
+ * x = P' L'^-1 L^-1 P b by the supernodal factor P A P' = L L' of CHOLMOD, for right-hand sides that are
+ * zero but for a few places. Columns of L with the same rows below are a supernode, a dense block: L11 (a
+ * triangle) over L21. Forward,
  *
  *     y_1 = L11^-1 y_1,    y_2 = y_2 - L21 y_1,
  *
  * a supernode has something to do only if y_1 is not zero: those on the way from the supernodes of the given
- * places to the root, where the parent of a supernode is that of the first row of L21 (the theorem on paths of
- * the elimination tree: Gilbert, SIAM J. Matrix Anal. Appl. 15, 1994, 62-79). Of a body in the plane these are
- * a few per cent of the factor. Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all of them, as the solution is
- * nowhere zero. Right-hand sides lie side by side (Y [place][right-hand side]), so that rows that are not
- * neighbours are gathered and scattered in pieces that are. */
+ * places to the root, where the parent of a supernode is that of the first row of L21 (the theorem on paths
+ * of the elimination tree: Gilbert, SIAM J. Matrix Anal. Appl. 15, 1994, 62-79). Of a large body in the plane
+ * they are a small part of the factor. Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all of them, as the
+ * solution is nowhere zero. Right-hand sides lie side by side (Y [place][right-hand side]), so that rows that
+ * are not neighbours are gathered and scattered in pieces that are. */
 #include "supernodal.h"
 #include <string.h>
 
@@ -21,8 +21,8 @@ void supernodal_clear (supernodal_solver *s)
     memset (s, 0, sizeof *s);
 }
 
-/* CHOLMOD's arrays of a supernode: its columns first .. first + m - 1, its `rows` rows of which the first m are
- * its own, and the block, column by column. */
+/* CHOLMOD's arrays of a supernode: its columns first .. first + m - 1, its `rows` rows of which the first m
+ * are its own, and the block, column by column. */
 typedef struct { long first; int m, rows; const SuiteSparse_long *row; const double *block; } supernode;
 static supernode take (const cholmod_factor *L, size_t k)
 {
