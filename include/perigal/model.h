@@ -342,7 +342,8 @@ typedef struct {
     double edge[3];                                    /* nodes along the body */
 } pg_solve_counts;
 pg_solve_counts pg_solve_count (const pg_problem *problem);
-/* Seconds, by stored rates: assembly, analysis and factor; one solve with finite elements. */
+/* Seconds, by stored rates: assembly; the same with analysis and factor; one solve with finite elements. */
+double pg_solve_assembly_cost (const pg_solve_counts *c);
 double pg_solve_direct_cost   (const pg_solve_counts *c);
 double pg_solve_elements_cost (const pg_solve_counts *c);
 /* Seconds of K x for each bond. */

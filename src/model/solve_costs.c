@@ -24,10 +24,14 @@ static double factor_flops (const pg_solve_counts *c)
 }
 
 /* Assembly visits every pair of nodes of every evaluation point. */
+double pg_solve_assembly_cost (const pg_solve_counts *c)
+{
+    return 8e-9 * (c->evaluation > 0 ? 0.5 * c->bonds * c->bonds / c->evaluation : 0);
+}
+
 double pg_solve_direct_cost (const pg_solve_counts *c)
 {
-    double pairs = c->evaluation > 0 ? 0.5 * c->bonds * c->bonds / c->evaluation : 0;
-    return 8e-9 * pairs + 5e-6 * c->points * c->components + factor_flops (c) / 20e9;
+    return pg_solve_assembly_cost (c) + 5e-6 * c->points * c->components + factor_flops (c) / 20e9;
 }
 
 /* Iterations to a tolerance of 1e-9, as seen: the shape functions of a wide support are far from those of

@@ -16,6 +16,12 @@ double system_apply_cost (const pg_system *s)
                        - (p->integration->at_nodes ? 0 : p->first_bond[PG_POINTS]));
 }
 
+double system_assembly_cost (const pg_system *s)
+{
+    pg_solve_counts c = pg_solve_count (s->problem);
+    return pg_solve_assembly_cost (&c);
+}
+
 /* Assembly, analysis, factor. */
 double system_direct_cost (const pg_system *s)
 {

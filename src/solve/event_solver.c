@@ -182,12 +182,12 @@ static int runs_away (const event_solver *e)
     return 0;
 }
 
-/* Rent or buy: the dense algebra since the base has cost more than another factor and the columns that would
- * be needed again. */
+/* Rent or buy: the dense algebra since the base has cost more than another assembly and factor and the columns
+ * that would be needed again. */
 static int base_is_due (const event_solver *e)
 {
     double column = column_share * system_solve_cost (e->s), again = fmin ((double) e->t, 80) * column;
-    return e->rent > system_factor_cost (e->s) + again;
+    return e->rent > system_assembly_cost (e->s) + system_factor_cost (e->s) + again;
 }
 
 /* Room for the columns that a change may need, and a dense system that can be afforded. */

@@ -6,11 +6,13 @@
 #include "event_ahead.h"
 #include <string.h>
 
-enum { INNER = 2, FAR = 255 };
+/* Levels of the inner part: the more, the more events fit into a group; the fewest, where a body is so small
+ * that a wide group would hold most of it, as solids often are. */
+enum { WIDEST_INNER = 2, FAR = 255 };
 
 /* Families beyond the inner part that a break there can touch: the points that see a touched node; with
  * consistent integration also those of the cells beside. */
-static int outer (const pg_problem *p) { return INNER + (p->integration->consistent ? 3 : 1); }
+static int beyond (const pg_problem *p) { return p->integration->consistent ? 3 : 1; }
 
 void event_zone_clear (event_zone *z)
 {
@@ -45,7 +47,7 @@ static void spread (event_zone *z, const pg_problem *p, const pg_state *state, c
             if (z->level[j] == FAR) now[n++] = j;
             z->level[j] = 0;
         }
-    for (int level = 1; level <= outer (p); level++) {
+    for (int level = 1; level <= WIDEST_INNER + beyond (p); level++) {
         const pg_family *f = &p->rows[PG_NODES].family;
         size_t count = 0;
         for (size_t k = 0; k < n; k++)
@@ -68,27 +70,38 @@ static int level_of (const event_zone *z, const pg_family *f, size_t p)
     return least;
 }
 
+/* Bonds of the points up to this level, which are marked; how many. */
+static size_t mark_bonds (event_zone *z, const pg_problem *p, int inner)
+{
+    size_t n = 0;
+    memset (z->left_out, 0, p->first_bond[PG_BOND_SETS]);
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_family *f = &p->rows[set].family;
+        for (size_t q = 0; q < f->n; q++) {
+            int level = level_of (z, f, q);
+            z->inner[set][q] = (set == PG_NODES ? z->level[q] : level) <= inner;
+            if (level > inner + beyond (p)) continue;
+            memset (z->left_out + p->first_bond[set] + f->start[q], 1, f->start[q + 1] - f->start[q]);
+            n += f->start[q + 1] - f->start[q];
+        }
+    }
+    return n;
+}
+
 /* All bonds of the points up to the outer level, from the levels of the nodes; they are counted first. A node
- * is in the inner part by its own level, as all that see it must be in the group. */
+ * is in the inner part by its own level, as all that see it must be in the group. The inner part is the
+ * widest of which the group holds no more bonds than `most`. */
 pg_status event_zone_fill (event_zone *z, const pg_system *sys, double most, double *share)
 {
     pg_status status = PG_OK;
     const pg_problem *p = sys->problem;
     size_t nbond = p->first_bond[PG_BOND_SETS], n = 0;
     int can;
-    z->known = 0;
-    memset (z->left_out, 0, nbond);
-    for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_family *f = &p->rows[set].family;
-        for (size_t q = 0; q < f->n; q++) {
-            int level = level_of (z, f, q);
-            z->inner[set][q] = (set == PG_NODES ? z->level[q] : level) <= INNER;
-            if (level > outer (p)) continue;
-            memset (z->left_out + p->first_bond[set] + f->start[q], 1, f->start[q + 1] - f->start[q]);
-            n += f->start[q + 1] - f->start[q];
-        }
+    z->known = 0, *share = 1;
+    for (int inner = WIDEST_INNER; inner >= 0 && *share > most; inner--) {
+        n = mark_bonds (z, p, inner);
+        *share = nbond ? (double) n / (double) nbond : 1;
     }
-    *share = nbond ? (double) n / (double) nbond : 1;
     if (n == 0 || *share > most) goto done;
     pg_free (z->group.bond), z->group.bond = NULL;
     PG_ALLOC (z->group.bond, n);

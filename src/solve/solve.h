@@ -89,7 +89,9 @@ void      system_remember_diagonal (pg_system *s, const pg_sparse *K);  /* once;
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
 /* Systems with another matrix than so far, solved in this way: SYSTEM_... */
 void      system_switch  (pg_system *s, int mode);
-/* Seconds by stored rates: a factorization; two triangular solves of one right-hand side. */
+/* Seconds by stored rates: K from the shape functions; a factorization; two triangular solves of one
+ * right-hand side. */
+double    system_assembly_cost (const pg_system *s);
 double    system_factor_cost (const pg_system *s);
 double    system_solve_cost  (const pg_system *s);
 /* choice.c: how systems are solved; seconds of one product K x, and of assembly and factor before there is

@@ -17,6 +17,15 @@
     "cracks: [%s]\nfailure: {%s, exclude: [%s]}\nmethod: {%s}\n" \
     "solver: {kind: static, stepping: event, max_events: %d, break: %s, plain: %s}\n" \
     "output: {at: {levels: 3}}\n"
+/* A solid so small that the widest group around the front would hold most of it. */
+#define BLOCK \
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [54 mm, 9 mm, 3 mm]}}}]\nspacing: 1.5 mm\n" \
+    "cracks: [{polygon: [[27.2 mm, -1 mm, -1 mm], [27.2 mm, 3.4 mm, -1 mm], [27.2 mm, 3.4 mm, 4 mm],\n" \
+    "  [27.2 mm, -1 mm, 4 mm]]}]\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n" \
+    "sets: {grips: {where: \"x <= 4 mm or x >= 50 mm\"}}\n" \
+    "boundary: [{set: left, displacement: {x: 0, y: 0, z: 0}},\n" \
+    "  {set: right, displacement: {x: 100 um}}]\nfailure: {%s, exclude: [grips]}\n" \
+    "solver: {kind: static, stepping: event, max_events: %d, plain: %s}\noutput: {at: {levels: 1}}\n"
 #define EDGE "{from: [-1 mm, 25 mm], to: [20 mm, 25 mm]}"
 #define TWO "{from: [-1 mm, 18 mm], to: [13 mm, 18 mm]}, {from: [40 mm, 33 mm], to: [51 mm, 33 mm]}"
 #define STRETCH "criterion: stretch, critical_stretch: 1e-3"
@@ -35,12 +44,8 @@ static long found_together (run *r, int *back)
 }
 
 /* Step by step until both are done; what one does not have the other has not either. */
-static void same (const char *plane, const char *cracks, const char *failure, const char *method, int events,
-                  const char *mode, long least, int taken_back)
+static void same_run (run a, run b, long least, int taken_back)
 {
-    const char *never = taken_back ? "grips, hard" : "grips";
-    run a = scene_of (1, PLATE, plane, cracks, failure, never, method, events, mode, "false"),
-        b = scene_of (1, PLATE, plane, cracks, failure, never, method, events, mode, "true");
     double top = 0;
     int back;
     while (!pg_solver_done (a.solver, a.state)) {
@@ -75,6 +80,22 @@ static void same (const char *plane, const char *cracks, const char *failure, co
     if (taken_back) assert_true (back);
     assert_int_equal (found_together (&b, &back), 0);
     clear (&a), clear (&b);
+}
+
+static void same (const char *plane, const char *cracks, const char *failure, const char *method, int events,
+                  const char *mode, long least, int taken_back)
+{
+    const char *never = taken_back ? "grips, hard" : "grips";
+    same_run (scene_of (1, PLATE, plane, cracks, failure, never, method, events, mode, "false"),
+              scene_of (1, PLATE, plane, cracks, failure, never, method, events, mode, "true"), least,
+              taken_back);
+}
+
+/* In space: the group around a front holds a large part of the body, unless it is made narrower. */
+static void along_a_front (void **state)
+{
+    (void) state;
+    same_run (scene_of (1, BLOCK, STRETCH, 40, "false"), scene_of (1, BLOCK, STRETCH, 40, "true"), 30, 0);
 }
 
 static void one_tip_by_stretch (void **state)
@@ -135,6 +156,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (one_tip_by_stretch),
+        cmocka_unit_test (along_a_front),
         cmocka_unit_test (by_nodal_and_consistent_integration),
         cmocka_unit_test (by_stresses),
         cmocka_unit_test (a_width_of_some_percent),
