@@ -272,9 +272,9 @@ void galerkin_alike_keep (galerkin_alike *a, int k, const pg_rows *r, size_t at,
 int galerkin_alike_good (const galerkin_alike *a, int k) { return a->key[k].used > 0; }
 
 /* Sum of a vector's lanes, in pairs. */
-static inline __attribute__ ((always_inline)) double total (eight s)
+static inline double total (const eight *s)
 {
-    return ((s[0] + s[1]) + (s[2] + s[3])) + ((s[4] + s[5]) + (s[6] + s[7]));
+    return (((*s)[0] + (*s)[1]) + ((*s)[2] + (*s)[3])) + (((*s)[4] + (*s)[5]) + ((*s)[6] + (*s)[7]));
 }
 
 /* out[r * dim + c] = row r times component c of the block's values: r = 0 the displacement, then its
@@ -289,7 +289,7 @@ static inline __attribute__ ((always_inline)) void multiply_rows (size_t dim, si
             eight v = *(const eight *) (value + c * lanes + b);
             for (size_t r = 0; r <= dim; r++) s[r] += *(const eight *) (rows + r * lanes + b) * v;
         }
-        for (size_t r = 0; r <= dim; r++) out[r * dim + c] = total (s[r]);
+        for (size_t r = 0; r <= dim; r++) out[r * dim + c] = total (&s[r]);
     }
 }
 

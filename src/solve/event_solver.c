@@ -182,8 +182,8 @@ static int runs_away (const event_solver *e)
     return 0;
 }
 
-/* Rent or buy: the dense algebra since the base has cost more than another assembly and factor and the columns
- * that would be needed again. */
+/* Rent or buy: the dense algebra since the base has cost more than another assembly and factor and the
+ * columns that would be needed again. */
 static int base_is_due (const event_solver *e)
 {
     double column = column_share * system_solve_cost (e->s), again = fmin ((double) e->t, 80) * column;
