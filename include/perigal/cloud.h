@@ -248,10 +248,8 @@ pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
 void      pg_cracks_clear (pg_cracks *cracks);
 /* The box of one crack, as above. */
 void      pg_crack_box (const pg_crack *crack, int dim, double *box);
-/* Fills box and block, which hold 2 dim n values each at least, and order. To be called again when a crack
- * was added or changed. */
-void      pg_cracks_fill_index (pg_cracks *cracks);
-/* Makes room for them first. */
+/* Makes box, block and order anew: to be called again when a crack was added or changed. Without memory
+ * there are none, and the answers are the same. */
 pg_status pg_cracks_index (pg_cracks *cracks);
 /* Unit normal of a segment, on the left of the direction from its first vertex to the second. */
 void      pg_crack_orient (pg_crack *segment);

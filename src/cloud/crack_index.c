@@ -5,9 +5,9 @@
  * The cracks are put in an order in which neighbours lie near each other, PG_CRACK_GROUP at a time in a
  * block, as many blocks in a larger one, and so on up to one block that holds all. Block b of level l holds
  * the places b s to (b + 1) s - 1 of the order, s = PG_CRACK_GROUP^(l + 1); the boxes of the levels follow
- * each other in `block`. The order comes from dividing the cracks along the axis in which their centres
- * extend farthest, at a place where blocks of all levels end. */
+ * each other in `block`. */
 #include "perigal/cloud.h"
+#include "tree.h"
 #include <math.h>
 #include <string.h>
 
@@ -66,61 +66,23 @@ static int overlap (int dim, const double *a, const double *b)
 }
 
 /* ---- the order ----------------------------------------------------------------------------------------- */
-/* Twice the centre of the crack at a place of the order. */
-static double centre (const pg_cracks *c, size_t place, int axis)
+/* That of a k-d tree of the centres. */
+static pg_status sort (pg_cracks *c)
 {
-    const double *box = c->box + 2 * (size_t) c->dim * c->order[place];
-    return box[axis] + box[c->dim + axis];
-}
-
-static void swap (const pg_cracks *c, size_t a, size_t b)
-{
-    size_t t = c->order[a];
-    c->order[a] = c->order[b], c->order[b] = t;
-}
-
-/* Puts those with the smallest centres along the axis before place `middle` of first .. last - 1. */
-static void part (const pg_cracks *c, size_t first, size_t last, size_t middle, int axis)
-{
-    while (last - first > 1) {
-        double pivot = centre (c, first + (last - first) / 2, axis);
-        size_t less = first, more = last, i = first;
-        while (i < more) {
-            double v = centre (c, i, axis);
-            if (v < pivot) swap (c, i++, less++);
-            else if (v > pivot) swap (c, i, --more);
-            else i++;
-        }
-        if (middle < less) last = less;
-        else if (middle >= more) first = more;
-        else return;
-    }
-}
-
-/* The axis along which the centres extend farthest. */
-static int longest_axis (const pg_cracks *c, size_t first, size_t last)
-{
-    int best = 0;
-    double most = -1;
-    for (int k = 0; k < c->dim; k++) {
-        double low = INFINITY, high = -INFINITY;
-        for (size_t i = first; i < last; i++)
-            low = fmin (low, centre (c, i, k)), high = fmax (high, centre (c, i, k));
-        if (high - low > most) most = high - low, best = k;
-    }
-    return best;
-}
-
-/* Divides a range that begins with a block of the largest size that is smaller than it, at the end of such a
- * block near the middle. */
-static void sort (const pg_cracks *c, size_t first, size_t last)
-{
-    size_t n = last - first, size = PG_CRACK_GROUP;
-    if (n <= PG_CRACK_GROUP) return;
-    while (size < (n + PG_CRACK_GROUP - 1) / PG_CRACK_GROUP) size *= PG_CRACK_GROUP;
-    size_t middle = first + size * ((n / size + 1) / 2);
-    part (c, first, last, middle, longest_axis (c, first, last));
-    sort (c, first, middle), sort (c, middle, last);
+    pg_status status = PG_OK;
+    size_t dim = (size_t) c->dim;
+    pg_tree tree = { 0 };
+    double *centre = NULL;
+    PG_ALLOC (centre, dim * c->n);
+    for (size_t i = 0; i < c->n; i++)
+        for (size_t k = 0; k < dim; k++)
+            centre[dim * i + k] = 0.5 * c->box[2 * dim * i + k] + 0.5 * c->box[2 * dim * i + dim + k];
+    PG_TRY (pg_tree_build (&tree, c->dim, c->n, centre));
+    c->order = tree.item, tree.item = NULL;
+done:
+    pg_tree_clear (&tree);
+    pg_free (centre);
+    return status;
 }
 
 /* The first block of each level in `block`; returns the number of levels. */
@@ -146,12 +108,17 @@ static void unite (int dim, double *box, const double *other, int first)
     }
 }
 
-void pg_cracks_fill_index (pg_cracks *c)
+pg_status pg_cracks_index (pg_cracks *c)
 {
+    pg_status status = PG_OK;
     size_t start[LEVELS + 1], wide = 2 * (size_t) c->dim;
-    if (c->n == 0) return;
-    for (size_t k = 0; k < c->n; k++) pg_crack_box (&c->crack[k], c->dim, c->box + wide * k), c->order[k] = k;
-    sort (c, 0, c->n);
+    pg_free (c->box), pg_free (c->block), pg_free (c->order);
+    c->box = c->block = NULL, c->order = NULL;
+    if (c->n == 0) return PG_OK;
+    PG_ALLOC (c->box, wide * c->n);
+    for (size_t k = 0; k < c->n; k++) pg_crack_box (&c->crack[k], c->dim, c->box + wide * k);
+    PG_TRY (sort (c));
+    PG_ALLOC (c->block, wide * c->n);
     int levels = levels_of (c, start);
     for (int l = 0; l < levels; l++) {
         size_t n = l ? start[l] - start[l - 1] : c->n;
@@ -160,18 +127,6 @@ void pg_cracks_fill_index (pg_cracks *c)
                    l ? c->block + wide * (start[l - 1] + k) : c->box + wide * c->order[k],
                    k % PG_CRACK_GROUP == 0);
     }
-}
-
-pg_status pg_cracks_index (pg_cracks *c)
-{
-    pg_status status = PG_OK;
-    pg_free (c->box), pg_free (c->block), pg_free (c->order);
-    c->box = c->block = NULL, c->order = NULL;
-    if (c->n == 0) return PG_OK;
-    PG_ALLOC (c->box, 2 * (size_t) c->dim * c->n);
-    PG_ALLOC (c->block, 2 * (size_t) c->dim * c->n);
-    PG_ALLOC (c->order, c->n);
-    pg_cracks_fill_index (c);
 done:
     return status;
 }

@@ -287,7 +287,7 @@ done:
 static pg_status finish (change *c, pg_state *s, const pg_problem *p, pg_changes *cut)
 {
     pg_status status = PG_OK;
-    pg_cracks_fill_index (&c->fresh->cracks);
+    PG_TRY (pg_cracks_index (&c->fresh->cracks));
     PG_TRY (find_cut (s, p, c->fresh, c->changed, cut));
     pg_crack_paths *old = s->paths;
     s->paths = c->fresh, c->fresh = old;

@@ -28,9 +28,6 @@ pg_status pg_crack_paths_reserve (pg_crack_paths *w, size_t n)
     if (n <= w->capacity) return PG_OK;
     size_t most = 2 * n + 16;
     GROW_TO (w->cracks.crack, most);
-    GROW_TO (w->cracks.box, 4 * most);
-    GROW_TO (w->cracks.block, 4 * most);
-    GROW_TO (w->cracks.order, most);
     GROW_TO (w->parent, most);
     GROW_TO (w->path, most);
     GROW_TO (w->owner, most);
@@ -89,7 +86,7 @@ pg_status pg_crack_paths_create (pg_crack_paths **out, const pg_problem *p)
     if (w->store) point_into_store (w);
     if (w->ntip) memcpy (w->tip, p->tip, w->ntip * sizeof *w->tip);
     name_paths (w);
-    if (w->cracks.n) pg_cracks_fill_index (&w->cracks);
+    PG_TRY (pg_cracks_index (&w->cracks));
     *out = w;
     w = NULL;
 done:
@@ -112,9 +109,10 @@ pg_status pg_crack_paths_copy (pg_crack_paths *to, const pg_crack_paths *from)
         memcpy (to->owner, from->owner, n * sizeof *to->owner);
         memcpy (to->store, from->store, 6 * n * sizeof *to->store);
         point_into_store (to);
-        pg_cracks_fill_index (&to->cracks);
     }
     if (from->ntip) memcpy (to->tip, from->tip, from->ntip * sizeof *to->tip);
+    /* a step that ran out of memory must be undone without any: the answers are the same without an index */
+    (void) pg_cracks_index (&to->cracks);
 done:
     return status;
 }
@@ -226,7 +224,7 @@ pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const cha
     if (!k->reading) goto done;
     point_into_store (w);
     for (size_t i = 0; i < w->cracks.n; i++) pg_crack_orient (&w->cracks.crack[i]);
-    if (w->cracks.n) pg_cracks_fill_index (&w->cracks);
+    PG_TRY (pg_cracks_index (&w->cracks));
 done:
     if (status != PG_OK && k->reading) w->cracks.n = w->ntip = 0;
     return status;

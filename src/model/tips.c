@@ -323,7 +323,7 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     if (p->method->shape_functions || pg_problem_grows (p)) tell (p, scene, s.extent);
     for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++)
         p->cracks.crack[k].retreat = made[k], made[k] = NULL;
-    pg_cracks_fill_index (&p->cracks);                 /* a segment may cut beyond its ends */
+    PG_TRY (pg_cracks_index (&p->cracks));             /* a segment may cut beyond its ends */
 done:
     for (size_t k = 0; made && k < p->cracks.n; k++) pg_free (made[k]);
     pg_free (made), pg_free (out), pg_free (s.extent);
