@@ -116,8 +116,13 @@ typedef struct {
     double *volume;
     /* Number of the block, 0 unless given (n). */
     int    *block;
-    /* Local spacing, m (n); NULL: h everywhere. */
+    /* Local spacing, m (n); NULL: h everywhere. Of supports that are stretched as the elements are: along the
+     * longest axis. */
     double *size;
+    /* How stretched supports measure a bond z from their point: by sqrt (z' A z), A symmetric, its least
+     * eigenvalue 1, so that each support lies in the ball of its spacing (n x dim x dim); NULL: they are
+     * balls, A = 1. Only beside `size`, and only for families of shape PG_RADIAL. */
+    double *metric;
     /* Nominal spacing, m: (volume of a lattice cell)^(1/dim), or the mean. */
     double  h;
     /* Step of the lattice along each axis; h where there is none. m. */
@@ -138,6 +143,10 @@ void      pg_cloud_clear (pg_cloud *cloud);
 /* Local spacing of point i over the nominal one: the support of node i is `horizon` times this. Exactly 1
  * where size is NULL or equals h. */
 double    pg_cloud_ratio (const pg_cloud *cloud, size_t i);
+/* The squared length of a bond z (dim, m) as the support of point i measures it, m^2. */
+double    pg_cloud_length2 (const pg_cloud *cloud, size_t i, const double *z);
+/* How much longer than wide the support of point i is, at least: sqrt (trace A / dim), 1 for a ball. */
+double    pg_cloud_slender (const pg_cloud *cloud, size_t i);
 /* Smallest local spacing, m. */
 double    pg_cloud_finest (const pg_cloud *cloud);
 
@@ -185,7 +194,8 @@ typedef pg_adjacency pg_family;
 /* Shapes of a family: the ball |x_j - c|, the cube max_k |x_jk - c_k|. */
 enum { PG_RADIAL, PG_TENSOR };
 /* Points of the cloud within `reach` (m) of each of n centres. Where the cloud has local spacings, point j
- * must be within reach * size[j] / h: a node may then see another that does not see it. closed: a distance
+ * must be within reach * size[j] / h, in its own measure where it has one: a node may then see another that
+ * does not see it. closed: a distance
  * of exactly `reach` counts (to 1e-9), else it does not. A point at a centre belongs to its family.
  * PG_E_MEMORY; PG_E_USAGE for positions that are not finite. */
 pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, const double *centre,

@@ -29,6 +29,30 @@ static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, 
     kernel->value (n, q, k, dk);
 }
 
+/* Weights and slopes of anisotropic supports: q = sqrt (z' A z) a / a_j, A the measure of the neighbour, and
+ * a dw/dx = - w' (a / a_j)^2 A z / q. s->slope holds A z until the kernel is known. */
+static void anisotropic (const pg_kernel *kernel, const pg_cloud *cloud, const int *node, pg_neighbourhood *s)
+{
+    size_t dim = (size_t) s->dim;
+    for (size_t j = 0; j < s->n; j++) {
+        const double *A = cloud->metric + (size_t) node[s->entry[j]] * dim * dim, *z = s->z + j * dim;
+        double sum = 0;
+        for (size_t k = 0; k < dim; k++) {
+            double row = 0;
+            for (size_t l = 0; l < dim; l++) row += A[k * dim + l] * z[l];
+            s->slope[j * dim + k] = row;
+            sum += z[k] * row;
+        }
+        s->q[j] = sqrt (sum) * s->ratio[j];
+    }
+    kernel_at (kernel, s->n, s->q, s->k, s->dk);
+    for (size_t j = 0; j < s->n; j++) {
+        double rate = s->q[j] > 0 ? -s->dk[j] / s->q[j] * s->ratio[j] * s->ratio[j] : 0;
+        s->w[j] = s->k[j];
+        for (size_t k = 0; k < dim; k++) s->slope[j * dim + k] *= rate;
+    }
+}
+
 /* Weights w (|z_j| a / a_j) and slopes a dw/dx = - w' z / |z|. */
 static void radial (const pg_kernel *kernel, pg_neighbourhood *s)
 {
@@ -91,7 +115,8 @@ static void measure_place (const evaluation *g, size_t i, pg_neighbourhood *s)
     int nearest = g->cloud->size ? nearest_node (g, i) : -1;
     double ratio = nearest < 0 ? 1 : pg_cloud_ratio (g->cloud, (size_t) nearest);
     s->a = g->a->horizon * ratio;
-    s->h = g->cloud->h * ratio;
+    s->slender = nearest < 0 ? 1 : pg_cloud_slender (g->cloud, (size_t) nearest);
+    s->h = g->cloud->h * ratio / s->slender;
 }
 
 /* Collects the live bonds of row i. A node that expands about its own value is not its own
@@ -128,7 +153,7 @@ static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
     if (g->cloud->size || (g->formula->about_node && rows->own[i] >= 0)
         || (g->alive && memchr (g->alive + first, 0, n)))
         return 0;
-    s->constant = 1, s->lost = 0, s->n = n, s->a = g->a->horizon, s->h = g->cloud->h;
+    s->constant = 1, s->lost = 0, s->n = n, s->a = g->a->horizon, s->h = g->cloud->h, s->slender = 1;
     for (size_t k = 0; k < n; k++) s->entry[k] = k;
     for (size_t k = 0; k < dim; k++) {
         double at = rows->x[i * dim + k];
@@ -144,7 +169,8 @@ static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
 static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim, first = g->rows->family.start[i], kept = 0;
-    (g->a->shape == PG_TENSOR ? tensor : radial) (g->a->kernel, s);
+    if (g->cloud->metric) anisotropic (g->a->kernel, g->cloud, g->rows->family.node + first, s);
+    else (g->a->shape == PG_TENSOR ? tensor : radial) (g->a->kernel, s);
     double total = 0;
     for (size_t j = 0; j < s->n; j++) {
         size_t e = first + s->entry[j];
@@ -169,12 +195,13 @@ static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
 }
 
 /* 1 if the place has lost bonds and one of those left enters its derivatives by more than
- * PG_STEEPEST / a (intact places: up to 3 / a). Such derivatives hang on influences near zero,
+ * PG_STEEPEST / a (intact places: up to 3 / a; across a stretched support as much more as it is thinner).
+ * Such derivatives hang on influences near zero,
  * whose own derivatives outgrow them: a place like that would feed energy into the body
  * instead of taking it out. */
 static int wild (const pg_neighbourhood *s, const double *dN)
 {
-    double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a;
+    double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a * s->slender;
     for (size_t j = 0; s->lost && j < s->n; j++) {
         double sum = 0;
         for (size_t k = 0; k < (size_t) s->dim; k++)

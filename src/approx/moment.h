@@ -24,8 +24,9 @@ typedef struct {
     int     dim, order, size;
     /* 1: the basis begins with 1; 0: it does not (nosb at a node). */
     int     constant;
-    /* Support radius and spacing at the place, m. */
-    double  a, h;
+    /* Support radius and spacing at the place, m; of a stretched support along and across it, and how much
+     * longer than wide it is (1: a ball). */
+    double  a, h, slender;
     /* a / a_j of each bond (n); NULL: all are 1. */
     double *ratio;
     /* Number of live bonds with a weight above zero. */

@@ -296,6 +296,20 @@ INLINE size_t measure_those (const candidates *c, int dim, int shape, int closed
     return found;
 }
 
+/* The same by the measures of stretched supports; the sum over the axes in the order of pg_cloud_length2, so
+ * that the tree of family_tree.c agrees about what lies on the edge. */
+static size_t measure_anisotropic (const candidates *c, const finding *f, const double *at)
+{
+    size_t found = 0, dim = (size_t) f->s->cloud->dim;
+    for (size_t i = 0; i < c->n; i++) {
+        double z[3] = { 0 };
+        for (size_t k = 0; k < dim; k++) z[k] = c->x[k * c->most + i] - at[k];
+        c->away[i] = pg_cloud_length2 (f->s->cloud, (size_t) c->item[i], z);
+        found += f->s->near.closed ? c->away[i] <= c->limit[i] : c->away[i] < c->limit[i];
+    }
+    return found;
+}
+
 PG_WIDEST static size_t measure (const candidates *c, int dim, pg_nearness near, const double *at)
 {
     if (near.shape == PG_RADIAL && dim == 3)
@@ -314,8 +328,9 @@ static void find_those (const finding *f, size_t first, size_t last, candidates 
         end = group_of (f, first, last, low, high);
         look_around (f, low, high, c);
         for (size_t i = first; i < end; i++) {
-            size_t n = 0, found = measure (c, f->s->cloud->dim, f->s->near,
-                                           f->centre + i * (size_t) f->s->cloud->dim);
+            const double *at = f->centre + i * (size_t) f->s->cloud->dim;
+            size_t n = 0, found = f->s->cloud->metric ? measure_anisotropic (c, f, at)
+                                                      : measure (c, f->s->cloud->dim, f->s->near, at);
             if (!listing) f->out->start[i + 1] = found;
             for (size_t k = 0; listing && k < c->n; k++) {
                 c->chosen[n] = c->item[k];

@@ -25,12 +25,19 @@ typedef struct {
     double  low[3], high[3];
     /* The point whose turn it is: its position and number. */
     const double *x;  int j;
+    /* The points; NULL: their supports are balls. */
+    const pg_cloud *anisotropic;
 } search;
 
 /* Does the visiting point belong to the family of the centre c? */
 static inline int belongs (const search *s, int dim, const double *c)
 {
-    double d = 0;
+    double d = 0, bond[3] = { 0 };
+    if (s->anisotropic) {
+        for (int k = 0; k < dim; k++) bond[k] = s->x[k] - c[k];
+        d = pg_cloud_length2 (s->anisotropic, (size_t) s->j, bond);
+        return s->closed ? d <= s->limit : d < s->limit;
+    }
     for (int k = 0; k < dim; k++) {
         double z = fabs (s->x[k] - c[k]);
         d = s->shape == PG_RADIAL ? d + z*z : fmax (d, z);
@@ -85,7 +92,8 @@ pg_status pg_family_by_tree (pg_family *out, const pg_cloud *cloud, size_t n, co
     pg_tree tree = { 0 };
     double far = pg_family_edge (reach, near);
     search s = { .tree = &tree, .reach = reach * (1 + 1e-8), .shape = near.shape, .closed = near.closed,
-                 .limit = near.shape == PG_RADIAL ? far * far : far };
+                 .limit = near.shape == PG_RADIAL ? far * far : far,
+                 .anisotropic = cloud->metric ? cloud : NULL };
     memset (out, 0, sizeof *out);
     for (int k = 0; k < cloud->dim; k++) {
         s.low[k] = INFINITY, s.high[k] = -INFINITY;

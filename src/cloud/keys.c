@@ -172,9 +172,10 @@ static const pg_key keys[] = {
     { .path = "mesh.support",
       .kind = PG_NAME,
       .fallback = "local",
-      .choices = "local|equal",
-      .doc =
-          "Support of a point: horizon in units of the local spacing, or of the mean spacing everywhere." },
+      .choices = "local|equal|anisotropic",
+      .doc = "Support of a point: horizon in units of the local spacing, or of the mean spacing everywhere; "
+             "anisotropic: an ellipse (ellipsoid) as long and as wide in spacings as the elements there are, "
+             "for the same horizon in spacings along all of their edges (galerkin, support: radial)." },
     /* The lattice over a body of shapes. */
     { .path = "spacing",
       .kind = PG_NUMBER,

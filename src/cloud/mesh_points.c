@@ -3,11 +3,16 @@
  *
  * The sum of the volumes is the volume of the elements. The spacing of a point is the mean length of the
  * edges at its node, but at least 0.6 of the longest one: with a horizon of 1.7 spacings both ends of every
- * edge see each other, however graded the mesh is, so that neighbouring points are always coupled. */
+ * edge see each other, however graded the mesh is, so that neighbouring points are always coupled. Supports
+ * may instead be ellipses that are stretched as the elements at a point are (doc/method.md, Anisotropic
+ * supports). */
 #include "place.h"
 #include "mesh_body.h"
 #include <math.h>
 #include <string.h>
+
+/* Supports are at most so many times as long as wide. */
+#define PG_STRETCH_MOST 16.0
 
 /* The element of the same shape that has corners only. */
 static pg_element straight (pg_element kind)
@@ -105,11 +110,12 @@ static void collect (edges *at, const pg_mesh_body *b, int corners)
     }
 }
 
+/* Part of the longest edge at a node: 1.7 times it passes the other end of the edge. */
+static const double edge_reach = 0.6;
+
 /* Local spacings and their mean; local = 0: only the mean is kept. */
 static pg_status place_sizes (pg_cloud *c, const pg_mesh_body *b, int corners, int local)
 {
-    /* Part of the longest edge at a node: 1.7 times it passes the other end of the edge. */
-    static const double reach = 0.6;
     pg_status status = PG_OK;
     edges *at = NULL;
     double sum = 0;
@@ -117,7 +123,7 @@ static pg_status place_sizes (pg_cloud *c, const pg_mesh_body *b, int corners, i
     PG_ALLOC (c->size, c->n);
     collect (at, b, corners);
     for (size_t i = 0; i < c->n; i++) {
-        c->size[i] = fmax (at[i].sum / (double) at[i].n, reach * at[i].longest);
+        c->size[i] = fmax (at[i].sum / (double) at[i].n, edge_reach * at[i].longest);
         sum += c->size[i];
     }
     c->h = sum / (double) c->n;
@@ -125,6 +131,112 @@ static pg_status place_sizes (pg_cloud *c, const pg_mesh_body *b, int corners, i
 done:
     pg_free (at);
     if (!local) pg_free (c->size), c->size = NULL;
+    return status;
+}
+
+/* ---- anisotropic supports ------------------------------------------------------------------------------ */
+/* The vector of edge k of element e, m (dim); half of it where points lie in the middle of edges. end: its
+ * two nodes in the element. */
+static void edge_of (const pg_mesh *m, size_t e, int k, int corners, int *end, double *edge)
+{
+    const int *node = m->node + m->start[e];
+    double part = pg_element_types[m->kind[e]].order == 2 && !corners ? 0.5 : 1;
+    pg_element_edge ((pg_element) m->kind[e], k, end);
+    for (int a = 0; a < m->dim; a++)
+        edge[a] = part * (m->x[3 * (size_t) node[end[1]] + (size_t) a]
+                          - m->x[3 * (size_t) node[end[0]] + (size_t) a]);
+}
+
+/* The second moment of the edges d of an element, G = dim / edges * sum d d': l^2 times the unit matrix for
+ * squares, cubes, regular triangles and tetrahedra of edge l, and a^2, b^2 along the axes of a rectangle. */
+static void shape_of (const pg_mesh *m, size_t e, int corners, double *G)
+{
+    int dim = m->dim, count = pg_element_types[m->kind[e]].edges, end[2];
+    double d[3];
+    for (int k = 0; k < dim * dim; k++) G[k] = 0;
+    for (int k = 0; k < count; k++) {
+        edge_of (m, e, k, corners, end, d);
+        for (int a = 0; a < dim; a++)
+            for (int l = 0; l < dim; l++) G[a * dim + l] += (double) dim / count * d[a] * d[l];
+    }
+}
+
+/* The mean of the second moments of the elements at each point (n x dim x dim), m^2. */
+static pg_status mean_shapes (const pg_cloud *c, const pg_mesh_body *b, int corners, double *G)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *m = &b->mesh;
+    size_t square = (size_t) (m->dim * m->dim);
+    double *count = NULL, own[9];
+    PG_ALLOC (count, c->n);
+    for (size_t e = 0; e < m->n; e++) {
+        const pg_element_type *t = &pg_element_types[m->kind[e]];
+        shape_of (m, e, corners, own);
+        for (int i = 0; i < (corners ? t->corners : t->nodes); i++) {
+            size_t p = (size_t) b->point[m->node[m->start[e] + (size_t) i]];
+            count[p]++;
+            for (size_t k = 0; k < square; k++) G[p * square + k] += own[k];
+        }
+    }
+    for (size_t i = 0; i < c->n; i++)
+        for (size_t k = 0; k < square; k++) G[i * square + k] /= count[i];
+done:
+    pg_free (count);
+    return status;
+}
+
+/* A = l^2 G^-1 with the largest eigenvalue l^2 of G, and the spacing l; G of an element that is flat to
+ * rounding counts as PG_STRETCH_MOST times as long as wide. */
+static void measure_of (int dim, const double *G, double *A, double *length)
+{
+    double lambda[3], V[9];
+    pg_dense_eigen (dim, G, lambda, V);
+    *length = sqrt (lambda[0]);
+    for (int a = 0; a < dim; a++)
+        for (int l = 0; l < dim; l++) A[a * dim + l] = 0;
+    for (int k = 0; k < dim; k++) {
+        double thin = fmax (lambda[k], lambda[0] / (PG_STRETCH_MOST * PG_STRETCH_MOST));
+        for (int a = 0; a < dim; a++)
+            for (int l = 0; l < dim; l++)
+                A[a * dim + l] += lambda[0] / thin * V[a * dim + k] * V[l * dim + k];
+    }
+}
+
+/* Spacings and measures of supports that are stretched as the elements at a point are: their second moment
+ * gives the axes, and the spacing grows until every edge at the point is at most 1 / edge_reach spacings long
+ * in its measure, so that with a horizon of 1.7 both of its ends see each other. */
+static pg_status place_measures (pg_cloud *c, const pg_mesh_body *b, int corners)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *m = &b->mesh;
+    size_t square = (size_t) (m->dim * m->dim);
+    double *G = NULL, *longest = NULL, sum = 0, edge[3];
+    int end[2];
+    PG_ALLOC (G, c->n * square);
+    PG_ALLOC (longest, c->n);
+    PG_ALLOC (c->metric, c->n * square);
+    PG_TRY (mean_shapes (c, b, corners, G));
+    for (size_t i = 0; i < c->n; i++)
+        measure_of (m->dim, G + i * square, c->metric + i * square, &c->size[i]);
+    for (size_t e = 0; e < m->n; e++) {
+        const pg_element_type *t = &pg_element_types[m->kind[e]];
+        for (int k = 0; k < t->edges; k++) {
+            edge_of (m, e, k, corners, end, edge);
+            for (int i = 0; i < (corners ? t->corners : t->nodes); i++) {
+                if (i < t->corners && i != end[0] && i != end[1]) continue;
+                size_t p = (size_t) b->point[m->node[m->start[e] + (size_t) i]];
+                longest[p] = fmax (longest[p], sqrt (pg_cloud_length2 (c, p, edge)));
+            }
+        }
+    }
+    for (size_t i = 0; i < c->n; i++) {
+        c->size[i] = fmax (c->size[i], edge_reach * longest[i]);
+        sum += c->size[i];
+    }
+    c->h = sum / (double) c->n;
+    for (int k = 0; k < c->dim; k++) c->step[k] = c->h;
+done:
+    pg_free (G), pg_free (longest);
     return status;
 }
 
@@ -181,7 +293,8 @@ pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene 
     const pg_mesh *m = &body->mesh;
     size_t dim = (size_t) m->dim;
     int corners = !strcmp (pg_scene_text (scene, "mesh.points"), "corners"),
-        local = !strcmp (pg_scene_text (scene, "mesh.support"), "local");
+        anisotropic = !strcmp (pg_scene_text (scene, "mesh.support"), "anisotropic"),
+        local = anisotropic || !strcmp (pg_scene_text (scene, "mesh.support"), "local");
     memset (out, 0, sizeof *out);
     out->dim = m->dim;
     out->thickness = m->dim == 3 ? 1 : pg_scene_number (scene, m->dim == 2 ? "thickness" : "cross_section");
@@ -195,6 +308,7 @@ pg_status pg_mesh_body_cloud (pg_cloud *out, pg_mesh_body *body, const pg_scene 
             memcpy (out->x + (size_t) body->point[i] * dim, m->x + 3 * i, dim * sizeof *out->x);
     place_volumes (out, body, corners);
     PG_TRY (place_sizes (out, body, corners, local));
+    if (anisotropic) PG_TRY (place_measures (out, body, corners));
     PG_TRY (perturb (out, body, pg_scene_number (scene, "perturb.amount"),
                      (uint64_t) pg_scene_integer (scene, "perturb.seed")));
     pg_place_bounds (out);

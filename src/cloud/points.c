@@ -208,6 +208,28 @@ double pg_cloud_ratio (const pg_cloud *cloud, size_t i)
     return cloud->size ? cloud->size[i] / cloud->h : 1;
 }
 
+double pg_cloud_length2 (const pg_cloud *cloud, size_t i, const double *z)
+{
+    size_t dim = (size_t) cloud->dim;
+    const double *A = cloud->metric ? cloud->metric + i * dim * dim : NULL;
+    double sum = 0;
+    for (size_t k = 0; k < dim; k++) {
+        double row = 0;
+        for (size_t l = 0; A && l < dim; l++) row += A[k * dim + l] * z[l];
+        sum += z[k] * (A ? row : z[k]);
+    }
+    return sum;
+}
+
+double pg_cloud_slender (const pg_cloud *cloud, size_t i)
+{
+    size_t dim = (size_t) cloud->dim;
+    double trace = 0;
+    if (!cloud->metric) return 1;
+    for (size_t k = 0; k < dim; k++) trace += cloud->metric[(i * dim + k) * dim + k];
+    return sqrt (trace / (double) dim);
+}
+
 double pg_cloud_finest (const pg_cloud *cloud)
 {
     double least = cloud->size ? INFINITY : cloud->h;
@@ -218,6 +240,7 @@ double pg_cloud_finest (const pg_cloud *cloud)
 void pg_cloud_clear (pg_cloud *cloud)
 {
     pg_free (cloud->size);
+    pg_free (cloud->metric);
     pg_free (cloud->x);
     pg_free (cloud->volume);
     pg_free (cloud->block);

@@ -28,9 +28,10 @@ static size_t entry_of (const pg_rows *r, size_t p, int j)
 int elements_broken (const galerkin *g, const pg_rows *r, size_t p, size_t e)
 {
     int j = r->family.node[e];
-    double support = 0.999 * g->problem->approx.horizon * pg_cloud_ratio (&g->problem->cloud, (size_t) j);
-    return !(r->w[e] > 0) && r->own[p] != j
-           && distance2 (g->dim, r->x + p * (size_t) g->dim, place (g, j)) < support * support;
+    const pg_cloud *c = &g->problem->cloud;
+    double support = 0.999 * g->problem->approx.horizon * pg_cloud_ratio (c, (size_t) j), bond[3] = { 0 };
+    for (int k = 0; k < g->dim; k++) bond[k] = place (g, j)[k] - r->x[p * (size_t) g->dim + (size_t) k];
+    return !(r->w[e] > 0) && r->own[p] != j && pg_cloud_length2 (c, (size_t) j, bond) < support * support;
 }
 
 /* The node nearest to x among those that point p sees, *d2 its squared distance. */

@@ -162,6 +162,9 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
         PG_TRY (pg_scene_verdict (scene));
     }
     PG_TRY (pg_method_approx (&p->approx, p->method, scene, p->cloud.h));
+    if (p->cloud.metric && (!p->method->shape_functions || p->approx.shape != PG_RADIAL))
+        pg_scene_fault (scene, "mesh.support",
+                        "anisotropic needs shape functions and method.support: radial");
     p->approx.congruent = p->cloud.regular && !p->plain;
     pg_method_note_ignored (p, scene);
     PG_TRY (pg_method_check_materials (p, scene));
@@ -177,9 +180,9 @@ static int sees_points (const pg_problem *p, const double *x)
 {
     size_t dim = (size_t) p->dim;
     for (size_t i = 0; i < p->cloud.n; i++) {
-        double r = 0;
-        for (size_t k = 0; k < dim; k++)
-            r += (p->cloud.x[i * dim + k] - x[k]) * (p->cloud.x[i * dim + k] - x[k]);
+        double bond[3] = { 0 };
+        for (size_t k = 0; k < dim; k++) bond[k] = p->cloud.x[i * dim + k] - x[k];
+        double r = pg_cloud_length2 (&p->cloud, i, bond);
         double a = p->approx.horizon * pg_cloud_ratio (&p->cloud, i);
         if (r < a * a) return 1;
     }

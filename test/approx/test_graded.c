@@ -143,12 +143,92 @@ static void equal_spacings_change_no_bit (void **state)
                 }
 }
 
+/* A body that is turned and drawn out by F, its supports with it, |F^-1 z| < horizon, is the body of balls
+ * seen through a lens: the same neighbours, the same N, and derivatives F^-T dN. A = s^2 F^-T F^-1, s the
+ * most that F draws out. */
+static void anisotropic_supports_are_balls_of_a_stretched_body (void **state)
+{
+    (void) state;
+    const char *const type[3] = { "rkpm", "pddo", "nosb" };
+    const double turn[9] = { 0.8, -0.6, 0, 0.6, 0.8, 0, 0, 0, 1 }, draw[3] = { 2.5, 0.7, 1.1 };
+    for (int t = 0; t < 3; t++)
+        for (int dim = 2; dim <= 3; dim++)
+            for (int order = 1; order <= 2; order++) {
+                size_t d = (size_t) dim;
+                pg_cloud c = graded (dim), s = c;
+                pg_approx a = make (type[t], "cubic_spline", order, PG_RADIAL, reach (dim, order));
+                s.x = pg_calloc (c.n * d, sizeof *s.x), s.size = pg_calloc (c.n, sizeof *s.size);
+                s.metric = pg_calloc (c.n * d * d, sizeof *s.metric);
+                for (size_t i = 0; i < c.n; i++) {
+                    s.size[i] = c.size[i] * draw[0];
+                    for (size_t k = 0; k < d; k++)
+                        for (size_t l = 0; l < d; l++) {
+                            s.x[i * d + k] += turn[3 * k + l] * draw[l] * c.x[i * d + l];
+                            for (size_t m = 0; m < d; m++)
+                                s.metric[(i * d + k) * d + l] += turn[3 * k + m] * turn[3 * l + m]
+                                                                 * pow (draw[0] / draw[m], 2);
+                        }
+                }
+                pg_rows r = rows_at_nodes (&a, &c), q = rows_at_nodes (&a, &s);
+                assert_memory_equal (r.family.start, q.family.start, (r.n + 1) * sizeof *r.family.start);
+                assert_memory_equal (r.family.node, q.family.node,
+                                     r.family.start[r.n] * sizeof *r.family.node);
+                assert_memory_equal (r.grade, q.grade, r.n);
+                for (size_t e = 0; e < r.family.start[r.n]; e++) {
+                    check_absolute (q.N[e], r.N[e], 1e-9);
+                    for (size_t k = 0; k < d; k++) {
+                        double slope = 0;
+                        for (size_t l = 0; l < d; l++)
+                            slope += turn[3 * k + l] / draw[l] * r.dN[e * d + l];
+                        check_absolute (q.dN[e * d + k], slope, 1e-8);
+                    }
+                }
+                pg_rows_clear (&r), pg_rows_clear (&q);
+                pg_free (s.x), pg_free (s.size), pg_free (s.metric);
+                graded_clear (&c);
+            }
+}
+
+/* Supports that differ in shape from point to point: polynomials and derivatives are exact all the same. */
+static void anisotropic_supports_reproduce (void **state)
+{
+    (void) state;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int order = 1; order <= 2; order++) {
+            size_t d = (size_t) dim;
+            pg_cloud c = graded (dim);
+            pg_approx a = make ("rkpm", "cubic_spline", order, PG_RADIAL, 1.6 * reach (dim, order));
+            c.metric = pg_calloc (c.n * d * d, sizeof *c.metric);
+            for (size_t i = 0; i < c.n; i++) {
+                double v[3], more = 1 + rnd ();
+                for (size_t k = 0; k < d; k++) v[k] = rnd ();
+                for (size_t k = 0; k < d; k++)
+                    for (size_t l = 0; l < d; l++)
+                        c.metric[(i * d + k) * d + l] = (k == l) + more * v[k] * v[l];
+            }
+            double x[3], value, slope, top = extent (&c) * 0.9;
+            pg_rows r = rows_at_nodes (&a, &c);
+            worst (&c, &r, order, &value, &slope);
+            check_below (value, 1e-11);
+            check_below (slope, 1e-11);
+            for (int s = 0; s < 4; s++) {
+                for (int k = 0; k < dim; k++) x[k] = top * (0.5 + 0.5 * rnd ());
+                check_derivative (&a, &c, x, 1e-5);
+            }
+            pg_rows_clear (&r);
+            pg_free (c.metric);
+            graded_clear (&c);
+        }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (bases_are_reproduced),
         cmocka_unit_test (derivatives_are_those_of_the_shape_functions),
         cmocka_unit_test (equal_spacings_change_no_bit),
+        cmocka_unit_test (anisotropic_supports_are_balls_of_a_stretched_body),
+        cmocka_unit_test (anisotropic_supports_reproduce),
     };
     return cmocka_run_group_tests_name ("approx/graded", tests, NULL, NULL);
 }

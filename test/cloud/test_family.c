@@ -115,6 +115,48 @@ static void own_reaches_match_brute_force (void **state)
         }
 }
 
+/* Ellipses of any direction, by boxes and by the tree (scattered: boxes would mostly be empty). */
+static void anisotropic_reaches_match_brute_force (void **state)
+{
+    (void) state;
+    uint32_t seed = 17;
+    for (int dim = 2; dim <= 3; dim++)
+        for (int how = 0; how < 4; how++) {
+            size_t n = 300, d = (size_t) dim, bonds = 0, balls = 0;
+            int scattered = how % 2, closed = how / 2;
+            double x[900], size[300], metric[2700] = { 0 }, reach = 0.3;
+            for (size_t i = 0; i < n * d; i++)
+                x[i] = (scattered && i >= n * d / 2 ? 1e4 : 0) + next (&seed);
+            for (size_t i = 0; i < n; i++) {
+                double v[3];
+                size[i] = 0.5 + next (&seed);
+                for (size_t k = 0; k < d; k++) v[k] = 4 * next (&seed) - 2;
+                for (size_t k = 0; k < d * d; k++)
+                    metric[i * d * d + k] = (k / d == k % d) + v[k / d] * v[k % d];
+            }
+            pg_cloud cloud = {.dim = dim, .n = n, .x = x, .size = size, .metric = metric, .h = 1};
+            pg_family f;
+            if (scattered) cloud.h = 1e-3, reach *= 1e-3;
+            check_ok (pg_family_build (&f, &cloud, n, x, reach, PG_RADIAL, closed));
+            for (size_t i = 0; i < n; i++) {
+                size_t e = f.start[i];
+                for (size_t j = 0; j < n; j++) {
+                    double z[3], sum = 0, far = reach * size[j] / cloud.h;
+                    for (size_t k = 0; k < d; k++) z[k] = x[j * d + k] - x[i * d + k];
+                    for (size_t k = 0; k < d * d; k++) sum += metric[j * d * d + k] * z[k / d] * z[k % d];
+                    balls += in_family (dim, x + i * d, x + j * d, far, PG_RADIAL, closed);
+                    if (!(sqrt (sum) < far)) continue;
+                    assert_true (e < f.start[i + 1]);
+                    assert_int_equal (f.node[e++], j);
+                    bonds++;
+                }
+                assert_int_equal (e, f.start[i + 1]);
+            }
+            assert_true (bonds > 2 * n && balls > bonds + n);
+            pg_family_clear (&f);
+        }
+}
+
 /* Boxes of the spacing given would be 1e12: the tree finds the same families. */
 static void points_too_scattered_for_boxes_match_brute_force (void **state)
 {
@@ -252,6 +294,7 @@ int main (void)
         cmocka_unit_test (points_too_scattered_for_boxes_match_brute_force),
         cmocka_unit_test (lots_and_threads_find_the_same_families),
         cmocka_unit_test (own_reaches_match_brute_force),
+        cmocka_unit_test (anisotropic_reaches_match_brute_force),
         cmocka_unit_test (an_end_exactly_at_the_reach_counts_only_when_closed),
         cmocka_unit_test (families_do_not_depend_on_the_unit),
         cmocka_unit_test (no_centres_and_no_points_are_fine),

@@ -132,6 +132,69 @@ static void spacings_follow_the_edges (void **state)
     }
 }
 
+/* Rectangles of 2 x 0.5 m, turned by 30 degrees: three times three of them in a file. */
+static pg_problem *rectangles (const char *mesh, const char *more)
+{
+    pg_scene *scene = NULL;
+    pg_problem *p = NULL;
+    grid g = { PG_QUAD4, 3, 0, 1, 1 };
+    FILE *to = fopen (path, "w");
+    assert_non_null (to);
+    fprintf (to, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n16\n");
+    for (int i = 0; i < 16; i++)
+        fprintf (to, "%d %.17g %.17g 0\n", i + 1, sqrt (0.75) * 2 * (i % 4) - 0.5 * 0.5 * (i / 4),
+                 0.5 * 2 * (i % 4) + sqrt (0.75) * 0.5 * (i / 4));
+    fprintf (to, "$EndNodes\n$Elements\n9\n");
+    for (int e = 0; e < 9; e++) {
+        int first = 1 + e % 3 + 4 * (e / 3);
+        fprintf (to, "%d 3 2 1 1 %d %d %d %d\n", e + 1, first, first + 1, first + 5, first + 4);
+    }
+    fprintf (to, "$EndElements\n");
+    fclose (to);
+    check_ok (scene_text (&scene, &g, mesh, more));
+    check_ok (pg_problem_build (&p, scene, 1));
+    pg_scene_free (&scene);
+    return p;
+}
+
+/* Supports are as long and as wide as the elements: along both edges each point sees its neighbours up to the
+ * same number of edges, and none beyond. */
+static void anisotropic_supports_follow_the_elements (void **state)
+{
+    (void) state;
+    pg_problem *p = rectangles (", support: anisotropic", rock "method: {horizon: 2.5 spacing}\n");
+    const double along[2] = { sqrt (0.75), 0.5 }, across[2] = { -0.5, sqrt (0.75) };
+    assert_non_null (p->cloud.metric);
+    check_relative (p->cloud.h, 2, 1e-12);
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        check_relative (p->cloud.size[i], 2, 1e-12);
+        check_relative (pg_cloud_length2 (&p->cloud, i, along), 1, 1e-12);
+        check_relative (pg_cloud_length2 (&p->cloud, i, across), 16, 1e-12);
+        check_relative (pg_cloud_slender (&p->cloud, i), sqrt (8.5), 1e-12);
+    }
+    const pg_family *f = &p->rows[PG_NODES].family;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        size_t sees = 0;
+        for (int j = 0; j < 16; j++) {
+            int a = abs (j % 4 - (int) i % 4), b = abs (j / 4 - (int) i / 4);
+            sees += a * a + b * b < 6.25;
+        }
+        assert_int_equal (f->start[i + 1] - f->start[i], sees);
+    }
+    pg_problem_free (&p);
+    for (int kind = PG_TRI3; kind < PG_ELEMENTS; kind++) {
+        grid g = { (pg_element) kind, 4, 0.1, 1, 1 };
+        p = problem_of (&g, ", support: anisotropic, points: corners", rock);
+        f = &p->rows[PG_POINTS].family;                /* each place sees the corners of its own element */
+        for (size_t q = 0; q < f->n; q++)
+            assert_true (f->start[q + 1] - f->start[q] >= (size_t) pg_element_types[kind].corners);
+        pg_problem_free (&p);
+    }
+    grid g = { PG_QUAD4, 4, 0, 1, 1 };
+    faulty (&g, ", support: anisotropic", rock "method: {support: tensor}\n", "method.support: radial");
+    faulty (&g, ", support: anisotropic", rock "method: {force: bond}\n", "anisotropic needs shape");
+}
+
 static void a_perturbed_mesh_keeps_its_cells_and_surface (void **state)
 {
     (void) state;
@@ -342,6 +405,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (volumes_areas_and_sets_of_every_element),
         cmocka_unit_test (spacings_follow_the_edges),
+        cmocka_unit_test (anisotropic_supports_follow_the_elements),
         cmocka_unit_test (a_perturbed_mesh_keeps_its_cells_and_surface),
         cmocka_unit_test (blocks_have_their_own_materials),
         cmocka_unit_test (chosen_blocks_are_a_mesh_of_their_own),
