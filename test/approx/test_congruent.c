@@ -130,6 +130,36 @@ static void places_that_differ_share_nothing (void **state)
     lattice_clear (&c);
 }
 
+/* Two groups of nodes, equal but for one node, which few numbers about the surroundings do not tell: the
+ * places amid them see as many nodes of the same volumes, and yet have shape functions of their own. Each
+ * node is moved in its turn, for whichever few numbers are looked at. */
+static void one_node_elsewhere_makes_a_difference (void **state)
+{
+    (void) state;
+    enum { SIDE = 7, GROUP = SIDE * SIDE, PLACES = 64 };
+    pg_approx a = make ("rkpm", "cubic_spline", 1, PG_RADIAL, 6);
+    double x[2 * PLACES];
+    /* 1024 is far beyond the support, and adding it rounds nothing. */
+    for (size_t k = 0; k < PLACES; k++) x[2*k] = 3.25 + (k % 2 ? 1024 : 0), x[2*k + 1] = 3.5;
+    for (size_t moved = 0; moved < GROUP; moved++) {
+        pg_cloud c = lattice (2, 10, 1, 0);
+        c.n = 2 * GROUP;
+        for (size_t i = 0; i < c.n; i++) {
+            c.x[2*i] = (double) (i % SIDE) + (i < GROUP ? 0 : 1024);
+            c.x[2*i + 1] = (double) (i % GROUP / SIDE);
+        }
+        c.x[2 * (GROUP + moved)] += 0.25;
+        pg_rows alone = rows_at (&a, &c, PLACES, x, NULL);
+        a.congruent = 1;
+        pg_rows shared = rows_at (&a, &c, PLACES, x, NULL);
+        a.congruent = 0;
+        assert_int_equal (shared.family.start[2], 2 * GROUP);
+        check_alike (&alone, &shared, 1e-10);
+        pg_rows_clear (&alone), pg_rows_clear (&shared);
+        lattice_clear (&c);
+    }
+}
+
 static void any_allocation_may_fail (void **state)
 {
     (void) state;
@@ -157,6 +187,7 @@ int main (void)
         cmocka_unit_test (shared_values_are_those_of_each_place),
         cmocka_unit_test (company_order_and_threads_change_no_bit),
         cmocka_unit_test (places_that_differ_share_nothing),
+        cmocka_unit_test (one_node_elsewhere_makes_a_difference),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("approx/congruent", tests, NULL, NULL);

@@ -57,6 +57,20 @@ static void random_clouds_match_brute_force (void **state)
     }
 }
 
+/* Centres in one place amid the cloud, or a few side by side, whose box leaves most points out at once. */
+static void few_centres_match_brute_force (void **state)
+{
+    (void) state;
+    uint32_t seed = 17;
+    for (int dim = 1; dim <= 3; dim++)
+        for (size_t m = 1; m <= 4; m++) {
+            double x[1200], c[12];
+            for (int i = 0; i < 1200; i++) x[i] = next (&seed);
+            for (int i = 0; i < 12; i++) c[i] = 0.45 + 0.1 * next (&seed);
+            same_as_brute_force (dim, 1200 / (size_t) dim, x, m, c, dim == 1 ? 0.05 : dim == 2 ? 0.15 : 0.3);
+        }
+}
+
 static void lattice_points_lie_on_cell_borders (void **state)
 {
     (void) state;
@@ -289,6 +303,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (random_clouds_match_brute_force),
+        cmocka_unit_test (few_centres_match_brute_force),
         cmocka_unit_test (lattice_points_lie_on_cell_borders),
         cmocka_unit_test (clusters_and_flat_clouds_match_brute_force),
         cmocka_unit_test (points_too_scattered_for_boxes_match_brute_force),

@@ -125,6 +125,45 @@ static void the_preconditioner_is_symmetric_and_positive (void **state)
     }
 }
 
+/* A body that a crack has cut in two: no element joins the halves, whichever way cells and points become
+ * elements, so that the preconditioner knows that they move freely past each other. */
+static void no_element_spans_a_crack (void **state)
+{
+    (void) state;
+    static const char through[] =
+        "cracks: [{polygon: [[-1, 0.2, -1], [2, 0.2, -1], [2, 0.8, 2], [-1, 0.8, 2]]}]";
+    static const struct { const char *points, *method; } way[] = {
+        { "", gauss }, { "perturb: {amount: 0.2, seed: 1}\n", gauss }, { "lattice: cells\n", gauss },
+        { "", "horizon: 2 spacing, integration: consistent" },
+        { "", "horizon: 2 spacing, approximation: nosb, integration: nodal" },
+    };
+    for (size_t k = 0; k < sizeof way / sizeof *way; k++) {
+        char points[256];
+        snprintf (points, sizeof points, "%s%s", way[k].points, through);
+        run r = scene_of (1, cube, "", 0.125, points, 0.2, way[k].method, "linear: pcg");
+        const pg_force_type *force = pg_force_of (r.problem);
+        const double *x = r.problem->cloud.x;
+        void *self = NULL;
+        pg_elements elements;
+        size_t joined = 0, across = 0;
+        check_ok (force->create (&self, r.problem));
+        check_ok (force->refresh (self, r.state, NULL));
+        check_ok (force->elements (self, &elements));
+        /* distance above the crack, whose plane rises from y = 0.2 at z = -1 to 0.8 at z = 2 */
+        for (size_t i = 0; i < elements.Q.n; i++)
+            for (size_t e = elements.Q.start[i]; e < elements.Q.start[i + 1]; e++) {
+                size_t j = (size_t) elements.Q.node[e];
+                double a = x[3*i + 1] - 0.4 - 0.2 * x[3*i + 2], b = x[3*j + 1] - 0.4 - 0.2 * x[3*j + 2];
+                joined++, across += a * b < 0;
+            }
+        if (across) fail_msg ("way %zu: %zu of %zu pairs across the crack", k, across, joined);
+        assert_true (joined > 10 * elements.Q.n);
+        pg_elements_clear (&elements);
+        force->free (&self);
+        clear (&r);
+    }
+}
+
 /* By counted cost: a body of 8 000 unknowns has a dear factor, one of 200 a cheap one. */
 static void it_is_taken_where_it_pays (void **state)
 {
@@ -148,6 +187,7 @@ int main (void)
         cmocka_unit_test (answers_are_those_of_the_factor),
         cmocka_unit_test (iterations_do_not_grow_with_the_size),
         cmocka_unit_test (the_preconditioner_is_symmetric_and_positive),
+        cmocka_unit_test (no_element_spans_a_crack),
         cmocka_unit_test (it_is_taken_where_it_pays),
     };
     return cmocka_run_group_tests_name ("scene_runs/elements", tests, NULL, NULL);

@@ -3,7 +3,7 @@
  * same bonds in the same order, for every integration, way of prescribing, criterion and kind of load; blocks
  * of events and going back are what equilibria solved anew say. */
 #include "scene_runs/run.h"
-#include "solve/event_solver.h"
+#include "solve/event_solver_data.h"
 
 #define PLATE \
     "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 16 " \
@@ -195,11 +195,37 @@ static void blocks_and_going_back (void **state)
     }
 }
 
+/* What a base has left unbalanced, here a displacement that was put in: settling takes it out of the
+ * displacement that it hands out as well as out of the base, and says how large it was. */
+static void settling_corrects_the_displacement (void **state)
+{
+    (void) state;
+    bench b;
+    event_outcome outcome;
+    double before, after;
+    begin (&b, 0);
+    size_t n = b.s.ndof;
+    cut (&b, 0, 0);
+    check_ok (event_solver_update (b.e, &outcome));
+    check_ok (event_solver_full (b.e, 1, b.anew[1]));
+    double top = largest_of (b.anew[1], n);
+    for (size_t i = n / 3; i < n / 3 + 4; i++) b.e->base[1][i] += 1e-5 * top;
+    check_ok (event_solver_settle (b.e, 1, 1e-12, b.u[1], &before));
+    assert_true (before > 1e-8);
+    check_below (largest_difference (b.u[1], b.anew[1], n), 1e-9 * top);
+    check_ok (event_solver_full (b.e, 1, b.shown));
+    check_below (largest_difference (b.shown, b.u[1], n), 1e-12 * top);
+    check_ok (event_solver_settle (b.e, 1, 1, b.u[1], &after));
+    check_below (after, 1e-5 * before);
+    end (&b);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (the_same_bonds_break),
         cmocka_unit_test (blocks_and_going_back),
+        cmocka_unit_test (settling_corrects_the_displacement),
     };
     return cmocka_run_group_tests_name ("solve/event_solver", tests, NULL, NULL);
 }
