@@ -340,7 +340,7 @@ done:
 static void choose_polynomial (const pg_problem *p, pg_elements *out)
 {
     static const struct { int order; double wide; int terms; double low, floor; } choice[] = {
-        { 1, 1.6, 4, 0.1, 0 }, { 1, 2.2, 8, 0.05, 0.03 }, { 1, 1e9, 32, 0.01, 0 },
+        { 1, 1.6, 4, 0.1, 0 }, { 1, 2.2, 8, 0.05, 0.06 }, { 1, 1e9, 32, 0.01, 0 },
         { 2, 2.7, 8, 0.05, 0.02 }, { 2, 1e9, 16, 0.01, 0 }
     };
     size_t k = 0;
