@@ -21,8 +21,9 @@ pg_status event_solver_create (event_solver **out, pg_system *s, int cases, cons
     event_solver *e = NULL;
     *out = NULL;
     if (!s->force->change || !system_has_matrix (s) || !s->linear->factors) return PG_OK;
-    /* Else there is one solve only. Plain runs leave out the springs of weak unknowns as well: what refinement
-     * leaves of them moves mechanisms (rows of points between cracks), by 1e-6 of the load of an event. */
+    /* Else there is one solve only. Plain runs leave out the springs of weak unknowns as well: what
+     * refinement leaves of them moves mechanisms (rows of points between cracks), and the load of an event by
+     * 1e-6. */
     s->serves = s->problem->criterion->type != NULL;
     if (s->options->plain) return PG_OK;
     PG_ALLOC (e, 1);
