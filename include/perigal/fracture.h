@@ -26,6 +26,10 @@ typedef struct {
     double T[2];                                       /* stress along e beside the singular part, Pa */
     double x[3], e[3];  /* tip, m; unit vector ahead: the chord of the last 1.5 h */
     double h, r1, near, wide;                          /* local spacing; rings r1..near and r1..wide, m */
+    /* In space: unit normal of the crack and unit tangent of the front, e x normal (e, normal and tangent are
+     * right-handed; K_III > 0 moves the face on the normal's side along the tangent); length of front that
+     * belongs to the vertex, m. */
+    double normal[3], tangent[3], length;
     double room;                                       /* distance to what a ring must not hold, m */
     double modulus;                                    /* E' = E, in plane strain E / (1 - nu^2), Pa */
 } pg_tip_field;

@@ -152,6 +152,23 @@ typedef struct {
     double grown;                                      /* length since the start, m */
 } pg_tip;
 
+enum { PG_MEETS_NOTHING, PG_MEETS_SURFACE, PG_MEETS_CRACK };
+/* A front of a crack in space: vertices about a spacing apart, in the order in which the tangent runs, which
+ * is ahead x normal: ahead, normal and tangent are right-handed. The ends of a front that is no loop lie on
+ * the surface of the body, or on another crack. */
+typedef struct {
+    long   id;                                         /* 1, 2, ... as they came into being; stays with it */
+    int    closed, open;                               /* a loop; 0: grows no more */
+    size_t n, capacity;
+    /* vertices (m), unit normal of the crack, unit vector ahead (n x 3 each) */
+    double *x, *normal, *ahead;
+    double *offset, *grown;  /* bonds are cut only so far behind x (m); length grown (m) (n each) */
+    unsigned char *meets;                              /* per vertex: PG_MEETS_... */
+    /* Where the triangles that have grown end: their vertices (pg_crack_surfaces.vertex), in the order of the
+     * front; at the ends of the front it may go on beyond the surface. None: nothing has grown yet. */
+    size_t *rim, nrim, rim_capacity;
+} pg_front;
+
 struct pg_problem {
     char     title[256], name[64];                     /* name: of the scene's folder or file */
     int      dim, threads;
@@ -165,6 +182,7 @@ struct pg_problem {
     pg_interface *interface; size_t ninterface;        /* failure.interfaces */
     pg_approx     approx;
     pg_tip  *tip;  size_t ntip;                        /* 2D: the tips of the pre-cracks */
+    pg_front *front;  size_t nfront;                   /* 3D: the fronts of the pre-cracks */
     double   tip_offset;  /* of a tip where the local spacing is cloud.h, m (method.tip_offset) */
     struct pg_body_search *search;                     /* where the body is, 2D; else NULL */
     const pg_integration_type *integration;
@@ -271,6 +289,12 @@ void      pg_crack_paths_free   (pg_crack_paths **paths);
 pg_status pg_crack_paths_keep   (pg_crack_paths *paths, const pg_problem *problem, const char *name,
                                  const pg_keeper *keeper);
 
+/* ---- fronts of cracks in space ------------------------------------------------------------------------- */
+/* Room for n vertices in the arrays of a front; a copy of one in another's arrays; its arrays. */
+pg_status pg_front_reserve (pg_front *front, size_t n);
+pg_status pg_front_copy    (pg_front *to, const pg_front *from);
+void      pg_front_clear   (pg_front *front);
+
 /* ---- state: one block and the paths of its cracks; copyable, comparable, savable ----------------------- */
 typedef struct {
     size_t  ndof, nbond, bytes;
@@ -319,7 +343,6 @@ double    pg_tip_behind   (const pg_state *state, size_t tip, double limit);
 int       pg_problem_has_body (const pg_problem *problem, const double *x);
 /* Local spacing at x: that of the nearest point, m. */
 double    pg_problem_spacing_at (const pg_problem *problem, const double *x);
-enum { PG_MEETS_NOTHING, PG_MEETS_SURFACE, PG_MEETS_CRACK };
 /* How far from a tip in a direction (unit vector) the body ends, or a crack lies across, m; *what says
  * which. At most `limit`. Gaps in the body of less than an eighth of the spacing may be missed. */
 double    pg_tip_ahead (const pg_problem *problem, const pg_state *state, size_t tip, const double *direction,
@@ -329,6 +352,9 @@ double    pg_tip_ahead (const pg_problem *problem, const pg_state *state, size_t
 double    pg_tip_nearest (const pg_problem *problem, const pg_state *state, size_t tip, double limit,
                           double *place, int *what);
 double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t tip, double limit);
+
+/* The fronts that exist in a state (NULL: at the start). */
+const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n);
 
 /* ---- costs of linear solves, forces on shape functions ------------------------------------------------- */
 typedef struct {

@@ -16,6 +16,9 @@ void      pg_initial_set   (const pg_problem *problem, double *v);
 void      pg_initial_clear (pg_problem *problem);
 /* method.tip_offset: how far behind its tips and fronts each pre-crack cuts; the tips in the plane. */
 pg_status pg_tips_retreat (pg_problem *problem, const pg_scene *scene);
+/* fronts.c: the fronts of the pre-cracks in space, before these retreat. retreat: of each crack, of each of
+ * its edges (of a disc: one), m; NULL: none retreats. */
+pg_status pg_fronts_find (pg_problem *problem, double *const *retreat);
 /* Where the body is (body_search.c): for a body in the plane, or one with cracks. */
 pg_status pg_body_search_create (pg_problem *problem);
 void      pg_body_search_free   (pg_problem *problem);

@@ -296,7 +296,8 @@ void pg_problem_free (pg_problem **problem)
     pg_cloud_clear (&p->cloud);
     pg_lattice_clear (&p->lattice);
     pg_cracks_clear (&p->cracks);
-    pg_free (p->tip), pg_body_search_free (p);
+    for (size_t f = 0; p->front && f < p->nfront; f++) pg_front_clear (&p->front[f]);
+    pg_free (p->tip), pg_free (p->front), pg_body_search_free (p);
     pg_mesh_body_clear (&p->part);
     pg_body_clear (&p->body);
     pg_free (p);

@@ -65,6 +65,13 @@ const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *sta
     return state && state->paths ? &state->paths->cracks : &problem->cracks;
 }
 
+const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n)
+{
+    (void) state;
+    *n = problem->nfront;
+    return problem->front;
+}
+
 void pg_state_free (pg_state **state)
 {
     if (*state) pg_crack_paths_free (&(*state)->paths);

@@ -307,7 +307,7 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     s.offset = p->tip_offset = offset_of (p, scene);
     if (p->cracks.n == 0) return PG_OK;
     if (p->dim == 2) PG_ALLOC (p->tip, 2 * p->cracks.n);
-    if (p->dim == 3 && !p->method->shape_functions && !(s.offset > 0)) return PG_OK;
+    if (p->dim == 3 && !p->method->shape_functions && !(s.offset > 0)) return pg_fronts_find (p, NULL);
     PG_ALLOC (made, p->cracks.n);
     PG_ALLOC (s.extent, p->cracks.n);
     /* all before any: an end on another crack is none of its own */
@@ -321,6 +321,7 @@ pg_status pg_tips_retreat (pg_problem *p, const pg_scene *scene)
     }
     /* before they retreat: cracks as drawn */
     if (p->method->shape_functions || pg_problem_grows (p)) tell (p, scene, s.extent);
+    if (p->dim == 3) PG_TRY (pg_fronts_find (p, s.offset > 0 ? made : NULL));
     for (size_t k = 0; s.offset > 0 && k < p->cracks.n; k++)
         p->cracks.crack[k].retreat = made[k], made[k] = NULL;
     PG_TRY (pg_cracks_index (&p->cracks));             /* a segment may cut beyond its ends */

@@ -1,0 +1,401 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Fronts of the pre-cracks in space: the parts of the rim of a disc, or of the outline of a polygon, that lie
+ * inside the body, have body ahead of them and lie on no other crack. They are found on the cracks as drawn.
+ *
+ * An outline is a closed curve x (s), s from 0 to 1, that runs with the tangent t = e x n (e outward in the
+ * plane of the crack, n its normal; seen against n it runs clockwise). It is looked at in steps of a quarter
+ * of the spacing; where a front begins or ends is found by bisection. Parts of different cracks whose ends
+ * meet are one front. Vertices are then distributed about a spacing apart; sharp corners keep theirs. */
+#include "model.h"
+#include <math.h>
+#include <string.h>
+
+/* Steps of a spacing; halvings of one; a body that ends so far ahead (spacings) ends at the crack; ends so
+ * close (spacings) are one place. */
+enum { STEPS = 4, FINER = 8, HALVINGS = 44, MOST_STEPS = 20000 };
+static const double ahead = 0.1, together = 0.05, shortest = 0.5;
+static const double corner = 0.5;                      /* rad: a turn that keeps its vertex */
+static const double pi = 3.14159265358979323846;
+
+static double dot (const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+static void cross (const double *a, const double *b, double *out)
+{
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3;
+        out[k] = a[m] * b[n] - a[n] * b[m];
+    }
+}
+
+static double apart (const double *a, const double *b)
+{
+    return hypot (hypot (a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+
+/* Makes a vector of unit length; one without length stays. */
+static void unit (double *a)
+{
+    double size = hypot (hypot (a[0], a[1]), a[2]);
+    for (int k = 0; k < 3 && size > 0; k++) a[k] /= size;
+}
+
+/* ---- outlines ------------------------------------------------------------------------------------------ */
+typedef struct {
+    pg_problem *p;
+    const pg_crack *crack;
+    size_t number;                                     /* of the crack */
+    double length;                                     /* of the outline, m */
+} outline;
+
+/* Length of edge i of a polygon, from vertex i to the next. */
+static double edge_length (const pg_crack *c, size_t i)
+{
+    return apart (c->vertex + 3*i, c->vertex + 3*((i + 1) % c->nvertex));
+}
+
+static double outline_length (const pg_crack *c)
+{
+    double length = 0;
+    if (c->kind == PG_CRACK_DISC) return 2 * pi * c->radius;
+    for (size_t i = 0; i < c->nvertex; i++) length += edge_length (c, i);
+    return length;
+}
+
+/* The place at s, which goes round from 1 to 0, and the unit vector outward there; returns the edge. Polygons
+ * list their vertices against the tangent. */
+static size_t outline_at (const outline *o, double s, double *x, double *e)
+{
+    const pg_crack *c = o->crack;
+    s -= floor (s);
+    if (c->kind == PG_CRACK_DISC) {
+        double f[3], side[3], angle = -2 * pi * s;
+        for (int k = 0; k < 3; k++) f[k] = (c->vertex[k] - c->centre[k]) / c->radius;
+        cross (c->normal, f, side);
+        for (int k = 0; k < 3; k++) {
+            e[k] = cos (angle) * f[k] + sin (angle) * side[k];
+            x[k] = c->centre[k] + c->radius * e[k];
+        }
+        return 0;
+    }
+    double way = (1 - s) * o->length, edge;
+    size_t i = 0;
+    while (i + 1 < c->nvertex && way > (edge = edge_length (c, i))) way -= edge, i++;
+    const double *a = c->vertex + 3*i, *b = c->vertex + 3*((i + 1) % c->nvertex);
+    double along[3], share = fmin (1, way / edge_length (c, i));
+    for (int k = 0; k < 3; k++) x[k] = a[k] + share * (b[k] - a[k]), along[k] = b[k] - a[k];
+    cross (along, c->normal, e);
+    unit (e);
+    return i;
+}
+
+/* Does another crack pass through x? */
+static int on_another (const outline *o, const double *x)
+{
+    const pg_problem *p = o->p;
+    for (size_t c = 0; c < p->cracks.n; c++)
+        if (c != o->number && pg_crack_touches (&p->cracks.crack[c], 3, x, 1e-6 * p->cloud.h)) return 1;
+    return 0;
+}
+
+/* Is the place at s part of a front? *meets: why not. */
+static int is_front (const outline *o, double s, unsigned char *meets)
+{
+    double x[3], e[3], place[3];
+    outline_at (o, s, x, e);
+    double h = pg_problem_spacing_at (o->p, x);
+    *meets = PG_MEETS_SURFACE;
+    for (int k = 0; k < 3; k++) place[k] = x[k] + ahead * h * e[k];
+    if (!pg_problem_has_body (o->p, x) || !pg_problem_has_body (o->p, place)) return 0;
+    *meets = on_another (o, x) ? PG_MEETS_CRACK : PG_MEETS_NOTHING;
+    return *meets == PG_MEETS_NOTHING;
+}
+
+/* The end of a front between `in`, which is part of it, and `out`, which is not; part of it itself. */
+static double end_between (const outline *o, double in, double out, unsigned char *meets)
+{
+    unsigned char why;
+    for (int i = 0; i < HALVINGS; i++) {
+        double middle = 0.5 * (in + out);
+        if (is_front (o, middle, &why)) in = middle;
+        else out = middle, *meets = why;
+    }
+    return in;
+}
+
+/* ---- lines: parts of outlines, as many places close to each other -------------------------------------- */
+typedef struct {
+    size_t n, capacity;
+    double *x, *normal, *offset;                       /* n x 3, n x 3, n; m */
+    int closed, used;
+    unsigned char first, last;                         /* what the ends meet */
+} line;
+
+static pg_status put (line *l, const double *x, const double *normal, double offset)
+{
+    pg_status status = PG_OK;
+    if (l->n == l->capacity) {
+        size_t most = 2 * l->n + 64;
+        double *more = pg_resize (l->x, 3 * most, sizeof *more);
+        if (more) l->x = more;
+        double *also = more ? pg_resize (l->normal, 3 * most, sizeof *also) : NULL;
+        if (also) l->normal = also;
+        double *last = also ? pg_resize (l->offset, most, sizeof *last) : NULL;
+        if (!last) PG_FAIL (PG_E_MEMORY, "no memory for a front of %zu places", most);
+        l->offset = last, l->capacity = most;
+    }
+    memcpy (l->x + 3 * l->n, x, 3 * sizeof *x);
+    memcpy (l->normal + 3 * l->n, normal, 3 * sizeof *x);
+    l->offset[l->n++] = offset;
+done:
+    return status;
+}
+
+static void clear (line *l)
+{
+    pg_free (l->x), pg_free (l->normal), pg_free (l->offset);
+    memset (l, 0, sizeof *l);
+}
+
+/* The part from s to s + length of an outline: vertices of a polygon between them, of a disc equal parts. */
+static pg_status draw (line *l, const outline *o, double s, double length, const double *retreat)
+{
+    pg_status status = PG_OK;
+    const pg_crack *c = o->crack;
+    double x[3], e[3], h = o->p->cloud.h;
+    size_t n = FINER * (size_t) fmax (1, round (length * o->length / h)), edge;
+    if (c->kind == PG_CRACK_DISC) {
+        for (size_t i = 0; i + l->closed <= n; i++) {
+            outline_at (o, s + length * (double) i / (double) n, x, e);
+            PG_TRY (put (l, x, c->normal, retreat ? retreat[0] : 0));
+        }
+        goto done;
+    }
+    edge = outline_at (o, s, x, e);
+    if (!l->closed) PG_TRY (put (l, x, c->normal, retreat ? retreat[edge] : 0));
+    /* vertices with s < s_i < s + length, twice around as the part may pass the first */
+    for (size_t round = 0, m = c->nvertex; round < 2 * m; round++) {
+        double behind = 0;                             /* way back from the end of the list to vertex i */
+        size_t i = m - 1 - round % m;
+        for (size_t j = i; j < m; j++) behind += edge_length (c, j) / o->length;
+        double at = behind + (double) (round / m), tiny = 1e-9 * h / o->length;
+        if (at < s + tiny || at > s + length + (l->closed ? tiny : -tiny)) continue;
+        size_t next = (i + m - 1) % m;                 /* the edge that begins here, against the list */
+        double offset = retreat ? fmax (retreat[i], retreat[next]) : 0;
+        PG_TRY (put (l, c->vertex + 3*i, c->normal, offset));
+    }
+    edge = outline_at (o, s + length, x, e);
+    if (!l->closed) PG_TRY (put (l, x, c->normal, retreat ? retreat[edge] : 0));
+done:
+    return status;
+}
+
+typedef struct { line *line; size_t n, capacity; } lines;
+
+static pg_status add_line (lines *all, const outline *o, double s, double length, unsigned char first,
+                           unsigned char last, int closed, const double *retreat)
+{
+    pg_status status = PG_OK;
+    PG_GROW (all->line, all->capacity, all->n + 1);
+    line *l = &all->line[all->n++];
+    memset (l, 0, sizeof *l);
+    l->first = first, l->last = last, l->closed = closed;
+    PG_TRY (draw (l, o, s, length, retreat));
+done:
+    return status;
+}
+
+/* All parts of one outline that are fronts. */
+static pg_status find_lines (lines *all, const outline *o, const double *retreat)
+{
+    pg_status status = PG_OK;
+    unsigned char *in = NULL, why, first = 0, last = 0;
+    size_t n = (size_t) fmin (MOST_STEPS, 16 + ceil (STEPS * o->length / o->p->cloud.h)), start = 0;
+    double step = 1.0 / (double) n;
+    PG_ALLOC (in, n);
+    for (size_t i = 0; i < n; i++) in[i] = (unsigned char) is_front (o, ((double) i + 0.5) * step, &why);
+    while (start < n && in[start]) start++;
+    if (start == n) {                                  /* all of it */
+        PG_TRY (add_line (all, o, 0, 1, 0, 0, 1, retreat));
+        goto done;
+    }
+    for (size_t i = start; i < start + n;) {
+        if (!in[i % n]) { i++; continue; }
+        size_t j = i;
+        while (in[j % n]) j++;
+        double from = ((double) i + 0.5) * step, to = ((double) j - 0.5) * step;
+        double low = end_between (o, from, from - step, &first), high = end_between (o, to, to + step, &last);
+        if ((high - low) * o->length > shortest * o->p->cloud.h)
+            PG_TRY (add_line (all, o, low - floor (low), high - low, first, last, 0, retreat));
+        i = j;
+    }
+done:
+    pg_free (in);
+    return status;
+}
+
+/* ---- joining ------------------------------------------------------------------------------------------- */
+/* The other way around: the same crack seen from its other side. */
+static void reverse (line *l)
+{
+    for (size_t i = 0, j = l->n - 1; i < j; i++, j--) {
+        double spare;
+        for (size_t k = 0; k < 3; k++) {
+            spare = l->x[3*i + k], l->x[3*i + k] = l->x[3*j + k], l->x[3*j + k] = spare;
+            spare = l->normal[3*i + k], l->normal[3*i + k] = l->normal[3*j + k], l->normal[3*j + k] = spare;
+        }
+        spare = l->offset[i], l->offset[i] = l->offset[j], l->offset[j] = spare;
+    }
+    for (size_t i = 0; i < 3 * l->n; i++) l->normal[i] = -l->normal[i];
+    unsigned char end = l->first;
+    l->first = l->last, l->last = end;
+}
+
+/* Appends b to a, whose end is its beginning. */
+static pg_status append (line *a, const line *b)
+{
+    pg_status status = PG_OK;
+    for (size_t i = 1; i < b->n; i++) PG_TRY (put (a, b->x + 3*i, b->normal + 3*i, b->offset[i]));
+    a->last = b->last;
+done:
+    return status;
+}
+
+/* Lines that end on each other's crack at one place become one; a line whose ends meet becomes a loop. */
+static pg_status join (lines *all, double near)
+{
+    pg_status status = PG_OK;
+    for (size_t i = 0; i < all->n; i++) {
+        line *a = &all->line[i];
+        for (size_t j = 0; !a->used && !a->closed && j < all->n; j++) {
+            line *b = &all->line[j];
+            if (b == a || b->used || b->closed || a->last != PG_MEETS_CRACK) continue;
+            const double *end = a->x + 3 * (a->n - 1);
+            if (b->last == PG_MEETS_CRACK && apart (end, b->x + 3 * (b->n - 1)) < near) reverse (b);
+            if (b->first != PG_MEETS_CRACK || !(apart (end, b->x) < near)) continue;
+            PG_TRY (append (a, b));
+            b->used = 1, j = (size_t) -1;              /* look again from the new end */
+        }
+        if (!a->used && !a->closed && a->n > 3 && a->first == PG_MEETS_CRACK && a->last == PG_MEETS_CRACK
+            && apart (a->x, a->x + 3 * (a->n - 1)) < near)
+            a->closed = 1, a->n--;
+    }
+done:
+    return status;
+}
+
+/* ---- vertices ------------------------------------------------------------------------------------------ */
+/* Place i of a line, a loop going round. */
+static const double *at (const line *l, size_t i) { return l->x + 3 * (i % l->n); }
+
+/* Does the line turn sharply at place i? Ends of lines count. */
+static int is_corner (const line *l, size_t i)
+{
+    double u[3], v[3];
+    if (!l->closed && (i == 0 || i + 1 >= l->n)) return 1;
+    const double *before = at (l, i + l->n - 1), *here = at (l, i), *after = at (l, i + 1);
+    for (int k = 0; k < 3; k++) u[k] = here[k] - before[k], v[k] = after[k] - here[k];
+    unit (u), unit (v);
+    return dot (u, v) < cos (corner);
+}
+
+static pg_status put_vertex (pg_front *f, const line *l, size_t i, double share)
+{
+    pg_status status = PG_OK;
+    const double *a = at (l, i), *b = at (l, i + 1), *m = l->normal + 3 * (i % l->n),
+                 *n = l->normal + 3 * ((i + 1) % l->n);
+    PG_TRY (pg_front_reserve (f, f->n + 1));
+    for (size_t k = 0; k < 3; k++) {
+        f->x[3 * f->n + k] = a[k] + share * (b[k] - a[k]);
+        f->normal[3 * f->n + k] = m[k] + share * (n[k] - m[k]);
+    }
+    unit (f->normal + 3 * f->n);
+    f->offset[f->n] = (1 - share) * l->offset[i % l->n] + share * l->offset[(i + 1) % l->n];
+    f->grown[f->n] = 0, f->meets[f->n] = PG_MEETS_NOTHING;
+    f->n++;
+done:
+    return status;
+}
+
+/* Vertices of the places from .. to of a line, about a local spacing apart, the last left out. */
+static pg_status divide (pg_front *f, const line *l, const pg_problem *p, size_t from, size_t to)
+{
+    pg_status status = PG_OK;
+    double total = 0, *way = NULL;                     /* spacings from the beginning */
+    PG_ALLOC (way, to - from + 1);
+    for (size_t i = from; i < to; i++) {
+        double middle[3];
+        for (int k = 0; k < 3; k++) middle[k] = 0.5 * (at (l, i)[k] + at (l, i + 1)[k]);
+        total += apart (at (l, i), at (l, i + 1)) / pg_problem_spacing_at (p, middle);
+        way[i - from + 1] = total;
+    }
+    size_t n = (size_t) fmax (1, round (total)), i = from;
+    for (size_t k = 0; k < n; k++) {
+        double target = total * (double) k / (double) n;
+        while (i + 1 < to && way[i - from + 1] <= target * (1 - 1e-12)) i++;
+        double piece = way[i - from + 1] - way[i - from],
+               share = piece > 0 ? (target - way[i - from]) / piece : 0;
+        PG_TRY (put_vertex (f, l, i, fmin (1, fmax (0, share))));
+    }
+done:
+    pg_free (way);
+    return status;
+}
+
+/* Unit vectors ahead: across the line through the neighbours, in the plane of the crack. */
+static void frame (pg_front *f)
+{
+    for (size_t i = 0; i < f->n; i++) {
+        size_t low = i ? i - 1 : f->closed ? f->n - 1 : 0,
+               high = i + 1 < f->n ? i + 1 : f->closed ? 0 : f->n - 1;
+        double t[3], u[3], v[3], *n = f->normal + 3*i, *e = f->ahead + 3*i;
+        for (size_t k = 0; k < 3; k++)
+            u[k] = f->x[3*i + k] - f->x[3*low + k], v[k] = f->x[3*high + k] - f->x[3*i + k];
+        unit (u), unit (v);                            /* at corners: half the turn */
+        for (int k = 0; k < 3; k++) t[k] = u[k] + v[k];
+        cross (n, t, e);
+        unit (e);
+    }
+}
+
+static pg_status make_front (pg_front *f, const line *l, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    size_t first = 0, end = l->closed ? l->n : l->n - 1;
+    while (l->closed && first < l->n && !is_corner (l, first)) first++;
+    if (first == l->n) first = 0;                      /* a loop without corners */
+    for (size_t i = first, next; i < first + end; i = next) {
+        next = i + 1;
+        while (next < first + end && !is_corner (l, next % l->n)) next++;
+        PG_TRY (divide (f, l, p, i, next));
+    }
+    if (!l->closed) {
+        PG_TRY (put_vertex (f, l, l->n - 2, 1));
+        f->meets[0] = l->first, f->meets[f->n - 1] = l->last;
+    }
+    f->closed = l->closed, f->open = 1;
+    frame (f);
+done:
+    return status;
+}
+
+pg_status pg_fronts_find (pg_problem *p, double *const *retreat)
+{
+    pg_status status = PG_OK;
+    lines all = { 0 };
+    for (size_t c = 0; c < p->cracks.n; c++) {
+        outline o = { p, &p->cracks.crack[c], c, outline_length (&p->cracks.crack[c]) };
+        PG_TRY (find_lines (&all, &o, retreat ? retreat[c] : NULL));
+    }
+    PG_TRY (join (&all, together * p->cloud.h));
+    PG_ALLOC (p->front, all.n + 1);
+    for (size_t i = 0; i < all.n; i++) {
+        if (all.line[i].used) continue;
+        pg_front *f = &p->front[p->nfront++];
+        f->id = (long) p->nfront;
+        PG_TRY (make_front (f, &all.line[i], p));
+    }
+done:
+    for (size_t i = 0; i < all.n; i++) clear (&all.line[i]);
+    pg_free (all.line);
+    return status;
+}
