@@ -10,6 +10,7 @@
  * family_tree.c. */
 #include "family.h"
 #include <math.h>
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -26,6 +27,8 @@ struct pg_family_search {
     double   width[3];
     /* Largest distance of a member, of a ball its square: of each point; NULL: `limit` for all. */
     double  *own, limit;
+    /* Half-widths of the box around the support of each point, m (n x dim); NULL: all have the same. */
+    double  *half;
     /* 0: the points are too scattered for boxes. */
     int      fits;
 };
@@ -132,6 +135,23 @@ done:
     return status;
 }
 
+/* Half-widths of the box around the support of point i, m (dim). An ellipse { z : z' A z <= far^2 } reaches
+ * far (A^-1)_kk^(1/2) along axis k. A little more, for they are rounded. */
+static void measure_box (const pg_family_search *s, size_t i, double *half)
+{
+    int dim = s->cloud->dim;
+    double far = reach_of (s, i) * (1 + 1e-7), L[9];
+    for (int k = 0; k < dim; k++) half[k] = far;
+    if (!s->cloud->metric) return;
+    memcpy (L, s->cloud->metric + i * (size_t) (dim * dim), (size_t) (dim * dim) * sizeof *L);
+    if (pg_dense_cholesky (dim, L, 1e-14)) return;
+    for (int k = 0; k < dim; k++) {
+        double column[3] = { k == 0, k == 1, k == 2 };
+        pg_dense_solve (dim, L, column);
+        half[k] = fmin (far, far * sqrt (column[k]) * (1 + 1e-7));
+    }
+}
+
 /* All points, or those that centres in a box (low, high: 3 + 3 numbers, m) can see. */
 static pg_status sort_points (pg_family_search *s, const double *box)
 {
@@ -142,11 +162,13 @@ static pg_status sort_points (pg_family_search *s, const double *box)
     size_t n = s->cloud->n;
     PG_ALLOC (member, n);
     if (s->cloud->size) PG_ALLOC (s->own, n);
+    if (s->cloud->size) PG_ALLOC (s->half, n * (size_t) s->cloud->dim);
     for (size_t i = 0; i < n; i++) {
         double far = reach_of (s, i);
         least = fmin (least, far);
         s->limit = s->near.shape == PG_RADIAL ? far * far : far;
         if (s->own) s->own[i] = s->limit;
+        if (s->half) measure_box (s, i, s->half + i * (size_t) s->cloud->dim);
     }
     s->fits = 1;
     for (size_t i = 0; i < n; i++) {
@@ -164,7 +186,7 @@ done:
 static void clear (pg_family_search *s)
 {
     for (size_t k = 0; k < CLASSES; k++) pg_boxes_clear (&s->boxes[k]);
-    pg_free (s->own);
+    pg_free (s->own), pg_free (s->half);
 }
 
 pg_status pg_family_search_create (pg_family_search **out, const pg_cloud *cloud, double reach, int shape,
@@ -193,9 +215,22 @@ void pg_family_search_free (pg_family_search **search)
 }
 
 /* ---- reading off --------------------------------------------------------------------------------------- */
-/* Candidates of a group of centres, ascending: their numbers, positions axis by axis (m), how far away they
- * may be, and how far they are from the centre at work. Room for `most`. */
-typedef struct { size_t n, most; int *item, *chosen; double *x, *limit, *away; } candidates;
+/* Members of families that follow each other, in a chain of such pieces. */
+typedef struct piece { struct piece *next; size_t n, room; int member[]; } piece;
+
+/* What a thread needs and has found. Candidates of a group of centres, ascending: their numbers, positions
+ * axis by axis (m), how far away they may be, and how far they are from the centre at work, all with room for
+ * `most`; of stretched supports also their measures, the entries of the symmetric matrix A of pg_cloud row by
+ * row, each an array as long. bits: one for each point of the cloud, all 0 between groups. */
+typedef struct {
+    size_t n, most;
+    int *item, *chosen;
+    double *x, *limit, *away, *metric;
+    uint64_t *bits;
+    piece *first, *last;
+    pg_status status;
+} candidates;
+
 typedef struct {
     const pg_family_search *s;
     const double *centre;
@@ -204,17 +239,13 @@ typedef struct {
     candidates *of;
 } finding;
 
-/* Centres of a group at most. */
-enum { GROUP = 256 };
+/* Centres of a group at most; members in a piece at least. */
+enum { GROUP = 256, PIECE = 1 << 14 };
 
-/* Ascending order; runs that ascend already, one for each row of boxes, are what insertion sort likes, by
- * steps that shrink (Shell's method with Knuth's steps) for long families. */
-static void ascend (size_t n, int *a)
+/* Ascending order by Shell's method with Knuth's steps: insertion sort, by steps that shrink. */
+static void shell_sort (size_t n, int *a)
 {
     size_t step = 1;
-    size_t k = 1;
-    while (k < n && a[k - 1] < a[k]) k++;
-    if (k >= n) return;
     while (step < n / 9) step = 3 * step + 1;
     for (; step > 0; step /= 3)
         for (size_t i = step; i < n; i++) {
@@ -223,6 +254,28 @@ static void ascend (size_t n, int *a)
             for (; j >= step && a[j - step] > value; j -= step) a[j] = a[j - step];
             a[j] = value;
         }
+}
+
+/* Ascending order of different numbers. Those of points near each other mostly lie in a narrow range: then
+ * each sets a bit, and the bits are read off word by word, at a cost without comparisons. */
+static void ascend (size_t n, int *a, uint64_t *bits)
+{
+    size_t k = 1;
+    int least = n ? a[0] : 0, most = least;
+    while (k < n && a[k - 1] < a[k]) k++;
+    if (k >= n) return;
+    for (size_t i = 0; i < n; i++) least = a[i] < least ? a[i] : least, most = a[i] > most ? a[i] : most;
+    size_t from = (size_t) least / 64, to = (size_t) most / 64 + 1, written = 0;
+    if (to - from > 4 * n) {
+        shell_sort (n, a);
+        return;
+    }
+    for (size_t i = 0; i < n; i++) bits[a[i] / 64] |= (uint64_t) 1 << (a[i] % 64);
+    for (size_t w = from; w < to; w++) {
+        for (uint64_t word = bits[w]; word; word &= word - 1)
+            a[written++] = (int) (64 * w) + __builtin_ctzll (word);
+        bits[w] = 0;
+    }
 }
 
 /* The end of the group that begins with centre `first`: as many as lie within the width of a box along each
@@ -248,42 +301,71 @@ static size_t group_of (const finding *f, size_t first, size_t last, double *low
     return end;
 }
 
-/* Whom anybody in the box may see: their number; with `c` in ascending order, with all that is asked of
- * them. */
-static size_t look_around (const finding *f, const double *low, const double *high, candidates *c)
+/* Room for n candidates of a thread; what was there is not kept. */
+static pg_status make_room (candidates *c, const pg_cloud *cloud, size_t n)
 {
+    pg_status status = PG_OK;
+    size_t dim = (size_t) cloud->dim, most = n + n / 2 + 64;
+    if (n <= c->most && c->item) goto done;
+    pg_free (c->item), pg_free (c->chosen), pg_free (c->x);
+    c->item = c->chosen = NULL, c->x = NULL, c->most = 0;
+    PG_ALLOC (c->item, most);
+    PG_ALLOC (c->chosen, most);
+    PG_ALLOC (c->x, (dim + 2 + (cloud->metric ? dim * dim : 0)) * most);
+    if (!c->bits) PG_ALLOC (c->bits, cloud->n / 64 + 1);
+    c->limit = c->x + dim * most, c->away = c->limit + most, c->metric = c->away + most;
+    c->most = most;
+done:
+    return status;
+}
+
+/* Of points whose own reach differs from that of their boxes those stay that somebody in the box low .. high
+ * can see, in the box around their own support: its half-widths are `half` (n x dim), m. */
+static size_t leave_out (const pg_family_search *s, const double *low, const double *high, size_t n,
+                         int *item)
+{
+    size_t dim = (size_t) s->cloud->dim, kept = 0;
+    for (size_t i = 0; s->half && i < n; i++) {
+        const double *x = s->cloud->x + (size_t) item[i] * dim, *half = s->half + (size_t) item[i] * dim;
+        int inside = 1;
+        for (size_t k = 0; k < dim; k++) inside &= x[k] >= low[k] - half[k] && x[k] <= high[k] + half[k];
+        item[kept] = item[i];
+        kept += (size_t) inside;
+    }
+    return s->half ? kept : n;
+}
+
+/* Whom anybody in the box may see, in ascending order, with all that is asked of them. */
+static pg_status look_around (const finding *f, const double *low, const double *high, candidates *c)
+{
+    pg_status status = PG_OK;
     const pg_family_search *s = f->s;
-    size_t n = 0, dim = (size_t) s->cloud->dim;
-    for (size_t k = 0; k < s->n; k++)
-        n += pg_boxes_near (&s->boxes[k], low, high, s->near.shape == PG_RADIAL, c ? c->item + n : NULL);
-    if (!c) return n;
-    ascend (n, c->item);
+    size_t n = 0, dim = (size_t) s->cloud->dim, entries = s->cloud->metric ? dim * dim : 0;
+    int ball = s->near.shape == PG_RADIAL;
+    for (size_t k = 0; k < s->n; k++) n += pg_boxes_near (&s->boxes[k], low, high, ball, NULL);
+    PG_TRY (make_room (c, s->cloud, n));
+    n = 0;
+    for (size_t k = 0; k < s->n; k++) n += pg_boxes_near (&s->boxes[k], low, high, ball, c->item + n);
+    n = leave_out (s, low, high, n, c->item);
+    ascend (n, c->item, c->bits);
     for (size_t i = 0; i < n; i++) {
-        for (size_t k = 0; k < dim; k++) c->x[k * c->most + i] = s->cloud->x[(size_t) c->item[i] * dim + k];
-        c->limit[i] = s->own ? s->own[c->item[i]] : s->limit;
+        size_t j = (size_t) c->item[i];
+        for (size_t k = 0; k < dim; k++) c->x[k * c->most + i] = s->cloud->x[j * dim + k];
+        for (size_t k = 0; k < entries; k++)
+            c->metric[k * c->most + i] = s->cloud->metric[j * entries + k];
+        c->limit[i] = s->own ? s->own[j] : s->limit;
     }
-    return c->n = n;
+    c->n = n;
+done:
+    return status;
 }
 
-/* Before the first pass: how many candidates a group has at most. */
-static void size_up (void *context, size_t first, size_t last, int thread)
-{
-    const finding *f = context;
-    double low[3], high[3];
-    for (size_t end; first < last; first = end) {
-        end = group_of (f, first, last, low, high);
-        size_t n = look_around (f, low, high, NULL);
-        if (n > f->of[thread].most) f->of[thread].most = n;
-    }
-}
-
-/* Measures how far the candidates are and returns the number of those that the centre sees. Loops of known
- * length over all of them, several at a time; the same operations in any instruction set. */
+/* Measures how far the candidates are. Loops of known length over all of them, several at a time; the same
+ * operations in any instruction set. */
 #define INLINE static inline __attribute__ ((always_inline))
-INLINE size_t measure_those (const candidates *c, int dim, int shape, int closed, const double *at)
+INLINE void measure_those (const candidates *c, int dim, int shape, const double *at)
 {
-    size_t found = 0;
-    const double *x = c->x, *y = dim > 1 ? x + c->most : x, *z = dim > 2 ? y + c->most : x, *limit = c->limit;
+    const double *x = c->x, *y = dim > 1 ? x + c->most : x, *z = dim > 2 ? y + c->most : x;
     double *restrict away = c->away;
     for (size_t i = 0; i < c->n; i++) {
         double a = fabs (x[i] - at[0]), b = dim > 1 ? fabs (y[i] - at[1]) : 0,
@@ -291,80 +373,93 @@ INLINE size_t measure_those (const candidates *c, int dim, int shape, int closed
         if (shape == PG_RADIAL) d = dim > 2 ? a * a + b * b + e * e : dim > 1 ? a * a + b * b : a * a;
         else d = a > b ? (a > e ? a : e) : (b > e ? b : e);
         away[i] = d;
-        found += closed ? d <= limit[i] : d < limit[i];
     }
-    return found;
 }
 
-/* The same by the measures of stretched supports; the sum over the axes in the order of pg_cloud_length2, so
+/* The same by the measures of stretched supports; the sums over the axes in the order of pg_cloud_length2, so
  * that the tree of family_tree.c agrees about what lies on the edge. */
-static size_t measure_anisotropic (const candidates *c, const finding *f, const double *at)
+INLINE void measure_anisotropic (const candidates *c, int dim, const double *at)
 {
-    size_t found = 0, dim = (size_t) f->s->cloud->dim;
+    const double *x = c->x, *y = dim > 1 ? x + c->most : x, *z = dim > 2 ? y + c->most : x, *A[9];
+    double *restrict away = c->away;
+    for (int k = 0; k < dim * dim; k++) A[k] = c->metric + (size_t) k * c->most;
     for (size_t i = 0; i < c->n; i++) {
-        double z[3] = { 0 };
-        for (size_t k = 0; k < dim; k++) z[k] = c->x[k * c->most + i] - at[k];
-        c->away[i] = pg_cloud_length2 (f->s->cloud, (size_t) c->item[i], z);
-        found += f->s->near.closed ? c->away[i] <= c->limit[i] : c->away[i] < c->limit[i];
-    }
-    return found;
-}
-
-PG_WIDEST static size_t measure (const candidates *c, int dim, pg_nearness near, const double *at)
-{
-    if (near.shape == PG_RADIAL && dim == 3)
-        return near.closed ? measure_those (c, 3, PG_RADIAL, 1, at) : measure_those (c, 3, PG_RADIAL, 0, at);
-    if (near.shape == PG_RADIAL && dim == 2)
-        return near.closed ? measure_those (c, 2, PG_RADIAL, 1, at) : measure_those (c, 2, PG_RADIAL, 0, at);
-    return measure_those (c, dim, near.shape, near.closed, at);
-}
-
-/* The families of the centres first .. last - 1: in the first pass the number of members of each, at the
- * place where it will end, in the second one, `listing`, the members, ascending as the candidates are. */
-static void find_those (const finding *f, size_t first, size_t last, candidates *c, int listing)
-{
-    double low[3], high[3];
-    for (size_t end; first < last; first = end) {
-        end = group_of (f, first, last, low, high);
-        look_around (f, low, high, c);
-        for (size_t i = first; i < end; i++) {
-            const double *at = f->centre + i * (size_t) f->s->cloud->dim;
-            size_t n = 0, found = f->s->cloud->metric ? measure_anisotropic (c, f, at)
-                                                      : measure (c, f->s->cloud->dim, f->s->near, at);
-            if (!listing) f->out->start[i + 1] = found;
-            for (size_t k = 0; listing && k < c->n; k++) {
-                c->chosen[n] = c->item[k];
-                n += c->away[k] < c->limit[k] || (f->s->near.closed && c->away[k] == c->limit[k]);
-            }
-            if (n) memcpy (f->out->node + f->out->start[i], c->chosen, n * sizeof *c->chosen);
-        }
+        double a = x[i] - at[0], b = dim > 1 ? y[i] - at[1] : 0, e = dim > 2 ? z[i] - at[2] : 0;
+        if (dim == 1) away[i] = a * (A[0][i] * a);
+        else if (dim == 2) away[i] = a * (A[0][i] * a + A[1][i] * b) + b * (A[2][i] * a + A[3][i] * b);
+        else
+            away[i] = a * (A[0][i] * a + A[1][i] * b + A[2][i] * e)
+                      + b * (A[3][i] * a + A[4][i] * b + A[5][i] * e)
+                      + e * (A[6][i] * a + A[7][i] * b + A[8][i] * e);
     }
 }
 
-static void count (void *context, size_t first, size_t last, int thread)
+PG_WIDEST static void measure (const candidates *c, int dim, int shape, int anisotropic, const double *at)
 {
-    const finding *f = context;
-    find_those (f, first, last, &f->of[thread], 0);
+    if (anisotropic && dim == 3) measure_anisotropic (c, 3, at);
+    else if (anisotropic && dim == 2) measure_anisotropic (c, 2, at);
+    else if (anisotropic) measure_anisotropic (c, 1, at);
+    else if (shape == PG_RADIAL && dim == 3) measure_those (c, 3, PG_RADIAL, at);
+    else if (shape == PG_RADIAL && dim == 2) measure_those (c, 2, PG_RADIAL, at);
+    else measure_those (c, dim, shape, at);
 }
 
-static void list (void *context, size_t first, size_t last, int thread)
-{
-    const finding *f = context;
-    find_those (f, first, last, &f->of[thread], 1);
-}
-
-/* Room for the candidates of one thread, whose number at most is known. */
-static pg_status make_room (candidates *c, size_t dim)
+/* Appends the members of the next family to the pieces of the thread. */
+static pg_status append (candidates *c, size_t n)
 {
     pg_status status = PG_OK;
-    PG_ALLOC (c->item, c->most);
-    PG_ALLOC (c->chosen, c->most + 1);
-    PG_ALLOC (c->x, (dim + 2) * c->most);
-    c->limit = c->x + dim * c->most, c->away = c->limit + c->most;
+    if (!c->last || c->last->n + n > c->last->room) {
+        size_t room = n > PIECE ? n : PIECE;
+        piece *p = pg_calloc (1, sizeof *p + room * sizeof *p->member);
+        if (!p) PG_FAIL (PG_E_MEMORY, "no memory for the members of families");
+        p->room = room;
+        if (c->last) c->last->next = p;
+        else c->first = p;
+        c->last = p;
+    }
+    memcpy (c->last->member + c->last->n, c->chosen, n * sizeof *c->chosen);
+    c->last->n += n;
 done:
     return status;
 }
 
+/* The families of the centres first .. last - 1 of a thread: the number of members of each, at the place where
+ * it will end, and the members, ascending as the candidates are. */
+static void find_those (void *context, size_t first, size_t last, int thread)
+{
+    const finding *f = context;
+    const pg_cloud *cloud = f->s->cloud;
+    candidates *c = &f->of[thread];
+    double low[3], high[3];
+    for (size_t end; first < last && c->status == PG_OK; first = end) {
+        end = group_of (f, first, last, low, high);
+        c->status = look_around (f, low, high, c);
+        for (size_t i = first; i < end && c->status == PG_OK; i++) {
+            size_t n = 0;
+            measure (c, cloud->dim, f->s->near.shape, cloud->metric != NULL,
+                     f->centre + i * (size_t) cloud->dim);
+            for (size_t k = 0; k < c->n; k++) {
+                c->chosen[n] = c->item[k];
+                n += c->away[k] < c->limit[k] || (f->s->near.closed && c->away[k] == c->limit[k]);
+            }
+            f->out->start[i + 1] = n;
+            c->status = append (c, n);
+        }
+    }
+}
+
+/* The pieces of all threads in one list; they are freed on the way. */
+static void join_pieces (pg_family *out, size_t parts, candidates *of)
+{
+    size_t at = 0;
+    for (size_t t = 0; t < parts; t++)
+        for (piece *p; (p = of[t].first); of[t].first = p->next, pg_free (p)) {
+            memcpy (out->node + at, p->member, p->n * sizeof *p->member);
+            at += p->n;
+        }
+}
+
+/* One pass: how many members there are is known when all are found, so that they wait in pieces. */
 pg_status pg_family_find (pg_family *out, const pg_family_search *s, size_t n, const double *centre,
                           int threads)
 {
@@ -377,15 +472,18 @@ pg_status pg_family_find (pg_family *out, const pg_family_search *s, size_t n, c
     out->n = n;
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (f.of, parts);
-    pg_parallel (threads, n, size_up, &f);
-    for (size_t t = 0; t < parts; t++) PG_TRY (make_room (&f.of[t], (size_t) s->cloud->dim));
-    pg_parallel (threads, n, count, &f);
+    pg_parallel (threads, n, find_those, &f);
+    /* Messages of other threads do not reach this one. */
+    for (size_t t = 0; t < parts; t++)
+        if (f.of[t].status != PG_OK) PG_FAIL (f.of[t].status, "no memory for families of %zu places", n);
     for (size_t i = 0; i < n; i++) out->start[i + 1] += out->start[i];
     PG_ALLOC (out->node, out->start[n]);
-    pg_parallel (threads, n, list, &f);
+    join_pieces (out, parts, f.of);
 done:
-    for (size_t t = 0; f.of && t < parts; t++)
-        pg_free (f.of[t].item), pg_free (f.of[t].chosen), pg_free (f.of[t].x);
+    for (size_t t = 0; f.of && t < parts; t++) {
+        for (piece *p; (p = f.of[t].first); pg_free (p)) f.of[t].first = p->next;
+        pg_free (f.of[t].item), pg_free (f.of[t].chosen), pg_free (f.of[t].x), pg_free (f.of[t].bits);
+    }
     pg_free (f.of);
     if (status != PG_OK) pg_family_clear (out);
     return status;
