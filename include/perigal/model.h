@@ -289,6 +289,26 @@ void      pg_crack_paths_free   (pg_crack_paths **paths);
 pg_status pg_crack_paths_keep   (pg_crack_paths *paths, const pg_problem *problem, const char *name,
                                  const pg_keeper *keeper);
 
+/* ---- cracks that grow in space ------------------------------------------------------------------------- */
+/* The cracks that exist in a state: those of the scene first, then the triangles that grew, which share their
+ * vertices with each other (no bond passes between them). Triangles are sided: their normal is that of the
+ * front that made them, and points on them keep their bonds to the side that it shows to. They reach as far as
+ * the crack cuts, a little behind the fronts. */
+typedef struct pg_crack_surfaces {
+    pg_cracks cracks;  size_t capacity, nfirst;        /* nfirst: how many are the scene's */
+    double *vertex;  size_t nvertex, vertex_capacity;  /* of the triangles, nvertex x 3, m */
+    size_t *corner;                                    /* per triangle 3 vertices */
+    long   *owner;                                     /* per triangle: id of the front that made it */
+    double *store;                                     /* per triangle the places of its corners, 9 each */
+    pg_front *front;  size_t nfront, front_capacity;   /* those of the scene first */
+    double  area;                                      /* grown since the start, inside the body, m^2 */
+    double  nothing;                                   /* places no further apart are one, m */
+} pg_crack_surfaces;
+pg_status pg_crack_surfaces_create (pg_crack_surfaces **out, const pg_problem *problem);
+pg_status pg_crack_surfaces_copy   (pg_crack_surfaces *to, const pg_crack_surfaces *from);
+void      pg_crack_surfaces_free   (pg_crack_surfaces **surfaces);
+pg_status pg_crack_surfaces_keep   (pg_crack_surfaces *surfaces, const pg_problem *problem, const char *name,
+                                    const pg_keeper *keeper);
 /* ---- fronts of cracks in space ------------------------------------------------------------------------- */
 /* Room for n vertices in the arrays of a front; a copy of one in another's arrays; its arrays. */
 pg_status pg_front_reserve (pg_front *front, size_t n);
@@ -305,6 +325,7 @@ typedef struct {
     double *d, *v, *a;  /* coefficients, velocity, acceleration (ndof): m, m/s, m/s^2 */
     unsigned char *alive;                              /* 1: the bond lives (nbond) */
     pg_crack_paths *paths;                             /* 2D; NULL: cracks do not grow */
+    pg_crack_surfaces *surfaces;                       /* 3D where cracks grow; else NULL */
 } pg_state;
 /* At rest, or with the problem's initial velocity; pre-cracks cut. */
 pg_status pg_state_create (pg_state **out, const pg_problem *problem, int components /* dofs per node */);
@@ -355,6 +376,22 @@ double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t
 
 /* The fronts that exist in a state (NULL: at the start). */
 const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n);
+/* Moves vertex i of an open front by d[i] (m; 0: it stays) in the direction cos theta[i] ahead + sin theta[i]
+ * normal (rad), and adds the triangles between where the crack cut before and where it cuts now. Vertices that
+ * come within 1.5 spacings of the surface ahead, or within 0.6 of another crack or front, go straight there
+ * and are closed; a front is parted where vertices are closed, and ends where none is left. Ends are put on
+ * the surface of the body; vertices are distributed anew where they lie too far apart or too close. All live
+ * bonds that the new triangles cut, of every bond set, are added to `cut`, which stays ascending and names
+ * each once; their alive bits are left to the caller. PG_E_USAGE: no such open front, nothing moves. Nothing
+ * is changed by a call that fails, except `cut`. */
+pg_status pg_front_advance (pg_state *state, const pg_problem *problem, size_t front, const double *d,
+                            const double *theta, pg_changes *cut);
+/* A new crack: the convex polygon of n places (n x 3, m) in a plane of unit normal `normal`; what of its
+ * outline lies inside the body is a front. */
+pg_status pg_surface_start (pg_state *state, const pg_problem *problem, size_t n, const double *x,
+                            const double *normal, pg_changes *cut);
+/* The front grows no more, and its crack cuts to its end. */
+pg_status pg_front_close   (pg_state *state, const pg_problem *problem, size_t front, pg_changes *cut);
 
 /* ---- costs of linear solves, forces on shape functions ------------------------------------------------- */
 typedef struct {

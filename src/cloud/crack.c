@@ -7,8 +7,9 @@
  * `retreat` takes strips along tips and fronts away from a crack (model/tips.c chooses their widths): bonds
  * that cross the crack there are not cut.
  *
- * A sided segment knows only two sides: what lies on its line counts as on the left, and a bond is cut if its
- * ends lie on different sides and it crosses the line within the segment. */
+ * A sided segment or triangle knows only two sides: what lies on its line or plane counts as on the side that
+ * the normal shows to, and a bond is cut if its ends lie on different sides and it crosses the line or plane
+ * within the segment or triangle. */
 #include "perigal/cloud.h"
 #include "polygon.h"
 #include <math.h>
@@ -205,18 +206,19 @@ static int after (int dim, const double *x, const double *y)
     return 0;
 }
 
-/* A sided segment. d, e: distances of the ends from its line, positive on the left. Of an end on the left the
- * part below zero is left out, so that a point within the width crosses at its own foot. */
-static int crosses_sided (const pg_crack *c, const double *x, const double *y, double tolerance)
+/* A sided segment or triangle. d, e: distances of the ends from its line or plane, positive on the side that
+ * the normal shows to. Of an end on that side the part below zero is left out, so that a point within the
+ * width crosses at its own foot. */
+static int crosses_sided (const pg_crack *c, int dim, const double *x, const double *y, double tolerance)
 {
     const double *p = c->vertex;
-    double d = c->normal[0] * (x[0] - p[0]) + c->normal[1] * (x[1] - p[1]),
-           e = c->normal[0] * (y[0] - p[0]) + c->normal[1] * (y[1] - p[1]), at[2];
+    double d = 0, e = 0, at[3];
+    for (int k = 0; k < dim; k++) d += c->normal[k] * (x[k] - p[k]), e += c->normal[k] * (y[k] - p[k]);
     if ((d >= -c->width) == (e >= -c->width)) return 0;
     if (d >= -c->width) d = fmax (d, 0);
     else e = fmax (e, 0);
-    point_at (2, x, y, d / (d - e), at);
-    return meets_segment (c, at, at, tolerance);
+    point_at (dim, x, y, d / (d - e), at);
+    return meets[c->kind] (c, at, at, tolerance);
 }
 
 /* d, e: distances of the ends from the plane of the crack; s, t: the part of the bond within the
@@ -241,7 +243,7 @@ int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double
         const double *swap = x;
         x = y, y = swap;
     }
-    return crack->sided ? crosses_sided (crack, x, y, tolerance) : crosses (crack, dim, x, y, tolerance);
+    return crack->sided ? crosses_sided (crack, dim, x, y, tolerance) : crosses (crack, dim, x, y, tolerance);
 }
 
 /* A bond of no length: both ends at x. */

@@ -10,11 +10,12 @@ struct pg_body_search {
     pg_nearest *near;  /* among the points, where spacings differ or nothing else is known */
 };
 
-/* Bodies in the plane always, as a crack may begin anywhere in them; others if they have cracks. */
+/* Bodies in the plane always, as a crack may begin anywhere in them; others if they have cracks, or may get
+ * some. */
 pg_status pg_body_search_create (pg_problem *p)
 {
     pg_status status = PG_OK;
-    if (p->dim == 1 || (p->dim == 3 && p->cracks.n == 0)) return PG_OK;
+    if (p->dim == 1 || (p->dim == 3 && p->cracks.n == 0 && !pg_problem_grows (p))) return PG_OK;
     PG_ALLOC (p->search, 1);
     if (p->part.mesh.n) PG_TRY (pg_mesh_locator_create (&p->search->locator, &p->part.mesh));
     if (p->cloud.size || (!p->body.n && !p->part.mesh.n))

@@ -314,10 +314,10 @@ void pg_problem_note (pg_problem *p, const char *format, ...)
     va_end (args);
 }
 
-/* Cracks are lines only in two dimensions: there a criterion of facets makes them longer. */
+/* Cracks are lines in two dimensions and surfaces in three: a criterion of facets makes them larger. */
 int pg_problem_grows (const pg_problem *p)
 {
-    return p->dim == 2 && p->criterion && p->criterion->type && (p->criterion->type->needs & PG_NEEDS_FACETS);
+    return p->dim >= 2 && p->criterion && p->criterion->type && (p->criterion->type->needs & PG_NEEDS_FACETS);
 }
 
 /* Are all loads proportional to t, u = t u_1 and F = t F_1? Event stepping then scales one solution

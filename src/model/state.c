@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The state: displacement coefficients, velocity, acceleration, alive bits, in one block; and the paths of
- * its cracks, which grow, in memory of their own (crack_paths.c). */
+ * The state: displacement coefficients, velocity, acceleration, alive bits, in one block; and its cracks,
+ * which grow, in memory of their own: paths in the plane (crack_paths.c), surfaces in space
+ * (crack_surfaces.c). */
 #include "model.h"
 #include <string.h>
 
@@ -27,6 +28,8 @@ pg_status pg_state_create (pg_state **out, const pg_problem *problem, int compon
     s->ndof = ndof, s->nbond = nbond, s->bytes = bytes;
     place (s);
     if (problem->dim == 2) PG_TRY (pg_crack_paths_create (&s->paths, problem));
+    if (problem->dim == 3 && pg_problem_grows (problem))
+        PG_TRY (pg_crack_surfaces_create (&s->surfaces, problem));
     pg_bonds_cut (problem, s->alive);
     if (components == pg_problem_unknowns (problem)) pg_initial_set (problem, s->v);
     *out = s;
@@ -36,18 +39,21 @@ done:
     return status;
 }
 
-/* Copies the paths, which may fail, and then the first bytes of the block: all of it, or all before the alive
+/* Copies the paths and surfaces, which may fail, and then the first bytes of the block: all of it, or all before the alive
  * bits. Both states must be of one problem. */
 static pg_status copy_bytes (pg_state *to, const pg_state *from, size_t bytes)
 {
     pg_status status = PG_OK;
     pg_crack_paths *paths = to->paths;
-    if (to->ndof != from->ndof || to->nbond != from->nbond || !paths != !from->paths)
+    pg_crack_surfaces *surfaces = to->surfaces;
+    if (to->ndof != from->ndof || to->nbond != from->nbond || !paths != !from->paths
+        || !surfaces != !from->surfaces)
         PG_FAIL (PG_E_USAGE, "the states belong to different problems");
     if (paths) PG_TRY (pg_crack_paths_copy (paths, from->paths));
+    if (surfaces) PG_TRY (pg_crack_surfaces_copy (surfaces, from->surfaces));
     memcpy (to, from, bytes);
     place (to);
-    to->paths = paths;
+    to->paths = paths, to->surfaces = surfaces;
 done:
     return status;
 }
@@ -59,21 +65,23 @@ pg_status pg_state_copy_fields (pg_state *to, const pg_state *from)
     return copy_bytes (to, from, (size_t) (from->alive - (const unsigned char *) from));
 }
 
-/* A state in the plane has its own cracks; elsewhere they are those of the scene. */
+/* A state in the plane, or one whose cracks grow, has its own cracks; elsewhere they are those of the
+ * scene. */
 const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *state)
 {
-    return state && state->paths ? &state->paths->cracks : &problem->cracks;
+    if (state && state->paths) return &state->paths->cracks;
+    return state && state->surfaces ? &state->surfaces->cracks : &problem->cracks;
 }
 
 const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n)
 {
-    (void) state;
-    *n = problem->nfront;
-    return problem->front;
+    const pg_crack_surfaces *w = state ? state->surfaces : NULL;
+    *n = w ? w->nfront : problem->nfront;
+    return w ? w->front : problem->front;
 }
 
 void pg_state_free (pg_state **state)
 {
-    if (*state) pg_crack_paths_free (&(*state)->paths);
+    if (*state) pg_crack_paths_free (&(*state)->paths), pg_crack_surfaces_free (&(*state)->surfaces);
     pg_free (*state), *state = NULL;
 }

@@ -50,6 +50,7 @@ static pg_status keep_state (pg_state *s, const pg_problem *p, const char *name,
     }
     PG_TRY (keep_flags (PART (".alive"), s->nbond, s->alive, k));
     if (s->paths) PG_TRY (pg_crack_paths_keep (s->paths, p, PART (".paths"), k));
+    if (s->surfaces) PG_TRY (pg_crack_surfaces_keep (s->surfaces, p, PART (".surfaces"), k));
 #undef PART
 done:
     return status;

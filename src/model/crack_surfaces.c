@@ -1,0 +1,582 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Surfaces of cracks that grow in space: triangles from where a crack of the scene, or a new crack, cut to
+ * where it cuts now, a distance o behind its fronts. A step of a front (doc/method.md, "Surfaces that grow"):
+ *
+ *   1 every vertex goes d in its direction, or to what it meets there; ends go back onto the surface;
+ *   2 the place where the crack cuts behind it follows at the distance o, along the way that it went;
+ *   3 vertices that met something are closed: the crack cuts to their end there, on the surface a spacing
+ *     further; what lies between closed vertices are the fronts from now on, with vertices distributed anew;
+ *   4 triangles between the line where the surface ended and the new one, with the bend of the old front
+ *     between them where the crack kinks.
+ *
+ * All is done on a copy of the surfaces, which takes their place when all has gone well. */
+#include "crack_surfaces.h"
+#include <stdint.h>
+#include <string.h>
+
+/* Overlap with what the crack of the scene cuts, behind its own offset, where it begins to grow: spacings. */
+#define OVERLAP 0.1
+/* How far a crack cuts beyond another one in the plane of which it lies; and beyond one across: spacings. */
+#define FLAP 0.1
+/* Bends of the surface by less than this are not drawn, spacings. */
+#define BEND 0.01
+/* A part between closed vertices of so few vertices goes on, at most so many spacings, and is closed, too. */
+enum { FEW = 1 };
+#define RUN_OUT 4.0
+/* A loop that closes in on itself: shorter than so many spacings. */
+#define LOOP 5.0
+/* Fronts within so many spacings of the place where another one met them end there. */
+#define MET 0.75
+
+/* What one front does in a step. */
+typedef struct {
+    pg_crack_surfaces *w;
+    const pg_problem *p;
+    size_t number;                                     /* of the front in w */
+    pg_front old, now;                                 /* before (a view), and moved */
+    double *c, *bend, *way;  /* where the crack cuts to, and where it bends (n x 3); direction of motion */
+    double *moved;                                     /* distance that each vertex went, m */
+    unsigned char *shut;                               /* vertices that are closed by this step */
+    size_t nshut;
+    size_t *line, nline, line_capacity;                /* the new line, as vertices of w */
+    double *side; size_t side_capacity;                /* and the normals there */
+} stride;
+
+static void shift (const double *x, const double *e, double d, double *out)
+{
+    for (int k = 0; k < 3; k++) out[k] = x[k] + d * e[k];
+}
+
+static double spacing_at (const stride *s, size_t i) { return pg_problem_spacing_at (s->p, s->now.x + 3*i); }
+
+static int is_end (const stride *s, size_t i) { return !s->old.closed && (i == 0 || i + 1 == s->old.n); }
+
+double front_offset_at (const pg_problem *p, const double *x)
+{
+    return p->tip_offset * pg_problem_spacing_at (p, x) / p->cloud.h;
+}
+
+long surfaces_next_id (const pg_crack_surfaces *w)
+{
+    long id = 1;
+    for (size_t f = 0; f < w->nfront; f++) if (w->front[f].id >= id) id = w->front[f].id + 1;
+    return id;
+}
+
+/* ---- 1: vertices --------------------------------------------------------------------------------------- */
+static void shut_at (stride *s, size_t i, unsigned char meets)
+{
+    s->nshut += !s->shut[i];
+    s->shut[i] = 1, s->now.meets[i] = meets;
+}
+
+/* Each vertex for itself; ends, which lie on the surface, see nothing ahead of them. */
+static void move (stride *s, const double *d, const double *theta)
+{
+    for (size_t i = 0; i < s->old.n; i++) {
+        const double *e = s->old.ahead + 3*i, *n = s->old.normal + 3*i;
+        double *way = s->way + 3*i, *x = s->now.x + 3*i, a = theta ? theta[i] : 0, go = d ? d[i] : 0;
+        memcpy (way, e, 3 * sizeof *way);
+        if (!(go > 0)) continue;
+        for (int k = 0; k < 3; k++) {
+            way[k] = cos (a) * e[k] + sin (a) * n[k];
+            s->now.normal[3*i + (size_t) k] = cos (a) * n[k] - sin (a) * e[k];
+        }
+        unsigned char meets = PG_MEETS_NOTHING;
+        if (is_end (s, i)) shift (s->old.x + 3*i, way, go, x);
+        else space_way (s->p, s->w, s->number, i, way, go, &meets, x);
+        if (meets != PG_MEETS_NOTHING) shut_at (s, i, meets);
+    }
+}
+
+/* The end of a front goes back onto the surface, along the line from its neighbour. */
+static void put_back (stride *s, size_t end, size_t beside)
+{
+    double *x = s->now.x + 3*end, *from = s->now.x + 3*beside, e[3];
+    double h = spacing_at (s, beside), length = apart3 (x, from);
+    unsigned char meets;
+    if (s->shut[beside]) shut_at (s, end, s->now.meets[end]);
+    if (s->old.meets[end] == PG_MEETS_NOTHING || !(length > 0)) return;
+    if (apart3 (x, s->old.x + 3*end) == 0 && apart3 (from, s->old.x + 3*beside) == 0) return;
+    for (int k = 0; k < 3; k++) e[k] = (x[k] - from[k]) / length;
+    double r = space_end (s->p, s->w, from, e, length + 2 * h, &meets);
+    if (meets == PG_MEETS_NOTHING) return;
+    shift (from, e, r, x);
+    s->now.meets[end] = meets;
+}
+
+/* A loop that shrinks onto a point. */
+static void close_loop (stride *s)
+{
+    double middle[3] = { 0 }, inward = 0;
+    if (!s->old.closed) return;
+    for (size_t i = 0; i < s->old.n; i++)
+        for (size_t k = 0; k < 3; k++) middle[k] += s->now.x[3*i + k] / (double) s->old.n;
+    for (size_t i = 0; i < s->old.n; i++)
+        for (size_t k = 0; k < 3; k++)
+            inward += s->old.ahead[3*i + k] * (middle[k] - s->now.x[3*i + k]);
+    if (!(inward > 0 && front_length (&s->now) < LOOP * spacing_at (s, 0))) return;
+    for (size_t i = 0; i < s->old.n; i++) {
+        memcpy (s->now.x + 3*i, middle, sizeof middle);
+        shut_at (s, i, PG_MEETS_CRACK);
+    }
+}
+
+/* The last vertices of a ligament go straight on, as far as the surface is near. */
+static void run_out (stride *s, size_t i)
+{
+    double h = spacing_at (s, i), r;
+    unsigned char meets;
+    r = space_end (s->p, s->w, s->old.x + 3*i, s->way + 3*i, RUN_OUT * h, &meets);
+    if (meets != PG_MEETS_NOTHING) shift (s->old.x + 3*i, s->way + 3*i, r, s->now.x + 3*i);
+    shut_at (s, i, meets);
+}
+
+/* Few vertices beside closed ones are closed as well: too short to be a front. */
+static void close_short (stride *s)
+{
+    size_t n = s->old.n;
+    for (size_t i = 0; i < n && s->nshut && s->nshut < n; i++) {
+        size_t m = 0;
+        int before = i ? s->shut[i - 1] : s->old.closed && s->shut[n - 1];
+        if (s->shut[i] || !(before || (i == 0 && !s->old.closed))) continue;
+        while (m < n && !s->shut[(i + m) % n] && (s->old.closed || i + m < n)) m++;
+        int alone = before + (s->old.closed || i + m < n ? 1 : 0);   /* closed vertices beside the part */
+        /* ends on the surface are no vertices of their own */
+        if (alone > 0 && m <= FEW + (alone < 2)) for (size_t k = 0; k < m; k++) run_out (s, (i + k) % n);
+    }
+}
+
+/* Vertices of the same front near the place where another part of it has met it. */
+static void close_met_here (stride *s)
+{
+    size_t n = s->old.n;
+    for (size_t i = 0; i < n; i++) {
+        if (!s->shut[i] || s->now.meets[i] != PG_MEETS_CRACK) continue;
+        for (size_t j = 0; j < n; j++) {
+            size_t ring = i > j ? i - j : j - i;
+            if (s->old.closed && n - ring < ring) ring = n - ring;
+            if (s->shut[j] || ring < 4 || dot3 (s->old.ahead + 3*i, s->old.ahead + 3*j) > 0
+                || apart3 (s->old.x + 3*j, s->now.x + 3*i) > MET * spacing_at (s, j))
+                continue;
+            memcpy (s->now.x + 3*j, s->old.x + 3*j, 3 * sizeof *s->now.x);
+            shut_at (s, j, PG_MEETS_CRACK);
+        }
+    }
+}
+
+/* ---- 2: where the crack cuts --------------------------------------------------------------------------- */
+/* The place of the old rim nearest to where the crack has cut behind vertex i; NULL: there is none near. */
+static const double *rim_at (const stride *s, size_t i, const double *place)
+{
+    const double *best = NULL;
+    double least = 0.3 * spacing_at (s, i);
+    for (size_t r = 0; r < s->old.nrim; r++) {
+        const double *x = s->w->vertex + 3 * s->old.rim[r];
+        if (apart3 (x, place) <= least) least = apart3 (x, place), best = x;
+    }
+    return best;
+}
+
+/* Beyond a vertex that is closed. */
+static double overshoot (const stride *s, size_t i, const double *way)
+{
+    double h = spacing_at (s, i), *x = s->now.x + 3*i;
+    if (s->now.meets[i] == PG_MEETS_SURFACE) return fmax (s->w->nothing, space_beyond (s->p, x, way));
+    return s->now.meets[i] == PG_MEETS_CRACK ? FLAP * h : s->w->nothing;
+}
+
+static void follow (stride *s, size_t i)
+{
+    const double *from = s->old.x + 3*i, *to = s->now.x + 3*i, *e = s->old.ahead + 3*i;
+    double *way = s->way + 3*i, *c = s->c + 3*i, *bend = s->bend + 3*i, behind[3];
+    double d = apart3 (from, to), before = s->old.offset[i], o;
+    o = fmin (front_offset_at (s->p, to), before + 0.25 * d);
+    s->moved[i] = d, s->now.grown[i] += d;
+    if (d > 0) for (int k = 0; k < 3; k++) way[k] = (to[k] - from[k]) / d;
+    memcpy (s->now.ahead + 3*i, way, 3 * sizeof *way);
+    shift (from, e, -before, behind);
+    if (s->shut[i]) {
+        s->now.offset[i] = 0;
+        shift (to, way, overshoot (s, i, way), c);
+        memcpy (bend, from, 3 * sizeof *bend);
+        return;
+    }
+    s->now.offset[i] = o;
+    if (d >= o && d > 0) shift (to, way, -o, c), memcpy (bend, from, 3 * sizeof *bend);
+    else {
+        const double *rim = d > 0 ? NULL : rim_at (s, i, behind);
+        shift (from, e, d > 0 ? d - o : -before, c);
+        if (d == 0) s->now.offset[i] = before;
+        if (rim) memcpy (c, rim, 3 * sizeof *c);
+        memcpy (bend, c, 3 * sizeof *bend);
+    }
+}
+
+/* Does the surface bend between the old line and the new one? */
+static int bends (const stride *s)
+{
+    for (size_t i = 0; i < s->old.n; i++) {
+        double behind[3], u[3], v[3], n[3], depth = s->old.offset[i];
+        shift (s->old.x + 3*i, s->old.ahead + 3*i, s->old.nrim ? -depth : -2 * depth, behind);
+        for (int k = 0; k < 3; k++)
+            u[k] = s->bend[3*i + (size_t) k] - behind[k], v[k] = s->c[3*i + (size_t) k] - behind[k];
+        cross3 (u, v, n);
+        if (size3 (v) > 0 && size3 (n) > BEND * spacing_at (s, i) * size3 (v)) return 1;
+    }
+    return 0;
+}
+
+/* The area that the front has swept: inside the body, for its ends are put back onto the surface. */
+static double swept (const stride *s)
+{
+    double area = 0;
+    for (size_t i = 0; i + !s->old.closed < s->old.n; i++) {
+        size_t j = (i + 1) % s->old.n;
+        const double *a = s->old.x + 3*i, *b = s->old.x + 3*j, *c = s->now.x + 3*i, *d = s->now.x + 3*j;
+        area += triangle_area3 (a, b, c) + triangle_area3 (b, d, c);
+    }
+    return area;
+}
+
+/* ---- 3, 4: lines and triangles ------------------------------------------------------------------------- */
+static pg_status begin_line (stride *s)
+{
+    pg_status status = PG_OK;
+    s->nline = 0;
+    PG_GROW (s->line, s->line_capacity, 8);
+done:
+    return status;
+}
+
+/* Adds a place to the line; one where the surface has a vertex already is that vertex. */
+static pg_status to_line (stride *s, const double *x, const double *normal)
+{
+    pg_status status = PG_OK;
+    size_t v = SIZE_MAX;
+    for (size_t r = 0; r < s->old.nrim && v == SIZE_MAX; r++)
+        if (apart3 (s->w->vertex + 3 * s->old.rim[r], x) <= s->w->nothing) v = s->old.rim[r];
+    if (v == SIZE_MAX) {
+        PG_TRY (surfaces_reserve (s->w, s->w->cracks.n, s->w->nvertex + 1));
+        v = surfaces_put_vertex (s->w, x);
+    }
+    PG_GROW (s->line, s->line_capacity, s->nline + 1);
+    PG_GROW (s->side, s->side_capacity, 3 * (s->nline + 1));
+    s->line[s->nline] = v;
+    memcpy (s->side + 3 * s->nline++, normal, 3 * sizeof *normal);
+done:
+    return status;
+}
+
+/* The line goes on beyond the end of a front on the surface, in the direction from its neighbour. */
+static pg_status beyond_end (stride *s, unsigned char meets, const double *end, const double *beside,
+                             const double *normal)
+{
+    pg_status status = PG_OK;
+    double e[3], out[3], h = pg_problem_spacing_at (s->p, end);
+    for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
+    if (meets == PG_MEETS_NOTHING || !unit3 (e)) return PG_OK;
+    double a = meets == PG_MEETS_SURFACE ? space_to_surface (s->p, end, e, h) : FLAP * h;
+    shift (end, e, a, out);
+    if (meets == PG_MEETS_SURFACE) shift (end, e, a + (a < h ? space_beyond (s->p, out, e) : 0), out);
+    PG_TRY (to_line (s, out, normal));
+done:
+    return status;
+}
+
+/* Places c of all vertices of a front, with what lies beyond its ends. */
+static pg_status line_of (stride *s, const pg_front *f, const double *c)
+{
+    pg_status status = PG_OK;
+    size_t n = f->n;
+    if (!f->closed) PG_TRY (beyond_end (s, f->meets[0], c, c + 3, f->normal));
+    for (size_t i = 0; i < n; i++) PG_TRY (to_line (s, c + 3*i, f->normal + 3*i));
+    if (!f->closed)
+        PG_TRY (beyond_end (s, f->meets[n - 1], c + 3 * (n - 1), c + 3 * (n - 2), f->normal + 3 * (n - 1)));
+done:
+    return status;
+}
+
+/* The line so far is the rim of the old front: triangles from it go on to the next line. */
+static pg_status take_as_rim (stride *s)
+{
+    pg_status status = PG_OK;
+    pg_front *f = &s->old;
+    PG_GROW (f->rim, f->rim_capacity, s->nline);
+    if (s->nline) memcpy (f->rim, s->line, s->nline * sizeof *f->rim);
+    f->nrim = s->nline;
+done:
+    return status;
+}
+
+/* Triangles from the rim to the line, which is the rim then. */
+static pg_status tile (stride *s)
+{
+    pg_status status = PG_OK;
+    surface_line from = { s->old.nrim, s->old.rim, NULL, s->old.closed },
+                 to = { s->nline, s->line, s->side, s->old.closed };
+    PG_TRY (surfaces_zip (s->w, s->p, &from, &to, s->old.id));
+    PG_TRY (take_as_rim (s));
+done:
+    return status;
+}
+
+/* Where a crack of the scene begins to grow, it cuts up to its offset behind the front; the corners of its
+ * front are as far behind as the bisector makes them. */
+static pg_status first_rim (stride *s)
+{
+    pg_status status = PG_OK;
+    double *c = NULL;
+    if (s->old.nrim) return PG_OK;
+    PG_ALLOC (c, 3 * s->old.n);
+    for (size_t i = 0; i < s->old.n; i++)
+        shift (s->old.x + 3*i, s->old.ahead + 3*i, -2 * s->old.offset[i] - OVERLAP * spacing_at (s, i), c + 3*i);
+    PG_TRY (begin_line (s));
+    PG_TRY (line_of (s, &s->old, c));
+    PG_TRY (take_as_rim (s));
+done:
+    pg_free (c);
+    return status;
+}
+
+/* Vertices first .. first + m - 1 (of a loop: beyond its end from its beginning on) as a front of their
+ * own. */
+static pg_status part_of (stride *s, size_t first, size_t m, pg_front *out, double **c)
+{
+    pg_status status = PG_OK;
+    const pg_front *f = &s->now;
+    PG_TRY (pg_front_reserve (out, m));
+    PG_ALLOC (*c, 3 * m);
+    out->id = f->id, out->open = 1, out->n = m, out->closed = f->closed && s->nshut == 0;
+    for (size_t k = 0; k < m; k++) {
+        size_t i = (first + k) % f->n;
+        memcpy (out->x + 3*k, f->x + 3*i, 3 * sizeof *out->x);
+        memcpy (out->normal + 3*k, f->normal + 3*i, 3 * sizeof *out->x);
+        memcpy (out->ahead + 3*k, f->ahead + 3*i, 3 * sizeof *out->x);
+        memcpy (*c + 3*k, s->c + 3*i, 3 * sizeof *out->x);
+        out->offset[k] = s->shut[i] ? front_offset_at (s->p, f->x + 3*i) : f->offset[i];
+        out->grown[k] = f->grown[i], out->meets[k] = f->meets[i];
+    }
+    PG_TRY (front_resample (out, s->p, c));
+    front_frames (out);
+done:
+    return status;
+}
+
+/* Adds the front of a part to the line; its rim is that stretch of the line. `shared`: its first vertex is
+ * the last of the line already. */
+static pg_status lay (stride *s, pg_front *f, const double *c, int shared, int starts, int stops)
+{
+    pg_status status = PG_OK;
+    size_t first = s->nline - (size_t) shared, n = f->n;
+    if (starts) PG_TRY (beyond_end (s, f->meets[0], c, c + 3, f->normal));
+    for (size_t i = (size_t) shared; i < n; i++) PG_TRY (to_line (s, c + 3*i, f->normal + 3*i));
+    if (stops)
+        PG_TRY (beyond_end (s, f->meets[n - 1], c + 3 * (n - 1), c + 3 * (n - 2), f->normal + 3 * (n - 1)));
+    f->nrim = s->nline - first;
+    PG_GROW (f->rim, f->rim_capacity, f->nrim);
+    memcpy (f->rim, s->line + first, f->nrim * sizeof *f->rim);
+done:
+    return status;
+}
+
+/* A front that is left takes the place of the old one, further ones come behind all others. */
+static pg_status settle (stride *s, pg_front *part, size_t *parts)
+{
+    pg_status status = PG_OK;
+    pg_crack_surfaces *w = s->w;
+    size_t to = s->number;
+    if ((*parts)++ > 0) {
+        PG_TRY (surfaces_reserve_fronts (w, w->nfront + 1));
+        part->id = surfaces_next_id (w);
+        to = w->nfront++;
+    }
+    pg_front_clear (&w->front[to]);
+    w->front[to] = *part;
+    *part = (pg_front) { 0 };
+done:
+    return status;
+}
+
+/* The parts between closed vertices, one after the other, and the line that they make with these. */
+static pg_status divide (stride *s)
+{
+    pg_status status = PG_OK;
+    pg_front part = { 0 };
+    double *c = NULL;
+    size_t n = s->old.n, begin = 0, parts = 0;
+    int loop = s->old.closed;
+    PG_TRY (begin_line (s));
+    if (s->nshut == 0) {
+        PG_TRY (part_of (s, 0, n, &part, &c));
+        PG_TRY (lay (s, &part, c, 0, !loop, !loop));
+        PG_TRY (settle (s, &part, &parts));
+        goto done;
+    }
+    while (loop && !s->shut[begin]) begin++;
+    size_t steps = n + (size_t) loop;                  /* of a loop the first one closes it, too */
+    for (size_t k = 0; k < steps; ) {
+        size_t i = (begin + k) % n, m = 0;
+        int left = k > 0;                              /* a closed vertex, which the line has already */
+        if (s->shut[i] && !(loop && k == n)) {
+            int last = !loop && k + 1 == n;
+            const double *normal = s->now.normal + 3*i, *at = s->c + 3*i;
+            if (k == 0 && !loop) PG_TRY (beyond_end (s, s->now.meets[0], at, s->c + 3, normal));
+            PG_TRY (to_line (s, at, normal));
+            if (last) PG_TRY (beyond_end (s, s->now.meets[i], at, s->c + 3 * (i - 1), normal));
+        }
+        if (s->shut[i]) { k++; continue; }
+        while (k + m < steps && !s->shut[(begin + k + m) % n]) m++;
+        int right = k + m < steps;
+        PG_TRY (part_of (s, (i + n - (size_t) left) % n, m + (size_t) left + (size_t) right, &part, &c));
+        PG_TRY (lay (s, &part, c, left, !left, !right));
+        PG_TRY (settle (s, &part, &parts));
+        pg_free (c), c = NULL;
+        k += m + (size_t) right;                       /* the closed vertex on the right is laid */
+    }
+    if (parts == 0) s->w->front[s->number].open = 0, s->w->front[s->number].nrim = 0;
+done:
+    pg_front_clear (&part);
+    pg_free (c);
+    return status;
+}
+
+/* ---- a step -------------------------------------------------------------------------------------------- */
+static void clear_stride (stride *s)
+{
+    pg_front_clear (&s->old), pg_front_clear (&s->now);
+    pg_free (s->c), pg_free (s->bend), pg_free (s->way), pg_free (s->moved), pg_free (s->shut);
+    pg_free (s->line), pg_free (s->side);
+}
+
+static pg_status begin_stride (stride *s, pg_crack_surfaces *w, const pg_problem *p, size_t front)
+{
+    pg_status status = PG_OK;
+    size_t n = w->front[front].n;
+    s->w = w, s->p = p, s->number = front;
+    PG_TRY (pg_front_copy (&s->old, &w->front[front]));
+    PG_TRY (pg_front_copy (&s->now, &s->old));
+    PG_ALLOC (s->c, 3 * n);
+    PG_ALLOC (s->bend, 3 * n);
+    PG_ALLOC (s->way, 3 * n);
+    PG_ALLOC (s->moved, n);
+    PG_ALLOC (s->shut, n);
+done:
+    return status;
+}
+
+/* One front; `ends`: vertices that end where they are, NULL: none. met: for vertices of all fronts, one array
+ * after the other in the order of `start`, whether this step has run into them; NULL: not wanted. */
+static pg_status step (pg_crack_surfaces *w, const pg_problem *p, size_t front, const double *d,
+                       const double *theta, const unsigned char *ends, unsigned char *met,
+                       const size_t *start, size_t nfront)
+{
+    pg_status status = PG_OK;
+    stride s = { 0 };
+    PG_TRY (begin_stride (&s, w, p, front));
+    size_t n = s.old.n;
+    for (size_t i = 0; i < n; i++) if (ends && ends[i]) shut_at (&s, i, s.old.meets[i] ? s.old.meets[i] : 2);
+    move (&s, d, theta);
+    if (!s.old.closed && n > 1) put_back (&s, 0, 1), put_back (&s, n - 1, n - 2);
+    close_met_here (&s);
+    close_loop (&s);
+    close_short (&s);
+    for (size_t i = 0; i < n; i++) follow (&s, i);
+    w->area += swept (&s);
+    PG_TRY (first_rim (&s));
+    if (bends (&s)) {
+        PG_TRY (begin_line (&s));
+        PG_TRY (line_of (&s, &s.old, s.bend));
+        PG_TRY (tile (&s));
+    }
+    PG_TRY (divide (&s));
+    PG_TRY (tile (&s));
+    for (size_t i = 0; met && i < n; i++) {
+        if (!s.shut[i] || s.now.meets[i] != PG_MEETS_CRACK) continue;
+        for (size_t g = 0; g < nfront; g++)
+            for (size_t j = 0; g != front && w->front[g].open && j < w->front[g].n; j++)
+                if (apart3 (w->front[g].x + 3*j, s.now.x + 3*i) <= MET * spacing_at (&s, i))
+                    met[start[g] + j] = 1;
+    }
+done:
+    clear_stride (&s);
+    return status;
+}
+
+/* The step of a front, then of those that it has met, which end there. */
+static pg_status step_all (pg_crack_surfaces *w, const pg_problem *p, size_t front, const double *d,
+                           const double *theta, const unsigned char *ends)
+{
+    pg_status status = PG_OK;
+    size_t nfront = w->nfront, *start = NULL;
+    unsigned char *met = NULL;
+    PG_ALLOC (start, nfront + 1);
+    for (size_t g = 0; g < nfront; g++) start[g + 1] = start[g] + w->front[g].n;
+    PG_ALLOC (met, start[nfront] + 1);
+    PG_TRY (step (w, p, front, d, theta, ends, met, start, nfront));
+    for (size_t g = 0; g < nfront; g++)
+        if (g != front && memchr (met + start[g], 1, w->front[g].n))
+            PG_TRY (step (w, p, g, NULL, NULL, met + start[g], NULL, start, nfront));
+done:
+    pg_free (start), pg_free (met);
+    return status;
+}
+
+pg_status surfaces_begin (pg_crack_surfaces **fresh, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (*fresh, 1);
+    PG_TRY (pg_crack_surfaces_copy (*fresh, state->surfaces));
+done:
+    return status;
+}
+
+pg_status surfaces_finish (pg_crack_surfaces **fresh, pg_state *state, const pg_problem *p, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    PG_TRY (pg_cracks_index (&(*fresh)->cracks));
+    PG_TRY (surfaces_find_cut (state, p, *fresh, state->surfaces->cracks.n, cut));
+    pg_crack_surfaces *old = state->surfaces;
+    state->surfaces = *fresh, *fresh = old;
+done:
+    return status;
+}
+
+pg_status pg_front_advance (pg_state *state, const pg_problem *p, size_t front, const double *d,
+                            const double *theta, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    pg_crack_surfaces *fresh = NULL;
+    double most = 0;
+    if (!state->surfaces || front >= state->surfaces->nfront || !state->surfaces->front[front].open)
+        PG_FAIL (PG_E_USAGE, "there is no open front %zu", front + 1);
+    for (size_t i = 0; i < state->surfaces->front[front].n; i++)
+        most = d[i] >= 0 && isfinite (theta[i]) ? fmax (most, d[i]) : INFINITY;
+    if (!(most > state->surfaces->nothing && isfinite (most)))
+        PG_FAIL (PG_E_USAGE, "a front cannot advance by %g m", most);
+    PG_TRY (surfaces_begin (&fresh, state));
+    PG_TRY (step_all (fresh, p, front, d, theta, NULL));
+    PG_TRY (surfaces_finish (&fresh, state, p, cut));
+done:
+    pg_crack_surfaces_free (&fresh);
+    return status;
+}
+
+pg_status pg_front_close (pg_state *state, const pg_problem *p, size_t front, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    pg_crack_surfaces *fresh = NULL;
+    unsigned char *ends = NULL;
+    if (!state->surfaces || front >= state->surfaces->nfront || !state->surfaces->front[front].open)
+        PG_FAIL (PG_E_USAGE, "there is no open front %zu", front + 1);
+    size_t n = state->surfaces->front[front].n;
+    PG_ALLOC (ends, n);
+    memset (ends, 1, n);
+    PG_TRY (surfaces_begin (&fresh, state));
+    PG_TRY (step_all (fresh, p, front, NULL, NULL, ends));
+    PG_TRY (surfaces_finish (&fresh, state, p, cut));
+done:
+    pg_free (ends);
+    pg_crack_surfaces_free (&fresh);
+    return status;
+}

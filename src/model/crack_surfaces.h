@@ -1,0 +1,91 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private to the model folder: surfaces of cracks that grow in space, and how a front advances.
+ *
+ *   crack_surfaces.c        one step of a front on a copy of the surfaces; what of it is a front after it
+ *   crack_surfaces_tiles.c  triangles between two lines
+ *   crack_surfaces_meet.c   where a vertex meets the surface of the body, another crack, another front
+ *   crack_surfaces_line.c   vertices of a front distributed anew, and their frames
+ *   crack_surfaces_cut.c    the bonds that new triangles cut
+ *   crack_surfaces_start.c  new cracks
+ *   crack_surfaces_memory.c memory, copies, checkpoints */
+#ifndef PG_MODEL_CRACK_SURFACES_H
+#define PG_MODEL_CRACK_SURFACES_H
+#include "model.h"
+#include <math.h>
+
+/* ---- small vectors ------------------------------------------------------------------------------------- */
+static inline double dot3 (const double *a, const double *b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
+static inline double size3 (const double *a) { return hypot (hypot (a[0], a[1]), a[2]); }
+static inline double apart3 (const double *a, const double *b)
+{
+    return hypot (hypot (a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
+}
+static inline void cross3 (const double *a, const double *b, double *out)
+{
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3;
+        out[k] = a[m]*b[n] - a[n]*b[m];
+    }
+}
+/* Of unit length; 0: it has none. */
+static inline int unit3 (double *a)
+{
+    double s = size3 (a);
+    for (int k = 0; k < 3 && s > 0; k++) a[k] /= s;
+    return s > 0;
+}
+
+/* ---- crack_surfaces_memory.c --------------------------------------------------------------------------- */
+pg_status surfaces_reserve (pg_crack_surfaces *w, size_t cracks, size_t vertices);   /* in all */
+pg_status surfaces_reserve_fronts (pg_crack_surfaces *w, size_t n);
+
+/* ---- crack_surfaces_tiles.c ---------------------------------------------------------------------------- */
+/* Appends a vertex, or a triangle of a unit normal; there is room for it. */
+size_t surfaces_put_vertex (pg_crack_surfaces *w, const double *x);
+void   surfaces_put_triangle (pg_crack_surfaces *w, const size_t corner[3], const double *normal,
+                              double width, long owner);
+/* A line of vertices of the surfaces; closed: from the last on to the first. normal: of the crack there, the
+ * side that triangles show to (n x 3). */
+typedef struct { size_t n; const size_t *vertex; const double *normal; int closed; } surface_line;
+/* Triangles between two lines of the same direction, by the shorter diagonal at each step. Those of next to
+ * no height are left out. */
+pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
+                        const surface_line *to, long owner);
+double triangle_area3 (const double *a, const double *b, const double *c);
+
+/* ---- crack_surfaces_meet.c ----------------------------------------------------------------------------- */
+/* Distance from x in direction e (unit) to the first place without body, at most `limit`, m. */
+double space_to_surface (const pg_problem *p, const double *x, const double *e, double limit);
+/* How far a crack that ends on the surface at x, going in direction e, cuts beyond it. */
+double space_beyond (const pg_problem *p, const double *x, const double *e);
+/* Where a vertex that would go to x + d e ends: the way to go, m; *meets: what it meets there. */
+double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front, size_t vertex,
+                  const double *e, double d, unsigned char *meets, double *place);
+/* Distance from x in direction e to the first place without body or to a crack, whichever comes first, at
+ * most `limit`; *meets: which. */
+double space_end (const pg_problem *p, const pg_crack_surfaces *w, const double *x, const double *e,
+                  double limit, unsigned char *meets);
+
+/* ---- crack_surfaces_line.c ----------------------------------------------------------------------------- */
+/* Unit tangent at vertex i of a front. */
+void front_tangent (const pg_front *f, size_t i, double *tangent);
+/* Makes ahead and normal orthogonal to the tangent and to each other. */
+void front_frames (pg_front *f);
+/* Vertices about a spacing apart; c: the places where the crack cuts to (n x 3), moved with them. */
+pg_status front_resample (pg_front *f, const pg_problem *p, double **c);
+
+/* ---- crack_surfaces_cut.c ------------------------------------------------------------------------------ */
+/* Adds to `cut` the live bonds that triangles from number `first` on cut; `cut` stays ascending. */
+pg_status surfaces_find_cut (const pg_state *s, const pg_problem *p, const pg_crack_surfaces *w, size_t first,
+                             pg_changes *cut);
+
+/* ---- crack_surfaces.c ---------------------------------------------------------------------------------- */
+/* A copy to work on; and its place in the state, with the bonds that what is new cuts. */
+pg_status surfaces_begin  (pg_crack_surfaces **fresh, const pg_state *state);
+pg_status surfaces_finish (pg_crack_surfaces **fresh, pg_state *state, const pg_problem *p, pg_changes *cut);
+/* How far behind its place a front cuts nothing, m. */
+double front_offset_at (const pg_problem *p, const double *x);
+long   surfaces_next_id (const pg_crack_surfaces *w);
+/* Length of a front, m. */
+double front_length (const pg_front *f);
+#endif

@@ -1,0 +1,200 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A front as a line: its tangents, the frames of its vertices, and the vertices distributed anew. Between
+ * corners, which stay corners, vertices lie on a cubic through the old ones (Hermite, with the slope of the
+ * parabola through three neighbours), at equal parts of the length measured in local spacings. A stretch whose
+ * vertices are 0.6 to 1.5 spacings apart is left as it is. */
+#include "crack_surfaces.h"
+#include <string.h>
+
+static const double nearest_apart = 0.6, farthest_apart = 1.5;
+#define CORNER 0.64                                    /* cosine of the turn at a corner, 50 degrees */
+
+/* ---- slopes -------------------------------------------------------------------------------------------- */
+/* The vertex `by` places further along; -1: the front ends before. */
+static long beside (const pg_front *f, size_t i, long by)
+{
+    long n = (long) f->n, j = (long) i + by;
+    if (f->closed) return (j % n + n) % n;
+    return j >= 0 && j < n ? j : -1;
+}
+
+/* Derivative of the values x (n x 3) with respect to the length s of the front at vertex i: of the parabola
+ * through it and its neighbours; at an end of the straight line to the next one. */
+static void slope (const pg_front *f, const double *x, size_t i, double *out)
+{
+    long a = beside (f, i, -1), b = beside (f, i, 1);
+    double l = a >= 0 ? apart3 (f->x + 3*i, f->x + 3*a) : 0, r = b >= 0 ? apart3 (f->x + 3*i, f->x + 3*b) : 0;
+    for (int k = 0; k < 3; k++) {
+        double left = l > 0 ? (x[3*i + (size_t) k] - x[3*a + k]) / l : 0,
+               right = r > 0 ? (x[3*b + k] - x[3*i + (size_t) k]) / r : 0;
+        out[k] = l > 0 && r > 0 ? (left * r + right * l) / (l + r) : l > 0 ? left : right;
+    }
+}
+
+void front_tangent (const pg_front *f, size_t i, double *tangent)
+{
+    slope (f, f->x, i, tangent);
+    if (!unit3 (tangent)) cross3 (f->ahead + 3*i, f->normal + 3*i, tangent);
+}
+
+/* Ahead first, then the normal, which keeps its side: t = e x n. */
+void front_frames (pg_front *f)
+{
+    for (size_t i = 0; i < f->n; i++) {
+        double t[3], n[3], *e = f->ahead + 3*i, *normal = f->normal + 3*i, e0[3];
+        front_tangent (f, i, t);
+        memcpy (e0, e, sizeof e0);
+        double along = dot3 (e, t);
+        for (int k = 0; k < 3; k++) e[k] -= along * t[k];
+        if (!unit3 (e)) memcpy (e, e0, sizeof e0);
+        cross3 (t, e, n);
+        if (dot3 (n, normal) < 0) for (int k = 0; k < 3; k++) n[k] = -n[k];
+        if (unit3 (n)) memcpy (normal, n, sizeof n);
+    }
+}
+
+double front_length (const pg_front *f)
+{
+    double length = 0;
+    for (size_t i = 0; i + !f->closed < f->n; i++) length += apart3 (f->x + 3*i, f->x + 3 * ((i + 1) % f->n));
+    return length;
+}
+
+/* ---- distributing -------------------------------------------------------------------------------------- */
+/* Cosine of the turn of the front at vertex i; 1 at an end. */
+static double straightness (const pg_front *f, size_t i)
+{
+    long a = beside (f, i, -1), b = beside (f, i, 1);
+    double u[3], v[3];
+    if (a < 0 || b < 0) return 1;
+    for (size_t k = 0; k < 3; k++)
+        u[k] = f->x[3*i + k] - f->x[3 * (size_t) a + k], v[k] = f->x[3 * (size_t) b + k] - f->x[3*i + k];
+    return unit3 (u) && unit3 (v) ? dot3 (u, v) : 1;
+}
+
+/* A corner turns by much more than its neighbours: small loops turn everywhere. */
+static int is_corner (const pg_front *f, size_t i)
+{
+    long a = beside (f, i, -1), b = beside (f, i, 1);
+    double turn = acos (fmax (-1, fmin (1, straightness (f, i))));
+    if (a < 0 || b < 0) return 1;
+    return straightness (f, i) < CORNER && acos (fmax (-1, straightness (f, (size_t) a))) < 0.5 * turn
+           && acos (fmax (-1, straightness (f, (size_t) b))) < 0.5 * turn;
+}
+
+/* Where a new vertex lies: on the segment from vertex `from`, at the share `t` of it. */
+typedef struct { size_t from; double t; } spot;
+
+/* The vertices of the stretch from corner `first` over m segments, but for its last one: as they are, or
+ * distributed anew. Returns how many; *moved: they are others. */
+static size_t spots_of (const pg_front *f, const pg_problem *p, size_t first, size_t m, size_t least,
+                        spot *out, size_t room, int *moved)
+{
+    double total = 0, shortest = INFINITY, longest = 0;
+    for (size_t k = 0; k < m; k++) {
+        size_t i = (first + k) % f->n, j = (i + 1) % f->n;
+        double s = apart3 (f->x + 3*i, f->x + 3*j) / pg_problem_spacing_at (p, f->x + 3*i);
+        total += s, shortest = fmin (shortest, s), longest = fmax (longest, s);
+    }
+    size_t parts = (size_t) fmax ((double) least, floor (total + 0.5)), n = 0;
+    int keep = (shortest >= nearest_apart && longest <= farthest_apart && m >= least)
+               || (m == parts && m == 1);
+    if (keep || parts > room) {
+        for (size_t k = 0; k < m; k++) out[n++] = (spot) { (first + k) % f->n, 0 };
+        return n;
+    }
+    *moved = 1;
+    double passed = 0;
+    for (size_t k = 0; k < m && n < parts; k++) {
+        size_t i = (first + k) % f->n, j = (i + 1) % f->n;
+        double s = apart3 (f->x + 3*i, f->x + 3*j) / pg_problem_spacing_at (p, f->x + 3*i);
+        for (; n < parts; n++) {
+            double goal = total * (double) n / (double) parts - passed;
+            if (goal > s && k + 1 < m) break;
+            out[n] = (spot) { i, s > 0 ? fmin (1, fmax (0, goal / s)) : 0 };
+        }
+        passed += s;
+    }
+    return n;
+}
+
+/* Values x (n x 3) at a spot: the cubic of their slopes. */
+static void value_at (const pg_front *f, const double *x, spot q, double *out)
+{
+    size_t i = q.from, j = (i + 1) % f->n;
+    double a[3], b[3], t = q.t, l = apart3 (f->x + 3*i, f->x + 3*j);
+    if (t == 0) { memcpy (out, x + 3*i, 3 * sizeof *out); return; }
+    /* beyond a corner the line goes on otherwise: its own direction counts there */
+    if (is_corner (f, i)) for (size_t k = 0; k < 3; k++) a[k] = (x[3*j + k] - x[3*i + k]) / l;
+    else slope (f, x, i, a);
+    if (is_corner (f, j)) for (size_t k = 0; k < 3; k++) b[k] = (x[3*j + k] - x[3*i + k]) / l;
+    else slope (f, x, j, b);
+    double h00 = (1 + 2*t) * (1 - t) * (1 - t), h10 = t * (1 - t) * (1 - t), h01 = t * t * (3 - 2*t),
+           h11 = t * t * (t - 1);
+    for (size_t k = 0; k < 3; k++)
+        out[k] = h00 * x[3*i + k] + h10 * l * a[k] + h01 * x[3*j + k] + h11 * l * b[k];
+}
+
+/* The new vertices with all they have. */
+static pg_status move_to (pg_front *f, double **c, const spot *q, size_t n)
+{
+    pg_status status = PG_OK;
+    pg_front g = { .id = f->id, .closed = f->closed, .open = f->open, .n = n };
+    double *d = NULL;
+    PG_TRY (pg_front_reserve (&g, n));
+    PG_ALLOC (d, 3 * n);
+    for (size_t m = 0; m < n; m++) {
+        size_t i = q[m].from, j = (i + 1) % f->n;
+        double t = q[m].t;
+        value_at (f, f->x, q[m], g.x + 3*m), value_at (f, *c, q[m], d + 3*m);
+        for (size_t k = 0; k < 3; k++) {
+            g.normal[3*m + k] = (1 - t) * f->normal[3*i + k] + t * f->normal[3*j + k];
+            g.ahead[3*m + k] = (1 - t) * f->ahead[3*i + k] + t * f->ahead[3*j + k];
+        }
+        unit3 (g.normal + 3*m), unit3 (g.ahead + 3*m);
+        g.offset[m] = (1 - t) * f->offset[i] + t * f->offset[j];
+        g.grown[m] = (1 - t) * f->grown[i] + t * f->grown[j];
+        g.meets[m] = t == 0 ? f->meets[i] : t == 1 ? f->meets[j] : PG_MEETS_NOTHING;
+    }
+    g.rim = f->rim, g.nrim = f->nrim, g.rim_capacity = f->rim_capacity;
+    f->rim = NULL;
+    pg_front_clear (f);
+    *f = g, g = (pg_front) { 0 };
+    pg_free (*c);
+    *c = d, d = NULL;
+done:
+    pg_front_clear (&g);
+    pg_free (d);
+    return status;
+}
+
+pg_status front_resample (pg_front *f, const pg_problem *p, double **c)
+{
+    pg_status status = PG_OK;
+    spot *q = NULL;
+    size_t n = 0, corners = 0, first = 0, room = 4 * f->n + 64;
+    int moved = 0;
+    double finest = INFINITY;
+    if (f->n < 2) return PG_OK;
+    for (size_t i = 0; i < f->n; i++) {
+        if (is_corner (f, i) && corners++ == 0) first = i;
+        finest = fmin (finest, pg_problem_spacing_at (p, f->x + 3*i));
+    }
+    room += 2 * (size_t) (front_length (f) / finest);
+    PG_ALLOC (q, room + 2);
+    size_t segments = f->n - !f->closed, begin = first;
+    if (corners == 0) n = spots_of (f, p, 0, segments, 6, q, room, &moved);
+    for (size_t k = 1; corners && k <= segments; k++) {
+        size_t i = (first + k) % f->n;
+        if (k < segments && !is_corner (f, i)) continue;
+        size_t m = (i + f->n - begin) % f->n;
+        if (m == 0) m = f->n;
+        n += spots_of (f, p, begin, m, corners == 2 && !f->closed ? 2 : 1, q + n, room - n, &moved);
+        begin = i;
+    }
+    if (!f->closed) q[n++] = (spot) { f->n - 2, 1 };
+    if (moved) PG_TRY (move_to (f, c, q, n));
+done:
+    pg_free (q);
+    return status;
+}

@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What lies ahead of a vertex of a front in space: the surface of the body, a crack, another front. As in the
+ * plane (solve/facet_place.c), a vertex that would end within 1.5 spacings of the surface goes straight on
+ * into it, for there is no room any more for integrals around it; one that would end within 0.6 spacings of a
+ * crack, or of a front, goes there. */
+#include "crack_surfaces.h"
+#include <string.h>
+
+/* Steps of a ray in a spacing; halvings of the last one: 2^-44 of it is rounding. */
+enum { STEPS = 8, HALVINGS = 44 };
+static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
+/* How far a crack cuts beyond the surface, for points may lie outside of it: spacings. */
+static const double beyond_surface = 1;
+/* Nearer hits are the crack that the vertex itself belongs to: spacings. */
+static const double own = 1e-3;
+
+static int body_at (const pg_problem *p, const double *x, const double *e, double r)
+{
+    double place[3];
+    for (int k = 0; k < 3; k++) place[k] = x[k] + r * e[k];
+    return pg_problem_has_body (p, place);
+}
+
+/* A vertex within rounding of the surface has some body to one side only, so the first step counts as a
+ * whole. */
+double space_to_surface (const pg_problem *p, const double *x, const double *e, double limit)
+{
+    double step = pg_problem_spacing_at (p, x) / STEPS, near = 0, far;
+    for (long i = 1; near < limit; i++, near = far) {
+        far = fmin ((double) i * step, limit);
+        if (body_at (p, x, e, far)) continue;
+        for (int k = 0; k < HALVINGS; k++) {
+            double middle = 0.5 * (near + far);
+            if (body_at (p, x, e, middle)) near = middle;
+            else far = middle;
+        }
+        return near;
+    }
+    return limit;
+}
+
+/* Not into body that follows. */
+double space_beyond (const pg_problem *p, const double *x, const double *e)
+{
+    double h = pg_problem_spacing_at (p, x);
+    int free = 0;
+    for (int part = 1; part <= STEPS; part++) {
+        int body = body_at (p, x, e, beyond_surface * h * part / STEPS);
+        if (body && free) return beyond_surface * h * (part - 1) / STEPS;
+        free |= !body;
+    }
+    return free ? beyond_surface * h : 0;
+}
+
+/* Distance at which a ray meets a plane crack, drawn whole; INFINITY: nowhere up to `limit`, or along it. */
+static double ray_to_crack (const pg_crack *c, const double *x, const double *e, double limit, double h)
+{
+    const double *o = c->kind == PG_CRACK_DISC ? c->centre : c->vertex;
+    double slope = dot3 (c->normal, e), w[3], place[3];
+    if (!(fabs (slope) > 1e-6)) return INFINITY;
+    for (int k = 0; k < 3; k++) w[k] = o[k] - x[k];
+    double r = dot3 (c->normal, w) / slope;
+    if (!(r > own * h && r <= limit)) return INFINITY;
+    for (int k = 0; k < 3; k++) place[k] = x[k] + r * e[k];
+    pg_crack whole = *c;
+    whole.retreat = NULL;
+    return pg_crack_touches (&whole, 3, place, PG_NO_LENGTH * h) ? r : INFINITY;
+}
+
+/* The first crack that a ray meets. The boxes of the cracks tell of most of them that they are elsewhere. */
+static double ray_to_cracks (const pg_cracks *c, const double *x, const double *e, double limit, double h)
+{
+    double best = INFINITY;
+    for (size_t k = 0; k < c->n; k++) {
+        const double *box = c->box ? c->box + 6*k : NULL;
+        int away = 0;
+        for (int a = 0; a < 3 && box && !away; a++)
+            away = fmin (x[a], x[a] + limit * e[a]) > box[3 + a] || fmax (x[a], x[a] + limit * e[a]) < box[a];
+        if (!away) best = fmin (best, ray_to_crack (&c->crack[k], x, e, limit, h));
+    }
+    return best;
+}
+
+/* The place of the segment a - b nearest to x; returns the distance. */
+static double nearest_of (const double *a, const double *b, const double *x, double *place)
+{
+    double t[3], v[3];
+    for (int k = 0; k < 3; k++) t[k] = b[k] - a[k], v[k] = x[k] - a[k];
+    double size = dot3 (t, t), s = size > 0 ? fmin (1, fmax (0, dot3 (t, v) / size)) : 0;
+    for (int k = 0; k < 3; k++) place[k] = a[k] + s * t[k];
+    return apart3 (place, x);
+}
+
+/* Do two segments of one front lie beside each other along it, or show the same way? */
+static int same_stretch (const pg_front *f, size_t i, size_t j, size_t next)
+{
+    size_t ring = i > j ? i - j : j - i;
+    if (f->closed && f->n - ring < ring) ring = f->n - ring;
+    return ring < 4 || dot3 (f->ahead + 3*i, f->ahead + 3*j) > 0
+           || dot3 (f->ahead + 3*i, f->ahead + 3*next) > 0;
+}
+
+/* The place of another front, or of another part of the vertex's own, nearest to `goal`, which lies ahead. */
+static double to_fronts (const pg_crack_surfaces *w, size_t front, size_t i, const double *e,
+                         const double *goal, double limit, double *place)
+{
+    const double *x = w->front[front].x + 3*i;
+    double best = INFINITY, try[3], way[3];
+    for (size_t g = 0; g < w->nfront; g++) {
+        const pg_front *f = &w->front[g];
+        for (size_t j = 0; f->open && j + !f->closed < f->n; j++) {
+            size_t next = (j + 1) % f->n;
+            if (g == front && same_stretch (f, i, j, next)) continue;
+            double d = nearest_of (f->x + 3*j, f->x + 3*next, goal, try);
+            for (int k = 0; k < 3; k++) way[k] = try[k] - x[k];
+            if (!(d <= limit && d < best) || !(dot3 (way, e) > 0)) continue;
+            best = d, memcpy (place, try, sizeof try);
+        }
+    }
+    return best;
+}
+
+double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front, size_t i, const double *e,
+                  double d, unsigned char *meets, double *place)
+{
+    const double *x = w->front[front].x + 3*i;
+    double h = pg_problem_spacing_at (p, x), way = d, goal[3];
+    *meets = PG_MEETS_NOTHING;
+    double a = space_to_surface (p, x, e, d + to_surface * h);
+    if (a < d + to_surface * h) way = a, *meets = PG_MEETS_SURFACE;
+    double r = ray_to_cracks (&w->cracks, x, e, d + to_crack * h, h);
+    if (r < way || (*meets == PG_MEETS_NOTHING && r <= d + to_crack * h)) way = r, *meets = PG_MEETS_CRACK;
+    for (int k = 0; k < 3; k++) place[k] = x[k] + way * e[k];
+    if (*meets != PG_MEETS_NOTHING) return way;
+    memcpy (goal, place, sizeof goal);
+    if (to_fronts (w, front, i, e, goal, to_crack * h, place) <= to_crack * h) *meets = PG_MEETS_CRACK;
+    return apart3 (place, x);
+}
+
+double space_end (const pg_problem *p, const pg_crack_surfaces *w, const double *x, const double *e,
+                  double limit, unsigned char *meets)
+{
+    double h = pg_problem_spacing_at (p, x), a = space_to_surface (p, x, e, limit);
+    double r = ray_to_cracks (&w->cracks, x, e, limit, h);
+    *meets = r < a ? PG_MEETS_CRACK : a < limit ? PG_MEETS_SURFACE : PG_MEETS_NOTHING;
+    return fmin (r, a);
+}

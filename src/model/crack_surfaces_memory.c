@@ -1,0 +1,269 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Memory of the surfaces of growing cracks (crack_surfaces.c): made with a state, copied with it, kept in its
+ * checkpoints. Triangles are kept as their corners among the vertices, so that the neighbours which a resumed
+ * run sees are bit by bit those of the run that wrote the checkpoint. */
+#include "crack_surfaces.h"
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- fronts -------------------------------------------------------------------------------------------- */
+#define RESIZE(p, n) \
+    do { \
+        void *more_ = pg_resize ((p), (n), sizeof *(p)); \
+        if (!more_) PG_FAIL (PG_E_MEMORY, "no memory for a crack of %zu parts", (size_t) (n)); \
+        (p) = more_; \
+    } while (0)
+
+pg_status surfaces_reserve_fronts (pg_crack_surfaces *w, size_t n)
+{
+    pg_status status = PG_OK;
+    size_t before = w->front_capacity;
+    PG_GROW (w->front, w->front_capacity, n);
+    if (w->front_capacity > before)
+        memset (w->front + before, 0, (w->front_capacity - before) * sizeof *w->front);
+done:
+    return status;
+}
+
+/* ---- triangles ----------------------------------------------------------------------------------------- */
+/* Places of the corners lie in one block, and move with it. */
+static void point_into_store (pg_crack_surfaces *w)
+{
+    for (size_t k = w->nfirst; k < w->cracks.n; k++)
+        w->cracks.crack[k].vertex = w->store + 9 * (k - w->nfirst);
+}
+
+pg_status surfaces_reserve (pg_crack_surfaces *w, size_t cracks, size_t vertices)
+{
+    pg_status status = PG_OK;
+    PG_GROW (w->vertex, w->vertex_capacity, 3 * vertices);
+    if (cracks <= w->capacity) return PG_OK;
+    size_t most = 2 * cracks + 16;
+    RESIZE (w->cracks.crack, most);
+    RESIZE (w->corner, 3 * most);
+    RESIZE (w->owner, most);
+    RESIZE (w->store, 9 * most);
+    w->capacity = most;
+done:
+    if (w->store) point_into_store (w);
+    return status;
+}
+
+/* ---- life ---------------------------------------------------------------------------------------------- */
+/* Cracks of the scene are the problem's: a state has their vertices by reference, for they do not change. */
+pg_status pg_crack_surfaces_create (pg_crack_surfaces **out, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_crack_surfaces *w = NULL;
+    PG_ALLOC (w, 1);
+    w->cracks.dim = 3, w->nothing = PG_NO_LENGTH * p->cloud.h;
+    PG_TRY (surfaces_reserve (w, p->cracks.n, 0));
+    PG_TRY (surfaces_reserve_fronts (w, p->nfront));
+    w->cracks.n = w->nfirst = p->cracks.n;
+    for (size_t k = 0; k < w->nfirst; k++) w->cracks.crack[k] = p->cracks.crack[k];
+    for (size_t f = 0; f < p->nfront; f++, w->nfront++) PG_TRY (pg_front_copy (&w->front[f], &p->front[f]));
+    PG_TRY (pg_cracks_index (&w->cracks));
+    *out = w;
+    w = NULL;
+done:
+    pg_crack_surfaces_free (&w);
+    return status;
+}
+
+/* The index as it is, instead of making it anew; without memory for it the answers are the same. */
+static void copy_index (pg_cracks *to, const pg_cracks *from)
+{
+    size_t n = from->n, wide = 2 * (size_t) from->dim;
+    pg_free (to->box), pg_free (to->block), pg_free (to->order);
+    to->box = to->block = NULL, to->order = NULL;
+    if (!from->block || n == 0) return;
+    to->box = pg_calloc (wide * n, sizeof *to->box), to->block = pg_calloc (wide * n, sizeof *to->block);
+    to->order = pg_calloc (n, sizeof *to->order);
+    if (!to->box || !to->block || !to->order) {
+        pg_free (to->box), pg_free (to->block), pg_free (to->order);
+        to->box = to->block = NULL, to->order = NULL;
+        return;
+    }
+    memcpy (to->box, from->box, wide * n * sizeof *to->box);
+    memcpy (to->block, from->block, wide * n * sizeof *to->block);
+    memcpy (to->order, from->order, n * sizeof *to->order);
+}
+
+pg_status pg_crack_surfaces_copy (pg_crack_surfaces *to, const pg_crack_surfaces *from)
+{
+    pg_status status = PG_OK;
+    size_t n = from->cracks.n, grown = n - from->nfirst;
+    PG_TRY (surfaces_reserve (to, n, from->nvertex));
+    PG_TRY (surfaces_reserve_fronts (to, from->nfront));
+    for (size_t f = 0; f < from->nfront; f++) PG_TRY (pg_front_copy (&to->front[f], &from->front[f]));
+    to->cracks.n = n, to->cracks.dim = 3, to->nfirst = from->nfirst, to->nfront = from->nfront;
+    to->area = from->area, to->nothing = from->nothing, to->nvertex = from->nvertex;
+    if (n) memcpy (to->cracks.crack, from->cracks.crack, n * sizeof *to->cracks.crack);
+    if (from->nvertex) memcpy (to->vertex, from->vertex, 3 * from->nvertex * sizeof *to->vertex);
+    if (grown) {
+        memcpy (to->corner, from->corner, 3 * grown * sizeof *to->corner);
+        memcpy (to->owner, from->owner, grown * sizeof *to->owner);
+        memcpy (to->store, from->store, 9 * grown * sizeof *to->store);
+    }
+    point_into_store (to);
+    copy_index (&to->cracks, &from->cracks);
+done:
+    return status;
+}
+
+void pg_crack_surfaces_free (pg_crack_surfaces **surfaces)
+{
+    pg_crack_surfaces *w = *surfaces;
+    if (!w) return;
+    for (size_t f = 0; w->front && f < w->front_capacity; f++) pg_front_clear (&w->front[f]);
+    pg_free (w->cracks.crack), pg_free (w->cracks.box), pg_free (w->cracks.block), pg_free (w->cracks.order);
+    pg_free (w->vertex), pg_free (w->corner), pg_free (w->owner), pg_free (w->store), pg_free (w->front);
+    pg_free (w);
+    *surfaces = NULL;
+}
+
+/* ---- checkpoints --------------------------------------------------------------------------------------- */
+typedef struct { pg_crack_surfaces *w; const pg_keeper *k; const char *name; char part[96]; } walk;
+
+static const char *part_of (walk *v, const char *suffix)
+{
+    snprintf (v->part, sizeof v->part, "%s.%s", v->name, suffix);
+    return v->part;
+}
+
+/* Triangles: three corners and an owner each; normals as they are, for slivers have theirs from the front. */
+static pg_status keep_triangles (walk *v, size_t n)
+{
+    pg_status status = PG_OK;
+    enum { COUNTS = 4, NUMBERS = 4 };
+    pg_crack_surfaces *w = v->w;
+    long *count = NULL;
+    double *number = NULL;
+    PG_ALLOC (count, COUNTS * n + 1);
+    PG_ALLOC (number, NUMBERS * n + 1);
+    for (size_t i = 0; !v->k->reading && i < n; i++) {
+        const pg_crack *c = &w->cracks.crack[w->nfirst + i];
+        for (size_t a = 0; a < 3; a++)
+            count[COUNTS * i + a] = (long) w->corner[3*i + a], number[NUMBERS * i + a] = c->normal[a];
+        count[COUNTS * i + 3] = w->owner[i], number[NUMBERS * i + 3] = c->width;
+    }
+    PG_TRY (v->k->counts (v->k->context, part_of (v, "triangles"), COUNTS * n, count));
+    PG_TRY (v->k->numbers (v->k->context, part_of (v, "normals"), NUMBERS * n, number));
+    for (size_t i = 0; v->k->reading && i < n; i++) {
+        size_t corner[3];
+        for (size_t a = 0; a < 3; a++) {
+            PG_KEEP_BOUND (v->k, "the corner of a triangle", count[COUNTS * i + a], 0, (long) w->nvertex - 1);
+            corner[a] = (size_t) count[COUNTS * i + a];
+        }
+        surfaces_put_triangle (w, corner, number + NUMBERS * i, number[NUMBERS * i + 3],
+                               count[COUNTS * i + 3]);
+    }
+done:
+    pg_free (count), pg_free (number);
+    return status;
+}
+
+/* Fronts: counts of each, then their vertices: eleven numbers and one whole number each, and their rims. */
+static pg_status keep_front (walk *v, size_t number_of, const long *size)
+{
+    pg_status status = PG_OK;
+    enum { NUMBERS = 11 };
+    pg_front *f = &v->w->front[number_of];
+    size_t n = (size_t) size[0], rim = (size_t) size[1], at = 0;
+    char suffix[40];
+    long *count = NULL;
+    double *number = NULL;
+    PG_ALLOC (count, n + rim + 1);
+    PG_ALLOC (number, NUMBERS * n + 1);
+    PG_TRY (pg_front_reserve (f, n));
+    PG_GROW (f->rim, f->rim_capacity, rim);
+    double *array[5] = { f->x, f->normal, f->ahead, f->offset, f->grown };
+    if (!v->k->reading) {
+        for (int a = 0; a < 5; a++) {
+            size_t m = n * (a < 3 ? 3 : 1);
+            if (m) memcpy (number + at, array[a], m * sizeof *number);
+            at += m;
+        }
+        for (size_t i = 0; i < n; i++) count[i] = f->meets[i];
+        for (size_t i = 0; i < rim; i++) count[n + i] = (long) f->rim[i];
+    }
+    snprintf (suffix, sizeof suffix, "front.%zu.places", number_of);
+    PG_TRY (v->k->numbers (v->k->context, part_of (v, suffix), NUMBERS * n, number));
+    snprintf (suffix, sizeof suffix, "front.%zu.rim", number_of);
+    PG_TRY (v->k->counts (v->k->context, part_of (v, suffix), n + rim, count));
+    if (!v->k->reading) goto done;
+    for (int a = 0; a < 5; a++) {
+        size_t m = n * (a < 3 ? 3 : 1);
+        if (m) memcpy (array[a], number + at, m * sizeof *number);
+        at += m;
+    }
+    for (size_t i = 0; i < n; i++) {
+        PG_KEEP_BOUND (v->k, "what a front meets", count[i], 0, PG_MEETS_CRACK);
+        f->meets[i] = (unsigned char) count[i];
+    }
+    for (size_t i = 0; i < rim; i++) {
+        PG_KEEP_BOUND (v->k, "the rim of a front", count[n + i], 0, (long) v->w->nvertex - 1);
+        f->rim[i] = (size_t) count[n + i];
+    }
+    f->n = n, f->nrim = rim;
+done:
+    pg_free (count), pg_free (number);
+    return status;
+}
+
+/* Five whole numbers of each front first: arrays of that length follow. */
+static pg_status keep_fronts (walk *v, size_t n, long most)
+{
+    pg_status status = PG_OK;
+    enum { EACH = 5 };
+    pg_crack_surfaces *w = v->w;
+    long *count = NULL;
+    PG_ALLOC (count, EACH * n + 1);
+    for (size_t i = 0; !v->k->reading && i < n; i++) {
+        const pg_front *f = &w->front[i];
+        const long whole[EACH] = { (long) f->n, (long) f->nrim, f->id, f->closed, f->open };
+        memcpy (count + EACH * i, whole, sizeof whole);
+    }
+    PG_TRY (v->k->counts (v->k->context, part_of (v, "fronts"), EACH * n, count));
+    for (size_t i = 0; i < n; i++) {
+        const long *c = count + EACH * i;
+        PG_KEEP_BOUND (v->k, "the vertices of a front", c[0], 0, most);
+        PG_KEEP_BOUND (v->k, "the length of a rim", c[1], 0, most);
+        PG_KEEP_BOUND (v->k, "whether a front is a loop", c[3], 0, 1);
+        PG_KEEP_BOUND (v->k, "whether a front is open", c[4], 0, 1);
+        PG_TRY (keep_front (v, i, c));
+        w->front[i].id = c[2], w->front[i].closed = (int) c[3], w->front[i].open = (int) c[4];
+    }
+done:
+    pg_free (count);
+    return status;
+}
+
+/* The counts first. A vertex of a surface has cut some bond, or lies beside one that has: there are not more
+ * than a hundred for each bond. */
+pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, const char *name,
+                                  const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    walk v = { .w = w, .k = k, .name = name };
+    long most = 1000 + 100 * (long) (p->cracks.n + p->first_bond[PG_BOND_SETS]);
+    long count[3] = { (long) (w->cracks.n - w->nfirst), (long) w->nvertex, (long) w->nfront };
+    PG_TRY (k->counts (k->context, part_of (&v, "counts"), 3, count));
+    for (int i = 0; i < 3; i++) PG_KEEP_BOUND (k, "the size of the cracks", count[i], 0, most);
+    PG_TRY (k->numbers (k->context, part_of (&v, "area"), 1, &w->area));
+    if (k->reading) {
+        w->cracks.n = w->nfirst, w->nvertex = w->nfront = 0;
+        PG_TRY (surfaces_reserve (w, w->nfirst + (size_t) count[0], (size_t) count[1]));
+        PG_TRY (surfaces_reserve_fronts (w, (size_t) count[2]));
+    }
+    if (count[1]) PG_TRY (k->numbers (k->context, part_of (&v, "vertices"), 3 * (size_t) count[1], w->vertex));
+    w->nvertex = (size_t) count[1];
+    PG_TRY (keep_triangles (&v, (size_t) count[0]));
+    PG_TRY (keep_fronts (&v, (size_t) count[2], most));
+    w->nfront = (size_t) count[2];
+    if (k->reading) PG_TRY (pg_cracks_index (&w->cracks));
+done:
+    if (status != PG_OK && k->reading) w->cracks.n = w->nfirst, w->nvertex = w->nfront = 0;
+    return status;
+}

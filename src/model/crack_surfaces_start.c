@@ -1,0 +1,199 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A new crack in space: a convex polygon in a plane. Its outline inside the body is a front, or several where
+ * the surface of the body comes between; it cuts bonds up to the offset behind them, and as far as the polygon
+ * goes outside of the body. */
+#include "crack_surfaces.h"
+#include <string.h>
+
+/* Of a front, in parts of the square root of the area, at most. */
+#define OFFSET_OF_SIZE 0.25
+/* Halvings of an edge where it leaves the body. */
+enum { HALVINGS = 50 };
+
+typedef struct {
+    pg_crack_surfaces *w;
+    const pg_problem *p;
+    size_t n;
+    double *x;                                         /* the polygon, in the order of fronts (n x 3) */
+    const double *normal;
+    double middle[3], offset;
+    unsigned char *in;                                 /* whether its vertices lie in the body */
+    size_t *line, nline, line_capacity;                /* where the crack cuts to, as vertices of w */
+} patch;
+
+/* The tangent of a front is ahead x normal: seen from the side that the normal shows to it runs clockwise. */
+static pg_status read (patch *c, size_t n, const double *x)
+{
+    pg_status status = PG_OK;
+    double turn[3], sum = 0;
+    PG_ALLOC (c->x, 3 * n);
+    PG_ALLOC (c->in, n);
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < 3; k++) c->middle[k] += x[3*i + k] / (double) n;
+    for (size_t i = 0; i < n; i++) {
+        double u[3], v[3];
+        for (size_t k = 0; k < 3; k++)
+            u[k] = x[3*i + k] - c->middle[k], v[k] = x[3 * ((i + 1) % n) + k] - c->middle[k];
+        cross3 (u, v, turn);
+        sum += 0.5 * dot3 (turn, c->normal);
+    }
+    if (!(fabs (sum) > c->w->nothing * c->w->nothing))
+        PG_FAIL (PG_E_USAGE, "a crack cannot begin with an area of %g m^2", fabs (sum));
+    c->n = n;
+    c->offset = fmin (front_offset_at (c->p, c->middle), OFFSET_OF_SIZE * sqrt (fabs (sum)));
+    for (size_t i = 0; i < n; i++) {
+        memcpy (c->x + 3*i, x + 3 * (sum > 0 ? n - 1 - i : i), 3 * sizeof *x);
+        c->in[i] = (unsigned char) pg_problem_has_body (c->p, c->x + 3*i);
+    }
+done:
+    return status;
+}
+
+/* Where the edge from a vertex inside to one outside leaves the body. */
+static void leave (const patch *c, size_t inside, size_t outside, double *place)
+{
+    const double *a = c->x + 3*inside, *b = c->x + 3*outside;
+    double near = 0, far = 1;
+    for (int i = 0; i < HALVINGS; i++) {
+        double t = 0.5 * (near + far);
+        for (int k = 0; k < 3; k++) place[k] = a[k] + t * (b[k] - a[k]);
+        if (pg_problem_has_body (c->p, place)) near = t;
+        else far = t;
+    }
+    for (int k = 0; k < 3; k++) place[k] = a[k] + near * (b[k] - a[k]);
+}
+
+static void put_vertex (const patch *c, pg_front *f, const double *x, unsigned char meets)
+{
+    size_t i = f->n++;
+    memcpy (f->x + 3*i, x, 3 * sizeof *x);
+    memcpy (f->normal + 3*i, c->normal, 3 * sizeof *x);
+    for (size_t k = 0; k < 3; k++) f->ahead[3*i + k] = x[k] - c->middle[k];
+    unit3 (f->ahead + 3*i);
+    f->offset[i] = c->offset, f->grown[i] = 0, f->meets[i] = meets;
+}
+
+static pg_status to_line (patch *c, const double *x)
+{
+    pg_status status = PG_OK;
+    PG_TRY (surfaces_reserve (c->w, c->w->cracks.n, c->w->nvertex + 1));
+    PG_GROW (c->line, c->line_capacity, c->nline + 1);
+    c->line[c->nline++] = surfaces_put_vertex (c->w, x);
+done:
+    return status;
+}
+
+/* The line a spacing further than the end of a front, along the edge there. */
+static pg_status beyond_end (patch *c, const double *end, const double *beside)
+{
+    pg_status status = PG_OK;
+    double e[3], out[3];
+    for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
+    if (!unit3 (e)) return PG_OK;
+    double a = space_to_surface (c->p, end, e, pg_problem_spacing_at (c->p, end));
+    for (int k = 0; k < 3; k++) out[k] = end[k] + a * e[k];
+    a += space_beyond (c->p, out, e);
+    for (int k = 0; k < 3; k++) out[k] = end[k] + a * e[k];
+    PG_TRY (to_line (c, out));
+done:
+    return status;
+}
+
+/* A run of m vertices inside from number `first` on (m = n: all of them, a loop). */
+static pg_status add_front (patch *c, size_t first, size_t m)
+{
+    pg_status status = PG_OK;
+    size_t n = c->n;
+    pg_front f = { .open = 1, .closed = m == n };
+    double *cut = NULL, place[3];
+    PG_TRY (pg_front_reserve (&f, m + 2));
+    if (!f.closed) leave (c, first, (first + n - 1) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
+    for (size_t k = 0; k < m; k++) put_vertex (c, &f, c->x + 3 * ((first + k) % n), PG_MEETS_NOTHING);
+    if (!f.closed)
+        leave (c, (first + m - 1) % n, (first + m) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
+    front_frames (&f);
+    PG_ALLOC (cut, 3 * f.n);
+    for (size_t i = 0; i < 3 * f.n; i++) cut[i] = f.x[i] - c->offset * f.ahead[i];
+    PG_TRY (front_resample (&f, c->p, &cut));
+    front_frames (&f);
+    size_t begin = c->nline, last = 3 * (f.n - 1);
+    if (!f.closed) PG_TRY (beyond_end (c, cut, cut + 3));
+    for (size_t i = 0; i < f.n; i++) PG_TRY (to_line (c, cut + 3*i));
+    if (!f.closed) PG_TRY (beyond_end (c, cut + last, cut + last - 3));
+    f.nrim = c->nline - begin;
+    PG_GROW (f.rim, f.rim_capacity, f.nrim);
+    memcpy (f.rim, c->line + begin, f.nrim * sizeof *f.rim);
+    PG_TRY (surfaces_reserve_fronts (c->w, c->w->nfront + 1));
+    f.id = surfaces_next_id (c->w);
+    c->w->front[c->w->nfront++] = f;
+    f = (pg_front) { 0 };
+done:
+    pg_front_clear (&f);
+    pg_free (cut);
+    return status;
+}
+
+/* The outline once around: fronts inside, vertices outside as they are. */
+static pg_status add_fronts (patch *c)
+{
+    pg_status status = PG_OK;
+    size_t n = c->n, begin = 0;
+    while (begin < n && c->in[begin]) begin++;
+    if (begin == n) {
+        PG_TRY (add_front (c, 0, n));
+        goto done;
+    }
+    for (size_t k = 0; k < n; ) {
+        size_t i = (begin + k) % n, m = 0;
+        while (k + m < n && c->in[(i + m) % n]) m++;
+        if (m) PG_TRY (add_front (c, i, m));
+        else PG_TRY (to_line (c, c->x + 3*i));
+        k += m ? m : 1;
+    }
+done:
+    return status;
+}
+
+/* Area of a triangle inside the body: strips across, weighed by their length. */
+static double area_inside (const patch *c, const double *a, const double *b)
+{
+    enum { PLACES = 12 };
+    double in = 0, all = 0;
+    for (int q = 0; q < PLACES * PLACES; q++) {
+        double r = (0.5 + q / PLACES) / PLACES, t = (0.5 + q % PLACES) / PLACES, x[3];
+        for (int k = 0; k < 3; k++)
+            x[k] = c->middle[k] + r * ((1 - t) * (a[k] - c->middle[k]) + t * (b[k] - c->middle[k]));
+        all += r;
+        if (pg_problem_has_body (c->p, x)) in += r;
+    }
+    return triangle_area3 (c->middle, a, b) * in / all;
+}
+
+pg_status pg_surface_start (pg_state *state, const pg_problem *p, size_t n, const double *x,
+                            const double *normal, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    pg_crack_surfaces *fresh = NULL;
+    double *side = NULL;
+    patch c = { .p = p, .normal = normal };
+    if (!state->surfaces) PG_FAIL (PG_E_USAGE, "surfaces begin in space only, where cracks grow");
+    if (n < 3) PG_FAIL (PG_E_USAGE, "a crack cannot begin with %zu vertices", n);
+    PG_TRY (surfaces_begin (&fresh, state));
+    c.w = fresh;
+    PG_TRY (read (&c, n, x));
+    size_t fronts = fresh->nfront;
+    PG_TRY (add_fronts (&c));
+    if (fresh->nfront == fronts) PG_FAIL (PG_E_USAGE, "a crack cannot begin outside of the body");
+    PG_TRY (surfaces_reserve (fresh, fresh->cracks.n, fresh->nvertex + 1));
+    size_t middle = surfaces_put_vertex (fresh, c.middle);
+    PG_ALLOC (side, 3 * c.nline);
+    for (size_t i = 0; i < 3 * c.nline; i++) side[i] = normal[i % 3];
+    surface_line apex = { 1, &middle, normal, 0 }, outline = { c.nline, c.line, side, 1 };
+    PG_TRY (surfaces_zip (fresh, p, &apex, &outline, fresh->front[fronts].id));
+    for (size_t i = 0; i < n; i++) fresh->area += area_inside (&c, c.x + 3*i, c.x + 3 * ((i + 1) % n));
+    PG_TRY (surfaces_finish (&fresh, state, p, cut));
+done:
+    pg_crack_surfaces_free (&fresh);
+    pg_free (c.x), pg_free (c.in), pg_free (c.line), pg_free (side);
+    return status;
+}

@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Triangles between two lines of vertices, where a surface ended and where it ends now. Triangles share their
+ * vertices, so that their planes meet in the same two places to the last bit, and what passes between two of
+ * them passes within rounding of an edge, which counts as a cut (cloud/crack.c). */
+#include "crack_surfaces.h"
+#include <string.h>
+
+/* Lower triangles than this are none: less than the tolerance within which a bond counts as cut, spacings. */
+#define NO_HEIGHT 1e-10
+
+double triangle_area3 (const double *a, const double *b, const double *c)
+{
+    double u[3], v[3], n[3];
+    for (int k = 0; k < 3; k++) u[k] = b[k] - a[k], v[k] = c[k] - a[k];
+    cross3 (u, v, n);
+    return 0.5 * size3 (n);
+}
+
+size_t surfaces_put_vertex (pg_crack_surfaces *w, const double *x)
+{
+    memcpy (w->vertex + 3 * w->nvertex, x, 3 * sizeof *x);
+    return w->nvertex++;
+}
+
+void surfaces_put_triangle (pg_crack_surfaces *w, const size_t corner[3], const double *normal, double width,
+                            long owner)
+{
+    size_t t = w->cracks.n - w->nfirst;
+    double *store = w->store + 9*t;
+    for (size_t a = 0; a < 3; a++) {
+        w->corner[3*t + a] = corner[a];
+        memcpy (store + 3*a, w->vertex + 3 * corner[a], 3 * sizeof *store);
+    }
+    w->owner[t] = owner;
+    w->cracks.crack[w->cracks.n++] = (pg_crack) { .kind = PG_CRACK_POLYGON, .vertex = store, .nvertex = 3,
+                                                  .normal = { normal[0], normal[1], normal[2] },
+                                                  .sided = 1, .width = width };
+}
+
+/* Appends the triangle of three vertices with its normal on the side of `side`. */
+static void put (pg_crack_surfaces *w, const pg_problem *p, size_t a, size_t b, size_t c, const double *side,
+                 long owner)
+{
+    const double *x = w->vertex + 3*a, *y = w->vertex + 3*b, *z = w->vertex + 3*c;
+    double u[3], v[3], n[3], h = pg_problem_spacing_at (p, x);
+    if (a == b || b == c || a == c) return;
+    for (int k = 0; k < 3; k++) u[k] = y[k] - x[k], v[k] = z[k] - x[k];
+    cross3 (u, v, n);
+    double longest = fmax (fmax (size3 (u), size3 (v)), apart3 (y, z));
+    if (!(size3 (n) > NO_HEIGHT * h * longest) || !unit3 (n)) return;
+    if (dot3 (n, side) < 0) for (int k = 0; k < 3; k++) n[k] = -n[k];
+    surfaces_put_triangle (w, (size_t[3]) { a, b, c }, n, PG_NO_LENGTH * h, owner);
+}
+
+/* Vertex i of a line, which begins anew behind the last one of a loop. */
+static size_t at (const surface_line *l, size_t i) { return l->vertex[l->closed ? i % l->n : i]; }
+
+/* Where a loop begins so that its first vertex is the nearest one to the first of another. */
+static size_t beginning (const pg_crack_surfaces *w, const surface_line *from, const surface_line *to)
+{
+    size_t best = 0;
+    const double *x = w->vertex, *goal = x + 3 * to->vertex[0];
+    for (size_t i = 1; from->closed && to->closed && i < from->n; i++)
+        if (apart3 (x + 3 * from->vertex[i], goal) < apart3 (x + 3 * from->vertex[best], goal)) best = i;
+    return best;
+}
+
+pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
+                        const surface_line *to, long owner)
+{
+    pg_status status = PG_OK;
+    if (from->n == 0 || to->n == 0) return PG_OK;
+    size_t last = from->n - !from->closed, end = to->n - !to->closed;    /* steps along each line */
+    size_t first = beginning (w, from, to);
+    PG_TRY (surfaces_reserve (w, w->cracks.n + last + end, w->nvertex));
+    for (size_t i = 0, j = 0; i < last || j < end; ) {
+        const double *side = to->normal + 3 * (j % to->n), *x = w->vertex;
+        size_t a = at (from, first + i), b = at (to, j), next_a = i < last ? at (from, first + i + 1) : a,
+               next_b = j < end ? at (to, j + 1) : b;
+        int along = i < last
+                    && (j == end || apart3 (x + 3 * next_a, x + 3*b) <= apart3 (x + 3*a, x + 3 * next_b));
+        put (w, p, a, along ? next_a : next_b, b, side, owner);
+        if (along) i++;
+        else j++;
+    }
+done:
+    return status;
+}
