@@ -292,8 +292,8 @@ pg_status pg_crack_paths_keep   (pg_crack_paths *paths, const pg_problem *proble
 /* ---- cracks that grow in space ------------------------------------------------------------------------- */
 /* The cracks that exist in a state: those of the scene first, then the triangles that grew, which share their
  * vertices with each other (no bond passes between them). Triangles are sided: their normal is that of the
- * front that made them, and points on them keep their bonds to the side that it shows to. They reach as far as
- * the crack cuts, a little behind the fronts. */
+ * front that made them, and points on them keep their bonds to the side that it shows to. They reach as far
+ * as the crack cuts, a little behind the fronts. */
 typedef struct pg_crack_surfaces {
     pg_cracks cracks;  size_t capacity, nfirst;        /* nfirst: how many are the scene's */
     double *vertex;  size_t nvertex, vertex_capacity;  /* of the triangles, nvertex x 3, m */
@@ -377,13 +377,13 @@ double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t
 /* The fronts that exist in a state (NULL: at the start). */
 const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n);
 /* Moves vertex i of an open front by d[i] (m; 0: it stays) in the direction cos theta[i] ahead + sin theta[i]
- * normal (rad), and adds the triangles between where the crack cut before and where it cuts now. Vertices that
- * come within 1.5 spacings of the surface ahead, or within 0.6 of another crack or front, go straight there
- * and are closed; a front is parted where vertices are closed, and ends where none is left. Ends are put on
- * the surface of the body; vertices are distributed anew where they lie too far apart or too close. All live
- * bonds that the new triangles cut, of every bond set, are added to `cut`, which stays ascending and names
- * each once; their alive bits are left to the caller. PG_E_USAGE: no such open front, nothing moves. Nothing
- * is changed by a call that fails, except `cut`. */
+ * normal (rad), and adds the triangles between where the crack cut before and where it cuts now. Vertices
+ * that come within 1.5 spacings of the surface ahead, or within 0.6 of another crack or front, go straight
+ * there and are closed; a front is parted where vertices are closed, and ends where none is left. Ends are
+ * put on the surface of the body; vertices are distributed anew where they lie too far apart or too close.
+ * All live bonds that the new triangles cut, of every bond set, are added to `cut`, which stays ascending
+ * and names each once; their alive bits are left to the caller. PG_E_USAGE: no such open front, nothing
+ * moves. Nothing is changed by a call that fails, except `cut`. */
 pg_status pg_front_advance (pg_state *state, const pg_problem *problem, size_t front, const double *d,
                             const double *theta, pg_changes *cut);
 /* A new crack: the convex polygon of n places (n x 3, m) in a plane of unit normal `normal`; what of its

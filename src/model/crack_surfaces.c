@@ -330,7 +330,8 @@ static pg_status first_rim (stride *s)
     if (s->old.nrim) return PG_OK;
     PG_ALLOC (c, 3 * s->old.n);
     for (size_t i = 0; i < s->old.n; i++)
-        shift (s->old.x + 3*i, s->old.ahead + 3*i, -2 * s->old.offset[i] - OVERLAP * spacing_at (s, i), c + 3*i);
+        shift (s->old.x + 3*i, s->old.ahead + 3*i, -2 * s->old.offset[i] - OVERLAP * spacing_at (s, i),
+               c + 3*i);
     PG_TRY (begin_line (s));
     PG_TRY (line_of (s, &s->old, c));
     PG_TRY (take_as_rim (s));

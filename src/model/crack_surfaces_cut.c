@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The bonds that new triangles of a surface cut. Only the new ones are asked, through an index of their own
- * (cloud/crack_index.c): first the box of all of them, then for each point the boxes near it, then its bonds. */
+ * (cloud/crack_index.c): first the box of all of them, then for each point the boxes near it, then its
+ * bonds. */
 #include "crack_surfaces.h"
 #include <stdlib.h>
 

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A front as a line: its tangents, the frames of its vertices, and the vertices distributed anew. Between
  * corners, which stay corners, vertices lie on a cubic through the old ones (Hermite, with the slope of the
- * parabola through three neighbours), at equal parts of the length measured in local spacings. A stretch whose
- * vertices are 0.6 to 1.5 spacings apart is left as it is. */
+ * parabola through three neighbours), at equal parts of the length measured in local spacings. A stretch
+ * whose vertices are 0.6 to 1.5 spacings apart is left as it is. */
 #include "crack_surfaces.h"
 #include <string.h>
 

@@ -257,7 +257,8 @@ pg_status pg_crack_surfaces_keep (pg_crack_surfaces *w, const pg_problem *p, con
         PG_TRY (surfaces_reserve (w, w->nfirst + (size_t) count[0], (size_t) count[1]));
         PG_TRY (surfaces_reserve_fronts (w, (size_t) count[2]));
     }
-    if (count[1]) PG_TRY (k->numbers (k->context, part_of (&v, "vertices"), 3 * (size_t) count[1], w->vertex));
+    if (count[1])
+        PG_TRY (k->numbers (k->context, part_of (&v, "vertices"), 3 * (size_t) count[1], w->vertex));
     w->nvertex = (size_t) count[1];
     PG_TRY (keep_triangles (&v, (size_t) count[0]));
     PG_TRY (keep_fronts (&v, (size_t) count[2], most));

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A new crack in space: a convex polygon in a plane. Its outline inside the body is a front, or several where
- * the surface of the body comes between; it cuts bonds up to the offset behind them, and as far as the polygon
- * goes outside of the body. */
+ * the surface of the body comes between; it cuts bonds up to the offset behind them, and as far as the
+ * polygon goes outside of the body. */
 #include "crack_surfaces.h"
 #include <string.h>
 

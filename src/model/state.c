@@ -39,8 +39,8 @@ done:
     return status;
 }
 
-/* Copies the paths and surfaces, which may fail, and then the first bytes of the block: all of it, or all before the alive
- * bits. Both states must be of one problem. */
+/* Copies the paths and surfaces, which may fail, and then the first bytes of the block: all of it, or all
+ * before the alive bits. Both states must be of one problem. */
 static pg_status copy_bytes (pg_state *to, const pg_state *from, size_t bytes)
 {
     pg_status status = PG_OK;

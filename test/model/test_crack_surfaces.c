@@ -1,14 +1,14 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Surfaces of cracks that grow in space: which bonds they cut, whether anything slips through their seams,
- * fronts that kink, stay behind, reach the surface of the body, meet each other; copies, memory that runs out,
- * checkpoints. */
+ * fronts that kink, stay behind, reach the surface of the body, meet each other; copies, memory that runs
+ * out, checkpoints. */
 #include "scenes.h"
 #include <stdlib.h>
 
 /* A cube without a crack, its points perturbed; h = 1 but for units. */
 #define CUBE(side, more) \
-    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [" side ", " side ", " side "]}}}]\nspacing: 1\n" \
-    "perturb: {amount: 0.2}\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.2}}\n" more
+    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [" side ", " side ", " side "]}}}]\n" \
+    "spacing: 1\nperturb: {amount: 0.2}\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.2}}\n" more
 
 typedef struct { built b; const pg_problem *p; pg_state *s; pg_changes cut; } growing;
 
