@@ -7,7 +7,6 @@
 #include <stdio.h>
 #include <string.h>
 
-/* ---- fronts -------------------------------------------------------------------------------------------- */
 #define RESIZE(p, n) \
     do { \
         void *more_ = pg_resize ((p), (n), sizeof *(p)); \
