@@ -100,6 +100,7 @@ static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
     int energy = pg_scene_given (scene, "failure.fracture_energy"),
         tips = p->dim == 2 && p->method->shape_functions && (p->method->shows & PG_NEEDS_FACETS)
                && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_FACETS)
+               && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC)
                && (!pg_scene_given (scene, "solver.break")
                    || strcmp (pg_scene_text (scene, "solver.break"), "facet") == 0);
     if (tips && limit_given (p, scene, "fracture_energy")) return pg_criterion_by_need (PG_NEEDS_FACETS);

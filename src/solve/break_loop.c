@@ -166,6 +166,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
     pg_system *s = &b->system;
     const pg_solver_options *o = s->options;
     if (b->round == 0) b->nbroken = 0;
+    if (b->growth && dyn && b->round == 0) facet_forward (b, dyn->dt);
     step->utilisation = 0;
     for (step->iterations = b->round;; b->round = ++step->iterations) {
         if (b->watch && step->iterations > b->began) {
@@ -180,7 +181,12 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
         if (b->growth) {
             int over;
-            PG_TRY (facet_round (b, state, t, d, dyn, step, &over));
+            if (dyn) {                                 /* what is cut is held: no second round */
+                PG_TRY (facet_move (b, state, t, d, dyn->dt, &step->utilisation, &over));
+                if (over) PG_TRY (break_loop_account (b, t, d, dyn, 1));
+                break;
+            }
+            PG_TRY (facet_round (b, state, t, d, step, &over));
             if (!over) break;
             continue;
         }

@@ -2,7 +2,7 @@
  * The energy balance of a run: external work is summed by trapezoids over pairs of generalised forces and
  * displacements that the force tells of the boundary (pg_work_balance), between one accounted state and the
  * next. What it exceeds strain, kinetic and damping energy by is what breaking has taken (solver.c). */
-#include "solve.h"
+#include "facet_growth.h"
 #include <string.h>
 
 /* Asks the force for the work balance of the state (t, d) and adds the work since the last one. With
@@ -79,6 +79,7 @@ pg_status break_loop_save (break_loop *b)
         memcpy (b->start.displacement, b->before.displacement, bytes);
     }
     b->strain0 = b->system.report->energy_strain, b->kinetic0 = b->system.report->energy_kinetic;
+    if (b->growth) PG_TRY (facet_save (b));
     b->saved = 1;
 done:
     if (status != PG_OK) pg_work_balance_clear (&b->start);
@@ -94,5 +95,6 @@ void break_loop_return (break_loop *b)
         memcpy (b->before.force, b->start.force, bytes);
         memcpy (b->before.displacement, b->start.displacement, bytes);
     } else pg_work_balance_clear (&b->before);
+    if (b->growth) facet_return (b);
     b->system.report->energy_strain = b->strain0, b->system.report->energy_kinetic = b->kinetic0;
 }

@@ -106,6 +106,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     if (!g->before) PG_ALLOC (g->before, state->ndof);
     memcpy (g->before, state->d, bytes);
     instability_before (s, &e->unstable, state);
+    if (s->options.on_instability == PG_UNSTABLE_DYNAMIC) PG_TRY (facet_hold_before (b, factor, state->d));
     PG_TRY (facet_grow (b, state, factor, factor));
     step->event = 1;
     state->events++, s->report.events++;

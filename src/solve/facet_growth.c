@@ -61,7 +61,9 @@ void facet_free (break_loop *b)
     if (!g) return;
     trials_free (&g->trials);
     pg_nearest_free (&g->near);
-    pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial), pg_free (g->way);
+    pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial), pg_free (g->run);
+    facet_hold_free (g);
+    b->system.held = NULL;
     pg_free (g);
     b->growth = NULL;
 }
@@ -77,12 +79,7 @@ pg_status facet_keep (break_loop *b, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "facets.needed", 1, &g->needed));
     PG_KEEP_BOUND (k, "what was said of facets", said, 0, 7);
     g->said = (unsigned) said;
-    long way = (long) g->nway;
-    PG_TRY (k->counts (k->context, "facets.running", 1, &way));
-    PG_KEEP_BOUND (k, "the tips that run", way, 0, (long) b->system.problem->first_bond[PG_BOND_SETS]);
-    if (k->reading) PG_GROW (g->way, g->cap_way, (size_t) way);
-    g->nway = (size_t) way;
-    if (way) PG_TRY (k->numbers (k->context, "facets.way", g->nway, g->way));
+    PG_TRY (facet_motion_keep (b, k));
     if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy_fracture = g->needed;
 done:
     return status;
@@ -259,6 +256,12 @@ static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate
     kill_listed (b, state);
     g->needed += c->energy, g->event_energy += c->energy, g->closed |= c->close, g->began |= c->tip < 0;
     g->going |= c->tip >= 0 ? !c->close : c->open != 0;
+    if (g->event_tip < 0 && !(c->tip >= 0 && c->close)) {
+        const double *from = c->tip >= 0 ? g->field[c->tip].x : c->from;
+        long last = (long) state->paths->ntip - 1;
+        g->event_tip = c->tip >= 0 ? c->tip : c->open == 3 ? last - 1 : c->open ? last : -1;
+        g->event_length = hypot (c->to[0] - from[0], c->to[1] - from[1]);
+    }
 done:
     return status;
 }
@@ -334,12 +337,10 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     double top = facet_utilisation (b, state, factor), least = top * (1 - facet_tie), angle;
-    b->changes.n = 0, g->closed = g->began = g->going = 0, g->event_energy = 0;
+    b->changes.n = 0, g->closed = g->began = g->going = 0, g->event_energy = 0, g->event_tip = -1;
     for (size_t i = 0; i < g->ntip && top > 0; i++) {
         facet_candidate c;
-        if (facet_judge (b, state, i, factor, &angle) < (g->moving ? 1 : least)) continue;
-        if (g->moving && !facet_has_come (g, i)) continue;
-        if (g->moving) g->way[i] = 0;
+        if (facet_judge (b, state, i, factor, &angle) < least) continue;
         facet_place (b, state, i, angle, &c);
         PG_TRY (grow_one (b, state, &c));
     }
@@ -349,19 +350,25 @@ done:
     return status;
 }
 
+pg_status facet_grow_one (break_loop *b, pg_state *state, const facet_candidate *c, double t)
+{
+    pg_status status = PG_OK;
+    b->changes.n = 0;
+    PG_TRY (grow_one (b, state, c));
+    PG_TRY (log_all (b, state, NAN, t));
+done:
+    return status;
+}
+
 /* ---- a fixed load -------------------------------------------------------------------------------------- */
-pg_status facet_round (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
-                       pg_step *step, int *over)
+pg_status facet_round (break_loop *b, pg_state *state, double t, const double *d, pg_step *step, int *over)
 {
     pg_status status = PG_OK;
     const pg_solver_options *o = b->system.options;
-    int any = 1;
-    *over = 0, b->growth->moving = dyn != NULL;
+    *over = 0, b->growth->moving = 0;
     PG_TRY (facet_measure (b, state, NULL, d, t));
     step->utilisation = facet_utilisation (b, state, 1);
     if (!(step->utilisation > 1)) goto done;
-    if (dyn) PG_TRY (facet_run (b, state, step->iterations == 0 || !isfinite (dyn->dt) ? dyn->dt : 0, &any));
-    if (!any) goto done;
     if (step->iterations >= o->max_iterations)
         PG_FAIL (PG_E_EQUILIBRIUM,
                  "cracks still grow after %ld facets at this load (sqrt (G / G0) = %.6g): raise "

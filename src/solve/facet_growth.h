@@ -22,6 +22,28 @@ typedef struct {
     double stress[2];  /* least stress across it over the strength: sum_a l_a stress[a]; NAN: no matter */
 } facet_candidate;
 
+/* A facet that opens while the body moves: forces that its bonds still carry, N, all of them at way 0 and
+ * none at the end of its length. */
+typedef struct {
+    long    tip;                                       /* whose way counts */
+    double  way, length;  /* way of the tip since it was cut; over which it opens, m */
+    double  energy;                                    /* what it takes in all, J */
+    size_t  n;  long *unknown;  double *force;         /* where they act, ascending (n) */
+} facet_hold;
+/* A tip in motion. */
+typedef struct {
+    double speed;                                      /* m/s */
+    double mean;                                       /* g = 1 - v / c_R of the last time */
+    double way, length;                                /* along its last facet; of that, 0: it has none, m */
+    double least;                                      /* its speed along that is no less, m/s */
+} facet_run;
+/* What a step that is refused goes back to. */
+typedef struct {
+    double needed, since;
+    facet_run  *run; size_t nrun, cap_run;
+    facet_hold *hold; size_t nhold, cap_hold;
+} facet_start;
+
 typedef struct facet_growth {
     double  length;                                    /* of a facet, m; 0: the local spacing */
     pg_nearest *near;                                  /* nodes, for the material at a place */
@@ -40,9 +62,17 @@ typedef struct facet_growth {
      * what all facets take, J. */
     int     closed, began, going;
     double  event_energy;
-    /* In motion: the way that every tip has come towards its next facet, m. */
+    /* In motion: how every tip runs, the facets that open, the sum of what they hold, N (ndof), and the
+     * forces before a cut, N (ndof). */
     int     moving;
-    double *way; size_t nway, cap_way;
+    facet_run  *run; size_t nrun, cap_run;
+    facet_hold *hold; size_t nhold, cap_hold;
+    double *held, *force_before;
+    double  since;                                     /* time since the tips were last looked at, s */
+    facet_start start;
+    /* The first tip that grew in the event at hand and goes on, -1: none; how far, m. */
+    long    event_tip;
+    double  event_length;
     unsigned said;                                     /* warnings that were given: FACET_SAID_... */
 } facet_growth;
 enum { FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4 };
@@ -64,21 +94,47 @@ double    facet_utilisation (const break_loop *b, const pg_state *state, double 
 /* Grows what is within the tie of the largest at that factor, at least one facet; b->changes are the bonds
  * that died, logged at t. The measurement is spent. */
 pg_status facet_grow    (break_loop *b, pg_state *state, double factor, double t);
+/* That one facet. */
+pg_status facet_grow_one (break_loop *b, pg_state *state, const facet_candidate *c, double t);
 /* Tips that have grown and lost their room go straight out, at once: *grew. */
 pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew);
 /* The tips at the load factor of a step, for results (1 after facet_round). */
 pg_status facet_show    (pg_solver *s, const pg_state *state, double factor);
-/* One round at a fixed load, the displacement d being in equilibrium (dyn: with inertia): *over: something
- * grew, and the caches of the force are fresh. */
-pg_status facet_round   (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
-                         pg_step *step, int *over);
+/* One round at a fixed load, the displacement d being in equilibrium: *over: something grew, and the caches
+ * of the force are fresh. */
+pg_status facet_round   (break_loop *b, pg_state *state, double t, const double *d, pg_step *step,
+                         int *over);
 
 /* ---- facet_motion.c ------------------------------------------------------------------------------------ */
-/* Tips run for dt (s; INFINITY: what is over its limit comes at once); *any: one has come as far as its next
- * facet. */
-pg_status facet_run     (break_loop *b, const pg_state *state, double dt, int *any);
-int       facet_has_come (const facet_growth *g, size_t tip);
-void      facet_rest    (facet_growth *g);             /* the motion begins, or is over */
+/* A time step begins: tips run on for dt (s; INFINITY: to the end of their facets), which open so far. */
+void      facet_forward (break_loop *b, double dt);
+/* It has ended with the displacement d, after dt: new speeds, and facets for tips that have none to run
+ * along. *top: the largest sqrt (G (v) / G0). *any: something was cut; no force has changed by that, but
+ * what is stored has. */
+pg_status facet_move    (break_loop *b, pg_state *state, double t, const double *d, double dt, double *top,
+                         int *any);
+void      facet_rest    (break_loop *b);               /* the motion is over: nothing is held any more */
+/* A motion begins with the facet of a static event at load t, before which d was the equilibrium
+ * (facet_hold_before was called for it): the facet opens as all that follow. */
+pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const double *d);
+/* At the start of a step; where it is refused. */
+pg_status facet_save    (break_loop *b);
+void      facet_return  (break_loop *b);
+pg_status facet_motion_keep (break_loop *b, const pg_keeper *keeper);
+
+/* ---- facet_hold.c -------------------------------------------------------------------------------------- */
+/* The forces before a cut; and after it, the caches of the force being fresh: what has changed is held. The
+ * forces after it are those before the next one. */
+pg_status facet_hold_before (break_loop *b, double t, const double *d);
+pg_status facet_hold_begin  (break_loop *b, double t, const double *d, long tip, double length,
+                             double energy);
+/* Of all holds; what `to` had is freed. */
+pg_status facet_hold_copy   (facet_hold **to, size_t *n, size_t *capacity, const facet_hold *from,
+                             size_t count);
+void      facet_hold_drop   (break_loop *b, int all);  /* those that are open, or all */
+void      facet_hold_sum    (break_loop *b);
+void      facet_hold_free   (facet_growth *g);
+pg_status facet_hold_keep   (break_loop *b, const pg_keeper *keeper);
 
 /* Coefficients l of the fields at a load factor; returns how many. */
 static inline int facet_factors (const facet_growth *g, double factor, double l[2])

@@ -1,58 +1,224 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Facets in a body that moves. A tip does not jump from facet to facet as at rest: it runs at the speed at
- * which it takes what the material takes, to first order G (v) = G (0) (1 - v / c_R) = G0 (Freund 1990,
- * Dynamic Fracture Mechanics, section 6.4), so that
+ * Facets in a body that moves. A tip does not jump from facet to facet as at rest: it runs at the speed v at
+ * which it takes what the material takes, G (v) = G0, with (Freund 1990, Dynamic Fracture Mechanics, section
+ * 6.4, exact to a few percent)
  *
- *   v = c_R (1 - G0 / G (0)),
+ *   G (v) = g (v) G (0),   g (v) = 1 - v / c_R,
  *
- * G (0) the energy release rate of the tip at rest in the field at hand, kinetic terms included, c_R the
- * speed of the Rayleigh wave of the material. The way adds up over the time steps, and when it is a facet
- * long, one grows. New cracks do not begin in motion. */
+ * G (0) what a tip at rest in its place would release, c_R the speed of the Rayleigh wave of the material.
+ * The integrals around the tip with their kinetic terms give what the tip takes as it runs, G (v): so
+ *
+ *   g_next = G0 / G (0) = g_now G0 / G (v),   v_next = c_R (1 - g_next), at least 0.
+ *
+ * A tip at rest starts at the speed of that formula; a tip that runs goes on unchanged where G (v) = G0,
+ * whatever the formula is worth: it only says by how much the speed is corrected. g_now is a mean over the
+ * time that a Rayleigh wave takes for half a spacing: the field around the tip is that of a little while
+ * ago.
+ *
+ * A facet is cut when a tip begins to run and when it has come to the end of the one before; behind the tip
+ * it opens (facet_hold.c). The field of the near ring answers to a turn only when the crack has gone on for
+ * a few spacings and waves have told of it: of the turn that it asks for a running tip takes a part in each
+ * facet, lest it swing. New cracks do not begin in motion. */
 #include "facet_growth.h"
 #include <math.h>
+#include <string.h>
+
+static const double memory = 0.5;  /* time over which g_now is a mean, in spacings of a Rayleigh wave */
+static const double zone = 4;  /* way of a tip over which a facet opens, in lengths of the facet */
+static const double part_of_turn = 0.3;
+/* An event leaves its tip at G = G0, an equilibrium that it would take for ever to leave, though it is not
+ * stable: along the facet of the event it runs at this share of c_R at least. */
+static const double set_off = 0.1;
+static const double between = 0.25;  /* way of a Rayleigh wave from look to look, in spacings, at least */
 
 /* A new tip has come no way yet. */
-static pg_status make_room (facet_growth *g)
+static pg_status make_room (facet_growth *g, size_t ntip)
 {
     pg_status status = PG_OK;
-    PG_GROW (g->way, g->cap_way, g->ntip);
-    for (; g->nway < g->ntip; g->nway++) g->way[g->nway] = 0;
+    PG_GROW (g->run, g->cap_run, ntip);
+    for (; g->nrun < ntip; g->nrun++) g->run[g->nrun] = (facet_run) { .mean = 1 };
 done:
     return status;
 }
 
-/* Of the material at the tip, m/s. */
-static double rayleigh_speed (const break_loop *b, const pg_tip_field *f)
+/* Of the material at x, m/s. */
+static double rayleigh_speed (const break_loop *b, const double *x)
 {
     const pg_problem *p = b->system.problem;
-    long node = pg_nearest_find (b->growth->near, f->x, NULL, NULL);
+    long node = pg_nearest_find (b->growth->near, x, NULL, NULL);
     return node < 0 ? 0 : pg_material_waves (&p->material[p->block[PG_NODES][node]]).rayleigh;
 }
 
-pg_status facet_run (break_loop *b, const pg_state *state, double dt, int *any)
+void facet_forward (break_loop *b, double dt)
+{
+    facet_growth *g = b->growth;
+    int ends = !isfinite (dt);
+    for (size_t i = 0; i < g->nrun; i++) {
+        facet_run *r = &g->run[i];
+        r->way = ends ? r->length : r->way + r->speed * dt;
+    }
+    for (size_t k = 0; k < g->nhold; k++) {
+        facet_hold *h = &g->hold[k];
+        h->way = ends ? h->length : h->way + g->run[h->tip].speed * dt;
+    }
+    facet_hold_drop (b, 0);
+}
+
+/* The speed of a tip for the steps to come. share: G (v) / G0; dt: since it was last looked at. */
+static void pace (facet_run *r, double share, double c_R, double h, double dt)
+{
+    double g = share > r->mean ? r->mean / share : 1;
+    r->speed = c_R * (1 - g);
+    if (r->way < r->length) r->speed = fmax (r->speed, r->least);
+    r->mean += (isfinite (dt) ? 1 - exp (-dt * c_R / (memory * h)) : 1) * (g - r->mean);
+}
+
+/* One facet of tip i, cut and held. */
+static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, double t, const double *d)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    double angle;
-    *any = 0;
-    PG_TRY (make_room (g));
-    for (size_t i = 0; i < g->ntip; i++) {
-        double over = facet_judge (b, state, i, 1, &angle), length = facet_length (g, &g->field[i]);
-        if (!(over > 1)) continue;
-        double way = isfinite (dt) ? rayleigh_speed (b, &g->field[i]) * (1 - 1 / (over * over)) * dt : length;
-        g->way[i] = fmin (g->way[i] + way, length);
-        *any |= facet_has_come (g, i);
+    size_t i = (size_t) c->tip;
+    facet_run *r = &g->run[i];
+    double length = hypot (c->to[0] - g->field[i].x[0], c->to[1] - g->field[i].x[1]);
+    PG_TRY (facet_grow_one (b, state, c, t));
+    PG_TRY (system_refresh (&b->system, state, &b->changes));
+    PG_TRY (facet_hold_begin (b, t, d, c->tip, zone * length, c->energy));
+    r->way = r->length > 0 ? fmin (r->way - r->length, length) : 0;
+    r->length = length, r->least = 0;
+done:
+    return status;
+}
+
+/* Where the next facet of tip i goes; 0: nowhere. A tip that runs and has lost its room goes straight out,
+ * and rests where there is no way out near. */
+static int next_facet (break_loop *b, const pg_state *state, size_t i, double angle, facet_candidate *c)
+{
+    facet_growth *g = b->growth;
+    facet_run *r = &g->run[i];
+    const pg_tip_field *f = &g->field[i];
+    if (isnan (f->near)) {
+        if (facet_way_out (b, state, i, c)) return 1;
+        r->speed = 0;
+        return 0;
+    }
+    double ahead = atan2 (f->e[1], f->e[0]), turn = remainder (angle - ahead, 2 * acos (-1));
+    size_t n;
+    int free = !b->system.problem->criterion->type->path (b->system.problem->criterion, &n);
+    facet_place (b, state, i, r->length > 0 && free ? ahead + part_of_turn * turn : angle, c);
+    return 1;
+}
+
+/* Is it time to look at the tips, or has one come to the end of its facet? */
+static int is_due (const break_loop *b)
+{
+    const facet_growth *g = b->growth;
+    const pg_problem *p = b->system.problem;
+    double c_R = 0;
+    for (size_t m = 0; m < p->nmaterial; m++)
+        c_R = fmax (c_R, pg_material_waves (&p->material[m]).rayleigh);
+    if (!(g->since * c_R < between * p->cloud.h) || g->nrun == 0) return 1;
+    for (size_t i = 0; i < g->nrun; i++)
+        if (g->run[i].speed > 0 && g->run[i].way >= g->run[i].length) return 1;
+    return 0;
+}
+
+pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d, double dt, double *top,
+                      int *any)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    *any = 0, *top = 0, g->moving = 1, g->since += dt;
+    if (!is_due (b)) return PG_OK;
+    dt = g->since, g->since = 0;
+    PG_TRY (facet_measure (b, state, NULL, d, t));
+    size_t n = g->ntip;
+    PG_TRY (make_room (g, n));
+    for (size_t i = 0; i < n; i++) {
+        facet_run *r = &g->run[i];
+        const pg_tip_field *f = &g->field[i];
+        facet_candidate c;
+        double angle, over = facet_judge (b, state, i, 1, &angle);
+        *top = fmax (*top, over);
+        if (!state->paths->tip[i].open) continue;
+        if (!isnan (f->near)) pace (r, over * over, rayleigh_speed (b, f->x), f->h, dt);
+        if (!(r->speed > 0) || r->way < r->length || !next_facet (b, state, i, angle, &c)) continue;
+        if (!*any) PG_TRY (facet_hold_before (b, t, d));
+        PG_TRY (cut (b, state, &c, t, d));
+        *any = 1;
     }
 done:
     return status;
 }
 
-int facet_has_come (const facet_growth *g, size_t tip)
+/* ---- the begin and the end of a motion ----------------------------------------------------------------- */
+void facet_rest (break_loop *b)
 {
-    return g->way[tip] >= facet_length (g, &g->field[tip]) * (1 - 1e-9);
+    facet_growth *g = b->growth;
+    g->moving = 0, g->fresh = 0, g->nrun = 0, g->since = 0;
+    facet_hold_drop (b, 1);
 }
 
-void facet_rest (facet_growth *g)
+pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const double *d)
 {
-    g->moving = 0, g->fresh = 0, g->nway = 0;
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    facet_rest (b);
+    if (g->event_tip < 0) return PG_OK;                /* it has ended: nothing runs along its facet */
+    size_t i = (size_t) g->event_tip;
+    PG_TRY (make_room (g, state->paths->ntip));
+    g->run[i].length = g->event_length;
+    g->run[i].speed = g->run[i].least = set_off * rayleigh_speed (b, state->paths->tip[i].x);
+    PG_TRY (facet_hold_begin (b, t, d, (long) i, zone * g->event_length, g->event_energy));
+done:
+    return status;
+}
+
+/* ---- checkpoints and refused steps --------------------------------------------------------------------- */
+pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    long n = (long) g->nrun;
+    PG_TRY (k->counts (k->context, "facets.running", 1, &n));
+    PG_KEEP_BOUND (k, "the tips that run", n, 0, (long) b->system.problem->first_bond[PG_BOND_SETS]);
+    if (k->reading) PG_GROW (g->run, g->cap_run, (size_t) n);
+    g->nrun = (size_t) n;
+    for (size_t i = 0; i < g->nrun; i++) {
+        facet_run *r = &g->run[i];
+        double number[5] = { r->speed, r->mean, r->way, r->length, r->least };
+        PG_TRY (k->numbers (k->context, "facets.speed", 5, number));
+        *r = (facet_run) { .speed = number[0], .mean = number[1], .way = number[2], .length = number[3],
+                            .least = number[4] };
+    }
+    PG_TRY (k->numbers (k->context, "facets.since", 1, &g->since));
+    PG_TRY (facet_hold_keep (b, k));
+done:
+    return status;
+}
+
+pg_status facet_save (break_loop *b)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    facet_start *s = &g->start;
+    s->needed = g->needed, s->since = g->since, s->nrun = 0;
+    PG_GROW (s->run, s->cap_run, g->nrun);
+    if (g->nrun) memcpy (s->run, g->run, g->nrun * sizeof *g->run);
+    s->nrun = g->nrun;
+    PG_TRY (facet_hold_copy (&s->hold, &s->nhold, &s->cap_hold, g->hold, g->nhold));
+done:
+    return status;
+}
+
+/* A copy that has no memory leaves no facet held: the step is refused for another reason already. */
+void facet_return (break_loop *b)
+{
+    facet_growth *g = b->growth;
+    const facet_start *s = &g->start;
+    g->needed = s->needed, g->since = s->since, g->fresh = 0;
+    if (g->nrun > s->nrun) g->nrun = s->nrun;
+    if (g->nrun) memcpy (g->run, s->run, g->nrun * sizeof *g->run);
+    facet_hold_copy (&g->hold, &g->nhold, &g->cap_hold, s->hold, s->nhold);
+    facet_hold_sum (b);
 }

@@ -9,6 +9,7 @@
  *     motions that the step cannot
  * resolve; beta = (1 - alpha)^2 / 4 and gamma = 1/2 - alpha then keep it of second order.
  * Nodes whose motion is prescribed by elimination take V and A from that motion (newmark_start.c). */
+#include "facet_growth.h"
 #include "newmark_state.h"
 #include <math.h>
 #include <stdio.h>
@@ -80,6 +81,7 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
     if (n->joined) system_add_mass (sys, -n->setting.rayleigh_mass, v, residual);
     else newmark_damp (n, v, residual);
     n->joined = 0;
+    system_add_held (sys, residual);
     for (size_t i = 0; alpha != 0 && i < sys->ndof; i++)
         residual[i] = (1 + alpha) * residual[i] - alpha * n->force0[i];
     double *known = n->work4, *Mknown = known + sys->ndof, *Ma = Mknown + sys->ndof;
@@ -100,6 +102,7 @@ static void add_resistance (void *context, const double *d, double *residual)
     double *v = n->work1, *a = n->work3, *Ma = n->work4;
     rates (m, d, v, a);
     newmark_damp (n, v, residual);
+    system_add_held (n->system, residual);
     memset (Ma, 0, n->system->ndof * sizeof *Ma);
     system_add_mass (n->system, 1, a, Ma);
     for (size_t i = 0; i < n->system->ndof; i++) residual[i] -= Ma[i];
@@ -173,6 +176,7 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     step->dissipated = b->work - b->work0 - (s->report.energy_strain + s->report.energy_kinetic - b->stored0);
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+    if (b->growth) PG_TRY (facet_show (s, state, 1));
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     while ((double) s->next_level / (double) s->options.levels <= step->factor * (1 + 1e-12))
@@ -241,8 +245,9 @@ static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 const pg_solver_type pg_solver_newmark = {
     .name = "newmark",
     .summary = "implicit dynamics, Newmark's method",
-    .flags = PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY,
-    .keys = { &table, &solver_keys_breaking, &solver_keys_linear, &solver_keys_step, &solver_keys_time },
+    .flags = PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS,
+    .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear,
+              &solver_keys_step, &solver_keys_time },
     .read = newmark_read,
     .start = newmark_start,
     .step = newmark_step,

@@ -23,10 +23,11 @@ void newmark_damp (newmark *n, const double *v, double *residual)
     for (size_t i = 0; i < sys->ndof; i++) residual[i] -= ck * Kv[i];
 }
 
-/* residual -= M a + C v */
+/* residual -= M a + C v; what facets that open still hold is added. */
 void newmark_resist (newmark *n, const double *v, const double *a, double *residual)
 {
     newmark_damp (n, v, residual);
+    system_add_held (n->system, residual);
     system_add_mass (n->system, -1, a, residual);
 }
 
@@ -38,6 +39,7 @@ pg_status newmark_remember (newmark *n, double t, const pg_state *state)
     double unused;
     PG_TRY (sys->force->balance (sys->self, t, state->d, n->force0, &unused));
     newmark_damp (n, state->v, n->force0);
+    system_add_held (sys, n->force0);
 done:
     return status;
 }

@@ -57,6 +57,7 @@ typedef struct {
     double   *mass;                                    /* lumped, per unknown, kg */
     const pg_sparse *M;                                /* consistent, or NULL */
     double   *residual, *reduced, *delta, *full, *best, *scratch;
+    const double *held;  /* forces that facets still carry while they open, N (ndof); NULL: none */
     /* of the last state measured, N: its forces; what it lacks to balance */
     double    reference, unbalanced;
     double    scale;  /* what its residual was divided by: the reference, or forces of rounding */
@@ -133,6 +134,7 @@ pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */
 /* After the first refresh; consistent: by the force, not lumped. */
 pg_status system_mass (pg_system *s, int consistent);
+void system_add_held (const pg_system *s, double *residual);           /* += held */
 void system_add_mass (const pg_system *s, double factor, const double *x, double *y);
 void system_add_mass_diagonal (const pg_system *s, double factor, double *d);
 void system_add_mass_matrix (const pg_system *s, double factor, const pg_sparse *K, double *value);

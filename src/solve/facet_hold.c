@@ -1,0 +1,185 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * How a facet opens in a body that moves. Were all bonds across it cut at once, the body would find forces
+ * gone that the facet had carried a moment before: what they store is less than what the facet takes, and
+ * the rest would ring through the lattice as waves as short as the spacing. In a body a crack takes its
+ * energy while its faces part under what still pulls them together. So do facets here, as nodes of finite
+ * elements are released step by step (Malluck and King 1980, in ASTM STP 711, 38-53): the change of the
+ * nodal forces by the cut,
+ *
+ *   f = F_new (d) - F_old (d),   F the internal forces without and with the bonds,  N,
+ *
+ * is held against, so that no force jumps, and dies down with the way s that the tip has come along the
+ * facet of length l:
+ *
+ *   M a + C v + F_new (d) = P + (1 - s / l) f.
+ *
+ * f is in balance by itself, as F_new and F_old are under rigid motions. What it does not give back,
+ * the drop of stored energy by the cut less its work on the body, is what the facet dissipates: the sum of
+ * traction times opening, and therefore G (v) times the area. Nothing enters but F: every force that shows
+ * forces between points or by shape functions opens its facets so, with a matrix or without one. */
+#include "facet_growth.h"
+#include <math.h>
+#include <string.h>
+
+/* The share of the force that is left. */
+static double left (const facet_hold *h) { return h->way >= h->length ? 0 : 1 - h->way / h->length; }
+
+static void clear (facet_hold *hold, size_t first, size_t n)
+{
+    for (size_t k = first; k < n; k++) pg_free (hold[k].unknown), pg_free (hold[k].force);
+}
+
+void facet_hold_free (facet_growth *g)
+{
+    clear (g->hold, 0, g->nhold), clear (g->start.hold, 0, g->start.nhold);
+    pg_free (g->hold), pg_free (g->start.hold), pg_free (g->start.run);
+    pg_free (g->held), pg_free (g->force_before);
+    g->hold = NULL, g->held = g->force_before = NULL, g->nhold = g->cap_hold = 0;
+    g->start = (facet_start) { 0 };
+}
+
+/* The sum of all into `held`, which the system adds to its forces; what facets have taken as far as they are
+ * open. */
+void facet_hold_sum (break_loop *b)
+{
+    facet_growth *g = b->growth;
+    if (!g->held) return;
+    double closed = 0;
+    memset (g->held, 0, b->system.ndof * sizeof *g->held);
+    for (size_t k = 0; k < g->nhold; k++) {
+        const facet_hold *h = &g->hold[k];
+        for (size_t i = 0; i < h->n; i++) g->held[h->unknown[i]] += left (h) * h->force[i];
+        closed += left (h) * left (h) * h->energy;     /* int of left ds, if it opens linearly in s */
+    }
+    b->system.held = g->nhold ? g->held : NULL;
+    b->system.report->energy_fracture = g->needed - closed;
+}
+
+/* Loads less internal force at (t, d) with the bonds that live now, N (ndof). */
+static pg_status forces_at (const pg_system *s, double t, const double *d, double *out)
+{
+    double unused;
+    return s->force->balance (s->self, t, d, out, &unused);
+}
+
+pg_status facet_hold_before (break_loop *b, double t, const double *d)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    pg_system *s = &b->system;
+    if (!g->force_before) PG_ALLOC (g->force_before, s->ndof);
+    if (!g->held) PG_ALLOC (g->held, s->ndof);
+    PG_TRY (forces_at (s, t, d, g->force_before));
+done:
+    return status;
+}
+
+pg_status facet_hold_begin (break_loop *b, double t, const double *d, long tip, double length,
+                            double energy)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    pg_system *s = &b->system;
+    facet_hold h = { .tip = tip, .length = length, .energy = energy };
+    double *after = NULL, most = 0;
+    PG_ALLOC (after, s->ndof);
+    PG_TRY (forces_at (s, t, d, after));
+    for (size_t i = 0; i < s->ndof; i++) {
+        double f = g->force_before[i] - after[i];
+        g->force_before[i] = after[i], after[i] = f;
+        most = fmax (most, fabs (f));
+    }
+    for (size_t i = 0; i < s->ndof; i++) h.n += fabs (after[i]) > 1e-15 * most;
+    PG_ALLOC (h.unknown, h.n + 1);
+    PG_ALLOC (h.force, h.n + 1);
+    h.n = 0;
+    for (size_t i = 0; i < s->ndof; i++)
+        if (fabs (after[i]) > 1e-15 * most) h.unknown[h.n] = (long) i, h.force[h.n++] = after[i];
+    PG_GROW (g->hold, g->cap_hold, g->nhold + 1);
+    g->hold[g->nhold++] = h;
+    h.unknown = NULL, h.force = NULL;
+    facet_hold_sum (b);
+done:
+    pg_free (after), pg_free (h.unknown), pg_free (h.force);
+    return status;
+}
+
+/* Facets that are open are no longer needed. */
+void facet_hold_drop (break_loop *b, int all)
+{
+    facet_growth *g = b->growth;
+    size_t kept = 0;
+    for (size_t k = 0; k < g->nhold; k++)
+        if (!all && left (&g->hold[k]) > 0) g->hold[kept++] = g->hold[k];
+        else clear (g->hold, k, k + 1);
+    g->nhold = kept;
+    facet_hold_sum (b);
+}
+
+pg_status facet_hold_copy (facet_hold **to, size_t *n, size_t *capacity, const facet_hold *from, size_t count)
+{
+    pg_status status = PG_OK;
+    clear (*to, 0, *n);
+    *n = 0;
+    PG_GROW (*to, *capacity, count);
+    for (size_t k = 0; k < count; k++) {
+        facet_hold *h = &(*to)[k];
+        *h = from[k], h->unknown = NULL, h->force = NULL;
+        *n = k + 1;
+        PG_ALLOC (h->unknown, h->n + 1);
+        PG_ALLOC (h->force, h->n + 1);
+        memcpy (h->unknown, from[k].unknown, h->n * sizeof *h->unknown);
+        memcpy (h->force, from[k].force, h->n * sizeof *h->force);
+    }
+done:
+    if (status != PG_OK) clear (*to, 0, *n), *n = 0;
+    return status;
+}
+
+/* ---- checkpoints and refused steps --------------------------------------------------------------------- */
+static pg_status keep_one (break_loop *b, facet_hold *h, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    const facet_growth *g = b->growth;
+    long count[2] = { h->tip, (long) h->n };
+    double number[3] = { h->way, h->length, h->energy };
+    PG_TRY (k->counts (k->context, "facets.opening", 2, count));
+    PG_TRY (k->numbers (k->context, "facets.opened", 3, number));
+    PG_KEEP_BOUND (k, "the tip of a facet that opens", count[0], 0, (long) g->nrun - 1);
+    PG_KEEP_BOUND (k, "the unknowns that a facet holds", count[1], 0, (long) b->system.ndof);
+    if (k->reading) {
+        *h = (facet_hold) { .tip = count[0], .way = number[0], .length = number[1],
+                             .energy = number[2] };
+        PG_ALLOC (h->unknown, (size_t) count[1] + 1);
+        PG_ALLOC (h->force, (size_t) count[1] + 1);
+        h->n = (size_t) count[1];
+    }
+    PG_TRY (k->counts (k->context, "facets.unknowns", h->n, h->unknown));
+    PG_TRY (k->numbers (k->context, "facets.forces", h->n, h->force));
+    for (size_t i = 0; i < h->n; i++)
+        PG_KEEP_BOUND (k, "an unknown that a facet holds", h->unknown[i], 0, (long) b->system.ndof - 1);
+done:
+    return status;
+}
+
+pg_status facet_hold_keep (break_loop *b, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    long count = (long) g->nhold;
+    PG_TRY (k->counts (k->context, "facets.holding", 1, &count));
+    PG_KEEP_BOUND (k, "the facets that open", count, 0,
+                   (long) b->system.problem->first_bond[PG_BOND_SETS]);
+    if (k->reading) {
+        facet_hold_free (g);
+        PG_ALLOC (g->held, b->system.ndof);
+        g->hold = NULL, g->cap_hold = 0;
+        PG_GROW (g->hold, g->cap_hold, (size_t) count);
+        memset (g->hold, 0, (size_t) count * sizeof *g->hold);
+        g->nhold = (size_t) count;
+    }
+    for (size_t i = 0; i < g->nhold; i++) PG_TRY (keep_one (b, &g->hold[i], k));
+    facet_hold_sum (b);
+done:
+    return status;
+}
