@@ -102,7 +102,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     event_stepping *e = events_of (s);
     size_t bytes = state->ndof * sizeof *state->d;
     double strain = s->report.energy_strain, work = b->work, end, now;
-    int ended, more = 1, moves = 0;
+    int ended = 0, more = 1, moves = 0;
     if (!g->before) PG_ALLOC (g->before, state->ndof);
     memcpy (g->before, state->d, bytes);
     instability_before (s, &e->unstable, state);
