@@ -275,6 +275,8 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
 typedef struct galerkin_alike galerkin_alike;
 pg_status galerkin_alike_create (galerkin_alike **out, const pg_problem *problem);
 void   galerkin_alike_free (galerkin_alike **alike);
+/* Before places are sampled: the field (ndof numbers); rows of another one are forgotten. */
+void   galerkin_alike_begin (galerkin_alike *alike, size_t ndof, const double *d);
 /* Key of each place, or -1: these n = *nrest places are listed in `rest`, each with the key that its own row
  * is to be kept for, or -1. volume: of the nodes. */
 pg_status galerkin_alike_sort (galerkin_alike *alike, const double *volume, size_t n, const double *x,

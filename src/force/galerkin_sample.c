@@ -346,6 +346,7 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     if (g->dilatation && stress) s.pressure = galerkin_dilatation_of_nodes (g, d);
     int alike = s.uniform && !s.pressure && n >= MANY && SHARE * n >= g->n;
     if (alike && !g->alike) PG_TRY (galerkin_alike_create (&g->alike, g->problem));
+    if (alike && g->alike) galerkin_alike_begin (g->alike, g->n * (size_t) g->dim, d);
     for (size_t first = 0; first < n; first += CHUNK) {
         s.u = u + 3 * first, s.stress = stress ? stress + 6 * first : NULL;
         s.gradient = gradient ? gradient + 9 * first : NULL;

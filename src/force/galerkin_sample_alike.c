@@ -13,7 +13,11 @@
  * The first place of a pair of keys is evaluated like any other place and leaves its N and dN, spread over
  * the block with zeros where it sees nobody. All others are products of these rows with the values of the
  * block, which are gathered once a cell: no search, no moment matrix, no list of nodes. Sums run over the
- * block eight lanes at a time in the same order in every instruction set and on any number of threads. */
+ * block eight lanes at a time in the same order in every instruction set and on any number of threads.
+ *
+ * Which places come first, and for how many rows there is room, changes the last bits of a value. Rows are
+ * therefore kept as long as the same field is asked for, and no longer: what a run says of a step does not
+ * depend on what it was asked before, which a resumed run was not. */
 #include "galerkin.h"
 #include <math.h>
 #include <stdint.h>
@@ -44,6 +48,7 @@ struct galerkin_alike {
     key     *key;
     double  *rows;                                     /* (1 + dim) x lanes of each key: N, dN by axes */
     size_t   asked;                                    /* places so far */
+    uint64_t field;                                    /* fingerprint of the field that is sampled */
 };
 
 /* ---- the lattice -------------------------------------------------------------------------------------- */
@@ -153,6 +158,24 @@ static uint64_t mix (uint64_t h, uint64_t bits)
 {
     h = (h ^ bits) * 0xff51afd7ed558ccdu;
     return h ^ h >> 32;
+}
+
+/* The field d of ndof numbers is sampled next: another one begins without rows. */
+void galerkin_alike_begin (galerkin_alike *a, size_t ndof, const double *d)
+{
+    uint64_t field = mix (1, ndof);
+    for (size_t i = 0; i < ndof; i++) {
+        uint64_t bits;
+        memcpy (&bits, d + i, sizeof bits);
+        field = mix (field, bits);
+    }
+    if (field == a->field) return;
+    a->field = field;
+    if (a->asked == 0) return;
+    a->npattern = a->nkey = a->asked = 0;
+    memset (a->at_pattern, 0, 2 * PATTERNS * sizeof *a->at_pattern);
+    memset (a->at_key, 0, 2 * KEPT * sizeof *a->at_key);
+    if (a->rows) memset (a->rows, 0, a->cap * (size_t) (1 + a->dim) * a->lanes * sizeof *a->rows);
 }
 
 /* The cell that a place lies in: number of the first vertex of its block, and the place in the cell. 0: so

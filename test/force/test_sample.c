@@ -115,6 +115,27 @@ static void alike_places_have_the_field_of_the_plain_way (void **state)
         }
 }
 
+/* A run that goes on from a checkpoint was not asked for the fields of the steps before: what it says of a
+ * field is, to the bit, what a run says that was. */
+static void what_was_asked_before_changes_no_bit (void **state)
+{
+    (void) state;
+    run r = body_of (1, 1, 0, ""), fresh = body_of (1, 1, 0, "");
+    double *x = pg_calloc (2 * EACH, sizeof *x), *out = pg_calloc (36 * EACH, sizeof *out),
+           *d = pg_calloc (r.state->ndof, sizeof *d), *other = out + 18 * EACH;
+    refresh (&r, NULL), refresh (&fresh, NULL);
+    fill (&r, d);
+    for (int kind = 2; kind >= 0; kind--) choose (&r, kind, x), sample (&r, d, x, out);
+    for (size_t i = 0; i < r.state->ndof; i++) d[i] *= 0.7;
+    for (int kind = 0; kind < 3; kind++) {
+        choose (&r, kind, x);
+        sample (&r, d, x, out), sample (&fresh, d, x, other);
+        assert_memory_equal (out, other, 18 * EACH * sizeof *out);
+    }
+    pg_free (x), pg_free (out), pg_free (d);
+    clear (&r), clear (&fresh);
+}
+
 /* A broken bond: what the faces of a crack see is asked place by place, whatever was kept before. */
 static void broken_bonds_end_it (void **state)
 {
@@ -183,6 +204,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (alike_places_have_the_field_of_the_plain_way),
+        cmocka_unit_test (what_was_asked_before_changes_no_bit),
         cmocka_unit_test (broken_bonds_end_it),
         cmocka_unit_test (halves_that_have_parted_move_apart),
     };

@@ -40,6 +40,9 @@ static void rings_end_at_surfaces (void **state)
     f = tip_at (38, above);
     check_relative (f.near, 2, 0.05), check_relative (f.wide, 2, 0.05);
     assert_true (isnan (pg_tip_uncertainty (&f, 1, (double[]){ 1 })));
+    /* one ring, whose radius was found twice */
+    f.wide = f.near * (1 + 1e-15);
+    assert_true (isnan (pg_tip_uncertainty (&f, 1, (double[]){ 1 })));
     f = tip_at (39, above);
     assert_true (isnan (f.near) && isnan (f.wide) && isnan (f.J[0][0]) && isnan (f.K[0][0]));
     check_relative (f.room, 1, 0.05);
