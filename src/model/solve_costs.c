@@ -56,14 +56,19 @@ double pg_solve_elements_cost (const pg_solve_counts *c)
  * afforded: some 5 GB in a cube. Iterations take some 250 for every event in a block with a crack, which is
  * six times the seconds of an event by a factor at 41 000 unknowns. */
 enum { EVENTS_FACTOR = 80000 };
-/* In motion solids of fewer unknowns are factored, where one factor serves many steps. */
-enum { MOTION_FACTOR = 40000 };
+/* In motion the matrix k K + m M stays while nothing breaks, and what breaks is followed in its factor: taken
+ * to serve so many solves before another one is needed. A plate of 55 488 unknowns, seven nodes thick: 8 s for
+ * the factor, then 0.1 s a solve, where elements take 1 s; a cube of as many would need ten times the factor. */
+enum { MOTION_SERVES = 20 };
 
 int pg_solve_by_elements (const pg_solve_counts *c, int available, int events, int motion)
 {
     double unknowns = c->points * c->components;
     if (c->dim < 3) return 0;
-    if (motion) return available && unknowns > MOTION_FACTOR;
+    if (motion)
+        return available
+               && (unknowns > EVENTS_FACTOR
+                   || MOTION_SERVES * pg_solve_elements_cost (c) < pg_solve_direct_cost (c));
     if (events && unknowns <= EVENTS_FACTOR) return 0;
     if (available && pg_solve_elements_cost (c) < pg_solve_direct_cost (c)) return 1;
     return unknowns > 200000;

@@ -3,7 +3,7 @@
  * start of a step in its middle), energies, counts, what a method carries from step to step. Caches are not
  * kept: they are functions of the bonds, made again in the same order. The factor of an earlier K is one of
  * them: it is made again from the bonds that lived then. */
-#include "solve.h"
+#include "event_solver.h"
 #include <string.h>
 
 static const long most = 1L << 50;                     /* of any count */
@@ -233,6 +233,19 @@ done:
     return status;
 }
 
+/* What has broken since the factor of a motion was made. */
+static pg_status keep_following (pg_system *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    long count = s->following && s->mode == SYSTEM_KEPT_FACTOR;
+    PG_TRY (k->counts (k->context, "system.following", 1, &count));
+    PG_KEEP_BOUND (k, "what follows a factor", count, 0, s->mode == SYSTEM_KEPT_FACTOR ? 1 : 0);
+    if (count && !s->following) PG_TRY (event_solver_create (&s->following, s, 0, NULL));
+    if (count && s->following) PG_TRY (event_solver_keep (s->following, k));
+done:
+    return status;
+}
+
 /* The linear system: how it is solved, which unknowns are weak, what the iterations have cost so far. A
  * way to solve that this force does not have is refused. */
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
@@ -263,6 +276,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     }
     PG_TRY (keep_preconditioner (s, solves, count[4], k));
     PG_TRY (system_guess_keep (s, k));
+    PG_TRY (keep_following (s, k));
     s->stale = (int) count[5];
 done:
     return status;
@@ -345,6 +359,7 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
     sys->stale = stale, sys->guess.fresh = fresh;
     memcpy (counts.seconds, s->report.seconds, sizeof counts.seconds);
     s->report = counts;
+    if (sys->following) PG_TRY (event_solver_restore (sys->following));
 done:
     return status;
 }

@@ -108,12 +108,13 @@ pg_status event_solver_keep (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long count[1] = { e->based };
-    double number[4] = { e->shift, e->scale, e->residual, e->rent };
+    double number[5] = { e->shift, e->scale, e->residual, e->rent, e->k };
     PG_TRY (k->counts (k->context, "event_solver.counts", 1, count));
-    PG_TRY (k->numbers (k->context, "event_solver.numbers", 4, number));
+    PG_TRY (k->numbers (k->context, "event_solver.numbers", 5, number));
     PG_KEEP_BOUND (k, "the base of events", count[0], 0, 1);
-    e->shift = number[0], e->scale = number[1], e->residual = number[2], e->rent = number[3];
-    if (k->reading) e->based = (int) count[0], e->s->base = e->based;
+    e->shift = number[0], e->scale = number[1], e->residual = number[2], e->rent = number[3],
+    e->k = number[4];
+    if (k->reading) e->based = (int) count[0], e->s->base |= e->based;
     if (!e->based) goto done;
     PG_TRY (k->numbers (k->context, "event_solver.diagonal", e->ndof, e->diagonal));
     PG_TRY (keep_touched (e, k));

@@ -24,10 +24,11 @@ pg_status event_solver_create (event_solver **out, pg_system *s, int cases, cons
     /* Else there is one solve only. Plain runs leave out the springs of weak unknowns as well: what
      * refinement leaves of them moves mechanisms (rows of points between cracks), and the load of an event by
      * 1e-6. */
-    s->serves = s->problem->criterion->type != NULL;
+    if (cases) s->serves = s->problem->criterion->type != NULL;
     if (s->options->plain) return PG_OK;
     PG_ALLOC (e, 1);
-    e->s = s, e->cases = cases, e->ndof = s->ndof, e->nred = s->nred, e->why = "there is no base yet";
+    e->s = s, e->k = 1, e->cases = cases, e->ndof = s->ndof, e->nred = s->nred;
+    e->why = "there is no base yet";
     PG_ALLOC (e->at, e->ndof);
     PG_ALLOC (e->diagonal, e->ndof);
     for (int c = 0; c < cases; c++) {
@@ -56,7 +57,7 @@ void event_solver_free (event_solver **solver)
     *solver = NULL;
 }
 
-int event_solver_has_base (const event_solver *e) { return e->based; }
+int event_solver_has_base (const event_solver *e) { return e->based && !e->restored; }
 
 void event_solver_drop (event_solver *e) { e->based = e->s->base = 0, e->why = "there is no base yet"; }
 
@@ -127,6 +128,23 @@ pg_status event_solver_base (event_solver *e, double *const *u, double *residual
     PG_TRY (s->force->change (s->self, &change));      /* the record begins here */
     e->based = s->base = 1, e->why = "", e->factorizations = s->report->factorizations;
     e->rent = 0;
+    PG_TRY (event_solver_flush (e));
+done:
+    return status;
+}
+
+pg_status event_solver_follow (event_solver *e, double k, double m)
+{
+    pg_status status = PG_OK;
+    pg_system *s = e->s;
+    pg_stiffness_change change;
+    event_solver_drop (e), touched_clear (e);
+    const pg_sparse *K = s->force->matrix (s->self);
+    for (size_t i = 0; i < e->ndof; i++) e->diagonal[i] = k * K->value[K->start[i + 1] - 1];
+    if (m != 0) system_add_mass_diagonal (s, m, e->diagonal);
+    e->k = k, e->shift = 0, e->scale = 1, e->rent = e->residual = 0;
+    PG_TRY (s->force->change (s->self, &change));      /* the record begins here */
+    e->based = s->base = 1, e->why = "", e->factorizations = s->report->factorizations;
     PG_TRY (event_solver_flush (e));
 done:
     return status;
@@ -242,6 +260,18 @@ done:
     return status;
 }
 
+pg_status event_solver_note (event_solver *e, event_outcome *outcome)
+{
+    pg_status status = PG_OK;
+    PG_TRY (take_in (e, outcome));
+    if (*outcome == EVENT_SOLVED && base_is_due (e))
+        *outcome = EVENT_DUE, e->why = "the touched unknowns have become many";
+done:
+    return status;
+}
+
+size_t event_solver_touched (const event_solver *e) { return e->t; }
+
 /* ---- the solution -------------------------------------------------------------------------------------- */
 pg_status event_solver_watch (event_solver *e, size_t n, const int *node)
 {
@@ -292,6 +322,7 @@ pg_status event_solver_correct (event_solver *e, const double *r, double *delta)
     pg_system *s = e->s;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double *full = NULL, *part = NULL, *y = NULL;
+    if (e->t == 0) return s->linear->solve (s->factor, 1, r, delta);
     PG_ALLOC (full, e->ndof);
     PG_ALLOC (part, e->nred);
     PG_ALLOC (y, 2 * (e->t + 1));
@@ -305,6 +336,7 @@ pg_status event_solver_correct (event_solver *e, const double *r, double *delta)
     columns_times (e, 0, y, full);
     reduce (e, T, full, part);
     for (size_t j = 0; j < e->nred; j++) delta[j] -= part[j];
+    e->rent += (double) e->t * (double) e->ndof / memory_rate;
 done:
     pg_free (full), pg_free (part), pg_free (y);
     return status;

@@ -40,7 +40,7 @@ typedef enum {
 enum { EVENT_CASES = 2, EVENT_MOST = 64 };             /* most load cases; most events of a block */
 
 /* A solver for the system of a run. cases: 1 (load factor 1) or 2 (load factors 0 and 1): time[c] is the load
- * factor of case c. *out NULL: not available (solver.plain, no matrix, a force without `change`). */
+ * factor of case c; 0 (time NULL): a motion. *out NULL: not available (solver.plain, no matrix, a force without `change`). */
 pg_status event_solver_create (event_solver **out, pg_system *s, int cases, const double *time);
 void      event_solver_free   (event_solver **e);
 
@@ -50,6 +50,12 @@ void      event_solver_free   (event_solver **e);
  * solved without a factor: then every update is lost. */
 pg_status event_solver_base   (event_solver *e, double *const *u, double *residual);
 int       event_solver_has_base (const event_solver *e);
+/* A base of a motion: the factor at hand is that of k K + m M, and there are no load cases, only what
+ * event_solver_correct gives. */
+pg_status event_solver_follow (event_solver *e, double k, double m);
+/* After system_refresh, of such a base: takes in what K lost, with nothing to be solved for. */
+pg_status event_solver_note   (event_solver *e, event_outcome *outcome);
+size_t    event_solver_touched (const event_solver *e);        /* unknowns since the base */
 /* The base is of no use any more. */
 void      event_solver_drop     (event_solver *e);
 

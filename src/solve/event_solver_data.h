@@ -18,7 +18,8 @@ struct event_solver {
     long    factorizations;                            /* of the run when the base was made: its factor */
     double *base[EVENT_CASES];                         /* u_b (ndof) */
     double *constant[EVENT_CASES];                     /* residual of u = 0 at the base, N (ndof) */
-    double *diagonal;                                  /* of K at the base, N/m (ndof) */
+    double *diagonal;  /* of the factored matrix at the base, N/m (ndof) */
+    double  k;                                         /* that matrix is k K + m M; 1 at rest */
     double  shift;                                     /* that weak unknowns get in a factor, N/m */
     double  scale;                                     /* reference force at the base, N */
     /* ---- touched unknowns: t of them, arrays of cap, matrices column-major with columns cap apart */

@@ -166,7 +166,7 @@ static pg_status add_change (event_solver *e, const pg_stiffness_change *change,
     for (size_t k = 0; k < n; k++) {
         memcpy (Hc + k * t, e->H + place[k] * cap, t * sizeof *Hc);
         for (size_t l = 0; l < n; l++) {
-            delta[l + k * n] = change->K[row[k] * change->width + row[l]];
+            delta[l + k * n] = e->k * change->K[row[k] * change->width + row[l]];
             e->D[place[l] + place[k] * cap] += delta[l + k * n];
         }
     }

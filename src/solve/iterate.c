@@ -50,12 +50,10 @@ static void carry_residual (void *context, double alpha)
     for (size_t i = 0; i < c->s->ndof; i++) c->s->residual[i] -= alpha * c->image[i];
 }
 
-/* The factor of an earlier K as preconditioner: breaking changes K a little, so that a few iterations make
- * up for it. */
+/* The factor of an earlier K as preconditioner (kept_factor.c). */
 static pg_status by_factor_of_before (void *context, const double *r, double *z)
 {
-    pg_system *s = context;
-    return s->linear->solve (s->factor, 1, r, z);
+    return system_apply_factor (context, r, z);
 }
 
 /* Finite elements know all unknowns. With elimination, d = T q, the residual of q is put at the unknowns that

@@ -43,6 +43,7 @@ typedef struct {
     long      by_columns;                              /* equilibria by an event solver, no new factor */
     int       loose;  /* 1: K was found to leave parts free to move */
     int       base;  /* 1: the factor is the base of an event solver, which it serves whatever has broken */
+    struct event_solver *following;  /* in motion: what has broken since the factor was made; or NULL */
     int       indefinite;  /* K proved not positive definite: another linear solver took over */
     unsigned long revision;                            /* of K when it was last factored or found stale */
     long      spared;                                  /* solves by the factor of an earlier K */
@@ -123,6 +124,14 @@ void      system_guess_learn (pg_system *s);
 void      system_guess_free  (pg_system *s);
 pg_status system_guess_ready (pg_system *s);
 pg_status system_guess_keep  (pg_system *s, const pg_keeper *k);
+/* Factors where K has changed, then solves. */
+pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn);
+/* kept_factor.c: a factor that serves on while bonds break: solve with it; z = (that or the matrix of now)^-1
+ * r; follow what breaks from now on; take in what the last refresh changed. */
+pg_status system_solve_by_kept_factor (pg_system *s, const dynamics *dyn, double tolerance);
+pg_status system_apply_factor (pg_system *s, const double *r, double *z);
+pg_status system_follow      (pg_system *s, const dynamics *dyn);
+pg_status system_note_change (pg_system *s);
 /* One solve for `delta` from `reduced`, by the way that was chosen or is chosen now (system.c). */
 pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance);
 /* d becomes the equilibrium at t (refinement.c); *residual relative to the reference force.

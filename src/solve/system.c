@@ -4,7 +4,7 @@
  * M) T and the residual T' R. Unknowns that breaking has touched get 1e-11 of the mean diagonal (isolated
  * nodes and loose fragments stay put); the refinement takes its effect out again wherever the body can carry
  * load. */
-#include "solve.h"
+#include "event_solver.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -13,6 +13,7 @@
 void system_free (pg_system *s)
 {
     if (s->factor) s->linear->free (&s->factor);
+    event_solver_free (&s->following);
     system_guess_free (s);
     system_forget_preconditioner (s);
     if (s->force && s->self) s->force->free (&s->self);
@@ -107,6 +108,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     else s->kept++;
     s->revision = now;
     s->report->updates += changes != NULL;
+    if (status == PG_OK) status = system_note_change (s);
     s->report->seconds[changes ? PG_SECONDS_UPDATE : PG_SECONDS_SHAPE] += pg_seconds () - t0;
     return status;
 }
@@ -117,6 +119,7 @@ void system_switch (pg_system *s, int mode)
 {
     s->mode = mode, s->stale = 1, s->guess.n = 0;
     s->extra_cost = mode == SYSTEM_KEPT_FACTOR ? 1e300 : 0;
+    if (s->following) event_solver_drop (s->following);
     system_forget_preconditioner (s);
     s->remake = 0;
 }
@@ -310,7 +313,7 @@ double system_factor_cost (const pg_system *s) { return s->report->factor_flops 
 double system_solve_cost (const pg_system *s) { return 4 * s->report->factor_entries / 3e9; }
 /* Factors where K has changed, then two triangular solves. A factor that is dear against its solves is
  * kept as a preconditioner from then on, as a few broken bonds change K little. */
-static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
+pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
     if (s->stale) PG_TRY (system_factorize (s, dyn));
@@ -322,29 +325,10 @@ static pg_status solve_by_factor (pg_system *s, const dynamics *dyn)
     s->matrix_iterations = info.iterations;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     int keep = operator_of (s) && strcmp (s->options->linear, "auto") == 0 && !s->indefinite && s->unshifted;
-    if (keep && system_factor_cost (s) > worth_keeping * system_solve_cost (s)) s->mode = SYSTEM_KEPT_FACTOR;
-done:
-    return status;
-}
-
-/* The factor of an earlier K preconditions conjugate gradients. It is renewed when the iterations beyond
- * two that it has cost would have paid for a new one (the rule of rent or buy, at most twice the best
- * possible cost); where iterations fail, at once. */
-static pg_status solve_by_kept_factor (pg_system *s, const dynamics *dyn, double tolerance)
-{
-    pg_status status = PG_OK;
-    size_t used = 0;
-    if (s->stale && s->extra_cost > system_factor_cost (s)) {
-        PG_TRY (system_factorize (s, dyn));
-        s->extra_cost = 0;
+    if (keep && system_factor_cost (s) > worth_keeping * system_solve_cost (s)) {
+        s->mode = SYSTEM_KEPT_FACTOR;
+        PG_TRY (system_follow (s, dyn));
     }
-    s->spared += s->stale;
-    pg_status now = system_iterate (s, dyn, BY_FACTOR, tolerance, 200, &used);
-    if (used > 2) s->extra_cost += (double) (used - 2) * (system_solve_cost (s) + system_apply_cost (s));
-    if (now == PG_OK) return PG_OK;
-    if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
-    s->stale = 1, s->extra_cost = 0;
-    status = solve_by_factor (s, dyn);
 done:
     return status;
 }
@@ -440,8 +424,8 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
     }
     if (s->mode == SYSTEM_NO_FACTOR || s->mode == SYSTEM_DIAGONAL)
         PG_TRY (solve_without_factor (s, dyn, tolerance));
-    if (s->mode == SYSTEM_KEPT_FACTOR) PG_TRY (solve_by_kept_factor (s, dyn, tolerance));
-    else if (s->mode == SYSTEM_FACTOR) PG_TRY (solve_by_factor (s, dyn));
+    if (s->mode == SYSTEM_KEPT_FACTOR) PG_TRY (system_solve_by_kept_factor (s, dyn, tolerance));
+    else if (s->mode == SYSTEM_FACTOR) PG_TRY (system_solve_by_factor (s, dyn));
 done:
     s->report->solves += status == PG_OK;
     return status;
