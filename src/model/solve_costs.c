@@ -57,8 +57,9 @@ double pg_solve_elements_cost (const pg_solve_counts *c)
  * six times the seconds of an event by a factor at 41 000 unknowns. */
 enum { EVENTS_FACTOR = 80000 };
 /* In motion the matrix k K + m M stays while nothing breaks, and what breaks is followed in its factor: taken
- * to serve so many solves before another one is needed. A plate of 55 488 unknowns, seven nodes thick: 8 s for
- * the factor, then 0.1 s a solve, where elements take 1 s; a cube of as many would need ten times the factor. */
+ * to serve so many solves before another one is needed. A plate of 55 488 unknowns, seven nodes thick: 8 s
+ * for the factor, then 0.1 s a solve, where elements take 1 s; a cube of as many would need ten times the
+ * factor. */
 enum { MOTION_SERVES = 20 };
 
 int pg_solve_by_elements (const pg_solve_counts *c, int available, int events, int motion)

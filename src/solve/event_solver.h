@@ -40,7 +40,8 @@ typedef enum {
 enum { EVENT_CASES = 2, EVENT_MOST = 64 };             /* most load cases; most events of a block */
 
 /* A solver for the system of a run. cases: 1 (load factor 1) or 2 (load factors 0 and 1): time[c] is the load
- * factor of case c; 0 (time NULL): a motion. *out NULL: not available (solver.plain, no matrix, a force without `change`). */
+ * factor of case c; 0 (time NULL): a motion. *out NULL: not available (solver.plain, no matrix, a force
+ * without `change`). */
 pg_status event_solver_create (event_solver **out, pg_system *s, int cases, const double *time);
 void      event_solver_free   (event_solver **e);
 
