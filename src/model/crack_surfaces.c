@@ -23,6 +23,11 @@
 /* A part between closed vertices of so few vertices goes on, at most so many spacings, and is closed, too. */
 enum { FEW = 1 };
 #define RUN_OUT 4.0
+/* What is seen from an end on the surface is looked at from so far inside, parts of the way to its
+ * neighbour. */
+#define INSIDE 1e-3
+/* Cosine of the angle between the ways of two vertices that meet the same face of the body. */
+#define SAME_FACE 0.9
 /* A loop that closes in on itself: shorter than so many spacings. */
 #define LOOP 5.0
 /* Fronts within so many spacings of the place where another one met them end there. */
@@ -89,13 +94,30 @@ static void move (stride *s, const double *d, const double *theta)
     }
 }
 
+/* An end that is closed goes along the surface: its way without what leads away from there, to its neighbour. */
+static void along_surface (stride *s, size_t end, size_t beside)
+{
+    double out[3], *way = s->way + 3*end;
+    for (size_t k = 0; k < 3; k++) out[k] = s->old.x[3*end + k] - s->old.x[3*beside + k];
+    if (s->old.meets[end] != PG_MEETS_SURFACE || !unit3 (out)) return;
+    double inward = fmin (0, dot3 (way, out));
+    for (int k = 0; k < 3; k++) way[k] -= inward * out[k];
+    unit3 (way);
+}
+
 /* The end of a front goes back onto the surface, along the line from its neighbour. */
 static void put_back (stride *s, size_t end, size_t beside)
 {
     double *x = s->now.x + 3*end, *from = s->now.x + 3*beside, e[3];
     double h = spacing_at (s, beside), length = apart3 (x, from);
     unsigned char meets;
-    if (s->shut[beside]) shut_at (s, end, s->now.meets[end]);
+    if (s->shut[beside]) {                             /* it goes as far as its neighbour, along the surface */
+        int goes = apart3 (x, s->old.x + 3*end) > 0 && s->now.meets[end] == PG_MEETS_SURFACE;
+        along_surface (s, end, beside);
+        shift (s->old.x + 3*end, s->way + 3*end, goes ? apart3 (from, s->old.x + 3*beside) : 0, x);
+        shut_at (s, end, s->now.meets[end]);
+        return;
+    }
     if (s->old.meets[end] == PG_MEETS_NOTHING || !(length > 0)) return;
     if (apart3 (x, s->old.x + 3*end) == 0 && apart3 (from, s->old.x + 3*beside) == 0) return;
     for (int k = 0; k < 3; k++) e[k] = (x[k] - from[k]) / length;
@@ -125,10 +147,16 @@ static void close_loop (stride *s)
 /* The last vertices of a ligament go straight on, as far as the surface is near. */
 static void run_out (stride *s, size_t i)
 {
-    double h = spacing_at (s, i), r;
+    double h = spacing_at (s, i), from[3];
     unsigned char meets;
-    r = space_end (s->p, s->w, s->old.x + 3*i, s->way + 3*i, RUN_OUT * h, &meets);
-    if (meets != PG_MEETS_NOTHING) shift (s->old.x + 3*i, s->way + 3*i, r, s->now.x + 3*i);
+    memcpy (from, s->old.x + 3*i, sizeof from);
+    if (is_end (s, i)) {                               /* from a little inside of the surface */
+        size_t beside = i ? i - 1 : 1;
+        along_surface (s, i, beside);
+        for (size_t k = 0; k < 3; k++) from[k] += INSIDE * (s->old.x[3*beside + k] - from[k]);
+    }
+    double r = space_end (s->p, s->w, from, s->way + 3*i, RUN_OUT * h, &meets);
+    if (meets != PG_MEETS_NOTHING) shift (from, s->way + 3*i, r, s->now.x + 3*i);
     shut_at (s, i, meets);
 }
 
@@ -399,6 +427,26 @@ done:
     return status;
 }
 
+/* Between two closed vertices on different faces of the body lies an edge or a corner of it, which the straight
+ * line between them would leave whole: the line goes on around it. What lies there is swept, too. */
+static pg_status around_edge (stride *s, size_t i, size_t j)
+{
+    pg_status status = PG_OK;
+    double middle[3], way[3], out[3], h = spacing_at (s, i);
+    const double *a = s->way + 3*i, *b = s->way + 3*j, *x = s->now.x + 3*i, *y = s->now.x + 3*j;
+    if (s->now.meets[i] != PG_MEETS_SURFACE || s->now.meets[j] != PG_MEETS_SURFACE || dot3 (a, b) > SAME_FACE)
+        return PG_OK;
+    for (int k = 0; k < 3; k++) middle[k] = 0.5 * (x[k] + y[k]), way[k] = a[k] + b[k];
+    if (!unit3 (way) || !pg_problem_has_body (s->p, middle)) return PG_OK;
+    double r = space_to_surface (s->p, middle, way, RUN_OUT * h);
+    shift (middle, way, r, out);
+    s->w->area += triangle_area3 (x, out, y);
+    shift (out, way, space_beyond (s->p, out, way), out);
+    PG_TRY (to_line (s, out, s->now.normal + 3*i));
+done:
+    return status;
+}
+
 /* The parts between closed vertices, one after the other, and the line that they make with these. */
 static pg_status divide (stride *s)
 {
@@ -423,6 +471,7 @@ static pg_status divide (stride *s)
             int last = !loop && k + 1 == n;
             const double *normal = s->now.normal + 3*i, *at = s->c + 3*i;
             if (k == 0 && !loop) PG_TRY (beyond_end (s, s->now.meets[0], at, s->c + 3, normal));
+            if (k > 0 && s->shut[(i + n - 1) % n]) PG_TRY (around_edge (s, (i + n - 1) % n, i));
             PG_TRY (to_line (s, at, normal));
             if (last) PG_TRY (beyond_end (s, s->now.meets[i], at, s->c + 3 * (i - 1), normal));
         }

@@ -31,9 +31,15 @@ static void slope (const pg_front *f, const double *x, size_t i, double *out)
     }
 }
 
+/* At an end: of the parabola through the end, its neighbour and the next. */
 void front_tangent (const pg_front *f, size_t i, double *tangent)
 {
     slope (f, f->x, i, tangent);
+    if (!f->closed && f->n > 2 && (i == 0 || i + 1 == f->n)) {
+        double next[3];
+        slope (f, f->x, i ? i - 1 : 1, next);
+        for (int k = 0; k < 3; k++) tangent[k] = 2 * tangent[k] - next[k];
+    }
     if (!unit3 (tangent)) cross3 (f->ahead + 3*i, f->normal + 3*i, tangent);
 }
 
@@ -123,7 +129,7 @@ static void value_at (const pg_front *f, const double *x, spot q, double *out)
 {
     size_t i = q.from, j = (i + 1) % f->n;
     double a[3], b[3], t = q.t, l = apart3 (f->x + 3*i, f->x + 3*j);
-    if (t == 0) { memcpy (out, x + 3*i, 3 * sizeof *out); return; }
+    if (t == 0 || !(l > 0)) { memcpy (out, x + 3*i, 3 * sizeof *out); return; }
     /* beyond a corner the line goes on otherwise: its own direction counts there */
     if (is_corner (f, i)) for (size_t k = 0; k < 3; k++) a[k] = (x[3*j + k] - x[3*i + k]) / l;
     else slope (f, x, i, a);

@@ -7,6 +7,8 @@
 
 /* Of a front, in parts of the square root of the area, at most. */
 #define OFFSET_OF_SIZE 0.25
+/* A vertex so close to where its front ends gives way to the end, spacings. */
+#define NEAR_END 0.25
 /* Halvings of an edge where it leaves the body. */
 enum { HALVINGS = 50 };
 
@@ -108,9 +110,17 @@ static pg_status add_front (patch *c, size_t first, size_t m)
     double *cut = NULL, place[3];
     PG_TRY (pg_front_reserve (&f, m + 2));
     if (!f.closed) leave (c, first, (first + n - 1) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
-    for (size_t k = 0; k < m; k++) put_vertex (c, &f, c->x + 3 * ((first + k) % n), PG_MEETS_NOTHING);
-    if (!f.closed)
-        leave (c, (first + m - 1) % n, (first + m) % n, place), put_vertex (c, &f, place, PG_MEETS_SURFACE);
+    for (size_t k = 0; k < m; k++) {                   /* but for vertices next to the end itself */
+        const double *x = c->x + 3 * ((first + k) % n);
+        if (k > 0 || f.closed || apart3 (x, place) > NEAR_END * pg_problem_spacing_at (c->p, x))
+            put_vertex (c, &f, x, PG_MEETS_NOTHING);
+    }
+    if (!f.closed) {
+        leave (c, (first + m - 1) % n, (first + m) % n, place);
+        if (f.n > 2 && apart3 (f.x + 3 * (f.n - 1), place) <= NEAR_END * pg_problem_spacing_at (c->p, place))
+            f.n--;
+        put_vertex (c, &f, place, PG_MEETS_SURFACE);
+    }
     front_frames (&f);
     PG_ALLOC (cut, 3 * f.n);
     for (size_t i = 0; i < 3 * f.n; i++) cut[i] = f.x[i] - c->offset * f.ahead[i];

@@ -163,10 +163,292 @@ static void a_disc_grows (void **state)
     end (&g);
 }
 
+/* Vertices that stay behind, kinks that change along the front and from step to step: what dies is what the
+ * triangles cut, and nothing slips through. */
+static void a_front_kinks_and_lags (void **state)
+{
+    (void) state;
+    growing g = begin (CUBE ("16", "lattice_offset: [0.3, 0.1, 0.2]\n"));
+    const double middle[3] = { 8.1, 7.9, 8.05 }, e[3] = { 0.8, 0, 0.6 }, f[3] = { -0.36, 0.8, 0.48 };
+    start_disc (&g, middle, e, f, 2.5, 16);
+    size_t dead = bury (&g);
+    for (int k = 0; k < 4; k++) {
+        enum { MOST = 100 };
+        double d[MOST], theta[MOST];
+        const pg_front *front = g.s->surfaces->front;
+        assert_true (front->n < MOST);
+        for (size_t i = 0; i < front->n; i++) {
+            double along = 2 * acos (-1) * (double) i / (double) front->n;
+            d[i] = fmax (0, 0.3 + 0.7 * cos (along + 0.3 * k)), theta[i] = 0.8 * sin (2 * along + k);
+        }
+        check_ok (pg_front_advance (g.s, g.p, 0, d, theta, &g.cut));
+        dead += bury (&g);
+        assert_int_equal (check_mask (&g), dead);
+    }
+    assert_int_equal (g.s->surfaces->nfront, 1);
+    check_seams (g.s->surfaces, 100000);
+    end (&g);
+}
+
+/* Is a bond between two sides of a plane alive somewhere? Counts those that were cut. */
+static size_t check_severed (const growing *g, int axis, double at)
+{
+    const pg_problem *p = g->p;
+    size_t severed = 0;
+    for (int set = 0; set < PG_BOND_SETS; set++)
+        for (size_t q = 0; q < p->rows[set].n; q++)
+            for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
+                size_t j = 3 * (size_t) p->rows[set].family.node[e] + (size_t) axis;
+                if ((p->rows[set].x[3*q + (size_t) axis] < at) == (p->cloud.x[j] < at)) continue;
+                assert_false (g->s->alive[p->first_bond[set] + e]);
+                severed++;
+            }
+    return severed;
+}
+
+/* A straight front of a pre-crack runs to the other side of the body: its ends stay on the surface, and at the
+ * end nothing holds the two parts together. */
+static void a_front_severs_the_body (void **state)
+{
+    (void) state;
+    growing g = begin (CUBE ("8", "cracks: [{polygon: [[-1, -1, 3.3], [3, -1, 3.3], [3, 9, 3.3], "
+                                  "[-1, 9, 3.3]]}]\n"));
+    size_t dead = check_mask (&g);
+    assert_true (g.s->surfaces->nfront == 1 && g.s->surfaces->nfirst == 1 && !g.s->surfaces->front->closed);
+    for (int k = 0; k < 4; k++) {
+        const pg_front *front = g.s->surfaces->front;
+        assert_int_equal (front->open, k < 4);
+        check_relative (front->x[0], 3 + k, 1e-12);
+        for (size_t i = 0; i < front->n; i++) check_relative (front->ahead[3*i], 1, 1e-12);
+        double low = fmin (front->x[1], front->x[3 * front->n - 2]),
+               high = fmax (front->x[1], front->x[3 * front->n - 2]);
+        check_absolute (low, 0, 1e-9), check_relative (high, 8, 1e-9);
+        check_relative (g.s->surfaces->area + 24, 8.0 * (3 + k), 1e-9);
+        advance (&g, 0, 1, 0);
+        dead += bury (&g);
+        assert_int_equal (check_mask (&g), dead);
+    }
+    assert_false (g.s->surfaces->front->open);
+    check_relative (g.s->surfaces->area, 40, 1e-9);
+    assert_true (check_severed (&g, 2, 3.3) > 2000);
+    check_seams (g.s->surfaces, 3000);
+    end (&g);
+}
+
+/* A quarter of a disc at an edge of the body, half a disc at its surface: their ends lie on the surface, and
+ * after enough steps the body is in two. */
+static void a_crack_begins_at_the_surface (void **state)
+{
+    (void) state;
+    growing g = begin (CUBE ("7", ""));
+    const double middle[3] = { 3.4, 0, 3.3 }, e[3] = { 1, 0, 0 }, f[3] = { 0, 1, 0 };
+    start_disc (&g, middle, e, f, 2, 20);
+    size_t dead = bury (&g);
+    assert_int_equal (check_mask (&g), dead);
+    assert_true (g.s->surfaces->nfront == 1 && !g.s->surfaces->front->closed);
+    check_relative (g.s->surfaces->area, 2 * acos (-1), 0.05);
+    for (int k = 0; k < 12 && g.s->surfaces->front->open; k++) {
+        const pg_front *front = g.s->surfaces->front;
+        size_t last = front->n - 1;
+        assert_int_equal (front->meets[0], PG_MEETS_SURFACE);
+        assert_int_equal (front->meets[last], PG_MEETS_SURFACE);
+        for (size_t i = 0; i < 3; i++) assert_true (front->x[i] > -1e-6 && front->x[i] < 7 + 1e-6);
+        for (size_t n = 0; n < g.s->surfaces->nfront; n++)
+            if (g.s->surfaces->front[n].open) advance (&g, n, 1, 0);
+        dead += bury (&g);
+        assert_int_equal (check_mask (&g), dead);
+    }
+    for (size_t n = 0; n < g.s->surfaces->nfront; n++) assert_false (g.s->surfaces->front[n].open);
+    check_relative (g.s->surfaces->area, 49, 0.1);
+    assert_true (check_severed (&g, 2, 3.3) > 2000);
+    end (&g);
+}
+
+/* Two discs in one plane grow together: both fronts are parted where they meet, or are one around both. */
+static void discs_meet (void **state)
+{
+    (void) state;
+    growing g = begin (CUBE ("14", ""));
+    const double left[3] = { 4.2, 7.1, 7.3 }, right[3] = { 9.8, 6.9, 7.3 };
+    const double e[3] = { 1, 0, 0 }, f[3] = { 0, 1, 0 };
+    start_disc (&g, left, e, f, 1.8, 12);
+    start_disc (&g, right, e, f, 1.8, 12);
+    size_t dead = bury (&g);
+    for (int k = 0; k < 3; k++) {
+        size_t n = g.s->surfaces->nfront;
+        for (size_t i = 0; i < n; i++) if (g.s->surfaces->front[i].open) advance (&g, i, 0.6, 0);
+        dead += bury (&g);
+        assert_int_equal (check_mask (&g), dead);
+    }
+    const pg_crack_surfaces *w = g.s->surfaces;
+    for (size_t i = 0; i < w->nfront; i++)
+        assert_true (!w->front[i].open || !w->front[i].closed);
+    /* between the two nothing holds together any more */
+    for (int k = 0; k < 2000; k++) {
+        double x[3] = { uniform (4, 10), uniform (6.6, 7.4), 7.2 }, y[3] = { x[0], x[1], 7.4 };
+        assert_non_null (pg_cracks_cut (&w->cracks, 3, x, y, 1e-9));
+    }
+    end (&g);
+}
+
+/* A front runs into a crack across: it ends there and cuts nothing behind it. */
+static void a_crack_across_stops_a_front (void **state)
+{
+    (void) state;
+    growing g = begin (CUBE ("12", "cracks: [{polygon: [[8.2, -1, -1], [8.2, 13, -1], [8.2, 13, 13], "
+                                   "[8.2, -1, 13]]}]\n"));
+    const double middle[3] = { 6, 6.1, 6.3 }, e[3] = { 1, 0, 0 }, f[3] = { 0, 1, 0 };
+    start_disc (&g, middle, e, f, 1.3, 10);
+    bury (&g);
+    size_t dead = check_mask (&g);
+    for (int k = 0; k < 3; k++) {
+        size_t n = g.s->surfaces->nfront;
+        for (size_t i = 0; i < n; i++) if (g.s->surfaces->front[i].open) advance (&g, i, 0.8, 0);
+        dead += bury (&g);
+        assert_int_equal (check_mask (&g), dead);
+    }
+    const pg_crack_surfaces *w = g.s->surfaces;
+    const pg_front *front = w->front;
+    assert_true (front->open && !front->closed);
+    assert_true (front->meets[0] == PG_MEETS_CRACK && front->meets[front->n - 1] == PG_MEETS_CRACK);
+    check_relative (front->x[0], 8.2, 1e-6), check_relative (front->x[3 * front->n - 3], 8.2, 1e-6);
+    double far = 0;
+    for (size_t v = 0; v < w->nvertex; v++) far = fmax (far, w->vertex[3*v]);
+    assert_true (far > 8.2 && far < 8.2 + 0.15);
+    end (&g);
+}
+
+static void copies_are_deep_and_a_failure_changes_nothing (void **state)
+{
+    (void) state;
+    growing g = begin (CUBE ("9", ""));
+    pg_crack_surfaces *before = NULL;
+    const double middle[3] = { 4.4, 4.6, 4.3 }, e[3] = { 1, 0, 0 }, f[3] = { 0, 1, 0 };
+    start_disc (&g, middle, e, f, 1.5, 10);
+    bury (&g);
+    check_ok (pg_crack_surfaces_create (&before, g.p));
+    check_ok (pg_crack_surfaces_copy (before, g.s->surfaces));
+    double d[64], theta[64] = { 0 };
+    for (int i = 0; i < 64; i++) d[i] = 1;
+    pg_status status = PG_E_MEMORY;
+    for (size_t k = 1; status != PG_OK; k++) {
+        g.cut.n = 0;
+        pg_memory_fail_at (k);
+        status = pg_front_advance (g.s, g.p, 0, d, theta, &g.cut);
+        pg_memory_fail_at (0);
+        if (status == PG_OK) break;
+        assert_int_equal (status, PG_E_MEMORY);
+        assert_true (g.s->surfaces->cracks.n == before->cracks.n && k < 1000);
+        assert_memory_equal (g.s->surfaces->front->x, before->front->x, 3 * before->front->n * sizeof *d);
+    }
+    bury (&g), check_mask (&g);
+    assert_true (before->cracks.n < g.s->surfaces->cracks.n && before->area < g.s->surfaces->area);
+    pg_memory_fail_at (1);                             /* back again; without memory there is no index */
+    status = pg_crack_surfaces_copy (g.s->surfaces, before);
+    pg_memory_fail_at (0);
+    check_ok (status);
+    const double x[3] = { 4.5, 4.5, 4.2 }, y[3] = { 4.5, 4.5, 4.4 };
+    assert_non_null (pg_cracks_cut (&g.s->surfaces->cracks, 3, x, y, 1e-9));
+    for (int i = 0; i < 64; i++) d[i] = 0;
+    check_fails (pg_front_advance (g.s, g.p, 0, d, theta, &g.cut), PG_E_USAGE);
+    check_fails (pg_front_advance (g.s, g.p, 1, d, theta, &g.cut), PG_E_USAGE);
+    check_fails (pg_surface_start (g.s, g.p, 2, middle, e, &g.cut), PG_E_USAGE);
+    check_ok (pg_front_close (g.s, g.p, 0, &g.cut));
+    assert_false (g.s->surfaces->front->open);
+    check_fails (pg_front_close (g.s, g.p, 0, &g.cut), PG_E_USAGE);
+    pg_crack_surfaces_free (&before);
+    end (&g);
+}
+
+/* ---- checkpoints --------------------------------------------------------------------------------------- */
+typedef struct { char name[80]; size_t bytes; void *value; } part;
+typedef struct { part part[64]; size_t n, at; } tape;
+
+static pg_status pass (void *context, const char *name, size_t n, size_t size, void *value, int reading)
+{
+    tape *t = context;
+    if (!reading) {
+        part *p = &t->part[t->n++];
+        snprintf (p->name, sizeof p->name, "%s", name);
+        p->bytes = n * size, p->value = pg_calloc (n, size);
+        memcpy (p->value, value, n * size);
+        return PG_OK;
+    }
+    part *p = &t->part[t->at++];
+    if (strcmp (p->name, name) != 0 || p->bytes != n * size)
+        return pg_error (PG_E_FILE, PG_HERE, "another piece");
+    memcpy (value, p->value, n * size);
+    return PG_OK;
+}
+static pg_status write_numbers (void *c, const char *name, size_t n, double *v)
+{
+    return pass (c, name, n, 8, v, 0);
+}
+static pg_status write_counts (void *c, const char *name, size_t n, long *v)
+{
+    return pass (c, name, n, 8, v, 0);
+}
+static pg_status read_numbers (void *c, const char *name, size_t n, double *v)
+{
+    return pass (c, name, n, 8, v, 1);
+}
+static pg_status read_counts (void *c, const char *name, size_t n, long *v)
+{
+    return pass (c, name, n, 8, v, 1);
+}
+
+
+/* What is kept is all there is: the next step of a resumed run is the same to the last bit. Whole numbers out
+ * of their bounds are refused. */
+static void checkpoints_keep_the_surfaces (void **state)
+{
+    (void) state;
+    const char *scene = CUBE ("9", "cracks: [{disc: {center: [4.3, 4.6, 4.7], normal: [0.3, 0.2, 1], "
+                              "radius: 1.4}}]\n");
+    growing a = begin (scene), b = begin (scene);
+    tape t = { 0 };
+    const double middle[3] = { 8.9, 4.6, 2.3 }, e[3] = { 1, 0, 0 }, f[3] = { 0, 1, 0 };
+    start_disc (&a, middle, e, f, 1.2, 12);
+    bury (&a), advance (&a, 0, 0.9, 0.3), bury (&a), advance (&a, 1, 0.7, -0.2), bury (&a);
+    const pg_keeper writer = { &t, 0, write_numbers, write_counts, NULL };
+    check_ok (pg_crack_surfaces_keep (a.s->surfaces, a.p, "x", &writer));
+    const pg_keeper reader = { &t, 1, read_numbers, read_counts, NULL };
+    check_ok (pg_crack_surfaces_keep (b.s->surfaces, b.p, "x", &reader));
+    memcpy (b.s->alive, a.s->alive, a.s->nbond);
+    check_mask (&b);
+    advance (&a, 0, 1, 0.1), advance (&b, 0, 1, 0.1), bury (&a), bury (&b);
+    const pg_crack_surfaces *v = a.s->surfaces, *w = b.s->surfaces;
+    assert_memory_equal (a.s->alive, b.s->alive, a.s->nbond);
+    assert_true (v->cracks.n == w->cracks.n && v->nvertex == w->nvertex && v->area == w->area);
+    assert_memory_equal (v->store, w->store, 9 * (v->cracks.n - v->nfirst) * sizeof (double));
+    for (size_t i = 0; i < v->nfront; i++)
+        assert_memory_equal (v->front[i].ahead, w->front[i].ahead, 3 * v->front[i].n * sizeof (double));
+    size_t refused = 0;
+    for (size_t i = 0; i < t.n; i++)
+        for (size_t k = 0; k < t.part[i].bytes / 8; k += 7) {
+            static const long nasty[] = { -2, 1L << 40, 0x7fffffffffffffff, -0x7fffffffffffffff };
+            long *n = (long *) t.part[i].value + k, right = *n;
+            for (size_t q = 0; q < 4; q++) {
+                *n = nasty[q], t.at = 0;
+                pg_status status = pg_crack_surfaces_keep (b.s->surfaces, b.p, "x", &reader);
+                assert_true (status == PG_OK || status == PG_E_FILE);
+                refused += status == PG_E_FILE;
+            }
+            *n = right;
+        }
+    assert_true (refused > 100);
+    for (size_t i = 0; i < t.n; i++) pg_free (t.part[i].value);
+    end (&a), end (&b);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test (a_disc_grows),
+        cmocka_unit_test (a_disc_grows), cmocka_unit_test (a_front_kinks_and_lags),
+        cmocka_unit_test (a_front_severs_the_body), cmocka_unit_test (a_crack_begins_at_the_surface),
+        cmocka_unit_test (discs_meet), cmocka_unit_test (a_crack_across_stops_a_front),
+        cmocka_unit_test (copies_are_deep_and_a_failure_changes_nothing),
+        cmocka_unit_test (checkpoints_keep_the_surfaces),
     };
-    return cmocka_run_group_tests (tests, NULL, NULL);
+    return cmocka_run_group_tests_name ("model/crack_surfaces", tests, NULL, NULL);
 }
