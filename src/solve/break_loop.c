@@ -180,9 +180,10 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
         /* later rounds: loads and goals stay */
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
         if (b->growth) {
-            int over;
+            int over = 0;
             if (dyn) {                                 /* what is cut is held: no second round */
-                PG_TRY (facet_move (b, state, t, d, dyn->dt, &step->utilisation, &over));
+                if (facet_due (b, dyn->dt))
+                    PG_TRY (facet_move (b, state, t, d, &step->utilisation, &over));
                 if (over) PG_TRY (break_loop_account (b, t, d, dyn, 1));
                 break;
             }

@@ -80,7 +80,8 @@ double    explicit_progress (const pg_solver *s, const pg_state *state);
 /* What every explicit method shares; its name, summary and step (explicit_step with its own half kicks) make
  * it whole. */
 #define EXPLICIT_ENTRIES \
-    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY, .keys = { &solver_keys_step, &solver_keys_time }, \
+    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS, \
+    .keys = { &solver_keys_facets, &solver_keys_step, &solver_keys_time }, \
     .read = explicit_read, .prepare = explicit_prepare, .start = explicit_start, .done = explicit_done, \
     .refused = explicit_refused, .free = explicit_free, .keep = explicit_keep, .own_size = sizeof (motion), \
     .stable = explicit_bound, .progress = explicit_progress

@@ -4,6 +4,7 @@
  * by trapezoids, damping dt c m v_n^2; they add up to rounding while nothing breaks, so that the rest is what
  * breaking takes. */
 #include "explicit.h"
+#include "facet_growth.h"
 #include <math.h>
 #include <string.h>
 
@@ -179,12 +180,39 @@ static void take_reactions (pg_solver *s)
     }
 }
 
+/* Tips that run, looked at where they are due, with the velocities and accelerations of t_n; inside a step
+ * those of the state are half a step behind. What is cut is held, so that the forces at hand stay valid. */
+static pg_status run_tips (pg_solver *s, pg_state *state, double t)
+{
+    pg_status status = PG_OK;
+    const motion *m = motion_of (s);
+    break_loop *b = &s->break_loop;
+    pg_system *sys = &b->system;
+    double dt = s->options.dt, c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass;
+    int any;
+    if (!facet_due (b, dt)) return PG_OK;
+    memcpy (sys->full, state->v, sys->ndof * sizeof *sys->full);
+    for (size_t i = 0; i < sys->ndof; i++) {
+        state->a[i] = sys->residual[i] * m->inverse[i] - c * state->v[i];
+        state->v[i] += 0.5 * dt * state->a[i];
+    }
+    PG_TRY (facet_move (b, state, t, state->d, &s->top, &any));
+    if (any) state->events++, s->report.events++;
+done:
+    memcpy (state->v, sys->full, sys->ndof * sizeof *sys->full);
+    return status;
+}
+
 /* Forces at t_n, which d has reached; supports move on to t_n+1. */
 static pg_status arrive (pg_solver *s, pg_state *state, long n)
 {
     pg_status status = PG_OK;
     double t = time_at (s, n);
+    break_loop *b = &s->break_loop;
+    if (b->growth && n > 0) facet_forward (b, s->options.dt);
     PG_TRY (explicit_force (s, state, t, 1, NULL));
+    system_add_held (&b->system, b->system.residual);
+    if (b->growth && n > 0) PG_TRY (run_tips (s, state, t));
     if (n > 0) PG_TRY (explicit_follow (s, time_at (s, n - 1), t, (double) (n + 1) * s->options.dt));
     take_reactions (s);
 done:
@@ -210,13 +238,14 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     const motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
-    int spare = sys->force->work_of_residual && !s->options.plain;
+    int spare = sys->force->work_of_residual && !s->options.plain && !b->growth;
     for (size_t i = 0; !spare && i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
         sys->full[i] = inertia_of (s, state, staggered, 1, i);
         if (spare) sys->residual[i] = m->left[k];
     }
+    system_add_held (sys, sys->full);
     s->spared += spare;
     if (spare)
         status = sys->force->work_of_residual (sys->self, t, state->d, sys->residual, sys->full,
@@ -330,7 +359,8 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     state->factor = step->factor = t / s->options.end;
     step->level = explicit_level (s, s->options.time_steps, n);
     step->nbroken = b->nbroken, step->broken = b->broken;
-    step->utilisation = breaks ? NAN : 0;
+    step->utilisation = b->growth ? s->top : breaks ? NAN : 0;
+    if (b->growth) PG_TRY (facet_show (s, state, 1));
     PG_TRY (explicit_end (s, state, n == s->options.time_steps, "t =", t));
 done:
     return status;

@@ -102,6 +102,16 @@ static int is_tried (const facet_growth *g, size_t tip)
     return 0;
 }
 
+/* Is it pressed together? In motion a wave that passes may do so for a moment, which counts from a tenth of
+ * the toughness on. */
+static int closes (const break_loop *b, const pg_tip_field *f, const double *K)
+{
+    pg_fracture_limits limits;
+    if (!(K[0] < 0) || !(fabs (K[0]) > 1e-3 * fabs (K[1]))) return 0;
+    if (!b->growth->moving || !facet_limits (b, f->x, 0, &limits)) return 1;
+    return K[0] * K[0] > 0.01 * f->modulus * limits.energy;
+}
+
 /* What the user should know of tips that were measured, each said once. */
 static void tell (break_loop *b, const pg_state *state)
 {
@@ -127,7 +137,7 @@ static void tell (break_loop *b, const pg_state *state)
             continue;
         }
         pg_tip_combine (f, facet_factors (g, 1, l), l, NULL, K, NULL);
-        if (K[0] < 0 && fabs (K[0]) > 1e-3 * fabs (K[1]) && !(g->said & FACET_SAID_CLOSED)) {
+        if (closes (b, f, K) && !(g->said & FACET_SAID_CLOSED)) {
             pg_statistics_warn (
                 b->system.report,
                 "crack tip %ld at (%.6g, %.6g) m closes (K_I = %.3g, K_II = %.3g Pa m^(1/2) at full "

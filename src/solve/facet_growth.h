@@ -108,11 +108,12 @@ pg_status facet_round   (break_loop *b, pg_state *state, double t, const double 
 /* ---- facet_motion.c ------------------------------------------------------------------------------------ */
 /* A time step begins: tips run on for dt (s; INFINITY: to the end of their facets), which open so far. */
 void      facet_forward (break_loop *b, double dt);
-/* It has ended with the displacement d, after dt: new speeds, and facets for tips that have none to run
- * along. *top: the largest sqrt (G (v) / G0). *any: something was cut; no force has changed by that, but
- * what is stored has. */
-pg_status facet_move    (break_loop *b, pg_state *state, double t, const double *d, double dt, double *top,
-                         int *any);
+/* It has ended: is it time to look at the tips? dt (s) is added to the time since the last look. */
+int       facet_due     (break_loop *b, double dt);
+/* The look, at the displacement d: new speeds, and facets for tips that have none to run along. *top: the
+ * largest sqrt (G (v) / G0). *any: something was cut; no force has changed by that, but what is stored
+ * has. */
+pg_status facet_move    (break_loop *b, pg_state *state, double t, const double *d, double *top, int *any);
 void      facet_rest    (break_loop *b);               /* the motion is over: nothing is held any more */
 /* A motion begins with the facet of a static event at load t, before which d was the equilibrium
  * (facet_hold_before was called for it): the facet opens as all that follow. */

@@ -109,12 +109,13 @@ static int next_facet (break_loop *b, const pg_state *state, size_t i, double an
     return 1;
 }
 
-/* Is it time to look at the tips, or has one come to the end of its facet? */
-static int is_due (const break_loop *b)
+/* Also when one has come to the end of its facet. */
+int facet_due (break_loop *b, double dt)
 {
-    const facet_growth *g = b->growth;
+    facet_growth *g = b->growth;
     const pg_problem *p = b->system.problem;
     double c_R = 0;
+    g->since += dt;
     for (size_t m = 0; m < p->nmaterial; m++)
         c_R = fmax (c_R, pg_material_waves (&p->material[m]).rayleigh);
     if (!(g->since * c_R < between * p->cloud.h) || g->nrun == 0) return 1;
@@ -123,14 +124,12 @@ static int is_due (const break_loop *b)
     return 0;
 }
 
-pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d, double dt, double *top,
-                      int *any)
+pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d, double *top, int *any)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    *any = 0, *top = 0, g->moving = 1, g->since += dt;
-    if (!is_due (b)) return PG_OK;
-    dt = g->since, g->since = 0;
+    double dt = g->since;
+    *any = 0, *top = 0, g->moving = 1, g->since = 0;
     PG_TRY (facet_measure (b, state, NULL, d, t));
     size_t n = g->ntip;
     PG_TRY (make_room (g, n));

@@ -96,20 +96,21 @@ static course crack_runs (const char *solver)
 }
 
 /* Facets begin to open when they are cut and end four facets later: the crack is about 1.5 facets shorter
- * than its path. */
+ * than its path, which is known to a facet. */
 static void a_crack_runs_as_fast_as_it_takes_its_energy (void **state)
 {
     (void) state;
-    static const char *const solver[] = { "kind: newmark, dt: 8 us, end: 1.3 ms" };
+    static const char *const solver[] = { "kind: newmark, dt: 8 us, end: 1.3 ms",
+                                          "kind: verlet, end: 1.3 ms" };
     double c = sqrt (10e9 * 0.75 / (1.25 * 0.5) / 2500), c_R = 1163;
-    for (int s = 0; s < 1; s++) {
+    for (int s = 0; s < 2; s++) {
         course at = crack_runs (solver[s]);
         print_message ("G (v) = %.3f G0, dissipated %.3f, off by %.3f m:", at.share, at.taken,
                        at.last - 0.012);
         for (int k = 0; k < TIMES; k++) {
             double t = 0.6 + 0.3 * k, closed = c_R / c * (t - 0.25 - 0.25 * log (t / 0.25));
             print_message (" %.3f (%.3f)", at.length[k], closed + 0.075);
-            check_absolute (at.length[k], closed + 0.075, 0.05);
+            check_absolute (at.length[k], closed + 0.075, 0.08);
         }
         print_message ("\n");
         check_absolute (at.share, 1, 0.08);

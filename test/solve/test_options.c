@@ -69,9 +69,9 @@ static void kinds_tell_what_they_do (void **state)
     o = options_of (HELD "solver: {kind: newmark, dt: 1, end: 10}\n");
     assert_true (o.flags == (PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS));
     o = options_of (MOVED "solver: {kind: verlet, end: 10}\n");
-    assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY));
+    assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS));
     o = options_of (MOVED "solver: {kind: central, end: 10}\n");
-    assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY));
+    assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS));
     o = options_of (BONDS "solver: {kind: adr}\n");
     assert_true ((o.flags & ~PG_SOLVER_NEEDS_DENSITY) == (PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED)
                  && PG_OWN (pg_stages_options, &o)->hold && PG_OWN (pg_stages_options, &o)->stages == 10
