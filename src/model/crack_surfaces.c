@@ -16,241 +16,21 @@
 
 /* Overlap with what the crack of the scene cuts, behind its own offset, where it begins to grow: spacings. */
 #define OVERLAP 0.1
-/* How far a crack cuts beyond another one in the plane of which it lies; and beyond one across: spacings. */
-#define FLAP 0.1
 /* Bends of the surface by less than this are not drawn, spacings. */
 #define BEND 0.01
-/* A part between closed vertices of so few vertices goes on, at most so many spacings, and is closed, too. */
-enum { FEW = 1 };
-#define RUN_OUT 4.0
-/* What is seen from an end on the surface is looked at from so far inside, parts of the way to its
- * neighbour. */
-#define INSIDE 1e-3
 /* Cosine of the angle between the ways of two vertices that meet the same face of the body. */
 #define SAME_FACE 0.9
-/* A loop that closes in on itself: shorter than so many spacings. */
-#define LOOP 5.0
-/* Fronts within so many spacings of the place where another one met them end there. */
-#define MET 0.75
-
-/* What one front does in a step. */
-typedef struct {
-    pg_crack_surfaces *w;
-    const pg_problem *p;
-    size_t number;                                     /* of the front in w */
-    pg_front old, now;                                 /* before (a view), and moved */
-    double *c, *bend, *way;  /* where the crack cuts to, and where it bends (n x 3); direction of motion */
-    double *moved;                                     /* distance that each vertex went, m */
-    unsigned char *shut;                               /* vertices that are closed by this step */
-    size_t nshut;
-    size_t *line, nline, line_capacity;                /* the new line, as vertices of w */
-    double *side; size_t side_capacity;                /* and the normals there */
-} stride;
-
-static void shift (const double *x, const double *e, double d, double *out)
-{
-    for (int k = 0; k < 3; k++) out[k] = x[k] + d * e[k];
-}
-
-static double spacing_at (const stride *s, size_t i) { return pg_problem_spacing_at (s->p, s->now.x + 3*i); }
-
-static int is_end (const stride *s, size_t i) { return !s->old.closed && (i == 0 || i + 1 == s->old.n); }
-
-double front_offset_at (const pg_problem *p, const double *x)
-{
-    return p->tip_offset * pg_problem_spacing_at (p, x) / p->cloud.h;
-}
-
-long surfaces_next_id (const pg_crack_surfaces *w)
-{
-    long id = 1;
-    for (size_t f = 0; f < w->nfront; f++) if (w->front[f].id >= id) id = w->front[f].id + 1;
-    return id;
-}
-
-/* ---- 1: vertices --------------------------------------------------------------------------------------- */
-static void shut_at (stride *s, size_t i, unsigned char meets)
-{
-    s->nshut += !s->shut[i];
-    s->shut[i] = 1, s->now.meets[i] = meets;
-}
-
-/* Each vertex for itself; ends, which lie on the surface, see nothing ahead of them. */
-static void move (stride *s, const double *d, const double *theta)
-{
-    for (size_t i = 0; i < s->old.n; i++) {
-        const double *e = s->old.ahead + 3*i, *n = s->old.normal + 3*i;
-        double *way = s->way + 3*i, *x = s->now.x + 3*i, a = theta ? theta[i] : 0, go = d ? d[i] : 0;
-        memcpy (way, e, 3 * sizeof *way);
-        if (!(go > 0)) continue;
-        for (int k = 0; k < 3; k++) {
-            way[k] = cos (a) * e[k] + sin (a) * n[k];
-            s->now.normal[3*i + (size_t) k] = cos (a) * n[k] - sin (a) * e[k];
-        }
-        unsigned char meets = PG_MEETS_NOTHING;
-        if (is_end (s, i)) shift (s->old.x + 3*i, way, go, x);
-        else space_way (s->p, s->w, s->number, i, way, go, &meets, x);
-        if (meets != PG_MEETS_NOTHING) shut_at (s, i, meets);
-    }
-}
-
-/* An end that is closed goes along the surface: its way without what leads away from there, to its neighbour. */
-static void along_surface (stride *s, size_t end, size_t beside)
-{
-    double out[3], *way = s->way + 3*end;
-    for (size_t k = 0; k < 3; k++) out[k] = s->old.x[3*end + k] - s->old.x[3*beside + k];
-    if (s->old.meets[end] != PG_MEETS_SURFACE || !unit3 (out)) return;
-    double inward = fmin (0, dot3 (way, out));
-    for (int k = 0; k < 3; k++) way[k] -= inward * out[k];
-    unit3 (way);
-}
-
-/* The end of a front goes back onto the surface, along the line from its neighbour. */
-static void put_back (stride *s, size_t end, size_t beside)
-{
-    double *x = s->now.x + 3*end, *from = s->now.x + 3*beside, e[3];
-    double h = spacing_at (s, beside), length = apart3 (x, from);
-    unsigned char meets;
-    if (s->shut[beside]) {                             /* it goes as far as its neighbour, along the surface */
-        int goes = apart3 (x, s->old.x + 3*end) > 0 && s->now.meets[end] == PG_MEETS_SURFACE;
-        along_surface (s, end, beside);
-        shift (s->old.x + 3*end, s->way + 3*end, goes ? apart3 (from, s->old.x + 3*beside) : 0, x);
-        shut_at (s, end, s->now.meets[end]);
-        return;
-    }
-    if (s->old.meets[end] == PG_MEETS_NOTHING || !(length > 0)) return;
-    if (apart3 (x, s->old.x + 3*end) == 0 && apart3 (from, s->old.x + 3*beside) == 0) return;
-    for (int k = 0; k < 3; k++) e[k] = (x[k] - from[k]) / length;
-    double r = space_end (s->p, s->w, from, e, length + 2 * h, &meets);
-    if (meets == PG_MEETS_NOTHING) return;
-    shift (from, e, r, x);
-    s->now.meets[end] = meets;
-}
-
-/* A loop that shrinks onto a point. */
-static void close_loop (stride *s)
-{
-    double middle[3] = { 0 }, inward = 0;
-    if (!s->old.closed) return;
-    for (size_t i = 0; i < s->old.n; i++)
-        for (size_t k = 0; k < 3; k++) middle[k] += s->now.x[3*i + k] / (double) s->old.n;
-    for (size_t i = 0; i < s->old.n; i++)
-        for (size_t k = 0; k < 3; k++)
-            inward += s->old.ahead[3*i + k] * (middle[k] - s->now.x[3*i + k]);
-    if (!(inward > 0 && front_length (&s->now) < LOOP * spacing_at (s, 0))) return;
-    for (size_t i = 0; i < s->old.n; i++) {
-        memcpy (s->now.x + 3*i, middle, sizeof middle);
-        shut_at (s, i, PG_MEETS_CRACK);
-    }
-}
-
-/* The last vertices of a ligament go straight on, as far as the surface is near. */
-static void run_out (stride *s, size_t i)
-{
-    double h = spacing_at (s, i), from[3];
-    unsigned char meets;
-    memcpy (from, s->old.x + 3*i, sizeof from);
-    if (is_end (s, i)) {                               /* from a little inside of the surface */
-        size_t beside = i ? i - 1 : 1;
-        along_surface (s, i, beside);
-        for (size_t k = 0; k < 3; k++) from[k] += INSIDE * (s->old.x[3*beside + k] - from[k]);
-    }
-    double r = space_end (s->p, s->w, from, s->way + 3*i, RUN_OUT * h, &meets);
-    if (meets != PG_MEETS_NOTHING) shift (from, s->way + 3*i, r, s->now.x + 3*i);
-    shut_at (s, i, meets);
-}
-
-/* Few vertices beside closed ones are closed as well: too short to be a front. */
-static void close_short (stride *s)
-{
-    size_t n = s->old.n;
-    for (size_t i = 0; i < n && s->nshut && s->nshut < n; i++) {
-        size_t m = 0;
-        int before = i ? s->shut[i - 1] : s->old.closed && s->shut[n - 1];
-        if (s->shut[i] || !(before || (i == 0 && !s->old.closed))) continue;
-        while (m < n && !s->shut[(i + m) % n] && (s->old.closed || i + m < n)) m++;
-        int alone = before + (s->old.closed || i + m < n ? 1 : 0);   /* closed vertices beside the part */
-        /* ends on the surface are no vertices of their own */
-        if (alone > 0 && m <= FEW + (alone < 2)) for (size_t k = 0; k < m; k++) run_out (s, (i + k) % n);
-    }
-}
-
-/* Vertices of the same front near the place where another part of it has met it. */
-static void close_met_here (stride *s)
-{
-    size_t n = s->old.n;
-    for (size_t i = 0; i < n; i++) {
-        if (!s->shut[i] || s->now.meets[i] != PG_MEETS_CRACK) continue;
-        for (size_t j = 0; j < n; j++) {
-            size_t ring = i > j ? i - j : j - i;
-            if (s->old.closed && n - ring < ring) ring = n - ring;
-            if (s->shut[j] || ring < 4 || dot3 (s->old.ahead + 3*i, s->old.ahead + 3*j) > 0
-                || apart3 (s->old.x + 3*j, s->now.x + 3*i) > MET * spacing_at (s, j))
-                continue;
-            memcpy (s->now.x + 3*j, s->old.x + 3*j, 3 * sizeof *s->now.x);
-            shut_at (s, j, PG_MEETS_CRACK);
-        }
-    }
-}
-
-/* ---- 2: where the crack cuts --------------------------------------------------------------------------- */
-/* The place of the old rim nearest to where the crack has cut behind vertex i; NULL: there is none near. */
-static const double *rim_at (const stride *s, size_t i, const double *place)
-{
-    const double *best = NULL;
-    double least = 0.3 * spacing_at (s, i);
-    for (size_t r = 0; r < s->old.nrim; r++) {
-        const double *x = s->w->vertex + 3 * s->old.rim[r];
-        if (apart3 (x, place) <= least) least = apart3 (x, place), best = x;
-    }
-    return best;
-}
-
-/* Beyond a vertex that is closed. */
-static double overshoot (const stride *s, size_t i, const double *way)
-{
-    double h = spacing_at (s, i), *x = s->now.x + 3*i;
-    if (s->now.meets[i] == PG_MEETS_SURFACE) return fmax (s->w->nothing, space_beyond (s->p, x, way));
-    return s->now.meets[i] == PG_MEETS_CRACK ? FLAP * h : s->w->nothing;
-}
-
-static void follow (stride *s, size_t i)
-{
-    const double *from = s->old.x + 3*i, *to = s->now.x + 3*i, *e = s->old.ahead + 3*i;
-    double *way = s->way + 3*i, *c = s->c + 3*i, *bend = s->bend + 3*i, behind[3];
-    double d = apart3 (from, to), before = s->old.offset[i], o;
-    o = fmin (front_offset_at (s->p, to), before + 0.25 * d);
-    s->moved[i] = d, s->now.grown[i] += d;
-    if (d > 0) for (int k = 0; k < 3; k++) way[k] = (to[k] - from[k]) / d;
-    memcpy (s->now.ahead + 3*i, way, 3 * sizeof *way);
-    shift (from, e, -before, behind);
-    if (s->shut[i]) {
-        s->now.offset[i] = 0;
-        shift (to, way, overshoot (s, i, way), c);
-        memcpy (bend, from, 3 * sizeof *bend);
-        return;
-    }
-    s->now.offset[i] = o;
-    if (d >= o && d > 0) shift (to, way, -o, c), memcpy (bend, from, 3 * sizeof *bend);
-    else {
-        const double *rim = d > 0 ? NULL : rim_at (s, i, behind);
-        shift (from, e, d > 0 ? d - o : -before, c);
-        if (d == 0) s->now.offset[i] = before;
-        if (rim) memcpy (c, rim, 3 * sizeof *c);
-        memcpy (bend, c, 3 * sizeof *bend);
-    }
-}
 
 /* Does the surface bend between the old line and the new one? */
 static int bends (const stride *s)
 {
     for (size_t i = 0; i < s->old.n; i++) {
         double behind[3], u[3], v[3], n[3], depth = s->old.offset[i];
-        shift (s->old.x + 3*i, s->old.ahead + 3*i, s->old.nrim ? -depth : -2 * depth, behind);
+        shift3 (s->old.x + 3*i, s->old.ahead + 3*i, s->old.nrim ? -depth : -2 * depth, behind);
         for (int k = 0; k < 3; k++)
             u[k] = s->bend[3*i + (size_t) k] - behind[k], v[k] = s->c[3*i + (size_t) k] - behind[k];
         cross3 (u, v, n);
-        if (size3 (v) > 0 && size3 (n) > BEND * spacing_at (s, i) * size3 (v)) return 1;
+        if (size3 (v) > 0 && size3 (n) > BEND * stride_spacing (s, i) * size3 (v)) return 1;
     }
     return 0;
 }
@@ -304,9 +84,9 @@ static pg_status beyond_end (stride *s, unsigned char meets, const double *end, 
     double e[3], out[3], h = pg_problem_spacing_at (s->p, end);
     for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
     if (meets == PG_MEETS_NOTHING || !unit3 (e)) return PG_OK;
-    double a = meets == PG_MEETS_SURFACE ? space_to_surface (s->p, end, e, h) : FLAP * h;
-    shift (end, e, a, out);
-    if (meets == PG_MEETS_SURFACE) shift (end, e, a + (a < h ? space_beyond (s->p, out, e) : 0), out);
+    double a = meets == PG_MEETS_SURFACE ? space_to_surface (s->p, end, e, h) : surface_flap * h;
+    shift3 (end, e, a, out);
+    if (meets == PG_MEETS_SURFACE) shift3 (end, e, a + (a < h ? space_beyond (s->p, out, e) : 0), out);
     PG_TRY (to_line (s, out, normal));
 done:
     return status;
@@ -358,7 +138,7 @@ static pg_status first_rim (stride *s)
     if (s->old.nrim) return PG_OK;
     PG_ALLOC (c, 3 * s->old.n);
     for (size_t i = 0; i < s->old.n; i++)
-        shift (s->old.x + 3*i, s->old.ahead + 3*i, -2 * s->old.offset[i] - OVERLAP * spacing_at (s, i),
+        shift3 (s->old.x + 3*i, s->old.ahead + 3*i, -2 * s->old.offset[i] - OVERLAP * stride_spacing (s, i),
                c + 3*i);
     PG_TRY (begin_line (s));
     PG_TRY (line_of (s, &s->old, c));
@@ -427,21 +207,21 @@ done:
     return status;
 }
 
-/* Between two closed vertices on different faces of the body lies an edge or a corner of it, which the straight
- * line between them would leave whole: the line goes on around it. What lies there is swept, too. */
+/* Between two closed vertices on different faces of the body lies an edge or a corner of it, which the
+ * straight line between them would leave whole: the line goes on around it. What lies there is swept, too. */
 static pg_status around_edge (stride *s, size_t i, size_t j)
 {
     pg_status status = PG_OK;
-    double middle[3], way[3], out[3], h = spacing_at (s, i);
+    double middle[3], way[3], out[3], h = stride_spacing (s, i);
     const double *a = s->way + 3*i, *b = s->way + 3*j, *x = s->now.x + 3*i, *y = s->now.x + 3*j;
     if (s->now.meets[i] != PG_MEETS_SURFACE || s->now.meets[j] != PG_MEETS_SURFACE || dot3 (a, b) > SAME_FACE)
         return PG_OK;
     for (int k = 0; k < 3; k++) middle[k] = 0.5 * (x[k] + y[k]), way[k] = a[k] + b[k];
     if (!unit3 (way) || !pg_problem_has_body (s->p, middle)) return PG_OK;
-    double r = space_to_surface (s->p, middle, way, RUN_OUT * h);
-    shift (middle, way, r, out);
+    double r = space_to_surface (s->p, middle, way, surface_run_out * h);
+    shift3 (middle, way, r, out);
     s->w->area += triangle_area3 (x, out, y);
-    shift (out, way, space_beyond (s->p, out, way), out);
+    shift3 (out, way, space_beyond (s->p, out, way), out);
     PG_TRY (to_line (s, out, s->now.normal + 3*i));
 done:
     return status;
@@ -515,6 +295,9 @@ done:
     return status;
 }
 
+/* Of a vertex that ends where it is: this and what it meets there; 0: it does not end. */
+enum { END_OF = 1 };
+
 /* One front; `ends`: vertices that end where they are, NULL: none. met: for vertices of all fronts, one array
  * after the other in the order of `start`, whether this step has run into them; NULL: not wanted. */
 static pg_status step (pg_crack_surfaces *w, const pg_problem *p, size_t front, const double *d,
@@ -525,13 +308,10 @@ static pg_status step (pg_crack_surfaces *w, const pg_problem *p, size_t front, 
     stride s = { 0 };
     PG_TRY (begin_stride (&s, w, p, front));
     size_t n = s.old.n;
-    for (size_t i = 0; i < n; i++) if (ends && ends[i]) shut_at (&s, i, s.old.meets[i] ? s.old.meets[i] : 2);
-    move (&s, d, theta);
-    if (!s.old.closed && n > 1) put_back (&s, 0, 1), put_back (&s, n - 1, n - 2);
-    close_met_here (&s);
-    close_loop (&s);
-    close_short (&s);
-    for (size_t i = 0; i < n; i++) follow (&s, i);
+    for (size_t i = 0; i < n; i++)
+        if (ends && ends[i])
+            stride_shut (&s, i, s.old.meets[i] ? s.old.meets[i] : (unsigned char) (ends[i] - END_OF));
+    stride_move (&s, d, theta);
     w->area += swept (&s);
     PG_TRY (first_rim (&s));
     if (bends (&s)) {
@@ -545,8 +325,8 @@ static pg_status step (pg_crack_surfaces *w, const pg_problem *p, size_t front, 
         if (!s.shut[i] || s.now.meets[i] != PG_MEETS_CRACK) continue;
         for (size_t g = 0; g < nfront; g++)
             for (size_t j = 0; g != front && w->front[g].open && j < w->front[g].n; j++)
-                if (apart3 (w->front[g].x + 3*j, s.now.x + 3*i) <= MET * spacing_at (&s, i))
-                    met[start[g] + j] = 1;
+                if (apart3 (w->front[g].x + 3*j, s.now.x + 3*i) <= surface_met * stride_spacing (&s, i))
+                    met[start[g] + j] = END_OF + PG_MEETS_CRACK;
     }
 done:
     clear_stride (&s);
@@ -565,7 +345,7 @@ static pg_status step_all (pg_crack_surfaces *w, const pg_problem *p, size_t fro
     PG_ALLOC (met, start[nfront] + 1);
     PG_TRY (step (w, p, front, d, theta, ends, met, start, nfront));
     for (size_t g = 0; g < nfront; g++)
-        if (g != front && memchr (met + start[g], 1, w->front[g].n))
+        if (g != front && memchr (met + start[g], END_OF + PG_MEETS_CRACK, w->front[g].n))
             PG_TRY (step (w, p, g, NULL, NULL, met + start[g], NULL, start, nfront));
 done:
     pg_free (start), pg_free (met);
@@ -621,7 +401,7 @@ pg_status pg_front_close (pg_state *state, const pg_problem *p, size_t front, pg
         PG_FAIL (PG_E_USAGE, "there is no open front %zu", front + 1);
     size_t n = state->surfaces->front[front].n;
     PG_ALLOC (ends, n);
-    memset (ends, 1, n);
+    memset (ends, END_OF + PG_MEETS_NOTHING, n);
     PG_TRY (surfaces_begin (&fresh, state));
     PG_TRY (step_all (fresh, p, front, NULL, NULL, ends));
     PG_TRY (surfaces_finish (&fresh, state, p, cut));

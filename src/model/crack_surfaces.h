@@ -2,6 +2,7 @@
  * Private to the model folder: surfaces of cracks that grow in space, and how a front advances.
  *
  *   crack_surfaces.c        one step of a front on a copy of the surfaces; what of it is a front after it
+ *   crack_surfaces_move.c   where its vertices go, and where the crack cuts behind them
  *   crack_surfaces_tiles.c  triangles between two lines
  *   crack_surfaces_meet.c   where a vertex meets the surface of the body, another crack, another front
  *   crack_surfaces_line.c   vertices of a front distributed anew, and their frames
@@ -26,6 +27,10 @@ static inline void cross3 (const double *a, const double *b, double *out)
         int m = (k + 1) % 3, n = (k + 2) % 3;
         out[k] = a[m]*b[n] - a[n]*b[m];
     }
+}
+static inline void shift3 (const double *x, const double *e, double d, double *out)
+{
+    for (int k = 0; k < 3; k++) out[k] = x[k] + d * e[k];
 }
 /* Of unit length; 0: it has none. */
 static inline int unit3 (double *a)
@@ -78,6 +83,34 @@ pg_status front_resample (pg_front *f, const pg_problem *p, double **c);
 /* Adds to `cut` the live bonds that triangles from number `first` on cut; `cut` stays ascending. */
 pg_status surfaces_find_cut (const pg_state *s, const pg_problem *p, const pg_crack_surfaces *w, size_t first,
                              pg_changes *cut);
+
+/* How far a crack cuts beyond another one that it meets; fronts within `met` of the place where another one
+ * met them end there; what is left between closed vertices goes on at most `run_out`: spacings. */
+static const double surface_flap = 0.1, surface_met = 0.75, surface_run_out = 4;
+
+/* What one front does in a step. */
+typedef struct {
+    pg_crack_surfaces *w;
+    const pg_problem *p;
+    size_t number;                                     /* of the front in w */
+    pg_front old, now;                                 /* before (a view), and moved */
+    double *c, *bend, *way;  /* where the crack cuts to, and where it bends (n x 3); direction of motion */
+    double *moved;                                     /* distance that each vertex went, m */
+    unsigned char *shut;                               /* vertices that are closed by this step */
+    size_t nshut;
+    size_t *line, nline, line_capacity;                /* the new line, as vertices of w */
+    double *side; size_t side_capacity;                /* and the normals there */
+} stride;
+
+/* ---- crack_surfaces_move.c ----------------------------------------------------------------------------- */
+/* Moves the vertices (d, theta NULL: none moves) and closes those that meet something; says where the crack
+ * cuts to behind them. */
+void stride_move (stride *s, const double *d, const double *theta);
+/* Closes a vertex where it is. */
+void stride_shut (stride *s, size_t i, unsigned char meets);
+int  stride_is_end (const stride *s, size_t i);
+/* Spacing where a vertex has come to, m. */
+double stride_spacing (const stride *s, size_t i);
 
 /* ---- crack_surfaces.c ---------------------------------------------------------------------------------- */
 /* A copy to work on; and its place in the state, with the bonds that what is new cuts. */
