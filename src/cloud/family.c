@@ -423,8 +423,8 @@ done:
     return status;
 }
 
-/* The families of the centres first .. last - 1 of a thread: the number of members of each, at the place where
- * it will end, and the members, ascending as the candidates are. */
+/* The families of the centres first .. last - 1 of a thread: the number of members of each, at the place
+ * where it will end, and the members, ascending as the candidates are. */
 static void find_those (void *context, size_t first, size_t last, int thread)
 {
     const finding *f = context;
