@@ -90,6 +90,10 @@ typedef struct {
     /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
     void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+    /* Gives the values of shape functions that it has evaluated on the bare problem, at a state without
+     * broken bonds, to the problem that this was made from (pg_problem.intact), for forces to come; itself it
+     * is good for nothing but `free` from then on. NULL: it has none to give. */
+    pg_status (*lend) (void *self, const pg_state *state, pg_problem *problem);
     /* Changes whenever refresh changed K or the basis: an old factor may serve until then (NULL: every
      * refresh changes them). */
     unsigned long (*revision) (const void *self);

@@ -169,6 +169,10 @@ typedef struct {
     size_t *rim, nrim, rim_capacity;
 } pg_front;
 
+/* Values of shape functions with all bonds alive, N, dN, w and grades alone: of the sets PG_NODES and
+ * PG_POINTS, and with consistent integration those of its wider rows. They were evaluated by the patch test;
+ * forces read them as long as no bond of theirs is broken. */
+typedef struct pg_intact { pg_rows rows[PG_BOND_SETS], sums; } pg_intact;
 struct pg_problem {
     char     title[256], name[64];                     /* name: of the scene's folder or file */
     int      dim, threads;
@@ -204,6 +208,7 @@ struct pg_problem {
     int      facet_order;                              /* points per direction of a boundary facet */
     int      thickness_assumed;  /* 1: cloud.thickness is not that of the scene, but 1 */
     int      accept_inexact;  /* method.accept_inexact: no measured patch error is too large */
+    struct pg_intact *intact;  /* shape functions of the intact body; NULL: nobody has evaluated them */
     pg_patch patch;  /* how well the discretisation carries uniform stress */
     /* bare: per facet, bit k: a support on points bears component k (pg_patch_probe); else NULL */
     unsigned char *borne;

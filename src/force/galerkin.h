@@ -7,7 +7,8 @@
  * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
- * (preconditioner), galerkin_sample.c (any place), galerkin_sample_alike.c (places that are alike),
+ * (preconditioner), galerkin_intact.c (rows of the intact body), galerkin_sample.c (any place),
+ * galerkin_sample_alike.c (places that are alike),
  * galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
@@ -46,6 +47,8 @@ typedef struct {
     /* evaluation points in stiffness and force: those of the bulk, or with consistent integration wider ones
      * with corrected derivatives */
     pg_rows  sums;
+    /* 1: the values of a set, and with the bulk those of consistent sums, are pg_problem.intact's */
+    int      borrows[PG_BOND_SETS];
     unsigned char *whole;  /* cells whose derivatives are corrected; NULL: not consistent */
     const int *material[PG_BOND_SETS];                 /* per point; the problem's */
     /* of the last measure */
@@ -95,6 +98,15 @@ double    galerkin_support_stiffness (const pg_problem *problem);
 pg_status galerkin_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
 void      galerkin_words (const pg_problem *problem, char *text, size_t size);
 
+/* intact: rows that the problem keeps, as long as no bond is broken. Gives the rows of a force on the bare
+ * problem, all of whose bonds are alive, to the problem (pg_force_type.lend). */
+pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem);
+/* 1: the problem keeps rows of this set, which now serve. */
+int       galerkin_borrow (galerkin *g, int set);
+/* 1: and the wider ones of consistent integration. */
+int       galerkin_borrow_sums (galerkin *g);
+/* Copies of its own where a bond of the set is broken. */
+pg_status galerkin_own (galerkin *g, const pg_state *state, int set);
 /* sum: the loops over points */
 pg_status galerkin_slices_create (galerkin *g);
 void galerkin_slices_free (galerkin *g);

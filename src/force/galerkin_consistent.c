@@ -18,6 +18,7 @@ pg_status galerkin_consistent_create (galerkin *g)
     g->sums.family = c->family;
     g->sums.N = g->sums.dN = g->sums.w = NULL;
     PG_ALLOC (g->whole, c->cells->n);
+    if (galerkin_borrow_sums (g)) return PG_OK;
     PG_ALLOC (g->sums.N, nnz);
     PG_ALLOC (g->sums.dN, nnz * (size_t) g->dim);
 done:
@@ -27,7 +28,7 @@ done:
 /* What is borrowed from the shape functions is not freed here. */
 void galerkin_consistent_free (galerkin *g)
 {
-    if (g->problem->consistency) pg_free (g->sums.N), pg_free (g->sums.dN);
+    if (g->problem->consistency && !g->borrows[g->bulk]) pg_free (g->sums.N), pg_free (g->sums.dN);
     pg_free (g->whole);
 }
 
@@ -128,6 +129,7 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
         memset (g->whole, 1, c->cells->n);
         for (size_t cell = 0; cell < c->cells->n; cell++)
             if (!bonds_complete (g, state, cell)) open_around (g, cell);
+        if (g->borrows[g->bulk]) return PG_OK;
         PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, 0, NULL, g->threads));
         return PG_OK;
     }

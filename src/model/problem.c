@@ -276,6 +276,15 @@ done:
     return status;
 }
 
+/* Its rows have no geometry of their own. */
+static void intact_free (pg_intact **intact)
+{
+    for (int s = 0; *intact && s < PG_BOND_SETS; s++) pg_rows_clear (&(*intact)->rows[s]);
+    if (*intact) pg_rows_clear (&(*intact)->sums);
+    pg_free (*intact);
+    *intact = NULL;
+}
+
 /* Also of a problem that was built in part only: all pointers start as NULL, and freeing those does
  * nothing. The criteria hold memory of their own and go before the array that they lie in. */
 void pg_problem_free (pg_problem **problem)
@@ -284,6 +293,7 @@ void pg_problem_free (pg_problem **problem)
     if (!p) return;
     for (int s = 0; s < PG_BOND_SETS; s++)
         pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
+    intact_free (&p->intact);
     pg_consistency_free (&p->consistency);
     pg_patches_free (&p->patches);
     pg_sums_free (&p->sums);

@@ -370,6 +370,13 @@ static void count_defects (probe *t)
     if (t->force->census) t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments);
 }
 
+/* Will the body stay as it is here, without broken bonds? Then its shape functions are kept for the run; else
+ * they would lie in memory beside those of the run. */
+static int lasts (const pg_problem *p)
+{
+    return !p->plain && pg_force_of (p)->lend && !p->criterion->type && p->cracks.n == 0;
+}
+
 /* Measures the error under each stress; with supports on points that bear on facets a second time with
  * them. The worst counts. */
 pg_status pg_patch_probe (pg_problem *problem)
@@ -387,6 +394,7 @@ pg_status pg_patch_probe (pg_problem *problem)
     for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
     t.out.softness = measure_softness (&t);
     if (mark_supports (&t, problem)) for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
+    if (lasts (problem)) PG_TRY (t.force->lend (t.self, t.state, problem));
     t.out.seconds = pg_seconds () - start;
     problem->patch = t.out;
 done:
