@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Shape functions of the intact body, evaluated once. The patch test evaluates those of all nodes and
- * points of evaluation before a run begins, on the bare problem, which shares these sets with the run's own
- * (pg_problem_bare). As long as all bonds of a set are alive, a force on the problem itself would evaluate the
- * same rows from the same numbers to the same bits. It therefore reads those that the problem keeps
- * (pg_problem.intact), and makes rows of its own, copies at first, as soon as a bond of theirs is broken. */
+ * points of evaluation before a run begins, on the bare problem, which shares these sets with the run's
+ * own (pg_problem_bare). As long as all bonds of a set are alive, a force on the problem itself would
+ * evaluate the same rows from the same numbers to the same bits. It therefore reads those that the problem
+ * keeps (pg_problem.intact), and makes rows of its own, copies at first, as soon as a bond of theirs is
+ * broken. */
 #include "galerkin.h"
 #include <string.h>
 
