@@ -15,18 +15,18 @@
  *     K_p = w (B' D B + 8 mu / (h^2 m) R' R (x) I),
  *
  * so that every node that anything sees has a stiffness: elements that were only left out where they are cut
- * would leave nodes beside a crack without any. Supports: constraints of Nitsche's method become springs at
- * the node nearest to each facet point, penalties springs at their node. */
+ * would leave nodes beside a crack without any. Supports: Nitsche's factor k holds the displacement at a facet
+ * point, sum_a phi_a u_a of the nodes near by, with the springs k phi_a phi_b; penalties are springs at their
+ * node. */
 #include "galerkin_elements.h"
 #include <math.h>
 #include <string.h>
 
-/* Share of Nitsche's factor that the springs of the facet points get: between 0.25 and 0.5 iterations are
- * fewest (measured). */
-static const double spring_share = 0.3;
 /* Strength of what resists deviations from a linear field, in units of mu / (h^2 m), and the least spread of
  * the nodes of a point, in units of h^2. */
 static const double deviation = 8, least_spread = 0.02;
+/* Weights at a facet point end there: this many times the squared distance of the farthest node. */
+static const double beyond = 1.2;
 /* Row of N at nodes that lost bonds: this share of it and the rest of the unit row (measured: 1 and 0 need
  * 1.4 and 2.5 times the iterations). */
 static const double row_share = 0.85;
@@ -201,6 +201,65 @@ static const double *point_matrix (element_list *b, size_t p, double w, size_t m
     return K;
 }
 
+/* phi (m): the displacement at facet point p as a sum over m nodes: that of the linear field which fits theirs
+ * best, the nearer the more (a moving least squares fit). With weights w_a = (1 - d_a^2 / R^2)^2, W their sum,
+ * c the weighted mean of the places and A the weighted spread about it,
+ *     phi_a = w_a (1 / W + (x - c) . A^-1 (x_a - c)). */
+static void facet_shape (const galerkin *g, size_t p, size_t m, const int *node, double *phi)
+{
+    size_t dim = (size_t) g->dim;
+    const double *x = g->rows[PG_FACETS].x + p * dim;
+    double c[3] = { 0 }, A[9] = { 0 }, w[MOST_NODES], sum = 0, far = 0,
+           h = pg_problem_spacing (g->problem, PG_FACETS, p);
+    for (size_t a = 0; a < m; a++) far = fmax (far, distance2 (g->dim, x, place (g, node[a])));
+    for (size_t a = 0; a < m; a++) {
+        double left = far > 0 ? 1 - distance2 (g->dim, x, place (g, node[a])) / (beyond * far) : 1;
+        sum += w[a] = left * left;
+    }
+    for (size_t a = 0; a < m; a++)
+        for (size_t k = 0; k < dim; k++) c[k] += w[a] / sum * place (g, node[a])[k];
+    for (size_t a = 0; a < m; a++)
+        for (size_t k = 0; k < dim; k++)
+            for (size_t l = 0; l < dim; l++)
+                A[k * dim + l] += w[a] * (place (g, node[a])[k] - c[k]) * (place (g, node[a])[l] - c[l]);
+    for (size_t k = 0; k < dim; k++) A[k * dim + k] += least_spread * sum * h * h;
+    pg_dense_cholesky ((int) dim, A, 0);
+    for (size_t a = 0; a < m; a++) {
+        double q[3];
+        for (size_t k = 0; k < dim; k++) q[k] = place (g, node[a])[k] - c[k];
+        pg_dense_solve ((int) dim, A, q);
+        phi[a] = 1 / sum;
+        for (size_t k = 0; k < dim; k++) phi[a] += (x[k] - c[k]) * q[k];
+        phi[a] *= w[a];
+    }
+}
+
+/* Springs of the constraints at facet point p. Where all nodes stand behind the facet, the material between
+ * them, as deep as the least deep of them, gives way as well: springs in series. */
+static const double *spring_matrix (element_list *b, size_t p, size_t m, const int *node)
+{
+    const galerkin *g = b->g;
+    const pg_rows *r = &g->rows[PG_FACETS];
+    size_t dim = (size_t) g->dim, width = m * dim;
+    const double *normal = g->problem->facet_normal + p * dim;
+    double phi[MOST_NODES], depth = INFINITY, between = galerkin_plain (g, PG_FACETS, p)->D[0] * r->weight[p];
+    facet_shape (g, p, m, node, phi);
+    for (size_t a = 0; a < m; a++) {
+        double behind = 0;
+        for (size_t k = 0; k < dim; k++) behind += (r->x[p * dim + k] - place (g, node[a])[k]) * normal[k];
+        depth = fmin (depth, fmax (0, behind));
+    }
+    memset (b->K, 0, width * width * sizeof *b->K);
+    for (size_t i = g->nitsche_start[p]; i < g->nitsche_start[p + 1]; i++) {
+        size_t k = (size_t) g->nitsche[i].component;
+        double s = galerkin_nitsche_stiffness (g, &g->nitsche[i]);
+        s /= 1 + s * depth / between;
+        for (size_t a = 0; a < m; a++)
+            for (size_t e = 0; e < m; e++) b->K[(a * dim + k) * width + e * dim + k] = s * phi[a] * phi[e];
+    }
+    return b->K;
+}
+
 /* An evaluation point of each cell, for its material; of a box its first node. */
 static size_t point_of (const element_list *b, size_t cell, size_t *at)
 {
@@ -208,6 +267,16 @@ static size_t point_of (const element_list *b, size_t cell, size_t *at)
     if (b->set == PG_NODES) return cell;
     while (*at + 1 < r->n && (size_t) r->cell[*at] < cell) ++*at;
     return *at;
+}
+
+/* Matrix of element k; `at` goes along with cells, which are in ascending order. */
+static const double *matrix_of (element_list *b, size_t k, size_t *at)
+{
+    size_t m = b->list.start[k + 1] - b->list.start[k];
+    const int *node = b->list.node + b->list.start[k];
+    if (b->cell[k] == SPRINGS) return spring_matrix (b, b->of[k], m, node);
+    if (b->cell[k] == NO_CELL) return point_matrix (b, b->of[k], b->weight[k], m, node);
+    return cell_matrix (b, b->weight[k], b->cell[k], m, node, point_of (b, b->of[k], at));
 }
 
 /* Sums them up. */
@@ -221,14 +290,9 @@ static pg_status add_elements (element_list *b, pg_block_matrix *Q)
     PG_ALLOC (b->K, most * most);
     PG_ALLOC (b->last, most * most);
     b->shape_kind = NO_CELL;
-    for (size_t k = 0; k < b->list.n; k++) {
-        size_t m = b->list.start[k + 1] - b->list.start[k];
-        const int *node = b->list.node + b->list.start[k];
-        const double *K = b->cell[k] == NO_CELL ? point_matrix (b, b->of[k], b->weight[k], m, node)
-                                                : cell_matrix (b, b->weight[k], b->cell[k], m, node,
-                                                               point_of (b, b->of[k], &at));
-        pg_block_add (Q, m, node, K);
-    }
+    for (size_t k = 0; k < b->list.n; k++)
+        pg_block_add (Q, b->list.start[k + 1] - b->list.start[k], b->list.node + b->list.start[k],
+                      matrix_of (b, k, &at));
 done:
     return status;
 }
@@ -270,31 +334,10 @@ done:
     return status;
 }
 
-/* The spring of a constraint at a facet point. Where its node stands behind the facet, the material between
- * them, as deep as the node, gives way as well: springs in series. */
-static double spring_of (const galerkin *g, const constraint *q, int node)
+/* Springs of nodes under a penalty. */
+static void add_penalties (const galerkin *g, pg_block_matrix *Q)
 {
-    const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim;
-    const double *normal = g->problem->facet_normal + q->point * dim;
-    double depth = 0, k = spring_share * galerkin_nitsche_stiffness (g, q);
-    for (size_t c = 0; c < dim; c++) depth += (r->x[q->point * dim + c] - place (g, node)[c]) * normal[c];
-    double between = galerkin_plain (g, PG_FACETS, q->point)->D[0] * r->weight[q->point];
-    return k / (1 + k * fmax (0, depth) / between);
-}
-
-/* Springs of the supports: on the node nearest to each facet point; penalties of nodes. */
-static void add_supports (const galerkin *g, pg_block_matrix *Q)
-{
-    const pg_rows *r = &g->rows[PG_FACETS];
-    size_t dim = (size_t) g->dim;
-    double d2;
-    for (size_t i = 0; i < g->nnitsche; i++) {
-        const constraint *q = &g->nitsche[i];
-        int node = elements_nearest (g, r, q->point, r->x + q->point * dim, &d2);
-        if (node >= 0)
-            pg_block_add_diagonal (Q, (size_t) node * dim + (size_t) q->component, spring_of (g, q, node));
-    }
     for (size_t i = 0; i < g->npenalty; i++) {
         const constraint *q = &g->penalty[i];
         if (is_stiff (g, q)) continue;
@@ -340,8 +383,8 @@ done:
 static void choose_polynomial (const pg_problem *p, pg_elements *out)
 {
     static const struct { int order; double wide; int terms; double low, floor; } choice[] = {
-        { 1, 1.6, 4, 0.1, 0 }, { 1, 2.2, 8, 0.05, 0.06 }, { 1, 1e9, 32, 0.01, 0 },
-        { 2, 2.7, 8, 0.05, 0.02 }, { 2, 1e9, 16, 0.01, 0 }
+        { 1, 1.6, 4, 0.1, 0 }, { 1, 2.2, 8, 0.03, 0.06 }, { 1, 1e9, 32, 0.01, 0 },
+        { 2, 2.7, 12, 0.02, 0.03 }, { 2, 1e9, 16, 0.01, 0 }
     };
     size_t k = 0;
     while (choice[k].order != p->approx.order || p->approx.horizon > choice[k].wide * p->cloud.h) k++;
@@ -364,7 +407,7 @@ pg_status galerkin_elements (void *self, pg_elements *out)
     PG_TRY (elements_find (&b));
     PG_TRY (pg_block_create (&out->Q, g->n, g->dim, &b.list, g->threads));
     PG_TRY (add_elements (&b, &out->Q));
-    add_supports (g, &out->Q);
+    add_penalties (g, &out->Q);
     PG_TRY (list_stiff (g, out));
     if (!g->problem->approx.type->interpolates) PG_TRY (copy_values (g, &out->N));
     choose_polynomial (g->problem, out);

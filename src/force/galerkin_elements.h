@@ -5,7 +5,8 @@
 #define PG_GALERKIN_ELEMENTS_H
 #include "galerkin.h"
 
-enum { MOST_NODES = 64, NO_CELL = -1 };
+/* Kinds of elements besides those of meshes: around an evaluation point, springs of a supported facet point. */
+enum { MOST_NODES = 64, NO_CELL = -1, SPRINGS = -2 };
 
 /* The elements while they are listed: nodes of each, the evaluation point or cell it belongs to, and the
  * share of the weight of the point. */
@@ -14,8 +15,8 @@ typedef struct {
     int set;                                           /* bond set of the points with elements of their own */
     pg_adjacency list;
     size_t cap_start, cap_node, cap_of, cap_cell, cap_weight;
-    size_t *of;                                        /* point, or cell */
-    int    *cell;                                      /* kind of element, NO_CELL: of a point */
+    size_t *of;                                        /* evaluation point, cell, or facet point */
+    int    *cell;                                      /* kind of element, NO_CELL: of a point, SPRINGS */
     double *weight;                                    /* of the point */
     double  reach;
     double *K, *last;                                  /* matrix of an element; of the last whole cell */

@@ -6,9 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Nodes of an element around a point: within this many spacings; by `wider` farther until there are
- * enough. */
-static const double near_by = 1.45, wider = 0.3;
+/* Nodes of an element around an evaluation point, and of a supported facet point: within this many spacings;
+ * by `wider` farther until there are enough. */
+static const double near_by = 1.45, near_facet = 1.2, wider = 0.3;
 
 /* ---- which nodes --------------------------------------------------------------------------------------- */
 /* Where node j stands in the family of point p; SIZE_MAX: nowhere. */
@@ -115,12 +115,12 @@ static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last
     return separated (g, (size_t) pg_element_types[kind].nodes, node, first, last) ? NO_CELL : kind;
 }
 
-/* Nodes that point p of a set still sees near by, itself where it is a node. */
-static size_t near_nodes (const galerkin *g, int set, size_t p, int *node)
+/* Nodes that point p of a set still sees within so many spacings, itself where it is a node. */
+static size_t near_nodes (const galerkin *g, int set, size_t p, double within, int *node)
 {
     const pg_rows *r = &g->rows[set];
     size_t enough = (size_t) g->dim + 2, m = 0, seen = 0;
-    double h = pg_problem_spacing (g->problem, set, p), reach = near_by * h;
+    double h = pg_problem_spacing (g->problem, set, p), reach = within * h;
     const double *x = r->x + p * (size_t) g->dim;
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
         seen += r->w[e] > 0 || r->family.node[e] == r->own[p];
@@ -165,7 +165,7 @@ done:
 static pg_status append_point (element_list *b, size_t p, double weight)
 {
     int node[MOST_NODES];
-    return append (b, p, NO_CELL, weight, near_nodes (b->g, b->set, p, node), node);
+    return append (b, p, NO_CELL, weight, near_nodes (b->g, b->set, p, near_by, node), node);
 }
 
 /* Share of a cell that the surface cuts which lies in the body. */
@@ -284,9 +284,27 @@ static int at_centres (const pg_problem *p)
     return kept == p->cloud.n;
 }
 
+/* Facet points that Nitsche's terms hold: springs between the nodes near by. */
+static pg_status list_supports (element_list *b)
+{
+    pg_status status = PG_OK;
+    const galerkin *g = b->g;
+    int node[MOST_NODES];
+    for (size_t p = 0; g->nnitsche && p < g->rows[PG_FACETS].n; p++)
+        if (g->nitsche_start[p + 1] > g->nitsche_start[p])
+            PG_TRY (append (b, p, SPRINGS, 1, near_nodes (g, PG_FACETS, p, near_facet, node), node));
+done:
+    return status;
+}
+
 /* By where the evaluation points are. */
 pg_status elements_find (element_list *b)
 {
-    if (b->g->problem->integration->at_nodes) return list_nodes (b);
-    return at_centres (b->g->problem) ? list_boxes (b) : list_cells (b);
+    pg_status status = PG_OK;
+    if (b->g->problem->integration->at_nodes) PG_TRY (list_nodes (b));
+    else if (at_centres (b->g->problem)) PG_TRY (list_boxes (b));
+    else PG_TRY (list_cells (b));
+    PG_TRY (list_supports (b));
+done:
+    return status;
 }

@@ -38,10 +38,10 @@ double pg_solve_direct_cost (const pg_solve_counts *c)
  * elements, and so is a dilatation that is projected. */
 static double iterations (const pg_solve_counts *c)
 {
-    double count = 45;
+    double count = 35;
     if (c->interpolates) count = 30;
-    else if (c->order == 2) count = c->reach > 2.7 ? 200 : 100;
-    else if (c->reach > 2.2) count = c->reach > 2.7 ? 1000 : 100;
+    else if (c->order == 2) count = c->reach > 2.7 ? 150 : 60;
+    else if (c->reach > 2.2) count = c->reach > 2.7 ? 1000 : 70;
     return count * (c->projected ? 3 : 1) * (c->behind ? 6 : 1);
 }
 
