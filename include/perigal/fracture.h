@@ -32,6 +32,11 @@ typedef struct {
     double normal[3], tangent[3], length;
     double room;                                       /* distance to what a ring must not hold, m */
     double modulus;                                    /* E' = E, in plane strain E / (1 - nu^2), Pa */
+    /* E' J = K_I^2 + K_II^2 + antiplane K_III^2: 1 / (1 - nu); 0 in the plane */
+    double antiplane;
+    /* 1: at the end of a front on the surface of the body, from the next vertices: the surface has a
+     * singularity of its own */
+    int    extrapolated;
 } pg_tip_field;
 
 /* Why tips of this problem have no K and J by integrals: a sentence, static text; NULL: they have. */
@@ -45,11 +50,18 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
                           const double *t);
 
+/* Measures a front in space, number `front` of those of the state (pg_fronts_of_state): out has a field for
+ * each of its vertices, smoothed once along the front. d, t as above. near = NAN at a vertex without room for
+ * a tube; near < 3 h: the tube there is thinner than it should be (room says by how much). */
+pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
+                            const pg_state *state, size_t front, int nfield, const double *const *d,
+                            const double *t);
+
 /* The sums for the factors l (nfield numbers): J (J/m^2), K (3, Pa m^(1/2)) and T (Pa); outputs may be
  * NULL. */
 void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double *J, double *K, double *T);
-/* What to show of them: K_I, K_II, K_III in the ratio that K has, with the magnitude of J, sqrt (E' J); as
- * they are where J is not positive or K_I closes the crack. */
+/* What to show of them: K_I, K_II, K_III in the ratio that K has, with the magnitude of J (E' J = K_I^2 +
+ * K_II^2 + antiplane K_III^2); as they are where J is not positive or K_I closes the crack. */
 void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, double *K);
 /* How well J is known, relative: by the two rings; NAN: there is only one. */
 double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l);

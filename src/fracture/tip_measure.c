@@ -7,7 +7,7 @@
 
 const char *pg_tip_refuses (const pg_problem *p, const pg_force_type *force)
 {
-    if (p->dim != 2) return "they are known for cracks in the plane only: set dimension to 2";
+    if (p->dim == 1) return "a body of one dimension has no cracks: set dimension to 2 or 3";
     if (!force->sample) return "the force shows no stress between its points: take another method.force";
     for (size_t m = 0; m < p->nmaterial; m++)
         if (!(p->material[m].type->can & PG_MATERIAL_ISOTROPIC))
@@ -220,7 +220,7 @@ void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, dou
 {
     double J, size = 0;
     pg_tip_combine (f, nfield, l, &J, K, NULL);
-    for (int m = 0; m < 3; m++) size = hypot (size, K[m]);
+    size = hypot (hypot (K[0], K[1]), sqrt (f->antiplane) * K[2]);
     if (!(J > 0) || !(size > 0) || K[0] < 0) return;
     for (int m = 0; m < 3; m++) K[m] *= sqrt (f->modulus * J) / size;
 }

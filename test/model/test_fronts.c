@@ -45,7 +45,8 @@ static void rims_of_discs (void **state)
         double unit = pow (1000, k), radius = 0.62 * unit, centre[3] = { 0.1 * unit, 0, -0.1 * unit };
         char crack[200];
         snprintf (crack, sizeof crack,
-                  "{disc: {center: [%.17g, 0, %.17g], normal: [1, 2, 2], radius: %.17g}}", centre[0], centre[2], radius);
+                  "{disc: {center: [%.17g, 0, %.17g], normal: [1, 2, 2], radius: %.17g}}",
+                  centre[0], centre[2], radius);
         built b = cube (unit, crack);
         assert_int_equal (b.problem->nfront, 1);
         size_t n;

@@ -1,0 +1,155 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The tube around a front: the places of its cross sections, and how thick it may be. It must hold nothing
+ * but one material and the two faces of its own crack: rays in the plane across the front find where the body
+ * ends (16 of them), where another crack passes (those that do not lead back), and behind the front where the
+ * crack ends that the faces belong to (a slim front, or one that has turned). Loads and supports on points,
+ * and points of another material, count where they lie in the slice that the cross section stands for.
+ *
+ * Places: Gauss points on pieces of the radius that end where a radius ends, four on each of eight arcs; none
+ * lies on the crack, at theta = +-pi. */
+#include "front.h"
+#include <math.h>
+#include <string.h>
+
+static const double pi = 3.14159265358979323846;
+
+/* ---- places -------------------------------------------------------------------------------------------- */
+void front_section_make (front_section *out, double h)
+{
+    enum { PIECES = 6, ARC = 4, MOST = 4 };
+    static const double end[PIECES + 1] = { 0, 0.5, 1, 1.5, 2.25, 3, 4 };
+    static const int order[PIECES] = { 2, 2, 2, 3, 3, 4 };
+    double x[MOST], w[MOST], y[ARC], v[ARC], arc = 2 * pi * ARC / FRONT_ANGLES;
+    size_t n = 0;
+    pg_gauss_rule (ARC, y, v);
+    for (int piece = 0; piece < PIECES; piece++) {
+        double length = (end[piece + 1] - end[piece]) * h;
+        pg_gauss_rule (order[piece], x, w);
+        for (int i = 0; i < order[piece]; i++)
+            for (int j = 0; j < FRONT_ANGLES; j++, n++) {
+                out->r[n] = end[piece] * h + 0.5 * (1 + x[i]) * length;
+                out->theta[n] = -pi + arc * (j / ARC + 0.5 * (1 + y[j % ARC]));
+                out->area[n] = 0.25 * w[i] * v[j % ARC] * length * arc * out->r[n];
+            }
+    }
+}
+
+/* ---- room ---------------------------------------------------------------------------------------------- */
+enum { RAYS = 16, STEPS = 4, HALVINGS = 20 };          /* steps of a ray in a spacing */
+static const double open_from = 0.6, behind_from = 1.2;                   /* spacings */
+/* rad: a crack within so much of the direction back is taken for the faces, near the front and farther out;
+ * spacings: what is near */
+static const double near_wedge = 1.05, far_wedge = 0.35, kink = 3;
+
+typedef struct { const pg_problem *p; const pg_cracks *cracks; const front_place *at; double h; } view;
+
+static void ray_at (const view *v, double r, double theta, double *x)
+{
+    const double *e = v->at->frame, *n = e + 3;
+    for (int k = 0; k < 3; k++) x[k] = v->at->x[k] + r * (cos (theta) * e[k] + sin (theta) * n[k]);
+}
+
+static int is_cut (const view *v, const double *x, const double *y)
+{
+    return pg_cracks_cut (v->cracks, 3, x, y, 1e-9 * v->p->cloud.h) != NULL;
+}
+
+/* Whether the ray is free up to r: no surface, or no other crack. */
+static int free_of_surface (const view *v, double r, double theta)
+{
+    double x[3];
+    ray_at (v, r, theta, x);
+    return pg_problem_has_body (v->p, x);
+}
+
+static int free_of_cracks (const view *v, double r, double theta)
+{
+    double x[3], y[3];
+    ray_at (v, open_from * v->h, theta, x), ray_at (v, r, theta, y);
+    return r <= open_from * v->h || !is_cut (v, x, y);
+}
+
+/* At r behind the front the two faces are there: a crack lies across the wedge about the direction back. */
+static int has_faces (const view *v, double r, double theta)
+{
+    double x[3], y[3], wedge = r < kink * v->h * (1 - 1e-9) ? near_wedge : far_wedge;
+    (void) theta;
+    ray_at (v, r, pi - wedge, x), ray_at (v, r, pi + wedge, y);
+    return is_cut (v, x, y);
+}
+
+/* The largest r up to which a question is answered yes in steps, then by bisection. */
+static double reach (const view *v, int (*ask) (const view *, double, double), double theta, double from,
+                     double limit)
+{
+    double near = fmin (from, limit);
+    for (int i = 1; near < limit; i++) {
+        double far = fmin (from + (double) i / STEPS * v->h, limit);
+        if (ask (v, far, theta)) {
+            near = far;
+            continue;
+        }
+        for (int k = 0; k < HALVINGS; k++) {
+            double middle = 0.5 * (near + far);
+            if (ask (v, middle, theta)) near = middle;
+            else far = middle;
+        }
+        return near;
+    }
+    return limit;
+}
+
+/* Distance of a point in the plane across the front; INFINITY: it lies in another slice. */
+static double across (const view *v, const double *x)
+{
+    double d[3], along = 0, square = 0;
+    for (int k = 0; k < 3; k++) {
+        d[k] = x[k] - v->at->x[k];
+        along += d[k] * v->at->frame[6 + k], square += d[k] * d[k];
+    }
+    return fabs (along) > 0.75 * v->h ? INFINITY : sqrt (fmax (0, square - along * along));
+}
+
+/* To points with a support or a force on them. */
+static double room_of_loads (const view *v, double room)
+{
+    const pg_problem *p = v->p;
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_set *set = p->load[l].set;
+        if (p->load[l].kind == PG_BODY_FORCE || !set) continue;
+        for (size_t i = 0; i < set->npoint; i++)
+            room = fmin (room, across (v, p->cloud.x + 3 * (size_t) set->point[i]));
+    }
+    return room;
+}
+
+/* To points of another material than that of the nearest one. */
+static double room_of_interfaces (const view *v, double room)
+{
+    const pg_problem *p = v->p;
+    size_t nearest = 0;
+    double least = INFINITY;
+    if (p->nmaterial == 1) return room;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double d = across (v, p->cloud.x + 3*i);
+        if (d < least) least = d, nearest = i;
+    }
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double away = across (v, p->cloud.x + 3*i) - 0.5 * pg_problem_spacing (p, PG_NODES, i);
+        if (away < room && p->block[PG_NODES][i] != p->block[PG_NODES][nearest]) room = fmax (0, away);
+    }
+    return room;
+}
+
+double front_room (const pg_problem *p, const pg_state *state, const front_place *at, double h, double offset,
+                   double limit, int tail)
+{
+    view v = { p, pg_state_cracks (p, state), at, h };
+    double room = limit, away = 0, x[3] = { at->x[0], at->x[1], at->x[2] };
+    if (!tail && !(p->body.n && (pg_body_nearest (&p->body, x, &away), away >= limit)))
+        for (int i = 0; i < RAYS; i++) room = reach (&v, free_of_surface, 2 * pi * i / RAYS, 0, room);
+    if (!tail) room = room_of_loads (&v, room);
+    for (int i = -5; i <= 5; i++) room = reach (&v, free_of_cracks, pi * i / 8, open_from * h, room);
+    room = reach (&v, has_faces, 0, fmax (behind_from * h, 2.2 * offset), room);
+    return room_of_interfaces (&v, room);
+}
