@@ -41,15 +41,16 @@ pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *c
  * points or components differ or bytes are missing. */
 pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *cloud, size_t nfield,
                           const pg_field_view *fields, long steps, long bytes);
-/* A line between two nodes of its own: their places (m), the points whose values they take, and the time of
- * the first step at which it exists. */
-typedef struct { double x[2][3]; size_t point[2]; double since; } pg_exodus_line;
-/* Adds n lines to a file that is complete, as a block of elements BAR2 named "cracks", and closes it. Faces
- * of cracks are shown so: each takes the displacements of its own side. The element variable `exists` is 1
- * from the `since` of a line on, else 0. The file is copied and takes the place of the old one when the copy
- * is whole; nothing can be appended to it any more. Cloud, title and fields are those of its creation. */
-pg_status pg_exodus_add_lines (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
-                               const pg_exodus_line *line);
+/* A face of a piece of a crack, with nodes of its own at its corners: in the plane a line of 2, in space a
+ * triangle of 3. Their places (m), the points whose values they take, and the time of the first step at which
+ * it exists. */
+typedef struct { double x[3][3]; size_t point[3]; double since; } pg_exodus_piece;
+/* Adds n faces to a file that is complete, as a block of elements named "cracks" (BAR2, TRI3), and closes it.
+ * Each takes the displacements of its own side, so that a crack is shown open. The element variable `exists`
+ * is 1 from the `since` of a face on, else 0. The file is copied and takes the place of the old one when the
+ * copy is whole; nothing can be appended to it any more. Cloud, title and fields are those of its creation. */
+pg_status pg_exodus_add_pieces (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
+                                const pg_exodus_piece *piece);
 /* Appends a step: the fields in the order of the creation, with values. `time` is in s (a load
  * factor in static runs). If it fails, the file is as it was before. */
 pg_status pg_exodus_write  (pg_exodus *file, double time, const pg_field_view *fields);

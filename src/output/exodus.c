@@ -275,14 +275,14 @@ done:
     return status;
 }
 
-/* ---- lines --------------------------------------------------------------------------------------------- */
-/* Copies a record: behind the n values of a variable those of the ends of the lines, taken from their points,
- * and behind all variables whether each line exists. Values stay in the byte order of the file. */
-static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_line *line,
+/* ---- pieces of cracks ------------------------------------------------------------------------------------ */
+/* Copies a record: behind the n values of a variable those of the corners of the pieces, taken from their
+ * points, and behind all variables whether each piece exists. Values stay in the byte order of the file. */
+static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_piece *piece,
                                double *old, double *new)
 {
     pg_status status = PG_OK;
-    size_t k = wide->step;
+    size_t k = wide->step, each = (size_t) f->dim;
     if (pread (f->file, old, (size_t) f->record, f->begin + (long) k * f->record) != f->record)
         PG_FAIL (PG_E_FILE, "%s: %s", f->path, errno ? strerror (errno) : "it has become shorter");
     double time = old[0], *to = new + 1;
@@ -292,11 +292,11 @@ static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, co
         const double *from = old + 1 + v * f->n;
         memcpy (to, from, f->n * sizeof *to);
         to += f->n;
-        /* the last one may be the volume, which lines have none of */
+        /* the last one may be the volume, which pieces have none of */
         int none = f->extra && v + 1 == f->nvar;
-        for (size_t i = 0; i < 2 * m; i++) *to++ = none ? 0 : from[line[i / 2].point[i % 2]];
+        for (size_t i = 0; i < each * m; i++) *to++ = none ? 0 : from[piece[i / each].point[i % each]];
     }
-    for (size_t i = 0; i < m; i++) to[i] = time >= line[i].since;
+    for (size_t i = 0; i < m; i++) to[i] = time >= piece[i].since;
     most_significant_first (to, m);
     PG_TRY (pg_disk_write (wide->path, wide->file, new, (size_t) wide->record,
                            wide->begin + (long) k * wide->record));
@@ -306,15 +306,15 @@ done:
 }
 
 /* All records into the new file, which is opened at the end of its header. */
-static pg_status copy_records (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_line *line)
+static pg_status copy_records (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_piece *piece)
 {
     pg_status status = PG_OK;
     double *old = NULL, *new = NULL;
     PG_TRY (open_file (wide, &wide->begin));
-    wide->record = f->record + (long) (sizeof (double) * (2 * m * f->nvar + m));
+    wide->record = f->record + (long) (sizeof (double) * ((size_t) f->dim * m * f->nvar + m));
     PG_ALLOC (old, (size_t) f->record / sizeof *old);
     PG_ALLOC (new, (size_t) wide->record / sizeof *new);
-    for (size_t k = 0; k < f->step; k++) PG_TRY (widen_record (f, wide, m, line, old, new));
+    for (size_t k = 0; k < f->step; k++) PG_TRY (widen_record (f, wide, m, piece, old, new));
     PG_TRY (count_records (wide, wide->step));
     PG_TRY (pg_disk_sync (wide->path));
 done:
@@ -322,26 +322,27 @@ done:
     return status;
 }
 
-pg_status pg_exodus_add_lines (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
-                               const pg_exodus_line *line)
+pg_status pg_exodus_add_pieces (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
+                               const pg_exodus_piece *piece)
 {
     pg_status status = PG_OK;
     pg_exodus *f = *file, wide = { .file = -1 };
     char *fresh = NULL;
     size_t size = strlen (f->path) + 5;
     if (n == 0) return PG_OK;
-    for (size_t i = 0; i < 2 * n; i++)
-        if (line[i / 2].point[i % 2] >= f->n)
-            PG_FAIL (PG_E_USAGE, "%s: a line hangs on point %zu of %zu", f->path,
-                     line[i / 2].point[i % 2], f->n);
+    size_t each = (size_t) f->dim;
+    for (size_t i = 0; i < each * n; i++)
+        if (piece[i / each].point[i % each] >= f->n)
+            PG_FAIL (PG_E_USAGE, "%s: a piece of a crack hangs on point %zu of %zu", f->path,
+                     piece[i / each].point[i % each], f->n);
     PG_ALLOC (fresh, size);
     snprintf (fresh, size, "%s.new", f->path);
     wide.path = fresh;
     exodus_layout layout = {
-        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, n, line
+        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, n, piece
     };
     PG_TRY (pg_exodus_layout_write (&layout));
-    PG_TRY (copy_records (f, &wide, n, line));
+    PG_TRY (copy_records (f, &wide, n, piece));
     if (rename (fresh, f->path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
     pg_exodus_close (file);
 done:

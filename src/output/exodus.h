@@ -4,7 +4,7 @@
 #define PERIGAL_OUTPUT_EXODUS_H
 #include "perigal/output.h"
 
-/* Name of the block of lines. */
+/* Name of the block of cracks. */
 #define EXODUS_CRACKS "cracks"
 /* Largest number of components of a field. */
 enum { EXODUS_COMPONENTS = 64 };
@@ -20,9 +20,9 @@ typedef struct {
     /* Volumes of the points (n), m3. */
     const double   *volume;
     /* Lines, two nodes each behind those of the points, as a block of their own; 0: none. The records then
-     * end with one number for each line, 1 if it exists. */
-    size_t          nline;
-    const pg_exodus_line *line;
+     * end with one number for each piece, 1 if it exists. */
+    size_t          npiece;
+    const pg_exodus_piece *piece;
 } exodus_layout;
 /* Writes the file to its path, including all that does not change during a run. */
 pg_status pg_exodus_layout_write (const exodus_layout *layout);

@@ -4,9 +4,9 @@
  * ParaView and VisIt can draw; vals_nod_var<k> (time_step x num_nodes) is one component of one
  * field.
  *
- * Lines (faces of cracks) are a block of elements BAR2 behind those of the points; each has two nodes of its
- * own. The element variable `exists` of that block is 1 from the time on at which the line has come into
- * being; points have no such variable (elem_var_tab).
+ * Faces of cracks are a block of elements BAR2 (in the plane) or TRI3 (in space) behind those of the points;
+ * each has nodes of its own. The element variable `exists` of that block is 1 from the time on at which the
+ * face has come into being; points have no such variable (elem_var_tab).
  *
  * Beyond Exodus the file has what exodus_read.c needs to restore the points: attributes
  * `field` and `units` of each variable, the variable `point_volume`, and global attributes for
@@ -24,7 +24,7 @@ typedef struct {
     const exodus_layout *l;
     netcdf_writer *file;
     int     dim;
-    /* Points; nodes: those and the ends of lines; blocks of points. */
+    /* Points; nodes: those and the corners of pieces of cracks; blocks of points. */
     size_t  n, nodes, nblock;
     /* The different values of cloud->block, ascending (nblock). */
     int    *block;
@@ -113,13 +113,13 @@ static void define_block (writer *w, size_t k, size_t m, size_t each, const char
 /* The blocks with their numbers and names. */
 static void define_blocks (writer *w, int name_dim)
 {
-    int dim = netcdf_define_dimension (w->file, "num_el_blk", w->nblock + (w->l->nline > 0));
+    int dim = netcdf_define_dimension (w->file, "num_el_blk", w->nblock + (w->l->npiece > 0));
     for (size_t k = 0; k < w->nblock; k++) {
         size_t m = 0;
         for (size_t i = 0; i < w->n; i++) m += (size_t) belongs (w, i, k);
         define_block (w, k, m, 1, "SPHERE");
     }
-    if (w->l->nline) define_block (w, w->nblock, w->l->nline, 2, "BAR2");
+    if (w->l->npiece) define_block (w, w->nblock, w->l->npiece, (size_t) w->dim, w->dim == 3 ? "TRI3" : "BAR2");
     netcdf_define_variable (w->file, "eb_status", PG_NC_INT, 1, &dim);
     netcdf_define_text (w->file, netcdf_define_variable (w->file, "eb_prop1", PG_NC_INT, 1, &dim), "name",
                         "ID");
@@ -144,7 +144,7 @@ static void define_fields (writer *w, int steps, int nodes, int name_dim)
         }
 }
 
-/* The variable of lines, which only their block has. */
+/* The variable of cracks, which only their block has. */
 static void define_existence (writer *w, int steps, int name_dim)
 {
     char name[NAME];
@@ -153,9 +153,9 @@ static void define_existence (writer *w, int steps, int name_dim)
     netcdf_define_variable (w->file, "elem_var_tab", PG_NC_INT, 2,
                             (int[2]) { netcdf_dimension_of (w->file, "num_el_blk"), dim });
     snprintf (name, sizeof name, "num_el_in_blk%zu", w->nblock + 1);
-    int lines = netcdf_dimension_of (w->file, name);
+    int pieces = netcdf_dimension_of (w->file, name);
     snprintf (name, sizeof name, "vals_elem_var1eb%zu", w->nblock + 1);
-    netcdf_define_variable (w->file, name, PG_NC_DOUBLE, 2, (int[2]) { steps, lines });
+    netcdf_define_variable (w->file, name, PG_NC_DOUBLE, 2, (int[2]) { steps, pieces });
 }
 
 /* All dimensions and variables. The lengths 33, 81 and 4 are those of the Exodus standard. */
@@ -168,11 +168,11 @@ static pg_status define_all (writer *w)
     int name_dim = netcdf_define_dimension (w->file, "len_name", NAME + 1);
     int steps = netcdf_define_dimension (w->file, "time_step", 0);
     int nodes = netcdf_define_dimension (w->file, "num_nodes", w->nodes);
-    netcdf_define_dimension (w->file, "num_elem", w->n + w->l->nline);
+    netcdf_define_dimension (w->file, "num_elem", w->n + w->l->npiece);
     define_points (w, nodes, name_dim);
     define_blocks (w, name_dim);
     define_fields (w, steps, nodes, name_dim);
-    if (w->l->nline) define_existence (w, steps, name_dim);
+    if (w->l->npiece) define_existence (w, steps, name_dim);
     return netcdf_end_header (w->file);
 }
 
@@ -200,7 +200,7 @@ static pg_status put_points (writer *w)
     for (size_t a = 0; a < (size_t) w->dim; a++) {
         for (size_t i = 0; i < w->n; i++) w->work[i] = w->l->cloud->x[i * (size_t) w->dim + a];
         for (size_t i = w->n; i < w->nodes; i++)
-            w->work[i] = w->l->line[(i - w->n) / 2].x[(i - w->n) % 2][a];
+            w->work[i] = w->l->piece[(i - w->n) / (size_t) w->dim].x[(i - w->n) % (size_t) w->dim][a];
         PG_TRY (put (w, variable[a], w->nodes, w->work));
         PG_TRY (put_name (w, "coor_names", a, axis[a]));
     }
@@ -211,14 +211,14 @@ done:
     return status;
 }
 
-/* Writes the block of lines, and that it alone has the variable. */
-static pg_status put_lines (writer *w)
+/* Writes the block of cracks, and that it alone has the variable. */
+static pg_status put_pieces (writer *w)
 {
     pg_status status = PG_OK;
     char name[NAME];
-    for (size_t i = 0; i < 2 * w->l->nline; i++) w->node[i] = (int) (w->n + i) + 1;
+    for (size_t i = 0; i < (size_t) w->dim * w->l->npiece; i++) w->node[i] = (int) (w->n + i) + 1;
     snprintf (name, sizeof name, "connect%zu", w->nblock + 1);
-    PG_TRY (put (w, name, 2 * w->l->nline, w->node));
+    PG_TRY (put (w, name, (size_t) w->dim * w->l->npiece, w->node));
     PG_TRY (put_name (w, "eb_names", w->nblock, EXODUS_CRACKS));
     PG_TRY (put_name (w, "name_elem_var", 0, "exists"));
     for (size_t k = 0; k <= w->nblock; k++) w->node[k] = k == w->nblock;
@@ -241,12 +241,12 @@ static pg_status put_blocks (writer *w)
         snprintf (name, sizeof name, "block_%d", w->block[k]);
         PG_TRY (put_name (w, "eb_names", k, name));
     }
-    size_t blocks = w->nblock + (w->l->nline > 0);
-    if (w->l->nline) PG_TRY (put_lines (w));
+    size_t blocks = w->nblock + (w->l->npiece > 0);
+    if (w->l->npiece) PG_TRY (put_pieces (w));
     for (size_t k = 0; k < blocks; k++) w->node[k] = 1;
     PG_TRY (put (w, "eb_status", blocks, w->node));
     for (size_t k = 0; k < w->nblock; k++) w->node[k] = w->block[k] + 1;
-    if (w->l->nline) w->node[w->nblock] = w->block[w->nblock - 1] + 2;
+    if (w->l->npiece) w->node[w->nblock] = w->block[w->nblock - 1] + 2;
     PG_TRY (put (w, "eb_prop1", blocks, w->node));
 done:
     return status;
@@ -298,7 +298,7 @@ pg_status pg_exodus_layout_write (const exodus_layout *layout)
 {
     pg_status status = PG_OK;
     writer w = { .l = layout, .dim = layout->cloud->dim, .n = layout->cloud->n,
-                 .nodes = layout->cloud->n + 2 * layout->nline };
+                 .nodes = layout->cloud->n + (size_t) layout->cloud->dim * layout->npiece };
     PG_TRY (find_blocks (&w));
     PG_TRY (netcdf_create (&w.file, layout->path, w.nodes > 0xfffffffcu / 8 ? 5 : 2));
     PG_TRY (define_all (&w));

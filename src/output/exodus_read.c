@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Reads result.e back: points with volumes and blocks (nodes of lines, which lie behind them, are left
+ * Reads result.e back: points with volumes and blocks (nodes of cracks, which lie behind them, are left
  * out), and fields, whose components are grouped by the attribute `field` of vals_nod_var<k>. Files of other
  * programs do not have that attribute; there every variable is a field with one component.
  *
@@ -22,7 +22,7 @@ typedef struct {
     part   *part;
 } reader;
 
-/* Number of points: of the nodes those before the ends of lines; all, where the file does not say. */
+/* Number of points: of the nodes those before the corners of cracks; all, where the file does not say. */
 static size_t points_of (const pg_netcdf *file)
 {
     size_t n = pg_netcdf_length (file, "num_nodes");
@@ -235,7 +235,7 @@ static pg_status read_blocks (const reader *r, pg_cloud *cloud)
     long *id = NULL, *node = NULL;
     int var;
     size_t m = pg_netcdf_length (r->file, "num_el_blk");
-    int has_lines = r->n < pg_netcdf_length (r->file, "num_nodes");
+    int has_cracks = r->n < pg_netcdf_length (r->file, "num_nodes");
     char name[64], type[NAME];
     PG_ALLOC (id, m);
     PG_ALLOC (node, r->n);
@@ -245,8 +245,8 @@ static pg_status read_blocks (const reader *r, pg_cloud *cloud)
     for (size_t k = 0; k < m; k++) {
         snprintf (name, sizeof name, "connect%zu", k + 1);
         var = pg_netcdf_find (r->file, name);
-        if (has_lines && var >= 0 && pg_netcdf_text (r->file, var, "elem_type", type, sizeof type)
-            && strcmp (type, "BAR2") == 0)
+        if (has_cracks && var >= 0 && pg_netcdf_text (r->file, var, "elem_type", type, sizeof type)
+            && (strcmp (type, "BAR2") == 0 || strcmp (type, "TRI3") == 0))
             continue;
         snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
         size_t count = pg_netcdf_length (r->file, name);

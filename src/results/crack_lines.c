@@ -1,15 +1,20 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cracks that have grown as lines of result.e: both faces of every straight piece, so that programs that draw
- * the body displaced show the crack open. The end of a face takes the displacement (and all other fields) of
- * the nearest point that sees it: no crack lies between. From cracks.csv is known since when a piece
- * exists. */
+ * Cracks that have grown as lines and triangles of result.e: both faces of every piece, so that programs that
+ * draw the body displaced show the crack open. The corner of a face takes the displacement (and all other
+ * fields) of the nearest point that sees it: no crack lies between. From cracks.csv is known since when a
+ * piece exists.
+ *
+ * In space the cracks of the scene are polygons and discs, which are drawn as fans of triangles about their
+ * middle. */
 #include "results_private.h"
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
+#include <string.h>
 
-/* Ends of faces are looked at from so far beside the crack, spacings; and from so far behind the end of a
- * piece, in parts of its length, for the next piece may go to either side. */
+/* Corners of faces are looked at from so far beside the crack, spacings; and from so far inside of the
+ * piece, in parts of the way to its middle (of a line: its other end), for the next piece may go to either
+ * side. */
 #define BESIDE 1e-3
 #define WITHIN 1e-2
 
@@ -21,25 +26,70 @@ static int hidden (void *context, const double *place, size_t point)
 {
     const sight *s = context;
     const pg_cloud *c = &s->problem->cloud;
-    return pg_cracks_cut (s->cracks, 2, place, c->x + 2 * point, 1e-9 * c->h) != NULL;
+    return pg_cracks_cut (s->cracks, c->dim, place, c->x + (size_t) c->dim * point, 1e-9 * c->h) != NULL;
 }
 
-/* The face of a piece on its left (side 1) or right (-1). */
-static void face_of (const sight *s, const pg_nearest *near, const pg_crack *c, int side, pg_exodus_line *out)
+/* The face of a piece on the side that the normal shows to (side 1) or on the other (-1). corner: its places,
+ * dim x dim. */
+static void face_of (const sight *s, const pg_nearest *near, const double *corner, const double *normal,
+                     int side, pg_exodus_piece *out)
 {
     sight all = *s;
-    for (int end = 0; end < 2; end++) {
-        const double *x = c->vertex + 2 * end, *other = c->vertex + 2 * (1 - end);
-        double place[2], off = side * BESIDE * pg_problem_spacing_at (s->problem, x);
-        for (int k = 0; k < 2; k++) {
-            out->x[end][k] = x[k];
-            place[k] = x[k] + WITHIN * (other[k] - x[k]) + off * c->normal[k];
+    size_t dim = (size_t) s->problem->dim;
+    for (size_t a = 0; a < dim; a++) {
+        const double *x = corner + dim * a;
+        double place[3] = { 0 }, off = side * BESIDE * pg_problem_spacing_at (s->problem, x);
+        for (size_t k = 0; k < dim; k++) {
+            double inside = 0;
+            for (size_t b = 0; b < dim; b++)
+                if (b != a) inside += corner[dim * b + k] / (double) (dim - 1);
+            out->x[a][k] = x[k];
+            place[k] = x[k] + WITHIN * (inside - x[k]) + off * normal[k];
         }
-        out->x[end][2] = 0;
+        if (dim == 2) out->x[a][2] = 0;
         long point = pg_nearest_find (near, place, hidden, &all);
         if (point < 0) point = pg_nearest_find (near, place, NULL, NULL);
-        out->point[end] = (size_t) point;
+        out->point[a] = (size_t) point;
     }
+}
+
+/* A list of pieces with room for more. */
+typedef struct { pg_exodus_piece *piece; size_t n, capacity; } pieces;
+
+/* Both faces of a line or a triangle. */
+static pg_status put_faces (pieces *all, const sight *s, const pg_nearest *near, const double *corner,
+                            const double *normal, double since)
+{
+    pg_status status = PG_OK;
+    PG_GROW (all->piece, all->capacity, all->n + 2);
+    for (int side = 1; side >= -1; side -= 2) {
+        pg_exodus_piece *out = &all->piece[all->n++];
+        *out = (pg_exodus_piece) { .since = since };
+        face_of (s, near, corner, normal, side, out);
+    }
+done:
+    return status;
+}
+
+/* A segment, a triangle, or the fan of a polygon. */
+static pg_status put_crack (pieces *all, const sight *s, const pg_nearest *near, const pg_crack *c,
+                            double since)
+{
+    pg_status status = PG_OK;
+    double middle[3] = { 0 }, corner[9];
+    if (c->nvertex == (size_t) s->problem->dim) {
+        PG_TRY (put_faces (all, s, near, c->vertex, c->normal, since));
+        goto done;
+    }
+    for (size_t i = 0; i < c->nvertex; i++)
+        for (size_t k = 0; k < 3; k++) middle[k] += c->vertex[3*i + k] / (double) c->nvertex;
+    for (size_t i = 0; i < c->nvertex; i++) {
+        memcpy (corner, middle, sizeof middle), memcpy (corner + 3, c->vertex + 3*i, sizeof middle);
+        memcpy (corner + 6, c->vertex + 3 * ((i + 1) % c->nvertex), sizeof middle);
+        PG_TRY (put_faces (all, s, near, corner, c->normal, since));
+    }
+done:
+    return status;
 }
 
 /* Time in result.e since when each piece exists, from the rows of cracks.csv; pieces without one have split
@@ -63,27 +113,52 @@ done:
     return status;
 }
 
+/* What is left between the triangles and the fronts, where the crack cuts nothing yet. */
+static pg_status put_fronts (pieces *all, const sight *s, const pg_nearest *near,
+                             const pg_crack_surfaces *w, double since)
+{
+    pg_status status = PG_OK;
+    for (size_t f = 0; f < w->nfront; f++) {
+        const pg_front *front = &w->front[f];
+        for (size_t i = 0; front->open && front->nrim && i + !front->closed < front->n; i++) {
+            size_t j = (i + 1) % front->n;
+            double c[4][3], corner[9];
+            for (size_t k = 0; k < 3; k++) {
+                c[0][k] = front->x[3*i + k], c[1][k] = front->x[3*j + k];
+                c[2][k] = c[0][k] - front->offset[i] * front->ahead[3*i + k];
+                c[3][k] = c[1][k] - front->offset[j] * front->ahead[3*j + k];
+            }
+            memcpy (corner, c[0], sizeof c[0]), memcpy (corner + 3, c[1], 2 * sizeof c[0]);
+            PG_TRY (put_faces (all, s, near, corner, front->normal + 3*i, since));
+            memcpy (corner, c[1], sizeof c[0]), memcpy (corner + 3, c[3], sizeof c[0]);
+            memcpy (corner + 6, c[2], sizeof c[0]);
+            PG_TRY (put_faces (all, s, near, corner, front->normal + 3*i, since));
+        }
+    }
+done:
+    return status;
+}
+
 pg_status pg_result_paths_lines (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
     pg_nearest *near = NULL;
-    pg_exodus_line *line = NULL;
-    double *since = NULL;
-    if (!r->grows || !state->paths || state->paths->cracks.n == 0) return PG_OK;
-    const pg_cracks *cracks = &state->paths->cracks;
+    pieces all = { 0 };
+    double *since = NULL, last = 0;
+    const pg_cracks *cracks = pg_state_cracks (r->problem, state);
+    if (!r->grows || cracks->n == 0) return PG_OK;
     sight s = { r->problem, cracks };
-    PG_ALLOC (line, 2 * cracks->n);
     PG_ALLOC (since, cracks->n);
     PG_TRY (read_since (r, cracks->n, since));
-    PG_TRY (pg_nearest_create (&near, 2, r->problem->cloud.n, r->problem->cloud.x));
-    for (size_t k = 0; k < cracks->n; k++)
-        for (size_t side = 0; side < 2; side++) {
-            face_of (&s, near, &cracks->crack[k], side ? 1 : -1, &line[2*k + side]);
-            line[2*k + side].since = since[k];
-        }
-    PG_TRY (pg_exodus_add_lines (&r->file, &r->problem->cloud, r->problem->title, 2 * cracks->n, line));
+    PG_TRY (pg_nearest_create (&near, r->problem->dim, r->problem->cloud.n, r->problem->cloud.x));
+    for (size_t k = 0; k < cracks->n; k++) {
+        PG_TRY (put_crack (&all, &s, near, &cracks->crack[k], since[k]));
+        last = fmax (last, since[k]);
+    }
+    if (state->surfaces) PG_TRY (put_fronts (&all, &s, near, state->surfaces, last));
+    PG_TRY (pg_exodus_add_pieces (&r->file, &r->problem->cloud, r->problem->title, all.n, all.piece));
 done:
     pg_nearest_free (&near);
-    pg_free (line), pg_free (since);
+    pg_free (all.piece), pg_free (since);
     return status;
 }

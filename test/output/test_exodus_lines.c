@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Lines in result.e: a block of elements BAR2 behind the points, as readers of Exodus expect it; the points
- * and their fields come back as before. */
+ * Pieces of cracks in result.e: a block of elements BAR2 (in space TRI3) behind the points, as readers of
+ * Exodus expect it; the points and their fields come back as before. */
 #include "check.h"
 #include "exodus_sample.h"
 #include <netcdf.h>
@@ -25,39 +25,39 @@ static size_t size_of (int ncid, const char *name)
     return n;
 }
 
-/* What ParaView's reader of Exodus goes by: sizes, a block of BAR2 with nodes of its own, nodal values for
+/* What ParaView's reader of Exodus goes by: sizes, a block of BAR2 or TRI3 with nodes of its own, nodal values for
  * all nodes, an element variable that the truth table gives to that block alone. */
-static void check_lines (const sample *s, const char *path, size_t n, const pg_exodus_line *line)
+static void check_lines (const sample *s, const char *path, size_t n, const pg_exodus_piece *line)
 {
     int ncid, var;
     char type[8] = "", name[64];
     size_t points = s->cloud.n, dim = (size_t) s->cloud.dim;
     assert_int_equal (nc_open (path, NC_NOWRITE, &ncid), NC_NOERR);
-    assert_int_equal (size_of (ncid, "num_nodes"), points + 2 * n);
+    assert_int_equal (size_of (ncid, "num_nodes"), points + dim * n);
     assert_int_equal (size_of (ncid, "num_elem"), points + n);
     assert_int_equal (size_of (ncid, "num_el_blk"), 3);
     assert_int_equal (size_of (ncid, "num_el_in_blk3"), n);
-    assert_int_equal (size_of (ncid, "num_nod_per_el3"), 2);
+    assert_int_equal (size_of (ncid, "num_nod_per_el3"), dim);
     assert_int_equal (size_of (ncid, "time_step"), 3);
     assert_int_equal (nc_inq_varid (ncid, "connect3", &var), NC_NOERR);
     assert_int_equal (nc_get_att_text (ncid, var, "elem_type", type), NC_NOERR);
-    assert_memory_equal (type, "BAR2", 4);
+    assert_memory_equal (type, dim == 3 ? "TRI3" : "BAR2", 4);
     assert_true (one_of (ncid, "eb_prop1", 2, 0) > one_of (ncid, "eb_prop1", 1, 0));
     for (size_t k = 0; k < 3; k++) assert_true (one_of (ncid, "elem_var_tab", k, 0) == (k == 2));
-    for (size_t i = 0; i < 2 * n; i++) {
-        assert_true (one_of (ncid, "connect3", i / 2, i % 2) == (double) (points + i + 1));
+    for (size_t i = 0; i < dim * n; i++) {
+        assert_true (one_of (ncid, "connect3", i / dim, i % dim) == (double) (points + i + 1));
         for (size_t a = 0; a < dim; a++) {
             snprintf (name, sizeof name, "coord%c", "xyz"[a]);
-            assert_true (one_of (ncid, name, points + i, 0) == line[i / 2].x[i % 2][a]);
+            assert_true (one_of (ncid, name, points + i, 0) == line[i / dim].x[i % dim][a]);
         }
         for (size_t step = 0; step < 3; step++) {
             for (int v = 1; v <= 3; v++) {
                 snprintf (name, sizeof name, "vals_nod_var%d", v);
                 assert_true (one_of (ncid, name, step, points + i)
-                             == one_of (ncid, name, step, line[i / 2].point[i % 2]));
+                             == one_of (ncid, name, step, line[i / dim].point[i % dim]));
             }
-            assert_true (one_of (ncid, "vals_elem_var1eb3", step, i / 2)
-                         == (0.1 * (double) step >= line[i / 2].since));
+            assert_true (one_of (ncid, "vals_elem_var1eb3", step, i / dim)
+                         == (0.1 * (double) step >= line[i / dim].since));
         }
         assert_true (one_of (ncid, "point_volume", points + i, 0) == 0);
     }
@@ -72,8 +72,8 @@ static void lines_come_behind_the_points (void **state)
         pg_exodus *file;
         pg_cloud back;
         const char *path = file_at ("lines.e");
-        const pg_exodus_line line[3] = {
-            { { { 1, 2, 3 }, { 4, 5, 6 } }, { 0, 7 }, 0 },
+        const pg_exodus_piece line[3] = {
+            { { { 1, 2, 3 }, { 4, 5, 6 }, { 2, 2, 2 } }, { 0, 7, 5 }, 0 },
             { { { 4, 5, 6 }, { 7, 8, 9 } }, { 7, 3 }, 0.1 },
             { { { 0.1, 0.2, 0.3 }, { 1e-9, 0, -1 } }, { 48, 1 }, 0.15 },
         };
@@ -83,12 +83,12 @@ static void lines_come_behind_the_points (void **state)
             fill (&s, k);
             check_ok (pg_exodus_write (file, 0.1 * k, s.view));
         }
-        check_ok (pg_exodus_add_lines (&file, &s.cloud, "a test", 0, NULL));
+        check_ok (pg_exodus_add_pieces (&file, &s.cloud, "a test", 0, NULL));
         assert_non_null (file);
-        const pg_exodus_line wrong = { .point = { 0, s.cloud.n } };
-        check_fails (pg_exodus_add_lines (&file, &s.cloud, "a test", 1, &wrong), PG_E_USAGE);
+        const pg_exodus_piece wrong = { .point = { 0, s.cloud.n } };
+        check_fails (pg_exodus_add_pieces (&file, &s.cloud, "a test", 1, &wrong), PG_E_USAGE);
         assert_non_null (file);                          /* and the file as it was */
-        check_ok (pg_exodus_add_lines (&file, &s.cloud, "a test", 3, line));
+        check_ok (pg_exodus_add_pieces (&file, &s.cloud, "a test", 3, line));
         assert_null (file);
         check_lines (&s, path, 3, line);
         for (int step = 0; step < 3; step++) {
@@ -126,8 +126,8 @@ static void lines_on_a_full_disk_leave_the_file (void **state)
         fill (&s, 0);
         check_ok (pg_exodus_write (file, 0, s.view));
         setrlimit (RLIMIT_FSIZE, &(struct rlimit) { limit, old.rlim_max });
-        const pg_exodus_line none = { .since = 0 };
-        pg_status status = pg_exodus_add_lines (&file, &s.cloud, "a test", 1, &none);
+        const pg_exodus_piece none = { .since = 0 };
+        pg_status status = pg_exodus_add_pieces (&file, &s.cloud, "a test", 1, &none);
         setrlimit (RLIMIT_FSIZE, &old);
         assert_int_equal (status, PG_E_FILE);
         check_field (&s, path, 0, 0);
