@@ -15,9 +15,9 @@
  *     K_p = w (B' D B + 8 mu / (h^2 m) R' R (x) I),
  *
  * so that every node that anything sees has a stiffness: elements that were only left out where they are cut
- * would leave nodes beside a crack without any. Supports: Nitsche's factor k holds the displacement at a facet
- * point, sum_a phi_a u_a of the nodes near by, with the springs k phi_a phi_b; penalties are springs at their
- * node. */
+ * would leave nodes beside a crack without any. Supports: Nitsche's factor k holds the displacement at a
+ * facet point, sum_a phi_a u_a of the nodes near by, with the springs k phi_a phi_b; penalties are springs at
+ * their node. */
 #include "galerkin_elements.h"
 #include <math.h>
 #include <string.h>
@@ -201,9 +201,9 @@ static const double *point_matrix (element_list *b, size_t p, double w, size_t m
     return K;
 }
 
-/* phi (m): the displacement at facet point p as a sum over m nodes: that of the linear field which fits theirs
- * best, the nearer the more (a moving least squares fit). With weights w_a = (1 - d_a^2 / R^2)^2, W their sum,
- * c the weighted mean of the places and A the weighted spread about it,
+/* phi (m): the displacement at facet point p as a sum over m nodes: that of the linear field which fits
+ * theirs best, the nearer the more (a moving least squares fit). With weights w_a = (1 - d_a^2 / R^2)^2, W
+ * their sum, c the weighted mean of the places and A the weighted spread about it,
  *     phi_a = w_a (1 / W + (x - c) . A^-1 (x_a - c)). */
 static void facet_shape (const galerkin *g, size_t p, size_t m, const int *node, double *phi)
 {

@@ -5,7 +5,8 @@
 #define PG_GALERKIN_ELEMENTS_H
 #include "galerkin.h"
 
-/* Kinds of elements besides those of meshes: around an evaluation point, springs of a supported facet point. */
+/* Kinds of elements besides those of meshes: around an evaluation point; springs of a supported facet
+ * point. */
 enum { MOST_NODES = 64, NO_CELL = -1, SPRINGS = -2 };
 
 /* The elements while they are listed: nodes of each, the evaluation point or cell it belongs to, and the
