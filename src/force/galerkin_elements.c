@@ -253,7 +253,7 @@ static const double *spring_matrix (element_list *b, size_t p, size_t m, const i
     for (size_t i = g->nitsche_start[p]; i < g->nitsche_start[p + 1]; i++) {
         size_t k = (size_t) g->nitsche[i].component;
         double s = galerkin_nitsche_stiffness (g, &g->nitsche[i]);
-        s /= 100 * (1 + s * depth / between);
+        s /= 1 + s * depth / between;
         for (size_t a = 0; a < m; a++)
             for (size_t e = 0; e < m; e++) b->K[(a * dim + k) * width + e * dim + k] = s * phi[a] * phi[e];
     }
