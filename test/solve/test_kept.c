@@ -176,6 +176,38 @@ static void a_motion_goes_on_bit_by_bit (void **state)
     clear (&a), clear (&b);
 }
 
+/* So does one whose factor has followed what broke since it was made. */
+static run block (void)
+{
+    return scene_of (
+        1,
+        "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1 m, 2 m, 0.2 m]}}}]\nspacing: 0.08 m\n"
+        "cracks: [{polygon: [[-1 m, 1 m, -1 m], [0.2 m, 1 m, -1 m], [0.2 m, 1 m, 1 m], [-1 m, 1 m, 1 m]]}]\n"
+        "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500 kg/m3}}\n"
+        "failure: {criterion: stretch, critical_stretch: 1e-3}\nmethod: {approximation: rkpm, horizon: 2 "
+        "spacing}\nboundary:\n  - {set: bottom, displacement: {x: 0, y: 0, z: 0}}\n"
+        "  - {set: top, traction: {y: 9 MPa}}\nsolver: {kind: newmark, dt: 0.1 ms, end: 3 ms, "
+        "break: fraction, break_fraction: 10 %%}\noutput: {at: {levels: 1}}\n");
+}
+
+static void a_factor_that_follows_goes_on_bit_by_bit (void **state)
+{
+    (void) state;
+    run a = block (), b = block ();
+    memory m = { .n = 0 };
+    for (int k = 0; k < 4; ) advance (&a), k += a.step.nbroken > 0;
+    check_ok (walk (&m, &a, 0));
+    assert_true (*(const long *) (const void *) item_of (&m, "event_solver.touched")->value > 0);
+    check_ok (walk (&m, &b, 1));
+    for (int k = 0; k < 3 && !pg_solver_done (a.solver, a.state); k += a.step.nbroken > 0) {
+        advance (&a), advance (&b);
+        assert_int_equal (a.step.nbroken, b.step.nbroken);
+        assert_memory_equal (a.state->d, b.state->d, a.state->ndof * sizeof *a.state->d);
+    }
+    forget (&m);
+    clear (&a), clear (&b);
+}
+
 static void texts_end_whatever_was_read (void **state)
 {
     (void) state;
@@ -193,6 +225,7 @@ int main (void)
     const struct CMUnitTest tests[] = { cmocka_unit_test (what_is_read_back_is_written_again),
                                         cmocka_unit_test (what_cannot_be_is_refused),
                                         cmocka_unit_test (a_motion_goes_on_bit_by_bit),
+                                        cmocka_unit_test (a_factor_that_follows_goes_on_bit_by_bit),
                                         cmocka_unit_test (texts_end_whatever_was_read) };
     return cmocka_run_group_tests_name ("solve/kept", tests, NULL, NULL);
 }

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What Newmark's method spares changes no result: residuals carried by the iterations, one sweep for K d and
- * K v, first guesses from earlier steps, finite elements as preconditioner, and bonds that are not judged
+ * K v, first guesses from earlier steps, finite elements as preconditioner, factors that follow what breaks, and bonds that are not judged
  * because their ends rule them out, against the same run by plain sums. */
 #include <math.h>
 #include "scene_runs/run.h"
@@ -135,10 +135,59 @@ static void the_worst_bonds_are_found (void **state)
     }
 }
 
+/* A plate of four layers of points in tension, with a crack through its left side; two bonds or so break in a
+ * round. */
+static run in_space (int plain, const char *mass)
+{
+    return scene_of (1,
+                     "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1 m, 2 m, 0.2 m]}}}]\n"
+                     "spacing: 0.08 m\ncracks:\n  - {polygon: [[-0.01 m, 0.89 m, -0.01 m], [0.2 m, 0.89 m, "
+                     "-0.01 m], [0.2 m, 1.11 m, 0.21 m], [-0.01 m, 1.11 m, 0.21 m]]}\n"
+                     "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.2, density: 2500 kg/m3}}\n"
+                     "failure: {criterion: stretch, critical_stretch: 1e-3}\n"
+                     "method: {approximation: rkpm, integration: gauss, horizon: 2 spacing}\nboundary:\n"
+                     "  - {set: bottom, displacement: {x: 0, y: 0, z: 0}}\n"
+                     "  - {set: top, traction: {y: 9 MPa}}\n"
+                     "solver: {kind: newmark, dt: 0.1 ms, end: 2.3 ms, mass: %s, break: fraction, "
+                     "break_fraction: 10 %%, tolerance: 1e-10, plain: %s}\noutput: {at: {levels: 1}}\n",
+                     mass, plain ? "true" : "false");
+}
+
+/* A kept factor follows what breaks: the same bonds, and little more than one iteration a solve. */
+static void a_factor_follows_what_breaks (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 2; k++) {
+        run a = in_space (0, k ? "consistent" : "lumped"), b = in_space (1, k ? "consistent" : "lumped");
+        size_t n = a.state->ndof, broken = 0;
+        double d = 0;
+        while (!pg_solver_done (b.solver, b.state)) {
+            advance (&a), advance (&b);
+            assert_int_equal (a.step.nbroken, b.step.nbroken);
+            for (size_t i = 0; i < a.step.nbroken; i++)
+                assert_int_equal (a.step.broken[i].bond, b.step.broken[i].bond);
+            broken += a.step.nbroken;
+            for (size_t i = 0; i < n; i++) d = fmax (d, fabs (a.state->d[i] - b.state->d[i]));
+        }
+        const pg_statistics *fast = pg_solver_report (a.solver, a.state),
+                            *slow = pg_solver_report (b.solver, b.state);
+        print_message ("%zu bonds, d %.1e; factors %ld of %ld, iterations %zu of %zu in %ld solves\n", broken,
+                       d / size (b.state->d, n), (long) fast->factorizations, (long) slow->factorizations,
+                       (size_t) fast->cg_iterations, (size_t) slow->cg_iterations, (long) fast->solves);
+        assert_true (broken > 20 && fast->updates > 10);
+        assert_true (d <= 1e-8 * size (b.state->d, n));
+        assert_int_equal (fast->factorizations, 1);
+        assert_true ((double) fast->cg_iterations < 2.2 * (double) fast->solves
+                     && fast->cg_iterations < slow->cg_iterations);
+        clear (&a), clear (&b);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (shortcuts_change_no_result),
                                         cmocka_unit_test (guesses_spare_iterations),
-                                        cmocka_unit_test (the_worst_bonds_are_found) };
+                                        cmocka_unit_test (the_worst_bonds_are_found),
+                                        cmocka_unit_test (a_factor_follows_what_breaks) };
     return cmocka_run_group_tests_name ("solve/newmark_shortcuts", tests, NULL, NULL);
 }
