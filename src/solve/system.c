@@ -366,6 +366,38 @@ static int falls_back (pg_system *s)
     return 1;
 }
 
+/* Where the diagonal does, it stays (until it has cost more, leave_diagonal). Else large solids take finite elements, as at rest, and so does what has
+ * no matrix to be factored. */
+static pg_status after_trial (pg_system *s, const dynamics *dyn, int did)
+{
+    pg_status status = PG_OK;
+    int can, factors = system_has_matrix (s) && s->linear->factors;
+    PG_TRY (system_can_precondition (s, dyn, &can));
+    pg_solve_counts c = pg_solve_count (s->problem);
+    s->mode = did ? (can ? SYSTEM_DIAGONAL : SYSTEM_NO_FACTOR)
+              : can && (!factors || pg_solve_by_elements (&c, 1, 0, 1)) ? SYSTEM_NO_FACTOR
+                                                                         : SYSTEM_FACTOR;
+done:
+    return status;
+}
+
+/* In motion the diagonal did in the first step. Breaking may change that: nodes that few points see are light,
+ * rows of few bonds stiff. When the iterations beyond a few have cost as much as a factor (rent or buy,
+ * counted), something better is taken for good. */
+static pg_status leave_diagonal (pg_system *s, const dynamics *dyn, size_t used)
+{
+    pg_status status = PG_OK;
+    if (!dyn || strcmp (s->options->linear, "auto") != 0 || !system_has_matrix (s) || s->problem->sums
+        || !s->linear->factors || s->options->plain)
+        return PG_OK;
+    if (used > FEW_ITERATIONS) s->extra_cost += (double) (used - FEW_ITERATIONS) * system_apply_cost (s);
+    if (s->extra_cost <= system_direct_cost (s)) return PG_OK;
+    PG_TRY (after_trial (s, dyn, 0));
+    s->stale = 1, s->extra_cost = 0;
+done:
+    return status;
+}
+
 /* Conjugate gradients with a preconditioner of several levels where it can be made, else with the diagonal.
  * Where the better one fails, the diagonal has a last, limited try: mostly a loaded part has come loose,
  * and nothing converges. */
@@ -387,21 +419,7 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
     if (free_to_move)
         PG_FAIL (now, "%s; %s", pg_last_error (), why_out_of_balance (s->problem, s->options));
     PG_TRY (now);
-done:
-    return status;
-}
-
-/* Where the diagonal does, it stays. Else large solids take finite elements, as at rest, and so does what has
- * no matrix to be factored. */
-static pg_status after_trial (pg_system *s, const dynamics *dyn, int did)
-{
-    pg_status status = PG_OK;
-    int can, factors = system_has_matrix (s) && s->linear->factors;
-    PG_TRY (system_can_precondition (s, dyn, &can));
-    pg_solve_counts c = pg_solve_count (s->problem);
-    s->mode = did ? (can ? SYSTEM_DIAGONAL : SYSTEM_NO_FACTOR)
-              : can && (!factors || pg_solve_by_elements (&c, 1, 0, 1)) ? SYSTEM_NO_FACTOR
-                                                                         : SYSTEM_FACTOR;
+    if (!can) PG_TRY (leave_diagonal (s, dyn, used));
 done:
     return status;
 }

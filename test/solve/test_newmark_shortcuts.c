@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What Newmark's method spares changes no result: residuals carried by the iterations, one sweep for K d and
- * K v, first guesses from earlier steps, finite elements as preconditioner, factors that follow what breaks, and bonds that are not judged
- * because their ends rule them out, against the same run by plain sums. */
+ * K v, first guesses from earlier steps, finite elements as preconditioner, factors that follow what breaks,
+ * and bonds that are not judged because their ends rule them out, against the same run by plain sums. */
 #include <math.h>
 #include "scene_runs/run.h"
 
