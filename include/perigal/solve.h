@@ -27,6 +27,7 @@ typedef struct {
     int      plain;                                    /* 1: no shortcuts; as problem->plain */
     double   break_fraction, tie;  /* bonds within this share of the worst break with it */
     double   facet;  /* break: facet: length of a facet, m; 0: the local spacing */
+    int      branching;                                /* break: facet, in motion: tips may branch */
     double   tolerance;                                /* of the residual, relative to the reference force */
     /* steps: calls of pg_solver_step up to the end; 0: the solver finds it when it is made */
     long     steps, max_iterations, max_events;

@@ -169,7 +169,8 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     pg_system *sys = &b->system;
     const pg_force_type *force = sys->force;
     double t0 = pg_seconds (), unused;
-    breaking = breaking && !b->growth && (force->balance_and_break || force->utilisation) && s->problem->criterion->type;
+    breaking = breaking && !b->growth && (force->balance_and_break || force->utilisation)
+               && s->problem->criterion->type;
     b->changes.n = 0;
     if (breaking && force->balance_and_break)
         PG_TRY (force->balance_and_break (sys->self, t, state->d, sys->residual, reference, &b->changes));

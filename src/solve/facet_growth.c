@@ -123,6 +123,7 @@ static void tell (break_loop *b, const pg_state *state)
         const pg_tip_field *f = &g->field[i];
         if (!state->paths->tip[i].open) continue;
         open++;
+        if (isnan (f->near) && i < g->nrun && g->run[i].straight > 0) continue;        /* a new branch */
         if (isnan (f->near)) {
             int goes_out = state->paths->tip[i].grown > 0 && facet_way_out (b, state, i, &out);
             if (!is_tried (g, i) && !goes_out && state->events == 0 && !(g->said & FACET_SAID_ROOM)) {

@@ -33,10 +33,14 @@ typedef struct {
 /* A tip in motion. */
 typedef struct {
     double speed;                                      /* m/s */
-    double mean;                                       /* g = 1 - v / c_R of the last time */
+    double g, mean, steady;  /* 1 - v / c_R; its means over the last time, and over a longer one */
     double way, length;                                /* along its last facet; of that, 0: it has none, m */
     double least;                                      /* its speed along that is no less, m/s */
+    /* So far a branch goes straight on and is not looked at, from the start of its facet, m. */
+    double straight;
 } facet_run;
+/* Way of a tip over which a facet opens behind it, in lengths of the facet. */
+#define FACET_ZONE 4
 /* What a step that is refused goes back to. */
 typedef struct {
     double needed, since;
@@ -106,6 +110,8 @@ pg_status facet_round   (break_loop *b, pg_state *state, double t, const double 
                          int *over);
 
 /* ---- facet_motion.c ------------------------------------------------------------------------------------ */
+/* Warns where a time step is too long for facets. */
+void      facet_doubt_step (break_loop *b, double dt);
 /* A time step begins: tips run on for dt (s; INFINITY: to the end of their facets), which open so far. */
 void      facet_forward (break_loop *b, double dt);
 /* It has ended: is it time to look at the tips? dt (s) is added to the time since the last look. */
@@ -122,6 +128,14 @@ pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const d
 pg_status facet_save    (break_loop *b);
 void      facet_return  (break_loop *b);
 pg_status facet_motion_keep (break_loop *b, const pg_keeper *keeper);
+
+pg_status facet_make_room (facet_growth *g, size_t ntip);              /* runs of so many tips */
+
+/* ---- facet_branch.c ------------------------------------------------------------------------------------ */
+/* Does tip i, at the end of its facet, have the energy for two? */
+int       facet_branches (const break_loop *b, const pg_state *state, size_t i);
+/* It ends, and two tips begin (facet_hold_before was called). *done 0: the material takes none there. */
+pg_status facet_fork    (break_loop *b, pg_state *state, size_t i, double t, const double *d, int *done);
 
 /* ---- facet_hold.c -------------------------------------------------------------------------------------- */
 /* The forces before a cut; and after it, the caches of the force being fresh: what has changed is held. The

@@ -23,20 +23,33 @@
 #include <math.h>
 #include <string.h>
 
-static const double memory = 0.5;  /* time over which g_now is a mean, in spacings of a Rayleigh wave */
-static const double zone = 4;  /* way of a tip over which a facet opens, in lengths of the facet */
+/* Times over which g_now is a mean, and the g that decides on branching, in spacings of a Rayleigh wave. */
+static const double memory = 0.5, steadiness = 4;
 static const double part_of_turn = 0.3;
 /* An event leaves its tip at G = G0, an equilibrium that it would take for ever to leave, though it is not
  * stable: along the facet of the event it runs at this share of c_R at least. */
 static const double set_off = 0.1;
 static const double between = 0.25;  /* way of a Rayleigh wave from look to look, in spacings, at least */
 
+void facet_doubt_step (break_loop *b, double dt)
+{
+    const pg_problem *p = b->system.problem;
+    double c_R = 0, length = b->growth->length > 0 ? b->growth->length : p->cloud.h;
+    for (size_t m = 0; m < p->nmaterial; m++)
+        c_R = fmax (c_R, pg_material_waves (&p->material[m]).rayleigh);
+    if (!(dt * c_R > 0.5 * length)) return;
+    pg_statistics_warn (b->system.report,
+                        "a Rayleigh wave comes %.3g facets far in a time step of %.4g s, and a tip grows by "
+                        "at most one: speeds of cracks are not to be trusted; take solver.dt below %.3g s",
+                        dt * c_R / length, dt, 0.5 * length / c_R);
+}
+
 /* A new tip has come no way yet. */
-static pg_status make_room (facet_growth *g, size_t ntip)
+pg_status facet_make_room (facet_growth *g, size_t ntip)
 {
     pg_status status = PG_OK;
     PG_GROW (g->run, g->cap_run, ntip);
-    for (; g->nrun < ntip; g->nrun++) g->run[g->nrun] = (facet_run) { .mean = 1 };
+    for (; g->nrun < ntip; g->nrun++) g->run[g->nrun] = (facet_run) { .mean = 1, .steady = 1, .g = 1 };
 done:
     return status;
 }
@@ -67,10 +80,12 @@ void facet_forward (break_loop *b, double dt)
 /* The speed of a tip for the steps to come. share: G (v) / G0; dt: since it was last looked at. */
 static void pace (facet_run *r, double share, double c_R, double h, double dt)
 {
-    double g = share > r->mean ? r->mean / share : 1;
+    double g = share > r->mean ? r->mean / share : 1, way = dt * c_R / h;
+    r->g = g;
     r->speed = c_R * (1 - g);
     if (r->way < r->length) r->speed = fmax (r->speed, r->least);
-    r->mean += (isfinite (dt) ? 1 - exp (-dt * c_R / (memory * h)) : 1) * (g - r->mean);
+    r->mean += (isfinite (dt) ? 1 - exp (-way / memory) : 1) * (g - r->mean);
+    r->steady += (isfinite (dt) ? 1 - exp (-way / steadiness) : 1) * (g - r->steady);
 }
 
 /* One facet of tip i, cut and held. */
@@ -83,9 +98,10 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
     double length = hypot (c->to[0] - g->field[i].x[0], c->to[1] - g->field[i].x[1]);
     PG_TRY (facet_grow_one (b, state, c, t));
     PG_TRY (system_refresh (&b->system, state, &b->changes));
-    PG_TRY (facet_hold_begin (b, t, d, c->tip, zone * length, c->energy));
+    PG_TRY (facet_hold_begin (b, t, d, c->tip, FACET_ZONE * length, c->energy));
     r->way = r->length > 0 ? fmin (r->way - r->length, length) : 0;
-    r->length = length, r->least = 0;
+    r->length = length, r->straight -= length;
+    if (!(r->straight > 0)) r->least = 0;
 done:
     return status;
 }
@@ -97,6 +113,10 @@ static int next_facet (break_loop *b, const pg_state *state, size_t i, double an
     facet_growth *g = b->growth;
     facet_run *r = &g->run[i];
     const pg_tip_field *f = &g->field[i];
+    if (r->straight > r->length) {
+        facet_place (b, state, i, atan2 (f->e[1], f->e[0]), c);
+        return 1;
+    }
     if (isnan (f->near)) {
         if (facet_way_out (b, state, i, c)) return 1;
         r->speed = 0;
@@ -124,6 +144,32 @@ int facet_due (break_loop *b, double dt)
     return 0;
 }
 
+/* Tip i was measured: its speed, and what it cuts where it has come to the end of its facet. dt: since the
+ * last look. *any: something was cut at this look, so that the forces before the next cut are at hand. */
+static pg_status run_tip (break_loop *b, pg_state *state, size_t i, double t, const double *d, double dt,
+                          double share, double angle, int *any)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    facet_run *r = &g->run[i];
+    const pg_tip_field *f = &g->field[i];
+    facet_candidate c;
+    int forks = 0;
+    if (!isnan (f->near) && !(r->straight > r->length)) pace (r, share, rayleigh_speed (b, f->x), f->h, dt);
+    if (!(r->speed > 0) || r->way < r->length) return PG_OK;
+    if (facet_branches (b, state, i)) {
+        if (!*any) PG_TRY (facet_hold_before (b, t, d));
+        PG_TRY (facet_fork (b, state, i, t, d, &forks));
+        *any |= forks;
+    }
+    if (forks || !next_facet (b, state, i, angle, &c)) goto done;
+    if (!*any) PG_TRY (facet_hold_before (b, t, d));
+    *any = 1;
+    PG_TRY (cut (b, state, &c, t, d));
+done:
+    return status;
+}
+
 pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d, double *top, int *any)
 {
     pg_status status = PG_OK;
@@ -132,19 +178,12 @@ pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d,
     *any = 0, *top = 0, g->moving = 1, g->since = 0;
     PG_TRY (facet_measure (b, state, NULL, d, t));
     size_t n = g->ntip;
-    PG_TRY (make_room (g, n));
+    PG_TRY (facet_make_room (g, n));
     for (size_t i = 0; i < n; i++) {
-        facet_run *r = &g->run[i];
-        const pg_tip_field *f = &g->field[i];
-        facet_candidate c;
         double angle, over = facet_judge (b, state, i, 1, &angle);
         *top = fmax (*top, over);
-        if (!state->paths->tip[i].open) continue;
-        if (!isnan (f->near)) pace (r, over * over, rayleigh_speed (b, f->x), f->h, dt);
-        if (!(r->speed > 0) || r->way < r->length || !next_facet (b, state, i, angle, &c)) continue;
-        if (!*any) PG_TRY (facet_hold_before (b, t, d));
-        PG_TRY (cut (b, state, &c, t, d));
-        *any = 1;
+        if (state->paths->tip[i].open)
+            PG_TRY (run_tip (b, state, i, t, d, dt, over * over, angle, any));
     }
 done:
     return status;
@@ -165,10 +204,10 @@ pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const d
     facet_rest (b);
     if (g->event_tip < 0) return PG_OK;                /* it has ended: nothing runs along its facet */
     size_t i = (size_t) g->event_tip;
-    PG_TRY (make_room (g, state->paths->ntip));
+    PG_TRY (facet_make_room (g, state->paths->ntip));
     g->run[i].length = g->event_length;
     g->run[i].speed = g->run[i].least = set_off * rayleigh_speed (b, state->paths->tip[i].x);
-    PG_TRY (facet_hold_begin (b, t, d, (long) i, zone * g->event_length, g->event_energy));
+    PG_TRY (facet_hold_begin (b, t, d, (long) i, FACET_ZONE * g->event_length, g->event_energy));
 done:
     return status;
 }
@@ -185,10 +224,10 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
     g->nrun = (size_t) n;
     for (size_t i = 0; i < g->nrun; i++) {
         facet_run *r = &g->run[i];
-        double number[5] = { r->speed, r->mean, r->way, r->length, r->least };
-        PG_TRY (k->numbers (k->context, "facets.speed", 5, number));
-        *r = (facet_run) { .speed = number[0], .mean = number[1], .way = number[2], .length = number[3],
-                            .least = number[4] };
+        double number[8] = { r->speed, r->g, r->mean, r->steady, r->way, r->length, r->least, r->straight };
+        PG_TRY (k->numbers (k->context, "facets.speed", 8, number));
+        *r = (facet_run) { number[0], number[1], number[2], number[3],
+                           number[4], number[5], number[6], number[7] };
     }
     PG_TRY (k->numbers (k->context, "facets.since", 1, &g->since));
     PG_TRY (facet_hold_keep (b, k));

@@ -61,6 +61,7 @@ pg_status instability_start (pg_solver *s, instability *u)
     u->scheme.setting = PG_OWN (pg_static_options, &s->options)->motion;
     u->scheme.held = 1;
     PG_TRY (choose_times (s, u));
+    if (s->break_loop.growth) facet_doubt_step (&s->break_loop, u->dt);
     PG_TRY (newmark_open (&u->scheme));
     if (!u->before) PG_ALLOC (u->before, s->break_loop.system.ndof);
     if (!u->rest) PG_ALLOC (u->rest, s->break_loop.system.ndof);

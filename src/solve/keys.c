@@ -45,6 +45,9 @@ const pg_key_table solver_keys_breaking = { "solve", breaking, sizeof breaking /
 static const pg_key facets[] = {
     ROW ("solver.facet", PG_NUMBER, "m|spacing", "(0, inf)", "", NULL,
          "With break: facet: length of a facet, 0.25 to 4 spacings; the local spacing if not given."),
+    ROW ("solver.branching", PG_BOOL, NULL, NULL, "on", NULL,
+         "With break: facet, in motion: a tip whose energy release rate at rest would be twice the fracture "
+         "energy (from half the speed of Rayleigh waves on) branches in two."),
 };
 const pg_key_table solver_keys_facets = { "solve", facets, sizeof facets / sizeof *facets };
 

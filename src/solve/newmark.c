@@ -149,6 +149,7 @@ static pg_status newmark_start (pg_solver *s, pg_state *state)
     n->setting = *PG_OWN (pg_newmark_options, &s->options), n->dt = s->options.dt;
     PG_TRY (system_refresh (n->system, state, NULL));
     s->next_level = 1;
+    if (s->break_loop.growth) facet_doubt_step (&s->break_loop, n->dt);
     PG_TRY (newmark_open (n));
     if (state->step > 0) goto done;
     PG_TRY (newmark_launch (n, state, state->time));

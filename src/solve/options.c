@@ -61,6 +61,7 @@ static void read_facets (pg_solver_options *o, const pg_problem *problem, const 
     double h = problem->cloud.h;
     if (tips) check_path (problem, scene);
     if (tips && !given (scene, "solver.break")) o->break_mode = PG_BREAK_FACET;
+    o->branching = pg_scene_bool (scene, "solver.branching");
     o->facet = given (scene, "solver.facet") ? pg_scene_length (scene, h, "solver.facet") : 0;
     if (tips && !(o->flags & PG_SOLVER_FACETS)) {
         char names[200];

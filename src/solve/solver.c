@@ -248,11 +248,14 @@ static void warn_of_facets (pg_solver *s)
 {
     const pg_statistics *r = &s->report;
     double share = r->energy_fracture > 0 ? r->energy_dissipated / r->energy_fracture : 1;
+    int moves = (s->options.flags & PG_SOLVER_NEEDS_DENSITY) != 0;
     if (s->warned_facets || !s->finished || r->events + r->iterations < 10 || (share < 1.15 && share > 0.85))
         return;
     pg_statistics_warn (
         &s->report, "the cracks that grew have dissipated %.3g times what their area takes: %s", share,
-        share > 1 ? "they ran ahead of equilibrium at loads that were held, and what is too much "
+        moves ? "tips that start, stop or branch do so within a few facets, in which they take more or less "
+                "than their share; take a smaller spacing"
+        : share > 1 ? "they ran ahead of equilibrium at loads that were held, and what is too much "
                     "would be motion (stepping: event follows equilibrium where it can)"
                   : "turns, or other cracks, lie too close together for the spacing");
     s->warned_facets = 1;

@@ -71,7 +71,7 @@ typedef struct { double length[TIMES], share, taken, last; long looks; } course;
 
 /* The crack of the first test with the fracture energy that its K reaches when the waves have gone on by
  * 0.25 m: from then on K (v, t) = k (v) K (t) at any place (Freund 1990, section 7.4), so that v = c_R (1 -
- * t0 / t). Lengths at c t = 0.6, 0.9, 1.2 and 1.5 m; the mean of G (v) / G0 from the third facet on; what was
+ * t0 / t). Lengths at c t = 0.6, 0.9, 1.2 and 1.5 m; the mean of G (v) / G0 from the fifth facet on; what was
  * dissipated over what the facets take as far as they are open. */
 static course crack_runs (const char *solver)
 {
@@ -84,7 +84,7 @@ static course crack_runs (const char *solver)
         advance (&r);
         const pg_tip_values *tip = pg_solver_tip (r.solver, 1);
         double length = r.state->paths->length, ct = c * r.state->time - 1;
-        if (length > 0.12) out.share += tip->J / 106.1, out.looks++;
+        if (length > 0.22) out.share += tip->J / 106.1, out.looks++;
         if (ct >= 0.6 + 0.3 * k) out.length[k++] = length;
     }
     const pg_statistics *report = pg_solver_report_now (r.solver);
@@ -100,8 +100,8 @@ static course crack_runs (const char *solver)
 static void a_crack_runs_as_fast_as_it_takes_its_energy (void **state)
 {
     (void) state;
-    static const char *const solver[] = { "kind: newmark, dt: 8 us, end: 1.3 ms",
-                                          "kind: verlet, end: 1.3 ms" };
+    static const char *const solver[] = { "kind: newmark, dt: 8 us, end: 1.3 ms, branching: off",
+                                          "kind: verlet, end: 1.3 ms, branching: off" };
     double c = sqrt (10e9 * 0.75 / (1.25 * 0.5) / 2500), c_R = 1163;
     for (int s = 0; s < 2; s++) {
         course at = crack_runs (solver[s]);
