@@ -160,6 +160,15 @@ typedef struct {
     double utilisation;                                /* energy that growth releases over what it takes */
 } pg_tip_values;
 
+/* What was measured at a vertex of a crack front in the step. NAN: its front had no room. */
+typedef struct {
+    long   front;                                      /* id */
+    size_t vertex;                                     /* 0.. along the front */
+    double x[3];                                       /* m */
+    double J, K[3], T;                                 /* as of tips, at the load of the state */
+    double utilisation;                                /* energy that growth releases over what it takes */
+} pg_front_values;
+
 /* ---- solver -------------------------------------------------------------------------------------------- */
 typedef struct pg_solver pg_solver;
 struct pg_progress;
@@ -246,6 +255,9 @@ typedef struct pg_progress {
 void      pg_solver_progress (const pg_solver *solver, const pg_state *state, pg_progress *out);
 /* What the solver has measured at the tip of that id; NULL: nothing. */
 const pg_tip_values *pg_solver_tip (const pg_solver *solver, long id);
+/* What was measured at the vertices of crack fronts in the last step, front by front; *n: how many.
+ * Borrowed. */
+const pg_front_values *pg_solver_fronts (const pg_solver *solver, size_t *n);
 /* with a fresh census and overlap */
 const pg_statistics *pg_solver_report (pg_solver *solver, const pg_state *state);
 const pg_statistics *pg_solver_report_now (const pg_solver *solver);  /* counts and energies only */

@@ -89,7 +89,7 @@ static void fracture (const pg_criterion *c, const double *x, double angle, pg_f
 {
     static const double turn = 6.28318530717958647692;
     const energy_release *own = c->own;
-    pg_place at = { x[0], x[1], 0, hypot (x[0], x[1]), angle - turn * floor (angle / turn), 0 };
+    pg_place at = { x[0], x[1], x[2], hypot (x[0], x[1]), angle - turn * floor (angle / turn), 0 };
     out->energy = own->energy ? pg_expression_value (own->energy, &at) : c->parameter[ENERGY];
     out->shear = c->parameter[SHEAR], out->strength = c->parameter[STRENGTH];
 }

@@ -399,17 +399,26 @@ done:
 static double overlap_of_faces (const galerkin *g, const pg_state *state, size_t p, size_t j,
                                 const double *xi)
 {
-    const double *x = g->rows[PG_NODES].x, *u = g->u[PG_NODES], *ei = g->strain[PG_NODES] + 3*p,
-                 *ej = g->strain[PG_NODES] + 3*j;
-    const pg_crack *c = pg_cracks_cut (pg_state_cracks (g->problem, state), 2, x + 2*p, x + 2*j,
+    /* the two axes of each shear strain, by Voigt's order */
+    static const int pair[2][3][2] = { { { 0, 1 } }, { { 0, 1 }, { 1, 2 }, { 2, 0 } } };
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
+    const double *x = g->rows[PG_NODES].x, *u = g->u[PG_NODES], *ei = g->strain[PG_NODES] + nv * p,
+                 *ej = g->strain[PG_NODES] + nv * j;
+    const pg_crack *c = pg_cracks_cut (pg_state_cracks (g->problem, state), g->dim, x + dim * p, x + dim * j,
                                        1e-9 * g->problem->cloud.h);
     if (!c) return 0;
-    double along = xi[0] * c->normal[0] + xi[1] * c->normal[1], side = along < 0 ? -1 : 1;
-    double n[2] = { side * c->normal[0], side * c->normal[1] };
-    if (fabs (along) < 0.8 * hypot (xi[0], xi[1])) return 0;
-    double approach = -(n[0] * (u[2*j] - u[2*p]) + n[1] * (u[2*j + 1] - u[2*p + 1]));
-    double elastic = -0.5 * ((ei[0] + ej[0]) * xi[0] * n[0] + (ei[1] + ej[1]) * xi[1] * n[1])
-                     - 0.25 * (ei[2] + ej[2]) * (xi[0] * n[1] + xi[1] * n[0]);
+    double along = 0, size = 0, n[3], approach = 0, elastic = 0;
+    for (size_t a = 0; a < dim; a++) along += xi[a] * c->normal[a], size += xi[a] * xi[a];
+    if (fabs (along) < 0.8 * sqrt (size)) return 0;
+    for (size_t a = 0; a < dim; a++) n[a] = (along < 0 ? -1 : 1) * c->normal[a];
+    for (size_t a = 0; a < dim; a++) {
+        approach -= n[a] * (u[dim * j + a] - u[dim * p + a]);
+        elastic -= 0.5 * (ei[a] + ej[a]) * xi[a] * n[a];
+    }
+    for (size_t v = dim; v < nv; v++) {
+        const int *at = pair[dim == 3][v - dim];
+        elastic -= 0.25 * (ei[v] + ej[v]) * (xi[at[0]] * n[at[1]] + xi[at[1]] * n[at[0]]);
+    }
     return approach - fmax (elastic, 0);
 }
 

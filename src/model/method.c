@@ -39,6 +39,11 @@ static int carries_any (const pg_method *m, int unused)
     (void) unused;
     return m->anisotropic;
 }
+static int has_shapes (const pg_method *m, int unused)
+{
+    (void) unused;
+    return m->shape_functions;
+}
 static int is_of_points (const pg_method *m, int unused)
 {
     (void) unused;
@@ -164,10 +169,11 @@ void pg_method_check_criterion (const pg_problem *p, const pg_scene *scene)
 {
     const pg_criterion_type *type = p->criterion->type;
     char lacks[80], shows[80], criteria[160], forces[160];
-    if (pg_criterion_of_tips (p->criterion) && p->dim != 2)
+    if (pg_criterion_of_tips (p->criterion) && (p->dim == 1 || (p->dim == 3 && !p->method->shape_functions)))
         pg_scene_fault (scene, "failure.criterion",
-                        "%s grows cracks in the plane so far, and dimension is %d: use another one",
-                        type->name, p->dim);
+                        "%s grows cracks in the plane, and in space with force: %s; dimension is %d: use "
+                        "another one",
+                        type->name, names_of (p, has_shapes, 0, forces, sizeof forces), p->dim);
     if (!type || shows_all (p->method, type->needs)) return;
     names_of (p, shows_all, type->needs, forces, sizeof forces);
     pg_scene_fault (scene, "failure.criterion",

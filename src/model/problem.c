@@ -93,16 +93,17 @@ static int limit_given (const pg_problem *p, const pg_scene *scene, const char *
 }
 
 /* The criterion where `failure` names none: the force's own, or that of a limit which the scene gives:
- * with an energy tips are judged where that can be, unless the scene says how bonds break. */
+ * with an energy tips are judged where that can be, unless the scene says how bonds break; in space only if
+ * it says facet. */
 static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
 {
     if (p->method->judged_by) return pg_criterion_by_need (p->method->judged_by);
     int energy = pg_scene_given (scene, "failure.fracture_energy"),
-        tips = p->dim == 2 && p->method->shape_functions && (p->method->shows & PG_NEEDS_FACETS)
+        how = pg_scene_given (scene, "solver.break"),
+        facets = how ? strcmp (pg_scene_text (scene, "solver.break"), "facet") == 0 : p->dim == 2,
+        tips = p->dim > 1 && facets && p->method->shape_functions && (p->method->shows & PG_NEEDS_FACETS)
                && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_FACETS)
-               && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC)
-               && (!pg_scene_given (scene, "solver.break")
-                   || strcmp (pg_scene_text (scene, "solver.break"), "facet") == 0);
+               && pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC);
     if (tips && limit_given (p, scene, "fracture_energy")) return pg_criterion_by_need (PG_NEEDS_FACETS);
     return energy || pg_scene_given (scene, "failure.critical_stretch")
                ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;

@@ -6,6 +6,7 @@
  * facet_direction.c: how near a tip is and where to; facet_place.c: where its facet ends; facet_events.c:
  * from event to event. */
 #include "facet_growth.h"
+#include "front_growth.h"
 #include "hot_spot.h"
 #include "trial_facet.h"
 #include <math.h>
@@ -60,6 +61,7 @@ void facet_free (break_loop *b)
     facet_growth *g = b->growth;
     if (!g) return;
     trials_free (&g->trials);
+    fronts_free (&g->fronts);
     pg_nearest_free (&g->near);
     pg_free (g->ramp), pg_free (g->before), pg_free (g->field), pg_free (g->trial), pg_free (g->run);
     facet_hold_free (g);
@@ -155,6 +157,9 @@ static void tell (break_loop *b, const pg_state *state)
     }
 }
 
+/* Fronts of surfaces instead of tips. */
+static int in_space (const break_loop *b) { return b->system.problem->dim == 3; }
+
 pg_status facet_measure (break_loop *b, const pg_state *state, const double *base, const double *unit,
                          double t)
 {
@@ -167,6 +172,11 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
     if (base && !g->ramp) PG_ALLOC (g->ramp, s->ndof);
     for (size_t i = 0; base && i < s->ndof; i++) g->ramp[i] = unit[i] - base[i];
     if (base) d[1] = g->ramp;
+    if (in_space (b)) {
+        PG_TRY (fronts_measure (b, state, d, times));
+        g->fresh = 1;
+        goto done;
+    }
     PG_GROW (g->field, g->cap_field, g->ntip);
     for (size_t i = 0; i < g->ntip; i++) {
         memset (&g->field[i], 0, sizeof g->field[i]);
@@ -183,7 +193,7 @@ done:
 }
 
 /* A new crack needs stress and energy at once, the next facet of a tip without room energy alone. */
-static double trial_utilisation (const facet_growth *g, const facet_candidate *c, double factor)
+double facet_trial_utilisation (const facet_growth *g, const facet_candidate *c, double factor)
 {
     double l[2], release = 0, stress = 0;
     int n = facet_factors (g, factor, l);
@@ -197,9 +207,10 @@ static double trial_utilisation (const facet_growth *g, const facet_candidate *c
 double facet_utilisation (const break_loop *b, const pg_state *state, double factor)
 {
     const facet_growth *g = b->growth;
-    double top = 0, angle;
+    double top = in_space (b) ? fronts_utilisation (b, state, factor) : 0, angle;
     for (size_t i = 0; i < g->ntip; i++) top = fmax (top, facet_judge (b, state, i, factor, &angle));
-    for (size_t k = 0; k < g->ntrial; k++) top = fmax (top, trial_utilisation (g, &g->trial[k], factor));
+    for (size_t k = 0; k < g->ntrial; k++)
+        top = fmax (top, facet_trial_utilisation (g, &g->trial[k], factor));
     return top;
 }
 
@@ -208,6 +219,7 @@ pg_status facet_show (pg_solver *s, const pg_state *state, double factor)
 {
     pg_status status = PG_OK;
     const facet_growth *g = s->break_loop.growth;
+    if (in_space (&s->break_loop)) return fronts_show (s, state, factor);
     for (size_t i = 0; i < g->ntip; i++) {
         const pg_tip_field *f = &g->field[i];
         pg_tip_values v = { .id = state->paths->tip[i].id, .x = { f->x[0], f->x[1] } };
@@ -295,11 +307,12 @@ static pg_status grow_trials (break_loop *b, pg_state *state, double factor, dou
         size_t best = done;
         int skip = 0;
         for (size_t k = done; k < g->ntrial; k++)
-            if (trial_utilisation (g, &g->trial[k], factor) > trial_utilisation (g, &g->trial[best], factor))
+            if (facet_trial_utilisation (g, &g->trial[k], factor)
+                > facet_trial_utilisation (g, &g->trial[best], factor))
                 best = k;
         facet_candidate c = g->trial[best];
         g->trial[best] = g->trial[done], g->trial[done] = c;
-        if (trial_utilisation (g, &c, factor) < least) break;
+        if (facet_trial_utilisation (g, &c, factor) < least) break;
         for (size_t k = 0; k < done; k++)
             skip |= c.tip >= 0 ? g->trial[k].tip == c.tip : g->trial[k].tip < 0 && is_near (&g->trial[k], &c);
         if (!skip) PG_TRY (grow_one (b, state, &c));
@@ -329,6 +342,7 @@ pg_status facet_run_out (break_loop *b, pg_state *state, double t, int *grew)
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     b->changes.n = 0, *grew = 0, g->closed = 0;
+    if (in_space (b)) PG_TRY (fronts_run_out (b, state, grew));
     for (size_t i = 0; i < g->ntip; i++) {
         facet_candidate c;
         const pg_tip *tip = &state->paths->tip[i];
@@ -349,6 +363,11 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     facet_growth *g = b->growth;
     double top = facet_utilisation (b, state, factor), least = top * (1 - facet_tie), angle;
     b->changes.n = 0, g->closed = g->began = g->going = 0, g->event_energy = 0, g->event_tip = -1;
+    if (in_space (b)) {
+        PG_TRY (fronts_grow (b, state, factor, least));
+        PG_TRY (log_all (b, state, top, t));
+        goto done;
+    }
     for (size_t i = 0; i < g->ntip && top > 0; i++) {
         facet_candidate c;
         if (facet_judge (b, state, i, factor, &angle) < least) continue;

@@ -13,6 +13,9 @@
 typedef struct {
     long   tip;                                        /* the tip that it moves; -1: it begins a new crack */
     double from[3], to[3];                             /* m; `from` of a new crack alone */
+    /* in space, of a new crack: a disc about `from` with the unit normal `to`, one unit vector in its plane
+     * */
+    double radius, across[3];
     /* of a new crack: bit 0: a tip at `from`, bit 1: at `to` */
     int    open;
     int    close;                                      /* of a tip: it ends here, in the surface or a crack */
@@ -60,6 +63,7 @@ typedef struct facet_growth {
     pg_tip_field *field; size_t ntip, cap_field;
     facet_candidate *trial; size_t ntrial, cap_trial;
     struct trials *trials;                             /* workspace of trial_facet.c */
+    struct front_growth *fronts;                       /* in space, front_growth.c; else NULL */
     /* energy that all facets took; at the start of the step, J */
     double  needed, needed0;
     /* Of the event at hand: a tip met the surface or a crack; a new crack came into being; a tip goes on;
@@ -183,4 +187,6 @@ int  facet_way_out (const break_loop *b, const pg_state *state, size_t tip, face
  * ndof each). Called after the tips have been measured: g->field[i].near is NAN where tip i has no room. */
 pg_status trial_facets (break_loop *b, const pg_state *state, const double *const *d, const double *t);
 pg_status facet_offer  (facet_growth *g, const facet_candidate *c);                    /* facet_growth.c */
+/* Square root of energy set free over energy taken, at most stress over strength of a new crack. */
+double    facet_trial_utilisation (const facet_growth *g, const facet_candidate *c, double factor);
 #endif

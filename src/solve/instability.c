@@ -457,6 +457,10 @@ void instability_read (pg_solver_options *o, const pg_problem *problem, const pg
         if (!dynamic && pg_scene_given (scene, "%s", keys[k].path))
             pg_scene_fault (scene, keys[k].path, "goes with on_instability: dynamic");
     if (!dynamic) return;
+    if (problem->dim == 3 && pg_criterion_of_tips (problem->criterion))
+        pg_scene_fault (scene, "solver.on_instability",
+                        "fronts in space grow in equilibrium only: use follow "
+                        "or hold");
     newmark_read_setting (&own->motion, problem, scene, "solver.motion");
     own->dt = options_number (scene, "solver.motion.dt");
     own->quiet = options_number (scene, "solver.motion.quiet");

@@ -54,6 +54,24 @@ static void check_path (const pg_problem *problem, const pg_scene *scene)
     }
 }
 
+/* What growth of fronts in space does not know is refused, not passed over. */
+static void read_fronts (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    size_t n;
+    pg_fracture_limits limits = { .shear = NAN };
+    const double origin[3] = { 0, 0, 0 };
+    if (!(o->flags & PG_SOLVER_QUASI_STATIC))
+        pg_scene_fault (scene, "solver.kind", "fronts in space grow in equilibrium only: use kind: static");
+    if (problem->criterion->type->path (problem->criterion, &n))
+        pg_scene_fault (scene, "failure.path", "is for cracks in the plane: leave it out");
+    for (size_t m = 0; m < problem->nmaterial; m++)
+        if (problem->criterion[m].type && !problem->criterion[m].never)
+            problem->criterion[m].type->fracture (&problem->criterion[m], origin, 0, &limits);
+    if (limits.shear > 0)
+        pg_scene_fault (scene, "failure.shear_fracture_energy",
+                        "is for cracks in the plane: fronts in space go where they open");
+}
+
 /* Criteria of tips go with facets and the solvers that know them, and with nothing else. */
 static void read_facets (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
@@ -78,9 +96,12 @@ static void read_facets (pg_solver_options *o, const pg_problem *problem, const 
     else if (asked && !tips)
         pg_scene_fault (scene, "solver.break", "facet needs a criterion that judges tips: criterion: %s",
                         pg_criterion_by_need (PG_NEEDS_FACETS));
+    double most = problem->dim == 3 ? 1 : 4;
     if (given (scene, "solver.facet") && o->break_mode == PG_BREAK_FACET
-        && !(o->facet >= 0.25 * h && o->facet <= 4 * h))
-        pg_scene_fault (scene, "solver.facet", "must lie in [0.25, 4] spacings of %.6g m", h);
+        && !(o->facet >= 0.25 * h * (1 - 1e-12) && o->facet <= most * h * (1 + 1e-12)))
+        pg_scene_fault (scene, "solver.facet", "must lie in [0.25, %g] spacings of %.6g m%s", most, h,
+                        problem->dim == 3 ? ": longer advances make fronts in space wavy" : "");
+    if (tips && problem->dim == 3) read_fronts (o, problem, scene);
 }
 
 /* How bonds break between solves, and what ends a run early. */

@@ -242,6 +242,7 @@ struct pg_solver {
     int       follows;
     double   *reaction;
     pg_tip_values *tip; size_t ntip, cap_tip;          /* what was measured at tips */
+    pg_front_values *front; size_t nfront, cap_front;  /* and at vertices of fronts, in the last step */
     void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */
 };
 

@@ -93,7 +93,7 @@ done:
 /* ---- the fields at hand -------------------------------------------------------------------------------- */
 /* Those of growth are the displacement at load factor 1, or its constant part and the part that grows with
  * the load factor; here the second is the displacement at load factor 1. */
-static pg_status take_fields (trials *w, int nfield, const double *const *d, const double *t, trial_fields *f)
+pg_status trial_take_fields (trials *w, int nfield, const double *const *d, const double *t, trial_fields *f)
 {
     pg_status status = PG_OK;
     size_t ndof = w->system->ndof;
@@ -107,14 +107,11 @@ done:
 }
 
 /* The polynomial of the load factor as the form of growth's coefficients: lambda alone, or 1 and lambda. */
-static void fill_release (int nfield, const double *c, facet_candidate *out)
+void trial_fill_release (int nfield, const double *c, double out[2][2])
 {
-    memset (out->release, 0, sizeof out->release);
-    if (nfield == 1) out->release[0][0] = c[2];
-    else {
-        out->release[0][0] = c[0], out->release[1][1] = c[2];
-        out->release[0][1] = out->release[1][0] = 0.5 * c[1];
-    }
+    memset (out, 0, 4 * sizeof **out);
+    if (nfield == 1) out[0][0] = c[2];
+    else out[0][0] = c[0], out[1][1] = c[2], out[0][1] = out[1][0] = 0.5 * c[1];
 }
 
 /* ---- tips without room --------------------------------------------------------------------------------- */
@@ -166,7 +163,7 @@ static pg_status offer_of_tip (break_loop *b, trials *w, const pg_state *state, 
     PG_TRY (pg_crack_grow (w->state, p, (size_t) c->tip, c->to, c->close, &cut));
     PG_TRY (trial_release (w, state, f, 1, &cut, &form));
     trial_polynomial (f, &form, polynomial);
-    fill_release (f->n, polynomial, c);
+    trial_fill_release (f->n, polynomial, c->release);
     PG_TRY (find_tension (b, state, f, c));
     PG_TRY (facet_offer (b->growth, c));
 done:
@@ -291,7 +288,7 @@ static int limits_at (void *context, const double *x, double angle, pg_fracture_
 }
 
 /* Does any material or interface give a strength? */
-static int has_strength (const pg_problem *p)
+int trial_has_strength (const pg_problem *p)
 {
     double x[3] = { 0 };
     for (size_t m = 0; m < p->nmaterial; m++) {
@@ -311,7 +308,7 @@ static pg_status offer_starts (break_loop *b, trials *w, const pg_state *state, 
     trial_start start[TRIAL_MOST_STARTS];
     size_t n;
     int arbitrary;
-    if (!has_strength (b->system.problem)) return PG_OK;
+    if (!trial_has_strength (b->system.problem)) return PG_OK;
     /* proportional loads: a tip that grows earlier leaves nothing to look for */
     double top = f->n == 1 ? facet_utilisation (b, state, 1) : 0;
     double below = top > 0 ? 1 / top : INFINITY;
@@ -326,7 +323,7 @@ static pg_status offer_starts (break_loop *b, trials *w, const pg_state *state, 
         const trial_start *s = &start[k];
         facet_candidate c = { .tip = -1, .open = s->open, .energy = s->energy };
         memcpy (c.from, s->from, sizeof c.from), memcpy (c.to, s->to, sizeof c.to);
-        fill_release (f->n, s->release, &c);
+        trial_fill_release (f->n, s->release, c.release);
         c.stress[0] = f->n == 1 ? s->stress[1] : s->stress[0], c.stress[1] = f->n == 1 ? 0 : s->stress[1];
         PG_TRY (facet_offer (b->growth, &c));
     }
@@ -360,7 +357,7 @@ pg_status trial_facets (break_loop *b, const pg_state *state, const double *cons
         PG_TRY (trials_create (&g->trials, &b->system));
         doubt_interfaces (b);
     }
-    PG_TRY (take_fields (g->trials, g->nfield, d, t, &f));
+    PG_TRY (trial_take_fields (g->trials, g->nfield, d, t, &f));
     for (size_t i = 0; i < g->ntip; i++)
         if (state->paths->tip[i].open && isnan (g->field[i].near))
             PG_TRY (offers_of_tip (b, g->trials, state, &f, i));

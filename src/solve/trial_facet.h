@@ -52,6 +52,15 @@ double    trial_energy_factor (const double *c, double energy);
 pg_status trial_cuts (trials *w, const pg_state *state, size_t n, const double *from, const double *to,
                       const int *open, pg_changes *cut);
 
+/* The fields of growth (pg_tip_measure) as those of trials: the second is the displacement at load factor
+ * 1. */
+pg_status trial_take_fields (trials *w, int nfield, const double *const *d, const double *t,
+                             trial_fields *out);
+/* A polynomial of the load factor as the form of growth's coefficients: lambda alone, or 1 and lambda. */
+void      trial_fill_release (int nfield, const double *c, double out[2][2]);
+/* Does any material or interface give a strength? */
+int       trial_has_strength (const pg_problem *p);
+
 /* ---- initiation.c -------------------------------------------------------------------------------------- */
 /* A new crack: where it would begin, and when. */
 typedef struct {

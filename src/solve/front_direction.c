@@ -1,0 +1,178 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Where the vertices of crack fronts go, and how far.
+ *
+ * A vertex in modes I, II and III turns about its front by the angle of the largest hoop stress (Erdogan and
+ * Sih 1963; fracture/kink.c). With K_A = K_I cos^2 (theta/2) - 3/2 K_II sin theta, the largest principal
+ * stress on the plane across the front there has the intensity (Schoellmann, Richard, Kullmer and Fulland
+ * 2002, Int. J. Fract. 117, 129-141)
+ *
+ *   K_v = cos (theta/2) / 2 (K_A + sqrt (K_A^2 + 4 K_III^2)),
+ *
+ * and counts J K_v^2 / (K_I^2 + K_II^2 + K_III^2 / (1 - nu)), at most J: more than all modes together hold
+ * cannot be set free. K_III turns that stress out of the normal n towards the tangent t by psi, tan 2 psi =
+ * 2 K_III / K_A: the new surface would fall by tan psi along the front. Facets that each turn would tear from
+ * each other; here the surface stays one sheet, and the rise z of the vertices is the one nearest to both:
+ * it makes
+ *
+ *   sum_i w_i (z_i - d_i sin theta_i)^2 + l^2 integral (dz/ds + tan psi)^2 ds
+ *
+ * least, d the advance, w the length of front of a vertex, l that of a facet. The second term also takes out
+ * what differs from vertex to vertex: a wave of kinks of length L keeps 1 / (1 + (2 pi l / L)^2) of its
+ * height.
+ *
+ * How far: d_i = l (u_i / u_max)^p where u_i, the square root of the energy set free over the energy taken,
+ * is within the tie of the largest, 0 elsewhere, smoothed once by 1/4, 1/2, 1/4. A wave of length L and
+ * height A of a front changes J by - 2 pi A / L (Rice 1985); a vertex sees it through a hat of 3 h, so that
+ * advances up to p l = 4 h damp all waves (doc/method.md). */
+#include "front_growth.h"
+#include <math.h>
+#include <string.h>
+
+/* ---- one vertex ---------------------------------------------------------------------------------------- */
+/* Poisson's ratio from E' = 2 mu (1 + nu) / (1 - nu^2) of the material at the vertex. */
+static double poisson_at (const break_loop *b, const pg_tip_field *f)
+{
+    const pg_problem *p = b->system.problem;
+    long node = pg_nearest_find (b->growth->near, f->x, NULL, NULL);
+    return node < 0 ? 0 : p->material[p->block[PG_NODES][node]].nu;
+}
+
+void front_judge (const break_loop *b, const pg_tip_field *f, double factor, front_vertex *out)
+{
+    const facet_growth *g = b->growth;
+    double l[2], K[3], T, K_theta, G_theta, length = facet_length (g, f), x[3];
+    pg_fracture_limits limits;
+    *out = (front_vertex) { .width = out->width };
+    if (isnan (f->near)) return;
+    int n = facet_factors (g, factor, l);
+    pg_tip_combine (f, n, l, &out->J, K, &T);
+    if (!(out->J > 0)) return;
+    /* the opening decides whether there is a direction in tension; pure K_III has its own */
+    int turns = pg_kink (out->J, K[0], K[1], T, length, &out->kink, &K_theta, &G_theta);
+    if (!turns && !(fabs (K[2]) > 0 && K[0] >= 0)) return;
+    double c = cos (0.5 * out->kink), K_A = turns ? K_theta / c : 0, nu = poisson_at (b, f);
+    double K_v = 0.5 * c * (K_A + hypot (K_A, 2 * K[2]));
+    double all = K[0] * K[0] + K[1] * K[1] + K[2] * K[2] / (1 - nu);
+    if (!(all > 0)) return;
+    out->ratio = fmin (1, K_v * K_v / all);
+    out->slope = -tan (0.5 * atan2 (2 * K[2], K_A));
+    for (int k = 0; k < 3; k++)
+        x[k] = f->x[k] + 0.5 * length * (cos (out->kink) * f->e[k] + sin (out->kink) * f->normal[k]);
+    if (!facet_limits (b, x, 0, &limits)) return;
+    out->need = limits.energy;
+    out->share = sqrt (out->J * out->ratio / limits.energy);
+}
+
+/* ---- how far ------------------------------------------------------------------------------------------- */
+/* The neighbours of vertex i of n: around a closed front, else none beyond its ends (i itself). */
+static size_t before (size_t i, size_t n, int closed) { return i > 0 ? i - 1 : closed ? n - 1 : i; }
+static size_t after (size_t i, size_t n, int closed) { return i + 1 < n ? i + 1 : closed ? 0 : i; }
+
+static double distance (const double *a, const double *b)
+{
+    return sqrt ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
+                 + (a[2] - b[2]) * (a[2] - b[2]));
+}
+
+/* Half of the way to both neighbours. */
+static void set_widths (const pg_front *front, front_vertex *v)
+{
+    for (size_t i = 0; i < front->n; i++)
+        v[i].width = 0.5 * (distance (front->x + 3*i, front->x + 3 * before (i, front->n, front->closed))
+                            + distance (front->x + 3*i, front->x + 3 * after (i, front->n, front->closed)));
+}
+
+/* 1/4, 1/2, 1/4 once; at the end of an open front its mirror image stands for the neighbour that is not
+ * there. Vertices that cannot grow stay. */
+static void smooth_ways (const pg_front *front, front_vertex *v, double *old)
+{
+    size_t n = front->n;
+    for (size_t i = 0; i < n; i++) old[i] = v[i].way;
+    for (size_t i = 0; i < n; i++) {
+        double sum = old[before (i, n, front->closed)] + old[after (i, n, front->closed)];
+        v[i].way = v[i].need > 0 ? 0.25 * sum + 0.5 * old[i] : 0;
+    }
+}
+
+/* ---- rise of the surface ------------------------------------------------------------------------------- */
+/* 1: the vertices follow each other along the tangent t = e x n, to which K_III refers; -1: against it. */
+static double runs_along (const pg_front *front)
+{
+    double sum = 0;
+    for (size_t i = 0; i + 1 < front->n; i++) {
+        const double *e = front->ahead + 3*i, *m = front->normal + 3*i, *x = front->x + 3*i;
+        for (int k = 0; k < 3; k++) {
+            int a = (k + 1) % 3, c = (k + 2) % 3;
+            sum += (e[a] * m[c] - e[c] * m[a]) * (x[k + 3] - x[k]);
+        }
+    }
+    return sum < 0 ? -1 : 1;
+}
+
+/* The least squares of the rise: (w_i + l^2 (1/s_before + 1/s_after)) z_i - l^2 (z_before / s_before +
+ * z_after / s_after) = w_i d_i sin theta_i + l^2 (psi_before - psi_after), s the lengths of the two edges,
+ * psi the mean slope along each. By Gauss-Seidel: the matrix is diagonally dominant by the w_i. The sums of a
+ * sweep go once forward and once backward, so that a mirrored front rises as the mirror image to the
+ * tolerance. */
+static void settle_rises (const pg_front *front, front_vertex *v, double l)
+{
+    enum { SWEEPS = 200 };
+    size_t n = front->n;
+    double sense = runs_along (front);
+    for (size_t i = 0; i < n; i++) v[i].rise = v[i].way * sin (v[i].kink);
+    for (int sweep = 0; sweep < SWEEPS; sweep++) {
+        double change = 0, size = 0;
+        for (size_t q = 0; q < 2 * n; q++) {
+            size_t i = q < n ? q : 2*n - 1 - q;
+            double diagonal = v[i].width, sum = v[i].width * v[i].way * sin (v[i].kink);
+            for (int side = -1; side <= 1; side += 2) {
+                size_t j = side < 0 ? before (i, n, front->closed) : after (i, n, front->closed);
+                double s = distance (front->x + 3*i, front->x + 3*j);
+                if (j == i || !(s > 0)) continue;
+                diagonal += l * l / s;
+                double asked = 0.5 * sense * (v[i].slope * v[i].way + v[j].slope * v[j].way) / l;
+                sum += l * l * (v[j].rise / s - side * asked);
+            }
+            double z = sum / diagonal;
+            change = fmax (change, fabs (z - v[i].rise)), size = fmax (size, fabs (z));
+            v[i].rise = z;
+        }
+        if (change <= 1e-13 * size) break;
+    }
+    for (size_t i = 0; i < n; i++) v[i].rise = fmax (-0.98 * v[i].way, fmin (0.98 * v[i].way, v[i].rise));
+}
+
+/* ---- all vertices -------------------------------------------------------------------------------------- */
+double fronts_plan (const break_loop *b, const pg_state *state, double factor)
+{
+    const facet_growth *g = b->growth;
+    const front_growth *f = g->fronts;
+    double top = 0, gained = 0, taken = 0;
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
+    for (size_t k = 0; k < f->nfront; k++) {
+        size_t first = f->first[k], n = f->first[k + 1] - first;
+        if (n) set_widths (&front[k], f->vertex + first);
+    }
+    for (size_t i = 0; i < f->n; i++) {
+        front_judge (b, &f->field[i], factor, &f->vertex[i]);
+        top = fmax (top, f->vertex[i].share);
+    }
+    if (!(top > 0)) return 0;
+    for (size_t k = 0; k < f->nfront; k++) {
+        size_t first = f->first[k], n = f->first[k + 1] - first;
+        front_vertex *v = f->vertex + first;
+        if (!n) continue;
+        for (size_t i = 0; i < n; i++) {
+            double ratio = v[i].share / top;
+            v[i].way = ratio >= 1 / (1 + front_tie)
+                           ? facet_length (g, &f->field[first + i]) * pow (ratio, FRONT_POWER) : 0;
+        }
+        smooth_ways (&front[k], v, f->row);
+        settle_rises (&front[k], v, facet_length (g, &f->field[first]));
+        for (size_t i = 0; i < n; i++)
+            gained += v[i].J * v[i].ratio * v[i].way * v[i].width,
+                taken += v[i].need * v[i].way * v[i].width;
+    }
+    return taken > 0 && gained > 0 ? sqrt (gained / taken) : 0;
+}

@@ -1,0 +1,266 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Growth of crack surfaces in space: an equilibrium, J, K_I, K_II and K_III at every vertex of every front by
+ * integrals over a tube around it (fracture/front_measure.c), a plan for all vertices together
+ * (front_direction.c), and the surface advances by a strip of triangles (model/crack_surfaces.c); every bond
+ * that the strip crosses dies at once. J of a vertex scatters by a per cent or two, so the load of an event
+ * is that at which the advance as a whole sets as much energy free as it takes, sum J_i d_i w_i = sum G0_i
+ * d_i w_i: the load of the single vertex that comes first would be too low by that scatter. This file: what
+ * facet_growth.c asks of fronts; the events are those of facet_events.c. */
+#include "front_growth.h"
+#include <math.h>
+#include <string.h>
+
+void fronts_free (front_growth **fronts)
+{
+    front_growth *f = *fronts;
+    if (!f) return;
+    pg_free (f->field), pg_free (f->first), pg_free (f->blind), pg_free (f->vertex);
+    pg_free (f->d), pg_free (f->theta), pg_free (f->row);
+    pg_free (f);
+    *fronts = NULL;
+}
+
+/* ---- measuring ----------------------------------------------------------------------------------------- */
+/* Room for all vertices; first[k] of every front, one more for the end. */
+static pg_status lay_out (front_growth *f, const pg_front *front, size_t nfront)
+{
+    pg_status status = PG_OK;
+    f->n = 0, f->nfront = 0;
+    PG_GROW (f->first, f->cap_first, nfront + 1);
+    PG_GROW (f->blind, f->cap_blind, nfront + 1);
+    for (size_t k = 0; k < nfront; k++) f->first[k] = f->n, f->n += front[k].open ? front[k].n : 0;
+    f->first[nfront] = f->n;
+    PG_GROW (f->field, f->cap_field, f->n);
+    PG_GROW (f->vertex, f->cap_vertex, f->n);
+    PG_GROW (f->d, f->cap_d, f->n);
+    PG_GROW (f->theta, f->cap_theta, f->n);
+    PG_GROW (f->row, f->cap_row, f->n);
+    memset (f->field, 0, f->n * sizeof *f->field), memset (f->vertex, 0, f->n * sizeof *f->vertex);
+    f->nfront = nfront;
+done:
+    return status;
+}
+
+/* The nearest vertex along the front that was measured; n: none was. */
+static size_t nearest_known (const unsigned char *known, size_t n, int closed, size_t i)
+{
+    for (size_t far = 0; far < n; far++) {
+        if (i >= far && known[i - far]) return i - far;
+        if (closed && i < far && known[i + n - far]) return i + n - far;
+        if (i + far < n && known[i + far]) return i + far;
+        if (closed && i + far >= n && known[i + far - n]) return i + far - n;
+    }
+    return n;
+}
+
+/* A vertex whose tube has no room takes over what its nearest neighbour shows; a front without any stays. */
+static int fill_gaps (pg_tip_field *field, const pg_front *front, unsigned char *known)
+{
+    size_t n = front->n, gaps = 0;
+    for (size_t i = 0; i < n; i++) known[i] = (unsigned char) !isnan (field[i].near), gaps += !known[i];
+    for (size_t i = 0; gaps && gaps < n && i < n; i++) {
+        if (known[i]) continue;
+        const pg_tip_field own = field[i], *from = &field[nearest_known (known, n, front->closed, i)];
+        field[i] = *from;
+        memcpy (field[i].x, own.x, sizeof own.x), memcpy (field[i].e, own.e, sizeof own.e);
+        memcpy (field[i].normal, own.normal, sizeof own.normal);
+        field[i].h = own.h, field[i].room = own.room;
+    }
+    return gaps == n;
+}
+
+/* What the user should know, each said once. */
+static void tell (const break_loop *b, const pg_front *front, size_t nfront, long events)
+{
+    facet_growth *g = b->growth;
+    const front_growth *f = g->fronts;
+    size_t open = 0;
+    for (size_t k = 0; k < nfront; k++) {
+        open += front[k].open != 0;
+        if (!front[k].open) continue;
+        const double *x = front[k].x;
+        if (f->blind[k] && events == 0 && !(g->said & FACET_SAID_ROOM)) {
+            pg_statistics_warn (b->system.report,
+                                "no room for integrals around any vertex of crack front %ld at (%.6g, %.6g, "
+                                "%.6g) m: it does not grow; take a smaller spacing",
+                                front[k].id, x[0], x[1], x[2]);
+            g->said |= FACET_SAID_ROOM;
+        }
+        for (size_t i = f->first[k]; i < f->first[k + 1] && !f->blind[k]; i++) {
+            double l[2], K[3];
+            const pg_tip_field *at = &f->field[i];
+            pg_tip_combine (at, facet_factors (g, 1, l), l, NULL, K, NULL);
+            if (!(K[0] < 0 && fabs (K[0]) > 1e-2 * hypot (K[1],
+                                                          K[2])) || g->said & FACET_SAID_CLOSED) continue;
+            pg_statistics_warn (b->system.report,
+                                "crack front %ld closes at (%.6g, %.6g, %.6g) m (K_I = %.3g, K_II = %.3g, "
+                                "K_III = %.3g Pa m^(1/2) at full load) and its faces overlap: contact is not "
+                                "modelled, growth is not to be trusted there",
+                                front[k].id, at->x[0], at->x[1], at->x[2], K[0], K[1], K[2]);
+            g->said |= FACET_SAID_CLOSED;
+        }
+    }
+    if (open || g->ntrial || g->said & FACET_SAID_NOTHING) return;
+    pg_statistics_warn (b->system.report, "no crack can grow: there is no open front%s",
+                        nfront ? " any more" : ", and no new crack begins up to full load");
+    g->said |= FACET_SAID_NOTHING;
+}
+
+pg_status fronts_measure (break_loop *b, const pg_state *state, const double *const *d, const double *t)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    pg_system *s = &b->system;
+    unsigned char *known = NULL;
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (s->problem, state, &nfront);
+    if (!g->fronts) PG_ALLOC (g->fronts, 1);
+    front_growth *f = g->fronts;
+    PG_TRY (lay_out (f, front, nfront));
+    PG_ALLOC (known, f->n);
+    for (size_t k = 0; k < nfront; k++) {
+        f->blind[k] = 0;
+        if (!front[k].open || !front[k].n) continue;
+        PG_TRY (pg_front_measure (f->field + f->first[k], s->problem, s->force, s->self, state, k,
+                                  g->nfield, d,
+                                  t));
+        f->blind[k] = (unsigned char) fill_gaps (f->field + f->first[k], &front[k], known);
+    }
+    if (!g->moving) PG_TRY (fronts_offer_starts (b, state, d, t));
+    tell (b, front, nfront, state->events);
+done:
+    pg_free (known);
+    return status;
+}
+
+double fronts_utilisation (const break_loop *b, const pg_state *state, double factor)
+{
+    return fronts_plan (b, state, factor);
+}
+
+/* ---- growing ------------------------------------------------------------------------------------------- */
+static size_t open_vertices (const pg_problem *p, const pg_state *state)
+{
+    size_t nfront, n = 0;
+    const pg_front *front = pg_fronts_of_state (p, state, &nfront);
+    for (size_t k = 0; k < nfront; k++) n += front[k].open ? front[k].n : 0;
+    return n;
+}
+
+/* Front k by the ways in f->d and f->theta; `need`: J/m^2 of what it takes in the mean. */
+static pg_status advance (break_loop *b, pg_state *state, size_t k, double need)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    const front_growth *f = g->fronts;
+    double area = state->surfaces->area;
+    PG_TRY (pg_front_advance (state, b->system.problem, k, f->d + f->first[k], f->theta + f->first[k],
+                              &b->changes));
+    for (size_t i = 0; i < b->changes.n; i++) state->alive[b->changes.bond[i]] = 0;
+    g->needed += need * (state->surfaces->area - area),
+        g->event_energy += need * (state->surfaces->area - area);
+done:
+    return status;
+}
+
+/* Is this front still the one that was measured? Another that grew before it in the same event may have met
+ * it. */
+static int is_as_measured (const front_growth *f, const pg_front *front, size_t k)
+{
+    return front[k].open && front[k].n > 0 && front[k].n == f->first[k + 1] - f->first[k];
+}
+
+/* The strips of all fronts by the plan at hand. */
+static pg_status grow_planned (break_loop *b, pg_state *state)
+{
+    pg_status status = PG_OK;
+    const front_growth *f = b->growth->fronts;
+    const pg_problem *p = b->system.problem;
+    size_t nfront;
+    for (size_t k = 0; k < f->nfront; k++) {
+        const pg_front *front = pg_fronts_of_state (p, state, &nfront);
+        const front_vertex *v = f->vertex + f->first[k];
+        double taken = 0, grown = 0;
+        if (!is_as_measured (f, front, k)) continue;
+        for (size_t i = 0; i < front[k].n; i++) {
+            f->d[f->first[k] + i] = v[i].way;
+            f->theta[f->first[k] + i] = v[i].way > 0 ? asin (v[i].rise / v[i].way) : 0;
+            taken += v[i].need * v[i].way * v[i].width, grown += v[i].way * v[i].width;
+        }
+        if (grown > 0) PG_TRY (advance (b, state, k, taken / grown));
+    }
+done:
+    return status;
+}
+
+pg_status fronts_grow (break_loop *b, pg_state *state, double factor, double least)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    const pg_problem *p = b->system.problem;
+    if (fronts_plan (b, state, factor) >= least) PG_TRY (grow_planned (b, state));
+    for (size_t k = 0; k < g->ntrial; k++)
+        if (facet_trial_utilisation (g, &g->trial[k], factor) >= least)
+            PG_TRY (fronts_start (b, state, &g->trial[k]));
+    size_t open = open_vertices (p, state);
+    g->going = open > 0, g->closed |= open == 0;
+done:
+    return status;
+}
+
+/* What is left ahead of such a front carries next to nothing: its energy is that of its area. */
+pg_status fronts_run_out (break_loop *b, pg_state *state, int *grew)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    const front_growth *f = g->fronts;
+    const pg_problem *p = b->system.problem;
+    size_t nfront;
+    for (size_t k = 0; k < f->nfront; k++) {
+        const pg_front *front = pg_fronts_of_state (p, state, &nfront);
+        pg_fracture_limits limits;
+        double need = 0, far = 0;
+        if (!is_as_measured (f, front, k) || !f->blind[k]) continue;
+        for (size_t i = 0; i < front[k].n; i++) {
+            size_t at = f->first[k] + i;
+            int can = facet_limits (b, f->field[at].x, 0, &limits);
+            f->d[at] = can ? facet_length (g, &f->field[at]) : 0, f->theta[at] = 0;
+            if (can) need += limits.energy, far++;
+        }
+        for (size_t i = 0; i < front[k].n; i++) if (front[k].grown[i] > 0) *grew = 1;
+        if (!*grew || !(far > 0)) continue;
+        PG_TRY (advance (b, state, k, need / far));
+    }
+done:
+    return status;
+}
+
+/* ---- results ------------------------------------------------------------------------------------------- */
+/* K in the ratio of the interaction integrals with the magnitude of J, sqrt (E' J). */
+pg_status fronts_show (pg_solver *s, const pg_state *state, double factor)
+{
+    pg_status status = PG_OK;
+    const facet_growth *g = s->break_loop.growth;
+    const front_growth *f = g->fronts;
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (s->problem, state, &nfront);
+    PG_GROW (s->front, s->cap_front, f->n);
+    s->nfront = 0;
+    for (size_t k = 0; k < f->nfront; k++)
+        for (size_t i = f->first[k]; i < f->first[k + 1]; i++) {
+            double l[2];
+            pg_front_values *out = &s->front[s->nfront++];
+            front_vertex v = { 0 };
+            int n = facet_factors (g, factor, l);
+            *out = (pg_front_values) { .front = front[k].id, .vertex = i - f->first[k], .J = NAN, .T = NAN,
+                                       .K = { NAN, NAN, NAN }, .utilisation = NAN };
+            memcpy (out->x, f->field[i].x, sizeof out->x);
+            if (isnan (f->field[i].near)) continue;
+            pg_tip_combine (&f->field[i], n, l, &out->J, NULL, &out->T);
+            pg_tip_intensities (&f->field[i], n, l, out->K);
+            front_judge (&s->break_loop, &f->field[i], factor, &v);
+            out->utilisation = v.share * v.share;
+        }
+done:
+    return status;
+}

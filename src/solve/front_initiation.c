@@ -1,0 +1,456 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * New cracks in space. As in the plane (initiation.c) one begins where two conditions hold together
+ * (Leguillon 2002): the tension across it reaches the strength everywhere on it, and the energy that it sets
+ * free reaches what its area takes. It is tried as a disc across the largest tension; at the surface of the
+ * body what lies inside is a half disc, in an edge a quarter.
+ *
+ * Hot spots are the nodes whose stress, averaged over the node and its nearest neighbours, reaches the
+ * strength at the least load factor. There the radius is estimated with the energy of a disc under the mean
+ * tension s on it, 8 s^2 R^3 / (3 E') (Sneddon 1946; half discs 1.12^2 times that for their area), E' = E /
+ * (1 - nu^2); then three radii about it are cut on a copy of the state and solved for, energy over R^3 is
+ * fitted by a straight line, and the radius is where both load factors are equal, or the larger one least. */
+#include "front_growth.h"
+#include "hot_spot.h"
+#include <math.h>
+#include <string.h>
+
+enum { RADII = 3, RIM = 16, RINGS = 3, SPOTS = 2, SIDES = 24, ROUNDS = 2, STEPS = 40 };
+
+/* A disc that is tried. */
+typedef struct {
+    double centre[3], normal[3], across[2][3];         /* m; unit vectors, the last two in the plane */
+    double h, modulus, strength, energy;               /* m; E', Pa; Pa; J/m^2 */
+    double factor, radius;                             /* load factor at which it comes into being; m */
+    double release[3], slope[3];  /* polynomials of lambda: set free over R^3 = release + R slope, J/m^3 */
+    double shortest, longest;                          /* radii that the fit is of, m */
+} disc;
+
+typedef struct {
+    break_loop *b;
+    const pg_state *state;
+    const trial_fields *f;
+    double below;                                      /* load factors that matter are below it */
+} view;
+
+/* ---- stress -------------------------------------------------------------------------------------------- */
+/* Of fields a = 0, 1 to constant and slope in lambda. */
+static void affine_parts (const trial_fields *f, double first, double second, double out[2])
+{
+    out[0] = f->n == 2 ? first : 0, out[1] = f->n == 2 ? second - first : first;
+}
+
+static double largest (const double s[6])
+{
+    double principal[3];
+    pg_principal (3, 1, s, NULL, principal);
+    return principal[0];
+}
+
+/* The least load factor below `most` at which the largest principal stress reaches f; INFINITY: none. It is
+ * convex in the factor: below f at both ends, it is below f between them. */
+static double strength_factor (const trial_fields *fields, const double *first, const double *second,
+                               double f,
+                               double most)
+{
+    enum { HALVINGS = 40 };
+    double low = 0, high = most, s[6], part[2];
+    for (int k = 0; k < 6; k++) affine_parts (fields, first[k], second[k], part),
+        s[k] = part[0] + most * part[1];
+    if (largest (s) < f) return INFINITY;
+    for (int step = 0; step < HALVINGS; step++) {
+        double middle = 0.5 * (low + high);
+        for (int k = 0; k < 6; k++)
+            affine_parts (fields, first[k], second[k], part), s[k] = part[0] + middle * part[1];
+        if (largest (s) < f) low = middle;
+        else high = middle;
+    }
+    return high;
+}
+
+static double apart (const double *a, const double *b) { return hypot (hypot (a[0] - b[0], a[1] - b[1]),
+                                                                       a[2] - b[2]); }
+
+/* Mean of a field of stresses over node i and those within 1.1 spacings to which its bonds live. */
+static void mean_stress (const view *v, size_t i, const double *stress, double out[6])
+{
+    const pg_problem *p = v->b->system.problem;
+    const pg_rows *r = &p->rows[PG_NODES];
+    double reach = 1.1 * pg_problem_spacing (p, PG_NODES, i), n = 1;
+    memcpy (out, stress + 6*i, 6 * sizeof *out);
+    for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
+        size_t j = (size_t) r->family.node[e];
+        if (j == i || apart (p->cloud.x + 3*i, p->cloud.x + 3*j) > reach) continue;
+        if (!v->state->alive[p->first_bond[PG_NODES] + e]) continue;
+        for (int k = 0; k < 6; k++) out[k] += stress[6*j + (size_t) k];
+        n++;
+    }
+    for (int k = 0; k < 6; k++) out[k] /= n;
+}
+
+/* ---- hot spots ----------------------------------------------------------------------------------------- */
+/* Near a front that grows by its own law, or on a crack. */
+static int is_excluded (const view *v, const double *x, double h)
+{
+    const pg_problem *p = v->b->system.problem;
+    size_t n;
+    const pg_front *front = pg_fronts_of_state (p, v->state, &n);
+    for (size_t k = 0; k < n; k++)
+        for (size_t i = 0; front[k].open && i < front[k].n; i++)
+            if (apart (x, front[k].x + 3*i) < HOT_APART * h) return 1;
+    return pg_cracks_touch (pg_state_cracks (p, v->state), 3, x, 1.5 * h) != NULL;
+}
+
+/* What a crack takes at a node, the strength as far as the points can tell; 0: none begins there. */
+static int resists (const view *v, size_t i, pg_fracture_limits *out, double *modulus)
+{
+    const pg_problem *p = v->b->system.problem;
+    const pg_material *m = &p->material[p->block[PG_NODES][i]];
+    if (!facet_limits (v->b, p->cloud.x + 3*i, 0, out) || !(out->strength > 0)) return 0;
+    *modulus = m->E / (1 - m->nu * m->nu);
+    out->strength = fmin (out->strength, hot_strength_cap (m->E, out->energy, pg_problem_spacing (p,
+                                                                                                  PG_NODES,
+                                                                                                      i)));
+    return 1;
+}
+
+/* The plane across the largest tension at the load factor. */
+static void set_frame (const view *v, const double *first, const double *second, disc *d)
+{
+    double S[9], lambda[3], V[9], s[6], part[2];
+    for (int k = 0; k < 6; k++)
+        affine_parts (v->f, first[k], second[k], part), s[k] = part[0] + d->factor * part[1];
+    const double full[9] = { s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2] };
+    memcpy (S, full, sizeof S);
+    pg_dense_eigen (3, S, lambda, V);
+    for (int k = 0; k < 3; k++) {
+        d->normal[k] = V[3*k];
+        d->across[0][k] = V[3*k + 1], d->across[1][k] = V[3*k + 2];
+    }
+}
+
+/* A centre within a spacing of the surface goes there, along the nearest of 26 directions. */
+static void go_to_surface (const pg_problem *p, disc *d)
+{
+    double least = 1.01 * d->h, to[3] = { 0 };
+    for (int q = 0; q < 27; q++) {
+        double e[3] = { q % 3 - 1, q / 3 % 3 - 1, q / 9 - 1 }, size = hypot (hypot (e[0], e[1]), e[2]);
+        double low = 0, high = least, x[3];
+        if (!(size > 0)) continue;
+        for (int k = 0; k < 3; k++) x[k] = d->centre[k] + high * e[k] / size;
+        if (pg_problem_has_body (p, x)) continue;
+        for (int step = 0; step < STEPS; step++) {
+            double middle = 0.5 * (low + high);
+            for (int k = 0; k < 3; k++) x[k] = d->centre[k] + middle * e[k] / size;
+            if (pg_problem_has_body (p, x)) low = middle;
+            else high = middle;
+        }
+        least = high * (1 - 1e-9);                     /* the first of those equally near stays */
+        for (int k = 0; k < 3; k++) to[k] = d->centre[k] + low * e[k] / size;
+    }
+    if (least < d->h) memcpy (d->centre, to, sizeof to);
+}
+
+/* The node of the least load factor that is not near one of the n discs; as many as there are nodes: none. */
+static size_t next_node (const pg_problem *p, const double *factor, size_t n, const disc *spot)
+{
+    size_t best = p->cloud.n;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        int near = 0;
+        for (size_t k = 0; k < n && !near; k++)
+            near = apart (p->cloud.x + 3*i, spot[k].centre) < HOT_APART * spot[k].h;
+        if (!near && isfinite (factor[i]) && (best == p->cloud.n || factor[i] < factor[best])) best = i;
+    }
+    return best;
+}
+
+/* Up to SPOTS nodes with the least load factors, HOT_APART spacings apart; their discs have centre and
+ * frame. */
+static pg_status find_spots (const view *v, disc *out, size_t *n)
+{
+    pg_status status = PG_OK;
+    const pg_system *s = &v->b->system;
+    const pg_problem *p = s->problem;
+    double *stress[2] = { NULL, NULL }, *factor = NULL, first[6], second[6], modulus;
+    int components;
+    const char *unit;
+    pg_fracture_limits limits;
+    *n = 0;
+    PG_ALLOC (factor, p->cloud.n);
+    for (int a = 0; a < v->f->n; a++) {
+        PG_ALLOC (stress[a], 6 * p->cloud.n);
+        PG_TRY (s->force->field (s->self, v->state, v->f->d[a], "stress", &components, &unit, stress[a]));
+    }
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        factor[i] = INFINITY;
+        if (!resists (v, i, &limits, &modulus)) continue;
+        mean_stress (v, i, stress[0], first);
+        mean_stress (v, i, stress[v->f->n - 1], second);
+        factor[i] = strength_factor (v->f, first, second, limits.strength, v->below);
+        if (isfinite (factor[i]) && is_excluded (v, p->cloud.x + 3*i, pg_problem_spacing (p, PG_NODES, i)))
+            factor[i] = INFINITY;
+    }
+    for (size_t best; *n < SPOTS && (best = next_node (p, factor, *n, out)) < p->cloud.n; ++*n) {
+        disc *d = &out[*n];
+        *d = (disc) { .factor = factor[best], .h = pg_problem_spacing (p, PG_NODES, best) };
+        resists (v, best, &limits, &d->modulus);
+        d->strength = limits.strength, d->energy = limits.energy;
+        memcpy (d->centre, p->cloud.x + 3 * best, sizeof d->centre);
+        mean_stress (v, best, stress[0], first);
+        mean_stress (v, best, stress[v->f->n - 1], second);
+        set_frame (v, first, second, d);
+        go_to_surface (p, d);
+    }
+done:
+    pg_free (stress[0]), pg_free (stress[1]), pg_free (factor);
+    return status;
+}
+
+/* ---- one disc ------------------------------------------------------------------------------------------ */
+static void place_on (const disc *d, double r, double angle, double *x)
+{
+    for (int k = 0; k < 3; k++)
+        x[k] = d->centre[k] + r * (cos (angle) * d->across[0][k] + sin (angle) * d->across[1][k]);
+}
+
+/* The share of the disc that lies inside the body. */
+static double share_inside (const pg_problem *p, const disc *d, double R)
+{
+    enum { PLACES = 12 };
+    double in = 0, x[3];
+    for (int a = 0; a < PLACES; a++)
+        for (int q = 0; q < 4 * PLACES; q++) {
+            place_on (d, R * sqrt ((a + 0.5) / PLACES), 2 * acos (-1) * (q + 0.5) / (4 * PLACES), x);
+            in += pg_problem_has_body (p, x);
+        }
+    return in / (4 * PLACES * PLACES);
+}
+
+static double energy_of (const pg_problem *p, const disc *d, double R)
+{
+    return d->energy * acos (-1) * R * R * share_inside (p, d, R);
+}
+
+/* Tension across the disc over the strength, constant and slope in lambda: its mean over rings, and where the
+ * rim has least of it. *rim 0: none of the rim lies inside the body. */
+static pg_status tension_on (const view *v, const disc *d, double R, double mean[2], double least[2],
+                             int *rim)
+{
+    enum { PLACES = (RINGS + 1) * RIM };
+    pg_status status = PG_OK;
+    const pg_system *s = &v->b->system;
+    double x[3 * PLACES], u[3 * PLACES], stress[2][6 * PLACES], n = 0, worst = -INFINITY;
+    for (int q = 0; q < PLACES; q++)
+        place_on (d, q < RIM ? R : R * sqrt ((q / RIM - 0.5) / RINGS),
+                  2 * acos (-1) * (q % RIM + 0.5) / RIM, x + 3*q);
+    for (int a = 0; a < v->f->n; a++)
+        PG_TRY (s->force->sample (s->self, v->state, v->f->d[a], PLACES, x, u, stress[a], NULL));
+    mean[0] = mean[1] = least[0] = least[1] = 0, *rim = 0;
+    for (int q = 0; q < PLACES; q++) {
+        const double *m = d->normal;
+        double across[2] = { 0, 0 }, part[2];
+        if (!pg_problem_has_body (s->problem, x + 3*q)) continue;
+        for (int a = 0; a < v->f->n; a++) {
+            const double *t = stress[a] + 6*q;
+            across[a] = (m[0] * m[0] * t[0] + m[1] * m[1] * t[1] + m[2] * m[2] * t[2]
+                         + 2 * (m[0] * m[1] * t[3] + m[1] * m[2] * t[4] + m[2] * m[0] * t[5])) / d->strength;
+        }
+        affine_parts (v->f, across[0], across[v->f->n - 1], part);
+        if (q >= RIM) mean[0] += part[0], mean[1] += part[1], n++;
+        else {
+            double reached = part[0] >= 1 ? 0 : part[1] > 0 ? (1 - part[0]) / part[1] : INFINITY;
+            if (reached > worst) worst = reached, least[0] = part[0], least[1] = part[1];
+            *rim = 1;
+        }
+    }
+    for (int k = 0; k < 2 && n > 0; k++) mean[k] /= n;
+done:
+    return status;
+}
+
+static double stress_factor (const double part[2])
+{
+    return part[0] >= 1 ? 0 : part[1] > 0 ? (1 - part[0]) / part[1] : INFINITY;
+}
+
+/* The radius at which the larger of both load factors is least, by the energy of the mean tension. */
+static pg_status estimate (const view *v, disc *d)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = v->b->system.problem;
+    d->factor = INFINITY, d->radius = 1.5 * d->h;
+    for (int step = 0; step < STEPS; step++) {
+        double R = (1.5 + 0.5 * step) * d->h, mean[2], least[2];
+        int rim;
+        PG_TRY (tension_on (v, d, R, mean, least, &rim));
+        if (!rim) break;
+        double share = share_inside (p, d, R), f = d->strength,
+               all = 8 * f * f * R * R * R / (3 * d->modulus) * share * (share < 0.75 ? 1.26 : 1);
+        const double release[3] = { all * mean[0] * mean[0], 2 * all * mean[0] * mean[1],
+                                    all * mean[1] * mean[1] };
+        double factor = fmax (trial_energy_factor (release, energy_of (p, d, R)), stress_factor (least));
+        if (factor < d->factor) d->factor = factor, d->radius = R;
+    }
+done:
+    return status;
+}
+
+/* The corners of a disc of the same area. */
+static void corners (const disc *d, double R, double *x)
+{
+    double step = 2 * acos (-1) / SIDES, r = R * sqrt (step / sin (step));
+    for (int q = 0; q < SIDES; q++) place_on (d, r, (q + 0.5) * step, x + 3*q);
+}
+
+/* The bonds that each radius cuts beyond the one before. */
+static pg_status cut_radii (const view *v, trials *w, const disc *d, const double *R, pg_changes *cut)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = v->b->system.problem;
+    unsigned char *before = NULL;
+    double x[3 * SIDES];
+    if (!w->state) PG_TRY (pg_state_create (&w->state, p, w->system->components));
+    PG_ALLOC (before, v->state->nbond);
+    for (int k = 0; k < RADII; k++) {
+        size_t kept = 0;
+        PG_TRY (pg_state_copy (w->state, v->state));
+        corners (d, R[k], x);
+        PG_TRY (pg_surface_start (w->state, p, SIDES, x, d->normal, &cut[k]));
+        for (size_t i = 0; i < cut[k].n; i++) {
+            size_t bond = cut[k].bond[i];
+            if (!before[bond]) before[bond] = 1, cut[k].bond[kept++] = bond;
+        }
+        cut[k].n = kept;
+    }
+done:
+    pg_free (before);
+    return status;
+}
+
+/* A straight line through energies over R^3, by least squares. */
+static void fit (disc *d, const double *R, double energy[][3])
+{
+    double mean = 0, spread = 0;
+    for (int k = 0; k < RADII; k++) mean += R[k] / RADII;
+    for (int k = 0; k < RADII; k++) spread += (R[k] - mean) * (R[k] - mean);
+    for (int q = 0; q < 3; q++) {
+        double value = 0, slope = 0;
+        for (int k = 0; k < RADII; k++) {
+            double y = energy[k][q] / (R[k] * R[k] * R[k]);
+            value += y / RADII, slope += (R[k] - mean) * y / spread;
+        }
+        d->release[q] = value - slope * mean, d->slope[q] = slope;
+    }
+    d->shortest = R[0], d->longest = R[RADII - 1];
+}
+
+static void release_of (const disc *d, double R, double out[3])
+{
+    for (int q = 0; q < 3; q++) out[q] = R * R * R * (d->release[q] + R * d->slope[q]);
+}
+
+/* The radius from low to high where strength begins to ask for more than energy, else the end at which the
+ * larger is less; d->factor. */
+static pg_status settle (const view *v, disc *d, double low, double high)
+{
+    enum { LOOKS = 25 };
+    pg_status status = PG_OK;
+    const pg_problem *p = v->b->system.problem;
+    d->factor = INFINITY;
+    for (int k = 0; k < LOOKS; k++) {
+        double R = low + (high - low) * k / (LOOKS - 1), release[3], mean[2], least[2];
+        int rim;
+        PG_TRY (tension_on (v, d, R, mean, least, &rim));
+        if (!rim) break;
+        release_of (d, R, release);
+        double factor = fmax (trial_energy_factor (release, energy_of (p, d, R)), stress_factor (least));
+        if (factor < d->factor) d->factor = factor, d->radius = R;
+    }
+done:
+    return status;
+}
+
+/* Cuts radii about the estimate, then about what these say if that lies outside them. */
+static pg_status try_disc (const view *v, trials *w, disc *d)
+{
+    static const double share[RADII] = { 0.8, 1, 1.25 };
+    pg_status status = PG_OK;
+    pg_changes cut[RADII] = { { 0 } };
+    trial_form form[RADII];
+    double R[RADII], energy[RADII][3];
+    for (int round = 0; round < ROUNDS; round++) {
+        for (int k = 0; k < RADII; k++) R[k] = share[k] * fmax (d->radius, 1.5 * d->h / share[0]),
+            cut[k].n = 0;
+        PG_TRY (cut_radii (v, w, d, R, cut));
+        PG_TRY (trial_release (w, v->state, v->f, RADII, cut, form));
+        for (int k = 0; k < RADII; k++) trial_polynomial (v->f, &form[k], energy[k]);
+        fit (d, R, energy);
+        PG_TRY (settle (v, d, 0.9 * d->shortest, 1.5 * d->longest));
+        if (d->radius <= d->longest * 1.1 || d->factor > 1.25 * v->below) break;
+    }
+done:
+    for (int k = 0; k < RADII; k++) pg_free (cut[k].bond);
+    return status;
+}
+
+/* ---- what growth asks for ------------------------------------------------------------------------------ */
+static pg_status offer (const view *v, const disc *d)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = v->b->system.problem;
+    double polynomial[3], mean[2], least[2];
+    int rim;
+    facet_candidate c = { .tip = -1, .radius = d->radius, .energy = energy_of (p, d, d->radius) };
+    memcpy (c.from, d->centre, sizeof c.from), memcpy (c.to, d->normal, sizeof c.to);
+    memcpy (c.across, d->across[0], sizeof c.across);
+    release_of (d, d->radius, polynomial);
+    trial_fill_release (v->f->n, polynomial, c.release);
+    PG_TRY (tension_on (v, d, d->radius, mean, least, &rim));
+    c.stress[0] = v->f->n == 1 ? least[1] : least[0], c.stress[1] = v->f->n == 1 ? 0 : least[1];
+    PG_TRY (facet_offer (v->b->growth, &c));
+done:
+    return status;
+}
+
+pg_status fronts_offer_starts (break_loop *b, const pg_state *state, const double *const *d, const double *t)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    trial_fields f;
+    disc spot[SPOTS];
+    size_t n;
+    if (!trial_has_strength (b->system.problem)) return PG_OK;
+    if (!g->trials) PG_TRY (trials_create (&g->trials, &b->system));
+    PG_TRY (trial_take_fields (g->trials, g->nfield, d, t, &f));
+    double top = f.n == 1 ? fronts_utilisation (b, state, 1) : 0;
+    view v = { b, state, &f, top > 1 ? 1 / top : 1 };
+    PG_TRY (find_spots (&v, spot, &n));
+    for (size_t k = 0; k < n; k++) {
+        PG_TRY (estimate (&v, &spot[k]));
+        if (spot[k].factor > 1.25 * v.below) continue;
+        PG_TRY (try_disc (&v, g->trials, &spot[k]));
+        if (spot[k].factor <= v.below) PG_TRY (offer (&v, &spot[k]));
+        v.below = fmin (v.below, spot[k].factor * (1 + facet_tie));
+    }
+done:
+    return status;
+}
+
+pg_status fronts_start (break_loop *b, pg_state *state, const facet_candidate *c)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    disc d = { .radius = c->radius };
+    double x[3 * SIDES];
+    memcpy (d.centre, c->from, sizeof d.centre), memcpy (d.normal, c->to, sizeof d.normal);
+    memcpy (d.across[0], c->across, sizeof c->across);
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, q = (k + 2) % 3;
+        d.across[1][k] = c->to[m] * c->across[q] - c->to[q] * c->across[m];
+    }
+    corners (&d, c->radius, x);
+    PG_TRY (pg_surface_start (state, b->system.problem, SIDES, x, d.normal, &b->changes));
+    for (size_t i = 0; i < b->changes.n; i++) state->alive[b->changes.bond[i]] = 0;
+    g->needed += c->energy, g->event_energy += c->energy, g->began = g->going = 1;
+done:
+    return status;
+}

@@ -1,0 +1,184 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Cracks that grow in space by their fronts, whole runs: straight fronts stay straight and take the load that
+ * the energy of the body asks for, ellipses become round, tilted discs grow wings, on points that lie in no
+ * layers along the front. */
+#include "run.h"
+
+static const double G0 = 8, E = 70e9, NU = 0.22;
+
+/* ---- what fronts look like ----------------------------------------------------------------------------- */
+/* Mean, deviation and extremes of a coordinate over all vertices of open fronts, ends of open ones left out.
+ * */
+typedef struct { double mean, deviation, low, high; size_t n; } spread;
+
+static spread of_fronts (const run *r, double (*value) (const double *x, const void *context),
+                         const void *context)
+{
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (r->problem, r->state, &nfront);
+    spread s = { .low = INFINITY, .high = -INFINITY };
+    double square = 0;
+    for (size_t k = 0; k < nfront; k++)
+        for (size_t i = 0; front[k].open && i < front[k].n; i++) {
+            double v = value (front[k].x + 3*i, context);
+            s.mean += v, square += v * v, s.n++;
+            s.low = fmin (s.low, v), s.high = fmax (s.high, v);
+        }
+    if (s.n) s.mean /= (double) s.n, s.deviation = sqrt (fmax (0, square / (double) s.n - s.mean * s.mean));
+    return s;
+}
+
+static double along_x (const double *x, const void *unused) { (void) unused; return x[0]; }
+static double height (const double *x, const void *unused) { (void) unused; return x[1]; }
+static double radius (const double *x, const void *centre)
+{
+    const double *c = centre;
+    return hypot (hypot (x[0] - c[0], x[1] - c[1]), x[2] - c[2]);
+}
+
+/* ---- a straight front ---------------------------------------------------------------------------------- */
+/* A strip between clamps, H high, 1 m the spacing: far ahead of the front a displacement u stores M u^2 / (2
+ * H) per area, M = E (1 - nu) / ((1 + nu) (1 - 2 nu)), and nothing behind it: that is G. */
+static run strip (double shift, double amount, int seed, int events)
+{
+    const double H = 10, M = E * (1 - NU) / ((1 + NU) * (1 - 2 * NU)), u = 2 * sqrt (2 * H * G0 / M);
+    return scene_of (2, "dimension: 3\nspacing: 1 m\nperturb: {amount: %g, seed: %d}\n"
+                        "body: [{add: {box: {low: [0, -5, 0], high: [22, 5, 8]}}}]\n"
+                        "cracks: [{polygon: [[-0.6, %g, -0.6], [%g, %g, -0.6], [%g, %g, 8.6], [-0.6, %g, "
+                        "8.6]]}]\n"
+                        "materials: {glass: {youngs_modulus: %g, poissons_ratio: %g}}\n"
+                        "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, "
+                        "{set: top, displacement: {x: 0, y: %.17g, z: 0}}, "
+                        "{set: back, displacement: {z: 0}}, {set: front, displacement: {z: 0}}]\n"
+                        "method: {horizon: 2.01 spacing}\n"
+                        "failure: {criterion: energy_release, fracture_energy: %g}\n"
+                        "solver: {max_events: %d}\n", amount, seed, shift, 8 + shift, shift, 8 + shift,
+                            shift, shift,
+                     E, NU, u, G0, events);
+}
+
+static void a_straight_front_stays_straight (void **state)
+{
+    (void) state;
+    enum { EVENTS = 5 };
+    run r = strip (0.31, 0.2, 1, EVENTS);
+    double before = 0, spent = 0, load = 0, worst = 0;
+    int events = 0;
+    while (!pg_solver_done (r.solver, r.state)) {
+        advance (&r);
+        if (!r.step.event) continue;
+        spread x = of_fronts (&r, along_x, NULL), y = of_fronts (&r, height, NULL);
+        print_message ("event %d: load %.4f of G0's, x %.3f +- %.4f, y %.3f +- %.4f, energy %.3f\n", ++events,
+                       2 * r.step.factor, x.mean, x.deviation, y.mean, y.deviation,
+                       r.step.dissipated / (G0 * (r.state->surfaces->area - before)));
+        before = r.state->surfaces->area, spent += r.step.dissipated;
+        load += 2 * r.step.factor / EVENTS;
+        worst = fmax (worst, x.deviation);
+        check_below (y.deviation, 0.1);
+    }
+    assert_int_equal (events, EVENTS);
+    check_below (worst, 0.05);
+    check_relative (load, 1, 0.025);
+    check_relative (spent, G0 * r.state->surfaces->area, 0.05);
+    /* vertices behind the first go less */
+    check_relative (r.state->surfaces->area, 0.96 * EVENTS * 8, 0.05);
+    clear (&r);
+}
+
+/* ---- discs --------------------------------------------------------------------------------------------- */
+/* A cube of 2 L in tension along y, a disc of a radius with a normal in it; scale: m a spacing. */
+static run cube (double L, const char *crack, double scale, double amount, int events)
+{
+    return scene_of (2, "dimension: 3\nspacing: %.17g m\nperturb: {amount: %g, seed: 3}\n"
+                        "body: [{add: {box: {low: [%.17g, %.17g, %.17g], high: [%.17g, %.17g, %.17g]}}}]\n"
+                        "cracks: [%s]\nmaterials: {glass: {youngs_modulus: %g, poissons_ratio: %g}}\n"
+                        "boundary: [{set: bottom, displacement: {y: %.17g}}, {set: top, "
+                        "displacement: {y: %.17g}}, "
+                        "{set: left, displacement: {x: 0}}, {set: back, displacement: {z: 0}}]\n"
+                        "method: {horizon: 2.01 spacing}\n"
+                        "failure: {criterion: energy_release, fracture_energy: %g}\n"
+                        "solver: {max_events: %d}\n", scale, amount, -L * scale, -L * scale, -L * scale,
+                            L * scale,
+                     L * scale, L * scale, crack, E, NU, -L * scale * 1e-3, L * scale * 1e-3, G0 * scale,
+                         events);
+}
+
+/* An ellipse of 3.2 by 5.4 spacings, as a polygon, in a plane that lies in none of the lattice's. */
+static void an_ellipse_becomes_round (void **state)
+{
+    (void) state;
+    enum { SIDES = 28 };
+    char crack[4000] = "{polygon: [";
+    const double c[3] = { 0.2, 0.31, 0.1 };
+    size_t at = strlen (crack);
+    for (int k = 0; k < SIDES; k++) {
+        double t = 2 * acos (-1) * k / SIDES, a = 5.4 * cos (t), b = 3.2 * sin (t), turn = 0.35;
+        at += (size_t) snprintf (crack + at, sizeof crack - at, "%s[%.9g, %.9g, %.9g]", k ? ", " : "",
+                                 c[0] + a * cos (turn) - b * sin (turn), c[1],
+                                 c[2] + a * sin (turn) + b * cos (turn));
+    }
+    snprintf (crack + at, sizeof crack - at, "]}");
+    run r = cube (11.5, crack, 1, 0.1, 4);
+    double spent = 0, first = 0;
+    while (!pg_solver_done (r.solver, r.state)) {
+        advance (&r);
+        if (!r.step.event) continue;
+        spread s = of_fronts (&r, radius, c), y = of_fronts (&r, height, NULL);
+        spent += r.step.dissipated;
+        if (!(first > 0)) first = s.high / s.low;
+        print_message ("radii %.3f to %.3f, %zu vertices, height %.3f +- %.3f, energy %.3f\n", s.low,
+                       s.high, s.n,
+                       y.mean, y.deviation, spent / (G0 * r.state->surfaces->area));
+    }
+    spread s = of_fronts (&r, radius, c);
+    check_below (s.high / s.low, 1.15);
+    check_relative (spent, G0 * r.state->surfaces->area, 0.06);
+    clear (&r);
+}
+
+/* A disc tilted by 45 degrees: at the ends of the steepest line it kinks towards the plane across the load,
+ * at the sides it does not; both ends alike; the same with millimetres for metres. */
+static void a_tilted_disc_grows_wings (void **state)
+{
+    (void) state;
+    double kink[2][2];
+    for (int unit = 0; unit < 2; unit++) {
+        double m = unit ? 1e-3 : 1, ends[2] = { 0, 0 };
+        char crack[200];
+        snprintf (crack, sizeof crack, "{disc: {center: [%.17g, %.17g, %.17g], normal: [1, 1, 0], "
+                                       "radius: %.17g}}",
+                  0.2 * m, 0.31 * m, 0.1 * m, 4.5 * m);
+        run r = cube (8, crack, m, 0, 2);
+        while (!pg_solver_done (r.solver, r.state)) advance (&r);
+        size_t nfront;
+        const pg_front *front = pg_fronts_of_state (r.problem, r.state, &nfront);
+        assert_int_equal (nfront, 1);
+        for (size_t i = 0; i < front->n; i++) {
+            const double *x = front->x + 3*i;
+            /* along the steepest line (1, -1, 0) and across the disc (1, 1, 0) */
+            double s = (x[0] / m - 0.2 - x[1] / m + 0.31) / sqrt (2),
+                n = (x[0] / m - 0.2 + x[1] / m - 0.31) / sqrt (2);
+            if (s > ends[1]) ends[1] = s, kink[unit][1] = n;
+            if (s < ends[0]) ends[0] = s, kink[unit][0] = n;
+        }
+        print_message ("ends at %.3f %.3f, off the plane by %.3f %.3f\n", ends[0], ends[1], kink[unit][0],
+                       kink[unit][1]);
+        check_below (5, ends[1]);
+        check_below (ends[0], -5);
+        /* from (1, -1) towards (1, 0): n > 0 there */
+        check_below (0.3, kink[unit][1]);
+        check_below (kink[unit][0], -0.3);
+        clear (&r);
+    }
+    for (int q = 0; q < 2; q++) check_relative (kink[1][q], kink[0][q], 1e-3);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (a_straight_front_stays_straight),
+        cmocka_unit_test (an_ellipse_becomes_round),
+        cmocka_unit_test (a_tilted_disc_grows_wings),
+    };
+    return cmocka_run_group_tests (tests, NULL, NULL);
+}
