@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Characters of an expression, at most. */
-enum { LONGEST = 4000 };
+enum { LONGEST = 100000 };
 
 /* A rule of the grammar: reads its part of the text and describes it as an operand. */
 typedef pg_status (*rule) (pg_reader *, pg_operand *);
