@@ -224,8 +224,8 @@ static inline void surface_scene (const front_case *c, char *out)
                            at[1], c->unit * c->shift[2]);
     }
     front_say (out + used, 4 * FRONT_TEXT,
-               "]}]\nboundary: [{set: top, traction: {z: %g}}, {set: bottom, traction: {z: %g}}, {set: "
-               "bottom, displacement: {x: 0, y: 0, z: 0}, essential: penalty}]\n",
+               "]}]\nboundary: [{set: front, traction: {z: %g}}, {set: back, traction: {z: %g}}, {set: "
+               "back, displacement: {x: 0, y: 0, z: 0}, essential: penalty}]\n",
                c->p, -c->p);
 }
 
