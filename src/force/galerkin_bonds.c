@@ -393,33 +393,48 @@ done:
     return status;
 }
 
-/* Of cracks that grow in the plane: by how much the faces overlap along the normal of the crack between two
- * nodes, m. Faces that slide past each other bring the ends of oblique bonds nearer, and do not overlap:
- * those are left out. */
-static double overlap_of_faces (const galerkin *g, const pg_state *state, size_t p, size_t j,
-                                const double *xi)
+/* Stretch of a bond xi along a unit vector n by the strain at p and j in the mean, m: n . eps xi. */
+static double elastic_along (const galerkin *g, size_t p, size_t j, const double *xi, const double *n)
 {
-    /* the two axes of each shear strain, by Voigt's order */
-    static const int pair[2][3][2] = { { { 0, 1 } }, { { 0, 1 }, { 1, 2 }, { 2, 0 } } };
+    static const int shear[3][2] = { { 0, 1 }, { 1, 2 }, { 2, 0 } };
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
-    const double *x = g->rows[PG_NODES].x, *u = g->u[PG_NODES], *ei = g->strain[PG_NODES] + nv * p,
-                 *ej = g->strain[PG_NODES] + nv * j;
-    const pg_crack *c = pg_cracks_cut (pg_state_cracks (g->problem, state), g->dim, x + dim * p, x + dim * j,
+    const double *ei = g->strain[PG_NODES] + p * nv, *ej = g->strain[PG_NODES] + j * nv;
+    double sum = 0;
+    for (size_t a = 0; a < dim; a++) sum += 0.5 * (ei[a] + ej[a]) * xi[a] * n[a];
+    for (size_t k = dim; k < nv; k++) {                /* engineering shear, half of it each way */
+        int a = shear[k - dim][0], b = shear[k - dim][1];
+        sum += 0.25 * (ei[k] + ej[k]) * (xi[a] * n[b] + xi[b] * n[a]);
+    }
+    return sum;
+}
+
+/* By how much the ends of a bond xi from p to j have come together along n, a unit vector from p's side to
+ * that of j, beyond what the material on both sides has shortened, m. */
+static double overlap_along (const galerkin *g, size_t p, size_t j, const double *xi, const double *n)
+{
+    size_t dim = (size_t) g->dim;
+    const double *u = g->u[PG_NODES];
+    double approach = 0;
+    for (size_t a = 0; a < dim; a++) approach -= n[a] * (u[j * dim + a] - u[p * dim + a]);
+    return approach - fmax (-elastic_along (g, p, j, xi, n), 0);
+}
+
+/* The overlap of crack faces by one dead bond. Where a known crack cuts the bond the normal of that crack
+ * counts, not the bond: faces that slide past each other bring the ends of oblique bonds nearer, and do not
+ * overlap; such bonds are left out. Of single bonds that broke only their own direction is known. */
+static double overlap_by_bond (const galerkin *g, const pg_state *state, size_t p, size_t j, const double *xi)
+{
+    size_t dim = (size_t) g->dim;
+    const double *x = g->rows[PG_NODES].x;
+    double n[3] = { 0 }, along = 0, size = 0;
+    const pg_crack *c = pg_cracks_cut (pg_state_cracks (g->problem, state), g->dim, x + p * dim, x + j * dim,
                                        1e-9 * g->problem->cloud.h);
-    if (!c) return 0;
-    double along = 0, size = 0, n[3], approach = 0, elastic = 0;
-    for (size_t a = 0; a < dim; a++) along += xi[a] * c->normal[a], size += xi[a] * xi[a];
-    if (fabs (along) < 0.8 * sqrt (size)) return 0;
-    for (size_t a = 0; a < dim; a++) n[a] = (along < 0 ? -1 : 1) * c->normal[a];
-    for (size_t a = 0; a < dim; a++) {
-        approach -= n[a] * (u[dim * j + a] - u[dim * p + a]);
-        elastic -= 0.5 * (ei[a] + ej[a]) * xi[a] * n[a];
-    }
-    for (size_t v = dim; v < nv; v++) {
-        const int *at = pair[dim == 3][v - dim];
-        elastic -= 0.25 * (ei[v] + ej[v]) * (xi[at[0]] * n[at[1]] + xi[at[1]] * n[at[0]]);
-    }
-    return approach - fmax (elastic, 0);
+    if (!c && pg_problem_grows (g->problem)) return 0;
+    for (size_t a = 0; a < dim; a++) size += xi[a] * xi[a], along += c ? xi[a] * c->normal[a] : 0;
+    size = sqrt (size);
+    if (c && fabs (along) < 0.8 * size) return 0;
+    for (size_t a = 0; a < dim; a++) n[a] = !c ? xi[a] / size : along < 0 ? -c->normal[a] : c->normal[a];
+    return overlap_along (g, p, j, xi, n);
 }
 
 /* How far the ends of a dead bond have come towards each other beyond the elastic shortening of the
@@ -430,10 +445,9 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
 {
     galerkin *g = self;
     const pg_rows *r = &g->rows[PG_NODES];
-    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
+    size_t dim = (size_t) g->dim;
     double worst = 0;
     int both = g->problem->cloud.size != NULL;             /* a bond of unlike ends may exist one way only */
-    int grows = pg_problem_grows (g->problem);
     galerkin_measure (g, PG_NODES, d);
     for (size_t p = 0; p < r->n; p++) {
         double limit = 1.5 * pg_problem_spacing (g->problem, PG_NODES, p);
@@ -441,25 +455,11 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
             size_t j = (size_t) r->family.node[e];
             if (state->alive[e] || j == p || (j < p && !both)) continue;
             if (r->grade[p] >= PG_GRADE_SHEPARD || r->grade[j] >= PG_GRADE_SHEPARD) continue;
-            double xi[3], rr = 0, approach = 0, elastic = 0;
+            double xi[3], rr = 0;
             for (size_t a = 0; a < dim; a++)
                 xi[a] = r->x[j * dim + a] - r->x[p * dim + a], rr += xi[a] * xi[a];
             if (rr > limit * limit) continue;
-            if (grows) {
-                worst = fmax (worst, overlap_of_faces (g, state, p, j, xi));
-                continue;
-            }
-            for (size_t a = 0; a < dim; a++)
-                approach -= xi[a] * (g->u[PG_NODES][j * dim + a] - g->u[PG_NODES][p * dim + a]);
-            const double *ei = g->strain[PG_NODES] + p * nv, *ej = g->strain[PG_NODES] + j * nv;
-            for (size_t a = 0; a < dim; a++) elastic -= 0.5 * (ei[a] + ej[a]) * xi[a] * xi[a];
-            if (dim == 2) elastic -= 0.5 * (ei[2] + ej[2]) * xi[0] * xi[1];
-            if (dim == 3)
-                elastic -= 0.5
-                           * ((ei[3] + ej[3]) * xi[0] * xi[1] + (ei[4] + ej[4]) * xi[1] * xi[2]
-                              + (ei[5] + ej[5]) * xi[2] * xi[0]);
-            double overlap = (approach - fmax (elastic, 0)) / sqrt (rr);
-            if (overlap > worst) worst = overlap;
+            worst = fmax (worst, overlap_by_bond (g, state, p, j, xi));
         }
     }
     return worst;

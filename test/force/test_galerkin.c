@@ -87,6 +87,45 @@ static void only_what_is_more_than_elastic_overlaps (void **unused)
     unbonded (&b);
 }
 
+/* Halves that a tilted crack has parted: sliding brings the ends of oblique bonds nearer and overlaps
+ * nothing, also where the crack opens; what counts is how far the faces have come together along the
+ * normal. */
+static void sliding_faces_do_not_overlap (void **unused)
+{
+    (void) unused;
+    static const char *const body[] = {
+        "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\n"
+        "cracks: [{from: [-1, 0.13], to: [2, 1.03]}]\n",
+        "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n"
+        "cracks: [{polygon: [[-1, 0.13, -1], [2, 1.03, -1], [2, 1.03, 2], [-1, 0.13, 2]]}]\n"
+    };
+    /* the crack rises by 0.3 a unit of x */
+    const double n[2] = { -0.3 / hypot (1, 0.3), 1 / hypot (1, 0.3) }, t[2] = { n[1], -n[0] };
+    /* along the crack, across it, and by how much the faces overlap */
+    static const double move[4][3] = {
+        { 2e-3, 0, 0 }, { -2e-3, 1e-4, 0 }, { 2e-3, -1e-3, 1e-3 }, { 0, 3e-3, 0 }
+    };
+    for (int k = 0; k < 2; k++) {
+        char text[1024];
+        snprintf (text, sizeof text,
+                  "%sspacing: 0.1\nmaterials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}\nmethod: "
+                  "{integration: gauss}\nboundary: [{set: bottom, displacement: {y: 0}}]\n", body[k]);
+        bonded b = bonded_of (text);
+        const double *x = b.problem->cloud.x;
+        double *d = pg_calloc (b.ndof, sizeof *d);
+        size_t dim = (size_t) k + 2;
+        for (int m = 0; m < 4; m++) {
+            for (size_t i = 0; i < b.n; i++)
+                for (size_t a = 0; a < 2; a++)
+                    d[i * dim + a] = x[i * dim + 1] > 0.43 + 0.3 * x[i * dim]
+                                         ? move[m][0] * t[a] + move[m][1] * n[a] : 0;
+            check_absolute (b.force->overlap (b.self, b.state, d) / 1e-3, move[m][2] / 1e-3, 1e-9);
+        }
+        pg_free (d);
+        unbonded (&b);
+    }
+}
+
 /* consistent: where a bond of a cell dies, that cell and those that share a face with it take the direct
  * derivatives, no others. */
 static void a_broken_bond_opens_its_cell_and_those_beside (void **unused)
@@ -176,6 +215,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (what_is_exempt_never_breaks),
                                         cmocka_unit_test (only_what_is_more_than_elastic_overlaps),
+                                        cmocka_unit_test (sliding_faces_do_not_overlap),
                                         cmocka_unit_test (a_broken_bond_opens_its_cell_and_those_beside),
                                         cmocka_unit_test (stabilisation_goes_with_the_shear_modulus),
                                         cmocka_unit_test (supports_bear_inertia) };
