@@ -44,6 +44,22 @@ PG_WIDE static void add_plane_blocks (const double *DB, size_t m, const double *
     for (size_t n = 0; n < m; n++, q += 2) block[n] += q[0] * x + q[1] * y;
 }
 
+/* In space a block has nine entries, and each is a sum over the components of q: eight of them are taken at
+ * once, at the place of the block, whatever its alignment. */
+PG_WIDEST static void add_solid_blocks (const double *DB, size_t m, const double *q, double *k)
+{
+    static const int of[3][3] = { { 0, 3, 5 }, { 3, 1, 4 }, { 5, 4, 2 } };  /* s of f[c] with q[l] */
+    double part[3][9];
+    eight x, y, z;
+    for (int l = 0; l < 3; l++)
+        for (int e = 0; e < 9; e++) part[l][e] = DB[6 * (e / 3) + of[l][e % 3]];
+    for (int e = 0; e < 8; e++) x[e] = part[0][e], y[e] = part[1][e], z[e] = part[2][e];
+    for (size_t n = 0; n < m; n++, q += 3, k += 9) {
+        *(eight *) (void *) k += q[0] * x + q[1] * y + q[2] * z;
+        k[8] += q[0] * part[0][8] + q[1] * part[1][8] + q[2] * part[2][8];
+    }
+}
+
 /* Blocks (dim x dim) += w (D B_a)' B_b for b = 0..m-1; DB: (D B_a)' as dim x nv */
 static void add_blocks (int dim, const double *DB, size_t m, const double *q, double *k)
 {
@@ -51,13 +67,8 @@ static void add_blocks (int dim, const double *DB, size_t m, const double *q, do
         add_plane_blocks (DB, m, q, k);
         return;
     }
-    size_t nv = dim == 1 ? 1 : 6, d = (size_t) dim;
-    double f[3];
-    for (size_t n = 0; n < m; n++, q += d, k += d * d)
-        for (size_t r = 0; r < d; r++) {
-            galerkin_B_transpose (dim, q, DB + r * nv, f);
-            for (size_t c = 0; c < d; c++) k[r * d + c] += f[c];
-        }
+    if (dim == 3) add_solid_blocks (DB, m, q, k);
+    for (size_t n = 0; n < m && dim == 1; n++) k[n] += q[n] * DB[0];
 }
 
 /* Point p adds its blocks of local node a with 0..m-1. */
