@@ -80,12 +80,13 @@ static void show (const front_result *r, double nu)
     }
 }
 
-/* Mean and standard deviation of J over what is right; root of the mean square error of K, of the largest. */
-static void print (const char *name, const front_result *r, double nu)
+/* Of all vertices but `margin` at either end: mean and standard deviation of J over what is right; root of
+ * the mean square error of K, of the largest. */
+static void print (const char *name, const front_result *r, double nu, size_t margin)
 {
     double mean = 0, square = 0, error[2][3] = { { 0 } }, size = sqrt (r->J / (1 - nu * nu));
     size_t n = 0;
-    for (size_t i = 0; i < r->n; i++) {
+    for (size_t i = margin; i + margin < r->n; i++) {
         const double *K = r->K[i];
         double J = (1 - nu * nu) * (K[0] * K[0] + K[1] * K[1]) + (1 + nu) * K[2] * K[2],
                share = r->field[i].J[0][0] / J;
@@ -118,7 +119,8 @@ int main (int argc, char **argv)
             return 1;
         }
         if (all) show (&r, rows[k].c.nu);
-        print (rows[k].name, &r, rows[k].c.nu);
+        /* the ends of straight fronts lie on faces that are held: half of their hats is missing */
+        print (rows[k].name, &r, rows[k].c.nu, strcmp (rows[k].c.kind, "straight") == 0 ? 5 : 0);
         front_result_clear (&r);
     }
     return 0;

@@ -2,7 +2,8 @@
  * Exact fields of a straight front: those of the plane (williams.c) in plane strain, with the stress nu (s11
  * + s22) along the front, and mode III,
  *
- *   u_3 = (2 / mu) (r / 2 pi)^(1/2) sin (theta / 2),  s_13, s_23 = (-sin, cos) (theta / 2) / (2 pi r)^(1/2) */
+ *   u_3 = (2 / mu) (r / 2 pi)^(1/2) sin (theta / 2),
+ *   s_13, s_23 = (-sin, cos) (theta / 2) / (2 pi r)^(1/2). */
 #include "front.h"
 #include <math.h>
 #include <string.h>

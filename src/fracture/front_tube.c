@@ -69,13 +69,19 @@ static int free_of_cracks (const view *v, double r, double theta)
     return r <= open_from * v->h || !is_cut (v, x, y);
 }
 
-/* At r behind the front the two faces are there: a crack lies across the wedge about the direction back. */
+/* At r behind the front the two faces are there: a crack lies across an arc (as chords) about the direction
+ * back. */
 static int has_faces (const view *v, double r, double theta)
 {
+    enum { CHORDS = 6 };
     double x[3], y[3], wedge = r < kink * v->h * (1 - 1e-9) ? near_wedge : far_wedge;
     (void) theta;
-    ray_at (v, r, pi - wedge, x), ray_at (v, r, pi + wedge, y);
-    return is_cut (v, x, y);
+    ray_at (v, r, pi - wedge, x);
+    for (int i = 1; i <= CHORDS; i++, memcpy (x, y, sizeof x)) {
+        ray_at (v, r, pi + wedge * (2.0 * i / CHORDS - 1), y);
+        if (is_cut (v, x, y)) return 1;
+    }
+    return 0;
 }
 
 /* The largest r up to which a question is answered yes in steps, then by bisection. */
@@ -150,6 +156,6 @@ double front_room (const pg_problem *p, const pg_state *state, const front_place
         for (int i = 0; i < RAYS; i++) room = reach (&v, free_of_surface, 2 * pi * i / RAYS, 0, room);
     if (!tail) room = room_of_loads (&v, room);
     for (int i = -5; i <= 5; i++) room = reach (&v, free_of_cracks, pi * i / 8, open_from * h, room);
-    room = reach (&v, has_faces, 0, fmax (behind_from * h, 2.2 * offset), room);
+    room = reach (&v, has_faces, 0, fmax (behind_from * h, 1.2 * offset), room);
     return room_of_interfaces (&v, room);
 }

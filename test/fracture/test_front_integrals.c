@@ -253,9 +253,86 @@ static void straight_fronts_come_back (void **state)
     }
 }
 
+/* Radius of the tube for K at the middle of the first front, in spacings; NAN: none. */
+static double radius_of (const char *cracks, double *room)
+{
+    exact m = { .E = 3e9, .nu = 0.3, .K = { { 1e6, 0, 0 } } };
+    tested t = make (&m, 1, cracks);
+    size_t n = t.problem->front[0].n;
+    memcpy (m.axes, t.problem->front[0].ahead, 3 * sizeof (double));
+    memcpy (m.axes + 3, t.problem->front[0].normal, 3 * sizeof (double));
+    for (int k = 0; k < 3; k++) {
+        int a = (k + 1) % 3, b = (k + 2) % 3;
+        m.axes[6 + k] = m.axes[a] * m.axes[3 + b] - m.axes[b] * m.axes[3 + a];
+    }
+    pg_tip_field *f = calloc (n, sizeof *f);
+    const double *d = t.state->d, one = 1;
+    memcpy (m.origin, t.problem->front[0].x, sizeof m.origin);
+    check_ok (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, &d, &one));
+    double near = f[n / 2].near / 0.1;
+    *room = f[n / 2].room / 0.1;
+    for (size_t i = 7; i + 7 < n; i++) {               /* thinner tubes know the same of an exact field */
+        assert_int_equal (isnan (f[i].near), isnan (f[i].J[0][0]));
+        if (!isnan (f[i].near)) check_relative (f[i].J[0][0], 1e12 * (1 - 0.09) / m.E, 2e-3);
+    }
+    free (f);
+    clear (&t);
+    return near;
+}
+
+/* A cut from the side up to x, whose tube is thinner beside a face ahead, another crack, another front
+ * behind; no thinner for a crack that is farther away. */
+static void tubes_hold_nothing_else (void **state)
+{
+    (void) state;
+    double room;
+#define CUT(X) "{polygon: [[-3, -3, 0.01], [" X ", -3, 0.01], [" X ", 3, 0.01], [-3, 3, 0.01]]}"
+    check_relative (radius_of (CUT ("0.1"), &room), 3, 1e-9), check_relative (room, 4, 1e-9);
+    check_relative (radius_of (CUT ("0.74"), &room), 2.25, 1e-9), check_relative (room, 2.6, 1e-6);
+    check_relative (radius_of (CUT ("0.81"), &room), 1.5, 1e-9), check_relative (room, 1.9, 1e-6);
+    assert_true (isnan (radius_of (CUT ("0.87"), &room))), check_relative (room, 1.3, 1e-6);
+    /* above, ahead, above and too far away */
+#define PLATE(Z) "{polygon: [[0, -3, " Z "], [0.9, -3, " Z "], [0.9, 3, " Z "], [0, 3, " Z "]]}"
+#define WALL(X) "{polygon: [[" X ", -3, -0.5], [" X ", -3, 0.5], [" X ", 3, 0.5], [" X ", 3, -0.5]]}"
+    check_relative (radius_of (CUT ("0.1") ", " PLATE ("0.21"), &room), 1.5, 1e-9);
+    check_relative (room, 2, 1e-3);
+    check_relative (radius_of (CUT ("0.1") ", " WALL ("0.37"), &room), 2.25, 1e-9);
+    check_relative (radius_of (CUT ("0.1") ", " PLATE ("0.51"), &room), 3, 1e-9);
+    /* a strip 2 spacings wide: its other front lies behind */
+#define STRIP "{polygon: [[0.1, -3, 0.01], [0.3, -3, 0.01], [0.3, 3, 0.01], [0.1, 3, 0.01]]}"
+    check_relative (radius_of (STRIP, &room), 1.5, 1e-9);
+}
+
+static void what_cannot_be_measured (void **state)
+{
+    (void) state;
+    exact m = { .E = 3e9, .nu = 0.3, .K = { { 1e6, 0, 0 } }, .axes = { 1, 0, 0, 0, 0, 1, 0, -1, 0 } };
+    tested t = make (&m, 1, CUT ("0.1"));
+    size_t n = t.problem->front[0].n;
+    pg_tip_field *f = calloc (n, sizeof *f);
+    const double *d[3] = { t.state->d, t.state->d, t.state->d }, time[3] = { 1, 1, 1 };
+    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 1, 1, d, time), PG_E_USAGE);
+    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 3, d, time), PG_E_USAGE);
+    pg_status status = PG_E_MEMORY;
+    size_t used = pg_memory_used ();
+    for (size_t k = 1; status != PG_OK; k++) {
+        pg_memory_fail_at (k);
+        status = pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, d, time);
+        pg_memory_fail_at (0);
+        assert_true (status == PG_OK || status == PG_E_MEMORY);
+        assert_int_equal (pg_memory_used (), used);
+    }
+    t.force.sample = NULL;
+    check_fails (pg_front_measure (f, t.problem, &t.force, &m, t.state, 0, 1, d, time), PG_E_USAGE);
+    free (f);
+    clear (&t);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (straight_fronts_come_back),
-                                        cmocka_unit_test (pennies_come_back) };
+                                        cmocka_unit_test (pennies_come_back),
+                                        cmocka_unit_test (tubes_hold_nothing_else),
+                                        cmocka_unit_test (what_cannot_be_measured) };
     return cmocka_run_group_tests_name ("fracture/front_integrals", tests, NULL, NULL);
 }
