@@ -217,12 +217,16 @@ static int above (const drawing *d, size_t panel, size_t i)
 
 /* Colours by the coordinate that points most towards the eye, in the unit of the picture: a crack surface
  * seen alone shows its shape so. */
+static int depth_axis (const pg_eye *e)
+{
+    int axis = fabs (e->toward[1]) > fabs (e->toward[0]) ? 1 : 0;
+    return fabs (e->toward[2]) >= fabs (e->toward[axis]) ? 2 : axis;
+}
+
 static pg_status colour_by_depth (drawing *d)
 {
     pg_status status = PG_OK;
-    const double *toward = d->sheet.eye.toward;
-    int axis = fabs (toward[1]) > fabs (toward[0]) ? 1 : 0;
-    if (fabs (toward[2]) >= fabs (toward[axis])) axis = 2;
+    int axis = depth_axis (&d->sheet.eye);
     PG_ALLOC (d->own, d->cloud->n);
     for (size_t i = 0; i < d->cloud->n; i++) d->own[i] = d->cloud->x[3 * i + (size_t) axis] / d->sheet.unit;
     snprintf (d->label, sizeof d->label, "%c (%s)", "xyz"[axis], pg_sheet_unit (&d->sheet));
@@ -437,6 +441,11 @@ static pg_status fill_screen (drawing *d, size_t panel, pg_screen *s)
     const pg_eye *e = &d->sheet.eye;
     const double *u = displaced (d, panel);
     pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep, d->panel[panel].damage };
+    if (e->kind == PG_SOLID && d->style->view == PG_VIEW_CRACK && pg_cracks_grown (cracks_of (d, panel))) {
+        pg_status status = pg_cracks_draw (&solid, s, cracks_of (d, panel), d->own ? NULL : value_of (d, panel),
+                                           depth_axis (e), d->sheet.unit);
+        return status == PG_OK ? pg_ghost_draw (&solid, s) : status;
+    }
     if (e->kind == PG_SOLID) {
         pg_solid_draw (&solid, s);
         return d->panel[panel].select ? pg_ghost_draw (&solid, s) : PG_OK;

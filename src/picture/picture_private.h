@@ -204,6 +204,12 @@ typedef struct {
 void      pg_solid_draw (const pg_solid *solid, pg_screen *screen);
 /* Draws the whole body behind the selected points as PG_GHOST with an outline PG_EDGE. */
 pg_status pg_ghost_draw (const pg_solid *solid, pg_screen *screen);
+/* Are there cracks in space that have grown as triangles? */
+int       pg_cracks_grown (const pg_cracks *cracks);
+/* Draws the surfaces of cracks inside the box of the body, coloured by the values of the points nearest to
+ * them or (value NULL) by the coordinate `axis` in a unit (m). The values are those of the pixels. */
+pg_status pg_cracks_draw  (const pg_solid *solid, pg_screen *screen, const pg_cracks *cracks,
+                           const double *value, int axis, double unit);
 /* Fills the screen with the points whose cells the plane of an oblique section meets. */
 void      pg_slice_draw (const pg_grid *grid, const pg_eye *eye, pg_screen *screen);
 

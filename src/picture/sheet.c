@@ -305,8 +305,9 @@ static uint32_t pixel_of (const pg_sheet *p, const pg_screen *s, size_t at, cons
     if (k == PG_GHOST) for (int c = 0; c < 3; c++) rgb[c] = 0.96, shade = 0.55 + 0.45 * s->shade[at];
     else if (k == PG_EDGE) for (int c = 0; c < 3; c++) rgb[c] = 0.50, shade = 1;
     else {
-        double t = pg_axis_at (&p->bar, p->bar.log ? fmax (fabs (value[k]), p->bar.low) : value[k]);
-        if (isfinite (value[k]) && isfinite (t))
+        double v = s->value ? s->value[at] : value[k];
+        double t = pg_axis_at (&p->bar, p->bar.log ? fmax (fabs (v), p->bar.low) : v);
+        if (isfinite (v) && isfinite (t))
             p->colour (lround (1023 * fmin (fmax (t, 0), 1)) / 1023.0, rgb);
     }
     uint32_t pixel = 0xff000000u;

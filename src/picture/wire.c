@@ -95,12 +95,13 @@ static void path_of_line (const pg_sheet *p, cairo_t *cr, size_t panel, const pg
     }
 }
 
-/* Adds the edges of a crack polygon inside the box, and the lines where its plane meets the
- * faces of the box, where the crack is visible on the surface. */
+/* Adds the edges of a crack polygon inside the box (not of a triangle among many of a surface that has
+ * grown), and the lines where its plane meets the faces of the box, where the crack is visible on the
+ * surface. */
 static void path_of_rim (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid *g,
                          const pg_screen *screen, const pg_crack *crack)
 {
-    for (size_t k = 0; k < crack->nvertex; k++)
+    for (size_t k = 0; k < crack->nvertex && !crack->sided; k++)
         path_of_line (p, cr, panel, g, screen, crack->vertex + 3 * k,
                       crack->vertex + 3 * ((k + 1) % crack->nvertex));
     for (int f = 0; f < 6; f++) {

@@ -52,6 +52,12 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
             r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / r->crack.area;
         return PG_OK;
     }
+    if (r->grows && state->surfaces) {
+        r->crack.area = state->surfaces->area, r->crack.found = r->crack.area > 0;
+        if (r->crack.found)
+            r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / r->crack.area;
+        return PG_OK;
+    }
     if (!p->criterion->type || state->broken == 0) return PG_OK;
     const size_t *first = p->rows[set].family.start;
     for (size_t i = 0; i < p->rows[set].n; i++)

@@ -7,7 +7,8 @@
  *   report.json   crack_length; fracture: what the growth took, and what it should have taken
  *
  * Runs whose cracks do not grow have the columns of tips and tips.csv if output.stress_intensity asks for
- * them; then the values are measured here, else the solver has them from its search for the next facet. */
+ * them; then the values are measured here, else the solver has them from its search for the next facet.
+ * Cracks in space: grown_surfaces.c. */
 #include "results_private.h"
 #include "perigal/fracture.h"
 #include <math.h>
@@ -37,9 +38,9 @@ void pg_result_paths_check (const pg_scene *scene, const pg_problem *p)
     if (!pg_scene_bool (scene, key)) return;
     const pg_force_type *force = pg_force_of (p);
     const char *why = force ? pg_tip_refuses (p, force) : NULL;
-    if (p->dim != 2) pg_scene_fault (scene, key, "the tips of cracks are measured in 2D only");
-    else if (p->ntip == 0 && !pg_problem_grows (p))
-        pg_scene_fault (scene, key, "there is no crack with a tip");
+    if (p->dim == 1) pg_scene_fault (scene, key, "the tips of cracks are measured in 2D and 3D only");
+    else if (p->ntip == 0 && p->nfront == 0 && !pg_problem_grows (p))
+        pg_scene_fault (scene, key, "there is no crack with a %s", p->dim == 2 ? "tip" : "front");
     else if (why) pg_scene_fault (scene, key, "%s", why);
 }
 
@@ -55,12 +56,14 @@ static int has_tips (const pg_result *r) { return r->grows || r->measuring; }
 /* ---- history.csv --------------------------------------------------------------------------------------- */
 size_t pg_result_paths_columns (const pg_result *r)
 {
+    if (r->problem->dim == 3) return pg_result_surfaces_columns (r);
     return (size_t) r->grows + (has_tips (r) ? PER_TIP * r->problem->ntip : 0);
 }
 
 void pg_result_paths_column (const pg_result *r, size_t i, char *out, size_t size)
 {
-    if (r->grows && i == 0) snprintf (out, size, "crack.length [m]");
+    if (r->problem->dim == 3) pg_result_surfaces_column (r, i, out, size);
+    else if (r->grows && i == 0) snprintf (out, size, "crack.length [m]");
     else {
         i -= (size_t) r->grows;
         snprintf (out, size, "tip.%ld.%s", r->problem->tip[i / PER_TIP].id, tip_columns[i % PER_TIP]);
@@ -107,6 +110,7 @@ pg_status pg_result_paths_row (pg_result *r, const pg_state *state, double *row)
 {
     pg_status status = PG_OK;
     size_t n = 0;
+    if (r->problem->dim == 3) return pg_result_surfaces_row (r, state, row);
     if (!has_tips (r) || !state->paths) return PG_OK;
     PG_TRY (measure_tips (r, state));
     if (r->grows) row[n++] = state->paths->length;
@@ -126,16 +130,18 @@ pg_status pg_result_paths_create (pg_result *r, const result_marks *from)
     pg_status status = PG_OK;
     char path[4096];
     const pg_cracks *cracks = pg_state_cracks (r->problem, NULL);
+    if (!from) {                                       /* of an earlier run */
+        PG_TRY (pg_result_remove (r, "tips.csv"));
+        PG_TRY (pg_result_remove (r, "fronts.csv"));
+        PG_TRY (pg_result_remove (r, "cracks.csv"));
+    }
+    if (r->problem->dim == 3) return pg_result_surfaces_create (r, from);
     snprintf (path, sizeof path, "%s/tips.csv", r->folder);
     if (has_tips (r))
         PG_TRY (from ? pg_table_open (&r->tip_rows, path, ALL_TIP_COLUMNS, all_tip_columns, from->tips)
                      : pg_table_create (&r->tip_rows, path, ALL_TIP_COLUMNS, all_tip_columns));
-    else if (!from) PG_TRY (pg_result_remove (r, "tips.csv"));
     snprintf (path, sizeof path, "%s/cracks.csv", r->folder);
-    if (!r->grows) {
-        if (!from) PG_TRY (pg_result_remove (r, "cracks.csv"));
-        goto done;
-    }
+    if (!r->grows) goto done;
     PG_TRY (from ? pg_table_open (&r->pieces, path, PIECE_COLUMNS, piece_columns, from->pieces)
                  : pg_table_create (&r->pieces, path, PIECE_COLUMNS, piece_columns));
     r->npiece = from ? from->npiece : (long) cracks->n;
@@ -170,6 +176,7 @@ done:
 pg_status pg_result_paths_write (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
+    if (r->problem->dim == 3) return pg_result_surfaces_write (r, state, step);
     if (!has_tips (r) || !state->paths) return PG_OK;
     if (r->grows) PG_TRY (write_pieces (r, state, step));
     for (size_t i = 0; i < state->paths->ntip; i++) {
@@ -195,6 +202,7 @@ double pg_result_paths_ratio (const pg_result *r)
 void pg_result_paths_json (pg_json *j, const pg_result *r, const pg_state *state)
 {
     const pg_crack_paths *w = state->paths;
+    if (r->problem->dim == 3) pg_result_surfaces_json (j, r, state);
     if (!r->grows || !w) return;
     pg_json_number (j, "crack_length", w->length);
     pg_json_open (j, "fracture", '{');
@@ -220,7 +228,7 @@ void pg_result_paths_close (pg_result *r)
 {
     pg_table_close (&r->pieces);
     pg_table_close (&r->tip_rows);
-    pg_free (r->tip_value);
+    pg_free (r->tip_value), pg_free (r->front_value);
 }
 
 /* ---- reading back -------------------------------------------------------------------------------------- */
@@ -245,18 +253,22 @@ pg_status pg_result_cracks (pg_cracks *out, const char *folder, double time)
     pg_csv csv = { 0 };
     char path[4096];
     *out = (pg_cracks) { .dim = 2 };
+    int space;
     snprintf (path, sizeof path, "%s/cracks.csv", folder);
     if (access (path, R_OK) != 0) return PG_OK;
     PG_TRY (pg_csv_read (&csv, path));
-    if (csv.ncolumn != PIECE_COLUMNS)
+    space = csv.ncolumn == (size_t) pg_result_triangle_columns ();
+    if (csv.ncolumn != PIECE_COLUMNS && !space)
         PG_FAIL (PG_E_FILE, "%s has %zu columns, not %d", path, csv.ncolumn, PIECE_COLUMNS);
+    out->dim = space ? 3 : 2;
     PG_ALLOC (out->crack, csv.nrow);
     for (size_t i = 0; i < csv.nrow; i++) {
         const double *row = csv.value + i * csv.ncolumn;
         for (size_t k = 0; k < csv.ncolumn; k++)
             if (!isfinite (row[k])) PG_FAIL (PG_E_FILE, "%s: row %zu is damaged", path, i + 1);
-        if (hypot (row[6] - row[4], row[7] - row[5]) > 0 && row[1] <= time * (1 + 1e-12))
-            PG_TRY (read_piece (out, row));
+        if (row[1] > time * (1 + 1e-12)) continue;
+        if (space) PG_TRY (pg_result_read_triangle (out, row));
+        else if (hypot (row[6] - row[4], row[7] - row[5]) > 0) PG_TRY (read_piece (out, row));
     }
     PG_TRY (pg_cracks_index (out));
 done:

@@ -50,8 +50,9 @@ static const pg_key keys[] = {
       "Wall time between checkpoints, from which run --resume continues; 0: only when the run is "
       "interrupted or fails." },
     { "output.stress_intensity", PG_BOOL, NULL, NULL, "off", NULL, NULL, NULL,
-      "2D: energy release rate J and stress intensity factors K_I, K_II of every tip of a crack, as columns "
-      "tip.N.J ... of history.csv and in tips.csv. Runs whose cracks grow by facets have them anyway." },
+      "Energy release rate J and stress intensity factors of every tip of a crack, as columns tip.N.J ... of "
+      "history.csv and in tips.csv; in 3D of every vertex of its front, as columns front.N.J_max and in "
+      "fronts.csv. Runs whose cracks grow by facets have them anyway." },
     { "output.averages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
       "Means of a field over a set, a column of history.csv each." },
     { "output.averages[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },

@@ -99,11 +99,13 @@ struct pg_result {
     result_tip *tip;  size_t ntip, tips, tip_capacity;
     /* 1: cracks grow by facets; 1: tips are measured here (output.stress_intensity). */
     int       grows, measuring;
-    /* cracks.csv and tips.csv, or NULL; the next piece to write. */
+    /* cracks.csv and tips.csv (in space fronts.csv), or NULL; the next piece to write. */
     pg_table *pieces, *tip_rows;
     long      npiece;
     /* What the tips of the state of the last row bear. */
     pg_tip_values *tip_value;  size_t cap_tip_value;
+    /* The same of the vertices of fronts in space. */
+    pg_front_values *front_value;  size_t nfront_value, cap_front_value;
     /* Time (s) or load factor of each of these rows. */
     double   *tip_time;
     /* Broken bonds when the lengths were measured last; -1: they must be measured. */
@@ -187,6 +189,16 @@ double    pg_result_paths_ratio    (const pg_result *r);
 void      pg_result_paths_close    (pg_result *r);
 /* Adds the faces of all cracks to result.e, which is complete then, and closes it (crack_lines.c). */
 pg_status pg_result_paths_lines    (pg_result *r, const pg_state *state);
+/* grown_surfaces.c: what pg_result_paths_... do where the body has three dimensions. */
+size_t    pg_result_surfaces_columns (const pg_result *r);
+void      pg_result_surfaces_column  (const pg_result *r, size_t i, char *out, size_t size);
+pg_status pg_result_surfaces_row     (pg_result *r, const pg_state *state, double *row);
+pg_status pg_result_surfaces_create  (pg_result *r, const result_marks *from);
+pg_status pg_result_surfaces_write   (pg_result *r, const pg_state *state, const pg_step *step);
+void      pg_result_surfaces_json    (pg_json *j, const pg_result *r, const pg_state *state);
+/* Appends the triangle of a row of cracks.csv, if it has an area; how many columns such a row has. */
+pg_status pg_result_read_triangle    (pg_cracks *out, const double *row);
+int       pg_result_triangle_columns (void);
 /* output.tips (crack_tips.c): faults, reading, freeing, a row, keeping the first `rows` rows. */
 pg_status pg_result_tips_check     (const pg_scene *scene, const pg_problem *problem);
 pg_status pg_result_tips_read      (pg_result *r, const pg_scene *scene);
