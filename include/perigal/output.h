@@ -48,7 +48,8 @@ typedef struct { double x[3][3]; size_t point[3]; double since; } pg_exodus_piec
 /* Adds n faces to a file that is complete, as a block of elements named "cracks" (BAR2, TRI3), and closes it.
  * Each takes the displacements of its own side, so that a crack is shown open. The element variable `exists`
  * is 1 from the `since` of a face on, else 0. The file is copied and takes the place of the old one when the
- * copy is whole; nothing can be appended to it any more. Cloud, title and fields are those of its creation. */
+ * copy is whole; nothing can be appended to it any more. Cloud, title and fields are those of its creation.
+ * */
 pg_status pg_exodus_add_pieces (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
                                 const pg_exodus_piece *piece);
 /* Appends a step: the fields in the order of the creation, with values. `time` is in s (a load

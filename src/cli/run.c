@@ -117,7 +117,8 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
         printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
     print_warnings (r, problem, o);
     printf ("  results in %s: result.e history.csv events.csv%s report.json\n", pg_result_folder (result),
-            pg_problem_grows (problem) ? " cracks.csv tips.csv" : "");
+            !pg_problem_grows (problem) ? "" : problem->dim == 3 ? " cracks.csv fronts.csv"
+                                                                 : " cracks.csv tips.csv");
     for (size_t k = 0; k < pg_result_pictures (result); k++)
         printf ("  picture %s\n", pg_result_picture (result, k));
 }

@@ -275,7 +275,8 @@ done:
     return status;
 }
 
-/* ---- pieces of cracks ------------------------------------------------------------------------------------ */
+/* ---- pieces of cracks ------------------------------------------------------------------------------------
+ * */
 /* Copies a record: behind the n values of a variable those of the corners of the pieces, taken from their
  * points, and behind all variables whether each piece exists. Values stay in the byte order of the file. */
 static pg_status widen_record (const pg_exodus *f, pg_exodus *wide, size_t m, const pg_exodus_piece *piece,

@@ -119,7 +119,8 @@ static void define_blocks (writer *w, int name_dim)
         for (size_t i = 0; i < w->n; i++) m += (size_t) belongs (w, i, k);
         define_block (w, k, m, 1, "SPHERE");
     }
-    if (w->l->npiece) define_block (w, w->nblock, w->l->npiece, (size_t) w->dim, w->dim == 3 ? "TRI3" : "BAR2");
+    if (w->l->npiece)
+        define_block (w, w->nblock, w->l->npiece, (size_t) w->dim, w->dim == 3 ? "TRI3" : "BAR2");
     netcdf_define_variable (w->file, "eb_status", PG_NC_INT, 1, &dim);
     netcdf_define_text (w->file, netcdf_define_variable (w->file, "eb_prop1", PG_NC_INT, 1, &dim), "name",
                         "ID");

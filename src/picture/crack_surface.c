@@ -35,6 +35,20 @@ static size_t cut_off (double x[CORNERS][3], size_t n, int axis, double at, int 
     return m;
 }
 
+void pg_cracks_depth (const pg_cracks *cracks, const pg_grid *g, int axis, double unit, double *low,
+                      double *high)
+{
+    double least = INFINITY, most = -INFINITY;
+    for (size_t k = 0; k < cracks->n; k++)
+        for (size_t i = 0; i < cracks->crack[k].nvertex; i++) {
+            double x = cracks->crack[k].vertex[3*i + (size_t) axis];
+            least = fmin (least, fmax (x, g->low[axis])), most = fmax (most, fmin (x, g->high[axis]));
+        }
+    /* a surface across the direction of view has the colours of a tenth of the body */
+    double room = fmax (0, 0.1 * (g->high[axis] - g->low[axis]) - (most - least));
+    *low = (least - 0.5 * room) / unit, *high = (most + 0.5 * room) / unit;
+}
+
 /* What a picture of surfaces needs: the body, the screen, and how places get their values. */
 typedef struct {
     const pg_solid *solid;

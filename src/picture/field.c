@@ -270,6 +270,10 @@ static pg_status choose_colours (drawing *d, double *low, double *high)
     *low = style->low, *high = style->high;
     if (*low < *high && !d->own) return PG_OK;
     PG_TRY (range_of_panels (d, low, high));
+    for (size_t k = 0; d->own && k < d->n; k++)
+        if (pg_cracks_grown (cracks_of (d, k)))
+            pg_cracks_depth (cracks_of (d, k), &d->grid, depth_axis (&d->sheet.eye), d->sheet.unit, low,
+                             high);
     if (style->log) pg_range_decades (low, high);
     if (!style->diverging || style->log || d->own) goto done;
     double top = fmax (fabs (*low), fabs (*high));
@@ -442,8 +446,9 @@ static pg_status fill_screen (drawing *d, size_t panel, pg_screen *s)
     const double *u = displaced (d, panel);
     pg_solid solid = { d->cloud, &d->grid, e, u, d->style->magnify, d->keep, d->panel[panel].damage };
     if (e->kind == PG_SOLID && d->style->view == PG_VIEW_CRACK && pg_cracks_grown (cracks_of (d, panel))) {
-        pg_status status = pg_cracks_draw (&solid, s, cracks_of (d, panel), d->own ? NULL : value_of (d, panel),
-                                           depth_axis (e), d->sheet.unit);
+        pg_status status = pg_cracks_draw (&solid, s, cracks_of (d, panel),
+                                           d->own ? NULL : value_of (d, panel), depth_axis (e),
+                                           d->sheet.unit);
         return status == PG_OK ? pg_ghost_draw (&solid, s) : status;
     }
     if (e->kind == PG_SOLID) {

@@ -206,6 +206,9 @@ void      pg_solid_draw (const pg_solid *solid, pg_screen *screen);
 pg_status pg_ghost_draw (const pg_solid *solid, pg_screen *screen);
 /* Are there cracks in space that have grown as triangles? */
 int       pg_cracks_grown (const pg_cracks *cracks);
+/* From where to where their coordinate `axis` goes inside the box of the body, in a unit (m). */
+void      pg_cracks_depth (const pg_cracks *cracks, const pg_grid *grid, int axis, double unit, double *low,
+                           double *high);
 /* Draws the surfaces of cracks inside the box of the body, coloured by the values of the points nearest to
  * them or (value NULL) by the coordinate `axis` in a unit (m). The values are those of the pixels. */
 pg_status pg_cracks_draw  (const pg_solid *solid, pg_screen *screen, const pg_cracks *cracks,

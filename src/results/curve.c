@@ -209,8 +209,8 @@ static void tell_crack (const pg_result *r, char *out, size_t size)
     pg_picture_quantity (c->dissipated, "J/m2", spent, sizeof spent);
     if (r->grows) {
         double ratio = pg_result_paths_ratio (r);
-        int n = snprintf (out, size, "new crack: length %s; dissipated energy per area of it %s", length,
-                          spent);
+        int n = snprintf (out, size, "new crack: %s %s; dissipated energy per area of it %s",
+                          r->problem->dim == 2 ? "length" : "area", length, spent);
         if (isfinite (ratio) && (size_t) n < size)
             snprintf (out + n, size - (size_t) n, ", %.4g of the fracture energy", ratio);
         return;

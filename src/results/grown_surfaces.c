@@ -7,7 +7,8 @@
  *   fronts.csv    every vertex of every open front at every step
  *   report.json   crack_area; fracture: what the growth took, and what it should have taken
  *
- * Runs whose cracks do not grow have front.N.J_max and fronts.csv if output.stress_intensity asks for them. */
+ * Runs whose cracks do not grow have front.N.J_max and fronts.csv if output.stress_intensity asks for them.
+ * */
 #include "results_private.h"
 #include "perigal/fracture.h"
 #include <math.h>
@@ -108,7 +109,8 @@ static pg_status put_triangle (pg_result *r, const double when[2], long front, s
                                const double *b, const double *c)
 {
     double row[TRIANGLE_COLUMNS] = { when[0], when[1], (double) front, (double) k + 1 };
-    memcpy (row + 4, a, 3 * sizeof *a), memcpy (row + 7, b, 3 * sizeof *b), memcpy (row + 10, c, 3 * sizeof *c);
+    memcpy (row + 4, a, 3 * sizeof *a), memcpy (row + 7, b, 3 * sizeof *b);
+    memcpy (row + 10, c, 3 * sizeof *c);
     return pg_table_row (r->pieces, row);
 }
 

@@ -60,7 +60,8 @@ static void write_title (const pg_result *r, const pg_state *state, const result
 {
     char limit[48] = "", time[32];
     pg_picture_time (state->time, time, sizeof time);
-    if (v->limited || v->by_damage)
+    /* surfaces that have grown are drawn themselves, whatever the damage is */
+    if (v->limited || (v->by_damage && !state->surfaces))
         snprintf (limit, sizeof limit, " (%s\xe2\x89\xa5 %.4g%s%s)", v->by_damage ? "damage " : "",
                   v->style.above, v->limited && *unit ? " " : "", v->limited ? unit : "");
     int used = snprintf (title, size, "%.200s%s%s%s, ", r->problem->title, v->look[0] ? ", " : "", v->look,

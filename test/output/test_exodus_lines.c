@@ -25,8 +25,8 @@ static size_t size_of (int ncid, const char *name)
     return n;
 }
 
-/* What ParaView's reader of Exodus goes by: sizes, a block of BAR2 or TRI3 with nodes of its own, nodal values for
- * all nodes, an element variable that the truth table gives to that block alone. */
+/* What ParaView's reader of Exodus goes by: sizes, a block of BAR2 or TRI3 with nodes of its own, nodal
+ * values for all nodes, an element variable that the truth table gives to that block alone. */
 static void check_lines (const sample *s, const char *path, size_t n, const pg_exodus_piece *line)
 {
     int ncid, var;

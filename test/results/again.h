@@ -44,6 +44,13 @@ static const struct { const char *name, *text;
                             "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
     { "facets_fixed", FACETS PULL "solver: {stepping: fixed, steps: 4}\n"
                                   "output: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
+    { "fronts", "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [8, 5, 6]}}}]\nspacing: 1\n"
+                "perturb: {amount: 0.2}\ncracks: [{polygon: [[-1, -1, 3.1], [3, -1, 3.1], [3, 6, 2.9], "
+                "[-1, 6, 2.9]]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
+                "failure: {criterion: energy_release, fracture_energy: 400 J/m2}\n"
+                "boundary: [{set: back, displacement: {x: 0, y: 0, z: 0}}, {set: front, displacement: "
+                "{x: 2 mm, z: 10 mm}}]\nsolver: {stepping: event, max_events: 3}\n"
+                "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

@@ -27,7 +27,9 @@ static void same_report (const char *a, const char *b)
 static void same_files (const char *a, const char *b)
 {
     same_file (a, b, "history.csv"), same_file (a, b, "events.csv"), same_file (a, b, "result.e");
-    if (size_of (inside (a, "cracks.csv")) > 0) same_file (a, b, "cracks.csv"), same_file (a, b, "tips.csv");
+    if (size_of (inside (a, "cracks.csv")) > 0) same_file (a, b, "cracks.csv");
+    if (size_of (inside (a, "tips.csv")) > 0) same_file (a, b, "tips.csv");
+    if (size_of (inside (a, "fronts.csv")) > 0) same_file (a, b, "fronts.csv");
     same_report (a, b);
     assert_int_equal (size_of (inside (b, "checkpoint.nc")), -1);
 }
@@ -58,7 +60,7 @@ static void from_every_moment (int i, long some)
     assert_int_equal (within, 0);
     for (long k = 1; stop_at (text, where, k); k += stride, moments++)
         from_moment (text, plain, where, &within);
-    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5 || i == 6));  /* an event is a step */
+    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5 || i == 6 || i == 8));  /* an event is a step */
     remove_folder (plain), remove_folder (where);
 }
 static void from_every_event (void **state) { (void) state; from_every_moment (0, 5); }
@@ -73,6 +75,7 @@ static void from_every_event_with_an_old_preconditioner (void **state)
 }
 static void from_every_facet (void **state) { (void) state; from_every_moment (6, 3); }
 static void from_every_round_of_facets (void **state) { (void) state; from_every_moment (7, 3); }
+static void from_every_step_of_a_front (void **state) { (void) state; from_every_moment (8, 2); }
 
 /* ---- stages, full disks -------------------------------------------------------------------------------- */
 static void stages_within_a_step_ascend_in_time (void **state)
@@ -161,6 +164,7 @@ int main (void)
         cmocka_unit_test (from_every_event_with_an_old_preconditioner),
         cmocka_unit_test (from_every_facet),
         cmocka_unit_test (from_every_round_of_facets),
+        cmocka_unit_test (from_every_step_of_a_front),
         cmocka_unit_test (stages_within_a_step_ascend_in_time),
         cmocka_unit_test (a_disk_that_was_full_costs_nothing),
     };
