@@ -165,6 +165,16 @@ void      pg_comparison_clear (pg_comparison *c);
 
 /* ---- the first bond to break -------------------------------------------------------------------------- */
 enum { PG_FIRST_TIPS = 16 };
+/* What a front of a crack in space bears under the full load. */
+typedef struct {
+    long   id;
+    int    closed;                                     /* a loop */
+    size_t n, measured;                                /* vertices; those with room for a tube */
+    double length;                                     /* m */
+    /* Least, mean and largest J, J/m^2; where it is largest, m; least and largest K of modes I, II, III,
+     * Pa m^(1/2). NAN: nothing was measured. */
+    double J[3], x[3], K[3][2];
+} pg_first_front;
 /* What one solve at load factor 1, in which nothing may break, and then the criterion say
  * about the first break. */
 typedef struct {
@@ -183,10 +193,14 @@ typedef struct {
     /* Relative residual of the solve, and largest displacement, m. */
     double residual, displacement;
     /* Criteria of tips: 1: `factor` is that of the first facet, from where to where (m), and the number of
-     * the tip that it moves (0: a new crack); 0: none in the steps of the scene. */
+     * the tip that it moves (0: a new crack); 0: none in the steps of the scene. In space the number of the
+     * front, and to where the vertex has come that went farthest. */
     int    grows;
-    double from[2], to[2];
+    double from[3], to[3];
     long   grown;
+    /* The fronts of cracks in space, the first PG_FIRST_TIPS of nfront. */
+    size_t         nfront;
+    pg_first_front front[PG_FIRST_TIPS];
     /* The open tips of cracks in the plane: how many there are, their numbers, and what is measured of the
      * first of them. refused: why it is not; else NULL. */
     size_t       ntip;

@@ -371,6 +371,33 @@ static void print_tips (const plan *p)
         printf ("  %-18s  %zu more tips\n", "crack tips", b->ntip - PG_FIRST_TIPS);
 }
 
+/* Of every front in space: the range of J and of the stress intensity factors under the full load. */
+static void print_fronts (const plan *p)
+{
+    const pg_first_break *b = p->first;
+    if (!b->solved || b->nfront == 0) return;
+    if (b->refused) printf ("  %-18s  no stress intensity factors: %s\n", "crack fronts", b->refused);
+    for (size_t t = 0; !b->refused && t < b->nfront && t < PG_FIRST_TIPS; t++) {
+        const pg_first_front *f = &b->front[t];
+        char name[32];
+        snprintf (name, sizeof name, "crack front %ld", f->id);
+        printf ("  %-18s  %s of %.4g m, %zu vertices: ", name, f->closed ? "loop" : "line", f->length, f->n);
+        if (f->measured == 0) {
+            printf ("no stress intensity factors: there is no room for a tube around it\n");
+            continue;
+        }
+        if (f->measured < f->n) printf ("%zu of them with room; ", f->measured);
+        printf ("J %.4g to %.4g J/m^2, mean %.4g, largest at (%.4g, %.4g, %.4g) m", f->J[0], f->J[2], f->J[1],
+                tidy (p, f->x[0]), tidy (p, f->x[1]), tidy (p, f->x[2]));
+        static const char *const mode[3] = { "I", "II", "III" };
+        for (int m = 0; m < 3; m++)
+            printf ("%s K_%s %.4g to %.4g", m ? "," : ";", mode[m], f->K[m][0], f->K[m][1]);
+        printf (" Pa m^(1/2)\n");
+    }
+    if (b->nfront > PG_FIRST_TIPS && !b->refused)
+        printf ("  %-18s  %zu more fronts\n", "crack fronts", b->nfront - PG_FIRST_TIPS);
+}
+
 /* What a material takes, and the spacing at which its strength can be told from its fracture
  * energy: the zone E G0 / f_t^2 in which it fails should be 8 spacings long. */
 static void print_toughness (const pg_problem *p)
@@ -406,9 +433,12 @@ static void print_first_growth (const plan *p)
         return;
     }
     printf ("  %-18s  at load factor %.5g", "first growth", b->factor);
-    if (b->grows && b->grown) printf (", crack tip %ld", b->grown);
+    int space = p->problem->dim == 3;
+    if (b->grows && b->grown) printf (", crack %s %ld", space ? "front" : "tip", b->grown);
     else if (b->grows) printf (", a new crack");
-    if (b->grows)
+    if (b->grows && space)
+        printf (" comes to (%.4g, %.4g, %.4g) m", tidy (p, b->to[0]), tidy (p, b->to[1]), tidy (p, b->to[2]));
+    else if (b->grows)
         printf (" from (%.4g, %.4g) to (%.4g, %.4g) m", tidy (p, b->from[0]), tidy (p, b->from[1]),
                 tidy (p, b->to[0]), tidy (p, b->to[1]));
     printf ("\n");
@@ -494,4 +524,5 @@ void plan_print_long (const plan *p)
     plan_doubts (q, p->options);
     print_first_break (p);
     print_tips (p);
+    print_fronts (p);
 }

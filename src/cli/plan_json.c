@@ -134,10 +134,11 @@ static void first (pg_json *j, const plan *p)
     for (int k = 0; k < p->problem->dim && isfinite (b->factor); k++) pg_json_number (j, NULL, b->place[k]);
     pg_json_shut (j);
     if (b->grows) {
-        pg_json_number (j, "tip", (double) b->grown);
+        int dim = p->problem->dim;
+        pg_json_number (j, dim == 3 ? "front" : "tip", (double) b->grown);
         pg_json_open (j, "facet", '[');
-        for (int k = 0; k < 2; k++) pg_json_number (j, NULL, b->from[k]);
-        for (int k = 0; k < 2; k++) pg_json_number (j, NULL, b->to[k]);
+        for (int k = 0; k < 2 && dim == 2; k++) pg_json_number (j, NULL, b->from[k]);
+        for (int k = 0; k < dim; k++) pg_json_number (j, NULL, b->to[k]);
         pg_json_shut (j);
     }
     pg_json_number (j, "displacement", b->displacement);
@@ -168,6 +169,34 @@ static void tips (pg_json *j, const plan *p)
         pg_json_number (j, "T", f->T[0]);
         pg_json_number (j, "near", f->near);
         pg_json_number (j, "wide", f->wide);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+}
+
+/* Fronts of cracks in space under the full load: least, mean and largest J, and the place of the last; least
+ * and largest K; null where there was no room. */
+static void fronts (pg_json *j, const plan *p)
+{
+    const pg_first_break *b = p->first;
+    if (!b->solved || b->nfront == 0 || b->refused) return;
+    pg_json_open (j, "crack_fronts", '[');
+    for (size_t t = 0; t < b->nfront && t < PG_FIRST_TIPS; t++) {
+        const pg_first_front *f = &b->front[t];
+        static const char *const name[5] = { "J", "K_I", "K_II", "K_III", "place" };
+        const double *const value[5] = { f->J, f->K[0], f->K[1], f->K[2], f->x };
+        const int length[5] = { 3, 2, 2, 2, 3 };
+        pg_json_open (j, NULL, '{');
+        pg_json_number (j, "front", (double) f->id);
+        pg_json_count (j, "vertices", f->n);
+        pg_json_count (j, "measured", f->measured);
+        pg_json_number (j, "length", f->length);
+        for (int v = 0; v < 5; v++) {
+            pg_json_open (j, name[v], '[');
+            for (int k = 0; k < length[v]; k++)
+                pg_json_number (j, NULL, f->measured ? value[v][k] : NAN);
+            pg_json_shut (j);
+        }
         pg_json_shut (j);
     }
     pg_json_shut (j);
@@ -205,6 +234,7 @@ static pg_status write_plan (const plan *p, const char *path)
     memory (j, p);
     first (j, p);
     tips (j, p);
+    fronts (j, p);
     if (p->waves) spectrum_json (j, p->waves);
     pg_json_open (j, "skipped", '[');
     for (size_t k = 0; k < n; k++) {

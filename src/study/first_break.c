@@ -71,6 +71,66 @@ done:
     return status;
 }
 
+/* Of the vertices of a front, by the fields measured there. */
+static void summarise (pg_first_front *out, const pg_front *f, const pg_tip_field *field)
+{
+    const double one = 1;
+    double weight = 0;
+    *out = (pg_first_front) { .id = f->id, .closed = f->closed, .n = f->n, .J = { NAN, NAN, NAN },
+                              .K = { { NAN, NAN }, { NAN, NAN }, { NAN, NAN } } };
+    for (size_t i = 0; i < f->n; i++) {
+        double J, K[3];
+        out->length += field[i].length;
+        if (isnan (field[i].near)) continue;
+        pg_tip_combine (&field[i], 1, &one, &J, NULL, NULL);
+        pg_tip_intensities (&field[i], 1, &one, K);
+        if (!(out->J[2] >= J)) out->J[2] = J, memcpy (out->x, f->x + 3*i, sizeof out->x);
+        out->J[0] = fmin (out->J[0], J);               /* of NAN and a number: the number */
+        out->J[1] = (out->measured ? out->J[1] : 0) + J * field[i].length, weight += field[i].length;
+        for (int m = 0; m < 3; m++)
+            out->K[m][0] = fmin (out->K[m][0], K[m]), out->K[m][1] = fmax (out->K[m][1], K[m]);
+        out->measured++;
+    }
+    out->J[1] /= weight;
+}
+
+/* J and stress intensity factors along the fronts of cracks in space, under the full load. */
+static pg_status measure_fronts (pg_first_break *b, const pg_problem *p, pg_solver *solver,
+                                 const pg_state *state)
+{
+    pg_status status = PG_OK;
+    void *self;
+    const pg_force_type *force = pg_solver_force (solver, &self);
+    const double one = 1, *const d = state->d;
+    pg_tip_field *field = NULL;
+    const pg_front *front = pg_fronts_of_state (p, state, &b->nfront);
+    if (b->nfront) b->refused = pg_tip_refuses (p, force);
+    for (size_t f = 0; !b->refused && f < b->nfront && f < PG_FIRST_TIPS; f++) {
+        PG_ALLOC (field, front[f].n);
+        PG_TRY (pg_front_measure (field, p, force, self, state, f, 1, &d, &one));
+        summarise (&b->front[f], &front[f], field);
+        pg_free (field), field = NULL;
+    }
+done:
+    pg_free (field);
+    return status;
+}
+
+/* The same of a state in space: the vertex that went farthest; of a new crack one of its front. */
+static void find_advance (pg_first_break *b, const pg_crack_surfaces *w)
+{
+    double most = -1;
+    if (!(w->area > 0)) return;
+    b->grows = 1, b->grown = 0;
+    for (size_t f = 0; f < w->nfront; f++)
+        for (size_t i = 0; i < w->front[f].n; i++) {
+            const pg_front *front = &w->front[f];
+            if (!(front->grown[i] > most)) continue;
+            most = front->grown[i], b->grown = most > 0 ? front->id : 0;
+            memcpy (b->from, front->x + 3*i, sizeof b->from), memcpy (b->to, b->from, sizeof b->to);
+        }
+}
+
 /* The facet that a state has grown: that of the tip that moved, or a new crack. */
 static void find_facet (pg_first_break *b, const pg_crack_paths *w)
 {
@@ -84,10 +144,13 @@ static void find_facet (pg_first_break *b, const pg_crack_paths *w)
     for (int k = 0; k < 2; k++) b->from[k] = vertex[2 * (1 - to) + k], b->to[k] = vertex[2 * to + k];
 }
 
-/* The largest utilisation of a tip that the solver knows. */
+/* The largest utilisation of a tip, or of a vertex of a front, that the solver knows. */
 static double largest_utilisation (const pg_solver *solver, const pg_crack_paths *w)
 {
     double top = 0;
+    size_t n = 0;
+    const pg_front_values *value = pg_solver_fronts (solver, &n);
+    for (size_t i = 0; i < n; i++) if (value[i].utilisation > top) top = value[i].utilisation;
     for (size_t t = 0; w && t < w->ntip; t++) {
         const pg_tip_values *v = pg_solver_tip (solver, w->tip[t].id);
         if (v) top = fmax (top, v->utilisation);
@@ -113,9 +176,10 @@ static pg_status find_growth (pg_first_break *b, const pg_problem *p, const pg_s
     PG_TRY (pg_solver_step (solver, state, &step));
     double top = largest_utilisation (solver, state->paths);
     find_facet (b, state->paths);
+    if (state->surfaces) find_advance (b, state->surfaces);
     if (b->grows) b->factor = step.factor, b->utilisation = 1;
     else if (b->proportional && top > 0) b->factor = step.factor / sqrt (top), b->utilisation = top;
-    b->place[0] = b->from[0], b->place[1] = b->from[1], b->kind = 'f';
+    memcpy (b->place, b->from, sizeof b->place), b->kind = 'f';
 done:
     pg_state_free (&state);
     pg_solver_free (&solver);
@@ -157,6 +221,7 @@ pg_status pg_first_break_find (pg_first_break *b, const pg_problem *p, const pg_
     if (pg_criterion_of_tips (p->criterion)) PG_TRY (find_growth (b, p, o));
     else PG_TRY (judge (b, &bare, solver, state));
     PG_TRY (measure_tips (b, &bare, solver, state));
+    if (p->dim == 3) PG_TRY (measure_fronts (b, &bare, solver, state));
     b->solved = 1;
 done:
     pg_state_free (&state);

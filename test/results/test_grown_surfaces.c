@@ -161,8 +161,8 @@ static void fronts_that_stay_are_measured (void **state)
     (void) state;
     char where[64], line[400];
     make_folder (where);
-    leave (BLOCK_OF ("") "solver: {kind: static}\noutput: {pictures: [], stress_intensity: on}\n", where, NULL,
-           line);
+    leave (BLOCK_OF ("") "solver: {kind: static}\noutput: {pictures: [], stress_intensity: on}\n", where,
+           NULL, line);
     char *history = slurp (inside (where, "history.csv")), *fronts = slurp (inside (where, "fronts.csv"));
     size_t rows = count_lines (history) - 1;
     assert_true (count_lines (fronts) > 4);

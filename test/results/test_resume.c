@@ -60,7 +60,8 @@ static void from_every_moment (int i, long some)
     assert_int_equal (within, 0);
     for (long k = 1; stop_at (text, where, k); k += stride, moments++)
         from_moment (text, plain, where, &within);
-    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5 || i == 6 || i == 8));  /* an event is a step */
+    /* an event is a step */
+    assert_true (moments > 3 && (within == 0) == (i == 0 || i == 5 || i == 6 || i == 8));
     remove_folder (plain), remove_folder (where);
 }
 static void from_every_event (void **state) { (void) state; from_every_moment (0, 5); }
