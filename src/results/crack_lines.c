@@ -62,7 +62,7 @@ static pg_status put_faces (pieces *all, const sight *s, const pg_nearest *near,
 {
     pg_status status = PG_OK;
     PG_GROW (all->piece, all->capacity, all->n + 2);
-    for (int side = 1; side >= -1; side -= 2) {
+    for (int side = -1; side <= 1; side += 2) {
         pg_exodus_piece *out = &all->piece[all->n++];
         *out = (pg_exodus_piece) { .since = since };
         face_of (s, near, corner, normal, side, out);

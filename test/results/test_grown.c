@@ -220,7 +220,7 @@ static void what_has_no_tips_is_refused (void **state)
     (void) state;
     refuse ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.1\nmaterials: {m: "
             "{youngs_modulus: 1, poissons_ratio: 0}}\noutput: {stress_intensity: on}\n",
-            "in 2D only");
+            "in 2D and 3D only");
     refuse ("dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\nmaterials: {m: "
             "{youngs_modulus: 1, poissons_ratio: 0}}\noutput: {stress_intensity: on}\n",
             "no crack with a tip");

@@ -76,7 +76,7 @@ static void from_every_event_with_an_old_preconditioner (void **state)
 }
 static void from_every_facet (void **state) { (void) state; from_every_moment (6, 3); }
 static void from_every_round_of_facets (void **state) { (void) state; from_every_moment (7, 3); }
-static void from_every_step_of_a_front (void **state) { (void) state; from_every_moment (8, 2); }
+static void from_every_step_of_a_front (void **state) { (void) state; from_every_moment (8, 1); }
 
 /* ---- stages, full disks -------------------------------------------------------------------------------- */
 static void stages_within_a_step_ascend_in_time (void **state)
