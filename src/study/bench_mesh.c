@@ -16,6 +16,7 @@ static const pg_bench_body known[] = {
     { "kirsch", "kirsch", "kirsch", "m", 2, 0 },
     { "kirsch_mesh", "kirsch", "kirsch", "m", 2, 1 },
     { "lame_cylinder", "lame_cylinder", "lame", "m", 2, 0 },
+    { "lame_mesh", "lame_cylinder", "lame", "m", 2, 1 },
     { "lame_cylinder_strain", "lame_cylinder_strain", "lame_strain", "m", 2, 0 },
     { "plate_hole", "plate_hole", "plate_clamped", "mm", 2, 0 },
     { "plate_hole_sliding", "plate_hole_sliding", "plate_sliding", "mm", 2, 0 },
