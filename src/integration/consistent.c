@@ -74,25 +74,30 @@ done:
     return status;
 }
 
-/* Points come cell by cell, so that `first` is a running count. The derivatives at faces are dropped at
- * once. */
+/* Points come cell by cell, so that `first` is a running count. At faces there are values alone, no
+ * derivatives. */
 pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx,
                                  const pg_cloud *cloud, const pg_rows *points, int face_order, int threads)
 {
     pg_status status = PG_OK;
     pg_consistency *c = NULL;
+    pg_family_search *search = NULL;
     PG_ALLOC (c, 1);
     c->cells = cells;
     PG_ALLOC (c->first, cells->n + 1);
     for (size_t p = 0; p < points->n; p++) c->first[points->cell[p] + 1]++;
     for (size_t cell = 0; cell < cells->n; cell++) c->first[cell + 1] += c->first[cell];
     PG_TRY (pg_faces_build (&c->faces, cells, face_order));
-    PG_TRY (pg_rows_create (&c->face, approx, cloud, c->faces.npoint, c->faces.x, NULL, NULL, NULL));
-    pg_free (c->face.dN), c->face.dN = NULL;           /* values only */
+    PG_TRY (pg_rows_search (&search, approx, cloud));
+    PG_TRY (pg_rows_place (&c->face, search, cloud->dim, c->faces.npoint, c->faces.x, NULL, NULL, NULL,
+                           threads));
+    PG_ALLOC (c->face.N, c->face.family.start[c->face.n]);             /* values only */
+    PG_ALLOC (c->face.grade, c->face.n);
     PG_TRY (approx->type->evaluate (approx, cloud, &c->face, NULL, c->face.n, NULL, threads));
     PG_TRY (unite (c, points, cloud->n));
     *out = c, c = NULL;
 done:
+    pg_family_search_free (&search);
     pg_consistency_free (&c);
     return status;
 }
