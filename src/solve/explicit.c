@@ -2,6 +2,7 @@
  * What explicit dynamics and relaxation have in common: supports, loads, forces with breaking, rows and
  * levels. */
 #include "explicit.h"
+#include "facet_growth.h"
 #include <math.h>
 #include <string.h>
 
@@ -280,6 +281,7 @@ pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
     m->most = number[4];
     if (m->nprescribed) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nprescribed, m->push));
     if (k->reading) m->fresh = 0;
+    PG_TRY (facet_keep (&s->break_loop, k));
 done:
     return status;
 }

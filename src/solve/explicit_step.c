@@ -196,7 +196,7 @@ static pg_status run_tips (pg_solver *s, pg_state *state, double t)
         state->a[i] = sys->residual[i] * m->inverse[i] - c * state->v[i];
         state->v[i] += 0.5 * dt * state->a[i];
     }
-    PG_TRY (facet_move (b, state, t, state->d, &s->top, &any));
+    PG_TRY (facet_move (b, state, t, state->d, &b->growth->top, &any));
     if (any) state->events++, s->report.events++;
 done:
     memcpy (state->v, sys->full, sys->ndof * sizeof *sys->full);
@@ -360,7 +360,7 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     state->factor = step->factor = t / s->options.end;
     step->level = explicit_level (s, s->options.time_steps, n);
     step->nbroken = b->nbroken, step->broken = b->broken;
-    step->utilisation = b->growth ? s->top : breaks ? NAN : 0;
+    step->utilisation = b->growth ? b->growth->top : breaks ? NAN : 0;
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     PG_TRY (explicit_end (s, state, n == s->options.time_steps, "t =", t));
 done:

@@ -68,7 +68,7 @@ pg_status facet_fork (break_loop *b, pg_state *state, size_t i, double t, const 
     size_t last = state->paths->ntip;
     PG_TRY (facet_make_room (g, last));
     g->run[last - 1] = g->run[last - 2] = run;
-    PG_TRY (facet_hold_begin (b, t, d, (long) last - 2, FACET_ZONE * l,
+    PG_TRY (facet_hold_begin (b, t, d, (long) last - 2, facet_zone (b) * l,
                               branch[0].energy + branch[1].energy));
     *done = 1;
 done:

@@ -81,8 +81,8 @@ pg_status facet_keep (break_loop *b, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "facets.needed", 1, &g->needed));
     PG_KEEP_BOUND (k, "what was said of facets", said, 0, 7);
     g->said = (unsigned) said;
-    PG_TRY (facet_motion_keep (b, k));
     if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy_fracture = g->needed;
+    PG_TRY (facet_motion_keep (b, k));
 done:
     return status;
 }

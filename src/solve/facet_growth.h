@@ -42,8 +42,6 @@ typedef struct {
     /* So far a branch goes straight on and is not looked at, from the start of its facet, m. */
     double straight;
 } facet_run;
-/* Way of a tip over which a facet opens behind it, in lengths of the facet. */
-#define FACET_ZONE 4
 /* What a step that is refused goes back to. */
 typedef struct {
     double needed, since;
@@ -76,7 +74,7 @@ typedef struct facet_growth {
     facet_run  *run; size_t nrun, cap_run;
     facet_hold *hold; size_t nhold, cap_hold;
     double *held, *force_before;
-    double  since;                                     /* time since the tips were last looked at, s */
+    double  since, top;  /* time since the tips were last looked at, s; largest sqrt (G (v) / G0) then */
     facet_start start;
     /* The first tip that grew in the event at hand and goes on, -1: none; how far, m. */
     long    event_tip;
@@ -133,6 +131,7 @@ pg_status facet_save    (break_loop *b);
 void      facet_return  (break_loop *b);
 pg_status facet_motion_keep (break_loop *b, const pg_keeper *keeper);
 
+double    facet_zone      (const break_loop *b);  /* way of a tip in which a facet opens, in facets */
 pg_status facet_make_room (facet_growth *g, size_t ntip);              /* runs of so many tips */
 
 /* ---- facet_branch.c ------------------------------------------------------------------------------------ */

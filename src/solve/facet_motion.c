@@ -31,6 +31,9 @@ static const double part_of_turn = 0.3;
 static const double set_off = 0.1;
 static const double between = 0.25;  /* way of a Rayleigh wave from look to look, in spacings, at least */
 
+/* Bonds between points reach over three spacings and more themselves. */
+double facet_zone (const break_loop *b) { return b->system.problem->method->shape_functions ? 4 : 2; }
+
 void facet_doubt_step (break_loop *b, double dt)
 {
     const pg_problem *p = b->system.problem;
@@ -98,7 +101,7 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
     double length = hypot (c->to[0] - g->field[i].x[0], c->to[1] - g->field[i].x[1]);
     PG_TRY (facet_grow_one (b, state, c, t));
     PG_TRY (system_refresh (&b->system, state, &b->changes));
-    PG_TRY (facet_hold_begin (b, t, d, c->tip, FACET_ZONE * length, c->energy));
+    PG_TRY (facet_hold_begin (b, t, d, c->tip, facet_zone (b) * length, c->energy));
     r->way = r->length > 0 ? fmin (r->way - r->length, length) : 0;
     r->length = length, r->straight -= length;
     if (!(r->straight > 0)) r->least = 0;
@@ -207,7 +210,7 @@ pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const d
     PG_TRY (facet_make_room (g, state->paths->ntip));
     g->run[i].length = g->event_length;
     g->run[i].speed = g->run[i].least = set_off * rayleigh_speed (b, state->paths->tip[i].x);
-    PG_TRY (facet_hold_begin (b, t, d, (long) i, FACET_ZONE * g->event_length, g->event_energy));
+    PG_TRY (facet_hold_begin (b, t, d, (long) i, facet_zone (b) * g->event_length, g->event_energy));
 done:
     return status;
 }
@@ -229,7 +232,9 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
         *r = (facet_run) { number[0], number[1], number[2], number[3],
                            number[4], number[5], number[6], number[7] };
     }
-    PG_TRY (k->numbers (k->context, "facets.since", 1, &g->since));
+    double last[2] = { g->since, g->top };
+    PG_TRY (k->numbers (k->context, "facets.since", 2, last));
+    g->since = last[0], g->top = last[1];
     PG_TRY (facet_hold_keep (b, k));
 done:
     return status;

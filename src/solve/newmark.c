@@ -200,6 +200,7 @@ static pg_status newmark_keep (pg_solver *s, const pg_keeper *k)
     pg_status status = PG_OK;
     newmark *n = newmark_of (s);
     if (n->force0) PG_TRY (k->numbers (k->context, "newmark.force0", s->break_loop.system.ndof, n->force0));
+    PG_TRY (facet_keep (&s->break_loop, k));
 done:
     return status;
 }

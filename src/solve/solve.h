@@ -236,7 +236,6 @@ struct pg_solver {
     int started, finished, warned_overlap, warned_energy, warned_facets;
     long      next_level;                              /* next level to report: next_level / levels */
     pg_state *backup;                                  /* last accepted state, for refused steps */
-    double    top;  /* explicit steps of running tips: largest sqrt (G (v) / G0) when last looked at */
     long      evaluations, spared;                     /* of forces by explicit steps; for rows: not made */
     /* 1: alive bits of backup and state differ in the bonds of the last step's list alone */
     int       follows;

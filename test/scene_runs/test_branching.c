@@ -2,6 +2,7 @@
  * A tip that runs by facets and branches: where it has the energy for two tips, to both sides alike, by every
  * solver in motion; not below half of the speed of Rayleigh waves, and not where the scene forbids it. */
 #include "run.h"
+#include "solve/tape.h"
 #include <math.h>
 
 /* The plate of data/glass_branching on a spacing of 1 mm. */
@@ -57,6 +58,30 @@ static void slower_tips_do_not (void **state)
     clear (&slow), clear (&single);
 }
 
+/* A run that is resumed while facets open and branches are not apart yet goes on bit by bit. */
+static void a_resumed_run_branches_alike (void **state)
+{
+    (void) state;
+    static const char *const solver[] = { "kind: newmark, dt: 0.1 us", "kind: verlet" };
+    for (int k = 0; k < 2; k++) {
+        run a = plate ("12", solver[k], "on"), b = plate ("12", solver[k], "on");
+        tape t = { 0 };
+        while (a.state->paths->ntip < 3) advance (&a);
+        keep (&a, &t, 0);
+        keep (&b, &t, 1);
+        assert_int_equal (t.at, t.n);
+        for (int i = 0; i < 30; i++) {
+            advance (&a), advance (&b);
+            assert_int_equal (a.step.nbroken, b.step.nbroken);
+            assert_memory_equal (a.state->d, b.state->d, a.state->ndof * sizeof *a.state->d);
+        }
+        assert_true (a.state->paths->tip[1].grown > 0);
+        assert_true (a.step.dissipated == b.step.dissipated);
+        pg_free (t.byte);
+        clear (&a), clear (&b);
+    }
+}
+
 /* Time steps in which a wave passes a facet are too long. */
 static void long_time_steps_are_told (void **state)
 {
@@ -75,6 +100,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_tip_with_the_energy_of_two_branches_alike),
         cmocka_unit_test (slower_tips_do_not),
+        cmocka_unit_test (a_resumed_run_branches_alike),
         cmocka_unit_test (long_time_steps_are_told),
     };
     return cmocka_run_group_tests_name ("scene_runs/branching", tests, NULL, NULL);
