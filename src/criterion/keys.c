@@ -18,10 +18,9 @@ static const pg_key keys[] = {
       .choices_of = names_or_none,
       .doc =
           "When a bond breaks; without `failure`, and with none, nothing breaks. Without it: the criterion "
-          "that is usual with the force; else, with a fracture_energy in a static run in the plane with "
-          "shape "
-          "functions, energy_release; else stretch where `failure` has critical_stretch or "
-          "fracture_energy; else it is needed." },
+          "that is usual with the force; else, with a fracture_energy in a static run with shape functions "
+          "in the plane (in space: with solver.break: facet), energy_release; else stretch where `failure` "
+          "has critical_stretch or fracture_energy; else it is needed." },
     { .path = "failure.exclude",
       .kind = PG_NAMES,
       .fallback = "",

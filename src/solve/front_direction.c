@@ -29,14 +29,6 @@
 #include <string.h>
 
 /* ---- one vertex ---------------------------------------------------------------------------------------- */
-/* Poisson's ratio from E' = 2 mu (1 + nu) / (1 - nu^2) of the material at the vertex. */
-static double poisson_at (const break_loop *b, const pg_tip_field *f)
-{
-    const pg_problem *p = b->system.problem;
-    long node = pg_nearest_find (b->growth->near, f->x, NULL, NULL);
-    return node < 0 ? 0 : p->material[p->block[PG_NODES][node]].nu;
-}
-
 void front_judge (const break_loop *b, const pg_tip_field *f, double factor, front_vertex *out)
 {
     const facet_growth *g = b->growth;
@@ -50,9 +42,9 @@ void front_judge (const break_loop *b, const pg_tip_field *f, double factor, fro
     /* the opening decides whether there is a direction in tension; pure K_III has its own */
     int turns = pg_kink (out->J, K[0], K[1], T, length, &out->kink, &K_theta, &G_theta);
     if (!turns && !(fabs (K[2]) > 0 && K[0] >= 0)) return;
-    double c = cos (0.5 * out->kink), K_A = turns ? K_theta / c : 0, nu = poisson_at (b, f);
+    double c = cos (0.5 * out->kink), K_A = turns ? K_theta / c : 0;
     double K_v = 0.5 * c * (K_A + hypot (K_A, 2 * K[2]));
-    double all = K[0] * K[0] + K[1] * K[1] + K[2] * K[2] / (1 - nu);
+    double all = K[0] * K[0] + K[1] * K[1] + f->antiplane * K[2] * K[2];
     if (!(all > 0)) return;
     out->ratio = fmin (1, K_v * K_v / all);
     out->slope = -tan (0.5 * atan2 (2 * K[2], K_A));

@@ -70,7 +70,8 @@ static double strength_factor (const trial_fields *fields, const double *first, 
 static double apart (const double *a, const double *b) { return hypot (hypot (a[0] - b[0], a[1] - b[1]),
                                                                        a[2] - b[2]); }
 
-/* Mean of a field of stresses over node i and those within 1.1 spacings to which its bonds live. */
+/* Mean of a field of stresses over node i and those within 1.1 spacings to which its bonds live; nodes that a
+ * lattice has put outside the body only continue what is inside. */
 static void mean_stress (const view *v, size_t i, const double *stress, double out[6])
 {
     const pg_problem *p = v->b->system.problem;
@@ -81,6 +82,7 @@ static void mean_stress (const view *v, size_t i, const double *stress, double o
         size_t j = (size_t) r->family.node[e];
         if (j == i || apart (p->cloud.x + 3*i, p->cloud.x + 3*j) > reach) continue;
         if (!v->state->alive[p->first_bond[PG_NODES] + e]) continue;
+        if (!pg_problem_has_body (p, p->cloud.x + 3*j)) continue;
         for (int k = 0; k < 6; k++) out[k] += stress[6*j + (size_t) k];
         n++;
     }
@@ -182,7 +184,7 @@ static pg_status find_spots (const view *v, disc *out, size_t *n)
     }
     for (size_t i = 0; i < p->cloud.n; i++) {
         factor[i] = INFINITY;
-        if (!resists (v, i, &limits, &modulus)) continue;
+        if (!pg_problem_has_body (p, p->cloud.x + 3*i) || !resists (v, i, &limits, &modulus)) continue;
         mean_stress (v, i, stress[0], first);
         mean_stress (v, i, stress[v->f->n - 1], second);
         factor[i] = strength_factor (v->f, first, second, limits.strength, v->below);

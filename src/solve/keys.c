@@ -32,7 +32,7 @@ static const pg_key breaking[] = {
          "stages, and the default there): at any iteration, once the load of the stage has taken effect. "
          "facet "
          "(static, with criteria that judge the tips of cracks, and the default there): the crack grows by "
-         "a facet, and all bonds that it crosses break."),
+         "a facet, in space by a strip along its front, and all bonds that it crosses break."),
     ROW ("solver.break_fraction", PG_NUMBER, "1", "(0, 1)", "2 %", NULL, "For break: fraction."),
     ROW ("solver.tie", PG_NUMBER, "1", "[0, 0.1]", "1e-4", NULL,
          "Bonds within this share of the worst break with it: keeps symmetric scenes symmetric."),
@@ -44,7 +44,8 @@ const pg_key_table solver_keys_breaking = { "solve", breaking, sizeof breaking /
 
 static const pg_key facets[] = {
     ROW ("solver.facet", PG_NUMBER, "m|spacing", "(0, inf)", "", NULL,
-         "With break: facet: length of a facet, 0.25 to 4 spacings; the local spacing if not given."),
+         "With break: facet: length of a facet, 0.25 to 4 spacings, in space the largest advance of a front, "
+         "0.25 to 1 spacing; the local spacing if not given."),
     ROW ("solver.branching", PG_BOOL, NULL, NULL, "on", NULL,
          "With break: facet, in motion: a tip whose energy release rate at rest would be twice the fracture "
          "energy (from half the speed of Rayleigh waves on) branches in two."),
