@@ -88,4 +88,7 @@ for horizon in 1.1 1.2 1.3 1.4; do
     run "quadratic basis, horizon $horizon spacings: right" 0 'against the reference: displacement: L2 [0-9.]*e-0[4-9]' '*' all_degenerate.yaml "method.horizon=$horizon spacing"
     awk -v e="$(entry patch_error)" 'BEGIN { exit !(e > 0 && e < 0.01) }'; verdict "its patch error stands in report.json ($(entry patch_error))" $?
 done
+
+# ---- what a crack in space leaves ----------------------------------------------------------------------------------------
+run "the last corners of a block: told"       0 'warning: the cracks that grew have dissipated [0-9.]* times what their area takes' '*' last_corner.yaml
 finish
