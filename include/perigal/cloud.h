@@ -253,15 +253,20 @@ typedef struct {
  * With these (pg_cracks_index) questions to many cracks look only at those near by; the answers are the same.
  * NULL: without. */
 enum { PG_CRACK_GROUP = 8 };
-typedef struct { int dim; pg_crack *crack; size_t n; double *box, *block; size_t *order; } pg_cracks;
+typedef struct {
+    int dim;  pg_crack *crack;  size_t n;
+    double *box, *block;  size_t *order, room;         /* room: how many cracks the three can hold */
+} pg_cracks;
 /* Reads `cracks`. Each must meet the body; what is wrong is a fault of the scene. */
 pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
 void      pg_cracks_clear (pg_cracks *cracks);
 /* The box of one crack, as above. */
 void      pg_crack_box (const pg_crack *crack, int dim, double *box);
-/* Makes box, block and order anew: to be called again when a crack was added or changed. Without memory
- * there are none, and the answers are the same. */
-pg_status pg_cracks_index (pg_cracks *cracks);
+/* Makes box, block and order: to be called again when a crack was added or changed. copy: those of the same
+ * cracks elsewhere; it needs no memory where there is room for them. */
+pg_status pg_cracks_index       (pg_cracks *cracks);
+pg_status pg_cracks_copy_index  (pg_cracks *to, const pg_cracks *from);
+void      pg_cracks_clear_index (pg_cracks *cracks);
 /* Unit normal of a segment, on the left of the direction from its first vertex to the second. */
 void      pg_crack_orient (pg_crack *segment);
 /* Does the bond x - y meet the crack, less the strips along its tips and fronts that `retreat` gives? A

@@ -262,6 +262,6 @@ void pg_cracks_clear (pg_cracks *cracks)
 {
     for (size_t i = 0; cracks->crack && i < cracks->n; i++)
         pg_free (cracks->crack[i].vertex), pg_free (cracks->crack[i].retreat);
-    pg_free (cracks->crack), pg_free (cracks->box), pg_free (cracks->block), pg_free (cracks->order);
+    pg_free (cracks->crack), pg_cracks_clear_index (cracks);
     memset (cracks, 0, sizeof *cracks);
 }

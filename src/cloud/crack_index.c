@@ -66,6 +66,28 @@ static int overlap (int dim, const double *a, const double *b)
 }
 
 /* ---- the order ----------------------------------------------------------------------------------------- */
+void pg_cracks_clear_index (pg_cracks *c)
+{
+    pg_free (c->box), pg_free (c->block), pg_free (c->order);
+    c->box = c->block = NULL, c->order = NULL, c->room = 0;
+}
+
+/* Room for n cracks and, as they grow, for as many again. */
+static pg_status reserve (pg_cracks *c, size_t n)
+{
+    pg_status status = PG_OK;
+    size_t wide = 2 * (size_t) c->dim, most = 2*n;
+    if (n <= c->room) return PG_OK;
+    pg_cracks_clear_index (c);
+    PG_ALLOC (c->box, wide * most);
+    PG_ALLOC (c->block, wide * most);
+    PG_ALLOC (c->order, most);
+    c->room = most;
+done:
+    if (status != PG_OK) pg_cracks_clear_index (c);
+    return status;
+}
+
 /* That of a k-d tree of the centres. */
 static pg_status sort (pg_cracks *c)
 {
@@ -78,7 +100,7 @@ static pg_status sort (pg_cracks *c)
         for (size_t k = 0; k < dim; k++)
             centre[dim * i + k] = 0.5 * c->box[2 * dim * i + k] + 0.5 * c->box[2 * dim * i + dim + k];
     PG_TRY (pg_tree_build (&tree, c->dim, c->n, centre));
-    c->order = tree.item, tree.item = NULL;
+    memcpy (c->order, tree.item, c->n * sizeof *c->order);
 done:
     pg_tree_clear (&tree);
     pg_free (centre);
@@ -112,13 +134,10 @@ pg_status pg_cracks_index (pg_cracks *c)
 {
     pg_status status = PG_OK;
     size_t start[LEVELS + 1], wide = 2 * (size_t) c->dim;
-    pg_free (c->box), pg_free (c->block), pg_free (c->order);
-    c->box = c->block = NULL, c->order = NULL;
     if (c->n == 0) return PG_OK;
-    PG_ALLOC (c->box, wide * c->n);
+    PG_TRY (reserve (c, c->n));
     for (size_t k = 0; k < c->n; k++) pg_crack_box (&c->crack[k], c->dim, c->box + wide * k);
     PG_TRY (sort (c));
-    PG_ALLOC (c->block, wide * c->n);
     int levels = levels_of (c, start);
     for (int l = 0; l < levels; l++) {
         size_t n = l ? start[l] - start[l - 1] : c->n;
@@ -127,6 +146,21 @@ pg_status pg_cracks_index (pg_cracks *c)
                    l ? c->block + wide * (start[l - 1] + k) : c->box + wide * c->order[k],
                    k % PG_CRACK_GROUP == 0);
     }
+done:
+    if (status != PG_OK) pg_cracks_clear_index (c);
+    return status;
+}
+
+pg_status pg_cracks_copy_index (pg_cracks *to, const pg_cracks *from)
+{
+    pg_status status = PG_OK;
+    size_t wide = 2 * (size_t) from->dim;
+    if (!from->block) pg_cracks_clear_index (to);
+    if (!from->block || from->n == 0) return PG_OK;
+    PG_TRY (reserve (to, from->n));
+    memcpy (to->box, from->box, wide * from->n * sizeof *to->box);
+    memcpy (to->block, from->block, wide * from->n * sizeof *to->block);
+    memcpy (to->order, from->order, from->n * sizeof *to->order);
 done:
     return status;
 }

@@ -111,8 +111,7 @@ pg_status pg_crack_paths_copy (pg_crack_paths *to, const pg_crack_paths *from)
         point_into_store (to);
     }
     if (from->ntip) memcpy (to->tip, from->tip, from->ntip * sizeof *to->tip);
-    /* a step that ran out of memory must be undone without any: the answers are the same without an index */
-    (void) pg_cracks_index (&to->cracks);
+    PG_TRY (pg_cracks_copy_index (&to->cracks, &from->cracks));
 done:
     return status;
 }
@@ -121,7 +120,7 @@ void pg_crack_paths_free (pg_crack_paths **paths)
 {
     pg_crack_paths *w = *paths;
     if (!w) return;
-    pg_free (w->cracks.crack), pg_free (w->cracks.box), pg_free (w->cracks.block), pg_free (w->cracks.order);
+    pg_free (w->cracks.crack), pg_cracks_clear_index (&w->cracks);
     pg_free (w->parent);
     pg_free (w->path), pg_free (w->owner), pg_free (w->store), pg_free (w->tip);
     pg_free (w);

@@ -76,6 +76,6 @@ pg_status surfaces_find_cut (const pg_state *s, const pg_problem *p, const pg_cr
         }
     if (before) sort_changes (cut);
 done:
-    pg_free (fresh.box), pg_free (fresh.block), pg_free (fresh.order);
+    pg_cracks_clear_index (&fresh);
     return status;
 }

@@ -70,25 +70,6 @@ done:
     return status;
 }
 
-/* The index as it is, instead of making it anew; without memory for it the answers are the same. */
-static void copy_index (pg_cracks *to, const pg_cracks *from)
-{
-    size_t n = from->n, wide = 2 * (size_t) from->dim;
-    pg_free (to->box), pg_free (to->block), pg_free (to->order);
-    to->box = to->block = NULL, to->order = NULL;
-    if (!from->block || n == 0) return;
-    to->box = pg_calloc (wide * n, sizeof *to->box), to->block = pg_calloc (wide * n, sizeof *to->block);
-    to->order = pg_calloc (n, sizeof *to->order);
-    if (!to->box || !to->block || !to->order) {
-        pg_free (to->box), pg_free (to->block), pg_free (to->order);
-        to->box = to->block = NULL, to->order = NULL;
-        return;
-    }
-    memcpy (to->box, from->box, wide * n * sizeof *to->box);
-    memcpy (to->block, from->block, wide * n * sizeof *to->block);
-    memcpy (to->order, from->order, n * sizeof *to->order);
-}
-
 pg_status pg_crack_surfaces_copy (pg_crack_surfaces *to, const pg_crack_surfaces *from)
 {
     pg_status status = PG_OK;
@@ -106,7 +87,7 @@ pg_status pg_crack_surfaces_copy (pg_crack_surfaces *to, const pg_crack_surfaces
         memcpy (to->store, from->store, 9 * grown * sizeof *to->store);
     }
     point_into_store (to);
-    copy_index (&to->cracks, &from->cracks);
+    PG_TRY (pg_cracks_copy_index (&to->cracks, &from->cracks));
 done:
     return status;
 }
@@ -116,7 +97,7 @@ void pg_crack_surfaces_free (pg_crack_surfaces **surfaces)
     pg_crack_surfaces *w = *surfaces;
     if (!w) return;
     for (size_t f = 0; w->front && f < w->front_capacity; f++) pg_front_clear (&w->front[f]);
-    pg_free (w->cracks.crack), pg_free (w->cracks.box), pg_free (w->cracks.block), pg_free (w->cracks.order);
+    pg_free (w->cracks.crack), pg_cracks_clear_index (&w->cracks);
     pg_free (w->vertex), pg_free (w->corner), pg_free (w->owner), pg_free (w->store), pg_free (w->front);
     pg_free (w);
     *surfaces = NULL;
