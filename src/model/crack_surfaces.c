@@ -344,9 +344,11 @@ static pg_status step_all (pg_crack_surfaces *w, const pg_problem *p, size_t fro
     for (size_t g = 0; g < nfront; g++) start[g + 1] = start[g] + w->front[g].n;
     PG_ALLOC (met, start[nfront] + 1);
     PG_TRY (step (w, p, front, d, theta, ends, met, start, nfront));
-    for (size_t g = 0; g < nfront; g++)
-        if (g != front && memchr (met + start[g], END_OF + PG_MEETS_CRACK, w->front[g].n))
-            PG_TRY (step (w, p, g, NULL, NULL, met + start[g], NULL, start, nfront));
+    for (size_t g = 0; g < nfront; g++) {
+        if (g == front || !memchr (met + start[g], END_OF + PG_MEETS_CRACK, w->front[g].n)) continue;
+        PG_TRY (pg_cracks_index (&w->cracks));         /* there are new triangles */
+        PG_TRY (step (w, p, g, NULL, NULL, met + start[g], NULL, start, nfront));
+    }
 done:
     pg_free (start), pg_free (met);
     return status;

@@ -265,6 +265,50 @@ static void a_crack_begins_at_the_surface (void **state)
     end (&g);
 }
 
+/* Steps of any length and turn, different along each front, of cracks of many kinds in bodies of two: all
+ * places stay finite, areas grow, what dies is what the triangles cut, and at last no front is open. */
+static void whatever_fronts_do_they_end (void **state)
+{
+    (void) state;
+    static const char *const scene[3] = {
+        CUBE ("9", "cracks: [{polygon: [[-1, -1, 4.3], [3, -1, 4.3], [3, 10, 4.5], [-1, 10, 4.5]]}]\n"),
+        CUBE ("9", "cracks: [{disc: {center: [4.3, 4.6, 4.7], normal: [0.3, 0.2, 1], radius: 2.2}}, "
+                   "{polygon: [[-1, -1, 7.3], [2, -1, 7.3], [2, 10, 7.3], [-1, 10, 7.3]]}]\n"),
+        "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], length: 10, radius: 4.5}}}]\nspacing: 1\n"
+        "cells: cut\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.2}}\n"
+        "cracks: [{disc: {center: [1, 0.5, 5.2], normal: [0.3, 0.2, 1], radius: 1.6}}]\n"
+    };
+    for (int k = 0; k < 3; k++) {
+        growing g = begin (scene[k]);
+        double d[200], theta[200], area = 0;
+        size_t open = 1, dead = check_mask (&g);
+        srand (5 + (unsigned) k);
+        for (int step = 0; step < 60 && open; step++) {
+            double phase = uniform (0, 6), turn = uniform (0, 6);
+            open = 0;
+            for (size_t f = 0, n = g.s->surfaces->nfront; f < n; f++) {
+                const pg_front *front = &g.s->surfaces->front[f];
+                if (!front->open) continue;
+                open++;
+                assert_true (front->n < 200);
+                for (size_t i = 0; i < front->n; i++) {
+                    double a = 2 * acos (-1) * (double) i / (double) front->n;
+                    d[i] = fmax (0, 0.6 - 0.4 * cos (a + phase)), theta[i] = 0.2 * sin (a + turn);
+                    for (size_t m = 0; m < 3; m++)
+                        assert_true (fabs (front->x[3*i + m]) < 20 && fabs (front->ahead[3*i + m]) < 1.01);
+                }
+                check_ok (pg_front_advance (g.s, g.p, f, d, theta, &g.cut));
+                dead += bury (&g);
+            }
+            assert_true (g.s->surfaces->area >= area);
+            area = g.s->surfaces->area;
+        }
+        assert_true (open == 0 && area > 40);
+        assert_int_equal (check_mask (&g), dead);
+        end (&g);
+    }
+}
+
 /* Two discs in one plane grow together: both fronts are parted where they meet, or are one around both. */
 static void discs_meet (void **state)
 {
@@ -447,6 +491,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_disc_grows), cmocka_unit_test (a_front_kinks_and_lags),
         cmocka_unit_test (a_front_severs_the_body), cmocka_unit_test (a_crack_begins_at_the_surface),
+        cmocka_unit_test (whatever_fronts_do_they_end),
         cmocka_unit_test (discs_meet), cmocka_unit_test (a_crack_across_stops_a_front),
         cmocka_unit_test (copies_are_deep_and_a_failure_changes_nothing),
         cmocka_unit_test (checkpoints_keep_the_surfaces),
