@@ -110,7 +110,10 @@ static void what_has_no_K_is_refused (void **state)
     r = scene_of (
         1, "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [4, 4, 4]}}}]\nspacing: 1\nmethod: "
            "{gauss_points: 1}\n" ONE "boundary: [" HELD "]\n" STATIC);
-    check_contains (pg_tip_refuses (r.problem, pg_solver_force (r.solver, &self)), "plane");
+    force = pg_solver_force (r.solver, &self), d = r.state->d;
+    assert_null (pg_tip_refuses (r.problem, force));   /* fronts in space have theirs */
+    check_fails (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one), PG_E_USAGE);
+    check_fails (pg_front_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one), PG_E_USAGE);
     clear (&r);
 }
 
