@@ -27,9 +27,6 @@
 static const double deviation = 8, least_spread = 0.02;
 /* Weights at a facet point end there: this many times the squared distance of the farthest node. */
 static const double beyond = 1.2;
-/* Row of N at nodes that lost bonds: this share of it and the rest of the unit row (measured: 1 and 0 need
- * 1.4 and 2.5 times the iterations). */
-static const double row_share = 0.85;
 
 /* ---- their matrices ------------------------------------------------------------------------------------ */
 /* K += w B' D B for gradients q (m x dim) of the m nodes, blocks on and above the diagonal. */
@@ -297,7 +294,7 @@ done:
     return status;
 }
 
-/* ---- supports, N --------------------------------------------------------------------------------------- */
+/* ---- supports ------------------------------------------------------------------------------------------ */
 /* A penalty so much above E / h that springs of the elements would not do: the polynomial is not exact, and
  * what it leaves of the displacement of the node would be multiplied by it. */
 static int is_stiff (const galerkin *g, const constraint *q)
@@ -346,37 +343,6 @@ static void add_penalties (const galerkin *g, pg_block_matrix *Q)
     }
 }
 
-/* Values of the shape functions at the nodes. Nodes whose displacement is not a sum of this kind, because
- * too few neighbours are left, get the unit row. */
-static pg_status copy_values (const galerkin *g, pg_node_matrix *N)
-{
-    pg_status status = PG_OK;
-    const pg_rows *r = &g->rows[PG_NODES];
-    N->n = g->n;
-    PG_ALLOC (N->start, g->n + 1);
-    size_t nnz = 0;
-    for (size_t e = 0; e < r->family.start[g->n]; e++) nnz += r->N[e] != 0;
-    PG_ALLOC (N->node, nnz + g->n);
-    PG_ALLOC (N->value, nnz + g->n);
-    size_t at = 0;
-    for (size_t i = 0; i < g->n; i++) {
-        int lost = 0, unit = r->grade[i] >= PG_GRADE_SHEPARD, own = 0;
-        for (size_t e = r->family.start[i]; e < r->family.start[i + 1] && !lost; e++)
-            lost = elements_broken (g, r, i, e);
-        double share = unit ? 0 : lost ? row_share : 1;
-        for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
-            int self = (size_t) r->family.node[e] == i;
-            double value = share * r->N[e] + (self ? 1 - share : 0);
-            if (value == 0) continue;
-            own |= self, N->node[at] = r->family.node[e], N->value[at++] = (float) value;
-        }
-        if (!own && share < 1) N->node[at] = (int) i, N->value[at++] = (float) (1 - share);
-        N->start[i + 1] = at;
-    }
-done:
-    return status;
-}
-
 /* The wider the support, the nearer to 0 N comes for patterns that alternate from node to node, and the more
  * terms the polynomial needs; a term costs a twentieth of K x or less. Fewest iterations of those tried on
  * cubes of 5 000 points. */
@@ -409,7 +375,7 @@ pg_status galerkin_elements (void *self, pg_elements *out)
     PG_TRY (add_elements (&b, &out->Q));
     add_penalties (g, &out->Q);
     PG_TRY (list_stiff (g, out));
-    if (!g->problem->approx.type->interpolates) PG_TRY (copy_values (g, &out->N));
+    if (!g->problem->approx.type->interpolates) PG_TRY (elements_values (g, &out->Q, &out->N));
     choose_polynomial (g->problem, out);
     out->spacing = g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);
 done:

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: finite elements on the nodes of the Galerkin form while they are made. galerkin_elements_list.c
- * finds them, galerkin_elements.c sums up their matrices. */
+ * finds them, galerkin_elements.c sums up their matrices, galerkin_elements_values.c makes N. */
 #ifndef PG_GALERKIN_ELEMENTS_H
 #define PG_GALERKIN_ELEMENTS_H
 #include "galerkin.h"
@@ -26,6 +26,8 @@ typedef struct {
 
 /* Lists the elements of all cells and points, of the bonds that live. */
 pg_status elements_find (element_list *b);
+/* Values of the shape functions at the nodes, tempered beside cracks; Q: stiffness of the elements. */
+pg_status elements_values (const galerkin *g, const pg_block_matrix *Q, pg_node_matrix *N);
 /* Squared distance, m^2. */
 static inline double distance2 (int dim, const double *a, const double *b)
 {

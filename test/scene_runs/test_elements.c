@@ -16,7 +16,11 @@ static const char cube[] =
 static const char gauss[] = "horizon: 2 spacing", ball[] = ", {subtract: {sphere: {center: [0.5, 0.5, 0.5], "
                                                            "radius: 0.27}}}",
                   disc[] = "cracks: [{disc: {center: [0.5, 0.52, 0.5], normal: [0.3, 1, 0.2], radius: 0.3}}]",
-                  moved[] = "perturb: {amount: 0.3, seed: 1}";
+                  moved[] = "perturb: {amount: 0.3, seed: 1}",
+                  /* a tenth of a spacing beside nodes, where points extrapolate; among moved points */
+                  beside[] = "cracks: [{disc: {center: [0.5, 0.5125, 0.5], normal: [0, 1, 0], radius: 0.3}}]",
+                  both[] = "perturb: {amount: 0.3, seed: 1}\n"
+                           "cracks: [{disc: {center: [0.5, 0.52, 0.5], normal: [0.3, 1, 0.2], radius: 0.3}}]";
 
 /* most: iterations allowed, about 1.3 times those measured. */
 static const struct { const char *body, *points; double nu; const char *method; size_t most; } cases[] = {
@@ -24,7 +28,9 @@ static const struct { const char *body, *points; double nu; const char *method; 
     { "", moved, 0.2, gauss, 40 },
     { "", "", 0.4, gauss, 40 },
     { "", "lattice: cells", 0.2, gauss, 260 },
-    { "", disc, 0.2, gauss, 45 },
+    { "", disc, 0.2, gauss, 40 },
+    { "", beside, 0.2, gauss, 56 },
+    { "", both, 0.2, gauss, 55 },
     { ball, "", 0.2, gauss, 46 },
     { "", "", 0.2, "horizon: 1.5 spacing", 20 },
     { "", "", 0.2, "horizon: 2.5 spacing", 78 },
