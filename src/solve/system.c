@@ -366,8 +366,8 @@ static int falls_back (pg_system *s)
     return 1;
 }
 
-/* Where the diagonal does, it stays (until it has cost more, leave_diagonal). Else large solids take finite elements, as at rest, and so does what has
- * no matrix to be factored. */
+/* Where the diagonal does, it stays (until it has cost more, leave_diagonal). Else large solids take finite
+ * elements, as at rest, and so does what has no matrix to be factored. */
 static pg_status after_trial (pg_system *s, const dynamics *dyn, int did)
 {
     pg_status status = PG_OK;
@@ -381,8 +381,8 @@ done:
     return status;
 }
 
-/* In motion the diagonal did in the first step. Breaking may change that: nodes that few points see are light,
- * rows of few bonds stiff. When the iterations beyond a few have cost as much as a factor (rent or buy,
+/* In motion the diagonal did in the first step. Breaking may change that: nodes that few points see are
+ * light, rows of few bonds stiff. When the iterations beyond a few have cost as much as a factor (rent or buy,
  * counted), something better is taken for good. */
 static pg_status leave_diagonal (pg_system *s, const dynamics *dyn, size_t used)
 {
