@@ -382,8 +382,8 @@ done:
 }
 
 /* In motion the diagonal did in the first step. Breaking may change that: nodes that few points see are
- * light, rows of few bonds stiff. When the iterations beyond a few have cost as much as a factor (rent or buy,
- * counted), something better is taken for good. */
+ * light, rows of few bonds stiff. When the iterations beyond a few have cost as much as a factor (rent or
+ * buy, counted), something better is taken for good. */
 static pg_status leave_diagonal (pg_system *s, const dynamics *dyn, size_t used)
 {
     pg_status status = PG_OK;
