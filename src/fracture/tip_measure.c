@@ -185,7 +185,9 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
     if (isnan (out->near)) goto done;
     int forced = any_body_force (p, node),
         moving = nfield == 1 && d[0] == state->d && m.density > 0 && moves (state);
-    PG_TRY (tip_grid_create (&grid, out, forced || moving));
+    /* What moves needs no places within the rings: where a field goes along with its tip, v = - c u,1, rho a
+     * u,1 and rho v v,1 are the same, and what is sampled there is the lattice. */
+    PG_TRY (tip_grid_create (&grid, out, forced));
     PG_TRY (tip_faces_create (&faces, out, pg_state_cracks (p, state)));
     grid.nfield = faces.nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {

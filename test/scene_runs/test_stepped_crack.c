@@ -114,7 +114,7 @@ static void a_crack_runs_as_fast_as_it_takes_its_energy (void **state)
         }
         print_message ("\n");
         check_absolute (at.share, 1, 0.08);
-        check_absolute (at.taken, 1, 0.07);
+        check_absolute (at.taken, 1, 0.05);
         check_absolute (at.last, 0.012, 0.025);
     }
 }
