@@ -31,8 +31,8 @@ static const pg_key breaking[] = {
          "break_fraction of it, or all (the peak load then depends on the increment). passing (with load "
          "stages, and the default there): at any iteration, once the load of the stage has taken effect. "
          "facet "
-         "(static, with criteria that judge the tips of cracks, and the default there): the crack grows by "
-         "a facet, in space by a strip along its front, and all bonds that it crosses break."),
+         "(criteria that judge the tips of cracks, and the default there; at rest and, in the plane, in "
+         "motion): the crack grows by a facet, in space by a strip along its front, and all bonds that it crosses break."),
     ROW ("solver.break_fraction", PG_NUMBER, "1", "(0, 1)", "2 %", NULL, "For break: fraction."),
     ROW ("solver.tie", PG_NUMBER, "1", "[0, 0.1]", "1e-4", NULL,
          "Bonds within this share of the worst break with it: keeps symmetric scenes symmetric."),

@@ -256,8 +256,8 @@ static void warn_of_facets (pg_solver *s)
     pg_statistics_warn (
         &s->report, "the cracks that grew have dissipated %.3g times what their area takes: %s", share,
         few ? "what was left ahead of them is smaller than a few spacings; take a smaller spacing"
-        : moves ? "tips that start, stop or branch do so within a few facets, in which they take more or less "
-                "than their share; take a smaller spacing"
+        : moves ? "tips that start, stop or branch do so within a few facets, in which they take more or "
+                "less than their share; take a smaller spacing"
         : share > 1 ? "they ran ahead of equilibrium at loads that were held, and what is too much "
                     "would be motion (stepping: event follows equilibrium where it can)"
                   : "turns, or other cracks, lie too close together for the spacing");
