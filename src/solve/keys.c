@@ -32,7 +32,8 @@ static const pg_key breaking[] = {
          "stages, and the default there): at any iteration, once the load of the stage has taken effect. "
          "facet "
          "(criteria that judge the tips of cracks, and the default there; at rest and, in the plane, in "
-         "motion): the crack grows by a facet, in space by a strip along its front, and all bonds that it crosses break."),
+         "motion): the crack grows by a facet, in space by a strip along its front, and all bonds "
+         "that it crosses break."),
     ROW ("solver.break_fraction", PG_NUMBER, "1", "(0, 1)", "2 %", NULL, "For break: fraction."),
     ROW ("solver.tie", PG_NUMBER, "1", "[0, 0.1]", "1e-4", NULL,
          "Bonds within this share of the worst break with it: keeps symmetric scenes symmetric."),
