@@ -148,12 +148,26 @@ static double crossing (const chord *h, double d, double far, double near)
     return far;
 }
 
+/* Is all of the segment p q certainly farther than `reach` from the edge a b? The middles are farther apart
+ * than reach and both half lengths together, (r + l + m)^2 <= 3 (r^2 + l^2 + m^2). */
+static int far_from_edge (const double *p, const double *q, const double *a, const double *b, double reach)
+{
+    double middle = 0, length = 0;
+    for (int k = 0; k < 3; k++) {
+        double m = 0.5 * (p[k] + q[k]) - 0.5 * (a[k] + b[k]), l = b[k] - a[k], n = q[k] - p[k];
+        middle += m * m, length += l * l + n * n;
+    }
+    return middle > 3.001 * (reach * reach + 0.25 * length);
+}
+
 /* Is p in the polygon, or within the tolerance of its outline, and not in the strip along a front? */
 static int in_what_is_left (const pg_crack *c, const double *p, double tolerance)
 {
     int in = in_polygon (c, p);
     for (size_t m = 0; m < c->nvertex; m++) {
-        double d = distance_point (3, p, c->vertex + 3*m, c->vertex + 3*((m + 1) % c->nvertex));
+        const double *a = c->vertex + 3*m, *b = c->vertex + 3*((m + 1) % c->nvertex);
+        if (far_from_edge (p, p, a, b, fmax (c->retreat[m], tolerance))) continue;
+        double d = distance_point (3, p, a, b);
         if (c->retreat[m] > 0 && d < c->retreat[m] - tolerance) return 0;
         in |= d <= tolerance;
     }
@@ -161,7 +175,7 @@ static int in_what_is_left (const pg_crack *c, const double *p, double tolerance
 }
 
 /* Along the chord, what is left of the polygon can begin and end only at the ends of the chord, at an edge,
- * or where the chord enters the strip along an edge: these places are tried. */
+ * or where the chord enters the strip along an edge: these places are tried, of edges that it comes near. */
 static int meets_what_is_left (const pg_crack *c, const double *a, const double *b, double tolerance)
 {
     double length = 0;
@@ -170,6 +184,7 @@ static int meets_what_is_left (const pg_crack *c, const double *a, const double 
     if (length <= 4 * tolerance) return 0;
     for (size_t m = 0; m < c->nvertex; m++) {
         chord h = { a, b, c->vertex + 3*m, c->vertex + 3*((m + 1) % c->nvertex) };
+        if (far_from_edge (a, b, h.from, h.to, fmax (c->retreat[m], tolerance))) continue;
         double t = nearest (&h), d = c->retreat[m], x[3];
         double place[3] = { t, away (&h, t) < d && away (&h, 0) > d ? crossing (&h, d, 0, t) : t,
                             away (&h, t) < d && away (&h, 1) > d ? crossing (&h, d, 1, t) : t };
