@@ -32,6 +32,8 @@ static found look (const front_case *c)
     }
     out.mean /= n, out.scatter = sqrt (fmax (0, square / n - out.mean * out.mean));
     for (int k = 0; k < 3; k++) out.K[k] = sqrt (out.K[k] / n);
+    if (r.field[0].extrapolated)                       /* on the line through the second and third vertex */
+        check_relative (r.field[0].J[0][0], 3 * r.field[2].J[0][0] - 2 * r.field[3].J[0][0], 1e-12);
     print_message ("%s a/h %g: sqrt (J) %.4f, scatter %.4f, K %.4f %.4f %.4f (%zu points, %.2f s, measured "
                    "in %.2f s)\n",
                    c->kind, c->a, out.mean, out.scatter, out.K[0], out.K[1], out.K[2], r.points, r.solve,
