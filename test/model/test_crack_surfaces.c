@@ -131,6 +131,26 @@ static void check_seams (const pg_crack_surfaces *w, int shots)
     assert_int_equal (slipped, 0);
 }
 
+/* Behind every vertex of a front the crack cuts up to its offset and no further, and its triangles show to the
+ * side of its normal. */
+static void check_offset (const growing *g, const pg_front *f)
+{
+    const pg_crack_surfaces *w = g->s->surfaces;
+    for (size_t i = 0; i < f->n; i++)
+        for (int far = 0; far < 2; far++) {
+            double x[3], y[3], back = (far ? 1.3 : 0.7) * f->offset[i];
+            for (size_t k = 0; k < 3; k++) {
+                double place = f->x[3*i + k] - back * f->ahead[3*i + k];
+                x[k] = place - 0.1 * f->normal[3*i + k], y[k] = place + 0.1 * f->normal[3*i + k];
+            }
+            const pg_crack *by = pg_cracks_cut (&w->cracks, 3, x, y, 1e-9);
+            assert_true (f->offset[i] > 0.05 && !by == !far);
+            double along = 0;
+            for (size_t k = 0; k < 3 && by; k++) along += by->normal[k] * f->normal[3*i + k];
+            assert_true (!by || along > 0.9);
+        }
+}
+
 /* A tilted disc that grows flat stays flat: its area and its front are those of larger discs. */
 static void a_disc_grows (void **state)
 {
@@ -150,6 +170,7 @@ static void a_disc_grows (void **state)
         assert_int_equal (check_mask (&g), dead);
         w = g.s->surfaces;
         check_relative (w->area, acos (-1) * (2 + k) * (2 + k), 0.05);
+        check_offset (&g, w->front);
         assert_true (fabs ((double) w->front->n - 2 * acos (-1) * (2 + k)) < 0.4 * (2 + k) * 6.3);
         for (size_t i = 0; i < w->front->n; i++) {
             double r = 0, off = 0, out = 0;
@@ -253,7 +274,11 @@ static void a_crack_begins_at_the_surface (void **state)
         size_t last = front->n - 1;
         assert_int_equal (front->meets[0], PG_MEETS_SURFACE);
         assert_int_equal (front->meets[last], PG_MEETS_SURFACE);
-        for (size_t i = 0; i < 3; i++) assert_true (front->x[i] > -1e-6 && front->x[i] < 7 + 1e-6);
+        for (size_t end = 0; end <= last; end += last) {
+            const double x = front->x[3*end], y = front->x[3*end + 1];
+            double off = fmin (fmin (x, 7 - x), fmin (y, 7 - y));
+            check_absolute (off, 0, 1e-9), check_absolute (front->x[3*end + 2], 3.3, 1e-9);
+        }
         for (size_t n = 0; n < g.s->surfaces->nfront; n++)
             if (g.s->surfaces->front[n].open) advance (&g, n, 1, 0);
         dead += bury (&g);
