@@ -263,6 +263,18 @@ static pg_status chol_solve_few (void *self, size_t nrhs, const double *b, doubl
                                                          : chol_solve (self, nrhs, b, x);
 }
 
+static pg_status chol_half_few (void *self, size_t nrhs, const double *b, double *const *y, size_t *count,
+                                const size_t **first)
+{
+    pg_status status = PG_OK;
+    chol *c = self;
+    if (!c->L->is_super || c->L->xtype != CHOLMOD_REAL)
+        PG_FAIL (PG_E_USAGE, "half solves need a supernodal factor");
+    PG_TRY (supernodal_half_few (c->L, &c->few, nrhs, b, y, count, first));
+done:
+    return status;
+}
+
 static void chol_info (const void *self, pg_linear_info *info)
 {
     const chol *c = self;
@@ -271,5 +283,6 @@ static void chol_info (const void *self, pg_linear_info *info)
 
 const pg_linear_type pg_linear_cholmod = {
     "cholmod", "supernodal Cholesky factorization (SuiteSparse CHOLMOD)", 1, 1,
-    chol_analyse, chol_factor, chol_solve, chol_solve_few, chol_info, chol_free
+    chol_analyse, chol_factor, chol_solve, chol_solve_few, chol_half_few,
+    chol_info, chol_free
 };

@@ -8,8 +8,8 @@
  * a supernode has something to do only if y_1 is not zero: those on the way from the supernodes of the given
  * places to the root, where the parent of a supernode is that of the first row of L21 (the theorem on paths
  * of the elimination tree: Gilbert, SIAM J. Matrix Anal. Appl. 15, 1994, 62-79). Of a large body in the plane
- * they are a small part of the factor. Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all of them, as the
- * solution is nowhere zero. Right-hand sides lie side by side (Y [place][right-hand side]), so that rows that
+ * they are a small part of the factor. There the half solve ends: b_i . A^-1 b_j = y_i . y_j.
+ * Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all of them, as the solution is nowhere zero. Right-hand sides lie side by side (Y [place][right-hand side]), so that rows that
  * are not neighbours are gathered and scattered in pieces that are. */
 #include "supernodal.h"
 #include <string.h>
@@ -17,7 +17,7 @@
 void supernodal_clear (supernodal_solver *s)
 {
     pg_free (s->place), pg_free (s->parent), pg_free (s->of), pg_free (s->reached);
-    pg_free (s->Y), pg_free (s->E);
+    pg_free (s->Y), pg_free (s->E), pg_free (s->interval);
     memset (s, 0, sizeof *s);
 }
 
@@ -55,17 +55,25 @@ done:
     return status;
 }
 
-/* Y = P b, and the supernodes that it reaches; the others are not looked at on the way forward. */
-static void permute (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b)
+/* Y = P b, and the supernodes that it reaches; the others are not looked at on the way forward, and Y is not
+ * set there unless all of it is asked for. */
+static void permute (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b, int all)
 {
-    memset (s->Y, 0, L->n * nrhs * sizeof *s->Y);
     memset (s->reached, 0, L->nsuper);
     for (size_t j = 0; j < nrhs; j++)
         for (size_t i = 0; i < L->n; i++) {
-            double value = b[j * L->n + i];
-            if (value == 0) continue;
-            s->Y[(size_t) s->place[i] * nrhs + j] = value;
+            if (b[j * L->n + i] == 0) continue;
             for (long k = s->of[s->place[i]]; k >= 0 && !s->reached[k]; k = s->parent[k]) s->reached[k] = 1;
+        }
+    for (size_t k = 0; k < L->nsuper; k++) {
+        supernode n = take (L, k);
+        if (all || s->reached[k])
+            memset (s->Y + (size_t) n.first * nrhs, 0, (size_t) n.m * nrhs * sizeof *s->Y);
+    }
+    for (size_t j = 0; j < nrhs; j++)
+        for (size_t i = 0; i < L->n; i++) {
+            double value = b[j * L->n + i];
+            if (value != 0) s->Y[(size_t) s->place[i] * nrhs + j] = value;
         }
 }
 
@@ -98,18 +106,28 @@ static void backward (const supernode *n, int nrhs, double *Y, double *E)
     dtrsm_ ("R", "L", "N", "N", &nrhs, &n->m, &one, n->block, &n->rows, own, &nrhs);
 }
 
-pg_status supernodal_solve_few (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b,
-                                double *x)
+/* Room for the right-hand sides, and the way forward. */
+static pg_status go_forward (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b,
+                             int all)
 {
     pg_status status = PG_OK;
     PG_TRY (prepare (L, s));
     PG_GROW (s->Y, s->room_Y, L->n * nrhs);
     PG_GROW (s->E, s->room_E, L->maxesize * nrhs);
-    permute (L, s, nrhs, b);
+    permute (L, s, nrhs, b, all);
     for (size_t k = 0; k < L->nsuper; k++) {
         supernode n = take (L, k);
         if (s->reached[k]) forward (&n, (int) nrhs, s->Y, s->E);
     }
+done:
+    return status;
+}
+
+pg_status supernodal_solve_few (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b,
+                                double *x)
+{
+    pg_status status = PG_OK;
+    PG_TRY (go_forward (L, s, nrhs, b, 1));
     for (size_t k = L->nsuper; k-- > 0;) {
         supernode n = take (L, k);
         backward (&n, (int) nrhs, s->Y, s->E);
@@ -118,6 +136,28 @@ pg_status supernodal_solve_few (const cholmod_factor *L, supernodal_solver *s, s
         const double *from = s->Y + (size_t) s->place[i] * nrhs;
         for (size_t j = 0; j < nrhs; j++) x[j * L->n + i] = from[j];
     }
+done:
+    return status;
+}
+
+/* Supernodes that follow one another make one interval. */
+pg_status supernodal_half_few (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b,
+                               double *const *y, size_t *count, const size_t **first)
+{
+    pg_status status = PG_OK;
+    size_t n = 0;
+    PG_TRY (go_forward (L, s, nrhs, b, 0));
+    for (size_t k = 0; k < L->nsuper; k++) {
+        supernode node = take (L, k);
+        size_t from = (size_t) node.first, end = from + (size_t) node.m;
+        if (!s->reached[k]) continue;
+        for (size_t j = 0; j < nrhs; j++)
+            for (size_t i = from; i < end; i++) y[j][i] = s->Y[i * nrhs + j];
+        PG_GROW (s->interval, s->room_interval, n + 2);
+        if (n && s->interval[n - 1] == from) s->interval[n - 1] = end;
+        else s->interval[n] = from, s->interval[n + 1] = end, n += 2;
+    }
+    *count = n / 2, *first = s->interval;
 done:
     return status;
 }

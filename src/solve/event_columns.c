@@ -2,7 +2,10 @@
  * Green columns: G = T A^-1 T' E, the displacement of all unknowns under a unit force on each of the touched
  * ones (E selects them), by the factor of the base. T is the elimination of supports, d = T q + g: a force
  * on a full unknown acts on the free ones through T'. Prescribed unknowns that nothing depends on have
- * columns of zeros. */
+ * columns of zeros.
+ *
+ * Where no displacement of all unknowns is asked for, only H = E' G, half a solve does for each column:
+ * with A = P' L L' P and y_i = L^-1 P T' e_i it is H_ij = y_i . y_j (columns_halve). */
 #include "event_solver_data.h"
 #include <string.h>
 
@@ -22,6 +25,20 @@ static void unit_forces (event_solver *e, size_t first, const pg_sparse *T)
         }
 }
 
+/* Room for the columns of all touched unknowns, zero, and for as many right-hand sides as are new. */
+static pg_status make_room (event_solver *e, size_t count)
+{
+    pg_status status = PG_OK;
+    PG_GROW (e->chunk, e->room_chunk, (e->t + CHUNK - 1) / CHUNK);
+    for (; e->nchunk * CHUNK < e->t; e->nchunk++) {
+        e->chunk[e->nchunk] = NULL;
+        PG_ALLOC (e->chunk[e->nchunk], CHUNK * e->ndof);
+    }
+    PG_GROW (e->rhs, e->room_rhs, count * e->nred);
+done:
+    return status;
+}
+
 /* All new columns by one solve with as many right-hand sides. */
 pg_status columns_make (event_solver *e, size_t first)
 {
@@ -29,12 +46,7 @@ pg_status columns_make (event_solver *e, size_t first)
     pg_system *s = e->s;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     size_t count = e->t - first;
-    PG_GROW (e->chunk, e->room_chunk, (e->t + CHUNK - 1) / CHUNK);
-    for (; e->nchunk * CHUNK < e->t; e->nchunk++) {
-        e->chunk[e->nchunk] = NULL;
-        PG_ALLOC (e->chunk[e->nchunk], CHUNK * e->ndof);
-    }
-    PG_GROW (e->rhs, e->room_rhs, count * e->nred);
+    PG_TRY (make_room (e, count));
     PG_GROW (e->solved, e->room_solved, count * e->nred);
     unit_forces (e, first, T);
     PG_TRY ((s->linear->solve_few ? s->linear->solve_few : s->linear->solve) (s->factor, count, e->rhs,
@@ -46,6 +58,55 @@ pg_status columns_make (event_solver *e, size_t first)
     }
 done:
     return status;
+}
+
+/* H_ij += y_i . y_j over one interval, for na touched unknowns i from a and nb from b, each within a chunk. */
+static void add_products (event_solver *e, size_t a, size_t na, size_t b, size_t nb, size_t from, size_t end)
+{
+    pg_dense_multiply (1, na, nb, end - from, 1, green_column (e, a) + from, e->ndof,
+                       green_column (e, b) + from, e->ndof, 1, e->H + a + b * e->cap, e->cap);
+}
+
+/* Only half of each solve: places that a unit force reaches in the factor are few, and H is all that is asked
+ * for. A halved column is of length nred, in a column of ndof numbers. The triangle above the diagonal
+ * counts, so that H is symmetric to the last bit. */
+pg_status columns_halve (event_solver *e, size_t first)
+{
+    pg_status status = PG_OK;
+    pg_system *s = e->s;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    size_t count = e->t - first, n;
+    const size_t *interval;
+    PG_TRY (make_room (e, count));
+    PG_GROW (e->half, e->room_half, count);
+    for (size_t k = 0; k < count; k++)
+        e->half[k] = e->chunk[(first + k) / CHUNK] + (first + k) % CHUNK * e->ndof;
+    unit_forces (e, first, T);
+    PG_TRY (s->linear->half_few (s->factor, count, e->rhs, e->half, &n, &interval));
+    for (size_t j = first; j < e->t; j++) memset (e->H + j * e->cap, 0, e->t * sizeof *e->H);
+    for (size_t b = first, nb; b < e->t; b += nb) {
+        nb = CHUNK - b % CHUNK < e->t - b ? CHUNK - b % CHUNK : e->t - b;
+        for (size_t a = 0, na; a < b + nb; a += na) {
+            na = CHUNK < b + nb - a ? CHUNK : b + nb - a;
+            for (size_t k = 0; k < n; k++)
+                add_products (e, a, na, b, nb, interval[2 * k], interval[2 * k + 1]);
+        }
+    }
+    for (size_t j = first; j < e->t; j++)
+        for (size_t i = 0; i < j; i++) e->H[j + i * e->cap] = e->H[i + j * e->cap];
+done:
+    return status;
+}
+
+void columns_unload (const event_solver *e, const double *y, double *r)
+{
+    const pg_sparse *T = e->s->force->basis ? e->s->force->basis (e->s->self) : NULL;
+    for (size_t i = 0; !T && i < e->t; i++) r[e->dof[i]] -= y[i];
+    for (size_t j = 0; T && j < T->ncol; j++)
+        for (long q = T->start[j]; q < T->start[j + 1]; q++) {
+            int at = e->at[T->row[q]];
+            if (at) r[j] -= T->value[q] * y[at - 1];
+        }
 }
 
 void columns_times (const event_solver *e, double a, const double *x, double *y)
@@ -75,8 +136,16 @@ done:
     return status;
 }
 
-void columns_free (event_solver *e)
+/* Halves are zero where they were never written, on pages that nothing has touched. */
+void columns_drop (event_solver *e)
 {
     for (size_t k = 0; k < e->nchunk; k++) pg_free (e->chunk[k]);
-    pg_free (e->chunk), pg_free (e->rhs), pg_free (e->solved), pg_free (e->watched), pg_free (e->rows);
+    e->nchunk = 0;
+}
+
+void columns_free (event_solver *e)
+{
+    columns_drop (e);
+    pg_free (e->half), pg_free (e->chunk), pg_free (e->rhs), pg_free (e->solved);
+    pg_free (e->watched), pg_free (e->rows);
 }

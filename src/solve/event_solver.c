@@ -27,6 +27,7 @@ pg_status event_solver_create (event_solver **out, pg_system *s, int cases, cons
     if (cases) s->serves = s->problem->criterion->type != NULL;
     if (s->options->plain) return PG_OK;
     PG_ALLOC (e, 1);
+    e->halves = cases == 0 && s->linear->half_few;
     e->s = s, e->k = 1, e->cases = cases, e->ndof = s->ndof, e->nred = s->nred;
     e->why = "there is no base yet";
     PG_ALLOC (e->at, e->ndof);
@@ -215,7 +216,8 @@ static int base_is_due (const event_solver *e)
 static int affordable (const event_solver *e, size_t count)
 {
     size_t most = e->t + count;
-    return most <= MOST_TOUCHED && (double) most * (double) e->ndof * sizeof (double) <= most_memory;
+    return most <= MOST_TOUCHED
+           && (e->halves || (double) most * (double) e->ndof * sizeof (double) <= most_memory);
 }
 
 /* Takes the change of K and of forces in. *outcome stays EVENT_SOLVED where u is to be solved for. */
@@ -315,6 +317,40 @@ static void reduce (const event_solver *e, const pg_sparse *T, const double *ful
     }
 }
 
+/* y = (1 + D H)^-1 D u on the touched unknowns, from their displacements u behind y: 2 t numbers. */
+static pg_status forces_of_change (event_solver *e, double *y)
+{
+    pg_status status = PG_OK;
+    double *u = y + e->t + 1;
+    for (size_t i = 0; i < e->t; i++) y[i] = e->stay[i] * u[i];
+    pg_dense_multiply (0, e->t, 1, e->t, 1, e->D, e->cap, u, e->cap, 1, y, e->cap);
+    if (!touched_substitute (e, y)) PG_FAIL (PG_E_SINGULAR, "the system of the touched unknowns is singular");
+done:
+    return status;
+}
+
+/* Without Green columns: delta = A^-1 (r - W y), two solves. */
+static pg_status correct_twice (event_solver *e, const double *r, double *delta)
+{
+    pg_status status = PG_OK;
+    pg_system *s = e->s;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    double *full = NULL, *part = NULL, *y = NULL;
+    PG_ALLOC (full, T ? e->ndof : 1);
+    PG_ALLOC (part, e->nred);
+    PG_ALLOC (y, 2 * (e->t + 1));
+    PG_TRY (s->linear->solve (s->factor, 1, r, delta));
+    if (T) pg_sparse_multiply (T, delta, full);
+    for (size_t i = 0; i < e->t; i++) y[e->t + 1 + i] = T ? full[e->dof[i]] : delta[e->dof[i]];
+    PG_TRY (forces_of_change (e, y));
+    memcpy (part, r, e->nred * sizeof *part);
+    columns_unload (e, y, part);
+    PG_TRY (s->linear->solve (s->factor, 1, part, delta));
+done:
+    pg_free (full), pg_free (part), pg_free (y);
+    return status;
+}
+
 /* delta = A^-1 r - A^-1 W y, (1 + D H) y = D W' A^-1 r */
 pg_status event_solver_correct (event_solver *e, const double *r, double *delta)
 {
@@ -323,6 +359,7 @@ pg_status event_solver_correct (event_solver *e, const double *r, double *delta)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double *full = NULL, *part = NULL, *y = NULL;
     if (e->t == 0) return s->linear->solve (s->factor, 1, r, delta);
+    if (e->halves) return correct_twice (e, r, delta);
     PG_ALLOC (full, e->ndof);
     PG_ALLOC (part, e->nred);
     PG_ALLOC (y, 2 * (e->t + 1));
@@ -330,9 +367,7 @@ pg_status event_solver_correct (event_solver *e, const double *r, double *delta)
     if (T) pg_sparse_multiply (T, delta, full);
     else memcpy (full, delta, e->ndof * sizeof *full);
     for (size_t i = 0; i < e->t; i++) y[e->t + 1 + i] = full[e->dof[i]];
-    for (size_t i = 0; i < e->t; i++) y[i] = e->stay[i] * y[e->t + 1 + i];
-    pg_dense_multiply (0, e->t, 1, e->t, 1, e->D, e->cap, y + e->t + 1, e->cap, 1, y, e->cap);
-    if (!touched_substitute (e, y)) PG_FAIL (PG_E_SINGULAR, "the system of the touched unknowns is singular");
+    PG_TRY (forces_of_change (e, y));
     columns_times (e, 0, y, full);
     reduce (e, T, full, part);
     for (size_t j = 0; j < e->nred; j++) delta[j] -= part[j];

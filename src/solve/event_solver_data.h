@@ -41,6 +41,8 @@ struct event_solver {
     /* ---- columns */
     size_t *group, ngroup, room_group;  /* how many unknowns were taken in at a time */
     double **chunk; size_t nchunk, room_chunk;         /* G, in pieces of CHUNK columns (ndof x CHUNK) */
+    int     halves;  /* 1: the columns are halves y, of which H is products; 0: Green columns */
+    double **half; size_t room_half;                   /* scratch: where new halves go */
     double *rhs, *solved;  size_t room_rhs, room_solved;           /* (nred x new ones) */
     /* watched nodes; their rows of G (node by node, components x t), of which `filled` columns are there */
     int    *watched;  size_t nwatched, filled;
@@ -77,6 +79,12 @@ void      touched_displacement (event_solver *e, int c);
 /* ---- event_columns.c ----------------------------------------------------------------------------------- */
 /* Green columns of the unknowns from `first` on. */
 pg_status columns_make  (event_solver *e, size_t first);
+
+/* The same with halves instead, and H from them. */
+pg_status columns_halve (event_solver *e, size_t first);
+/* r -= T' W y, reduced forces from forces on the touched unknowns */
+void      columns_unload (const event_solver *e, const double *y, double *r);
+void      columns_drop  (event_solver *e);             /* frees the columns */
 
 /* Column i of G. */
 static inline const double *green_column (const event_solver *e, size_t i)

@@ -33,6 +33,7 @@ void touched_clear (event_solver *e)
 {
     for (size_t i = 0; i < e->t; i++) e->at[e->dof[i]] = 0;
     e->t = e->ngroup = e->filled = 0, e->factored = 0;
+    if (e->halves) columns_drop (e);
 }
 
 /* A matrix of t columns moves to columns `cap` apart. */
@@ -92,8 +93,8 @@ done:
 /* H between all touched unknowns and the new ones, first .. t - 1, symmetric by construction. */
 pg_status touched_green (event_solver *e, size_t first)
 {
-    pg_status status = columns_make (e, first);
-    if (status != PG_OK) return status;
+    pg_status status = e->halves ? columns_halve (e, first) : columns_make (e, first);
+    if (status != PG_OK || e->halves) return status;
     for (size_t j = first; j < e->t; j++) {
         const double *column = green_column (e, j);
         for (size_t i = 0; i <= j; i++) e->H[i + j * e->cap] = e->H[j + i * e->cap] = column[e->dof[i]];
