@@ -125,9 +125,9 @@ typedef struct pg_linear_type {
     /* The same for right-hand sides that are zero but for a few places near each other, such as unit forces;
      * NULL: solve does. */
     pg_status (*solve_few) (void *self, size_t nrhs, const double *b, double *x);
-    /* Half of it: y_i such that b_i . A^-1 b_j = y_i . y_j. y: nrhs columns, each of length n; written are the
-     * numbers from first[2 k] to before first[2 k + 1], k < *count (borrowed until the next call), all others
-     * are to be taken for zero. NULL: not known. */
+    /* Half of it: y_i such that b_i . A^-1 b_j = y_i . y_j. y: nrhs columns, each of length n; written are
+     * the numbers from first[2 k] to before first[2 k + 1], k < *count (borrowed until the next call), all
+     * others are to be taken for zero. NULL: not known. */
     pg_status (*half_few) (void *self, size_t nrhs, const double *b, double *const *y, size_t *count,
                            const size_t **first);
     /* Fills in the report; frees the state. */

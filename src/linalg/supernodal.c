@@ -9,8 +9,9 @@
  * places to the root, where the parent of a supernode is that of the first row of L21 (the theorem on paths
  * of the elimination tree: Gilbert, SIAM J. Matrix Anal. Appl. 15, 1994, 62-79). Of a large body in the plane
  * they are a small part of the factor. There the half solve ends: b_i . A^-1 b_j = y_i . y_j.
- * Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all of them, as the solution is nowhere zero. Right-hand sides lie side by side (Y [place][right-hand side]), so that rows that
- * are not neighbours are gathered and scattered in pieces that are. */
+ * Backward, y_1 = L11'^-1 (y_1 - L21' y_2) takes all of them, as the solution is nowhere zero. Right-hand
+ * sides lie side by side (Y [place][right-hand side]), so that rows that are not neighbours are gathered and
+ * scattered in pieces that are. */
 #include "supernodal.h"
 #include <string.h>
 

@@ -60,7 +60,7 @@ done:
     return status;
 }
 
-/* H_ij += y_i . y_j over one interval, for na touched unknowns i from a and nb from b, each within a chunk. */
+/* H_ij += y_i . y_j over one interval, for na touched unknowns i from a and nb from b, each in one chunk. */
 static void add_products (event_solver *e, size_t a, size_t na, size_t b, size_t nb, size_t from, size_t end)
 {
     pg_dense_multiply (1, na, nb, end - from, 1, green_column (e, a) + from, e->ndof,
