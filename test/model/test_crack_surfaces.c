@@ -131,8 +131,8 @@ static void check_seams (const pg_crack_surfaces *w, int shots)
     assert_int_equal (slipped, 0);
 }
 
-/* Behind every vertex of a front the crack cuts up to its offset and no further, and its triangles show to the
- * side of its normal. */
+/* Behind every vertex of a front the crack cuts up to its offset and no further, and its triangles show to
+ * the side of its normal. */
 static void check_offset (const growing *g, const pg_front *f)
 {
     const pg_crack_surfaces *w = g->s->surfaces;
