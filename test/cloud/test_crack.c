@@ -380,9 +380,24 @@ static void boxes_change_no_answer_in_space (void **state)
     }
 }
 
+/* A square less the strips along its four edges: exactly the places further from all of them than these. */
+static void strips_along_all_edges (void **state)
+{
+    (void) state;
+    double vertex[12] = { 0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0 }, retreat[4] = { 0.1, 0.2, 0.1, 0.05 };
+    pg_crack c = { .kind = PG_CRACK_POLYGON, .vertex = vertex, .nvertex = 4, .normal = { 0, 0, 1 },
+                   .retreat = retreat };
+    for (int i = 0; i < 40; i++)
+        for (int j = 0; j < 40; j++) {
+            double x = 0.0133 + i * 0.025, y = 0.0133 + j * 0.025, a[3] = { x, y, -1 }, b[3] = { x, y, 1 };
+            assert_int_equal (pg_crack_cuts (&c, 3, a, b, 1e-9), x > 0.05 && x < 0.8 && y > 0.1 && y < 0.9);
+        }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (strips_along_all_edges),
         cmocka_unit_test (bonds_and_segments_agree_with_integers),
         cmocka_unit_test (bonds_and_a_convex_polygon_agree_with_integers),
         cmocka_unit_test (bonds_and_a_concave_polygon_agree_with_integers),
