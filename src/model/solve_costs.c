@@ -53,8 +53,8 @@ double pg_solve_elements_cost (const pg_solve_counts *c)
 }
 
 /* A factor that serves many events pays for itself up to here in 3D (unknowns), and its memory can be
- * afforded: some 5 GB in a cube. Iterations take some 250 for every event in a block with a crack, which is
- * six times the seconds of an event by a factor at 41 000 unknowns. */
+ * afforded: some 5 GB in a cube. Iterations take some 70 for every event in a block with a crack, which is
+ * four times the seconds of an event by a factor at 41 000 unknowns. */
 enum { EVENTS_FACTOR = 80000 };
 /* In motion the matrix k K + m M stays while nothing breaks, and what breaks is followed in its factor: taken
  * to serve so many solves before another one is needed. A plate of 55 488 unknowns, seven nodes thick: 8 s
