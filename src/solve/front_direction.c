@@ -134,6 +134,24 @@ static void settle_rises (const pg_front *front, front_vertex *v, double l)
     for (size_t i = 0; i < n; i++) v[i].rise = fmax (-0.98 * v[i].way, fmin (0.98 * v[i].way, v[i].rise));
 }
 
+/* Values that were extrapolated to the end of a front carry the noise of the vertices beside it more than
+ * once, and an end that runs ahead alone has nothing to hold it: for growth an end goes as its neighbour that
+ * was measured, so that the front stays at right angles to the surface where it was. */
+static void hold_ends (const front_growth *f, size_t first, size_t n)
+{
+    front_vertex *v = f->vertex + first;
+    for (size_t i = 0; i < n; i++) {
+        if (!f->field[first + i].extrapolated) continue;
+        for (size_t far = 1; far < n; far++) {
+            size_t at = i >= far && !f->field[first + i - far].extrapolated ? i - far : i + far;
+            if (at >= n || f->field[first + at].extrapolated) continue;
+            double width = v[i].width;
+            v[i] = v[at], v[i].width = width;
+            break;
+        }
+    }
+}
+
 /* ---- all vertices -------------------------------------------------------------------------------------- */
 double fronts_plan (const break_loop *b, const pg_state *state, double factor)
 {
@@ -146,10 +164,9 @@ double fronts_plan (const break_loop *b, const pg_state *state, double factor)
         size_t first = f->first[k], n = f->first[k + 1] - first;
         if (n) set_widths (&front[k], f->vertex + first);
     }
-    for (size_t i = 0; i < f->n; i++) {
-        front_judge (b, &f->field[i], factor, &f->vertex[i]);
-        top = fmax (top, f->vertex[i].share);
-    }
+    for (size_t i = 0; i < f->n; i++) front_judge (b, &f->field[i], factor, &f->vertex[i]);
+    for (size_t k = 0; k < f->nfront; k++) hold_ends (f, f->first[k], f->first[k + 1] - f->first[k]);
+    for (size_t i = 0; i < f->n; i++) top = fmax (top, f->vertex[i].share);
     if (!(top > 0)) return 0;
     for (size_t k = 0; k < f->nfront; k++) {
         size_t first = f->first[k], n = f->first[k + 1] - first;
