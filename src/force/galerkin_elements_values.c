@@ -5,10 +5,10 @@
  * functions smooth them: p (N) blows them up by 1 / N. Evaluation points that lost bonds to a crack do not
  * smooth. One that stands beyond the last nodes of its side extrapolates: of the next layer only the node
  * nearest to it lies within its support, with a steep derivative, and an alternating pattern there has as
- * much energy as any other. P of such patterns is too large by K / (N' Q N): 69 for a crack 0.1 spacings beside a
- * lattice plane, where 2 is the largest of the intact body. The rows of N there are therefore mixed with the
- * unit row, s N + (1 - s) I. An alternating pattern is then left with the energy (1 - s)^2 Q, which shall be
- * what K has beyond the usual:
+ * much energy as any other. P of such patterns is too large by K / (N' Q N): 69 for a crack 0.1 spacings
+ * beside a lattice plane, where 2 is the largest of the intact body. The rows of N there are therefore
+ * mixed with the unit row, s N + (1 - s) I. An alternating pattern is then left with the energy (1 - s)^2
+ * Q, which shall be what K has beyond the usual:
  *
  *     (1 - s_i)^2 = rho_i - c rho,   rho_i = tr K_ii / tr Q_ii,
  *
