@@ -177,7 +177,7 @@ struct pg_problem {
     char     title[256], name[64];                     /* name: of the scene's folder or file */
     int      dim, threads;
     int      plain;                                    /* 1: no shortcuts (solver.plain) */
-    int      implicit;                                 /* 1: solver.kind solves linear systems */
+    int      equilibria;  /* 1: solver.kind finds equilibria by linear systems */
     pg_mode  mode;
     pg_body  body;  pg_mesh_body part;                 /* one of them, or none: points of a file */
     pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;  pg_cracks cracks;

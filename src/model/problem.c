@@ -236,7 +236,7 @@ pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, cons
     p->thickness_assumed = p->dim < 3
                            && !pg_scene_given (scene, "%s", p->dim == 2 ? "thickness" : "cross_section");
     p->plain = pg_scene_bool (scene, "solver.plain");
-    p->implicit = pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT);
+    p->equilibria = pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_STATIC);
     p->accept_inexact = pg_scene_bool (scene, "method.accept_inexact");
     /* No number until the patch test has run: NAN shows as a gap and compares false. */
     p->patch = (pg_patch) { .error = NAN, .compliance = NAN };

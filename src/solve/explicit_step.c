@@ -319,12 +319,14 @@ static pg_status look (pg_solver *s, pg_state *state, pg_step *step, long n)
 
 /* Bonds that die may stiffen what is left of a body (non-ordinary theories with few neighbours), so that a
  * stable step no longer is. */
-static pg_status check_growth (pg_solver *s, double t)
+static pg_status check_growth (pg_solver *s, const pg_state *state, double t)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
-    /* an unstable step gives leapfrog's kinetic energy the other sign */
-    double stored = s->report.energy_strain + fmax (0, s->report.energy_kinetic);
+    /* An unstable step gives leapfrog's kinetic energy the other sign, so that the sum stays what it was. So
+     * does a stable step just below the limit, which the body had before anything broke. */
+    double kinetic = s->report.energy_kinetic,
+           stored = s->report.energy_strain + (state->broken ? fmax (0, kinetic) : kinetic);
     m->most = fmax (m->most, fabs (s->break_loop.work));
     if ((s->problem->nload == 0 || s->break_loop.system.force->work_balance) && stored > 10 * m->most)
         PG_FAIL (PG_E_EQUILIBRIUM,
@@ -351,7 +353,7 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
                  && s->problem->criterion->type;
     if (!m->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
     s->report.energy_damping = m->damped;
-    PG_TRY (check_growth (s, t));
+    PG_TRY (check_growth (s, state, t));
     step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0)
                        - (m->damped - m->damped0);
     if (b->work_balance.reaction)
