@@ -2,7 +2,8 @@
  * The equilibria of the patch test by a factor of K. In the plane K has a cheap factor, and the run that
  * follows will make such a factor as well, so that memory suffices; conjugate gradients need some
  * 60 + 1.6 n^(1/2) products with K for all states of stress and the measure of softness together (107, 123
- * and 134 with 576, 1248 and 2176 points around a hole).
+ * and 134 with 576, 1248 and 2176 points around a hole). On a lattice they are fewer and cheaper: an
+ * edge crack of 40 000 points takes 0.2 s by iterations and 0.85 s by a factor.
  *
  * The bare body is free to move. Two springs hold one point and one spring keeps a point far from it from
  * turning about it, each as stiff as K is there. Forces in balance leave these springs without force, so that
@@ -29,6 +30,7 @@ static double cost_of_iterations (const pg_problem *p, size_t products)
 static int has_matrix (const pg_problem *p, const pg_force_type *force, void *self)
 {
     if (p->dim != 2 || pg_problem_unknowns (p) != 2 || !p->equilibria || p->plain) return 0;
+    if (p->cloud.regular) return 0;                    /* sums of points that are alike: products cost little */
     if (!force->matrix || !force->assemble || (force->basis && force->basis (self))) return 0;
     return !force->matrix_free || !force->matrix_free (self);
 }
