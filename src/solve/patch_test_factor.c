@@ -30,7 +30,7 @@ static double cost_of_iterations (const pg_problem *p, size_t products)
 static int has_matrix (const pg_problem *p, const pg_force_type *force, void *self)
 {
     if (p->dim != 2 || pg_problem_unknowns (p) != 2 || !p->equilibria || p->plain) return 0;
-    if (p->cloud.regular) return 0;                    /* sums of points that are alike: products cost little */
+    if (p->cloud.regular) return 0;                    /* points that are alike: products cost little */
     if (!force->matrix || !force->assemble || (force->basis && force->basis (self))) return 0;
     return !force->matrix_free || !force->matrix_free (self);
 }

@@ -228,7 +228,8 @@ static void a_factor_finds_what_iterations_find (void **state)
         assert_int_equal (a.state, b.state);
     }
     /* products with K are cheap on a lattice */
-    static const tension lattice = { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 2, 0 }, 0, 0 };
+    static const tension lattice =
+        { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 2, 0 }, 0, 0 };
     assert_true (measured (&lattice, 1, "").iterations > 0);
 }
 
