@@ -111,6 +111,25 @@ static pg_status save_state (pg_solver *s, const pg_state *state)
     return pg_state_copy_fields (s->backup, state);
 }
 
+/* Shortcuts of explicit steps and of the force, as far as they go by now: told after every step, so that a
+ * checkpoint has them, also of what later steps do no more. */
+static void report_sums (pg_solver *s)
+{
+    const pg_system *sys = &s->break_loop.system;
+    pg_skip one;
+    if (s->spared && s->evaluations) {
+        snprintf (one.what, sizeof one.what, "forces and energies of %ld rows", s->spared);
+        pg_statistics_skip (&s->report,
+                            (double) s->spared * s->report.seconds[PG_SECONDS_FORCE]
+                                / (double) s->evaluations,
+                            one.what,
+                            "the step before a row leaves the forces, from which work and energy follow");
+    }
+    for (size_t k = 0;
+         sys->force->spared && sys->force->spared (sys->self, k, one.what, one.why, &one.seconds_saved); k++)
+        pg_statistics_skip (&s->report, one.seconds_saved, one.what, one.why);
+}
+
 /* The method advances the state. What fails leaves the last accepted state behind, and a message with the
  * step and the load it was at. */
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -141,6 +160,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->steps++, r->iterations += step->iterations, r->broken += (long) step->nbroken;
     r->residual_max = fmax (r->residual_max, step->residual);
     r->utilisation_max = fmax (r->utilisation_max, step->utilisation);
+    report_sums (s);
     if (step->level && s->break_loop.system.force->overlap)
         r->overlap_max = fmax (r->overlap_max, s->break_loop.system.force->overlap (s->break_loop.system.self,
                                                                                     state, state->d));
@@ -186,24 +206,6 @@ static double largest_displacement (const pg_solver *s, const pg_state *state)
     double top = 0;
     for (size_t i = 0; i < s->break_loop.system.ndof; i++) top = fmax (top, fabs (state->d[i]));
     return top;
-}
-
-/* Shortcuts of explicit steps and of the force, as far as they go by now. */
-static void report_sums (pg_solver *s)
-{
-    const pg_system *sys = &s->break_loop.system;
-    pg_skip one;
-    if (s->spared && s->evaluations) {
-        snprintf (one.what, sizeof one.what, "forces and energies of %ld rows", s->spared);
-        pg_statistics_skip (&s->report,
-                            (double) s->spared * s->report.seconds[PG_SECONDS_FORCE]
-                                / (double) s->evaluations,
-                            one.what,
-                            "the step before a row leaves the forces, from which work and energy follow");
-    }
-    for (size_t k = 0;
-         sys->force->spared && sys->force->spared (sys->self, k, one.what, one.why, &one.seconds_saved); k++)
-        pg_statistics_skip (&s->report, one.seconds_saved, one.what, one.why);
 }
 
 /* Work that was spared so often: the time saved is that of so many, `made` of which took the seconds of a
