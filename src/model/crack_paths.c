@@ -6,14 +6,10 @@
  * functions of points beside a tip that lost some of their neighbours follow the crack further than the bonds
  * were cut (tips.c has o). When the tip moves on, what it has left behind is cut as well. So the part of a
  * crack of the scene that cut nothing yet must become sided when it grows; it is split off as a piece of its
- * own, and both pieces together are what the crack was.
- *
- * Bonds are looked for among the points whose reach meets the box of the pieces that changed: one pass over
- * the points costs less than one substitution of the solve that follows. */
+ * own, and both pieces together are what the crack was. */
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* Of a tip, in parts of the length of its path, at most. */
@@ -193,82 +189,10 @@ static void set_retreats (pg_crack_paths *w, const pg_tip *t, double offset, dou
     }
 }
 
-/* ---- bonds --------------------------------------------------------------------------------------------- */
-/* The box of all pieces that changed, wider by the reach of a bond. */
-static void box_of_changes (const pg_problem *p, const pg_crack_paths *w, const unsigned char *changed,
-                            double *box)
-{
-    double reach = p->approx.horizon, largest = 1;
-    for (size_t i = 0; p->cloud.size && i < p->cloud.n; i++)
-        largest = fmax (largest, pg_cloud_ratio (&p->cloud, i));
-    reach *= largest;
-    /* partial volumes reach half a cell further */
-    for (int k = 0; k < 2; k++) reach = fmax (reach, p->approx.horizon * largest + p->cloud.step[k]);
-    box[0] = box[1] = INFINITY, box[2] = box[3] = -INFINITY;
-    for (size_t c = 0; c < w->cracks.n; c++)
-        for (int k = 0; k < 2 && changed[c]; k++)
-            box[k] = fmin (box[k], w->cracks.box[4 * c + (size_t) k] - reach),
-            box[2 + k] = fmax (box[2 + k], w->cracks.box[4 * c + 2 + (size_t) k] + reach);
-}
-
-/* Does one of the pieces that changed cut the bond? */
-static int is_cut (const pg_crack_paths *w, const unsigned char *changed, const double *x, const double *y,
-                   double tolerance)
-{
-    for (size_t c = 0; c < w->cracks.n; c++)
-        if (changed[c] && pg_crack_cuts (&w->cracks.crack[c], 2, x, y, tolerance)) return 1;
-    return 0;
-}
-
-static int ascending (const void *a, const void *b)
-{
-    size_t p = *(const size_t *) a, q = *(const size_t *) b;
-    return (p > q) - (p < q);
-}
-
-/* Several facets may be grown before the bonds die: those that two of them cut are listed once. */
-static void sort_changes (pg_changes *cut)
-{
-    size_t n = 0;
-    qsort (cut->bond, cut->n, sizeof *cut->bond, ascending);
-    for (size_t i = 0; i < cut->n; i++)
-        if (n == 0 || cut->bond[i] != cut->bond[n - 1]) cut->bond[n++] = cut->bond[i];
-    cut->n = n;
-}
-
-/* Adds the live bonds that the changed pieces cut. */
-static pg_status find_cut (const pg_state *s, const pg_problem *p, const pg_crack_paths *w,
-                           const unsigned char *changed, pg_changes *cut)
-{
-    pg_status status = PG_OK;
-    double box[4];
-    size_t before = cut->n;
-    box_of_changes (p, w, changed, box);
-    for (int set = 0; set < PG_BOND_SETS; set++) {
-        const pg_rows *r = &p->rows[set];
-        for (size_t q = 0; q < r->n; q++) {
-            const double *x = r->x + 2*q;
-            if (!(x[0] >= box[0] && x[0] <= box[2] && x[1] >= box[1] && x[1] <= box[3])) continue;
-            for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {
-                size_t bond = p->first_bond[set] + e;
-                int j = r->family.node[e];
-                if (!s->alive[bond] || j == r->own[q]
-                    || !is_cut (w, changed, x, p->cloud.x + 2 * (size_t) j, 1e-9 * p->cloud.h))
-                    continue;
-                PG_GROW (cut->bond, cut->cap, cut->n + 1);
-                cut->bond[cut->n++] = bond;
-            }
-        }
-    }
-    if (before) sort_changes (cut);
-done:
-    return status;
-}
-
 /* ---- growing ------------------------------------------------------------------------------------------- */
 /* The change is made on a copy of the paths, with room for more pieces, which takes their place when all has
  * gone well. */
-typedef struct { pg_crack_paths *fresh; unsigned char *changed; } change;
+typedef struct { pg_crack_paths *fresh; unsigned char *changed; pg_crack *piece; } change;
 
 static pg_status begin (change *c, const pg_state *s, size_t pieces)
 {
@@ -279,6 +203,7 @@ static pg_status begin (change *c, const pg_state *s, size_t pieces)
     PG_GROW (c->fresh->tip, c->fresh->tip_capacity, s->paths->ntip + 2);
     PG_TRY (pg_crack_paths_copy (c->fresh, s->paths));
     PG_ALLOC (c->changed, s->paths->cracks.n + pieces);
+    PG_ALLOC (c->piece, s->paths->cracks.n + pieces);
 done:
     return status;
 }
@@ -287,8 +212,11 @@ done:
 static pg_status finish (change *c, pg_state *s, const pg_problem *p, pg_changes *cut)
 {
     pg_status status = PG_OK;
+    size_t n = 0;
+    for (size_t k = 0; k < c->fresh->cracks.n; k++)
+        if (c->changed[k]) c->piece[n++] = c->fresh->cracks.crack[k];
     PG_TRY (pg_cracks_index (&c->fresh->cracks));
-    PG_TRY (find_cut (s, p, c->fresh, c->changed, cut));
+    PG_TRY (pg_bonds_cut_by (s, p, c->piece, n, cut));
     pg_crack_paths *old = s->paths;
     s->paths = c->fresh, c->fresh = old;
 done:
@@ -298,7 +226,7 @@ done:
 static void end (change *c)
 {
     pg_crack_paths_free (&c->fresh);
-    pg_free (c->changed);
+    pg_free (c->changed), pg_free (c->piece);
 }
 
 /* Moves the tip to the end of a facet of its own. */

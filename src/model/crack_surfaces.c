@@ -367,7 +367,8 @@ pg_status surfaces_finish (pg_crack_surfaces **fresh, pg_state *state, const pg_
 {
     pg_status status = PG_OK;
     PG_TRY (pg_cracks_index (&(*fresh)->cracks));
-    PG_TRY (surfaces_find_cut (state, p, *fresh, state->surfaces->cracks.n, cut));
+    size_t first = state->surfaces->cracks.n;          /* only the new triangles cut anew */
+    PG_TRY (pg_bonds_cut_by (state, p, (*fresh)->cracks.crack + first, (*fresh)->cracks.n - first, cut));
     pg_crack_surfaces *old = state->surfaces;
     state->surfaces = *fresh, *fresh = old;
 done:

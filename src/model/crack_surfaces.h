@@ -6,7 +6,6 @@
  *   crack_surfaces_tiles.c  triangles between two lines
  *   crack_surfaces_meet.c   where a vertex meets the surface of the body, another crack, another front
  *   crack_surfaces_line.c   vertices of a front distributed anew, and their frames
- *   crack_surfaces_cut.c    the bonds that new triangles cut
  *   crack_surfaces_start.c  new cracks
  *   crack_surfaces_memory.c memory, copies, checkpoints */
 #ifndef PG_MODEL_CRACK_SURFACES_H
@@ -78,11 +77,6 @@ void front_tangent (const pg_front *f, size_t i, double *tangent);
 void front_frames (pg_front *f);
 /* Vertices about a spacing apart; c: the places where the crack cuts to (n x 3), moved with them. */
 pg_status front_resample (pg_front *f, const pg_problem *p, double **c);
-
-/* ---- crack_surfaces_cut.c ------------------------------------------------------------------------------ */
-/* Adds to `cut` the live bonds that triangles from number `first` on cut; `cut` stays ascending. */
-pg_status surfaces_find_cut (const pg_state *s, const pg_problem *p, const pg_crack_surfaces *w, size_t first,
-                             pg_changes *cut);
 
 /* How far a crack cuts beyond another one that it meets; fronts within `met` of the place where another one
  * met them end there; what is left between closed vertices goes on at most `run_out`: spacings. */

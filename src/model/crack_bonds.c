@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The bonds that new triangles of a surface cut. Only the new ones are asked, through an index of their own
- * (cloud/crack_index.c): first the box of all of them, then for each point the boxes near it, then its
- * bonds. */
-#include "crack_surfaces.h"
+ * The bonds that new pieces of cracks cut, facets in the plane and triangles in space. Only the new ones are
+ * asked, through an index of their own (cloud/crack_index.c): first the box of all of them, then for each
+ * point the boxes near it, then its bonds. */
+#include "model.h"
+#include <math.h>
 #include <stdlib.h>
 
 /* How far apart the ends of a bond may be along an axis, m. Partial volumes reach half a cell further. */
@@ -11,7 +12,7 @@ static double reach_of (const pg_problem *p)
     double largest = 1, reach = 0;
     for (size_t i = 0; p->cloud.size && i < p->cloud.n; i++)
         largest = fmax (largest, pg_cloud_ratio (&p->cloud, i));
-    for (int k = 0; k < 3; k++) reach = fmax (reach, p->approx.horizon * largest + p->cloud.step[k]);
+    for (int k = 0; k < p->dim; k++) reach = fmax (reach, p->approx.horizon * largest + p->cloud.step[k]);
     return reach;
 }
 
@@ -21,7 +22,7 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
-/* Several fronts may advance before the bonds die: those that two of them cut are listed once. */
+/* Several tips or fronts may advance before the bonds die: those that two of them cut are listed once. */
 static void sort_changes (pg_changes *cut)
 {
     size_t n = 0;
@@ -37,12 +38,13 @@ static pg_status cut_at (const pg_state *s, const pg_problem *p, const pg_cracks
 {
     pg_status status = PG_OK;
     const pg_rows *r = &p->rows[set];
-    const double *x = r->x + 3*q;
+    size_t dim = (size_t) p->dim;
+    const double *x = r->x + dim * q;
     for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {
         size_t bond = p->first_bond[set] + e;
         int j = r->family.node[e];
         if (!s->alive[bond] || j == r->own[q]
-            || !pg_cracks_cut (cracks, 3, x, p->cloud.x + 3 * (size_t) j, 1e-9 * p->cloud.h))
+            || !pg_cracks_cut (cracks, p->dim, x, p->cloud.x + dim * (size_t) j, 1e-9 * p->cloud.h))
             continue;
         PG_GROW (cut->bond, cut->cap, cut->n + 1);
         cut->bond[cut->n++] = bond;
@@ -51,27 +53,26 @@ done:
     return status;
 }
 
-pg_status surfaces_find_cut (const pg_state *s, const pg_problem *p, const pg_crack_surfaces *w, size_t first,
-                             pg_changes *cut)
+pg_status pg_bonds_cut_by (const pg_state *s, const pg_problem *p, pg_crack *piece, size_t n, pg_changes *cut)
 {
     pg_status status = PG_OK;
-    pg_cracks fresh = { .dim = 3, .crack = w->cracks.crack + first, .n = w->cracks.n - first };
+    pg_cracks fresh = { .dim = p->dim, .crack = piece, .n = n };
+    size_t dim = (size_t) p->dim, before = cut->n;
     double low[3], high[3], reach = reach_of (p), all[6] = { INFINITY, INFINITY, INFINITY, -INFINITY,
                                                              -INFINITY, -INFINITY };
-    size_t before = cut->n;
-    if (fresh.n == 0) return PG_OK;
+    if (n == 0) return PG_OK;
     PG_TRY (pg_cracks_index (&fresh));
-    for (size_t c = 0; c < fresh.n; c++)
-        for (size_t k = 0; k < 3; k++)
-            all[k] = fmin (all[k], fresh.box[6*c + k] - reach),
-            all[3 + k] = fmax (all[3 + k], fresh.box[6*c + 3 + k] + reach);
+    for (size_t c = 0; c < n; c++)
+        for (size_t k = 0; k < dim; k++)
+            all[k] = fmin (all[k], fresh.box[2 * dim * c + k] - reach),
+            all[3 + k] = fmax (all[3 + k], fresh.box[2 * dim * c + dim + k] + reach);
     for (int set = 0; set < PG_BOND_SETS; set++)
         for (size_t q = 0; q < p->rows[set].n; q++) {
-            const double *x = p->rows[set].x + 3*q;
+            const double *x = p->rows[set].x + dim * q;
             int away = 0;
-            for (int k = 0; k < 3 && !away; k++) away = x[k] < all[k] || x[k] > all[3 + k];
+            for (size_t k = 0; k < dim && !away; k++) away = x[k] < all[k] || x[k] > all[3 + k];
             if (away) continue;
-            for (int k = 0; k < 3; k++) low[k] = x[k] - reach, high[k] = x[k] + reach;
+            for (size_t k = 0; k < dim; k++) low[k] = x[k] - reach, high[k] = x[k] + reach;
             if (pg_cracks_near (&fresh, low, high)) PG_TRY (cut_at (s, p, &fresh, set, q, cut));
         }
     if (before) sort_changes (cut);
