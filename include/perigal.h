@@ -32,6 +32,7 @@
 #include "perigal/model.h"
 #include "perigal/force.h"
 #include "perigal/fracture.h"
+#include "perigal/contact.h"
 #include "perigal/symbol.h"
 #include "perigal/solve.h"
 #include "perigal/output.h"
