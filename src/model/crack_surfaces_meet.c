@@ -11,8 +11,11 @@ enum { STEPS = 8, HALVINGS = 44 };
 static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
 /* How far a crack cuts beyond the surface, for points may lie outside of it: spacings. */
 static const double beyond_surface = 1;
-/* Nearer hits are the crack that the vertex itself belongs to: spacings. */
-static const double own = 1e-3;
+/* Nearer hits are the crack that the vertex itself belongs to, spacings. Vertices that were distributed anew
+ * beside a stretch that stayed lie up to t (1 - t)^2 / 2 = 0.074 behind the outline that the crack was drawn
+ * with: the cubic through them swings so far to the other side of a step of one spacing. What belongs to
+ * another crack cannot be so near: a vertex goes there as soon as it would end within 0.6 spacings of it. */
+static const double own = 0.15;
 
 static int body_at (const pg_problem *p, const double *x, const double *e, double r)
 {

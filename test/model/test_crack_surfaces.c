@@ -228,6 +228,44 @@ static size_t check_severed (const growing *g, int axis, double at)
     return severed;
 }
 
+/* Vertices that are distributed anew between a stretch that went ahead and one that stayed may lie a little
+ * inside of the crack as the scene drew it: that is no crack that they meet. */
+static void what_stayed_behind_is_no_obstacle (void **state)
+{
+    (void) state;
+    enum { SIDES = 28, MOST = 200 };
+    char text[4000];
+    int at = snprintf (text, sizeof text, CUBE ("18", "cracks: [{polygon: ["));
+    for (int k = 0; k < SIDES; k++) {
+        double t = 2 * acos (-1) * k / SIDES;
+        at += snprintf (text + at, sizeof text - (size_t) at, "%s[%.9g, %.9g, 9.05]", k ? ", " : "",
+                        9.1 + 5.4 * cos (t), 8.9 + 3.2 * sin (t));
+    }
+    snprintf (text + at, sizeof text - (size_t) at, "]}]\n");
+    srand (1);
+    growing g = begin (text);
+    for (int trial = 0; trial < 40; trial++) {
+        pg_state_free (&g.s);
+        check_ok (pg_state_create (&g.s, g.p, 3));
+        check_ok (pg_crack_surfaces_create (&g.s->surfaces, g.p));
+        for (int step = 0; step < 2; step++) {
+            double phase = uniform (0, 6.28), tilt = uniform (0, 6.28);
+            int waves = 1 + rand () % 4;
+            const pg_front *front = g.s->surfaces->front;
+            double d[MOST], theta[MOST];
+            assert_true (front->n <= MOST);
+            for (size_t i = 0; i < front->n; i++) {
+                double along = 2 * acos (-1) * (double) i / (double) front->n;
+                d[i] = cos (waves * along + phase) > 0, theta[i] = 0.03 * sin (3 * along + tilt);
+            }
+            check_ok (pg_front_advance (g.s, g.p, 0, d, theta, &g.cut));
+            bury (&g);
+            assert_true (g.s->surfaces->nfront == 1 && g.s->surfaces->front->closed);
+        }
+    }
+    end (&g);
+}
+
 /* A straight front of a pre-crack runs to the other side of the body: its ends stay on the surface, and at
  * the end nothing holds the two parts together. */
 static void a_front_severs_the_body (void **state)
@@ -515,6 +553,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_disc_grows), cmocka_unit_test (a_front_kinks_and_lags),
+        cmocka_unit_test (what_stayed_behind_is_no_obstacle),
         cmocka_unit_test (a_front_severs_the_body), cmocka_unit_test (a_crack_begins_at_the_surface),
         cmocka_unit_test (whatever_fronts_do_they_end),
         cmocka_unit_test (discs_meet), cmocka_unit_test (a_crack_across_stops_a_front),
