@@ -281,8 +281,8 @@ int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double to
 /* 0: no crack can cut a bond inside this box (low, high: dim), as its boxes tell; else 1. */
 int pg_cracks_near (const pg_cracks *cracks, const double *low, const double *high);
 /* The same for several cracks: the first of them that the bond meets, or that x lies on; NULL: none. */
-const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
+const pg_crack *pg_cracks_cut (const pg_cracks *cracks, const double *x, const double *y,
                                double tolerance);
-const pg_crack *pg_cracks_touch (const pg_cracks *cracks, int dim, const double *x, double tolerance);
+const pg_crack *pg_cracks_touch (const pg_cracks *cracks, const double *x, double tolerance);
 PG_API_END
 #endif

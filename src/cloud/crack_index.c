@@ -219,16 +219,14 @@ static int touches (const pg_crack *crack, int dim, const double *x, const doubl
     return pg_crack_touches (crack, dim, x, tolerance);
 }
 
-const pg_crack *pg_cracks_cut (const pg_cracks *cracks, int dim, const double *x, const double *y,
+const pg_crack *pg_cracks_cut (const pg_cracks *cracks, const double *x, const double *y,
                                double tolerance)
 {
-    (void) dim;
     return first_of (cracks, pg_crack_cuts, x, y, tolerance);
 }
 
-const pg_crack *pg_cracks_touch (const pg_cracks *cracks, int dim, const double *x, double tolerance)
+const pg_crack *pg_cracks_touch (const pg_cracks *cracks, const double *x, double tolerance)
 {
-    (void) dim;
     return first_of (cracks, touches, x, x, tolerance);
 }
 

@@ -85,7 +85,7 @@ typedef struct {
 /* 1 if a pre-crack lies between a place and a point; that point does not take part in the fit. */
 static int cut (const pg_problem *p, const double *x, int node)
 {
-    return pg_cracks_cut (pg_state_cracks (p, NULL), p->dim, x, p->cloud.x + (size_t) node * (size_t) p->dim,
+    return pg_cracks_cut (pg_state_cracks (p, NULL), x, p->cloud.x + (size_t) node * (size_t) p->dim,
                           1e-9 * p->cloud.h) != NULL;
 }
 

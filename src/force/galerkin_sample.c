@@ -31,7 +31,7 @@ typedef struct {
 static int cut (const sampling *s, const double *x, const double *y)
 {
     const pg_problem *p = s->g->problem;
-    return pg_cracks_cut (pg_state_cracks (p, s->state), p->dim, x, y, 1e-9 * p->cloud.h) != NULL;
+    return pg_cracks_cut (pg_state_cracks (p, s->state), x, y, 1e-9 * p->cloud.h) != NULL;
 }
 
 static const double *node_at (const galerkin *g, int node)

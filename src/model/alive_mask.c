@@ -63,7 +63,7 @@ void pg_bonds_cut_at (const pg_problem *p, int set, size_t q, unsigned char *ali
     if (!may_be_cut (p, rows, q)) return;
     for (size_t e = 0; e < m; e++) {
         int j = rows->family.node[first + e];
-        alive[e] = j == rows->own[q] || !pg_cracks_cut (cracks, p->dim, rows->x + q * dim,
+        alive[e] = j == rows->own[q] || !pg_cracks_cut (cracks, rows->x + q * dim,
                                                        p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
     }
 }

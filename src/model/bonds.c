@@ -266,7 +266,7 @@ static void count_eroded (pg_problem *p, const pg_scene *scene)
     const pg_crack *first = NULL;
     char way[96] = "move them off it";
     for (size_t i = 0; i < p->cloud.n; i++) {
-        const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, NULL), p->dim,
+        const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, NULL),
                                               p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h);
         p->eroded += on != NULL;
         if (!first) first = on;

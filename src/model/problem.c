@@ -208,7 +208,7 @@ static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
             const double *place = end ? g->to : g->from;
             if (!sees_points (p, place))
                 pg_scene_fault (scene, path, "lies outside the body: no point within the horizon");
-            if (pg_cracks_touch (pg_state_cracks (p, NULL), p->dim, place, 1e-9 * p->cloud.h))
+            if (pg_cracks_touch (pg_state_cracks (p, NULL), place, 1e-9 * p->cloud.h))
                 pg_problem_note (p,
                                  PG_WARNING "gauge %s: %s lies on a crack, whose two faces move apart: "
                                             "which of them it follows is chance; "

@@ -37,14 +37,14 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
 static int is_cut (const pg_problem *p, size_t i, size_t j)
 {
     size_t dim = (size_t) p->dim;
-    return pg_cracks_cut (pg_state_cracks (p, NULL), p->dim, p->cloud.x + i * dim, p->cloud.x + j * dim,
+    return pg_cracks_cut (pg_state_cracks (p, NULL), p->cloud.x + i * dim, p->cloud.x + j * dim,
                           1e-9 * p->cloud.h) != NULL;
 }
 
 /* Does a crack of the start pass through a point? */
 static int on_a_crack (const pg_problem *p, size_t i)
 {
-    return pg_cracks_touch (pg_state_cracks (p, NULL), p->dim, p->cloud.x + i * (size_t) p->dim,
+    return pg_cracks_touch (pg_state_cracks (p, NULL), p->cloud.x + i * (size_t) p->dim,
                             1e-9 * p->cloud.h) != NULL;
 }
 

@@ -145,7 +145,7 @@ int pg_tiles_cut (const pg_tiles *t, const double *a, const double *b)
 {
     double x[3], y[3];
     pg_tiles_space (t, a[0], a[1], x), pg_tiles_space (t, b[0], b[1], y);
-    return t->cracks && pg_cracks_cut (t->cracks, t->dim, x, y, 0);
+    return t->cracks && pg_cracks_cut (t->cracks, x, y, 0);
 }
 
 /* Does the point lie on a crack itself? Then it belongs to both sides; of a crack that is sided it does

@@ -26,7 +26,7 @@ static int hidden (void *context, const double *place, size_t point)
 {
     const sight *s = context;
     const pg_cloud *c = &s->problem->cloud;
-    return pg_cracks_cut (s->cracks, c->dim, place, c->x + (size_t) c->dim * point, 1e-9 * c->h) != NULL;
+    return pg_cracks_cut (s->cracks, place, c->x + (size_t) c->dim * point, 1e-9 * c->h) != NULL;
 }
 
 /* The face of a piece on the side that the normal shows to (side 1) or on the other (-1). corner: its places,

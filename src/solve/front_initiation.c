@@ -99,7 +99,7 @@ static int is_excluded (const view *v, const double *x, double h)
     for (size_t k = 0; k < n; k++)
         for (size_t i = 0; front[k].open && i < front[k].n; i++)
             if (apart (x, front[k].x + 3*i) < HOT_APART * h) return 1;
-    return pg_cracks_touch (pg_state_cracks (p, v->state), 3, x, 1.5 * h) != NULL;
+    return pg_cracks_touch (pg_state_cracks (p, v->state), x, 1.5 * h) != NULL;
 }
 
 /* What a crack takes at a node, the strength as far as the points can tell; 0: none begins there. */

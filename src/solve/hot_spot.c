@@ -109,7 +109,7 @@ int hot_excluded (const search *g, const double *x, double h)
         const pg_tip *t = &paths->tip[i];
         if (t->open && hypot (x[0] - t->x[0], x[1] - t->x[1]) < HOT_APART * h) return 1;
     }
-    return pg_cracks_touch (pg_state_cracks (p, g->state), p->dim, x, 1.5 * h) != NULL;
+    return pg_cracks_touch (pg_state_cracks (p, g->state), x, 1.5 * h) != NULL;
 }
 
 /* Load factor at which every node reaches its strength (n), by the stress at the node itself. */

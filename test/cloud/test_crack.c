@@ -326,9 +326,9 @@ static void boxes_change_no_answer (void **state)
     check_ok (pg_cracks_index (&boxed));
     for (int k = 0; k < 100000; k++) {
         double x[2] = { 5 * real (), 5 * real () }, y[2] = { x[0] + real (), x[1] + real () };
-        const pg_crack *first = pg_cracks_cut (&plain, 2, x, y, 1e-9);
-        assert_ptr_equal (pg_cracks_cut (&boxed, 2, x, y, 1e-9), first);
-        assert_ptr_equal (pg_cracks_touch (&boxed, 2, x, 1e-2), pg_cracks_touch (&plain, 2, x, 1e-2));
+        const pg_crack *first = pg_cracks_cut (&plain, x, y, 1e-9);
+        assert_ptr_equal (pg_cracks_cut (&boxed, x, y, 1e-9), first);
+        assert_ptr_equal (pg_cracks_touch (&boxed, x, 1e-2), pg_cracks_touch (&plain, x, 1e-2));
         found += first != NULL;
     }
     assert_true (found > 1000);
@@ -367,9 +367,9 @@ static void boxes_change_no_answer_in_space (void **state)
         for (int k = 0; k < 20000; k++) {
             double x[3] = { 5 * real (), 5 * real (), 1.5 * real () }, low[3], high[3];
             double y[3] = { x[0] + real (), x[1] + real (), x[2] + real () };
-            const pg_crack *first = pg_cracks_cut (&plain, 3, x, y, 1e-9);
-            assert_ptr_equal (pg_cracks_cut (&boxed, 3, x, y, 1e-9), first);
-            assert_ptr_equal (pg_cracks_touch (&boxed, 3, x, 1e-2), pg_cracks_touch (&plain, 3, x, 1e-2));
+            const pg_crack *first = pg_cracks_cut (&plain, x, y, 1e-9);
+            assert_ptr_equal (pg_cracks_cut (&boxed, x, y, 1e-9), first);
+            assert_ptr_equal (pg_cracks_touch (&boxed, x, 1e-2), pg_cracks_touch (&plain, x, 1e-2));
             for (int i = 0; i < 3; i++) low[i] = fmin (x[i], y[i]), high[i] = fmax (x[i], y[i]);
             int near = pg_cracks_near (&boxed, low, high);
             assert_true (near || !first);

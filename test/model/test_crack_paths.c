@@ -60,8 +60,8 @@ static size_t check_mask (const growing *g)
                 int j = p->rows[set].family.node[e];
                 const double *x = p->rows[set].x + 2*q, *y = p->cloud.x + 2 * (size_t) j;
                 if (j == p->rows[set].own[q]) continue;
-                int cut = pg_cracks_cut (&plain, 2, x, y, 1e-9 * p->cloud.h) != NULL;
-                assert_int_equal (cut, pg_cracks_cut (cracks, 2, x, y, 1e-9 * p->cloud.h) != NULL);
+                int cut = pg_cracks_cut (&plain, x, y, 1e-9 * p->cloud.h) != NULL;
+                assert_int_equal (cut, pg_cracks_cut (cracks, x, y, 1e-9 * p->cloud.h) != NULL);
                 assert_int_equal (g->s->alive[p->first_bond[set] + e], !cut);
                 dead += (size_t) cut;
             }

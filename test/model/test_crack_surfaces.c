@@ -56,7 +56,7 @@ static size_t check_mask (const growing *g)
                 int j = p->rows[set].family.node[e];
                 const double *x = p->rows[set].x + 3*q, *y = p->cloud.x + 3 * (size_t) j;
                 if (j == p->rows[set].own[q]) continue;
-                int cut = pg_cracks_cut (e % 13 ? cracks : &plain, 3, x, y, 1e-9 * p->cloud.h) != NULL;
+                int cut = pg_cracks_cut (e % 13 ? cracks : &plain, x, y, 1e-9 * p->cloud.h) != NULL;
                 assert_int_equal (g->s->alive[p->first_bond[set] + e], !cut);
                 dead += (size_t) cut;
             }
@@ -125,7 +125,7 @@ static void check_seams (const pg_crack_surfaces *w, int shots)
         }
         if (fabs (along) < 0.5) continue;              /* through both triangles of an edge alike */
         for (size_t k = 0; k < 3; k++) x[k] = target[k] - down * e[k], y[k] = target[k] + up * e[k];
-        aimed++, slipped += !pg_cracks_cut (&w->cracks, 3, x, y, 1e-9);
+        aimed++, slipped += !pg_cracks_cut (&w->cracks, x, y, 1e-9);
     }
     assert_true (aimed > (size_t) shots / 4);
     assert_int_equal (slipped, 0);
@@ -143,7 +143,7 @@ static void check_offset (const growing *g, const pg_front *f)
                 double place = f->x[3*i + k] - back * f->ahead[3*i + k];
                 x[k] = place - 0.1 * f->normal[3*i + k], y[k] = place + 0.1 * f->normal[3*i + k];
             }
-            const pg_crack *by = pg_cracks_cut (&w->cracks, 3, x, y, 1e-9);
+            const pg_crack *by = pg_cracks_cut (&w->cracks, x, y, 1e-9);
             assert_true (f->offset[i] > 0.05 && !by == !far);
             double along = 0;
             for (size_t k = 0; k < 3 && by; k++) along += by->normal[k] * f->normal[3*i + k];
@@ -394,7 +394,7 @@ static void discs_meet (void **state)
     /* between the two nothing holds together any more */
     for (int k = 0; k < 2000; k++) {
         double x[3] = { uniform (4, 10), uniform (6.6, 7.4), 7.2 }, y[3] = { x[0], x[1], 7.4 };
-        assert_non_null (pg_cracks_cut (&w->cracks, 3, x, y, 1e-9));
+        assert_non_null (pg_cracks_cut (&w->cracks, x, y, 1e-9));
     }
     end (&g);
 }
@@ -456,7 +456,7 @@ static void copies_are_deep_and_a_failure_changes_nothing (void **state)
     pg_memory_fail_at (0);
     check_ok (status);
     const double x[3] = { 4.5, 4.5, 4.2 }, y[3] = { 4.5, 4.5, 4.4 };
-    assert_non_null (pg_cracks_cut (&g.s->surfaces->cracks, 3, x, y, 1e-9));
+    assert_non_null (pg_cracks_cut (&g.s->surfaces->cracks, x, y, 1e-9));
     for (int i = 0; i < 64; i++) d[i] = 0;
     check_fails (pg_front_advance (g.s, g.p, 0, d, theta, &g.cut), PG_E_USAGE);
     check_fails (pg_front_advance (g.s, g.p, 1, d, theta, &g.cut), PG_E_USAGE);

@@ -131,7 +131,7 @@ static void result_e_has_the_faces (void **state)
         /* the strip up to the front is there at the last step only */
         assert_true (exist >= 2.0 * (double) at.n && exist >= before);
         if (k + 1 < steps) assert_true (exist == 2.0 * (double) at.n);
-        assert_non_null (pg_cracks_cut (&at, 3, (double[]) { 1, 2, 2.5 }, (double[]) { 1, 2, 3.5 }, 1e-9));
+        assert_non_null (pg_cracks_cut (&at, (double[]) { 1, 2, 2.5 }, (double[]) { 1, 2, 3.5 }, 1e-9));
         before = exist;
         pg_cracks_clear (&at);
     }
