@@ -47,6 +47,9 @@ const char *pg_integration_names (void);
  * within the body); cell holds the number of the cell, and the weights of each cell sum to its volume.
  * PG_E_MEMORY. */
 pg_status pg_cell_points (pg_quadrature *out, const pg_cells *cells, double thickness, int order);
+/* The same in the cells first .. last - 1, so that large bodies can be integrated over in parts. */
+pg_status pg_cell_points_of (pg_quadrature *out, const pg_cells *cells, double thickness, int order,
+                             size_t first, size_t last);
 /* Gauss points on every facet (order^(dim - 1) on bars and quadrilaterals), with normals; cell holds the
  * number of the facet, and the weights of each facet sum to its area. PG_E_MEMORY. */
 pg_status pg_facet_points (pg_quadrature *out, const pg_cells *cells, int order);

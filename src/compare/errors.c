@@ -10,20 +10,18 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The quadrature of the background cells with *order points per direction, thickness included.
- * A body without cells is measured by the volumes of its points, and *order becomes 0. */
-static pg_status quadrature (pg_quadrature *q, const pg_problem *p, int *order)
+/* Norms of a body without cells: its points with their volumes. */
+static pg_status over_points (pg_norms *out, const pg_problem *p, const pg_expression *where,
+                              const pg_sampler *value, const pg_sampler *reference)
 {
     pg_status status = PG_OK;
-    memset (q, 0, sizeof *q);
-    if (p->cells.n) return pg_cell_points (q, &p->cells, p->cloud.thickness, *order);
-    *order = 0;
-    PG_ALLOC (q->x, p->cloud.n * (size_t) p->dim);
-    PG_ALLOC (q->weight, p->cloud.n);
-    q->n = p->cloud.n;
-    memcpy (q->x, p->cloud.x, q->n * (size_t) p->dim * sizeof *q->x);
-    memcpy (q->weight, p->cloud.volume, q->n * sizeof *q->weight);
+    pg_quadrature q = { .n = p->cloud.n, .x = p->cloud.x, .weight = p->cloud.volume };
+    int *which = NULL;
+    PG_TRY (pg_compare_materials (p, &q, &which));
+    pg_norm_options options = { p->material, which, where };
+    PG_TRY (pg_norms_measure (out, &q, value, reference, &options));
 done:
+    pg_free (which);
     return status;
 }
 
@@ -86,22 +84,17 @@ pg_status pg_errors_against (pg_errors *out, const pg_problem *problem, int orde
                              const pg_sampler *value, const pg_sampler *reference)
 {
     pg_status status = PG_OK;
-    pg_quadrature q = { 0 };
-    int *which = NULL;
     double start = pg_seconds ();
     memset (out, 0, sizeof *out);
-    out->order = order;
+    out->order = problem->cells.n ? order : 0;
     if (reference->displacement || reference->stress) {
-        PG_TRY (quadrature (&q, problem, &out->order));
-        PG_TRY (pg_compare_materials (problem, &q, &which));
-        pg_norm_options options = { problem->material, which, where };
-        PG_TRY (pg_norms_measure (&out->norms, &q, value, reference, &options));
+        if (problem->cells.n)
+            PG_TRY (pg_norms_of_cells (&out->norms, problem, order, where, value, reference));
+        else PG_TRY (over_points (&out->norms, problem, where, value, reference));
         PG_TRY (at_points (out, problem, value, reference, where));
     }
     out->seconds = pg_seconds () - start;
 done:
-    pg_quadrature_clear (&q);
-    pg_free (which);
     if (status != PG_OK) pg_errors_clear (out);
     return status;
 }

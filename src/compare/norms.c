@@ -12,8 +12,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Places sampled at a time, which bounds the memory. */
-enum { CHUNK = 16384 };                                /* places at a time */
+/* Places sampled at a time, which bounds the memory. Cells are taken in PARTS, of PLACES at least: each part
+ * asks a sampler again what it has to know of the whole body (that no bond is broken, which field it is), and
+ * only where a part has places enough does it look for those that are alike. */
+enum { CHUNK = 16384, PARTS = 64, PLACES = 8192 };
 
 /* A measurement at work. */
 typedef struct {
@@ -25,8 +27,8 @@ typedef struct {
     /* Cholesky factor of D of each material (36 values each). */
     double *L;
     const pg_norm_options *options;
-    /* Samples of one chunk: displacement of value and reference (CHUNK x 3), stresses of both
-     * (CHUNK x 6). */
+    /* Samples of one chunk: displacement of value and reference (room x 3), stresses of both (room x 6). */
+    size_t  room;
     double *v, *w, *s, *t;
     /* Sums of squares: displacement difference and reference, energies likewise; the largest
      * |u_ref| and |s_ref|. */
@@ -114,16 +116,14 @@ done:
     return status;
 }
 
-/* Decides which components are compared and allocates the samples. Displacements need one
- * component that both sides know; stress needs all of the dimension and an elastic law, since
- * the energy norm couples them. */
-static pg_status prepare (measuring *m, const pg_quadrature *q, const pg_sampler *value,
-                          const pg_sampler *reference)
+/* Decides which components are compared. Displacements need one component that both sides know; stress needs
+ * all of the dimension and an elastic law, since the energy norm couples them. laws: their number. */
+static pg_status prepare (measuring *m, size_t laws, const pg_sampler *value, const pg_sampler *reference)
 {
     static const int part[4][6] = { { 0 }, { 0 }, { 0, 1, 3 }, { 0, 1, 2, 3, 4, 5 } };
     pg_status status = PG_OK;
     int needed = 0;
-    size_t laws = 1;
+    memset (m->out, 0, sizeof *m->out);
     if (value->dim != reference->dim)
         PG_FAIL (PG_E_USAGE, "a %dD result is compared with a %dD one", value->dim, reference->dim);
     m->dim = value->dim, m->nv = pg_voigt_size (m->dim);
@@ -131,11 +131,19 @@ static pg_status prepare (measuring *m, const pg_quadrature *q, const pg_sampler
     m->u = value->displacement & reference->displacement;
     for (int k = 0; k < m->nv; k++) needed |= 1 << m->part[k];
     m->stress = m->options->material && (value->stress & reference->stress & needed) == needed;
-    for (size_t i = 0; m->options->which && i < q->n; i++)
-        if ((size_t) m->options->which[i] >= laws) laws = (size_t) m->options->which[i] + 1;
     if (m->stress) PG_TRY (factor_laws (m, laws));
-    PG_ALLOC (m->v, 18 * CHUNK);
-    m->w = m->v + 3 * CHUNK, m->s = m->w + 3 * CHUNK, m->t = m->s + 6 * CHUNK;
+done:
+    return status;
+}
+
+/* Room for the samples of n places. */
+static pg_status widen (measuring *m, size_t n)
+{
+    pg_status status = PG_OK;
+    if (n <= m->room) return PG_OK;
+    pg_free (m->v), m->v = NULL, m->room = 0;
+    PG_ALLOC (m->v, 18 * n);
+    m->w = m->v + 3 * n, m->s = m->w + 3 * n, m->t = m->s + 6 * n, m->room = n;
 done:
     return status;
 }
@@ -173,28 +181,96 @@ static void add_chunk (measuring *m, const pg_quadrature *q, size_t first, size_
 }
 
 /* Chunk by chunk: sample both sides, then add. */
+static pg_status add_places (measuring *m, const pg_quadrature *q, size_t chunk, const pg_sampler *value,
+                             const pg_sampler *reference)
+{
+    pg_status status = PG_OK;
+    PG_TRY (widen (m, q->n < chunk ? q->n : chunk));
+    for (size_t first = 0; first < q->n; first += chunk) {
+        size_t n = q->n - first < chunk ? q->n - first : chunk;
+        const double *x = q->x + first * (size_t) m->dim;
+        PG_TRY (value->sample (value->context, n, x, m->v, m->stress ? m->s : NULL));
+        PG_TRY (reference->sample (reference->context, n, x, m->w, m->stress ? m->t : NULL));
+        add_chunk (m, q, first, n);
+    }
+done:
+    return status;
+}
+
+/* The norms of the sums. */
+static void finish (measuring *m)
+{
+    pg_norms *out = m->out;
+    out->displacement = m->u != 0 && out->places, out->stress = m->stress && out->places;
+    out->l2.difference = sqrt (m->sum[0]), out->l2.reference = sqrt (m->sum[1]);
+    out->energy.difference = sqrt (m->sum[2]), out->energy.reference = sqrt (m->sum[3]);
+    out->maximum.reference = m->top_u, out->stress_maximum.reference = m->top_s;
+    close_norm (&out->l2), close_norm (&out->maximum), close_norm (&out->energy),
+        close_norm (&out->stress_maximum);
+}
+
 pg_status pg_norms_measure (pg_norms *out, const pg_quadrature *q, const pg_sampler *value,
                             const pg_sampler *reference, const pg_norm_options *options)
 {
     pg_status status = PG_OK;
     measuring m = { .options = options, .out = out };
-    memset (out, 0, sizeof *out);
-    PG_TRY (prepare (&m, q, value, reference));
-    for (size_t first = 0; first < q->n; first += CHUNK) {
-        size_t n = q->n - first < CHUNK ? q->n - first : CHUNK;
-        const double *x = q->x + first * (size_t) m.dim;
-        PG_TRY (value->sample (value->context, n, x, m.v, m.stress ? m.s : NULL));
-        PG_TRY (reference->sample (reference->context, n, x, m.w, m.stress ? m.t : NULL));
-        add_chunk (&m, q, first, n);
-    }
-    out->displacement = m.u != 0 && out->places, out->stress = m.stress && out->places;
-    out->l2.difference = sqrt (m.sum[0]), out->l2.reference = sqrt (m.sum[1]);
-    out->energy.difference = sqrt (m.sum[2]), out->energy.reference = sqrt (m.sum[3]);
-    out->maximum.reference = m.top_u, out->stress_maximum.reference = m.top_s;
-    close_norm (&out->l2), close_norm (&out->maximum), close_norm (&out->energy),
-        close_norm (&out->stress_maximum);
+    size_t laws = 1;
+    for (size_t i = 0; options->which && i < q->n; i++)
+        if ((size_t) options->which[i] >= laws) laws = (size_t) options->which[i] + 1;
+    PG_TRY (prepare (&m, laws, value, reference));
+    PG_TRY (add_places (&m, q, CHUNK, value, reference));
+    finish (&m);
 done:
     pg_free (m.L), pg_free (m.v);
+    return status;
+}
+
+/* The material of every place is that of the nearest evaluation point. */
+static void find_materials (const pg_problem *p, const pg_nearest *near, const pg_quadrature *q, int *which)
+{
+    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
+    for (size_t i = 0; i < q->n; i++)
+        which[i] = p->block[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
+}
+
+/* A search for the material at a place; NULL where there is one material only. */
+static pg_status search_materials (pg_nearest **out, const pg_problem *p)
+{
+    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
+    if (p->nmaterial < 2) return PG_OK;
+    return pg_nearest_create (out, p->dim, p->rows[bulk].n, p->rows[bulk].x);
+}
+
+/* Cells in parts: the places of a large body would take more memory than anything else. */
+pg_status pg_norms_of_cells (pg_norms *out, const pg_problem *p, int order, const pg_expression *where,
+                             const pg_sampler *value, const pg_sampler *reference)
+{
+    pg_status status = PG_OK;
+    pg_norm_options options = { p->material, NULL, where };
+    measuring m = { .options = &options, .out = out };
+    pg_nearest *near = NULL;
+    pg_quadrature q = { 0 };
+    int *which = NULL;
+    size_t few = PLACES, part = p->cells.n / PARTS + 1;
+    for (int k = 0; k < p->dim; k++) few /= (size_t) order;
+    part = part > few ? part : few + 1;
+    PG_TRY (prepare (&m, p->nmaterial < 2 ? 1 : p->nmaterial, value, reference));
+    PG_TRY (search_materials (&near, p));
+    for (size_t first = 0; first < p->cells.n; first += part) {
+        size_t last = first + part < p->cells.n ? first + part : p->cells.n;
+        PG_TRY (pg_cell_points_of (&q, &p->cells, p->cloud.thickness, order, first, last));
+        if (near) {
+            PG_ALLOC (which, q.n);
+            find_materials (p, near, &q, which);
+        }
+        options.which = which;
+        PG_TRY (add_places (&m, &q, q.n, value, reference));
+        pg_quadrature_clear (&q), pg_free (which), which = NULL;
+    }
+    finish (&m);
+done:
+    pg_quadrature_clear (&q), pg_nearest_free (&near);
+    pg_free (m.L), pg_free (m.v), pg_free (which);
     return status;
 }
 
@@ -255,12 +331,10 @@ pg_status pg_compare_materials (const pg_problem *p, const pg_quadrature *q, int
 {
     pg_status status = PG_OK;
     pg_nearest *near = NULL;
-    int bulk = p->integration->at_nodes ? PG_NODES : PG_POINTS;
-    if (p->nmaterial < 2) return PG_OK;
+    PG_TRY (search_materials (&near, p));
+    if (!near) return PG_OK;
     PG_ALLOC (*which, q->n);
-    PG_TRY (pg_nearest_create (&near, p->dim, p->rows[bulk].n, p->rows[bulk].x));
-    for (size_t i = 0; i < q->n; i++)
-        (*which)[i] = p->block[bulk][pg_nearest_find (near, q->x + i * (size_t) p->dim, NULL, NULL)];
+    find_materials (p, near, q, *which);
 done:
     pg_nearest_free (&near);
     return status;

@@ -18,8 +18,8 @@ typedef struct {
     const pg_cells *cells;
     /* facets: 1 if these are facets. order: Gauss points per direction. */
     int    dim, facets, order;
-    /* Number of cells or facets. */
-    size_t n;
+    /* The first of the cells or facets, and the one behind the last. */
+    size_t from, to;
     /* Kinds, first nodes and nodes as in pg_cells. */
     const unsigned char *kind;  const size_t *start;  const double *x;
     /* Number of cut ones, and how many of them have been written; points of cut one k within `cut`:
@@ -33,9 +33,9 @@ typedef struct {
 static pg_status find_cut (mesh *m)
 {
     pg_status status = PG_OK;
-    for (size_t e = 0; e < m->n; e++) m->ncut += m->kind[e] == PG_CUT;
+    for (size_t e = m->from; e < m->to; e++) m->ncut += m->kind[e] == PG_CUT;
     PG_ALLOC (m->first, m->ncut + 1);
-    for (size_t e = 0, k = 0; e < m->n; e++) {
+    for (size_t e = m->from, k = 0; e < m->to; e++) {
         if (m->kind[e] != PG_CUT) continue;
         PG_TRY (m->facets ? pg_cut_facet (&m->cut, m->cells, e, m->order)
                           : pg_cut_cell (&m->cut, m->cells, e, m->order));
@@ -52,7 +52,7 @@ static pg_status reserve (pg_quadrature *out, const mesh *m)
     size_t n = m->cut.n, dim = (size_t) m->dim;
     double xi[3 * PG_ELEMENT_POINTS], w[PG_ELEMENT_POINTS];
     int points[PG_ELEMENTS] = { 0 };
-    for (size_t e = 0; e < m->n; e++) {
+    for (size_t e = m->from; e < m->to; e++) {
         int kind = m->kind[e];
         if (kind == PG_CUT) continue;
         if (!points[kind]) points[kind] = pg_element_rule ((pg_element) kind, m->order, xi, w);
@@ -124,7 +124,7 @@ static pg_status fill (pg_quadrature *out, mesh *m, double factor)
     r.dN = r.N + PG_ELEMENT_POINTS * PG_ELEMENT_NODES;
     PG_TRY (find_cut (m));
     PG_TRY (reserve (out, m));
-    for (size_t e = 0; e < m->n; e++) {
+    for (size_t e = m->from; e < m->to; e++) {
         if (m->kind[e] == PG_CUT) add_cut (out, m, e);
         else {
             if (m->kind[e] != r.kind) choose_rule (&r, m->kind[e], m->order);
@@ -139,12 +139,19 @@ done:
     return status;
 }
 
-pg_status pg_cell_points (pg_quadrature *out, const pg_cells *c, double thickness, int order)
+pg_status pg_cell_points_of (pg_quadrature *out, const pg_cells *c, double thickness, int order, size_t first,
+                             size_t last)
 {
     mesh m = {
-        .cells = c, .dim = c->dim, .order = order, .n = c->n, .kind = c->kind, .start = c->start, .x = c->x
+        .cells = c, .dim = c->dim, .order = order, .from = first, .to = last, .kind = c->kind,
+        .start = c->start, .x = c->x
     };
     return fill (out, &m, c->dim == 3 ? 1 : thickness);
+}
+
+pg_status pg_cell_points (pg_quadrature *out, const pg_cells *c, double thickness, int order)
+{
+    return pg_cell_points_of (out, c, thickness, order, 0, c->n);
 }
 
 /* Replaces the normal of a point by the mean normal of its facet where both agree to 1e-14: a flat facet
@@ -163,7 +170,7 @@ pg_status pg_facet_points (pg_quadrature *out, const pg_cells *c, int order)
                .dim = c->dim,
                .facets = 1,
                .order = order,
-               .n = c->nfacet,
+               .to = c->nfacet,
                .kind = c->facet_kind,
                .start = c->facet_start,
                .x = c->facet_x };

@@ -288,6 +288,46 @@ static void perturbed_patch (void **unused)
     pg_errors_clear (&first);
 }
 
+static pg_status sample_at (void *context, size_t n, const double *x, double *u, double *stress)
+{
+    const double *size = context;  /* of the components (6); they grow along x */
+    (void) u;
+    for (size_t i = 0; stress && i < n; i++)
+        for (size_t k = 0; k < 6; k++) stress[6 * i + k] = size[k] * (1 + x[2 * i]);
+    return PG_OK;
+}
+
+/* Cells taken in parts, of two materials: the norms are those over all places at once. */
+static void cells_in_parts (void **unused)
+{
+    (void) unused;
+    run r = scene_of (
+        1, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.021\n"
+           "materials:\n  soft: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}\n"
+           "  stiff: {youngs_modulus: 30 GPa, poissons_ratio: 0.2}\n"
+           "blocks:\n  - {material: soft, where: 'x >= 0.31'}\n  - {material: stiff, where: 'x < 0.31'}\n"
+           "solver: {stepping: fixed, steps: 1}\n");
+    double size[2][6] = { { 5, -2, 7, 3, 4, -6 }, { 1, 1, 2, -1, 1, 1 } };
+    pg_sampler a = { size[0], 2, 0, 63, sample_at, NULL }, b = { size[1], 2, 0, 63, sample_at, NULL };
+    pg_quadrature q;
+    pg_norms parts, whole;
+    int *which = NULL;
+    check_ok (pg_cell_points (&q, &r.problem->cells, r.problem->cloud.thickness, 5));
+    assert_true (q.n > 2 * 16384);
+    which = pg_calloc (q.n, sizeof *which);
+    for (size_t i = 0; i < q.n; i++) which[i] = q.x[2*i] < 0.31;
+    check_ok (pg_norms_measure (&whole, &q, &a, &b,
+                                &(pg_norm_options){ r.problem->material, which, NULL }));
+    check_ok (pg_norms_of_cells (&parts, r.problem, 5, NULL, &a, &b));
+    assert_int_equal (parts.places, q.n);
+    check_relative (parts.volume, 0.7 * r.problem->cloud.thickness, 1e-12);
+    check_relative (parts.energy.difference, whole.energy.difference, 2e-3);   /* cells astride 0.31 */
+    check_relative (parts.stress_maximum.difference, whole.stress_maximum.difference, 0);
+    check_relative (parts.stress_maximum.place[0], 1, 1e-2);
+    pg_quadrature_clear (&q), pg_free (which);
+    clear (&r);
+}
+
 /* The size of a stress difference is that of the tensor: each shear stands for two components. */
 static pg_status sample_shears (void *context, size_t n, const double *x, double *u, double *stress)
 {
@@ -438,6 +478,7 @@ int main (void)
                                         cmocka_unit_test (known_difference),
                                         cmocka_unit_test (perturbed_patch),
                                         cmocka_unit_test (shears_count_twice_in_the_largest_stress),
+        cmocka_unit_test (cells_in_parts),
                                         cmocka_unit_test (energy_of_two_materials),
                                         cmocka_unit_test (what_is_not_there_does_not_count),
                                         cmocka_unit_test (a_moved_result),

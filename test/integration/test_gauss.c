@@ -275,6 +275,18 @@ static void kinds_may_be_mixed (void **state)
         for (size_t k = 0; k < q.n; k++) sum[q.cell[k]] += q.weight[k], moment += q.weight[k] * q.x[2*k];
         for (int e = 0; e < 5; e++) check_relative (sum[e], 0.3 * area[e], 1e-14);
         check_relative (moment, 0.3 * (0.5 + 0.5 * 4 / 3 + 0.5 * 5 / 3 + 2 + 0.5 * 7 / 3), 1e-14);
+        /* in parts: the same points, whatever element a part begins with */
+        for (size_t first = 0, at = 0; first < 5; first += 2) {
+            pg_quadrature part;
+            size_t last = first + 2 < 5 ? first + 2 : 5;
+            check_ok (pg_cell_points_of (&part, &c, 0.3, order, first, last));
+            assert_true (at + part.n <= q.n);
+            assert_memory_equal (part.x, q.x + 2 * at, 2 * part.n * sizeof *q.x);
+            assert_memory_equal (part.weight, q.weight + at, part.n * sizeof *q.weight);
+            assert_memory_equal (part.cell, q.cell + at, part.n * sizeof *q.cell);
+            at += part.n, pg_quadrature_clear (&part);
+            if (last == 5) assert_int_equal (at, q.n);
+        }
         pg_quadrature_clear (&q);
     }
 }
