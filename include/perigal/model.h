@@ -56,6 +56,20 @@ int    pg_load_rotates (const pg_load *load);            /* rotation or moment *
 int    pg_load_components (const pg_load *load, int dim);  /* dim; of a rotation or moment 1 in 2D, 3 in 3D */
 char   pg_load_axis (const pg_load *load, int dim, int k);             /* 'x', 'y', 'z' of component k */
 
+/* A stage of loading (key `stages`). Stage k (from 1) runs from t = k - 1 to t = k; its loads go straight to
+ * their targets, and it ends early where one of its conditions is met. */
+typedef struct {
+    char    name[64];
+    /* per load its factor at the end; NAN: it stays (nload) */
+    double *target;
+    long    steps;                                     /* stepping: fixed: load steps; 0: solver.steps */
+    int     gauge;  double opening;                    /* number of a gauge, -1: none; m */
+    /* number of a load, -1: none; its force falls by this share of the largest */
+    int     load;   double drop;
+    long    events;                                    /* 0: any number */
+    double  growth;  /* of cracks since the stage began, m (in space m^2); 0: any */
+} pg_stage;
+
 /* ---- problem ------------------------------------------------------------------------------------------- */
 /* Bond sets, each a list of points and the nodes they see (style: one array of alive bits per set, all in
  * state). */
@@ -82,6 +96,10 @@ typedef struct {
     double seconds;
 } pg_patch;
 typedef struct { char name[32]; double from[3], to[3]; } pg_gauge;      /* opening along from -> to, m */
+
+/* The relative displacement b - a of its ends along the line between them, m; positive when they move
+ * apart. */
+double pg_gauge_opening (const pg_gauge *gauge, int dim, const double *a, const double *b);
 
 /* An interface between two materials with a fracture energy (J/m^2) and a tensile strength (Pa; NAN: none) of
  * its own. */
@@ -199,6 +217,7 @@ struct pg_problem {
     void    *options;                                  /* what method->read made of the keys; NULL: nothing */
     pg_sums *sums;                                     /* without shape functions; else NULL */
     pg_load *load;   size_t nload;
+    pg_stage *stage; size_t nstage;                    /* none: one path, t from 0 to 1 */
     pg_gauge *gauge; size_t ngauge;
     pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */
     pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL */
@@ -271,6 +290,14 @@ int       pg_problem_grows (const pg_problem *problem);
 int       pg_problem_proportional (const pg_problem *problem);  /* every load is a constant pattern times t */
 /* every load is a constant pattern and t times another, t from 0 to 1 */
 int       pg_problem_affine (const pg_problem *problem);
+/* The same problem with tables of loads of its own, for a run whose stages may end early; all else is
+ * borrowed. */
+pg_status pg_problem_staged      (pg_problem **out, const pg_problem *problem);
+void      pg_problem_staged_free (pg_problem **staged);
+/* The loads as they are where stage k ends at the share share[k] (0 to 1) of its way; NULL: all at 1. */
+void      pg_stages_follow       (pg_problem *staged, const double *share);
+/* 1: a load changes in that stage (from 0). */
+int       pg_stage_loads         (const pg_problem *problem, size_t stage);
 
 /* ---- cracks that grow (2D) ----------------------------------------------------------------------------- */
 /* The cracks that exist in a state: those of the scene first, then the facets that grew, straight pieces

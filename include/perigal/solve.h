@@ -59,6 +59,7 @@ typedef struct {                                       /* Newmark's method; 1, 1
 } PG_ALIAS pg_newmark_options;
 typedef struct {                                       /* equilibria by linear systems */
     int    affine;                                     /* event stepping: loads have a constant part */
+    long   steps;                                      /* fixed load steps, of each stage of loading */
     double stop_stiffness;  /* event stepping: stop when the secant stiffness fell below it */
     pg_newmark_options motion;                         /* with PG_UNSTABLE_DYNAMIC */
     /* s; 0: by the fastest wave. quiet: so long without a break, then what moves is damped away */
@@ -137,6 +138,18 @@ int pg_solver_note (const pg_problem *problem, const pg_solver_options *options,
                     size_t size);
 void pg_statistics_skip (pg_statistics *report, double seconds, const char *what, const char *why);
 
+/* What was at the end of a stage of loading. */
+typedef struct {
+    int    done, reason;                               /* 0: the run did not come to its end */
+    /* "loads reached", "gauge", "drop of force", "events", "crack growth" or "end of the run" */
+    const char *why;
+    long   step, events;                               /* last step; events in it */
+    double share;                                      /* of its way, 1: all of it */
+    double strain, external, dissipated;               /* J, of the run so far */
+    double growth;  /* of cracks by facets in it, m (in space m^2) */
+    double *gauge;                                     /* openings of all gauges, m */
+} pg_stage_record;
+
 typedef struct {  /* of one step: a user level, a time step or an event */
     long   number, iterations;  /* break-and-solve rounds; time steps; iterations of relaxation */
     int    level;                                      /* 1: a level at which the user wants fields */
@@ -149,6 +162,7 @@ typedef struct {  /* of one step: a user level, a time step or an event */
     double dissipated;                                 /* J, in this step */
     /* event stepping: number of the instability that the step is part of, 0: none; s in motion so far */
     long   instability; double motion;
+    long   stage;  /* of loading, from 1; 0: the run has none */
 } pg_step;
 
 /* What was measured last at a tip, in the state of the last step. NAN: not measured. */
@@ -258,6 +272,8 @@ const pg_tip_values *pg_solver_tip (const pg_solver *solver, long id);
 /* What was measured at the vertices of crack fronts in the last step, front by front; *n: how many.
  * Borrowed. */
 const pg_front_values *pg_solver_fronts (const pg_solver *solver, size_t *n);
+/* Of every stage of loading (*n of them); NULL: none. Borrowed. */
+const pg_stage_record *pg_solver_stages (const pg_solver *solver, size_t *n);
 /* with a fresh census and overlap */
 const pg_statistics *pg_solver_report (pg_solver *solver, const pg_state *state);
 const pg_statistics *pg_solver_report_now (const pg_solver *solver);  /* counts and energies only */

@@ -54,6 +54,36 @@ static const pg_key keys[] = {
       "Factor over time as pairs [t, factor], linear between, constant beyond." },
     { "boundary[].table[]", PG_NUMBERS, NULL, NULL, "", NULL, NULL, NULL,
       "One pair: t in s (static: load factor 0 to 1), factor." },
+    { "stages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
+      "Stages of loading, one after the other: confine, load axially, unload ... Stage k runs from t = k - 1 "
+      "to t = k (load_factor of history.csv). Without them all loads grow from 0 to 1 together." },
+    { "stages[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Name in report.json and in messages." },
+    { "stages[].boundary", PG_MAP, NULL, NULL, "", NULL, NULL, NULL,
+      "The loads and supports that move in this stage, by their names (boundary[].name). All start at 0; one "
+      "that is not named stays as it is, and none named: a hold. Entries with ramp: constant act in full in "
+      "all stages." },
+    { "stages[].boundary.{}", PG_NUMBER, "1", NULL, "", NULL, NULL, NULL,
+      "What the load is at the end of the stage, as a multiple of its value in boundary; it goes there in a "
+      "straight line from what it was. 0: unloaded." },
+    { "stages[].steps", PG_INTEGER, NULL, "[1, 100000000]", "", NULL, NULL, NULL,
+      "Equal load steps of this stage, with stepping: fixed; solver.steps if not given." },
+    { "stages[].until", PG_MAP, NULL, NULL, "", NULL, NULL, NULL,
+      "What ends the stage early, whichever comes first; the loads then stay what they are. Looked at in "
+      "states that bear their load: the first one that meets it ends the stage." },
+    { "stages[].until.gauge", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL,
+      "A gauge (output.gauges) whose opening ends the stage; exactly there with stepping: event." },
+    { "stages[].until.opening", PG_NUMBER, "m", NULL, "", NULL, NULL, NULL,
+      "That opening, from either side; of a gauge that closes it is negative." },
+    { "stages[].until.load", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL,
+      "A load or support (boundary[].name) whose force ends the stage." },
+    { "stages[].until.drop", PG_NUMBER, "1", "(0, 1]", "", NULL, NULL, NULL,
+      "That force has fallen by this share of its largest value in the stage: 20 %." },
+    { "stages[].until.events", PG_INTEGER, NULL, "[1, 1000000000]", "", NULL, NULL, NULL,
+      "So many events (stepping: fixed: load steps in which something broke) of this stage." },
+    { "stages[].until.crack_length", PG_NUMBER, "m", "(0, inf)", "", NULL, NULL, NULL,
+      "Cracks have grown by this length in the stage (facets in the plane)." },
+    { "stages[].until.crack_area", PG_NUMBER, "m2", "(0, inf)", "", NULL, NULL, NULL,
+      "Cracks have grown by this area in the stage (facets in space)." },
     { "initial.velocity", PG_MAP, NULL, NULL, "", no_choice, NULL, NULL,
       "Velocity of every point at the start of a dynamic run, at rest unless given; supports have their "
       "own; points with rotations (gmpd) rotate with half its curl. Not with force: galerkin so far." },

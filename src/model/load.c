@@ -354,7 +354,11 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     if (problem->method->support) problem->method->support (problem, load, scene, i);
     if (!load->cracks) check_place (problem, load, scene, i);
     read_depth (problem, load, scene, i);
-    if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
+    size_t nstage = pg_scene_count (scene, "stages");
+    const char *ramp = pg_scene_text (scene, "boundary[%zu].ramp", i);
+    if (nstage && !(ramp && strcmp (ramp, "constant") == 0))
+        PG_TRY (pg_load_follows_stages (load, scene, i, nstage));
+    else if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
     else PG_TRY (read_ramp (load, scene, i, is_static, duration));
     PG_TRY (read_values (load, scene, i, kinds[k].key, kinds[k].unit));
     if (load->cracks) check_cracks (problem, load, scene, i);
@@ -396,6 +400,8 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
     for (size_t i = 0; i < problem->nload; i++)
         PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
     name_apart (problem, scene);
+    PG_TRY (pg_stages_read (problem, scene));
+    if (problem->nstage) duration = (double) problem->nstage;
     pg_supports_check (problem, scene, duration);
     pg_supports_check_eliminated (problem, scene);
 done:

@@ -9,6 +9,10 @@ pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_supports_check (pg_problem *problem, const pg_scene *scene, double duration);
 void      pg_supports_check_eliminated (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
+/* stages.c: once the loads have their names. A load that follows the stages gets its table, still empty. */
+pg_status pg_stages_read  (pg_problem *problem, const pg_scene *scene);
+void      pg_stages_clear (pg_problem *problem);
+pg_status pg_load_follows_stages (pg_load *load, const pg_scene *scene, size_t i, size_t nstage);
 /* initial.velocity: checked and compiled; put into v (n x dim, m/s), which is left alone where nothing is
  * given. */
 pg_status pg_initial_read  (pg_problem *problem, const pg_scene *scene);

@@ -220,6 +220,18 @@ done:
     return status;
 }
 
+/* Opening of a gauge: the relative displacement b - a of its ends along the line between them,
+ * m; positive when they move apart. */
+double pg_gauge_opening (const pg_gauge *g, int dim, const double *a, const double *b)
+{
+    double length = 0, sum = 0;
+    for (int k = 0; k < dim; k++) {
+        length += (g->to[k] - g->from[k]) * (g->to[k] - g->from[k]);
+        sum += (g->to[k] - g->from[k]) * (b[k] - a[k]);
+    }
+    return length > 0 ? sum / sqrt (length) : 0;
+}
+
 /* Faults that do not hinder later stages are passed by and told together at the end. */
 pg_status pg_problem_prepare_with (pg_problem **out, const pg_scene *scene, const pg_method *const *methods,
                                    int threads)
@@ -300,7 +312,7 @@ void pg_problem_free (pg_problem **problem)
     pg_patches_free (&p->patches);
     pg_sums_free (&p->sums);
     pg_free (p->options);
-    pg_loads_clear (p), pg_initial_clear (p);
+    pg_stages_clear (p), pg_loads_clear (p), pg_initial_clear (p);
     pg_criterion_clear (p->criterion, p->nmaterial);
     pg_free (p->facet_normal), pg_free (p->gauge), pg_free (p->interface);
     pg_free (p->material), pg_free (p->criterion);
@@ -339,6 +351,7 @@ int pg_problem_grows (const pg_problem *p)
  * design. */
 int pg_problem_proportional (const pg_problem *p)
 {
+    if (p->nstage) return 0;
     for (size_t i = 0; i < p->nload; i++) {
         if (p->load[i].proportional) continue;
         /* a displacement held at zero is proportional too */
@@ -377,6 +390,7 @@ static int is_affine (const pg_load *load, int k, int dim, const double *x)
  * of their set. */
 int pg_problem_affine (const pg_problem *p)
 {
+    if (p->nstage) return 1;                           /* each of them is so by itself */
     double middle[3] = { 0 };
     for (int k = 0; k < p->dim; k++) middle[k] = 0.37 * p->cloud.low[k] + 0.63 * p->cloud.high[k];
     for (size_t l = 0; l < p->nload; l++) {

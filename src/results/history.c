@@ -8,6 +8,7 @@
  *   cracks that grow and their tips (grown_cracks.c)
  *   energies (J), broken bonds, iterations, residual, utilisation, event, level
  *   with solver.on_instability: instability, time in motion (s), damped energy (J)
+ *   with stages of loading: the number of the stage
  *
  * events.csv has one row per broken bond: when, where, how, and which kind of bond. Both
  * tables are read by other programs and by our own (`perigal plot --curve`, converge), by the
@@ -45,7 +46,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
     size_t n = 0, tips = pg_result_paths_columns (r),
-           most = 13 + UNSTABLE_COLUMNS + 6 * p->nload + p->ngauge + r->naverage + r->ntip + tips + 1;
+           most = 14 + UNSTABLE_COLUMNS + 6 * p->nload + p->ngauge + r->naverage + r->ntip + tips + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
@@ -66,6 +67,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
         snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
     for (size_t k = 0; goes_unstable (r) && k < UNSTABLE_COLUMNS; k++)
         snprintf (name[n++], sizeof *name, "%s", unstable_columns[k]);
+    if (p->nstage) snprintf (name[n++], sizeof *name, "stage [1]");
     for (size_t k = 0; k < n; k++) column[k] = name[k];
     r->ncolumn = n;
     PG_ALLOC (r->row, n);
@@ -93,18 +95,6 @@ static double mean_of (const pg_set *set, const double *u, int dim, int k)
     double sum = 0;
     for (size_t i = 0; i < set->npoint; i++) sum += u[(size_t) set->point[i] * (size_t) dim + (size_t) k];
     return set->npoint ? sum / (double) set->npoint : 0;
-}
-
-/* Opening of a gauge: the relative displacement b - a of its ends along the line between them,
- * m; positive when they move apart. */
-static double opening (const pg_gauge *g, int dim, const double *a, const double *b)
-{
-    double length = 0, sum = 0;
-    for (int k = 0; k < dim; k++) {
-        length += (g->to[k] - g->from[k]) * (g->to[k] - g->from[k]);
-        sum += (g->to[k] - g->from[k]) * (b[k] - a[k]);
-    }
-    return length > 0 ? sum / sqrt (length) : 0;
 }
 
 /* One row per bond that broke in the step. Numbers come first, so that readers of numbers can
@@ -179,7 +169,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
             PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].from, a, NULL, NULL));
             PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].to, b, NULL, NULL));
         }
-        r->row[n++] = opening (&p->gauge[g], p->dim, a, b);
+        r->row[n++] = pg_gauge_opening (&p->gauge[g], p->dim, a, b);
     }
     if (r->curve_load >= 0) PG_TRY (pg_result_curve_row (r, x, y, gauges, step));
     PG_TRY (pg_result_averages_row (r, state, r->row + n, r->u));
@@ -198,6 +188,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
         r->row[n++] = (double) step->instability, r->row[n++] = step->motion;
         r->row[n++] = report->energy_damping;
     }
+    if (p->nstage) r->row[n++] = (double) step->stage;
     PG_TRY (pg_table_row (r->history, r->row));
     PG_TRY (event_rows (r, step));
     PG_TRY (pg_result_paths_write (r, state, step));

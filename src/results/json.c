@@ -3,6 +3,7 @@
  * SI units; what is not known is null or missing.
  *
  *   (no key)   sizes of the problem, steps, events, iterations, work of the linear solver, energies
+ *   stages     of loading: how each ended, its energies and gauges
  *   curve      peak of the load-displacement curve and its stiffnesses        (curve.c)
  *   new_crack  what the broken bonds amount to                                (crack.c)
  *   crack_length, fracture   cracks that grew by facets                       (grown_cracks.c)
@@ -98,6 +99,38 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_shut (j);
 }
 
+/* Stages of loading: how each ended, energies and openings of gauges then; those that the run did not come to
+ * the end of have their name alone. What a stage did itself is the difference to the one before. */
+static void stages_block (pg_json *j, const pg_result *res)
+{
+    size_t n;
+    const pg_problem *p = res->problem;
+    const pg_stage_record *r = pg_solver_stages (res->solver, &n);
+    if (!n) return;
+    pg_json_open (j, "stages", '[');
+    for (size_t k = 0; k < n; k++, r++) {
+        pg_json_open (j, NULL, '{');
+        pg_json_text (j, "name", p->stage[k].name);
+        if (r->done) {
+            pg_json_text (j, "ended_by", r->why);
+            pg_json_number (j, "share", r->share);
+            pg_json_count (j, "last_step", (size_t) r->step);
+            pg_json_count (j, "events", (size_t) r->events);
+            if (pg_problem_grows (p)) pg_json_number (j, "crack_growth", r->growth);
+            pg_json_open (j, "energy", '{');
+            pg_json_number (j, "strain", r->strain);
+            pg_json_number (j, "external", r->external);
+            pg_json_number (j, "dissipated", r->dissipated);
+            pg_json_shut (j);
+            if (p->ngauge) pg_json_open (j, "gauges", '{');
+            for (size_t g = 0; g < p->ngauge; g++) pg_json_number (j, p->gauge[g].name, r->gauge[g]);
+            if (p->ngauge) pg_json_shut (j);
+        }
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+}
+
 /* The files that the scene names, with their hashes. */
 static void files_block (pg_json *j, const pg_result *res)
 {
@@ -188,6 +221,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     pg_json_text (j, "outcome", failure ? failure : "done");
     run_block (j, res, r, state);
     instability_block (j, res, r);
+    stages_block (j, res);
     pg_result_curve_json (j, res);
     crack_block (j, res);
     pg_result_paths_json (j, res, state);

@@ -66,7 +66,8 @@ static pg_status read_tree (pg_scene *s, const char *text, size_t length)
 static int geometry_is_sound (const pg_scene *s)
 {
     static const char *const elsewhere[] = { "title",   "materials", "failure", "blocks",   "boundary",
-                                             "initial", "solver",    "output",  "reference" };
+                                             "stages",  "initial",   "solver",  "output",
+                                             "reference" };
     for (size_t i = 0; i < s->faults->n; i++) {
         size_t k = 0, n = sizeof elsewhere / sizeof *elsewhere;
         while (k < n && strcmp (s->faults->fault[i].top, elsewhere[k]) != 0) k++;

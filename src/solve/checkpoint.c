@@ -374,6 +374,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (keep_state (state, s->problem, "state", k));
     PG_TRY (keep_state (s->backup, s->problem, "backup", k));
     PG_TRY (keep_solver (s, k));
+    PG_TRY (stages_keep (s, k));
     PG_TRY (keep_system (&s->break_loop.system, (s->type->flags & PG_SOLVER_IMPLICIT) != 0, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));
     if (k->reading) PG_TRY (rebuild (s, state));

@@ -62,6 +62,15 @@ int event_solver_has_base (const event_solver *e) { return e->based && !e->resto
 
 void event_solver_drop (event_solver *e) { e->based = e->s->base = 0, e->why = "there is no base yet"; }
 
+void event_solver_at (event_solver *e, double first, double second)
+{
+    const double time[EVENT_CASES] = { first, second };
+    for (int c = 0; c < e->cases; c++) {
+        if (e->time[c] != time[c]) event_solver_drop (e);
+        e->time[c] = time[c];
+    }
+}
+
 const char *event_solver_why (const event_solver *e) { return e->why; }
 double event_solver_residual (const event_solver *e) { return e->residual; }
 

@@ -44,6 +44,8 @@ enum { EVENT_CASES = 2, EVENT_MOST = 64 };             /* most load cases; most 
  * without `change`). */
 pg_status event_solver_create (event_solver **out, pg_system *s, int cases, const double *time);
 void      event_solver_free   (event_solver **e);
+/* Other load factors of both cases: the base is of no use any more where they differ. */
+void      event_solver_at     (event_solver *e, double first, double second);
 
 /* A new base: K of the last refresh is factored if it is stale, and u[c] (ndof, full unknowns, first guesses
  * on entry) become equilibria of it by system_solve, with its failures; *residual: the larger one. The

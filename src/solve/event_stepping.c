@@ -62,22 +62,44 @@ pg_status event_solve (pg_solver *s)
     event_stepping *e = events_of (s);
     double first = 0, second;
     pg_system *sys = &s->break_loop.system;
-    if (e->engine) return solve_by_engine (e);
-    if (e->base) PG_TRY (system_solve (sys, 0, e->base, NULL, &first));
-    PG_TRY (system_solve (sys, 1, e->unit, NULL, &second));
+    if (e->engine) {
+        event_solver_at (e->engine, e->base ? stage_start (s) : stage_end (s), stage_end (s));
+        return solve_by_engine (e);
+    }
+    if (e->base) PG_TRY (system_solve (sys, stage_start (s), e->base, NULL, &first));
+    PG_TRY (system_solve (sys, stage_end (s), e->unit, NULL, &second));
     e->unit_residual = fmax (first, second);
 done:
     return status;
 }
 
-/* Linear between those at 0 and at 1. */
+/* Linear between those at 0 and at 1, or at both ends of a stage. */
 void event_displacement (const pg_solver *s, double factor, double *d)
 {
     const event_stepping *e = events_of (s);
+    double share = factor - stage_start (s);
     for (size_t i = 0; i < s->break_loop.system.ndof; i++)
         d[i] = !e->base     ? factor * e->unit[i]
-               : factor == 1 ? e->unit[i]
-                             : e->base[i] + factor * (e->unit[i] - e->base[i]);
+               : share == 1 ? e->unit[i]
+                            : e->base[i] + share * (e->unit[i] - e->base[i]);
+}
+
+/* The first step of a stage of loading: the state is at its start, in the equilibrium at which the last one
+ * ended, from which `base` and `unit` are solved for anew. */
+static pg_status begin_stage (pg_solver *s, double ended)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    size_t n = s->break_loop.system.ndof;
+    const double share = ended - stage_start (s) + 1;  /* of the stage before */
+    for (size_t i = 0; i < n; i++)
+        e->base[i] = e->unit[i] = e->base[i] + share * (e->unit[i] - e->base[i]);
+    s->break_loop.system.borne = fmax (s->break_loop.system.borne, s->break_loop.system.reference);
+    e->balance_fresh = 0, e->secant0 = 0;
+    if (s->break_loop.growth) s->break_loop.growth->fresh = 0;
+    PG_TRY (event_solve (s));
+done:
+    return status;
 }
 
 void event_move (const pg_solver *s, pg_state *state, double factor)
@@ -131,8 +153,8 @@ pg_status event_secant (pg_solver *s, double *out)
     *out = 0;
     for (size_t k = 0; !e->base && k < b->npair; k++) *out += b->force[k] * b->displacement[k];
     if (!e->base || !sys->force->work_balance) return PG_OK;
-    PG_TRY (sys->force->work_balance (sys->self, 0, e->base, NULL, &zero));
-    PG_TRY (sys->force->work_balance (sys->self, 1, e->unit, NULL, &one));
+    PG_TRY (sys->force->work_balance (sys->self, stage_start (s), e->base, NULL, &zero));
+    PG_TRY (sys->force->work_balance (sys->self, stage_end (s), e->unit, NULL, &one));
     for (size_t k = 0; k < one.npair; k++)
         *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
 done:
@@ -175,7 +197,7 @@ pg_status event_stops (pg_solver *s, const pg_state *state, double factor, doubl
     }
     double least = PG_OWN (pg_static_options, o)->stop_stiffness;
     double share = e->secant = secant / e->secant0;
-    if (s->problem->nload
+    if (s->problem->nload && stage_moves (s)
         && (share < least || share > 1 / fmax (least, 1e-12))) {
         pg_statistics_warn (&s->report, "the body has separated: the run ends at event %ld, load factor %.6g",
                             state->events, factor);
@@ -387,7 +409,9 @@ pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
     if (g && s->break_loop.round == 0) g->needed0 = g->needed;
     if (instability_moves (&e->unstable)) return instability_step (s, &e->unstable, state, step);
     if (e->ended != PG_OK) return pg_error (e->ended, PG_HERE, "%s", e->why);
-    if (e->lost) PG_TRY (event_solve (s));
+    double ended = state->factor;
+    if (stage_next (s, state)) PG_TRY (begin_stage (s, ended));
+    else if (e->lost) PG_TRY (event_solve (s));
     e->lost = 0;
     return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)
                                                            : proportional_step (s, state, step);
@@ -429,8 +453,11 @@ void event_ends (const pg_solver *s, const pg_state *state, pg_progress *out)
     const event_stepping *e = events_of (s);
     if (!o->event) return;
     if (e->secant > 0) out->stiffness = e->secant;
-    progress_offer (out, fmax (e->top_factor, (double) (s->next_level - 1) / (double) o->levels), "the load",
-                    state->events == 0);
+    double stages = s->problem->nstage ? (double) s->problem->nstage : 1;
+    progress_offer (out,
+                    fmax (e->top_factor, stage_start (s) + (double) (s->next_level - 1) / (double) o->levels)
+                        / stages,
+                    "the load", state->events == 0);
     if (s->problem->criterion->type)
         progress_offer (out, (double) state->events / (double) o->max_events, "max_events", 1);
     if (o->stop_set && b->nearest > b->nearest0)
@@ -457,6 +484,7 @@ pg_status event_keep (pg_solver *s, const pg_keeper *k)
     if (e->base) PG_TRY (k->numbers (k->context, "event_stepping.base", ndof, e->base));
     PG_TRY (ahead_keep (s, k));
     if (e->engine) {
+        event_solver_at (e->engine, e->base ? stage_start (s) : stage_end (s), stage_end (s));
         PG_TRY (k->numbers (k->context, "event_stepping.engine", 1, &e->engine_residual));
         PG_TRY (event_solver_keep (e->engine, k));
     }

@@ -22,7 +22,7 @@ static pg_status look (pg_solver *s, pg_state *state, double factor, double *uti
     double t0 = pg_seconds ();
     event_move (s, state, factor);
     if (b->growth) {
-        *top = facet_utilisation (b, state, factor);
+        *top = facet_utilisation (b, state, factor - stage_start (s));
         goto done;
     }
     PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, utilisation, b->kind, NULL));
@@ -94,9 +94,9 @@ static pg_status search (pg_solver *s, pg_state *state, double from, double at_z
                          double *at, int *found)
 {
     pg_status status = PG_OK;
-    double low = 0, high = from, f_low = at_zero, f_high = at_from, a, b;
+    double low = stage_start (s), high = from, f_low = at_zero, f_high = at_from, a, b, all = high - low;
     *found = 0;
-    for (int k = 0; k < MOST_THIRDS && high - low > 1e-9 * from; k++) {
+    for (int k = 0; k < MOST_THIRDS && high - low > 1e-9 * all; k++) {
         double p = low + (high - low) / 3, q = high - (high - low) / 3;
         PG_TRY (look (s, state, q, s->break_loop.factor, &b));
         if ((*found = b <= 1)) *at = q;
@@ -117,15 +117,16 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    double now = state->factor, top, there, in;
+    double now = state->factor, start = stage_start (s), top, there, in;
     int found = 1;
+    events_of (s)->driven = 0, events_of (s)->bears = 1;
     *breaks = 0, *factor = state->step == 0 ? now : level;
     if (!b->growth && !break_loop_judges (b)) goto done;
     if (b->growth) PG_TRY (facet_ready (s, state));
     else PG_TRY (break_loop_ready (b));
     PG_TRY (look (s, state, now, b->utilisation, &top));
     if (instability_holds (s, &events_of (s)->unstable, top > 1 + close)) {
-        *breaks = 1, *factor = now;
+        *breaks = 1, *factor = now, events_of (s)->bears = 0;
         goto done;
     }
     if (top <= 1 + close) {
@@ -136,20 +137,21 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
         status = way_out (s, state, now, level, factor);
         goto done;
     }
-    *breaks = 1, in = 0;
-    if (now > 0) PG_TRY (look (s, state, 0, b->factor, &there));
-    if (!(now > 0)) found = 0;
+    *breaks = 1, in = start, events_of (s)->bears = 0;
+    if (now > start) PG_TRY (look (s, state, start, b->factor, &there));
+    if (!(now > start)) found = 0;
     else if (there > 1) PG_TRY (search (s, state, now, there, top, &in, &found));
     if (found) PG_TRY (way_out (s, state, in, now, factor));
     else {
-        *factor = now;
+        *factor = now, events_of (s)->driven = 1;
         if (!events_of (s)->constant_events++)
             pg_statistics_warn (&s->report,
-                                "at load factor %.6g, after event %ld, no lower factor lets %s: the constant "
-                                "loads drive the crack, which then runs at a held factor, %s (in truth a "
+                                "at load factor %.6g, after event %ld, no lower factor lets %s: %s "
+                                "drive the crack, which then runs at a held factor, %s (in truth a "
                                 "dynamic event)",
                                 now, state->events,
                                 b->growth ? "the crack rest" : "the remaining bonds live",
+                                start > 0 ? "the loads of earlier stages" : "the constant loads",
                                 b->growth ? "facet by facet" : "bond by bond");
         PG_TRY (look (s, state, now, b->utilisation, &top));
     }
@@ -161,13 +163,13 @@ done:
 pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end)
 {
     pg_status status = PG_OK;
-    double now = state->factor, here, there;
+    double now = state->factor, start = stage_start (s), full = stage_end (s), here, there;
     *end = now;
     PG_TRY (look (s, state, now, s->break_loop.factor, &here));
-    PG_TRY (look (s, state, here > 1 ? 0 : 1, s->break_loop.factor, &there));
-    if (here <= 1 && there <= 1) *end = fmax (now, 1);
-    else if (here <= 1) PG_TRY (way_out (s, state, now, 1, end));
-    else if (there <= 1) PG_TRY (way_out (s, state, 0, now, end));
+    PG_TRY (look (s, state, here > 1 ? start : full, s->break_loop.factor, &there));
+    if (here <= 1 && there <= 1) *end = fmax (now, full);
+    else if (here <= 1) PG_TRY (way_out (s, state, now, full, end));
+    else if (there <= 1) PG_TRY (way_out (s, state, start, now, end));
 done:
     return status;
 }
@@ -207,6 +209,18 @@ done:
     return status;
 }
 
+/* The load has come to a level; the last one is the end of the stage, or of the run. A body that an event has
+ * set in motion there comes to rest first, and the level is taken then. */
+static void take_level (pg_solver *s, pg_step *step)
+{
+    int stages = s->stage.now.number > 0;
+    if (stages && instability_moves (&events_of (s)->unstable)) return;
+    step->level = 1;
+    if (s->next_level++ < s->options.levels) return;
+    if (!stages) s->finished = 1;
+    else if (s->stage.now.over == STAGE_GOES_ON) s->stage.now.over = STAGE_LOADS;
+}
+
 /* One step: to the next break or level, in either direction; at load factor 0 first, where the constant
  * part acts alone. */
 pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -214,13 +228,18 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
-    double level = (double) s->next_level / (double) s->options.levels, factor;
-    int breaks, start = state->step == 0;
+    double level = stage_level (s), now = state->factor, factor;
+    int breaks, crosses = 0, meets = 0, start = state->step == 0;
     b->nbroken = 0;
     step->iterations = 1;
     PG_TRY (choose (s, state, level, &factor, &breaks));
     step->instability = e->unstable.held ? e->unstable.count : 0;
     if (breaks && factor > level) factor = level;
+    /* what an event has left behind may end the stage at once */
+    if (e->bears) PG_TRY (stage_meets (s, state, b->work_balance.reaction, &meets));
+    if (meets) factor = now;
+    else if (!e->driven && !e->unstable.held)
+        PG_TRY (stage_cross (s, state, e->base, e->unit, now, &factor, &crosses));
     event_move (s, state, factor);
     state->factor = state->time = step->factor = step->time = factor;
     e->top_factor = fmax (e->top_factor, factor);
@@ -228,23 +247,23 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     s->report.energy_strain = b->work_balance.strain;
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
-    if (start) PG_TRY (event_secant (s, &e->secant0));
+    if (start || (s->stage.now.number && e->secant0 == 0)) PG_TRY (event_secant (s, &e->secant0));
     step->residual = e->unit_residual;
     if (b->growth) {
-        step->utilisation = facet_utilisation (b, state, factor);
-        PG_TRY (facet_show (s, state, factor));
+        step->utilisation = facet_utilisation (b, state, factor - stage_start (s));
+        PG_TRY (facet_show (s, state, factor - stage_start (s)));
     } else if (break_loop_judges (b)) {
         long over = break_loop_over (b, state, 1, &step->utilisation);
         /* at a held factor they are about to break */
         if ((!e->constant_events && !e->unstable.held) || !breaks) s->report.bonds_over_limit += over;
     }
+    if (!e->driven && !e->unstable.held && !crosses && !meets)
+        PG_TRY (stage_meets (s, state, s->reaction, &meets));
+    if (crosses || meets) breaks = 0;
     if (breaks && b->growth) PG_TRY (facet_event (s, state, factor, step));
     else if (breaks) PG_TRY (break_here (s, state, factor, step));
     if (start) step->level = 1;
-    else if (!(level > factor)) {
-        step->level = 1;
-        if (s->next_level++ >= s->options.levels) s->finished = 1;
-    }
+    else if (!(level > factor)) take_level (s, step);
     event_limit (s, state, factor);
 done:
     return status;

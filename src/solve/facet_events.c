@@ -15,7 +15,7 @@ pg_status facet_ready (pg_solver *s, const pg_state *state)
 {
     const event_stepping *e = events_of (s);
     if (s->break_loop.growth->fresh) return PG_OK;
-    return facet_measure (&s->break_loop, state, e->base, e->unit, 1);
+    return facet_measure (&s->break_loop, state, e->base, e->unit, stage_end (s));
 }
 
 /* Proportional loads: everything grows with the load factor. */
@@ -107,7 +107,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     memcpy (g->before, state->d, bytes);
     instability_before (s, &e->unstable, state);
     if (s->options.on_instability == PG_UNSTABLE_DYNAMIC) PG_TRY (facet_hold_before (b, factor, state->d));
-    PG_TRY (facet_grow (b, state, factor, factor));
+    PG_TRY (facet_grow (b, state, factor - stage_start (s), factor));
     step->event = 1;
     state->events++, s->report.events++;
     for (int closed = g->closed; more; closed |= g->closed) {

@@ -166,7 +166,7 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     pg_system *s = &b->system;
-    double t0 = pg_seconds (), times[2] = { base ? 0 : t, 1 };
+    double t0 = pg_seconds (), times[2] = { base ? t - 1 : t, base ? t : 1 };
     const double *d[2] = { base ? base : unit, NULL };
     g->ntip = state->paths ? state->paths->ntip : 0, g->ntrial = 0, g->nfield = base ? 2 : 1;
     if (base && !g->ramp) PG_ALLOC (g->ramp, s->ndof);

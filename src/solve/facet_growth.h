@@ -92,7 +92,7 @@ pg_status facet_create  (break_loop *b);               /* where the criterion ju
 void      facet_free    (break_loop *b);
 pg_status facet_keep    (break_loop *b, const pg_keeper *keeper);
 /* Measures all open tips, and asks for trial facets. base NULL: the one field `unit`, with the loads of t;
- * else the fields base (loads of 0) and unit - base. */
+ * else the fields base (loads of t - 1) and unit - base, and load factors are counted from there. */
 pg_status facet_measure (break_loop *b, const pg_state *state, const double *base, const double *unit,
                          double t);
 /* The largest of all facets at a load factor, by the last measurement: 1: one grows there. */

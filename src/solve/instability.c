@@ -169,7 +169,7 @@ static pg_status look_at_rest (pg_solver *s, instability *u, pg_state *state, do
     *top = 0;
     if (b->growth) {
         PG_TRY (facet_ready (s, state));
-        *top = facet_utilisation (b, state, factor);
+        *top = facet_utilisation (b, state, factor - stage_start (s));
         goto done;
     }
     event_displacement (s, factor, u->rest);

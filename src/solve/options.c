@@ -206,6 +206,23 @@ static void need_density (const pg_solver_options *o, const pg_problem *problem,
                             problem->material[i].name);
 }
 
+static int finds_equilibria (const pg_solver_type *type, const void *unused)
+{
+    (void) unused;
+    return (type->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
+}
+
+/* Stages are stretches of the load factor, which runs in motion and by relaxation do not have so far. */
+static void check_stages (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    char names[200];
+    if (!problem->nstage || (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC) return;
+    solver_names_that (finds_equilibria, NULL, names, sizeof names);
+    pg_scene_fault (scene, "stages",
+                    "%s does not know stages of loading so far: use solver.kind: %s, or boundary[].table",
+                    o->kind, names);
+}
+
 /* Keys of the solver that belong to other kinds: left over from one of them, they are no fault. */
 static void find_unused (pg_solver_options *o, const pg_scene *scene)
 {
@@ -257,5 +274,6 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     find_unused (o, scene);
     if (o->flags & PG_SOLVER_NEEDS_DENSITY) need_density (o, problem, scene);
     check_force (o, problem, scene);
+    check_stages (o, problem, scene);
     return pg_scene_verdict (scene);
 }

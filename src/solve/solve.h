@@ -227,6 +227,26 @@ void   options_read_times (pg_solver_options *o, const pg_problem *problem, cons
 pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)
     __attribute__ ((format (printf, 3, 4)));
 
+/* ---- stage_path.c: stages of loading (problem->stage) -------------------------------------------------- */
+/* Why a stage ends. */
+enum { STAGE_GOES_ON, STAGE_LOADS, STAGE_GAUGE, STAGE_FORCE, STAGE_EVENTS, STAGE_GROWTH, STAGE_RUN };
+typedef struct {
+    long   number;                                     /* of the stage at hand, from 1; 0: the run has none */
+    int    over;                                       /* STAGE_...: it ends with this step */
+    long   first_step, first_event;                    /* of the state when it began */
+    double first_growth;                               /* the same, stage_growth */
+    double peak;                                       /* until.load: largest force in this stage, N */
+    double side;  /* until.gauge: 1: it comes from below, -1: from above, 0: not known yet */
+} stage_place;
+typedef struct {
+    stage_place now, before;                           /* before: at the start of the step at hand */
+    long        level_before;                          /* s->next_level there */
+    pg_problem *staged;                                /* with loads of the solver's own */
+    double     *share;  /* per stage: of its way, at which it ended; 1 while it has not */
+    double     *opening;                               /* of all records (stages x gauges) */
+    pg_stage_record *record;                           /* per stage */
+} stage_path;
+
 struct pg_solver {
     const pg_solver_type *type;
     pg_solver_options options;
@@ -242,8 +262,35 @@ struct pg_solver {
     double   *reaction;
     pg_tip_values *tip; size_t ntip, cap_tip;          /* what was measured at tips */
     pg_front_values *front; size_t nfront, cap_front;  /* and at vertices of fronts, in the last step */
+    stage_path stage;
     void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */
 };
+
+/* Before the system is made: the problem becomes the solver's own where it has stages. */
+pg_status stages_create (pg_solver *s);
+void      stages_free   (pg_solver *s);
+pg_status stages_keep   (pg_solver *s, const pg_keeper *k);
+/* t at the start and end of the stage at hand (no stages: 0 and 1); at the next level. */
+double    stage_start   (const pg_solver *s);
+double    stage_end     (const pg_solver *s);
+double    stage_level   (const pg_solver *s);
+long      stage_steps   (const pg_solver *s, long number);             /* fixed load steps of a stage */
+int       stage_moves   (const pg_solver *s);          /* does any load change in it? */
+/* Length (space: area) that cracks have grown since the start of the run, m (m^2). */
+double    stage_growth  (const pg_state *state);
+/* At the start of a step: where the last one ended its stage, the next begins. 1: it did, and the state is at
+ * its start, with the same loads and displacements. */
+int       stage_next    (pg_solver *s, pg_state *state);
+/* Event stepping, d = base + (t - start) (unit - base) between t = now and *factor: if until.gauge is met
+ * there, the stage is over and *factor is where. */
+pg_status stage_cross   (pg_solver *s, const pg_state *state, const double *base, const double *unit,
+                         double now, double *factor, int *crosses);
+/* The other conditions, of a state that bears its loads: met, the stage is over. */
+pg_status stage_meets   (pg_solver *s, const pg_state *state, const double *reaction, int *meets);
+/* A step is accepted: what was at the end of a stage; the end of the last one is that of the run. */
+pg_status stage_close_step (pg_solver *s, const pg_state *state, pg_step *step);
+void      stage_save    (pg_solver *s);                /* before a step; where it is refused */
+void      stage_return  (pg_solver *s);
 
 /* ---- tip_values.c -------------------------------------------------------------------------------------- */
 /* Notes what was measured at a tip, in the place of what was known of it. */

@@ -41,6 +41,8 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     const char *why = force->refuses ? force->refuses (problem, s->type->flags) : NULL;
     if (why) PG_FAIL (PG_E_USAGE, "%s", why);
     s->options.flags = s->type->flags;
+    PG_TRY (stages_create (s));
+    problem = s->problem;
     pg_system *sys = &s->break_loop.system;
     sys->problem = problem, sys->force = force, sys->options = &s->options, sys->report = &s->report;
     pg_solver_doubts (&s->report, problem, &s->options);
@@ -76,6 +78,7 @@ void pg_solver_free (pg_solver **solver)
     break_loop_free (&s->break_loop);
     pg_free (s->reaction), pg_free (s->tip), pg_free (s->front);
     pg_state_free (&s->backup);
+    stages_free (s);
     pg_free (s);
     *solver = NULL;
 }
@@ -143,6 +146,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     if (b->round == 0) {                               /* else the step goes on where it was stopped */
         b->saved = 0;
         PG_TRY (save_state (s, state));
+        stage_save (s);
         PG_TRY (break_loop_save (b));
         s->follows = (s->options.flags & (PG_SOLVER_EXPLICIT | PG_SOLVER_STAGED)) && !s->options.plain;
         b->work0 = b->work, b->stored0 = s->report.energy_strain + s->report.energy_kinetic;
@@ -167,6 +171,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->energy_external = s->break_loop.work;
     /* First law: work of loads = strain + motion + damping + what breaking has taken, the rest. */
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping;
+    PG_TRY (stage_close_step (s, state, step));
 done:
     if (status != PG_OK && s->started && !s->break_loop.stopped) {
         char text[2048];
@@ -177,6 +182,7 @@ done:
         system_forget_preconditioner (&s->break_loop.system);  /* bonds live again that it does not know */
         s->break_loop.work = s->backup->work, s->break_loop.round = 0;
         break_loop_return (&s->break_loop);
+        stage_return (s);
         if (s->type->refused) s->type->refused (s);
         s->follows = 0;
         if (status != PG_E_MEMORY)

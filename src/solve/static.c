@@ -22,7 +22,10 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
-    double t = (double) (state->step + 1) / (double) s->options.steps;
+    int meets;
+    if (b->round == 0) stage_next (s, state);
+    long made = state->step - s->stage.now.first_step + 1, all = stage_steps (s, s->stage.now.number);
+    double t = stage_start (s) + (double) made / (double) all;
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     b->system.borne = fmax (b->system.borne, b->system.reference);
@@ -30,14 +33,16 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     step->factor = step->time = t;
-    while ((double) s->next_level / (double) s->options.levels <= t * (1 + 1e-12))
+    while ((double) s->next_level / (double) s->options.levels <= (t - stage_start (s)) * (1 + 1e-12))
         s->next_level++, step->level = 1;
     int arrived;
     PG_TRY (break_loop_arrived (b, state, state->d, &arrived));
     if (arrived)
         pg_statistics_warn (&s->report, "the crack has arrived at %s: the run ends at load factor %.6g",
                             s->options.stop_set->name, t);
-    if (arrived || state->step + 1 >= s->options.steps) s->finished = 1;
+    PG_TRY (stage_meets (s, state, b->work_balance.reaction, &meets));
+    if (s->stage.now.number && made >= all && !meets) s->stage.now.over = STAGE_LOADS;
+    if (arrived || (!s->stage.now.number && made >= all)) s->finished = 1;
 done:
     return status;
 }
@@ -63,7 +68,8 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     pg_static_options *own = PG_OWN (pg_static_options, o);
     own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
     o->steps = pg_scene_integer (scene, "solver.steps");
-    int suits = proportional || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem));
+    int suits = proportional || problem->nstage
+                || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem));
     o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
     own->affine = o->event && !proportional;
     if (own->affine && !pg_problem_affine (problem))
@@ -74,6 +80,9 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
         pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
     instability_read (o, problem, scene);
     if (!pg_scene_given (scene, "solver.steps") && o->levels > o->steps) o->steps = o->levels;
+    own->steps = o->steps;
+    for (size_t k = 0; k < problem->nstage; k++)
+        o->steps += (problem->stage[k].steps ? problem->stage[k].steps : own->steps) - (k ? 0 : own->steps);
 }
 
 static const char *static_manner (const pg_solver_options *o)

@@ -1,0 +1,258 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Stages of loading (`stages`): confine, load axially, unload, reload ... Each stage takes the loads that it
+ * names straight from what they are to a new multiple of their value, and leaves the others as they are:
+ *
+ *     f_i (t) = f_i (k - 1) + (t - k + 1) (target_ik - f_i (k - 1)),    k - 1 <= t <= k in stage k,
+ *
+ * f_i (0) = 0. So a run of n stages is one of t from 0 to n whose loads follow tables with a row at every
+ * whole t: the mechanism of boundary[].table, and no other. A stage may end early, at its share s: the loads
+ * then stay what they are there, and the row at t = k takes the value of t = k - 1 + s. Which ones do so
+ * shows in the run only: pg_problem_staged gives its solver tables of its own. */
+#include "model.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* ---- tables -------------------------------------------------------------------------------------------- */
+/* Does the load follow the stages? With ramp: constant it acts in full from the start to the end. */
+static int follows (const pg_load *load) { return load->ntable > 0; }
+
+void pg_stages_follow (pg_problem *p, const double *share)
+{
+    for (size_t i = 0; i < p->nload; i++) {
+        double *row = p->load[i].table;
+        if (!follows (&p->load[i])) continue;
+        row[0] = row[1] = 0;
+        for (size_t k = 0; k < p->nstage; k++) {
+            double target = p->stage[k].target[i], from = row[2*k + 1], s = share ? share[k] : 1;
+            row[2*k + 2] = (double) (k + 1);
+            row[2*k + 3] = isnan (target) ? from : s == 1 ? target : from + (target - from) * s;
+        }
+    }
+}
+
+int pg_stage_loads (const pg_problem *p, size_t stage)
+{
+    for (size_t i = 0; i < p->nload; i++)
+        if (follows (&p->load[i]) && p->load[i].table[2*stage + 1] != p->load[i].table[2*stage + 3]) return 1;
+    return 0;
+}
+
+pg_status pg_problem_staged (pg_problem **out, const pg_problem *problem)
+{
+    pg_status status = PG_OK;
+    pg_problem *p = NULL;
+    PG_ALLOC (p, 1);
+    *p = *problem;
+    p->load = NULL;
+    PG_ALLOC (p->load, p->nload);
+    memcpy (p->load, problem->load, p->nload * sizeof *p->load);
+    for (size_t i = 0; i < p->nload; i++) p->load[i].table = NULL;
+    for (size_t i = 0; i < p->nload; i++) {
+        if (!follows (&p->load[i])) continue;
+        PG_ALLOC (p->load[i].table, 2 * p->load[i].ntable);
+    }
+    pg_stages_follow (p, NULL);
+    *out = p, p = NULL;
+done:
+    pg_problem_staged_free (&p);
+    return status;
+}
+
+void pg_problem_staged_free (pg_problem **problem)
+{
+    pg_problem *p = *problem;
+    if (!p) return;
+    for (size_t i = 0; p->load && i < p->nload; i++) pg_free (p->load[i].table);
+    pg_free (p->load);
+    pg_free (p);
+    *problem = NULL;
+}
+
+/* ---- reading ------------------------------------------------------------------------------------------- */
+static long load_named (const pg_problem *p, const char *name)
+{
+    for (size_t i = 0; i < p->nload; i++) if (strcmp (p->load[i].name, name) == 0) return (long) i;
+    return -1;
+}
+
+/* "jacket, platen": the names that a stage may use. */
+static void list_names (const pg_problem *p, char *text, size_t size)
+{
+    size_t used = 0;
+    text[0] = 0;
+    for (size_t i = 0; i < p->nload && used < size; i++)
+        used += (size_t) snprintf (text + used, size - used, "%s%s", used ? ", " : "", p->load[i].name);
+}
+
+/* The loads that the stage moves, and where to. */
+static pg_status read_targets (pg_problem *p, pg_stage *stage, const pg_scene *scene, size_t k)
+{
+    pg_status status = PG_OK;
+    const char *name;
+    char path[160], names[400];
+    PG_ALLOC (stage->target, p->nload);
+    for (size_t i = 0; i < p->nload; i++) stage->target[i] = NAN;
+    list_names (p, names, sizeof names);
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "stages[%zu].boundary", k)); i++) {
+        long load = load_named (p, name);
+        snprintf (path, sizeof path, "stages[%zu].boundary.%.80s", k, name);
+        if (load < 0)
+            pg_scene_fault (scene, path, "no entry of boundary has this name; there are %s", names);
+        else if (!follows (&p->load[load]))
+            pg_scene_fault (scene, path,
+                            "boundary[%ld] has ramp: constant, so that it acts in full in all stages: leave "
+                            "one of the two out",
+                            load);
+        else stage->target[load] = pg_scene_number (scene, "%s", path);
+    }
+done:
+    return status;
+}
+
+/* A name under `until` that refers to an entry of a list elsewhere; -1: not given, or a fault. */
+static int refer (const pg_scene *scene, size_t k, const char *key, size_t n,
+                  const char *(*name_of) (const void *from, size_t i), const void *from, const char *what)
+{
+    char path[64];
+    snprintf (path, sizeof path, "stages[%zu].until.%s", k, key);
+    if (!pg_scene_given (scene, "%s", path)) return -1;
+    for (size_t i = 0; i < n; i++)
+        if (strcmp (name_of (from, i), pg_scene_text (scene, "%s", path)) == 0) return (int) i;
+    pg_scene_fault (scene, path, "there is no %s of this name", what);
+    return -1;
+}
+
+static const char *gauge_name (const void *scene, size_t i)
+{
+    return pg_scene_text (scene, "output.gauges[%zu].name", i);
+}
+static const char *load_name (const void *problem, size_t i)
+{
+    return ((const pg_problem *) problem)->load[i].name;
+}
+
+/* Of two keys that say one thing together both or none must be there. */
+static void need_both (const pg_scene *scene, size_t k, const char *a, const char *b)
+{
+    int first = pg_scene_given (scene, "stages[%zu].until.%s", k, a),
+        second = pg_scene_given (scene, "stages[%zu].until.%s", k, b);
+    char path[64];
+    snprintf (path, sizeof path, "stages[%zu].until.%s", k, first ? a : b);
+    if (first != second) pg_scene_fault (scene, path, "goes with until.%s", first ? b : a);
+}
+
+/* What ends the stage before its loads are reached. */
+static void read_until (const pg_problem *p, pg_stage *stage, const pg_scene *scene, size_t k)
+{
+    char path[64];
+    static const char *const growth[] = { "crack_length", "crack_area" };
+    stage->gauge = refer (scene, k, "gauge", pg_scene_count (scene, "output.gauges"), gauge_name, scene,
+                          "entry of output.gauges");
+    stage->load = refer (scene, k, "load", p->nload, load_name, p, "entry of boundary");
+    need_both (scene, k, "gauge", "opening"), need_both (scene, k, "load", "drop");
+    if (stage->gauge >= 0) stage->opening = pg_scene_number (scene, "stages[%zu].until.opening", k);
+    if (stage->load >= 0) stage->drop = pg_scene_number (scene, "stages[%zu].until.drop", k);
+    if (pg_scene_given (scene, "stages[%zu].until.events", k))
+        stage->events = pg_scene_integer (scene, "stages[%zu].until.events", k);
+    for (int space = 0; space < 2; space++) {
+        snprintf (path, sizeof path, "stages[%zu].until.%s", k, growth[space]);
+        if (!pg_scene_given (scene, "%s", path)) continue;
+        if (!pg_problem_grows (p))
+            pg_scene_fault (scene, path, "is for cracks that grow by facets: criterion: %s",
+                            pg_criterion_by_need (PG_NEEDS_FACETS));
+        else if ((p->dim == 3) != space)
+            pg_scene_fault (scene, path, "cracks of a %dD body have %s: until.%s", p->dim,
+                            space ? "a length" : "an area", growth[!space]);
+        stage->growth = pg_scene_number (scene, "%s", path);
+    }
+}
+
+/* Is there any value in the load that is not zero? Asked at places at which no formula vanishes by design. */
+static int is_zero (const pg_load *load, int dim)
+{
+    static const double places[3][3] = { { 0.37, -0.21, 0.83 }, { -1.3, 2.7, 0.11 }, { 5.1, 0.77, -3.9 } };
+    for (int k = 0; k < 3; k++)
+        for (int q = 0; load->value[k] && q < 3; q++)
+            if (pg_load_pattern (load, k < dim ? k : 0, dim, places[q]) != 0) return 0;
+    return 1;
+}
+
+/* A load that no stage names would silently never act. */
+static void find_idle (const pg_problem *p, const pg_scene *scene)
+{
+    char path[64];
+    for (size_t i = 0; i < p->nload; i++) {
+        int named = !follows (&p->load[i]) || is_zero (&p->load[i], p->dim);
+        for (size_t k = 0; k < p->nstage; k++) named |= !isnan (p->stage[k].target[i]);
+        snprintf (path, sizeof path, "boundary[%zu].set", i);
+        if (!named)
+            pg_scene_fault (scene, path,
+                            "no stage names this load (%s), so that it would never act: name it under "
+                            "stages[].boundary, or give it ramp: constant to act from the start",
+                            p->load[i].name);
+    }
+}
+
+/* Two stages of one name could not be told apart in results. */
+static void check_names (const pg_problem *p, const pg_scene *scene)
+{
+    char path[64];
+    for (size_t k = 1; k < p->nstage; k++)
+        for (size_t i = 0; i < k; i++) {
+            if (strcmp (p->stage[k].name, p->stage[i].name) != 0) continue;
+            snprintf (path, sizeof path, "stages[%zu].name", k);
+            pg_scene_fault (scene, path, "stages[%zu] has this name too", i);
+        }
+}
+
+pg_status pg_load_follows_stages (pg_load *load, const pg_scene *scene, size_t i, size_t nstage)
+{
+    pg_status status = PG_OK;
+    char path[64];
+    snprintf (path, sizeof path, "boundary[%zu].%s", i,
+              pg_scene_given (scene, "boundary[%zu].table", i) ? "table" : "ramp");
+    if (pg_scene_given (scene, "%s", path))
+        pg_scene_fault (scene, path,
+                        "the stages say how loads grow: leave it out, or give ramp: constant for a load that "
+                        "acts in full in all of them");
+    load->ntable = nstage + 1;
+    PG_ALLOC (load->table, 2 * load->ntable);
+done:
+    return status;
+}
+
+pg_status pg_stages_read (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    char path[64];
+    p->nstage = pg_scene_count (scene, "stages");
+    if (!p->nstage) return PG_OK;
+    PG_ALLOC (p->stage, p->nstage);
+    for (size_t k = 0; k < p->nstage; k++) {
+        pg_stage *stage = &p->stage[k];
+        snprintf (stage->name, sizeof stage->name, "%s", pg_scene_text (scene, "stages[%zu].name", k));
+        if (pg_scene_given (scene, "stages[%zu].steps", k))
+            stage->steps = pg_scene_integer (scene, "stages[%zu].steps", k);
+        PG_TRY (read_targets (p, stage, scene, k));
+        read_until (p, stage, scene, k);
+    }
+    for (size_t i = 0; i < p->nload; i++)
+        for (int c = 0; c < 3; c++) {
+            if (!p->load[i].value[c] || !pg_expression_uses (p->load[i].value[c], 't')) continue;
+            snprintf (path, sizeof path, "boundary[%zu]", i);
+            pg_scene_fault (scene, path, "with stages a value may not depend on t: they say how it grows");
+            break;
+        }
+    find_idle (p, scene);
+    check_names (p, scene);
+    pg_stages_follow (p, NULL);
+done:
+    return status;
+}
+
+void pg_stages_clear (pg_problem *p)
+{
+    for (size_t k = 0; p->stage && k < p->nstage; k++) pg_free (p->stage[k].target);
+    pg_free (p->stage);
+}
