@@ -106,6 +106,8 @@ typedef struct {
     size_t iterations;
     /* Smallest over largest pivot of the last symmetric factor, about; 0: not known. */
     double pivots;
+    /* Operations of all half solves so far. */
+    double half_flops;
 } pg_linear_info;
 
 /* An entry of the catalogue. */

@@ -278,7 +278,7 @@ done:
 static void chol_info (const void *self, pg_linear_info *info)
 {
     const chol *c = self;
-    *info = (pg_linear_info) { c->ordering, c->entries, c->flops, 0, c->pivots };
+    *info = (pg_linear_info) { c->ordering, c->entries, c->flops, 0, c->pivots, c->few.half_flops };
 }
 
 const pg_linear_type pg_linear_cholmod = {

@@ -222,7 +222,7 @@ done:
 
 static void pcg_info (const void *self, pg_linear_info *info)
 {
-    *info = (pg_linear_info) { "none", 0, 0, ((const pcg *) self)->iterations, 0 };
+    *info = (pg_linear_info) { .ordering = "none", .iterations = ((const pcg *) self)->iterations };
 }
 
 const pg_linear_type pg_linear_pcg = {

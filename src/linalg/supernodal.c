@@ -152,6 +152,7 @@ pg_status supernodal_half_few (const cholmod_factor *L, supernodal_solver *s, si
         supernode node = take (L, k);
         size_t from = (size_t) node.first, end = from + (size_t) node.m;
         if (!s->reached[k]) continue;
+        s->half_flops += (double) nrhs * node.m * (2.0 * node.rows - node.m);
         for (size_t j = 0; j < nrhs; j++)
             for (size_t i = from; i < end; i++) y[j][i] = s->Y[i * nrhs + j];
         PG_GROW (s->interval, s->room_interval, n + 2);

@@ -13,6 +13,7 @@ typedef struct {
     unsigned char *reached;                            /* of each supernode */
     double *Y, *E;  size_t room_Y, room_E;
     size_t *interval, room_interval;                   /* of places that were reached: first, end (pairs) */
+    double  half_flops;                                /* operations of all half solves */
 } supernodal_solver;
 pg_status supernodal_solve_few (const cholmod_factor *L, supernodal_solver *s, size_t nrhs, const double *b,
                                 double *x);

@@ -125,7 +125,7 @@ done:
 static void lu_info (const void *self, pg_linear_info *info)
 {
     const lu *u = self;
-    *info = (pg_linear_info) { "umfpack", u->entries, u->flops, 0, 0 };
+    *info = (pg_linear_info) { .ordering = "umfpack", .factor_entries = u->entries, .flops = u->flops };
 }
 
 const pg_linear_type pg_linear_umfpack = {

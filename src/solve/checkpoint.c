@@ -246,6 +246,22 @@ done:
     return status;
 }
 
+/* What a factor and finite elements have cost in this motion. */
+static pg_status keep_ways (pg_ways *w, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    long count[2] = { w->meanwhile, w->solves };
+    double number[6] = { w->regret, w->iterations, w->breaking, w->bonds, w->fresh, w->spent };
+    PG_TRY (k->counts (k->context, "system.ways", 2, count));
+    PG_TRY (k->numbers (k->context, "system.ways.seconds", 6, number));
+    PG_KEEP_BOUND (k, "whether elements stand in for a factor", count[0], 0, 1);
+    PG_KEEP_BOUND (k, "solves in place of a factor", count[1], 0, most);
+    *w = (pg_ways){ (int) count[0], number[0], number[1], number[2], number[3], number[4], number[5],
+                    count[1] };
+done:
+    return status;
+}
+
 /* The linear system: how it is solved, which unknowns are weak, what the iterations have cost so far. A
  * way to solve that this force does not have is refused. */
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
@@ -277,6 +293,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     PG_TRY (keep_preconditioner (s, solves, count[4], k));
     PG_TRY (system_guess_keep (s, k));
     PG_TRY (keep_following (s, k));
+    PG_TRY (keep_ways (&s->ways, k));
     s->stale = (int) count[5];
 done:
     return status;

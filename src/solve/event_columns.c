@@ -9,6 +9,9 @@
 #include "event_solver_data.h"
 #include <string.h>
 
+/* Operations a second of products of large dense matrices, in the measure of system_factor_cost. */
+static const double dense_rate = 20e9;
+
 /* Writes T' e_i of the unknowns first .. t - 1 into the right-hand sides. */
 static void unit_forces (event_solver *e, size_t first, const pg_sparse *T)
 {
@@ -77,12 +80,19 @@ pg_status columns_halve (event_solver *e, size_t first)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     size_t count = e->t - first, n;
     const size_t *interval;
+    pg_linear_info info;
     PG_TRY (make_room (e, count));
     PG_GROW (e->half, e->room_half, count);
     for (size_t k = 0; k < count; k++)
         e->half[k] = e->chunk[(first + k) / CHUNK] + (first + k) % CHUNK * e->ndof;
     unit_forces (e, first, T);
+    s->linear->info (s->factor, &info);
+    double before = info.half_flops, flops = 0;
     PG_TRY (s->linear->half_few (s->factor, count, e->rhs, e->half, &n, &interval));
+    s->linear->info (s->factor, &info);
+    for (size_t k = 0; k < n; k++)
+        flops += 2 * (double) count * (double) e->t * (double) (interval[2 * k + 1] - interval[2 * k]);
+    e->green += (info.half_flops - before + flops) / dense_rate;
     for (size_t j = first; j < e->t; j++) memset (e->H + j * e->cap, 0, e->t * sizeof *e->H);
     for (size_t b = first, nb; b < e->t; b += nb) {
         nb = CHUNK - b % CHUNK < e->t - b ? CHUNK - b % CHUNK : e->t - b;

@@ -108,12 +108,12 @@ pg_status event_solver_keep (event_solver *e, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long count[1] = { e->based };
-    double number[5] = { e->shift, e->scale, e->residual, e->rent, e->k };
+    double number[6] = { e->shift, e->scale, e->residual, e->rent, e->k, e->green };
     PG_TRY (k->counts (k->context, "event_solver.counts", 1, count));
-    PG_TRY (k->numbers (k->context, "event_solver.numbers", 5, number));
+    PG_TRY (k->numbers (k->context, "event_solver.numbers", 6, number));
     PG_KEEP_BOUND (k, "the base of events", count[0], 0, 1);
     e->shift = number[0], e->scale = number[1], e->residual = number[2], e->rent = number[3],
-    e->k = number[4];
+    e->k = number[4], e->green = number[5];
     if (k->reading) e->based = (int) count[0], e->s->base |= e->based;
     if (!e->based) goto done;
     PG_TRY (k->numbers (k->context, "event_solver.diagonal", e->ndof, e->diagonal));
@@ -136,6 +136,7 @@ pg_status event_solver_restore (event_solver *e)
     pg_status status = PG_OK;
     pg_stiffness_change change;
     size_t all = e->t;
+    double green = e->green;                           /* columns made again count no second time */
     if (!e->restored) return PG_OK;
     e->restored = 0;
     if (!e->based) return PG_OK;
@@ -143,7 +144,7 @@ pg_status event_solver_restore (event_solver *e)
         e->t = first + e->group[k];
         PG_TRY (touched_green (e, first));
     }
-    e->t = all, e->factored = 0;
+    e->t = all, e->factored = 0, e->green = green;
     for (int c = 0; c < e->cases; c++) touched_displacement (e, c);
     e->factorizations = e->s->report->factorizations;
     PG_TRY (e->s->force->change (e->s->self, &change));

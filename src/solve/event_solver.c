@@ -152,7 +152,7 @@ pg_status event_solver_follow (event_solver *e, double k, double m)
     const pg_sparse *K = s->force->matrix (s->self);
     for (size_t i = 0; i < e->ndof; i++) e->diagonal[i] = k * K->value[K->start[i + 1] - 1];
     if (m != 0) system_add_mass_diagonal (s, m, e->diagonal);
-    e->k = k, e->shift = 0, e->scale = 1, e->rent = e->residual = 0;
+    e->k = k, e->shift = 0, e->scale = 1, e->rent = e->green = e->residual = 0;
     PG_TRY (s->force->change (s->self, &change));      /* the record begins here */
     e->based = s->base = 1, e->why = "", e->factorizations = s->report->factorizations;
     PG_TRY (event_solver_flush (e));
@@ -282,6 +282,8 @@ done:
 }
 
 size_t event_solver_touched (const event_solver *e) { return e->t; }
+double event_solver_filled (const event_solver *e) { return (double) e->t / MOST_TOUCHED; }
+double event_solver_spent (const event_solver *e) { return e->rent + e->green; }
 
 /* ---- the solution -------------------------------------------------------------------------------------- */
 pg_status event_solver_watch (event_solver *e, size_t n, const int *node)

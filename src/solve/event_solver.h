@@ -59,6 +59,9 @@ pg_status event_solver_follow (event_solver *e, double k, double m);
 /* After system_refresh, of such a base: takes in what K lost, with nothing to be solved for. */
 pg_status event_solver_note   (event_solver *e, event_outcome *outcome);
 size_t    event_solver_touched (const event_solver *e);        /* unknowns since the base */
+double    event_solver_filled  (const event_solver *e);        /* the same, as a share of the most */
+/* Columns and dense algebra since the base, in seconds by stored rates. */
+double    event_solver_spent   (const event_solver *e);
 /* The base is of no use any more. */
 void      event_solver_drop     (event_solver *e);
 

@@ -54,6 +54,7 @@ struct event_solver {
     int     restored;  /* 1: read back, and nothing was made again yet */
     const char *why;
     double  rent;  /* dense algebra since the base, in seconds by stored rates */
+    double  green;  /* the same of halved columns */
 };
 
 /* ---- event_touched.c ----------------------------------------------------------------------------------- */

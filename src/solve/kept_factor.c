@@ -19,6 +19,7 @@ pg_status system_follow (pg_system *s, const dynamics *dyn)
     if (!dyn || !s->problem->criterion->type) return PG_OK;
     if (!s->following) PG_TRY (event_solver_create (&s->following, s, 0, NULL));
     if (s->following) PG_TRY (event_solver_follow (s->following, dyn->k, dyn->m));
+    ways_note_factor (s);
 done:
     return status;
 }

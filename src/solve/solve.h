@@ -31,6 +31,17 @@ enum {
 enum { GUESS_PAIRS = 5 };
 typedef struct { double *x, *y; int n, next, fresh; } pg_guess;
 
+/* Factor or finite elements, in motion (factor_or_elements.c): seconds by stored rates. */
+typedef struct {
+    int    meanwhile;                                  /* 1: elements stand in for a factor */
+    double regret;                                     /* s that the other way would have spared */
+    double iterations;                                 /* of a solve by elements, a mean; 0: not known */
+    double breaking, bonds;  /* s that breaking has cost in factors; bonds that broke meanwhile */
+    double fresh;                                      /* bonds that broke since the last solve */
+    double spent;                                      /* what the factor had cost by then */
+    long   solves;                                     /* by elements in place of a factor */
+} pg_ways;
+
 typedef struct {
     const pg_problem    *problem;
     const pg_force_type *force;
@@ -76,6 +87,7 @@ typedef struct {
     double    pace;  /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
     pg_guess  guess;
+    pg_ways   ways;
     int       begins;                                  /* the state to be solved for begins a step */
     int       carried;  /* `residual` went with the last iterations to the state that they lead to */
     int       known;                                   /* `residual` is that of the state last solved for */
@@ -132,6 +144,12 @@ pg_status system_solve_by_kept_factor (pg_system *s, const dynamics *dyn, double
 pg_status system_apply_factor (pg_system *s, const double *r, double *z);
 pg_status system_follow      (pg_system *s, const dynamics *dyn);
 pg_status system_note_change (pg_system *s);
+/* factor_or_elements.c: in motion, which of both is the cheaper one: bonds have broken; a factor was made;
+ * before a solve; after one. */
+void      ways_note_broken (pg_system *s, size_t count);
+void      ways_note_factor (pg_system *s);
+pg_status ways_choose      (pg_system *s, const dynamics *dyn);
+void      ways_count       (pg_system *s, size_t iterations);
 /* One solve for `delta` from `reduced`, by the way that was chosen or is chosen now (system.c). */
 pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance);
 /* d becomes the equilibrium at t (refinement.c); *residual relative to the reference force.

@@ -244,6 +244,13 @@ static void report_skips (pg_solver *s)
     report_spared (s, preconditioners ? 0 : sys->spared, "factorization in %ld solves after a break", factors,
                    "the factor of an earlier K preconditions conjugate gradients until a new one would pay "
                    "(their time is not taken off)");
+    if (sys->ways.solves) {
+        char what[96];
+        snprintf (what, sizeof what, "factors for %ld solves", sys->ways.solves);
+        pg_statistics_skip (&s->report, NAN, what,
+                            "while much broke, conjugate gradients with finite elements were cheaper by stored "
+                            "rates");
+    }
     if (!sys->unmeasured) return;
     pg_statistics_skip (&s->report,
                         8e-9 * (double) sys->unmeasured * (double) s->problem->first_bond[PG_BOND_SETS],

@@ -106,6 +106,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
     if (now != s->revision) s->stale = 1, s->guess.fresh = 0;
     else s->kept++;
+    if (changes && now != s->revision) ways_note_broken (s, changes->n);
     s->revision = now;
     s->report->updates += changes != NULL;
     if (status == PG_OK) status = system_note_change (s);
@@ -428,8 +429,9 @@ done:
 pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance)
 {
     pg_status status = PG_OK;
-    size_t used = 0;
+    size_t used = 0, before = s->report->cg_iterations;
     if (s->mode == SYSTEM_UNDECIDED) PG_TRY (system_choose (s, dyn));
+    PG_TRY (ways_choose (s, dyn));
     if (s->mode == SYSTEM_TRIAL) {
         pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, FEW_ITERATIONS, &used);
         if (now != PG_OK && now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) PG_TRY (now);
@@ -444,6 +446,7 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
         PG_TRY (solve_without_factor (s, dyn, tolerance));
     if (s->mode == SYSTEM_KEPT_FACTOR) PG_TRY (system_solve_by_kept_factor (s, dyn, tolerance));
     else if (s->mode == SYSTEM_FACTOR) PG_TRY (system_solve_by_factor (s, dyn));
+    if (dyn) ways_count (s, s->report->cg_iterations - before);
 done:
     s->report->solves += status == PG_OK;
     return status;

@@ -142,6 +142,8 @@ static void what_cannot_be_is_refused (void **state)
         { "system.counts", 0, 99, "the way to solve is 99" },
         { "system.counts", 4, 2, "a kept factor is 2" },
         { "system.multilevel", 0, 2, "the multilevel preconditioner is 2" },
+        { "system.ways", 0, 2, "whether elements stand in for a factor is 2" },
+        { "system.ways", 1, -1, "solves in place of a factor is -1" },
         { "system.touched", 0, 3, "system.touched is 3" },
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
@@ -208,6 +210,35 @@ static void a_factor_that_follows_goes_on_bit_by_bit (void **state)
     clear (&a), clear (&b);
 }
 
+/* And one in which finite elements stand in for the factor; the way back is the same. */
+static void elements_in_place_of_a_factor_go_on_bit_by_bit (void **state)
+{
+    (void) state;
+    run a = block (), b = block ();
+    memory m = { .n = 0 };
+    long meanwhile = 0, factors = 0;
+    while (!meanwhile) {
+        forget (&m);
+        m = (memory){ .n = 0 };
+        assert_false (pg_solver_done (a.solver, a.state));
+        advance (&a);
+        check_ok (walk (&m, &a, 0));
+        meanwhile = *(const long *) (const void *) item_of (&m, "system.ways")->value;
+    }
+    factors = pg_solver_report_now (a.solver)->factorizations;
+    check_ok (walk (&m, &b, 1));
+    for (int k = 0; k < 6 && !pg_solver_done (a.solver, a.state); k++) {
+        advance (&a), advance (&b);
+        assert_int_equal (a.step.nbroken, b.step.nbroken);
+        assert_memory_equal (a.state->d, b.state->d, a.state->ndof * sizeof *a.state->d);
+    }
+    print_message ("factors %ld, then %ld\n", factors, pg_solver_report_now (a.solver)->factorizations);
+    assert_int_equal (pg_solver_report_now (a.solver)->factorizations,
+                      pg_solver_report_now (b.solver)->factorizations);
+    forget (&m);
+    clear (&a), clear (&b);
+}
+
 static void texts_end_whatever_was_read (void **state)
 {
     (void) state;
@@ -226,6 +257,7 @@ int main (void)
                                         cmocka_unit_test (what_cannot_be_is_refused),
                                         cmocka_unit_test (a_motion_goes_on_bit_by_bit),
                                         cmocka_unit_test (a_factor_that_follows_goes_on_bit_by_bit),
+                                        cmocka_unit_test (elements_in_place_of_a_factor_go_on_bit_by_bit),
                                         cmocka_unit_test (texts_end_whatever_was_read) };
     return cmocka_run_group_tests_name ("solve/kept", tests, NULL, NULL);
 }

@@ -1,0 +1,131 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A factor or finite elements, in a motion in which bonds break.
+ *
+ * While little breaks a factor of k K + m M is the cheapest way: one solve with it, corrected for what has
+ * broken since (kept_factor.c). In a cascade, round after round of breaking, the correction costs more than
+ * the solve: columns of the newly touched unknowns, a dense system that grows, and after some rounds another
+ * factor. Conjugate gradients with finite elements as preconditioner (preconditioner.c) know no such cost: a
+ * solve is some 45 products K x, whatever has broken.
+ *
+ * Which of both is the cheaper one is counted after every solve, by stored rates, of what was done, and of
+ * what the other way would have done: iterations times their cost, or solves and the cost of a broken bond as
+ * seen so far. The differences are summed up, never below zero: the regret. The way is changed when the
+ * regret has reached the cost of the change (rent or buy: at most twice the cost of the best choice
+ * afterwards): a set-up of the elements and a share of the factor that the way back will cost, or that
+ * factor. It depends on counts alone. */
+#include "event_solver.h"
+#include <math.h>
+#include <string.h>
+
+/* Seconds of an iteration with finite elements, for each bond and each node: bodies in space, shape functions
+ * of which many are alike, one thread. Measured like the other rates of this file in data/cui_plate. */
+static const double bond_rate = 1.3e-9, node_rate = 7e-7;
+/* Iterations of a solve before there was any; set-up in iterations. */
+enum { FIRST_GUESS = 45, SET_UP = 20 };
+/* Share of a new factor's cost that a change to elements must be worth, as it will probably be needed again;
+ * iterations of a solve by a factor that is corrected. */
+static const double way_back = 0.25, corrected = 1.2;
+
+/* Can both be had? In the plane factors are cheap. */
+static pg_status both_ways (pg_system *s, const dynamics *dyn, int *can)
+{
+    pg_status status = PG_OK;
+    *can = 0;
+    if (!dyn || s->problem->dim < 3 || !s->force->elements || s->options->plain || s->indefinite
+        || strcmp (s->options->linear, "auto") != 0)
+        return PG_OK;
+    PG_TRY (system_can_precondition (s, dyn, can));
+done:
+    return status;
+}
+
+/* Seconds of one solve with finite elements. */
+static double elements_cost (const pg_system *s, double iterations)
+{
+    pg_solve_counts c = pg_solve_count (s->problem);
+    return iterations * (bond_rate * c.bonds + node_rate * c.points);
+}
+
+static double factor_again (const pg_system *s) { return system_assembly_cost (s) + system_factor_cost (s); }
+
+/* Seconds of one solve by a factor; twice where it is corrected. */
+static double factor_solve (const pg_system *s, int broken)
+{
+    return (broken ? 2 * corrected : 1) * system_solve_cost (s) + system_apply_cost (s);
+}
+
+/* What breaking has cost in the factor since it was last looked at, s; with it a share of the next one, as
+ * there is room for so many touched unknowns only. */
+static double breaking_cost (pg_system *s)
+{
+    pg_ways *w = &s->ways;
+    double now = 0;
+    if (s->following && event_solver_has_base (s->following))
+        now = event_solver_spent (s->following) + event_solver_filled (s->following) * factor_again (s);
+    double cost = now > w->spent ? now - w->spent : 0;
+    w->spent = now;
+    w->breaking += cost, w->bonds += w->fresh;
+    return cost;
+}
+
+void ways_note_broken (pg_system *s, size_t count) { s->ways.fresh += (double) count; }
+
+/* A new factor: what a bond costs is learnt from the last few. */
+void ways_note_factor (pg_system *s)
+{
+    s->ways.spent = 0, s->ways.breaking /= 2, s->ways.bonds /= 2;
+}
+
+/* The factor stays behind the system for the way back; its columns, some 16 KB for each unknown, do not. */
+static void to_elements (pg_system *s)
+{
+    if (s->following) event_solver_drop (s->following);
+    event_solver_free (&s->following);
+    s->mode = SYSTEM_NO_FACTOR, s->stale = 1, s->extra_cost = 0;
+    s->ways.meanwhile = 1, s->ways.regret = 0;
+}
+
+static void to_factor (pg_system *s)
+{
+    system_forget_preconditioner (s);
+    s->mode = SYSTEM_KEPT_FACTOR, s->stale = 1, s->remake = 0;
+    s->extra_cost = 1e300;                             /* of the matrix of now, before the next solve */
+    s->ways.meanwhile = 0, s->ways.regret = 0;
+}
+
+/* Before a solve: the other way where enough speaks for it. A factor that would have to be made anew is none
+ * to be kept. */
+pg_status ways_choose (pg_system *s, const dynamics *dyn)
+{
+    pg_status status = PG_OK;
+    const pg_ways *w = &s->ways;
+    int can;
+    if (s->mode == SYSTEM_NO_FACTOR && w->meanwhile && w->regret > factor_again (s)) to_factor (s);
+    if (s->mode != SYSTEM_KEPT_FACTOR || w->regret == 0) return PG_OK;
+    PG_TRY (both_ways (s, dyn, &can));
+    int due = s->stale && s->extra_cost > system_factor_cost (s);
+    if (can && w->regret > elements_cost (s, SET_UP) + (due ? 0 : way_back * factor_again (s)))
+        to_elements (s);
+done:
+    return status;
+}
+
+/* After a solve that took so many iterations. */
+void ways_count (pg_system *s, size_t iterations)
+{
+    pg_ways *w = &s->ways;
+    double used = (double) iterations, balance = 0;
+    if (s->mode == SYSTEM_KEPT_FACTOR && s->problem->dim > 2 && s->force->elements) {
+        int broken = s->following && event_solver_touched (s->following) > 0;
+        balance = breaking_cost (s)
+                  + used * ((broken ? 2 : 1) * system_solve_cost (s) + system_apply_cost (s))
+                  - elements_cost (s, w->iterations > 0 ? w->iterations : FIRST_GUESS);
+    } else if (s->mode == SYSTEM_NO_FACTOR && w->meanwhile) {
+        double bond = w->bonds > 0 ? w->breaking / w->bonds : 0;
+        w->iterations = w->iterations > 0 ? 0.9 * w->iterations + 0.1 * used : used;
+        balance = elements_cost (s, used) - factor_solve (s, w->fresh > 0) - bond * w->fresh;
+        w->solves++;
+    }
+    w->regret = fmax (0, w->regret + balance);
+    w->fresh = 0;
+}
