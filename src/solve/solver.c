@@ -248,8 +248,8 @@ static void report_skips (pg_solver *s)
         char what[96];
         snprintf (what, sizeof what, "factors for %ld solves", sys->ways.solves);
         pg_statistics_skip (&s->report, NAN, what,
-                            "while much broke, conjugate gradients with finite elements were cheaper by stored "
-                            "rates");
+                            "while much broke, conjugate gradients with finite elements were cheaper by "
+                            "stored rates");
     }
     if (!sys->unmeasured) return;
     pg_statistics_skip (&s->report,

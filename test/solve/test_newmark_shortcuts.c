@@ -149,7 +149,8 @@ static run in_space (int plain, const char *mass, const char *preconditioner)
                      "  - {set: bottom, displacement: {x: 0, y: 0, z: 0}}\n"
                      "  - {set: top, traction: {y: 9 MPa}}\n"
                      "solver: {kind: newmark, dt: 0.1 ms, end: 2.3 ms, mass: %s, break: fraction, "
-                     "break_fraction: 10 %%, tolerance: 1e-10, preconditioner: %s, plain: %s}\noutput: {at: {levels: 1}}\n",
+                     "break_fraction: 10 %%, tolerance: 1e-10, preconditioner: %s, "
+                     "plain: %s}\noutput: {at: {levels: 1}}\n",
                      mass, preconditioner, plain ? "true" : "false");
 }
 
