@@ -49,5 +49,43 @@ pg_status pg_contact_solve (pg_contact_solution *out, const pg_contact_problem *
 /* How far forces and gaps are from solving the problem: the largest of all violations, those of forces turned
  * into lengths by the diagonal of C, over the largest |g0|. */
 double pg_contact_violation (const pg_contact_problem *problem, const pg_contact_solution *s);
+
+/* ---- pieces of cracks ---------------------------------------------------------------------------------- */
+/* Mean gaps over pieces of about two spacings are what a discretisation of that spacing can hold closed
+ * without pressures that swing from piece to piece (the pairs then satisfy the condition of Ladyzhenskaya,
+ * Babuska and Brezzi; one pair per spacing does not). All lengths in local spacings. */
+#define PG_CONTACT_PIECE  2.0                          /* length of a piece */
+#define PG_CONTACT_POINTS 8                            /* points per spacing that sample the gap */
+#define PG_CONTACT_RADIUS 2.5                          /* how far they see (pg_force_type.jump) */
+#define PG_CONTACT_TURN   0.5                          /* rad: no piece goes around such a turn */
+typedef struct {
+    double x[2], normal[2];                            /* middle; unit normal to the left of the path, m, 1 */
+    double area;                                       /* of its faces, thickness included, m^2 */
+    double length;                                     /* m */
+    size_t path;                                       /* pieces of one path follow each other */
+    double arc;                                        /* of its middle along its path, m */
+} pg_contact_piece;
+/* The cracks of a state in pieces, as far as they cut bonds and lie in the body. */
+typedef struct {
+    size_t n;  pg_contact_piece *piece;
+    size_t npoint;  double *x, *normal, *weight;       /* x 2, x 2, m^2: points that sample the gap */
+    size_t *first;                                     /* those of piece k: first[k] .. first[k + 1] - 1 */
+} pg_contact_pieces;
+pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *problem, const pg_state *state);
+void      pg_contact_pieces_clear  (pg_contact_pieces *pieces);
+/* Their rows as columns of G' (unknowns x 2 n): column 2 k makes the mean gap of piece k, 2 k + 1 its mean
+ * slip, positive where the left face goes ahead along the path; f acts on the nodes as G' f. *poor: points
+ * that see too little on one side, and do not count. PG_E_USAGE: a piece has no other points. */
+pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
+                           const pg_force_type *force, void *self, const pg_state *state, size_t *poor);
+
+/* ---- what a scene asks for ----------------------------------------------------------------------------- */
+typedef enum { PG_CONTACT_NONE, PG_CONTACT_NORMAL, PG_CONTACT_FRICTION } pg_contact_kind;
+typedef struct {
+    pg_contact_kind kind;
+    double coefficient, cohesion;                      /* mu; c, Pa */
+} pg_contact_setting;
+/* Reads the section `contact`. */
+pg_contact_setting pg_contact_read (const pg_scene *scene);
 PG_API_END
 #endif

@@ -51,6 +51,13 @@ typedef struct {
     size_t  nnode;  int *node;  /* nodes whose unknowns make displacement and stress there, ascending */
 } pg_bond_group;
 void pg_bond_group_clear (pg_bond_group *group);
+/* The jump of the displacement at places on cracks: that of place q is the sum of value[e] times the unknowns
+ * of node[e], component by component, over e from start[q] to before start[q + 1]. */
+typedef struct {
+    size_t  n, *start;  int *node;  double *value;
+    size_t  poor;                                      /* places whose values are zero: see pg_force_type */
+} pg_jump_rows;
+void pg_jump_rows_clear (pg_jump_rows *rows);
 
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest
  * may be NULL. */
@@ -183,6 +190,12 @@ typedef struct {
     /* What refreshes have changed of K since the last call; the first call begins the record and knows
      * nothing. NULL: never known. */
     pg_status (*change) (void *self, pg_stiffness_change *out);
+    /* Displacement on the side that the normal shows to, less that on the other, at n places on cracks of the
+     * state (x, normal: n x dim), by shape functions that see so many spacings far. Places one side of which
+     * sees too little for a linear field have none: their values are zero. NULL: contact of crack faces
+     * cannot be asked of this force. */
+    pg_status (*jump) (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                       double radius, pg_jump_rows *out);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

@@ -37,7 +37,17 @@ typedef struct {
     /* 1: at the end of a front on the surface of the body, from the next vertices: the surface has a
      * singularity of its own */
     int    extrapolated;
+    /* 1: its faces press on each other behind it: K_I is 0, J that of K_II, T is not known */
+    int    closed;
 } pg_tip_field;
+
+/* What the faces behind a tip do to each other, in equilibria with contact (perigal/contact.h). */
+typedef struct {
+    /* Mean stresses that they carry across and along the crack, sigma_nn and sigma_nt in the frame of the
+     * tip, Pa, of each field: sigma_nn < 0 in the first: they press on each other. */
+    double stress[2][2];
+    double nearest;  /* distance from the tip to the next piece that is closed, m; INFINITY: none */
+} pg_tip_faces;
 
 /* Why tips of this problem have no K and J by integrals: a sentence, static text; NULL: they have. */
 const char *pg_tip_refuses (const pg_problem *p, const pg_force_type *force);
@@ -49,6 +59,13 @@ const char *pg_tip_refuses (const pg_problem *p, const pg_force_type *force);
 pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
                           const double *t);
+
+/* The same where faces may touch (NULL: they do not). The uniform field that carries the same stress across
+ * the faces is subtracted: what is left has free faces behind the tip, and its K_II is that of the tip; rings
+ * of an open tip end before the next closed piece, whose tractions are in no integral. */
+pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
+                                void *self, const pg_state *state, size_t tip, int nfield,
+                                const double *const *d, const double *t, const pg_tip_faces *faces);
 
 /* Measures a front in space, number `front` of those of the state (pg_fronts_of_state): out has a field for
  * each of its vertices, smoothed once along the front. d, t as above. near = NAN at a vertex without room for

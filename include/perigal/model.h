@@ -206,6 +206,7 @@ struct pg_problem {
     pg_approx     approx;
     pg_tip  *tip;  size_t ntip;                        /* 2D: the tips of the pre-cracks */
     pg_front *front;  size_t nfront;                   /* 3D: the fronts of the pre-cracks */
+    double   closed_tip_offset;  /* the same of a tip whose faces touch (pg_tip_draw_back), m */
     double   tip_offset;  /* of a tip where the local spacing is cloud.h, m (method.tip_offset) */
     struct pg_body_search *search;                     /* where the body is, 2D; else NULL */
     const pg_integration_type *integration;
@@ -277,6 +278,7 @@ enum {
     PG_SOLVER_STAGED = 8,  /* stages of the load, each relaxed by the force alone */
     PG_SOLVER_EVENTS = 16,                             /* knows event stepping */
     PG_SOLVER_NEEDS_DENSITY = 32,
+    PG_SOLVER_CONTACT = 128,                           /* knows contact of crack faces */
     PG_SOLVER_FACETS = 64,                             /* lets cracks grow by facets */
     PG_SOLVER_STATIC = PG_SOLVER_QUASI_STATIC | PG_SOLVER_IMPLICIT     /* equilibria by linear systems */
 };
@@ -386,6 +388,9 @@ pg_status pg_crack_start (pg_state *state, const pg_problem *problem, const doub
                           int open, pg_changes *cut);
 /* The tip grows no more, and its path cuts to its end. */
 pg_status pg_tip_close   (pg_state *state, const pg_problem *problem, size_t tip, pg_changes *cut);
+/* At the start of a run: the path of a tip that has not grown cuts only from `offset` (m) behind it on, if
+ * that is more than so far and no more than a share of the path; bonds that it cuts no more live again. */
+void      pg_tip_draw_back (pg_state *state, const pg_problem *problem, size_t tip, double offset);
 /* The place `back` (m) behind a tip along its path, at most the path's other end, and the unit vector from
  * there to the tip (2 each). */
 void      pg_tip_chord    (const pg_state *state, size_t tip, double back, double *from, double *direction);

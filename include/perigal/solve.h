@@ -3,7 +3,7 @@
  * Catalogue: src/solve/<name>.c + one line in list.h. Cui 2022 section 3.2; theory F5, F6. */
 #ifndef PERIGAL_SOLVE_H
 #define PERIGAL_SOLVE_H
-#include "perigal/fracture.h"
+#include "perigal/contact.h"
 
 PG_API_BEGIN
 
@@ -36,6 +36,7 @@ typedef struct {
     double   dt, end;                                  /* s; dt 0: 0.9 of the stable time step */
     /* stop when a point of the set is damaged so far; NULL: never */
     const pg_set *stop_set; double stop_damage;
+    pg_contact_setting contact;                        /* of crack faces (PG_SOLVER_CONTACT) */
     long     levels;  /* reports at k / levels of the load (or of the end time) */
     char     unused[256];  /* keys of the scene's solver that belong to others, "dt, end" */
     union { double align; unsigned char byte[PG_SOLVER_OWN]; } own;    /* of the method alone: PG_OWN */
@@ -115,6 +116,11 @@ typedef struct {                                       /* of the run so far */
     double utilisation_max, residual_max, overlap_max; /* over accepted steps; m */
     /* J; dissipated: by breaking, the rest */
     double energy_strain, energy_kinetic, energy_external, energy_damping, energy_dissipated;
+    double energy_friction;                            /* J: of it, by friction of crack faces */
+    /* Contact of crack faces, in the state last solved for: pieces, and how they stand; passes and sweeps
+     * that this took; largest overlap of a mean gap over the run, m */
+    long   contact_pieces, contact_open, contact_stick, contact_sliding, contact_passes, contact_sweeps;
+    double contact_overlap;
     double energy_fracture;  /* J: what cracks that grew should have taken: fracture energy times new area */
     double seconds[PG_SECONDS_COUNT];
     double factor_entries, factor_flops;

@@ -344,5 +344,6 @@ const pg_force_type pg_force_galerkin = {
     .surface = galerkin_surface,
     .lend = galerkin_lend,
     .change = galerkin_change_of,
-    .elements = galerkin_elements
+    .elements = galerkin_elements,
+    .jump = galerkin_jump
 };

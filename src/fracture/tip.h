@@ -7,6 +7,7 @@
 #define PG_FRACTURE_TIP_H
 #include "perigal/fracture.h"
 
+#define TIP_LEAST 1.5                                  /* spacings: a ring that ends nearer knows nothing */
 enum { TIP_FIELDS = 2 };                               /* most displacement fields at a time */
 
 /* The material at a tip. */

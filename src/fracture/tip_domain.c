@@ -13,7 +13,7 @@
 #include <string.h>
 
 #define INNER 1.0                                      /* all in local spacings */
-#define LEAST 1.5
+#define LEAST TIP_LEAST
 #define NEAR  3.0
 #define WIDE  8.0
 #define CHORD 1.5

@@ -95,6 +95,41 @@ static void free_faces (tip_grid *grid, int at, const tip_material *m, double pr
     }
 }
 
+/* The same of faces that touch: the uniform stress sigma_22 = -p, sigma_12 = tau of the frame, sigma_11 = 0,
+ * is subtracted, without its rotation (Hooke's law by mu and kappa). */
+static void part_faces (tip_grid *grid, int at, const tip_material *m, const double *stress)
+{
+    tip_sample *f = &grid->field[at];
+    double along = (m->kappa - 3) * stress[0] / (8 * m->mu),
+           across = (m->kappa + 1) * stress[0] / (8 * m->mu),
+           shear = stress[1] / (2 * m->mu);
+    for (size_t k = 0; k < grid->n; k++) {
+        f->H[4*k] -= along, f->H[4*k + 3] -= across, f->H[4*k + 1] -= shear, f->H[4*k + 2] -= shear;
+        f->stress[3*k + 1] -= stress[0], f->stress[3*k + 2] -= stress[1];
+    }
+}
+
+/* Of a closed tip: it does not open, and what it sets free is what sliding does. */
+static void close_tip (pg_tip_field *out, int nfield)
+{
+    out->closed = 1;
+    for (int a = 0; a < nfield; a++) {
+        out->K[0][a] = out->K_wide[0][a] = 0, out->K[1][a] = out->K_wide[1][a], out->T[a] = NAN;
+        for (int b = 0; b < nfield; b++) {
+            out->J[a][b] = out->K_wide[1][a] * out->K_wide[1][b] / out->modulus;
+            out->J_near[a][b] = out->K[1][a] * out->K[1][b] / out->modulus;
+        }
+    }
+}
+
+/* Rings of an open tip hold no closed face. */
+static void limit_rings (pg_tip_field *out, const pg_tip_faces *faces)
+{
+    if (!(faces->nearest < out->wide)) return;
+    out->wide = faces->nearest, out->near = fmin (out->near, faces->nearest);
+    if (out->near < TIP_LEAST * out->h) out->near = out->wide = NAN;
+}
+
 static int moves (const pg_state *state)
 {
     for (size_t i = 0; i < state->ndof; i++) if (state->v[i] != 0 || state->a[i] != 0) return 1;
@@ -169,6 +204,13 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
                           const double *t)
 {
+    return pg_tip_measure_faces (out, p, force, self, state, tip, nfield, d, t, NULL);
+}
+
+pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
+                                void *self, const pg_state *state, size_t tip, int nfield,
+                                const double *const *d, const double *t, const pg_tip_faces *touch)
+{
     pg_status status = PG_OK;
     tip_grid grid = { 0 }, faces = { 0 };
     double pressure[TIP_FIELDS] = { 0 };
@@ -180,7 +222,9 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
         PG_FAIL (PG_E_USAGE, "%d displacement fields at a tip: 1 or 2 can be measured", nfield);
     PG_TRY (tip_domain (out, p, state, tip, &node));
     tip_material m = material_at (p, node);
+    int closed = touch && touch->stress[0][0] < 0;
     out->modulus = m.modulus;
+    if (touch && !closed) limit_rings (out, touch);
     unknown (out);
     if (isnan (out->near)) goto done;
     int forced = any_body_force (p, node),
@@ -195,11 +239,13 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
         if (faces.n) PG_TRY (tip_grid_sample (&faces, a, out, &m, p, force, self, state, d[a]));
         if (forced) PG_TRY (add_body_force (&grid, a, out, p, node, t));
         pressure[a] = pressure_in (p, a, t);
+        if (closed) part_faces (&grid, a, &m, touch->stress[a]), part_faces (&faces, a, &m, touch->stress[a]);
         if (pressure[a] != 0) free_faces (&grid, a, &m, pressure[a]), free_faces (&faces, a, &m, pressure[a]);
     }
     if (moving) PG_TRY (add_inertia (&grid, out, &m, p, force, self, state));
     integrate (out, &grid, &faces, &m, state->paths->tip[tip].grown > 0);
     for (int a = 0; a < nfield; a++) out->T[a] -= pressure[a];
+    if (closed) close_tip (out, nfield);
 done:
     tip_grid_clear (&grid), tip_grid_clear (&faces);
     return status;

@@ -333,6 +333,27 @@ done:
     return status;
 }
 
+/* Boxes of the index stay as they are: a crack that cuts less lies within them. */
+void pg_tip_draw_back (pg_state *s, const pg_problem *p, size_t tip, double offset)
+{
+    pg_tip *t = &s->paths->tip[tip];
+    size_t dim = (size_t) p->dim;
+    offset = fmin (offset, OFFSET_OF_PATH * pg_tip_behind (s, tip, offset / OFFSET_OF_PATH));
+    double *retreat = &s->paths->cracks.crack[t->segment].retreat[t->end];
+    if (t->grown > 0 || !t->open || !(offset > *retreat)) return;
+    *retreat = t->offset = offset;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_rows *rows = &p->rows[set];
+        unsigned char *alive = s->alive + p->first_bond[set];
+        for (size_t q = 0; q < rows->n; q++)
+            for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
+                if (!alive[e])
+                    alive[e] = !pg_cracks_cut (&s->paths->cracks, rows->x + q * dim,
+                                               p->cloud.x + (size_t) rows->family.node[e] * dim,
+                                               1e-9 * p->cloud.h);
+    }
+}
+
 pg_status pg_tip_close (pg_state *s, const pg_problem *p, size_t tip, pg_changes *cut)
 {
     return pg_crack_grow (s, p, tip, s->paths && tip < s->paths->ntip ? s->paths->tip[tip].x : NULL, 1, cut);

@@ -60,6 +60,20 @@ static pg_status pass (const pg_scene *scene, pg_status status)
     return status == PG_E_SCENE ? PG_OK : status;
 }
 
+/* Faces that touch need two sides: what lies on a crack of the scene counts as on its left, as with cracks
+ * that grow, where without contact it would lose the bonds to both. */
+static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
+{
+    if (p->dim != 2 || strcmp (pg_scene_text (scene, "contact.kind"), "none") == 0) return PG_OK;
+    for (size_t k = 0; k < p->cracks.n; k++) {
+        pg_crack *c = &p->cracks.crack[k];
+        double middle[3] = { 0.5 * (c->vertex[0] + c->vertex[2]), 0.5 * (c->vertex[1] + c->vertex[3]), 0 };
+        c->sided = 1, c->width = PG_NO_LENGTH * pg_problem_spacing_at (p, middle);
+        pg_crack_orient (c);
+    }
+    return pg_cracks_index (&p->cracks);
+}
+
 /* Body, cracks, points, cells, sets, in this order; a verdict follows where the next step could not do
  * without the former. */
 static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
@@ -73,6 +87,7 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
         PG_TRY (pg_mesh_body_cloud (&p->cloud, &p->part, scene));
     } else PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
     PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (side_cracks (p, scene));
     p->cells.dim = p->dim;
     int cut = strcmp (pg_scene_text (scene, "cells"), "cut") == 0;
     if (p->part.mesh.n) PG_TRY (pg_cells_from_mesh (&p->cells, &p->part, p->cloud.thickness));

@@ -60,11 +60,27 @@ static void instability_block (pg_json *j, const pg_result *res, const pg_statis
     pg_json_shut (j);
 }
 
+/* Contact of crack faces: pieces, and how they stand in the last state; work of the last solve; the largest
+ * overlap of a mean gap over the run, m. */
+static void contact_block (pg_json *j, const pg_statistics *r)
+{
+    pg_json_open (j, "contact", '{');
+    pg_json_count (j, "pieces", (size_t) r->contact_pieces);
+    pg_json_count (j, "open", (size_t) r->contact_open);
+    pg_json_count (j, "stick", (size_t) r->contact_stick);
+    pg_json_count (j, "sliding", (size_t) r->contact_sliding);
+    pg_json_count (j, "passes", (size_t) r->contact_passes);
+    pg_json_count (j, "sweeps", (size_t) r->contact_sweeps);
+    pg_json_number (j, "overlap_of_means", r->contact_overlap);
+    pg_json_shut (j);
+}
+
 /* Sizes of the problem, steps and events, the work of the solver and of the linear solver, and
  * the energies of the last state (J). */
 static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
 {
     const pg_problem *p = res->problem;
+    int contact = pg_solver_settled (res->solver)->contact.kind != PG_CONTACT_NONE;
     pg_json_count (j, "points", p->cloud.n);
     pg_json_count (j, "bonds", p->first_bond[PG_BOND_SETS]);
     pg_json_count (j, "dofs", state->ndof);
@@ -96,7 +112,9 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_number (j, "external", r->energy_external);
     pg_json_number (j, "damping", r->energy_damping);
     pg_json_number (j, "dissipated", r->energy_dissipated);
+    if (contact) pg_json_number (j, "friction", r->energy_friction);
     pg_json_shut (j);
+    if (contact) contact_block (j, r);
 }
 
 /* Stages of loading: how each ended, energies and openings of gauges then; those that the run did not come to

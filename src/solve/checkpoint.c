@@ -3,6 +3,7 @@
  * start of a step in its middle), energies, counts, what a method carries from step to step. Caches are not
  * kept: they are functions of the bonds, made again in the same order. The factor of an earlier K is one of
  * them: it is made again from the bonds that lived then. */
+#include "contact.h"
 #include "event_solver.h"
 #include <string.h>
 
@@ -116,7 +117,8 @@ static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
     double *const value[] = { &r->utilisation_max, &r->residual_max,      &r->overlap_max,
                                 &r->energy_strain,   &r->energy_kinetic,    &r->energy_external,
                                 &r->energy_damping,  &r->energy_dissipated, &r->factor_entries,
-                                &r->factor_flops,    &r->energy_fracture };
+                                &r->factor_flops,    &r->energy_fracture,   &r->energy_friction,
+                                &r->contact_overlap };
     enum {
         VALUES = sizeof value / sizeof *value,
         SKIPS = sizeof r->skipped / sizeof *r->skipped,
@@ -395,6 +397,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (keep_system (&s->break_loop.system, (s->type->flags & PG_SOLVER_IMPLICIT) != 0, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));
     if (k->reading) PG_TRY (rebuild (s, state));
+    PG_TRY (contact_keep (&s->break_loop.system, k));
 done:
     return status;
 }

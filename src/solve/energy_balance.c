@@ -2,6 +2,7 @@
  * The energy balance of a run: external work is summed by trapezoids over pairs of generalised forces and
  * displacements that the force tells of the boundary (pg_work_balance), between one accounted state and the
  * next. What it exceeds strain, kinetic and damping energy by is what breaking has taken (solver.c). */
+#include "contact.h"
 #include "facet_growth.h"
 #include <string.h>
 
@@ -23,7 +24,8 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
         memset (s->full, 0, s->ndof * sizeof *s->full);
         dyn->resist (dyn->context, d, s->full);
     }
-    PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : NULL, &b->work_balance));
+    /* at rest reactions contain the forces of contact on nodes that are held */
+    PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : contact_forces (s), &b->work_balance));
     PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
@@ -35,7 +37,8 @@ pg_status break_loop_account_rest (break_loop *b, double t, const double *d, dou
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
-    if (s->problem->plain || !s->force->equilibrium_balance)
+    /* with friction half the work of the loads is not what is stored */
+    if (s->problem->plain || !s->force->equilibrium_balance || contact_forces (s))
         return break_loop_account (b, t, d, NULL, scale);
     double t0 = pg_seconds ();
     PG_TRY (s->force->equilibrium_balance (s->self, t, d, &b->work_balance));
@@ -60,6 +63,7 @@ pg_status break_loop_book (break_loop *b, double scale)
         b->work += 0.5 * (b->before.force[k] + f) * (u - b->before.displacement[k]);
         b->before.force[k] = f, b->before.displacement[k] = u;
     }
+    contact_book (&b->system, scale);
 done:
     return status;
 }
@@ -80,6 +84,7 @@ pg_status break_loop_save (break_loop *b)
     }
     b->strain0 = b->system.report->energy_strain, b->kinetic0 = b->system.report->energy_kinetic;
     if (b->growth) PG_TRY (facet_save (b));
+    PG_TRY (contact_save (&b->system));
     b->saved = 1;
 done:
     if (status != PG_OK) pg_work_balance_clear (&b->start);
@@ -96,5 +101,6 @@ void break_loop_return (break_loop *b)
         memcpy (b->before.displacement, b->start.displacement, bytes);
     } else pg_work_balance_clear (&b->before);
     if (b->growth) facet_return (b);
+    contact_return (&b->system);
     b->system.report->energy_strain = b->strain0, b->system.report->energy_kinetic = b->kinetic0;
 }

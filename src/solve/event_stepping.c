@@ -28,7 +28,7 @@ pg_status event_start (pg_solver *s, const pg_state *state)
     } else
         for (size_t i = 0; state->factor != 0 && i < state->ndof; i++)
             e->unit[i] = state->d[i] / state->factor;
-    if (!s->break_loop.growth && !e->engine)
+    if (!s->break_loop.growth && !s->break_loop.system.contact && !e->engine)
         PG_TRY (event_solver_create (&e->engine, &s->break_loop.system, affine ? 2 : 1,
                                      affine ? (const double[2]) { 0, 1 } : (const double[2]) { 1, 0 }));
     PG_TRY (event_solve (s));

@@ -5,6 +5,7 @@
  * spacings from the tip (doc/method.md). This file: measuring, growing, one round at a fixed load;
  * facet_direction.c: how near a tip is and where to; facet_place.c: where its facet ends; facet_events.c:
  * from event to event. */
+#include "contact.h"
 #include "facet_growth.h"
 #include "front_growth.h"
 #include "hot_spot.h"
@@ -13,6 +14,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+
+/* Spacings of path that tell the direction of faces that touch; T sqrt (h) over K_I that is large. */
+static const double CHORD_OF_FACES = 2.5, LARGE_T = 0.2;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
 /* A facet longer than the zone in which a material of that strength fails, E G0 / f_t^2, is no longer one of
@@ -140,12 +144,12 @@ static void tell (break_loop *b, const pg_state *state)
             continue;
         }
         pg_tip_combine (f, facet_factors (g, 1, l), l, NULL, K, NULL);
-        if (closes (b, f, K) && !(g->said & FACET_SAID_CLOSED)) {
+        if (!b->system.contact && closes (b, f, K) && !(g->said & FACET_SAID_CLOSED)) {
             pg_statistics_warn (
                 b->system.report,
                 "crack tip %ld at (%.6g, %.6g) m closes (K_I = %.3g, K_II = %.3g Pa m^(1/2) at full "
                 "load) and its faces overlap: contact is not modelled, so that facets are not to be "
-                "trusted here; until it is, use a criterion that breaks single bonds",
+                "trusted here: set contact.kind, or use a criterion that breaks single bonds",
                 state->paths->tip[i].id, f->x[0], f->x[1], K[0], K[1]);
             g->said |= FACET_SAID_CLOSED;
         }
@@ -155,6 +159,32 @@ static void tell (break_loop *b, const pg_state *state)
                             state->paths->ntip ? " any more" : ", and no new crack begins");
         g->said |= FACET_SAID_NOTHING;
     }
+}
+
+/* One tip; with contact its faces may touch. Then a large stress along the crack falsifies the energy of a
+ * field that is not exact, and the magnitude comes from K. */
+static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, const double *const *d,
+                              const double *times)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    pg_system *s = &b->system;
+    pg_tip_field *f = &g->field[i];
+    pg_tip_faces faces = { .nearest = INFINITY };
+    if (s->contact) {
+        const double *x = state->paths->tip[i].x;
+        double e[2], from[2], h = pg_problem_spacing_at (s->problem, x);
+        pg_tip_chord (state, i, CHORD_OF_FACES * h, from, e);
+        contact_at_tip (s, x, e, h, faces.stress[0], &faces.nearest);
+    }
+    PG_TRY (pg_tip_measure_faces (f, s->problem, s->force, s->self, state, i, g->nfield, d, times,
+                                  s->contact ? &faces : NULL));
+    if (s->contact && !f->closed && !isnan (f->near)
+        && fabs (f->T[0]) * sqrt (f->h) > LARGE_T * fabs (f->K_wide[0][0]))
+        f->J[0][0] = f->J_near[0][0] =
+            (f->K_wide[0][0] * f->K_wide[0][0] + f->K_wide[1][0] * f->K_wide[1][0]) / f->modulus;
+done:
+    return status;
 }
 
 /* Fronts of surfaces instead of tips. */
@@ -182,9 +212,10 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
         memset (&g->field[i], 0, sizeof g->field[i]);
         g->field[i].near = NAN;
         if (!state->paths->tip[i].open) continue;
-        PG_TRY (pg_tip_measure (&g->field[i], s->problem, s->force, s->self, state, i, g->nfield, d, times));
+        PG_TRY (measure_tip (b, state, i, d, times));
     }
-    if (!g->moving) PG_TRY (trial_facets (b, state, d, times));
+    /* what facets set free is not known where cutting changes which faces touch */
+    if (!g->moving && !s->contact) PG_TRY (trial_facets (b, state, d, times));
     tell (b, state);
     g->fresh = 1;
 done:

@@ -253,6 +253,60 @@ static void check_force (const pg_solver_options *o, const pg_problem *problem, 
     pg_scene_fault (scene, "solver.kind", "%s%s%s", why, *others ? ", or solver.kind: " : "", others);
 }
 
+static int knows_contact (const pg_solver_type *type, const void *unused)
+{
+    (void) unused;
+    return (type->flags & PG_SOLVER_CONTACT) != 0;
+}
+
+/* Do new cracks begin where a strength is reached? */
+static int begins_cracks (const pg_problem *problem)
+{
+    const double origin[3] = { 0, 0, 0 };
+    for (size_t m = 0; m < problem->nmaterial; m++) {
+        const pg_criterion *c = &problem->criterion[m];
+        pg_fracture_limits limits = { .strength = INFINITY };
+        if (!c->type || c->never || !pg_criterion_of_tips (c)) continue;
+        c->type->fracture (c, origin, 0, &limits);
+        if (isfinite (limits.strength) && limits.strength > 0) return 1;
+    }
+    return 0;
+}
+
+/* Contact of crack faces goes where it is built, and is refused elsewhere. */
+static void read_contact (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    const pg_force_type *force = pg_force_of (problem);
+    char names[200];
+    o->contact = pg_contact_read (scene);
+    if (o->contact.kind == PG_CONTACT_NONE) return;
+    solver_names_that (knows_contact, NULL, names, sizeof names);
+    if (problem->dim != 2)
+        pg_scene_fault (scene, "contact.kind", "faces of cracks are kept apart in 2D only so far: set none");
+    else if (force && !force->jump)
+        pg_scene_fault (scene, "contact.kind",
+                        "force: %s does not show how far crack faces are apart: set none, or take a force "
+                        "with shape functions", problem->method->name);
+    if (!(o->flags & PG_SOLVER_CONTACT))
+        pg_scene_fault (scene, "contact.kind", "solver.kind: %s does not know contact yet: use %s, or set "
+                        "none", o->kind, names);
+    else if (problem->criterion->type && !pg_criterion_of_tips (problem->criterion))
+        pg_scene_fault (scene, "contact.kind",
+                        "keeps the faces of cracks apart, not single broken bonds: judge tips (break: "
+                        "facet), leave failure out, or set none");
+    else if (begins_cracks (problem))
+        pg_scene_fault (scene, "contact.kind",
+                        "does not go with a strength yet, at which new cracks begin: leave failure.strength "
+                        "out, or set none");
+    if (o->on_instability != PG_UNSTABLE_FOLLOW)
+        pg_scene_fault (scene, "solver.on_instability",
+                        "with contact.kind the load follows equilibrium only: use follow");
+    if (o->event && o->contact.cohesion > 0)
+        pg_scene_fault (scene, "contact.cohesion",
+                        "does not grow with the load, on which event stepping relies: use solver.stepping: "
+                        "fixed");
+}
+
 /* The common part here, then that of the method; then what goes with nothing. */
 pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
@@ -271,6 +325,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     o->rows = o->flags & PG_SOLVER_IMPLICIT ? 0 : options_integer (scene, "output.at.rows");
     read_breaking (o, problem, scene);
     if (type && type->read) type->read (o, problem, scene);
+    read_contact (o, problem, scene);
     find_unused (o, scene);
     if (o->flags & PG_SOLVER_NEEDS_DENSITY) need_density (o, problem, scene);
     check_force (o, problem, scene);

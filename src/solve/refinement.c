@@ -2,7 +2,7 @@
  * Iterative refinement: solve, add, measure, until the out-of-balance force of the state is small. The
  * residual is taken from the force itself, not from K. How a state is judged that is not exactly in balance,
  * and the message for one that is refused. */
-#include "solve.h"
+#include "contact.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -41,6 +41,8 @@ pg_status system_residual (pg_system *s, double t, const double *d, const dynami
     if (lean) PG_TRY (s->force->balance_lean (s->self, t, joined ? s->full : d, s->residual, &reference));
     else PG_TRY (s->force->balance (s->self, t, d, s->residual, &reference));
     if (dyn) dyn->add (dyn->context, d, s->residual, &reference);
+    const double *contact = contact_forces (s);
+    for (size_t i = 0; contact && i < s->ndof; i++) s->residual[i] += contact[i];
     if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
     else memcpy (s->reduced, s->residual, s->ndof * sizeof *s->reduced);
     if (T) reference = fmax (reference, norm (s->residual, s->ndof));
@@ -193,7 +195,7 @@ done:
  * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
  * half, in itself or against the forces (which vanish with it in a body that is unloaded); then the state is
  * judged. */
-pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
+pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
@@ -231,4 +233,10 @@ pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, 
     if (guesses (s, dyn)) system_guess_learn (s);
 done:
     return status;
+}
+
+pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
+{
+    return s->contact && !dyn ? contact_solve (s, t, d, residual)
+                              : system_solve_linear (s, t, d, dyn, residual);
 }

@@ -92,6 +92,7 @@ typedef struct {
     int       carried;  /* `residual` went with the last iterations to the state that they lead to */
     int       known;                                   /* `residual` is that of the state last solved for */
     long      unmeasured;                              /* states accepted by carried residuals */
+    struct system_contact *contact;                    /* of crack faces (contact.h); NULL: none */
     const unsigned char *alive;                        /* of the last refresh, borrowed */
     unsigned char *factored;  /* what lived when the factor or preconditioner was made */
 } pg_system;
@@ -157,6 +158,8 @@ pg_status system_solve_once (pg_system *s, const dynamics *dyn, double tolerance
 /* The out-of-balance force of (t, d), from the force itself, relative to what it is measured against. */
 pg_status system_residual (pg_system *s, double t, const double *d, const dynamics *dyn, double *relative);
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
+/* The same with the forces of contact that are at hand. */
+pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */
 /* After the first refresh; consistent: by the force, not lumped. */

@@ -170,7 +170,8 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
                                                                                     state, state->d));
     r->energy_external = s->break_loop.work;
     /* First law: work of loads = strain + motion + damping + what breaking has taken, the rest. */
-    r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping;
+    r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping
+                           - r->energy_friction;
     PG_TRY (stage_close_step (s, state, step));
 done:
     if (status != PG_OK && s->started && !s->break_loop.stopped) {
@@ -295,8 +296,10 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
     }
     warn_of_facets (s);
     if (!s->warned_overlap && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
-        pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (contact is not modelled)",
-                            s->report.overlap_max);
+        pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (%s)", s->report.overlap_max,
+                            s->options.contact.kind == PG_CONTACT_NONE
+                                ? "contact is not modelled: contact.kind"
+                                : "contact holds the means over pieces of two spacings apart");
         s->warned_overlap = 1;
     }
 }

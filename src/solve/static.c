@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Quasi-static equilibria by linear systems. stepping: fixed takes equal load steps, each with the break
  * loop; stepping: event goes from break to break (event_stepping.c). */
+#include "contact.h"
 #include "event_stepping.h"
 #include "facet_growth.h"
 #include <math.h>
@@ -11,6 +12,7 @@ static pg_status static_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
     PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
+    PG_TRY (contact_settle_tips (&s->break_loop.system, state));
     s->next_level = 1;
     if (s->options.event) PG_TRY (event_start (s, state));
 done:
@@ -29,6 +31,7 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     b->system.borne = fmax (b->system.borne, b->system.reference);
+    contact_accept (&b->system);
     state->factor = state->time = t;
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
@@ -68,14 +71,21 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     pg_static_options *own = PG_OWN (pg_static_options, o);
     own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
     o->steps = pg_scene_integer (scene, "solver.steps");
-    int suits = proportional || problem->nstage
-                || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem));
+    /* with a constant part the faces change their state between events */
+    int closes = pg_contact_read (scene).kind != PG_CONTACT_NONE;
+    int suits = proportional
+                || (!closes && (problem->nstage
+                                || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem))));
     o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
     own->affine = o->event && !proportional;
     if (own->affine && !pg_problem_affine (problem))
         pg_scene_fault (scene, "solver.stepping",
                         "event stepping needs loads that grow with the load factor (ramp: linear), stay "
                         "(ramp: constant), or both: use fixed");
+    if (o->event && closes && (own->affine || problem->nstage))
+        pg_scene_fault (scene, "solver.stepping",
+                        "event does not yet go with contact.kind where loads have a constant part: use "
+                        "fixed");
     if (o->event && o->break_mode == PG_BREAK_ALL)
         pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
     instability_read (o, problem, scene);
@@ -119,7 +129,7 @@ static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 const pg_solver_type pg_solver_static_ = {
     .name = "static",
     .summary = "quasi-static equilibrium, event by event or in fixed load steps",
-    .flags = PG_SOLVER_STATIC | PG_SOLVER_EVENTS | PG_SOLVER_FACETS,
+    .flags = PG_SOLVER_STATIC | PG_SOLVER_EVENTS | PG_SOLVER_FACETS | PG_SOLVER_CONTACT,
     .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear,
               &instability_keys },
     .read = static_read,

@@ -4,6 +4,7 @@
  * M) T and the residual T' R. Unknowns that breaking has touched get 1e-11 of the mean diagonal (isolated
  * nodes and loose fragments stay put); the refinement takes its effect out again wherever the body can carry
  * load. */
+#include "contact.h"
 #include "event_solver.h"
 #include <math.h>
 #include <stdio.h>
@@ -14,6 +15,7 @@ void system_free (pg_system *s)
 {
     if (s->factor) s->linear->free (&s->factor);
     event_solver_free (&s->following);
+    contact_free (s);
     system_guess_free (s);
     system_forget_preconditioner (s);
     if (s->force && s->self) s->force->free (&s->self);
@@ -59,6 +61,7 @@ pg_status system_create (pg_system *s)
     s->ndof = s->problem->cloud.n * (size_t) s->components;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     s->nred = T ? T->ncol : s->ndof;
+    PG_TRY (contact_create (s));
     s->stale = 1;
     if (!system_has_matrix (s) && !operator_of (s))
         PG_FAIL (PG_E_USAGE, "the force %s offers neither a matrix nor an operator", s->force->method.name);
@@ -110,6 +113,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     s->revision = now;
     s->report->updates += changes != NULL;
     if (status == PG_OK) status = system_note_change (s);
+    if (status == PG_OK) status = contact_refresh (s, state);
     s->report->seconds[changes ? PG_SECONDS_UPDATE : PG_SECONDS_SHAPE] += pg_seconds () - t0;
     return status;
 }

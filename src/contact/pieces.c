@@ -1,0 +1,305 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Cracks in pieces of about two spacings, and the rows of their mean gaps and slips.
+ *
+ * Straight segments of cracks that meet end to end, and turn by less than half a radian there, form a path;
+ * so much of it as cuts bonds (behind tips it does not, model/tips.c) is divided into pieces of equal length,
+ * measured in local spacings. A piece is sampled at points, eight per spacing, in the middle of equal parts;
+ * points outside the body do not count. With weights w_q = length of the part times thickness,
+ *
+ *     g_n = sum_q w_q n_q . [u]_q / sum_q w_q,    g_t the same with t_q,    t = (n_y, -n_x),
+ *
+ * [u] = u (left) - u (right) by one-sided shape functions (pg_force_type.jump). */
+#include "perigal/contact.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A straight part of a path, at most a spacing long, and its spacing, m. */
+typedef struct { double from[2], to[2], length, h; size_t path; } link;
+/* A segment of a crack, as far as it cuts; ends that reach their vertex may be joined to others. */
+typedef struct { double end[2][2]; int whole[2], used; } segment;
+typedef struct {
+    const pg_problem *p;
+    double nothing;                                    /* places no further apart are one, m */
+    segment *segment;  size_t nsegment;
+    link *link;  size_t nlink, cap_link;
+    size_t cap_x, cap_normal, cap_weight, cap_piece, cap_first;
+} division;
+
+/* ---- segments and paths -------------------------------------------------------------------------------- */
+static pg_status take_segments (division *d, const pg_cracks *cracks)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (d->segment, cracks->n);
+    for (size_t k = 0; k < cracks->n; k++) {
+        const pg_crack *c = &cracks->crack[k];
+        segment *s = &d->segment[d->nsegment];
+        if (c->kind != PG_CRACK_SEGMENT) continue;
+        const double *a = c->vertex, *b = a + 2;
+        double length = hypot (b[0] - a[0], b[1] - a[1]), cut[2] = { 0, 0 };
+        for (int e = 0; e < 2; e++) cut[e] = c->retreat ? fmax (0, c->retreat[e]) : 0;
+        if (!(length - cut[0] - cut[1] > d->nothing)) continue;
+        for (int m = 0; m < 2; m++) {
+            double t = (b[m] - a[m]) / length;
+            s->end[0][m] = a[m] + cut[0] * t, s->end[1][m] = b[m] - cut[1] * t;
+        }
+        s->whole[0] = cut[0] <= d->nothing, s->whole[1] = cut[1] <= d->nothing, s->used = 0;
+        d->nsegment++;
+    }
+done:
+    return status;
+}
+
+/* The other segment that goes on where segment k ends at `end`, and the end at which it begins; SIZE_MAX:
+ * none or several, or a turn too sharp for one piece. */
+static size_t next_of (const division *d, size_t k, int end, int *begins)
+{
+    const segment *s = &d->segment[k];
+    size_t found = SIZE_MAX;
+    if (!s->whole[end]) return SIZE_MAX;
+    for (size_t j = 0; j < d->nsegment; j++)
+        for (int e = 0; e < 2; e++) {
+            const segment *o = &d->segment[j];
+            if (j == k || !o->whole[e]
+                || hypot (o->end[e][0] - s->end[end][0], o->end[e][1] - s->end[end][1]) > d->nothing)
+                continue;
+            if (found != SIZE_MAX) return SIZE_MAX;
+            found = j, *begins = e;
+        }
+    if (found == SIZE_MAX) return SIZE_MAX;
+    const segment *o = &d->segment[found];
+    double u[2], v[2];
+    for (int m = 0; m < 2; m++)
+        u[m] = s->end[end][m] - s->end[1 - end][m], v[m] = o->end[1 - *begins][m] - o->end[*begins][m];
+    double turn = atan2 (u[0] * v[1] - u[1] * v[0], u[0] * v[0] + u[1] * v[1]);
+    return fabs (turn) > PG_CONTACT_TURN ? SIZE_MAX : found;
+}
+
+/* Appends a segment, walked from its end `begins`, in links. */
+static pg_status add_links (division *d, size_t k, int begins, size_t path)
+{
+    pg_status status = PG_OK;
+    const segment *s = &d->segment[k];
+    const double *a = s->end[begins], *b = s->end[1 - begins];
+    double length = hypot (b[0] - a[0], b[1] - a[1]), least = INFINITY;
+    for (int i = 0; i <= 8; i++) {
+        double x[3] = { a[0] + i / 8.0 * (b[0] - a[0]), a[1] + i / 8.0 * (b[1] - a[1]), 0 };
+        least = fmin (least, pg_problem_spacing_at (d->p, x));
+    }
+    size_t parts = d->p->cloud.size ? (size_t) ceil (length / least) : 1;
+    PG_GROW (d->link, d->cap_link, d->nlink + parts);
+    for (size_t i = 0; i < parts; i++) {
+        link *l = &d->link[d->nlink++];
+        double middle[3] = { 0 };
+        for (int m = 0; m < 2; m++) {
+            l->from[m] = a[m] + (double) i / (double) parts * (b[m] - a[m]);
+            l->to[m] = i + 1 == parts ? b[m] : a[m] + (double) (i + 1) / (double) parts * (b[m] - a[m]);
+            middle[m] = 0.5 * (l->from[m] + l->to[m]);
+        }
+        l->length = length / (double) parts, l->h = pg_problem_spacing_at (d->p, middle), l->path = path;
+    }
+done:
+    return status;
+}
+
+/* Walks from every end that nothing is joined to; then around what is closed in itself. */
+static pg_status find_paths (division *d)
+{
+    pg_status status = PG_OK;
+    size_t paths = 0;
+    for (int closed = 0; closed < 2; closed++)
+        for (size_t k = 0; k < d->nsegment; k++)
+            for (int e = 0; e < 2; e++) {
+                int begins = e, unused;
+                if (d->segment[k].used || (!closed && next_of (d, k, e, &unused) != SIZE_MAX)) continue;
+                for (size_t at = k; at != SIZE_MAX && !d->segment[at].used;) {
+                    d->segment[at].used = 1;
+                    PG_TRY (add_links (d, at, begins, paths));
+                    at = next_of (d, at, 1 - begins, &begins);
+                }
+                paths++;
+            }
+done:
+    return status;
+}
+
+/* ---- pieces -------------------------------------------------------------------------------------------- */
+/* Points of the part of a link from u to v (of its length), for the piece at hand. */
+static pg_status add_points (division *d, pg_contact_pieces *out, const link *l, double u, double v)
+{
+    pg_status status = PG_OK;
+    double t[2], size = (v - u) * l->length;
+    size_t count = (size_t) fmax (1, ceil (PG_CONTACT_POINTS * size / l->h - 1e-9));
+    pg_contact_piece *piece = &out->piece[out->n];
+    for (int m = 0; m < 2; m++) t[m] = (l->to[m] - l->from[m]) / l->length;
+    PG_GROW (out->x, d->cap_x, 2 * (out->npoint + count));
+    PG_GROW (out->normal, d->cap_normal, 2 * (out->npoint + count));
+    PG_GROW (out->weight, d->cap_weight, out->npoint + count);
+    for (size_t i = 0; i < count; i++) {
+        double s = u + ((double) i + 0.5) / (double) count * (v - u), x[3] = { 0 };
+        for (int m = 0; m < 2; m++) x[m] = l->from[m] + s * (l->to[m] - l->from[m]);
+        if (!pg_problem_has_body (d->p, x)) continue;
+        double part = size / (double) count, *n = out->normal + 2 * out->npoint;
+        memcpy (out->x + 2 * out->npoint, x, 2 * sizeof *x);
+        n[0] = -t[1], n[1] = t[0];
+        out->weight[out->npoint++] = part * d->p->cloud.thickness;
+        piece->length += part, piece->area += part * d->p->cloud.thickness;
+        for (int m = 0; m < 2; m++) piece->x[m] += part * x[m], piece->normal[m] += part * n[m];
+    }
+done:
+    return status;
+}
+
+/* Ends the piece at hand, if it has points. */
+static void end_piece (pg_contact_pieces *out)
+{
+    pg_contact_piece *k = &out->piece[out->n];
+    double size = hypot (k->normal[0], k->normal[1]);
+    if (out->npoint == out->first[out->n] || !(size > 0)) return;
+    for (int m = 0; m < 2; m++) k->x[m] /= k->length, k->normal[m] /= size;
+    out->first[++out->n] = out->npoint;
+}
+
+/* The links of one path, number `from` to before `to`, in pieces of equal length in local spacings. */
+static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_t to)
+{
+    pg_status status = PG_OK;
+    double whole = 0, passed = 0, arc = 0;
+    for (size_t i = from; i < to; i++) whole += d->link[i].length / d->link[i].h;
+    size_t pieces = (size_t) fmax (1, round (whole / PG_CONTACT_PIECE)), at = 0;
+    double each = whole / (double) pieces, begins = 0;
+    PG_GROW (out->piece, d->cap_piece, out->n + pieces + 1);
+    PG_GROW (out->first, d->cap_first, out->n + pieces + 2);
+    memset (&out->piece[out->n], 0, sizeof *out->piece), out->piece[out->n].path = d->link[from].path;
+    for (size_t i = from; i < to; i++) {
+        const link *l = &d->link[i];
+        double size = l->length / l->h, u = 0;
+        while (u < 1) {
+            double goal = (double) (at + 1) * each, v = (goal - passed) / size;
+            int ends = at + 1 < pieces && v < 1 + 1e-9;
+            if (!ends || v > 1) v = 1;
+            PG_TRY (add_points (d, out, l, u, v));
+            if (ends) {
+                out->piece[out->n].arc = 0.5 * (begins + arc + v * l->length), begins = arc + v * l->length;
+                end_piece (out), at++;
+                memset (&out->piece[out->n], 0, sizeof *out->piece), out->piece[out->n].path = l->path;
+            }
+            u = v;
+        }
+        passed += size, arc += l->length;
+    }
+    out->piece[out->n].arc = 0.5 * (begins + arc);
+    end_piece (out);
+done:
+    return status;
+}
+
+pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *p, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    division d = { .p = p, .nothing = PG_NO_LENGTH * p->cloud.h };
+    memset (out, 0, sizeof *out);
+    PG_GROW (out->first, d.cap_first, 1);
+    PG_TRY (take_segments (&d, pg_state_cracks (p, state)));
+    PG_TRY (find_paths (&d));
+    for (size_t from = 0, to; from < d.nlink; from = to) {
+        for (to = from; to < d.nlink && d.link[to].path == d.link[from].path; to++) continue;
+        PG_TRY (divide (&d, out, from, to));
+    }
+done:
+    pg_free (d.segment), pg_free (d.link);
+    if (status != PG_OK) pg_contact_pieces_clear (out);
+    return status;
+}
+
+void pg_contact_pieces_clear (pg_contact_pieces *k)
+{
+    pg_free (k->piece), pg_free (k->x), pg_free (k->normal), pg_free (k->weight), pg_free (k->first);
+    memset (k, 0, sizeof *k);
+}
+
+/* ---- rows ---------------------------------------------------------------------------------------------- */
+/* Adds the points of piece k to its two rows, whose unknowns are those of both dimensions of the nodes:
+ * normal[2 j + c], tangent[2 j + c]. Nodes that were touched are listed once. Returns the weight of points
+ * that count. */
+static double gather (const pg_contact_pieces *pieces, const pg_jump_rows *jump, size_t k, double *normal,
+                      double *tangent, unsigned char *seen, int *list, size_t *count)
+{
+    double sum = 0;
+    *count = 0;
+    for (size_t q = pieces->first[k]; q < pieces->first[k + 1]; q++) {
+        const double *n = pieces->normal + 2*q, t[2] = { n[1], -n[0] };
+        double w = pieces->weight[q];
+        int any = 0;
+        for (size_t e = jump->start[q]; e < jump->start[q + 1]; e++) {
+            size_t j = (size_t) jump->node[e];
+            if (jump->value[e] == 0) continue;
+            any = 1;
+            if (!seen[j]) seen[j] = 1, list[(*count)++] = (int) j;
+            for (size_t c = 0; c < 2; c++)
+                normal[2*j + c] += w * n[c] * jump->value[e], tangent[2*j + c] += w * t[c] * jump->value[e];
+        }
+        if (any) sum += w;
+    }
+    return sum;
+}
+
+static int compare_nodes (const void *a, const void *b)
+{
+    int i = *(const int *) a, j = *(const int *) b;
+    return (i > j) - (i < j);
+}
+
+/* Two columns of the listed nodes, divided by the weight; the row is zeroed for the next piece. */
+static void put_column (pg_sparse *out, size_t column, const int *list, size_t count, double weight,
+                        double *row)
+{
+    long at = out->start[column];
+    for (size_t i = 0; i < count; i++)
+        for (size_t c = 0; c < 2; c++) {
+            size_t unknown = 2 * (size_t) list[i] + c;
+            out->row[at] = (long) unknown, out->value[at++] = row[unknown] / weight;
+            row[unknown] = 0;
+        }
+    out->start[column + 1] = at;
+}
+
+pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *p,
+                           const pg_force_type *force, void *self, const pg_state *state, size_t *poor)
+{
+    pg_status status = PG_OK;
+    pg_jump_rows jump = { 0 };
+    size_t n = p->cloud.n, count, most = 0;
+    double *row = NULL;
+    unsigned char *seen = NULL;
+    int *list = NULL;
+    memset (out, 0, sizeof *out);
+    if (!force->jump || p->dim != 2)
+        PG_FAIL (PG_E_USAGE, "contact of crack faces is known in the plane and of forces that show the jump "
+                             "of the displacement across a crack");
+    PG_TRY (force->jump (self, state, pieces->npoint, pieces->x, pieces->normal, PG_CONTACT_RADIUS, &jump));
+    *poor = jump.poor;
+    for (size_t e = 0; e < jump.start[jump.n]; e++) most += jump.value[e] != 0;
+    PG_TRY (pg_sparse_create (out, 2 * n, 2 * pieces->n, 4 * most, 0));
+    PG_ALLOC (row, 4 * n);
+    PG_ALLOC (seen, n);
+    PG_ALLOC (list, n);
+    for (size_t k = 0; k < pieces->n; k++) {
+        double weight = gather (pieces, &jump, k, row, row + 2*n, seen, list, &count);
+        if (!(weight > 0))
+            PG_FAIL (PG_E_USAGE,
+                     "contact of crack faces: within %g spacings of (%.6g, %.6g) m the body sees too little "
+                     "on one side of the crack for a gap: take a smaller spacing, or keep cracks and "
+                     "surfaces further apart",
+                     PG_CONTACT_RADIUS, pieces->piece[k].x[0], pieces->piece[k].x[1]);
+        qsort (list, count, sizeof *list, compare_nodes);
+        put_column (out, 2*k, list, count, weight, row);
+        put_column (out, 2*k + 1, list, count, weight, row + 2*n);
+        for (size_t i = 0; i < count; i++) seen[list[i]] = 0;
+    }
+done:
+    pg_free (row), pg_free (seen), pg_free (list);
+    pg_jump_rows_clear (&jump);
+    if (status != PG_OK) pg_sparse_clear (out);
+    return status;
+}

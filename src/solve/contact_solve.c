@@ -1,0 +1,277 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Equilibria with contact of crack faces. With the cracks open, K u0 = F, gaps are g0 = G u0; where one is
+ * negative, forces f of the pieces follow from the complementarity of g = g0 + C f, C = G K^-1 G', and the
+ * displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is factored again). What rounding leaves is
+ * mended by the same refinement as all equilibria, with G' f among the loads, and by forces for the gaps that
+ * are then measured. */
+#include "contact.h"
+#include <float.h>
+#include <math.h>
+#include <string.h>
+
+enum { MOST_ROUNDS = 4 };
+/* Of columns by iterations, where there is no factor; of gaps, relative: no further round is worth it. */
+static const double COLUMN = 1e-10, GOOD = 1e-13;
+
+/* ---- life ---------------------------------------------------------------------------------------------- */
+pg_status contact_create (pg_system *s)
+{
+    pg_status status = PG_OK;
+    const pg_solver_options *o = s->options;
+    if (o->contact.kind == PG_CONTACT_NONE) return PG_OK;
+    PG_ALLOC (s->contact, 1);
+    s->contact->setting = o->contact;
+    /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */
+    s->contact->history = !o->event;
+    PG_ALLOC (s->contact->nodal, s->ndof);
+done:
+    return status;
+}
+
+static void clear (struct system_contact *c)
+{
+    pg_contact_pieces_clear (&c->pieces);
+    pg_sparse_clear (&c->G);
+    pg_free (c->Z), pg_free (c->C), pg_free (c->coefficient), pg_free (c->cohesion), pg_free (c->before);
+    pg_free (c->force), pg_free (c->gap), pg_free (c->open), pg_free (c->status);
+    c->Z = c->C = c->coefficient = c->cohesion = c->before = c->force = c->gap = c->open = NULL;
+    c->status = NULL;
+    c->made = 0;
+}
+
+void contact_free (pg_system *s)
+{
+    struct system_contact *c = s->contact;
+    if (!c) return;
+    clear (c);
+    pg_free (c->nodal), pg_free (c->now.value), pg_free (c->start.value);
+    pg_free (c);
+    s->contact = NULL;
+}
+
+pg_status contact_refresh (pg_system *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    if (!c) return PG_OK;
+    clear (c);
+    PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
+    PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
+    size_t n = c->pieces.n;
+    PG_ALLOC (c->coefficient, n);
+    PG_ALLOC (c->cohesion, n);
+    PG_ALLOC (c->before, n);
+    PG_ALLOC (c->force, 2*n);
+    PG_ALLOC (c->gap, 2*n);
+    PG_ALLOC (c->open, 2*n);
+    PG_ALLOC (c->status, n);
+    for (size_t k = 0; k < n; k++) {
+        c->coefficient[k] = c->setting.coefficient;
+        c->cohesion[k] = c->setting.cohesion * c->pieces.piece[k].area;
+    }
+    PG_TRY (contact_remember (c));
+done:
+    return status;
+}
+
+/* ---- the compliance ------------------------------------------------------------------------------------ */
+/* Column j of G' in the unknowns that are solved for. */
+static void load_column (const pg_system *s, size_t j, double *full, double *reduced)
+{
+    const pg_sparse *G = &s->contact->G, *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    double *at = T ? full : reduced;
+    memset (at, 0, s->ndof * sizeof *at);
+    for (long q = G->start[j]; q < G->start[j + 1]; q++) at[G->row[q]] = G->value[q];
+    if (T) pg_sparse_multiply_transposed (T, full, reduced);
+}
+
+/* Is the factor at hand that of this K? */
+static int has_factor (const pg_system *s)
+{
+    return s->factor && !s->stale && s->linear->factors
+           && (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR || s->mode == SYSTEM_UNDECIDED);
+}
+
+/* Z = K^-1 G', by the factor at hand all columns at once, else one after the other. */
+static pg_status solve_columns (pg_system *s)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    size_t n = 2 * c->pieces.n;
+    double *rhs = NULL, *solved = NULL, t0 = pg_seconds ();
+    if (!c->Z) PG_ALLOC (c->Z, s->ndof * n);
+    PG_ALLOC (rhs, s->nred * n);
+    PG_ALLOC (solved, s->nred * n);
+    for (size_t j = 0; j < n; j++) load_column (s, j, s->full, rhs + j * s->nred);
+    /* the first solve makes the factor if there is to be one */
+    size_t first = 0;
+    for (; first < n && !has_factor (s); first++) {
+        memcpy (s->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
+        memset (s->delta, 0, s->nred * sizeof *s->delta);
+        PG_TRY (system_solve_once (s, NULL, COLUMN));
+        memcpy (solved + first * s->nred, s->delta, s->nred * sizeof *rhs);
+    }
+    if (first < n)
+        PG_TRY (s->linear->solve (s->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
+    for (size_t j = 0; j < n; j++)
+        if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);
+        else memcpy (c->Z + j * s->ndof, solved + j * s->nred, s->ndof * sizeof *rhs);
+done:
+    pg_free (rhs), pg_free (solved);
+    s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+    return status;
+}
+
+/* C = G Z, symmetric but for rounding, which is taken out. */
+static pg_status condense (pg_system *s)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    size_t n = 2 * c->pieces.n;
+    if (c->made == s->revision + 1) return PG_OK;
+    PG_TRY (solve_columns (s));
+    if (!c->C) PG_ALLOC (c->C, n * n);
+    for (size_t j = 0; j < n; j++)
+        pg_sparse_multiply_transposed (&c->G, c->Z + j * s->ndof, c->C + j * n);
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < j; i++)
+            c->C[j * n + i] = c->C[i * n + j] = 0.5 * (c->C[j * n + i] + c->C[i * n + j]);
+    c->made = s->revision + 1;
+done:
+    return status;
+}
+
+/* ---- equilibria ---------------------------------------------------------------------------------------- */
+const double *contact_forces (const pg_system *s)
+{
+    return s->contact && s->contact->active ? s->contact->nodal : NULL;
+}
+
+static int any_overlap (const struct system_contact *c)
+{
+    for (size_t k = 0; k < c->pieces.n; k++) if (c->gap[2*k] < 0) return 1;
+    return 0;
+}
+
+/* Forces for the gaps at hand, which those of now belong to; d follows. *change: of the forces, turned into
+ * gaps, over the largest gap without contact. */
+static pg_status press (pg_system *s, double *d, double *change)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    size_t n = 2 * c->pieces.n;
+    double *old = NULL, size = 0;
+    PG_ALLOC (old, n);
+    memcpy (old, c->force, n * sizeof *old);
+    memcpy (c->open, c->gap, n * sizeof *old);
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; old[j] != 0 && i < n; i++) c->open[i] -= c->C[j * n + i] * old[j];
+    pg_contact_problem problem = { c->pieces.n, c->C, c->open, c->coefficient, c->cohesion,
+                                   c->history ? c->before : NULL };
+    pg_contact_solution solution = { .force = c->force, .gap = c->gap, .status = c->status };
+    PG_TRY (pg_contact_solve (&solution, &problem));
+    pg_statistics *r = s->report;
+    r->contact_passes = (long) solution.passes, r->contact_sweeps = (long) solution.sweeps;
+    *change = 0;
+    for (size_t i = 0; i < n; i++) {
+        double step = c->force[i] - old[i];
+        *change = fmax (*change, fabs (step) * c->C[i * n + i]), size = fmax (size, fabs (c->open[i]));
+        for (size_t k = 0; step != 0 && k < s->ndof; k++) d[k] += step * c->Z[i * s->ndof + k];
+    }
+    *change = size > 0 ? *change / size : 0;
+    pg_sparse_multiply (&c->G, c->force, c->nodal);
+    c->active = 1;
+done:
+    pg_free (old);
+    return status;
+}
+
+/* What the report says of the pieces. */
+void contact_count (pg_system *s)
+{
+    const struct system_contact *c = s->contact;
+    pg_statistics *r = s->report;
+    r->contact_pieces = (long) c->pieces.n;
+    r->contact_open = r->contact_stick = r->contact_sliding = 0;
+    for (size_t k = 0; k < c->pieces.n; k++) {
+        r->contact_overlap = fmax (r->contact_overlap, -c->gap[2*k]);
+        if (!c->active || c->status[k] == PG_CONTACT_OPEN) r->contact_open++;
+        else if (c->status[k] == PG_CONTACT_STICK) r->contact_stick++;
+        else r->contact_sliding++;
+    }
+}
+
+pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    size_t n = 2 * c->pieces.n;
+    c->active = 0;
+    memset (c->force, 0, n * sizeof *c->force);
+    memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
+    PG_TRY (system_solve_linear (s, t, d, NULL, residual));
+    if (n) pg_sparse_multiply_transposed (&c->G, d, c->gap);
+    double change = 1;
+    int closes = any_overlap (c);
+    if (closes) PG_TRY (condense (s));
+    for (int round = 0; closes && round < MOST_ROUNDS && change > GOOD; round++) {
+        PG_TRY (press (s, d, &change));
+        PG_TRY (system_solve_linear (s, t, d, NULL, residual));
+        pg_sparse_multiply_transposed (&c->G, d, c->gap);
+    }
+    contact_count (s);
+done:
+    return status;
+}
+
+/* ---- tips ---------------------------------------------------------------------------------------------- */
+/* Pieces within so many spacings behind a tip, and so far beside its line, bear what its frame is loaded
+ * with; the last one and a half carry too little, as the tip of a discretisation is not sharp. */
+static const double NEXT = 1.5, LAST = 9, ASIDE = 1;
+
+void contact_at_tip (const pg_system *s, const double *x, const double *e, double h, double stress[2],
+                     double *nearest)
+{
+    const struct system_contact *c = s->contact;
+    double area = 0, normal = 0, shear = 0;
+    stress[0] = stress[1] = 0, *nearest = INFINITY;
+    for (size_t k = 0; c && c->active && k < c->pieces.n; k++) {
+        const pg_contact_piece *p = &c->pieces.piece[k];
+        double to[2] = { x[0] - p->x[0], x[1] - p->x[1] };
+        double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
+        if (c->force[2*k] > 0)
+            *nearest = fmin (*nearest, fmax (0, hypot (to[0], to[1]) - 0.5 * p->length));
+        if (beside > ASIDE * h || behind < NEXT * h || behind > LAST * h) continue;
+        area += p->area, normal += c->force[2*k], shear += c->force[2*k + 1];
+    }
+    /* the force on the left face is the traction of the stress behind it, turned round */
+    if (area > 0) stress[0] = -normal / area, stress[1] = -shear / area;
+}
+
+static const double CHORD = 2.5;                       /* spacings of path that tell its direction */
+
+pg_status contact_settle_tips (pg_system *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    double *d = NULL, residual;
+    int any = 0;
+    if (!s->contact || !state->paths || !state->paths->ntip) return PG_OK;
+    PG_ALLOC (d, s->ndof);
+    pg_status now = contact_solve (s, 1, d, &residual);
+    /* a body without an equilibrium at full load says so when it is asked for it */
+    if (now == PG_E_MEMORY) PG_TRY (now);
+    for (size_t i = 0; now == PG_OK && i < state->paths->ntip; i++) {
+        const double *x = state->paths->tip[i].x;
+        double from[2], e[2], stress[2], nearest, h = pg_problem_spacing_at (s->problem, x);
+        pg_tip_chord (state, i, CHORD * h, from, e);
+        contact_at_tip (s, x, e, h, stress, &nearest);
+        if (!(stress[0] < 0)) continue;
+        pg_tip_draw_back (state, s->problem, i, s->problem->closed_tip_offset / s->problem->cloud.h * h);
+        any = 1;
+    }
+    if (any) PG_TRY (system_refresh (s, state, NULL));
+done:
+    pg_free (d);
+    return status;
+}
