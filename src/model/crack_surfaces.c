@@ -35,14 +35,16 @@ static int bends (const stride *s)
     return 0;
 }
 
-/* The area that the front has swept: inside the body, for its ends are put back onto the surface. */
+/* The area that the front has swept: inside the body, for its ends are put back onto the surface. Four places
+ * in no plane: the mean of both pairs of triangles between them. */
 static double swept (const stride *s)
 {
     double area = 0;
     for (size_t i = 0; i + !s->old.closed < s->old.n; i++) {
         size_t j = (i + 1) % s->old.n;
         const double *a = s->old.x + 3*i, *b = s->old.x + 3*j, *c = s->now.x + 3*i, *d = s->now.x + 3*j;
-        area += triangle_area3 (a, b, c) + triangle_area3 (b, d, c);
+        area += 0.5 * (triangle_area3 (a, b, c) + triangle_area3 (b, d, c)
+                       + triangle_area3 (a, d, c) + triangle_area3 (a, b, d));
     }
     return area;
 }

@@ -6,6 +6,7 @@
  *   crack_surfaces_tiles.c  triangles between two lines
  *   crack_surfaces_meet.c   where a vertex meets the surface of the body, another crack, another front
  *   crack_surfaces_line.c   vertices of a front distributed anew, and their frames
+ *   front_loops.c           where those of a loop begin
  *   crack_surfaces_start.c  new cracks
  *   crack_surfaces_memory.c memory, copies, checkpoints */
 #ifndef PG_MODEL_CRACK_SURFACES_H
@@ -51,8 +52,8 @@ void   surfaces_put_triangle (pg_crack_surfaces *w, const size_t corner[3], cons
 /* A line of vertices of the surfaces; closed: from the last on to the first. normal: of the crack there, the
  * side that triangles show to (n x 3). */
 typedef struct { size_t n; const size_t *vertex; const double *normal; int closed; } surface_line;
-/* Triangles between two lines of the same direction, by the shorter diagonal at each step. Those of next to
- * no height are left out. */
+/* Triangles between two lines of the same direction, whose edges across are the shortest in all. Those of
+ * next to no height are left out. */
 pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
                         const surface_line *to, long owner);
 double triangle_area3 (const double *a, const double *b, const double *c);
@@ -69,6 +70,17 @@ double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front,
  * most `limit`; *meets: which. */
 double space_end (const pg_problem *p, const pg_crack_surfaces *w, const double *x, const double *e,
                   double limit, unsigned char *meets);
+
+/* ---- front_loops.c ------------------------------------------------------------------------------------- */
+/* Directions in the plane across a unit normal, of one of which the first vertex of a loop lies ahead of its
+ * middle; returns how many. *parts: the number of its vertices is a multiple of this. */
+enum { LOOP_DIRECTIONS = 6 };
+int    front_loop_directions (const double *normal, double direction[LOOP_DIRECTIONS][3], size_t *parts);
+/* How many vertices a loop of this length, in spacings, has. */
+size_t front_loop_parts (double length, size_t parts);
+/* The same for a closed line of n places x: the first vertex lies at the share of the piece that begins at
+ * *from. Returns parts. */
+size_t front_loop_start (size_t n, const double *x, size_t *from, double *share);
 
 /* ---- crack_surfaces_line.c ----------------------------------------------------------------------------- */
 /* Unit tangent at vertex i of a front. */

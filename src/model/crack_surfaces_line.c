@@ -91,6 +91,14 @@ static int is_corner (const pg_front *f, size_t i)
 /* Where a new vertex lies: on the segment from vertex `from`, at the share `t` of it. */
 typedef struct { size_t from; double t; } spot;
 
+/* Length of segment i in spacings, those at its middle. */
+static double spacings_of (const pg_front *f, const pg_problem *p, size_t i)
+{
+    const double *a = f->x + 3*i, *b = f->x + 3 * ((i + 1) % f->n);
+    double middle[3] = { 0.5 * (a[0] + b[0]), 0.5 * (a[1] + b[1]), 0.5 * (a[2] + b[2]) };
+    return apart3 (a, b) / pg_problem_spacing_at (p, middle);
+}
+
 /* The vertices of the stretch from corner `first` over m segments, but for its last one: as they are, or
  * distributed anew. Returns how many; *moved: they are others. */
 static size_t spots_of (const pg_front *f, const pg_problem *p, size_t first, size_t m, size_t least,
@@ -98,8 +106,7 @@ static size_t spots_of (const pg_front *f, const pg_problem *p, size_t first, si
 {
     double total = 0, shortest = INFINITY, longest = 0;
     for (size_t k = 0; k < m; k++) {
-        size_t i = (first + k) % f->n, j = (i + 1) % f->n;
-        double s = apart3 (f->x + 3*i, f->x + 3*j) / pg_problem_spacing_at (p, f->x + 3*i);
+        double s = spacings_of (f, p, (first + k) % f->n);
         total += s, shortest = fmin (shortest, s), longest = fmax (longest, s);
     }
     size_t parts = (size_t) fmax ((double) least, floor (total + 0.5)), n = 0;
@@ -112,11 +119,40 @@ static size_t spots_of (const pg_front *f, const pg_problem *p, size_t first, si
     *moved = 1;
     double passed = 0;
     for (size_t k = 0; k < m && n < parts; k++) {
-        size_t i = (first + k) % f->n, j = (i + 1) % f->n;
-        double s = apart3 (f->x + 3*i, f->x + 3*j) / pg_problem_spacing_at (p, f->x + 3*i);
+        size_t i = (first + k) % f->n;
+        double s = spacings_of (f, p, i);
         for (; n < parts; n++) {
             double goal = total * (double) n / (double) parts - passed;
             if (goal > s && k + 1 < m) break;
+            out[n] = (spot) { i, s > 0 ? fmin (1, fmax (0, goal / s)) : 0 };
+        }
+        passed += s;
+    }
+    return n;
+}
+
+/* The vertices of a loop without corners: as they are, or at equal parts from where a loop begins. */
+static size_t spots_of_loop (const pg_front *f, const pg_problem *p, spot *out, size_t room, int *moved)
+{
+    double total = 0, shortest = INFINITY, longest = 0, share;
+    size_t first, parts = front_loop_start (f->n, f->x, &first, &share), n = 0;
+    for (size_t i = 0; i < f->n; i++) {
+        double s = spacings_of (f, p, i);
+        total += s, shortest = fmin (shortest, s), longest = fmax (longest, s);
+    }
+    parts = front_loop_parts (total, parts);
+    if ((shortest >= nearest_apart && longest <= farthest_apart) || parts > room) {
+        for (; n < f->n; n++) out[n] = (spot) { n, 0 };
+        return n;
+    }
+    *moved = 1;
+    double passed = -share * spacings_of (f, p, first);    /* way to the segment, from the first new vertex */
+    for (size_t k = 0; k <= f->n && n < parts; k++) {      /* the first segment once more at the end */
+        size_t i = (first + k) % f->n;
+        double s = spacings_of (f, p, i);
+        for (; n < parts; n++) {
+            double goal = total * (double) n / (double) parts - passed;
+            if (goal > s && k < f->n) break;
             out[n] = (spot) { i, s > 0 ? fmin (1, fmax (0, goal / s)) : 0 };
         }
         passed += s;
@@ -189,7 +225,7 @@ pg_status front_resample (pg_front *f, const pg_problem *p, double **c)
     room += 2 * (size_t) (front_length (f) / finest);
     PG_ALLOC (q, room + 2);
     size_t segments = f->n - !f->closed, begin = first;
-    if (corners == 0) n = spots_of (f, p, 0, segments, 6, q, room, &moved);
+    if (corners == 0) n = spots_of_loop (f, p, q, room, &moved);
     for (size_t k = 1; corners && k <= segments; k++) {
         size_t i = (first + k) % f->n;
         if (k < segments && !is_corner (f, i)) continue;

@@ -55,34 +55,67 @@ static void put (pg_crack_surfaces *w, const pg_problem *p, size_t a, size_t b, 
 /* Vertex i of a line, which begins anew behind the last one of a loop. */
 static size_t at (const surface_line *l, size_t i) { return l->vertex[l->closed ? i % l->n : i]; }
 
-/* Where a loop begins so that its first vertex is the nearest one to the first of another. */
-static size_t beginning (const pg_crack_surfaces *w, const surface_line *from, const surface_line *to)
+/* Where two loops begin: with the shortest way between them. Else at their first vertices. */
+static void beginning (const pg_crack_surfaces *w, const surface_line *from, const surface_line *to,
+                       size_t *first, size_t *start)
 {
-    size_t best = 0;
-    const double *x = w->vertex, *goal = x + 3 * to->vertex[0];
-    for (size_t i = 1; from->closed && to->closed && i < from->n; i++)
-        if (apart3 (x + 3 * from->vertex[i], goal) < apart3 (x + 3 * from->vertex[best], goal)) best = i;
-    return best;
+    double least = INFINITY;
+    *first = *start = 0;
+    for (size_t i = 0; from->closed && to->closed && i < from->n; i++)
+        for (size_t j = 0; j < to->n; j++) {
+            double d = apart3 (w->vertex + 3 * from->vertex[i], w->vertex + 3 * to->vertex[j]);
+            if (d < least) least = d, *first = i, *start = j;
+        }
+}
+
+/* Steps along the lines, 1: along the first one, between which the ways across are shortest in all: of ways
+ * of length d_ij across from i to j the least sum c_ij = d_ij + min (c_i-1,j, c_i,j-1). A choice at each step
+ * by itself would be another one from the other end of the lines. */
+static pg_status shortest_ways (const pg_crack_surfaces *w, const surface_line *from, const surface_line *to,
+                                size_t first, size_t start, size_t last, size_t end, unsigned char *step)
+{
+    pg_status status = PG_OK;
+    unsigned char *along = NULL;                       /* how the least sum comes to i, j */
+    double *sum = NULL;
+    size_t wide = end + 1;
+    PG_ALLOC (along, (last + 1) * wide);
+    PG_ALLOC (sum, wide);                              /* of row i, up to j; beyond j of the row before */
+    for (size_t i = 0; i <= last; i++)
+        for (size_t j = 0; j <= end; j++) {
+            double d = apart3 (w->vertex + 3 * at (from, first + i), w->vertex + 3 * at (to, start + j));
+            along[i * wide + j] = (unsigned char) (i > 0 && (j == 0 || sum[j] <= sum[j - 1]));
+            sum[j] = d + (along[i * wide + j] ? sum[j] : j > 0 ? sum[j - 1] : 0);
+        }
+    for (size_t i = last, j = end, k = last + end; k-- > 0;) {
+        step[k] = along[i * wide + j];
+        if (step[k]) i--;
+        else j--;
+    }
+done:
+    pg_free (along), pg_free (sum);
+    return status;
 }
 
 pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
                         const surface_line *to, long owner)
 {
     pg_status status = PG_OK;
+    unsigned char *step = NULL;
     if (from->n == 0 || to->n == 0) return PG_OK;
-    size_t last = from->n - !from->closed, end = to->n - !to->closed;    /* steps along each line */
-    size_t first = beginning (w, from, to);
+    size_t last = from->n - !from->closed, end = to->n - !to->closed, first, start;    /* steps along each */
+    beginning (w, from, to, &first, &start);
+    PG_ALLOC (step, last + end + 1);
+    PG_TRY (shortest_ways (w, from, to, first, start, last, end, step));
     PG_TRY (surfaces_reserve (w, w->cracks.n + last + end, w->nvertex));
-    for (size_t i = 0, j = 0; i < last || j < end; ) {
-        const double *side = to->normal + 3 * (j % to->n), *x = w->vertex;
-        size_t a = at (from, first + i), b = at (to, j), next_a = i < last ? at (from, first + i + 1) : a,
-               next_b = j < end ? at (to, j + 1) : b;
-        int along = i < last
-                    && (j == end || apart3 (x + 3 * next_a, x + 3*b) <= apart3 (x + 3*a, x + 3 * next_b));
-        put (w, p, a, along ? next_a : next_b, b, side, owner);
+    for (size_t i = 0, j = 0; i + j < last + end;) {
+        const double *side = to->normal + 3 * ((start + j) % to->n);
+        int along = step[i + j];
+        size_t a = at (from, first + i), b = at (to, start + j);
+        put (w, p, a, along ? at (from, first + i + 1) : at (to, start + j + 1), b, side, owner);
         if (along) i++;
         else j++;
     }
 done:
+    pg_free (step);
     return status;
 }

@@ -5,8 +5,9 @@
  * An outline is a closed curve x (s), s from 0 to 1, that runs with the tangent t = e x n (e outward in the
  * plane of the crack, n its normal; seen against n it runs clockwise). It is looked at in steps of a quarter
  * of the spacing; where a front begins or ends is found by bisection. Parts of different cracks whose ends
- * meet are one front. Vertices are then distributed about a spacing apart; sharp corners keep theirs. */
-#include "model.h"
+ * meet are one front. Vertices are then distributed about a spacing apart; sharp corners keep theirs. Where
+ * those of a loop begin: front_loops.c. */
+#include "crack_surfaces.h"
 #include <math.h>
 #include <string.h>
 
@@ -16,28 +17,6 @@ enum { STEPS = 4, FINER = 8, HALVINGS = 44, MOST_STEPS = 20000 };
 static const double ahead = 0.1, together = 0.05, shortest = 0.5;
 static const double corner = 0.5;                      /* rad: a turn that keeps its vertex */
 static const double pi = 3.14159265358979323846;
-
-static double dot (const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
-static void cross (const double *a, const double *b, double *out)
-{
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
-        out[k] = a[m] * b[n] - a[n] * b[m];
-    }
-}
-
-static double apart (const double *a, const double *b)
-{
-    return hypot (hypot (a[0] - b[0], a[1] - b[1]), a[2] - b[2]);
-}
-
-/* Makes a vector of unit length; one without length stays. */
-static void unit (double *a)
-{
-    double size = hypot (hypot (a[0], a[1]), a[2]);
-    for (int k = 0; k < 3 && size > 0; k++) a[k] /= size;
-}
 
 /* ---- outlines ------------------------------------------------------------------------------------------ */
 typedef struct {
@@ -50,7 +29,7 @@ typedef struct {
 /* Length of edge i of a polygon, from vertex i to the next. */
 static double edge_length (const pg_crack *c, size_t i)
 {
-    return apart (c->vertex + 3*i, c->vertex + 3*((i + 1) % c->nvertex));
+    return apart3 (c->vertex + 3*i, c->vertex + 3*((i + 1) % c->nvertex));
 }
 
 static double outline_length (const pg_crack *c)
@@ -70,7 +49,7 @@ static size_t outline_at (const outline *o, double s, double *x, double *e)
     if (c->kind == PG_CRACK_DISC) {
         double f[3], side[3], angle = -2 * pi * s;
         for (int k = 0; k < 3; k++) f[k] = (c->vertex[k] - c->centre[k]) / c->radius;
-        cross (c->normal, f, side);
+        cross3 (c->normal, f, side);
         for (int k = 0; k < 3; k++) {
             e[k] = cos (angle) * f[k] + sin (angle) * side[k];
             x[k] = c->centre[k] + c->radius * e[k];
@@ -83,8 +62,8 @@ static size_t outline_at (const outline *o, double s, double *x, double *e)
     const double *a = c->vertex + 3*i, *b = c->vertex + 3*((i + 1) % c->nvertex);
     double along[3], share = fmin (1, way / edge_length (c, i));
     for (int k = 0; k < 3; k++) x[k] = a[k] + share * (b[k] - a[k]), along[k] = b[k] - a[k];
-    cross (along, c->normal, e);
-    unit (e);
+    cross3 (along, c->normal, e);
+    unit3 (e);
     return i;
 }
 
@@ -127,6 +106,7 @@ typedef struct {
     size_t n, capacity;
     double *x, *normal, *offset;                       /* n x 3, n x 3, n; m */
     int closed, used;
+    size_t parts;                                      /* of a loop: how many vertices are a multiple of it */
     unsigned char first, last;                         /* what the ends meet */
 } line;
 
@@ -156,6 +136,25 @@ static void clear (line *l)
     memset (l, 0, sizeof *l);
 }
 
+/* Where the vertices of a disc begin whose rim is a front all around. */
+static double disc_start (const pg_crack *c)
+{
+    double direction[LOOP_DIRECTIONS][3], f[3], side[3];
+    size_t parts;
+    front_loop_directions (c->normal, direction, &parts);
+    for (int k = 0; k < 3; k++) f[k] = (c->vertex[k] - c->centre[k]) / c->radius;
+    cross3 (c->normal, f, side);
+    return -atan2 (dot3 (direction[0], side), dot3 (direction[0], f)) / (2 * pi);
+}
+
+/* How many vertices the rim of a disc has then, a multiple of *parts. */
+static size_t disc_parts (const outline *o, size_t *parts)
+{
+    double direction[LOOP_DIRECTIONS][3];
+    front_loop_directions (o->crack->normal, direction, parts);
+    return front_loop_parts (o->length / o->p->cloud.h, *parts);
+}
+
 /* The part from s to s + length of an outline: vertices of a polygon between them, of a disc equal parts. */
 static pg_status draw (line *l, const outline *o, double s, double length, const double *retreat)
 {
@@ -163,6 +162,7 @@ static pg_status draw (line *l, const outline *o, double s, double length, const
     const pg_crack *c = o->crack;
     double x[3], e[3], h = o->p->cloud.h;
     size_t n = FINER * (size_t) fmax (1, round (length * o->length / h)), edge;
+    if (l->closed && c->kind == PG_CRACK_DISC) n = FINER * disc_parts (o, &l->parts);
     if (c->kind == PG_CRACK_DISC) {
         for (size_t i = 0; i + l->closed <= n; i++) {
             outline_at (o, s + length * (double) i / (double) n, x, e);
@@ -198,7 +198,7 @@ static pg_status add_line (lines *all, const outline *o, double s, double length
     PG_GROW (all->line, all->capacity, all->n + 1);
     line *l = &all->line[all->n++];
     memset (l, 0, sizeof *l);
-    l->first = first, l->last = last, l->closed = closed;
+    l->first = first, l->last = last, l->closed = closed, l->parts = 1;
     PG_TRY (draw (l, o, s, length, retreat));
 done:
     return status;
@@ -215,7 +215,8 @@ static pg_status find_lines (lines *all, const outline *o, const double *retreat
     for (size_t i = 0; i < n; i++) in[i] = (unsigned char) is_front (o, ((double) i + 0.5) * step, &why);
     while (start < n && in[start]) start++;
     if (start == n) {                                  /* all of it */
-        PG_TRY (add_line (all, o, 0, 1, 0, 0, 1, retreat));
+        double from = o->crack->kind == PG_CRACK_DISC ? disc_start (o->crack) : 0;
+        PG_TRY (add_line (all, o, from, 1, 0, 0, 1, retreat));
         goto done;
     }
     for (size_t i = start; i < start + n;) {
@@ -270,13 +271,13 @@ static pg_status join (lines *all, double near)
             line *b = &all->line[j];
             if (b == a || b->used || b->closed || a->last != PG_MEETS_CRACK) continue;
             const double *end = a->x + 3 * (a->n - 1);
-            if (b->last == PG_MEETS_CRACK && apart (end, b->x + 3 * (b->n - 1)) < near) reverse (b);
-            if (b->first != PG_MEETS_CRACK || !(apart (end, b->x) < near)) continue;
+            if (b->last == PG_MEETS_CRACK && apart3 (end, b->x + 3 * (b->n - 1)) < near) reverse (b);
+            if (b->first != PG_MEETS_CRACK || !(apart3 (end, b->x) < near)) continue;
             PG_TRY (append (a, b));
             b->used = 1, j = (size_t) -1;              /* look again from the new end */
         }
         if (!a->used && !a->closed && a->n > 3 && a->first == PG_MEETS_CRACK && a->last == PG_MEETS_CRACK
-            && apart (a->x, a->x + 3 * (a->n - 1)) < near)
+            && apart3 (a->x, a->x + 3 * (a->n - 1)) < near)
             a->closed = 1, a->n--;
     }
 done:
@@ -294,8 +295,8 @@ static int is_corner (const line *l, size_t i)
     if (!l->closed && (i == 0 || i + 1 >= l->n)) return 1;
     const double *before = at (l, i + l->n - 1), *here = at (l, i), *after = at (l, i + 1);
     for (int k = 0; k < 3; k++) u[k] = here[k] - before[k], v[k] = after[k] - here[k];
-    unit (u), unit (v);
-    return dot (u, v) < cos (corner);
+    unit3 (u), unit3 (v);
+    return dot3 (u, v) < cos (corner);
 }
 
 static pg_status put_vertex (pg_front *f, const line *l, size_t i, double share)
@@ -308,7 +309,7 @@ static pg_status put_vertex (pg_front *f, const line *l, size_t i, double share)
         f->x[3 * f->n + k] = a[k] + share * (b[k] - a[k]);
         f->normal[3 * f->n + k] = m[k] + share * (n[k] - m[k]);
     }
-    unit (f->normal + 3 * f->n);
+    unit3 (f->normal + 3 * f->n);
     f->offset[f->n] = (1 - share) * l->offset[i % l->n] + share * l->offset[(i + 1) % l->n];
     f->grown[f->n] = 0, f->meets[f->n] = PG_MEETS_NOTHING;
     f->n++;
@@ -316,8 +317,10 @@ done:
     return status;
 }
 
-/* Vertices of the places from .. to of a line, about a local spacing apart, the last left out. */
-static pg_status divide (pg_front *f, const line *l, const pg_problem *p, size_t from, size_t to)
+/* Vertices of the places from .. to of a line, about a local spacing apart, the last left out; parts: their
+ * number is a multiple of this. */
+static pg_status divide (pg_front *f, const line *l, const pg_problem *p, size_t from, size_t to,
+                         size_t parts)
 {
     pg_status status = PG_OK;
     double total = 0, *way = NULL;                     /* spacings from the beginning */
@@ -325,10 +328,10 @@ static pg_status divide (pg_front *f, const line *l, const pg_problem *p, size_t
     for (size_t i = from; i < to; i++) {
         double middle[3];
         for (int k = 0; k < 3; k++) middle[k] = 0.5 * (at (l, i)[k] + at (l, i + 1)[k]);
-        total += apart (at (l, i), at (l, i + 1)) / pg_problem_spacing_at (p, middle);
+        total += apart3 (at (l, i), at (l, i + 1)) / pg_problem_spacing_at (p, middle);
         way[i - from + 1] = total;
     }
-    size_t n = (size_t) fmax (1, round (total)), i = from;
+    size_t n = front_loop_parts (total, parts), i = from;
     for (size_t k = 0; k < n; k++) {
         double target = total * (double) k / (double) n;
         while (i + 1 < to && way[i - from + 1] <= target * (1 - 1e-12)) i++;
@@ -350,23 +353,23 @@ static void frame (pg_front *f)
         double t[3], u[3], v[3], *n = f->normal + 3*i, *e = f->ahead + 3*i;
         for (size_t k = 0; k < 3; k++)
             u[k] = f->x[3*i + k] - f->x[3*low + k], v[k] = f->x[3*high + k] - f->x[3*i + k];
-        unit (u), unit (v);                            /* at corners: half the turn */
+        unit3 (u), unit3 (v);                            /* at corners: half the turn */
         for (int k = 0; k < 3; k++) t[k] = u[k] + v[k];
-        cross (n, t, e);
-        unit (e);
+        cross3 (n, t, e);
+        unit3 (e);
     }
 }
 
 static pg_status make_front (pg_front *f, const line *l, const pg_problem *p)
 {
     pg_status status = PG_OK;
-    size_t first = 0, end = l->closed ? l->n : l->n - 1;
+    size_t first = 0, end = l->closed ? l->n : l->n - 1, parts = 1;
     while (l->closed && first < l->n && !is_corner (l, first)) first++;
-    if (first == l->n) first = 0;                      /* a loop without corners */
+    if (first == l->n) first = 0, parts = l->parts;    /* a loop without corners */
     for (size_t i = first, next; i < first + end; i = next) {
         next = i + 1;
         while (next < first + end && !is_corner (l, next % l->n)) next++;
-        PG_TRY (divide (f, l, p, i, next));
+        PG_TRY (divide (f, l, p, i, next, parts));
     }
     if (!l->closed) {
         PG_TRY (put_vertex (f, l, l->n - 2, 1));

@@ -1,0 +1,107 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Where the vertices of a front begin that is a loop without corners. They lie at equal parts of its length,
+ * and which of the infinitely many such sets it is must follow from the loop and the lattice alone: a scene
+ * that is turned by right angles or seen in a mirror has the same vertices then, turned or mirrored.
+ *
+ * A set of 4 m vertices is symmetric to each line through one of them and the middle of a loop that is so
+ * itself. The first one therefore lies ahead of the middle in the direction of an axis of the lattice, as it
+ * lies in the plane of the loop: of the axis farthest out of line with the normal. Where two axes are so
+ * alike, the third one's direction lies alike to both of them; if the third one is the normal itself, the two
+ * are at right angles, and 4 m vertices serve both. Where all three are alike, their directions are 60
+ * degrees from each other and from each other's opposites: 12 m vertices. Of a direction and its opposite,
+ * and of directions alike, the one counts in which the loop reaches farthest. */
+#include "crack_surfaces.h"
+#include <string.h>
+
+/* Axes whose shares of the normal differ by less are alike; an axis that lies nearer to the normal (sine of
+ * the angle) than this has no direction in the plane. */
+static const double alike = 0.05, no_direction = 1e-3;
+enum { FEW = 4, MANY = 12 };
+
+/* Appends axis k, as it lies in the plane across the unit normal, and its opposite. */
+static int put_axis (const double *normal, int k, double direction[][3], int n)
+{
+    double *a = direction[n], *b = direction[n + 1];
+    for (int c = 0; c < 3; c++) a[c] = (c == k) - normal[k] * normal[c];
+    unit3 (a);
+    for (int c = 0; c < 3; c++) b[c] = -a[c];
+    return n + 2;
+}
+
+int front_loop_directions (const double *normal, double direction[LOOP_DIRECTIONS][3], size_t *parts)
+{
+    int order[3] = { 0, 1, 2 };
+    for (int i = 0; i < 2; i++)                        /* by the share of the normal, the least first */
+        for (int j = 0; j < 2; j++)
+            if (fabs (normal[order[j]]) > fabs (normal[order[j + 1]])) {
+                int swap = order[j];
+                order[j] = order[j + 1], order[j + 1] = swap;
+            }
+    double least = fabs (normal[order[0]]), middle = fabs (normal[order[1]]), most = fabs (normal[order[2]]);
+    *parts = most - least < alike ? MANY : FEW;
+    if (*parts == MANY)
+        return put_axis (normal, 2, direction,
+                         put_axis (normal, 1, direction, put_axis (normal, 0, direction, 0)));
+    if (middle - least >= alike) return put_axis (normal, order[0], direction, 0);
+    if (hypot (least, middle) > no_direction) return put_axis (normal, order[2], direction, 0);
+    return put_axis (normal, order[1], direction, put_axis (normal, order[0], direction, 0));
+}
+
+size_t front_loop_parts (double length, size_t parts)
+{
+    return parts * (size_t) fmax (1, floor (length / (double) parts + 0.5));
+}
+
+/* The middle of a closed line of n places, each counted by the length beside it, and the unit normal of its
+ * area. */
+static void middle_of (size_t n, const double *x, double *middle, double *normal)
+{
+    double total = 0;
+    for (int k = 0; k < 3; k++) middle[k] = normal[k] = 0;
+    for (size_t i = 0; i < n; i++) {
+        const double *a = x + 3*i, *b = x + 3 * ((i + 1) % n);
+        double s = apart3 (a, b);
+        for (int k = 0; k < 3; k++) middle[k] += 0.5 * s * (a[k] + b[k]);
+        total += s;
+    }
+    for (int k = 0; k < 3; k++) middle[k] /= total;
+    for (size_t i = 0; i < n; i++) {
+        double a[3], b[3], c[3];
+        shift3 (x + 3*i, middle, -1, a), shift3 (x + 3 * ((i + 1) % n), middle, -1, b);
+        cross3 (a, b, c);
+        for (int k = 0; k < 3; k++) normal[k] += c[k];
+    }
+    unit3 (normal);
+}
+
+/* How far the line reaches in a direction from its middle: the farthest place where it passes there; -1:
+ * nowhere. *from, *share: where that is, on the piece from that place to the next. */
+static double reach (size_t n, const double *x, const double *middle, const double *direction,
+                     const double *normal, size_t *from, double *share)
+{
+    double side[3], best = -1;
+    cross3 (normal, direction, side);
+    for (size_t i = 0; i < n; i++) {
+        double a[3], b[3];
+        shift3 (x + 3*i, middle, -1, a), shift3 (x + 3 * ((i + 1) % n), middle, -1, b);
+        double u = dot3 (a, side), v = dot3 (b, side);
+        if ((u >= 0) == (v >= 0)) continue;
+        double t = u / (u - v), r = (1 - t) * dot3 (a, direction) + t * dot3 (b, direction);
+        if (r > best) best = r, *from = i, *share = t;
+    }
+    return best;
+}
+
+size_t front_loop_start (size_t n, const double *x, size_t *from, double *share)
+{
+    double middle[3], normal[3], direction[LOOP_DIRECTIONS][3], best = 0;
+    size_t parts, at = 0;
+    middle_of (n, x, middle, normal);
+    int many = front_loop_directions (normal, direction, &parts);
+    *from = 0, *share = 0;
+    for (int d = 0; d < many; d++) {
+        double t = 0, r = reach (n, x, middle, direction[d], normal, &at, &t);
+        if (r > best) best = r, *from = at, *share = t;
+    }
+    return parts;
+}
