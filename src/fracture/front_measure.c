@@ -4,7 +4,8 @@
  * of points follow the front in steps of the lattice, and a narrower hat shows the steps.
  *
  * All cross sections in the hat of a vertex have one radius, the largest that there is room for at all of
- * them: 4 spacings for J, 3 for K, which tells the direction; then 2.25 and 1.5, then none. */
+ * them: 4 spacings for J, 3 for K, which tells the direction; then 2.25 and 1.5. Where one has no room for
+ * that either, the hats that reach it are narrower, 2 vertices or 1, then there is no number. */
 #include "front.h"
 #include "gradient_fit.h"
 #include <math.h>
@@ -24,6 +25,7 @@ typedef struct {
     pg_nearest *near;                                  /* among the points; NULL: all are alike */
     size_t n;                                          /* cross sections */
     double *u, *room;                                  /* of each: where on the front; m */
+    double *width;                                     /* of the hat of each vertex, in vertices */
     int *radii;                                        /* for how many radii there is room */
     front_place *place;
     front_sums *sums;
@@ -277,17 +279,21 @@ static void place_sections (measuring *m)
 }
 
 /* ---- vertices ------------------------------------------------------------------------------------------ */
-/* How wide hats are, in vertices: on short loops half of it. */
-static double hat_width (const pg_front *f)
+/* How wide the hat of vertex i is, in vertices: on short loops half of them; narrower where a cross section
+ * in it has no room, for a number that follows the lattice more tells more than none. */
+static double hat_width (const measuring *m, size_t i)
 {
-    return f->closed ? fmin (FRONT_HAT, 0.5 * (double) f->n) : FRONT_HAT;
+    const pg_front *f = m->front;
+    double width = f->closed ? fmin (FRONT_HAT, 0.5 * (double) f->n) : FRONT_HAT, clear = width;
+    for (size_t j = 0; j < m->n; j++) if (m->radii[j] == 0) clear = fmin (clear, front_gap (f, m->u[j], i));
+    return clear >= 1 ? fmin (width, floor (clear)) : width;
 }
 
 /* The hat of vertex i at cross section j times the length of front that this stands for (m), and its
  * derivative along the front times that length. 0: it does not reach so far. */
 static int hat_at (const measuring *m, size_t i, size_t j, double *hat, double *slope)
 {
-    double width = hat_width (m->front), gap = front_gap (m->front, m->u[j], i), n = (double) m->front->n;
+    double width = m->width[i], gap = front_gap (m->front, m->u[j], i), n = (double) m->front->n;
     double ahead = m->u[j] - (double) i;
     if (gap >= width) return 0;
     if (m->front->closed && ahead > 0.5 * n) ahead -= n;
@@ -495,9 +501,11 @@ static pg_status prepare (measuring *m)
     PG_ALLOC (m->u, m->n);
     PG_ALLOC (m->room, m->n);
     PG_ALLOC (m->radii, m->n);
+    PG_ALLOC (m->width, f->n);
     PG_ALLOC (m->place, m->n);
     PG_ALLOC (m->sums, m->n);
     place_sections (m);
+    for (size_t i = 0; i < f->n; i++) m->width[i] = hat_width (m, i);
 done:
     return status;
 }
@@ -535,6 +543,7 @@ pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_for
 done:
     chunk_clear (&c);
     pg_nearest_free (&m.near);
-    pg_free (m.u), pg_free (m.room), pg_free (m.radii), pg_free (m.place), pg_free (m.sums);
+    pg_free (m.u), pg_free (m.room), pg_free (m.radii), pg_free (m.width);
+    pg_free (m.place), pg_free (m.sums);
     return status;
 }

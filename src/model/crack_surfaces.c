@@ -313,7 +313,7 @@ static pg_status step (pg_crack_surfaces *w, const pg_problem *p, size_t front, 
     for (size_t i = 0; i < n; i++)
         if (ends && ends[i])
             stride_shut (&s, i, s.old.meets[i] ? s.old.meets[i] : (unsigned char) (ends[i] - END_OF));
-    stride_move (&s, d, theta);
+    PG_TRY (stride_move (&s, d, theta));
     w->area += swept (&s);
     PG_TRY (first_rim (&s));
     if (bends (&s)) {

@@ -63,6 +63,10 @@ double triangle_area3 (const double *a, const double *b, const double *c);
 double space_to_surface (const pg_problem *p, const double *x, const double *e, double limit);
 /* How far a crack that ends on the surface at x, going in direction e, cuts beyond it. */
 double space_beyond (const pg_problem *p, const double *x, const double *e);
+/* The place of the surface nearest to x within the plane of e (unit, about towards the surface) and u (unit,
+ * across e), and the direction of the surface in that plane. 0: there is none up to `limit`. */
+int space_foot (const pg_problem *p, const double *x, const double *e, const double *u, double limit,
+                double *foot, double *along);
 /* Where a vertex that would go to x + d e ends: the way to go, m; *meets: what it meets there. */
 double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front, size_t vertex,
                   const double *e, double d, unsigned char *meets, double *place);
@@ -111,7 +115,7 @@ typedef struct {
 /* ---- crack_surfaces_move.c ----------------------------------------------------------------------------- */
 /* Moves the vertices (d, theta NULL: none moves) and closes those that meet something; says where the crack
  * cuts to behind them. */
-void stride_move (stride *s, const double *d, const double *theta);
+pg_status stride_move (stride *s, const double *d, const double *theta);
 /* Closes a vertex where it is. */
 void stride_shut (stride *s, size_t i, unsigned char meets);
 int  stride_is_end (const stride *s, size_t i);

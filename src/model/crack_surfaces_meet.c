@@ -9,6 +9,8 @@
 /* Steps of a ray in a spacing; halvings of the last one: 2^-44 of it is rounding. */
 enum { STEPS = 8, HALVINGS = 44 };
 static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
+/* A surface at an angle is looked for so far away, spacings. */
+static const double seen_to = 10;
 /* How far a crack cuts beyond the surface, for points may lie outside of it: spacings. */
 static const double beyond_surface = 1;
 /* Nearer hits are the crack that the vertex itself belongs to, spacings. Vertices that were distributed anew
@@ -123,6 +125,34 @@ static double to_fronts (const pg_crack_surfaces *w, size_t front, size_t i, con
     return best;
 }
 
+/* The line in which the surface cuts a plane of the crack, seen from x in the direction e: through where two
+ * rays end that leave by 30 degrees to both sides of it. u: unit, in that plane, across e. The foot is the
+ * place of that line nearest to x; `along` its direction (unit, towards u); 0: a ray does not end. */
+int space_foot (const pg_problem *p, const double *x, const double *e, const double *u, double limit,
+                double *foot, double *along)
+{
+    double c = sqrt (0.75), hit[2][3], way[3], d[3];
+    for (int side = 0; side < 2; side++) {
+        for (int k = 0; k < 3; k++) way[k] = c * e[k] + (side ? 0.5 : -0.5) * u[k];
+        double r = space_to_surface (p, x, way, limit);
+        if (!(r < limit)) return 0;
+        shift3 (x, way, r, hit[side]);
+    }
+    for (int k = 0; k < 3; k++) along[k] = hit[1][k] - hit[0][k], d[k] = x[k] - hit[0][k];
+    if (!unit3 (along)) return 0;
+    shift3 (hit[0], along, dot3 (d, along), foot);
+    return 1;
+}
+
+/* A surface that a vertex passes by, rather than going into it, is seen at less than 45 degrees. */
+static int passes_by (const pg_problem *p, const pg_front *f, size_t i, const double *e, double limit)
+{
+    double u[3], foot[3], along[3];
+    cross3 (f->ahead + 3*i, f->normal + 3*i, u);
+    if (!unit3 (u)) return 0;
+    return !space_foot (p, f->x + 3*i, e, u, limit, foot, along) || fabs (dot3 (along, e)) > sqrt (0.5);
+}
+
 double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front, size_t i, const double *e,
                   double d, unsigned char *meets, double *place)
 {
@@ -130,7 +160,8 @@ double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front,
     double h = pg_problem_spacing_at (p, x), way = d, goal[3];
     *meets = PG_MEETS_NOTHING;
     double a = space_to_surface (p, x, e, d + to_surface * h);
-    if (a < d + to_surface * h) way = a, *meets = PG_MEETS_SURFACE;
+    if (a < d + to_surface * h && (a <= d || !passes_by (p, &w->front[front], i, e, seen_to * h)))
+        way = a, *meets = PG_MEETS_SURFACE;
     double r = ray_to_cracks (&w->cracks, x, e, d + to_crack * h, h);
     if (r < way || (*meets == PG_MEETS_NOTHING && r <= d + to_crack * h)) way = r, *meets = PG_MEETS_CRACK;
     for (int k = 0; k < 3; k++) place[k] = x[k] + way * e[k];

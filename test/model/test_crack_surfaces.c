@@ -295,6 +295,62 @@ static void a_front_severs_the_body (void **state)
     end (&g);
 }
 
+/* A front that is askew to the faces beside it, by 35 degrees, goes along them: none of its vertices is taken
+ * for one that runs into a face, and its ends stay on them, at most twice as far as it goes. */
+static void a_front_askew_passes_along_the_faces (void **state)
+{
+    (void) state;
+    growing g = begin (CUBE ("14", "cracks: [{polygon: [[-9, -1, 7.3], [-0.7, -1, 7.3], [9.8, 15, 7.3], "
+                                  "[-9, 15, 7.3]]}]\n"));
+    size_t dead = check_mask (&g);
+    assert_true (g.s->surfaces->nfront == 1 && !g.s->surfaces->front->closed);
+    for (int k = 0; k < 3; k++) {
+        const pg_front *front = g.s->surfaces->front;
+        size_t last = front->n - 1, far = front->x[0] < front->x[3 * last] ? last : 0;
+        double x[2] = { front->x[3 * (last - far)], front->x[3 * far] };   /* behind, ahead */
+        advance (&g, 0, 1, 0);
+        dead += bury (&g);
+        assert_int_equal (check_mask (&g), dead);
+        front = g.s->surfaces->front;
+        assert_true (g.s->surfaces->nfront == 1 && front->open && front->n >= 14);
+        last = front->n - 1, far = front->x[0] < front->x[3 * last] ? last : 0;
+        check_absolute (fabs (front->x[3 * far + 1] - 7), 7, 1e-9);
+        check_absolute (fabs (front->x[3 * (last - far) + 1] - 7), 7, 1e-9);
+        double behind = front->x[3 * (last - far)] - x[0], ahead = front->x[3 * far] - x[1];
+        assert_true (behind > 0.5 && behind < 2 + 1e-9 && ahead > -1e-9 && ahead < 2 + 1e-9);
+        check_relative (g.s->surfaces->area / (k + 1), 14 * hypot (16, 10.5) / 16, 0.045);
+    }
+    end (&g);
+}
+
+/* Vertices that kink up and down by turns make no zigzag of the front, step after step: what integrals over
+ * hats of three vertices cannot see is taken out. A wave of ten vertices stays. */
+static void zigzags_are_taken_out (void **state)
+{
+    (void) state;
+    for (int turns = 2; turns <= 10; turns += 8) {
+        growing g = begin (CUBE ("13", "cracks: [{polygon: [[-1, -1, 6.3], [3, -1, 6.3], [3, 14, 6.3], "
+                                      "[-1, 14, 6.3]]}]\n"));
+        for (int k = 0; k < 3; k++) {
+            enum { MOST = 60 };
+            double d[MOST], theta[MOST];
+            size_t n = g.s->surfaces->front->n;
+            assert_true (n < MOST);
+            for (size_t i = 0; i < n; i++)
+                d[i] = 1, theta[i] = 0.3 * cos (2 * acos (-1) * (double) i / turns);
+            check_ok (pg_front_advance (g.s, g.p, 0, d, theta, &g.cut));
+            bury (&g);
+        }
+        const pg_front *front = g.s->surfaces->front;
+        double low = INFINITY, high = 0;
+        for (size_t i = 2; i + 2 < front->n; i++)
+            low = fmin (low, front->x[3*i + 2]), high = fmax (high, front->x[3*i + 2]);
+        if (turns == 2) assert_true (high - low < 0.1);       /* 1.8 without */
+        else assert_true (high - low > 1.5);
+        end (&g);
+    }
+}
+
 /* A quarter of a disc at an edge of the body, half a disc at its surface: their ends lie on the surface, and
  * after enough steps the body is in two. */
 static void a_crack_begins_at_the_surface (void **state)
@@ -554,7 +610,8 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_disc_grows), cmocka_unit_test (a_front_kinks_and_lags),
         cmocka_unit_test (what_stayed_behind_is_no_obstacle),
-        cmocka_unit_test (a_front_severs_the_body), cmocka_unit_test (a_crack_begins_at_the_surface),
+        cmocka_unit_test (a_front_severs_the_body), cmocka_unit_test (a_front_askew_passes_along_the_faces),
+        cmocka_unit_test (zigzags_are_taken_out), cmocka_unit_test (a_crack_begins_at_the_surface),
         cmocka_unit_test (whatever_fronts_do_they_end),
         cmocka_unit_test (discs_meet), cmocka_unit_test (a_crack_across_stops_a_front),
         cmocka_unit_test (copies_are_deep_and_a_failure_changes_nothing),
