@@ -20,10 +20,7 @@
  * what differs from vertex to vertex: a wave of kinks of length L keeps 1 / (1 + (2 pi l / L)^2) of its
  * height.
  *
- * How far: d_i = l (u_i / u_max)^p where u_i, the square root of the energy set free over the energy taken,
- * is within the tie of the largest, 0 elsewhere, smoothed once by 1/4, 1/2, 1/4. A wave of length L and
- * height A of a front changes J by - 2 pi A / L (Rice 1985); a vertex sees it through a hat of 3 h, so that
- * advances up to p l = 4 h damp all waves (doc/method.md). */
+ * How far they go: front_ways.c. */
 #include "front_growth.h"
 #include <math.h>
 #include <string.h>
@@ -55,7 +52,7 @@ void front_judge (const break_loop *b, const pg_tip_field *f, double factor, fro
     out->share = sqrt (out->J * out->ratio / limits.energy);
 }
 
-/* ---- how far ------------------------------------------------------------------------------------------- */
+/* ---- neighbours ------------------------------------------------------------------------------------------- */
 /* The neighbours of vertex i of n: around a closed front, else none beyond its ends (i itself). */
 static size_t before (size_t i, size_t n, int closed) { return i > 0 ? i - 1 : closed ? n - 1 : i; }
 static size_t after (size_t i, size_t n, int closed) { return i + 1 < n ? i + 1 : closed ? 0 : i; }
@@ -64,26 +61,6 @@ static double distance (const double *a, const double *b)
 {
     return sqrt ((a[0] - b[0]) * (a[0] - b[0]) + (a[1] - b[1]) * (a[1] - b[1])
                  + (a[2] - b[2]) * (a[2] - b[2]));
-}
-
-/* Half of the way to both neighbours. */
-static void set_widths (const pg_front *front, front_vertex *v)
-{
-    for (size_t i = 0; i < front->n; i++)
-        v[i].width = 0.5 * (distance (front->x + 3*i, front->x + 3 * before (i, front->n, front->closed))
-                            + distance (front->x + 3*i, front->x + 3 * after (i, front->n, front->closed)));
-}
-
-/* 1/4, 1/2, 1/4 once; at the end of an open front its mirror image stands for the neighbour that is not
- * there. Vertices that cannot grow stay. */
-static void smooth_ways (const pg_front *front, front_vertex *v, double *old)
-{
-    size_t n = front->n;
-    for (size_t i = 0; i < n; i++) old[i] = v[i].way;
-    for (size_t i = 0; i < n; i++) {
-        double sum = old[before (i, n, front->closed)] + old[after (i, n, front->closed)];
-        v[i].way = v[i].need > 0 ? 0.25 * sum + 0.5 * old[i] : 0;
-    }
 }
 
 /* ---- rise of the surface ------------------------------------------------------------------------------- */
@@ -160,28 +137,20 @@ double fronts_plan (const break_loop *b, const pg_state *state, double factor)
     double top = 0, gained = 0, taken = 0;
     size_t nfront;
     const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
-    for (size_t k = 0; k < f->nfront; k++) {
-        size_t first = f->first[k], n = f->first[k + 1] - first;
-        if (n) set_widths (&front[k], f->vertex + first);
-    }
     for (size_t i = 0; i < f->n; i++) front_judge (b, &f->field[i], factor, &f->vertex[i]);
     for (size_t k = 0; k < f->nfront; k++) hold_ends (f, f->first[k], f->first[k + 1] - f->first[k]);
     for (size_t i = 0; i < f->n; i++) top = fmax (top, f->vertex[i].share);
     if (!(top > 0)) return 0;
+    for (size_t i = 0; i < f->n; i++) f->row[i] = facet_length (g, &f->field[i]);
+    fronts_set_ways (g->fronts, f->row);
     for (size_t k = 0; k < f->nfront; k++) {
         size_t first = f->first[k], n = f->first[k + 1] - first;
         front_vertex *v = f->vertex + first;
         if (!n) continue;
-        for (size_t i = 0; i < n; i++) {
-            double ratio = v[i].share / top;
-            v[i].way = ratio >= 1 / (1 + front_tie)
-                           ? facet_length (g, &f->field[first + i]) * pow (ratio, FRONT_POWER) : 0;
-        }
-        smooth_ways (&front[k], v, f->row);
         settle_rises (&front[k], v, facet_length (g, &f->field[first]));
         for (size_t i = 0; i < n; i++)
-            gained += v[i].J * v[i].ratio * v[i].way * v[i].width,
-                taken += v[i].need * v[i].way * v[i].width;
+            gained += v[i].J * v[i].ratio * v[i].way * v[i].way * v[i].width,
+                taken += v[i].need * v[i].way * v[i].way * v[i].width;
     }
     return taken > 0 && gained > 0 ? sqrt (gained / taken) : 0;
 }

@@ -15,7 +15,8 @@ void fronts_free (front_growth **fronts)
     front_growth *f = *fronts;
     if (!f) return;
     pg_free (f->field), pg_free (f->first), pg_free (f->blind), pg_free (f->vertex);
-    pg_free (f->d), pg_free (f->theta), pg_free (f->row);
+    pg_free (f->d), pg_free (f->theta), pg_free (f->row), pg_free (f->couple), pg_free (f->factor);
+    pg_free (f->forward), pg_free (f->line), pg_free (f->going), pg_free (f->goes);
     pg_free (f);
     *fronts = NULL;
 }
@@ -117,6 +118,7 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
     if (!g->fronts) PG_ALLOC (g->fronts, 1);
     front_growth *f = g->fronts;
     PG_TRY (lay_out (f, front, nfront));
+    PG_TRY (fronts_couple (f, front));
     PG_ALLOC (known, f->n);
     for (size_t k = 0; k < nfront; k++) {
         f->blind[k] = 0;

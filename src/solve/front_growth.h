@@ -28,11 +28,10 @@ typedef struct front_growth {
     size_t cap_blind;
     front_vertex *vertex; size_t cap_vertex;           /* as of the last plan (n) */
     double *d, *theta, *row; size_t cap_d, cap_theta, cap_row;         /* workspaces */
+    /* front_ways.c: what advances make of each other (n x n), lengths of front included; workspaces */
+    double *couple, *factor, *forward, *line; size_t cap_couple, cap_factor, cap_forward, cap_line;
+    size_t *going, cap_going; unsigned char *goes; size_t cap_goes;
 } front_growth;
-
-/* Vertices whose utilisation is within this share of the largest advance; by the ratio to the power p. */
-static const double front_tie = 0.05;
-enum { FRONT_POWER = 4 };
 
 /* ---- front_growth.c ------------------------------------------------------------------------------------ */
 void      fronts_free    (front_growth **fronts);
@@ -61,4 +60,9 @@ pg_status fronts_show    (pg_solver *s, const pg_state *state, double factor);
 void front_judge (const break_loop *b, const pg_tip_field *f, double factor, front_vertex *out);
 /* Largest utilisation, advances and rises of all vertices; returns the utilisation of the advance. */
 double fronts_plan (const break_loop *b, const pg_state *state, double factor);
+/* ---- front_ways.c -------------------------------------------------------------------------------------- */
+/* Widths of all vertices, and what their advances make of each other; once for a measurement. */
+pg_status fronts_couple   (front_growth *f, const pg_front *front);
+/* vertex[].way from vertex[].share; l: length of a facet at each vertex, m (n). */
+void      fronts_set_ways (front_growth *f, const double *l);
 #endif
