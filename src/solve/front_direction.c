@@ -52,7 +52,7 @@ void front_judge (const break_loop *b, const pg_tip_field *f, double factor, fro
     out->share = sqrt (out->J * out->ratio / limits.energy);
 }
 
-/* ---- neighbours ------------------------------------------------------------------------------------------- */
+/* ---- neighbours ---------------------------------------------------------------------------------------- */
 /* The neighbours of vertex i of n: around a closed front, else none beyond its ends (i itself). */
 static size_t before (size_t i, size_t n, int closed) { return i > 0 ? i - 1 : closed ? n - 1 : i; }
 static size_t after (size_t i, size_t n, int closed) { return i + 1 < n ? i + 1 : closed ? 0 : i; }
