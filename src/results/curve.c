@@ -30,9 +30,22 @@ static double push_along (const pg_problem *p, const pg_load *load, int k)
     return 1;
 }
 
+/* How far a support moves along the axis k at most: at t = 1, with stages of loading at the end of each. A
+ * velocity is compared by what it moves in 1e-9 s, so that any displacement is preferred to it. */
+static double farthest (const pg_problem *p, const pg_load *load, int k)
+{
+    double size = 0;
+    for (size_t i = 0; i < load->set->npoint; i++)
+        for (size_t stage = 0; stage == 0 || stage < p->nstage; stage++) {
+            double end = load->kind == PG_VELOCITY ? 1e-9 : (double) (stage + 1);
+            const double *x = p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim;
+            size = fmax (size, fabs (pg_load_value (load, k, p->dim, x, end)));
+        }
+    return size;
+}
+
 /* The curve follows the prescribed component that moves most, else the first load with a
- * force, along the axis in which that is largest. A velocity is compared by what it moves in
- * 1e-9 s, so that any displacement is preferred to it. */
+ * force, along the axis in which that is largest. */
 void pg_result_curve_choose (pg_result *r)
 {
     const pg_problem *p = r->problem;
@@ -42,12 +55,7 @@ void pg_result_curve_choose (pg_result *r)
         for (int k = 0; k < p->dim; k++) {
             const pg_load *load = &p->load[l];
             if (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_rotates (load)) continue;
-            double end = load->kind == PG_VELOCITY ? 1e-9 : 1, size = 0;
-            for (size_t i = 0; i < load->set->npoint; i++)
-                size = fmax (size,
-                             fabs (pg_load_value (load, k, p->dim,
-                                                  p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim,
-                                                  end)));
+            double size = farthest (p, load, k);
             if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
         }
     for (size_t l = 0; l < p->nload && r->curve_load < 0; l++) {

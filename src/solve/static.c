@@ -81,7 +81,7 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     if (own->affine && !pg_problem_affine (problem))
         pg_scene_fault (scene, "solver.stepping",
                         "event stepping needs loads that grow with the load factor (ramp: linear), stay "
-                        "(ramp: constant), or both: use fixed");
+                        "(ramp: constant), or both: use fixed, or stages");
     if (o->event && closes && (own->affine || problem->nstage))
         pg_scene_fault (scene, "solver.stepping",
                         "event does not yet go with contact.kind where loads have a constant part: use "

@@ -92,6 +92,36 @@ static void a_gauge_ends_a_stage (void **state)
     }
 }
 
+/* Confined, then loaded along x until the first bond breaks: uniform stress, so that it does at the strength
+ * of Mohr and Coulomb, s_1 = 2 c cos phi / (1 - sin phi) + s_3 (1 + sin phi) / (1 - sin phi); the stress along z
+ * lies between both. */
+static void the_strength_under_confinement_is_that_of_mohr_coulomb (void **state)
+{
+    (void) state;
+    double sine = sin (atan (1) * 4 / 6), cosine = cos (atan (1) * 4 / 6);      /* phi = 30 degrees */
+    for (int k = 0; k < 5; k++) {
+        double confined = 2.5e6 * k, strength = 2 * 5e6 * cosine / (1 - sine)
+                                                + confined * (1 + sine) / (1 - sine);
+        run r = scene_of (
+            1,
+            "dimension: 2\nplane: strain\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, "
+            "0.4]}}}]\nspacing: 0.1\nmaterials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n"
+            "failure: {criterion: mohr_coulomb, tensile_strength: 3 MPa, cohesion: 5 MPa, friction_angle: 30 "
+            "deg}\nmethod: {integration: consistent}\nboundary:\n - {set: left, displacement: {x: 0}}\n"
+            " - {set: foot, displacement: {y: 0}, essential: penalty}\n"
+            " - {name: jacket, set: sides, pressure: %.17g Pa}\n - {name: cell, set: right, pressure: %.17g "
+            "Pa}\n - {name: piston, set: right, pressure: 100 MPa}\n"
+            "sets: {foot: {where: 'x < 1 mm and abs (y - 0.2) < 1 mm'}, sides: {boundary: [bottom, top]}}\n"
+            "stages: [{name: confine, boundary: {jacket: 1, cell: 1}}, {name: load, boundary: {piston: 1}}]\n"
+            "solver: {stepping: event, max_events: 1}\noutput: {at: {levels: 1}}\n",
+            confined, confined);
+        while (!r.step.event) advance (&r);
+        check_relative ((r.state->factor - 1) * 100e6, strength - confined, 1e-8);
+        assert_int_equal (r.step.stage, 2);
+        clear (&r);
+    }
+}
+
 /* ---- growing cracks ------------------------------------------------------------------------------------ */
 #define PLATE \
     "dimension: 2\nplane: strain\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 20 " \
@@ -307,6 +337,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_bar_follows_its_stages),
         cmocka_unit_test (a_gauge_ends_a_stage),
+        cmocka_unit_test (the_strength_under_confinement_is_that_of_mohr_coulomb),
         cmocka_unit_test (confinement_and_a_ramp_is_an_affine_run),
         cmocka_unit_test (unloading_returns_to_the_origin),
         cmocka_unit_test (growth_and_a_drop_of_force_end_a_stage),
