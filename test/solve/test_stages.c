@@ -93,8 +93,8 @@ static void a_gauge_ends_a_stage (void **state)
 }
 
 /* Confined, then loaded along x until the first bond breaks: uniform stress, so that it does at the strength
- * of Mohr and Coulomb, s_1 = 2 c cos phi / (1 - sin phi) + s_3 (1 + sin phi) / (1 - sin phi); the stress along z
- * lies between both. */
+ * of Mohr and Coulomb, s_1 = 2 c cos phi / (1 - sin phi) + s_3 (1 + sin phi) / (1 - sin phi); the stress
+ * along z lies between both. */
 static void the_strength_under_confinement_is_that_of_mohr_coulomb (void **state)
 {
     (void) state;
