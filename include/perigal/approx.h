@@ -54,6 +54,9 @@ typedef struct {
     double *dN;
     /* Influence times volume, m3, 0 on dead bonds (nnz). */
     double *w;
+    /* Where N, dN and w of each place begin, counted in bonds (n): places that see their nodes alike share
+     * them. NULL: at the first bond of the place (read by pg_rows_offset). */
+    size_t *at;
     /* PG_GRADE_... (n). */
     unsigned char *grade;
     /* Places so far whose values were copied from others that see their nodes alike, and their bonds. */
@@ -133,6 +136,12 @@ pg_status pg_rows_search (pg_family_search **out, const pg_approx *a, const pg_c
 pg_status pg_rows_place  (pg_rows *out, const pg_family_search *search, int dim, size_t n, const double *x,
                           const double *weight, const int *own, const int *cell, int threads);
 pg_status pg_rows_values (pg_rows *rows);
+/* Values of entry e of place i are entries e + offset of N, dN and w (unsigned numbers, which may wrap
+ * around). */
+static inline size_t pg_rows_offset (const pg_rows *rows, size_t i)
+{
+    return rows->at ? rows->at[i] - rows->family.start[i] : 0;
+}
 /* Number of places with that grade. */
 size_t    pg_rows_count  (const pg_rows *rows, int grade);
 PG_API_END

@@ -7,7 +7,8 @@
  * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
- * (preconditioner), galerkin_intact.c (rows of the intact body), galerkin_sample.c (any place),
+ * (preconditioner), galerkin_intact.c (rows of the intact body), galerkin_share.c
+ * (rows that are alike), galerkin_sample.c (any place),
  * galerkin_sample_alike.c (places that are alike),
  * galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
@@ -105,8 +106,16 @@ pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem)
 int       galerkin_borrow (galerkin *g, int set);
 /* 1: and the wider ones of consistent integration. */
 int       galerkin_borrow_sums (galerkin *g);
-/* Copies of its own where a bond of the set is broken. */
+/* Copies of its own, a row for every point, where a bond of the set is broken. */
 pg_status galerkin_own (galerkin *g, const pg_state *state, int set);
+int       galerkin_all_alive (const galerkin *g, int set, const pg_state *state);
+/* g->sums, where these are rows of the bulk, after the arrays of these have changed. */
+void      galerkin_follow (galerkin *g);
+/* share: evaluates rows of a set that are its own (list NULL: all, otherwise `count` of them); rows that are
+ * alike are kept once where no bond is broken. */
+pg_status galerkin_evaluate (galerkin *g, const pg_state *state, int set, size_t count, const size_t *list);
+/* Bonds of all sets whose points share their rows. */
+size_t    galerkin_shared_bonds (const galerkin *g);
 /* sum: the loops over points */
 pg_status galerkin_slices_create (galerkin *g);
 void galerkin_slices_free (galerkin *g);
@@ -138,8 +147,8 @@ double galerkin_silling_energy (const galerkin *g, size_t p, const double *d);
 /* Lanes of a vector: arrays of nodal values by components have room for so many numbers more. */
 enum { GALERKIN_LANES = 8 };
 /* A bond of the first group of a run: where it stands in a row of nodes that follow each other, its node, the
- * point within the group, and its number counted from the first bond of the group. */
-typedef struct { int place, node, point; unsigned bond; } galerkin_entry;
+ * point within the group, and where its values are in N, dN and w. */
+typedef struct { int place, node, point; size_t bond; } galerkin_entry;
 /* `count` groups of `points` points, the first from point `point` on; its bonds in the order of summation. */
 typedef struct { size_t point, points, count, entry, entries; } galerkin_run;
 /* Runs among the points first .. last - 1, ascending; to be found anew if stale. bonds: of all their

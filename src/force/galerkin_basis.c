@@ -161,10 +161,11 @@ static pg_status slave_matrix (const galerkin *g, const elimination *e, const in
     PG_TRY (pg_sparse_create (C, e->n, e->n, nnz, 0));
     nnz = 0;
     for (size_t s = 0; s < e->n; s++) {                /* column s holds row s of C_s: this is C_s' */
+        size_t offset = pg_rows_offset (r, (size_t) e->slave[s]);
         for (size_t q = r->family.start[e->slave[s]]; q < r->family.start[e->slave[s] + 1]; q++) {
             if (index[r->family.node[q]] < 0) continue;
             C->row[nnz] = index[r->family.node[q]];
-            C->value[nnz++] = r->N[q];
+            C->value[nnz++] = r->N[q + offset];
         }
         C->start[s + 1] = (long) nnz;
     }
@@ -200,9 +201,10 @@ static pg_status update_side (galerkin *g, elimination *e, int *index)
     for (size_t j = 0; j < e->n; j++)
         for (size_t q = r->family.start[e->slave[j]]; q < r->family.start[e->slave[j] + 1]; q++) {
             int at = index[r->family.node[q]] - (int) e->n;
-            if (at < 0 || r->N[q] == 0) continue;
+            double N = r->N[q + pg_rows_offset (r, (size_t) e->slave[j])];
+            if (at < 0 || N == 0) continue;
             for (size_t s = 0; s < e->n; s++)
-                e->X[s * e->nmaster + (size_t) at] += e->inverse[s * e->n + j] * r->N[q];
+                e->X[s * e->nmaster + (size_t) at] += e->inverse[s * e->n + j] * N;
         }
 done:
     if (solver) lu->free (&solver);

@@ -479,9 +479,10 @@ void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *
         pg_disjoint_start (parent, g->n);
         for (size_t p = 0; p < r->n; p++) {
             int first = -1;
+            size_t offset = pg_rows_offset (r, p);
             if (r->grade[p] >= PG_GRADE_SHEPARD) continue;
             for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-                if (r->w[e] == 0 && r->family.node[e] != r->own[p]) continue;
+                if (r->w[e + offset] == 0 && r->family.node[e] != r->own[p]) continue;
                 if (first < 0) first = r->family.node[e];
                 else pg_disjoint_join (parent, r->family.node[e], first);
             }

@@ -75,7 +75,8 @@ static void add_blocks (int dim, const double *DB, size_t m, const double *q, do
 static void add_point (galerkin *g, size_t p, size_t a, size_t m, double *out)
 {
     const pg_rows *r = &g->sums;
-    size_t dim = (size_t) g->dim, nv = (size_t) g->nv, first = r->family.start[p];
+    size_t dim = (size_t) g->dim, nv = (size_t) g->nv,
+           first = r->family.start[p] + pg_rows_offset (r, p);
     const double *D = galerkin_plain (g, g->bulk, p)->D, *qa = r->dN + (first + a) * dim;
     double DB[18], unit[3];
     for (size_t v = 0; v < 3 && dim == 2; v++) {         /* the same, written out */

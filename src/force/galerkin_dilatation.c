@@ -98,14 +98,15 @@ static void sum_rows (const galerkin *g, size_t c, int k, part *a)
     double psi[4];
     memset (a->g, 0, (size_t) a->terms * m * dim * sizeof *a->g);
     for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
-        size_t p = q->point[i], at = 0;
+        size_t p = q->point[i], at = 0, offset = pg_rows_offset (r, p);
         if (d->part_of[p] != k) continue;
         galerkin_dilatation_polynomials (g, a, r->x + p * dim, psi);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++, at++) {
             while (node[at] != r->family.node[e]) at++;
             for (int t = 0; t < a->terms; t++)
                 for (size_t s = 0; s < dim; s++)
-                    a->g[((size_t) t * m + at) * dim + s] += weight (g, p) * psi[t] * r->dN[e * dim + s];
+                    a->g[((size_t) t * m + at) * dim + s] += weight (g, p) * psi[t]
+                                                         * r->dN[(e + offset) * dim + s];
         }
     }
 }
@@ -458,7 +459,7 @@ static void node_pressures (galerkin *g, double *value, double *share)
         if (g->dilatation->part_of[p] < 0 || g->problem->patches->of[p] < 0) continue;
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             size_t j = (size_t) r->family.node[e];
-            double w = r->w[e] / g->problem->cloud.volume[j] * r->weight[p];
+            double w = r->w[e + pg_rows_offset (r, p)] / g->problem->cloud.volume[j] * r->weight[p];
             if (!(w > 0) || g->material[PG_NODES][j] != g->material[g->bulk][p]) continue;
             value[j] += w * pressure_at (g, p, g->problem->cloud.x + j * dim), share[j] += w;
         }

@@ -323,7 +323,8 @@ static pg_status list_stiff (const galerkin *g, pg_elements *out)
         size_t node = (size_t) g->penalty_node[q->point], k = (size_t) q->component;
         if (!is_stiff (g, q) || r->grade[node] >= PG_GRADE_DEAD) continue;
         for (size_t e = r->family.start[node]; e < r->family.start[node + 1]; e++, at++)
-            out->W.row[at] = (long) ((size_t) r->family.node[e] * dim + k), out->W.value[at] = r->N[e];
+            out->W.row[at] = (long) ((size_t) r->family.node[e] * dim + k),
+            out->W.value[at] = r->N[e + pg_rows_offset (r, node)];
         out->held[c] = galerkin_penalty_stiffness (g, q), out->holds[c] = node * dim + k;
         out->W.start[++c] = (long) at;
     }

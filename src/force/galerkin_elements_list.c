@@ -31,7 +31,8 @@ int elements_broken (const galerkin *g, const pg_rows *r, size_t p, size_t e)
     const pg_cloud *c = &g->problem->cloud;
     double support = 0.999 * g->problem->approx.horizon * pg_cloud_ratio (c, (size_t) j), bond[3] = { 0 };
     for (int k = 0; k < g->dim; k++) bond[k] = place (g, j)[k] - r->x[p * (size_t) g->dim + (size_t) k];
-    return !(r->w[e] > 0) && r->own[p] != j && pg_cloud_length2 (c, (size_t) j, bond) < support * support;
+    return !(r->w[e + pg_rows_offset (r, p)] > 0) && r->own[p] != j
+           && pg_cloud_length2 (c, (size_t) j, bond) < support * support;
 }
 
 /* The node nearest to x among those that point p sees, *d2 its squared distance. */
@@ -119,15 +120,15 @@ static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last
 static size_t near_nodes (const galerkin *g, int set, size_t p, double within, int *node)
 {
     const pg_rows *r = &g->rows[set];
-    size_t enough = (size_t) g->dim + 2, m = 0, seen = 0;
+    size_t enough = (size_t) g->dim + 2, m = 0, seen = 0, offset = pg_rows_offset (r, p);
     double h = pg_problem_spacing (g->problem, set, p), reach = within * h;
     const double *x = r->x + p * (size_t) g->dim;
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
-        seen += r->w[e] > 0 || r->family.node[e] == r->own[p];
+        seen += r->w[e + offset] > 0 || r->family.node[e] == r->own[p];
     for (;; reach += wider * h) {
         m = 0;
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && m < MOST_NODES; e++)
-            if ((r->w[e] > 0 || r->family.node[e] == r->own[p])
+            if ((r->w[e + offset] > 0 || r->family.node[e] == r->own[p])
                 && distance2 (g->dim, x, place (g, r->family.node[e])) <= reach * reach)
                 node[m++] = r->family.node[e];
         if (m >= enough || m >= seen || m == MOST_NODES) break;

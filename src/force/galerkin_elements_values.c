@@ -43,7 +43,7 @@ static int find_beside (const galerkin *g, unsigned char *beside)
         if (!has_lost (g, r, p)) continue;
         any = 1;
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
-            if (r->w[e] > 0) beside[r->family.node[e]] = 1;
+            if (r->w[e + pg_rows_offset (r, p)] > 0) beside[r->family.node[e]] = 1;
     }
     return any;
 }
@@ -57,9 +57,10 @@ static void compare_diagonals (const galerkin *g, const pg_block_matrix *Q, doub
     for (size_t p = 0; p < r->n; p++) {
         const pg_material *m = galerkin_plain (g, g->bulk, p);
         double w = r->weight[p] * (m->D[0] + (double) (dim - 1) * m->mu);
-        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
-            for (size_t k = 0; k < dim; k++)
-                rho[r->family.node[e]] += w * r->dN[e * dim + k] * r->dN[e * dim + k];
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
+            const double *q = r->dN + (e + pg_rows_offset (r, p)) * dim;
+            for (size_t k = 0; k < dim; k++) rho[r->family.node[e]] += w * q[k] * q[k];
+        }
     }
     for (size_t i = 0; i < g->n; i++) {
         double own = 0;
@@ -105,7 +106,7 @@ static void write_row (const pg_rows *r, size_t i, double share, pg_node_matrix 
     int own = 0;
     for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
         int self = (size_t) r->family.node[e] == i;
-        double value = share * r->N[e] + (self ? 1 - share : 0);
+        double value = share * r->N[e + pg_rows_offset (r, i)] + (self ? 1 - share : 0);
         if (value == 0) continue;
         own |= self, N->node[*at] = r->family.node[e], N->value[(*at)++] = (float) value;
     }
@@ -125,7 +126,9 @@ pg_status elements_values (const galerkin *g, const pg_block_matrix *Q, pg_node_
     PG_ALLOC (share, g->n);
     PG_TRY (find_shares (g, Q, share));
     PG_ALLOC (N->start, g->n + 1);
-    for (size_t e = 0; e < r->family.start[g->n]; e++) nnz += r->N[e] != 0;
+    for (size_t i = 0; i < g->n; i++)
+        for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++)
+            nnz += r->N[e + pg_rows_offset (r, i)] != 0;
     PG_ALLOC (N->node, nnz + g->n);
     PG_ALLOC (N->value, nnz + g->n);
     for (size_t i = 0; i < g->n; i++) {

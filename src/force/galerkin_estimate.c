@@ -57,7 +57,7 @@ static double weight_of (const recovery *r, size_t p, size_t e)
 {
     size_t j = (size_t) r->rows->family.node[e];
     if (r->g->material[r->g->bulk][p] != r->g->material[PG_NODES][j]) return 0;
-    return r->rows->w[e] / r->g->problem->cloud.volume[j];
+    return r->rows->w[e + pg_rows_offset (r->rows, p)] / r->g->problem->cloud.volume[j];
 }
 
 /* ---- polynomials --------------------------------------------------------------------------------------- */

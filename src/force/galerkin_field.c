@@ -50,7 +50,7 @@ static void displacement (const galerkin *g, const double *d, double *u)
     for (size_t p = 0; p < g->n; p++)
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++)
             for (size_t c = 0; c < dim; c++)
-                u[p * dim + c] += r->N[e] * d[(size_t) r->family.node[e] * dim + c];
+                u[p * dim + c] += r->N[e + pg_rows_offset (r, p)] * d[(size_t) r->family.node[e] * dim + c];
 }
 
 /* A field of results by name, value: n x components. Displacement and velocity are those that the shape

@@ -116,7 +116,7 @@ PG_WIDE static void displacements (const others *o, size_t p, double *u)
     memset (u, 0, m * sizeof *u);
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
         const double *d = o->d + (size_t) r->family.node[e] * m;
-        double N = r->N[e];
+        double N = r->N[e + pg_rows_offset (r, p)];
         for (size_t k = 0; k < m; k++) u[k] += N * d[k];
     }
 }
@@ -128,7 +128,8 @@ PG_WIDE static void gradients (const others *o, size_t p, double *H)
     size_t dim = (size_t) o->g->dim, n = o->count;
     memset (H, 0, dim * dim * n * sizeof *H);
     for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-        const double *d = o->d + (size_t) r->family.node[e] * dim * n, *q = r->dN + e * dim;
+        const double *d = o->d + (size_t) r->family.node[e] * dim * n,
+                     *q = r->dN + (e + pg_rows_offset (r, p)) * dim;
         for (size_t c = 0; c < dim; c++)
             for (size_t x = 0; x < dim; x++) {
                 double *h = H + (c * dim + x) * n, s = q[x];

@@ -9,7 +9,7 @@
 #include <string.h>
 
 /* Are all bonds of a set alive? */
-static int all_alive (const galerkin *g, int set, const pg_state *state)
+int galerkin_all_alive (const galerkin *g, int set, const pg_state *state)
 {
     const pg_family *f = &g->rows[set].family;
     size_t bonds = f->start[f->n];
@@ -19,13 +19,13 @@ static int all_alive (const galerkin *g, int set, const pg_state *state)
 /* Moves N, dN, w and grades from one struct to another; geometry and counts stay. */
 static void move_values (pg_rows *to, pg_rows *from)
 {
-    to->N = from->N, to->dN = from->dN, to->w = from->w, to->grade = from->grade;
+    to->N = from->N, to->dN = from->dN, to->w = from->w, to->at = from->at, to->grade = from->grade;
     to->copied = from->copied, to->copied_bonds = from->copied_bonds;
-    from->N = from->dN = from->w = NULL, from->grade = NULL;
+    from->N = from->dN = from->w = NULL, from->at = NULL, from->grade = NULL;
 }
 
 /* Where sums are over the rows of the set itself they follow these. */
-static void follow (galerkin *g)
+void galerkin_follow (galerkin *g)
 {
     if (g->problem->consistency) g->sums.grade = g->rows[g->bulk].grade;
     else g->sums = g->rows[g->bulk];
@@ -38,11 +38,12 @@ pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem)
     galerkin *g = self;
     pg_intact *kept = NULL;
     if (problem->intact || g->borrows[PG_NODES] || g->borrows[PG_POINTS]) return PG_OK;
-    if (!all_alive (g, PG_NODES, state) || !all_alive (g, PG_POINTS, state)) return PG_OK;
+    if (!galerkin_all_alive (g, PG_NODES, state)
+        || !galerkin_all_alive (g, PG_POINTS, state)) return PG_OK;
     PG_ALLOC (kept, 1);
     for (int set = PG_NODES; set <= PG_POINTS; set++) move_values (&kept->rows[set], &g->rows[set]);
     if (g->problem->consistency) move_values (&kept->sums, &g->sums), kept->sums.grade = NULL;
-    follow (g);
+    galerkin_follow (g);
     problem->intact = kept;
 done:
     return status;
@@ -64,14 +65,18 @@ int galerkin_borrow_sums (galerkin *g)
     return 1;
 }
 
-/* A copy of n numbers in place of the array that was borrowed. */
-static pg_status copy_numbers (double **array, size_t n)
+/* A copy of the values of all rows, `width` numbers a bond, in which every point has a row of its own. */
+static pg_status copy_values (const pg_rows *r, size_t width, const double *value, double **out)
 {
     pg_status status = PG_OK;
+    const size_t *start = r->family.start;
     double *own = NULL;
-    PG_ALLOC (own, n);
-    memcpy (own, *array, n * sizeof *own);
-    *array = own;
+    PG_ALLOC (own, start[r->n] * width);
+    if (!r->at) memcpy (own, value, start[r->n] * width * sizeof *own);
+    for (size_t i = 0; r->at && i < r->n; i++)
+        memcpy (own + start[i] * width, value + r->at[i] * width,
+                (start[i + 1] - start[i]) * width * sizeof *own);
+    *out = own;
 done:
     return status;
 }
@@ -80,29 +85,26 @@ done:
 pg_status galerkin_own (galerkin *g, const pg_state *state, int set)
 {
     pg_status status = PG_OK;
-    pg_rows *r = &g->rows[set], lent = *r, wide = g->sums;
-    size_t bonds, dim = (size_t) g->dim;
-    unsigned char *grade;
-    int sums = set == g->bulk && g->problem->consistency;
-    if (!g->borrows[set] || all_alive (g, set, state)) return PG_OK;
-    g->borrows[set] = 0, bonds = r->family.start[r->n];
-    r->N = r->dN = r->w = NULL, r->grade = NULL;
+    pg_rows *r = &g->rows[set], old = *r, wide = g->sums;
+    size_t dim = (size_t) g->dim;
+    int borrowed = g->borrows[set], sums = borrowed && set == g->bulk && g->problem->consistency;
+    if ((!borrowed && !r->at) || galerkin_all_alive (g, set, state)) return PG_OK;
+    g->borrows[set] = 0;
+    r->N = r->dN = r->w = NULL, r->at = NULL;
+    if (borrowed) r->grade = NULL;
     if (sums) g->sums.N = g->sums.dN = NULL;
-    PG_TRY (copy_numbers (&lent.N, bonds));
-    r->N = lent.N;
-    PG_TRY (copy_numbers (&lent.dN, bonds * dim));
-    r->dN = lent.dN;
-    PG_TRY (copy_numbers (&lent.w, bonds));
-    r->w = lent.w;
-    PG_ALLOC (grade, r->n);
-    memcpy (grade, lent.grade, r->n);
-    r->grade = grade;
-    bonds = g->sums.family.start[g->sums.n];
-    if (sums) PG_TRY (copy_numbers (&wide.N, bonds));
-    if (sums) g->sums.N = wide.N;
-    if (sums) PG_TRY (copy_numbers (&wide.dN, bonds * dim));
-    if (sums) g->sums.dN = wide.dN;
+    PG_TRY (copy_values (&old, 1, old.N, &r->N));
+    PG_TRY (copy_values (&old, dim, old.dN, &r->dN));
+    PG_TRY (copy_values (&old, 1, old.w, &r->w));
+    if (borrowed) {
+        PG_ALLOC (r->grade, r->n);
+        memcpy (r->grade, old.grade, r->n);
+    }
+    if (sums) PG_TRY (copy_values (&wide, 1, wide.N, &g->sums.N));
+    if (sums) PG_TRY (copy_values (&wide, dim, wide.dN, &g->sums.dN));
 done:
-    if (set == g->bulk) follow (g);
+    if (!borrowed) pg_free (old.N), pg_free (old.dN), pg_free (old.w), pg_free (old.at);
+    if (set == g->bulk) galerkin_follow (g);
+    if (set == g->bulk && old.at) galerkin_slices_stale (g, r->n, NULL);  /* runs know where values were */
     return status;
 }

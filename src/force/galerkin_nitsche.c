@@ -236,7 +236,8 @@ void galerkin_penalty_blocks (void *context, size_t p, size_t a, size_t m, doubl
 {
     galerkin *g = context;
     const pg_rows *r = &g->rows[PG_NODES];
-    size_t dim = (size_t) g->dim, first = r->family.start[g->penalty_node[p]];
+    size_t dim = (size_t) g->dim, node = (size_t) g->penalty_node[p],
+           first = r->family.start[node] + pg_rows_offset (r, node);
     for (size_t i = g->penalty_start[p]; i < g->penalty_start[p + 1]; i++) {
         size_t k = (size_t) g->penalty[i].component;
         for (size_t b = 0; b < m; b++)
@@ -353,7 +354,8 @@ static void spread (void *context, int set, size_t point, int load, int k, doubl
     const pg_rows *r = &s->g->rows[set];
     (void) load, (void) displacement;
     for (size_t e = r->family.start[point]; e < r->family.start[point + 1]; e++)
-        s->f[(size_t) r->family.node[e] * (size_t) s->g->dim + (size_t) k] += r->N[e] * force;
+        s->f[(size_t) r->family.node[e] * (size_t) s->g->dim + (size_t) k]
+            += r->N[e + pg_rows_offset (r, point)] * force;
 }
 
 /* K x of the constraints first .. last - 1, all at one facet point: displacement u and gradient H of x there,
@@ -408,13 +410,14 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
     }
     for (size_t i = 0; i < g->npenalty; i++) {
         const constraint *q = &g->penalty[i];
-        int node = g->penalty_node[q->point];
+        size_t node = (size_t) g->penalty_node[q->point];
         const pg_rows *n = &g->rows[PG_NODES];
+        const double *N = n->N + pg_rows_offset (n, node);
         double u = 0;
         for (size_t e = n->family.start[node]; e < n->family.start[node + 1]; e++)
-            u += n->N[e] * x[(size_t) n->family.node[e] * dim + (size_t) q->component];
+            u += N[e] * x[(size_t) n->family.node[e] * dim + (size_t) q->component];
         for (size_t e = n->family.start[node]; e < n->family.start[node + 1]; e++)
-            y[(size_t) n->family.node[e] * dim + (size_t) q->component] += penalty (g, q) * n->N[e] * u;
+            y[(size_t) n->family.node[e] * dim + (size_t) q->component] += penalty (g, q) * N[e] * u;
     }
 }
 

@@ -23,13 +23,14 @@ static void bulk_diagonal (galerkin *g, double *d)
     for (size_t p = 0; p < r->n; p++) {
         const double *D = galerkin_plain (g, g->bulk, p)->D;
         double w = r->weight[p], normal[3], shear[3][3] = { { 0 } };
+        size_t offset = pg_rows_offset (r, p);
         for (size_t a = 0; a < dim; a++) normal[a] = w * D[a * nv + a];
         if (dim == 2) shear[0][1] = shear[1][0] = w * D[8];
         if (dim == 3)
             shear[0][1] = shear[1][0] = w * D[21], shear[1][2] = shear[2][1] = w * D[28],
             shear[2][0] = shear[0][2] = w * D[35];
         for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
-            const double *q = r->dN + k * dim;
+            const double *q = r->dN + (k + offset) * dim;
             double *to = d + (size_t) r->family.node[k] * dim;
             for (size_t a = 0; a < dim; a++) {
                 to[a] += normal[a] * q[a] * q[a];
@@ -183,7 +184,7 @@ static void mass_blocks (void *context, size_t p, size_t a, size_t m, double *ou
 {
     const galerkin *g = context;
     const pg_rows *r = &g->sums;
-    const double *N = r->N + r->family.start[p];
+    const double *N = r->N + r->family.start[p] + pg_rows_offset (r, p);
     double share = galerkin_material (g, g->bulk, p)->density * r->weight[p] * N[a];
     for (size_t b = 0; b < m; b++) out[b] = share * N[b];
 }

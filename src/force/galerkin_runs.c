@@ -43,8 +43,9 @@ static size_t group_end (const pg_rows *r, size_t first, size_t last, size_t p)
 static double steepest (const pg_rows *r, size_t p)
 {
     double most = 0;
-    for (size_t k = r->family.start[p] * (size_t) r->dim; k < r->family.start[p + 1] * (size_t) r->dim; k++)
-        most = fmax (most, fabs (r->dN[k]));
+    size_t n = (r->family.start[p + 1] - r->family.start[p]) * (size_t) r->dim;
+    const double *dN = r->dN + (r->family.start[p] + pg_rows_offset (r, p)) * (size_t) r->dim;
+    for (size_t k = 0; k < n; k++) most = fmax (most, fabs (dN[k]));
     return most;
 }
 
@@ -58,7 +59,9 @@ static int alike (const galerkin *g, size_t q, size_t p, int shift, double bound
         return 0;
     for (size_t k = 0; k < m; k++) same += r->family.node[b + k] == r->family.node[a + k] + shift;
     if (same < m) return 0;
-    const double *s = r->dN + a * dim, *t = r->dN + b * dim;
+    const double *s = r->dN + (a + pg_rows_offset (r, q)) * dim,
+                 *t = r->dN + (b + pg_rows_offset (r, p)) * dim;
+    if (s == t) return 1;
     same = 0;
     for (size_t k = 0; k < m * dim; k++) same += fabs (t[k] - s[k]) <= bound;
     return same == m * dim;
@@ -70,8 +73,9 @@ static int weighs_alike (const galerkin *g, size_t q, size_t p, int shift)
     const pg_rows *r = &g->sums;
     size_t a = r->family.start[q], b = r->family.start[p], m = r->family.start[q + 1] - a, same = 0;
     double most = 0;
-    for (size_t k = 0; k < m; k++) most = fmax (most, r->w[a + k]);
-    for (size_t k = 0; k < m; k++) same += fabs (r->w[b + k] - r->w[a + k]) <= rounding * most;
+    const double *v = r->w + a + pg_rows_offset (r, q), *w = r->w + b + pg_rows_offset (r, p);
+    for (size_t k = 0; k < m; k++) most = fmax (most, v[k]);
+    for (size_t k = 0; k < m; k++) same += fabs (w[k] - v[k]) <= rounding * most;
     return same == m && r->own[p] == r->own[q] + shift && r->grade[p] == r->grade[q];
 }
 
@@ -112,7 +116,8 @@ static pg_status list_entries (const galerkin *g, galerkin_run_list *l, galerkin
     galerkin_entry *e = l->entry + run->entry;
     for (size_t q = 0; q < run->points; q++)
         for (size_t k = f->start[run->point + q]; k < f->start[run->point + q + 1]; k++)
-            e[k - first] = (galerkin_entry) { 0, f->node[k], (int) q, (unsigned) (k - first) };
+            e[k - first] = (galerkin_entry) { 0, f->node[k], (int) q,
+                                                k + pg_rows_offset (&g->sums, run->point + q) };
     qsort (e, n, sizeof *e, compare);
     for (size_t k = 1; k < n; k++)
         e[k].place = e[k].node == e[k - 1].node ? e[k - 1].place
@@ -166,11 +171,12 @@ INLINE void strain_solid (const galerkin_bundle *b, size_t p, eight *e)
     const pg_rows *r = &b->g->sums;
     const int *node = r->family.node;
     const double *x = b->x[0] + b->lane, *y = b->x[1] + b->lane, *z = b->x[2] + b->lane;
+    size_t offset = pg_rows_offset (r, p);
     eight xx = { 0 }, xy = { 0 }, xz = { 0 }, yx = { 0 }, yy = { 0 }, yz = { 0 }, zx = { 0 }, zy = { 0 },
           zz = { 0 };
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         size_t j = (size_t) node[k];
-        const double *q = r->dN + k * 3;
+        const double *q = r->dN + (k + offset) * 3;
         eight dx = *(const eight *) (x + j), dy = *(const eight *) (y + j), dz = *(const eight *) (z + j);
         xx += q[0] * dx, xy += q[1] * dx, xz += q[2] * dx;
         yx += q[0] * dy, yy += q[1] * dy, yz += q[2] * dy;
@@ -185,10 +191,11 @@ INLINE void strain_plane (const galerkin_bundle *b, size_t p, eight *e)
     const pg_rows *r = &b->g->sums;
     const int *node = r->family.node;
     const double *x = b->x[0] + b->lane, *y = b->x[1] + b->lane;
+    size_t offset = pg_rows_offset (r, p);
     eight xx = { 0 }, xy = { 0 }, yx = { 0 }, yy = { 0 };
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         size_t j = (size_t) node[k];
-        const double *q = r->dN + k * 2;
+        const double *q = r->dN + (k + offset) * 2;
         eight dx = *(const eight *) (x + j), dy = *(const eight *) (y + j);
         xx += q[0] * dx, xy += q[1] * dx, yx += q[0] * dy, yy += q[1] * dy;
     }
@@ -218,7 +225,6 @@ INLINE void sum_bundle (int dim, const galerkin_bundle *b)
 {
     const pg_rows *r = &b->g->sums;
     size_t nv = dim == 3 ? 6 : 3;
-    const double *dN = r->dN + r->family.start[b->run->point] * (size_t) dim;
     const galerkin_entry *e = b->entry, *end = e + b->run->entries;
     eight stress[6 * MOST];
     for (size_t q = 0; q < b->run->points; q++) stress_of (dim, b, q, stress + nv * q);
@@ -228,7 +234,7 @@ INLINE void sum_bundle (int dim, const galerkin_bundle *b)
         eight x = { 0 }, y = { 0 }, z = { 0 };
         for (; e < end && e->node == node; e++) {
             const eight *s = stress + nv * (size_t) e->point;
-            const double *q = dN + e->bond * (size_t) dim;
+            const double *q = r->dN + e->bond * (size_t) dim;
             if (dim == 3) {
                 x += q[0] * s[0] + q[1] * s[3] + q[2] * s[5];
                 y += q[0] * s[3] + q[1] * s[1] + q[2] * s[4];

@@ -148,11 +148,12 @@ static inline __attribute__ ((always_inline)) void add_up (size_t dim, const pg_
                                                            const double *nodal, double *u, double *H)
 {
     double v[3] = { 0 }, G[9] = { 0 };
+    size_t offset = pg_rows_offset (r, at);
     for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++) {
         const double *d = nodal + (size_t) r->family.node[e] * dim;
         for (size_t c = 0; c < dim; c++) {
-            v[c] += r->N[e] * d[c];
-            for (size_t k = 0; k < dim; k++) G[c*dim + k] += r->dN[e*dim + k] * d[c];
+            v[c] += r->N[e + offset] * d[c];
+            for (size_t k = 0; k < dim; k++) G[c*dim + k] += r->dN[(e + offset) * dim + k] * d[c];
         }
     }
     memcpy (u, v, sizeof v), memcpy (H, G, sizeof G);
@@ -184,8 +185,8 @@ static void add_pressure (const sampling *s, const pg_rows *r, size_t at, size_t
     double sum = 0, share = 0;
     for (size_t e = r->family.start[at]; e < r->family.start[at + 1]; e++) {
         size_t j = (size_t) r->family.node[e];
-        if (g->material[PG_NODES][j] == g->material[g->bulk][point])
-            sum += r->N[e] * s->pressure[j], share += r->N[e];
+        double N = r->N[e + pg_rows_offset (r, at)];
+        if (g->material[PG_NODES][j] == g->material[g->bulk][point]) sum += N * s->pressure[j], share += N;
     }
     for (int k = 0; k < 3 && share > 0.1; k++) stress[k] += sum / share;
 }

@@ -206,7 +206,7 @@ INLINE void sum_eight (int dim, const galerkin_bundle *b)
 {
     const galerkin *g = b->g;
     const pg_rows *r = &g->sums;
-    size_t p = b->run->point, own = (size_t) r->own[p], first = r->family.start[p];
+    size_t p = b->run->point, own = (size_t) r->own[p];
     const double *here = g->place + 4 * own;
     double w[GALERKIN_LANES] = { 0 };
     eight_points e;
@@ -215,7 +215,7 @@ INLINE void sum_eight (int dim, const galerkin_bundle *b)
     e.w = *(const eight *) w;
     first_pass (dim, b, &e, sum);
     for (size_t k = 0; k < b->run->entries; k++) {
-        size_t bond = first + b->entry[k].bond, j = (size_t) b->entry[k].node + b->lane;
+        size_t bond = b->entry[k].bond, j = (size_t) b->entry[k].node + b->lane;
         const double *q = r->dN + bond * (size_t) dim, *there = g->place + 4 * (j - b->lane);
         eight c = r->w[bond] * e.c;
 #pragma GCC unroll 3

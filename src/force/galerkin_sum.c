@@ -94,11 +94,12 @@ INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u
 {
     four h0 = { 0 }, h1 = { 0 }, h2 = { 0 }, s = { 0 };
     const int *node = r->family.node;
+    size_t offset = pg_rows_offset (r, p);
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         four d = *(const four *) (x + 4 * (size_t) node[k]);
-        const double *q = r->dN + 3 * k;
+        const double *q = r->dN + 3 * (k + offset);
         h0 += q[0] * d, h1 += q[1] * d, h2 += q[2] * d;
-        if (u) s += r->N[k] * d;
+        if (u) s += r->N[k + offset] * d;
     }
     e[0] = h0[0], e[1] = h1[1], e[2] = h2[2], e[3] = h1[0] + h0[1], e[4] = h2[1] + h1[2],
     e[5] = h2[0] + h0[2];
@@ -112,9 +113,10 @@ INLINE void force_solid (const pg_rows *r, size_t p, const double *s, double *f,
     four s0 = { w * s[0], w * s[3], w * s[5], 0 }, s1 = { w * s[3], w * s[1], w * s[4], 0 },
          s2 = { w * s[5], w * s[4], w * s[2], 0 };
     const int *node = r->family.node;
+    size_t offset = pg_rows_offset (r, p);
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         four *to = (four *) (f + 4 * ((size_t) node[k] - low));
-        const double *q = r->dN + 3 * k;
+        const double *q = r->dN + 3 * (k + offset);
         *to += q[0] * s0 + q[1] * s1 + q[2] * s2;
     }
 }
@@ -122,14 +124,15 @@ INLINE void force_solid (const pg_rows *r, size_t p, const double *s, double *f,
 /* The same in one and two dimensions: e is (xx) or (xx, yy, 2 xy). */
 INLINE void strain_flat (int dim, const pg_rows *r, size_t p, const double *x, double *u, double *e)
 {
+    size_t offset = pg_rows_offset (r, p);
     double u0 = 0, u1 = 0, e0 = 0, e1 = 0, e2 = 0;
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         if (dim == 1) {
             double d = x[r->family.node[k]];
-            u0 += r->N[k] * d, e0 += r->dN[k] * d;
+            u0 += r->N[k + offset] * d, e0 += r->dN[k + offset] * d;
         } else {
-            const double *d = x + 2 * (size_t) r->family.node[k], *q = r->dN + 2 * k;
-            u0 += r->N[k] * d[0], u1 += r->N[k] * d[1];
+            const double *d = x + 2 * (size_t) r->family.node[k], *q = r->dN + 2 * (k + offset);
+            u0 += r->N[k + offset] * d[0], u1 += r->N[k + offset] * d[1];
             e0 += q[0] * d[0], e1 += q[1] * d[1], e2 += q[1] * d[0] + q[0] * d[1];
         }
     }
@@ -143,11 +146,12 @@ INLINE void strain_flat (int dim, const pg_rows *r, size_t p, const double *x, d
 INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, double *f, size_t low)
 {
     double w = r->weight[p];
+    size_t offset = pg_rows_offset (r, p);
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         size_t j = (size_t) r->family.node[k] - low;
-        if (dim == 1) f[j] += w * r->dN[k] * s[0];
+        if (dim == 1) f[j] += w * r->dN[k + offset] * s[0];
         else {
-            const double *q = r->dN + 2 * k;
+            const double *q = r->dN + 2 * (k + offset);
             f[2 * j] += w * (q[0] * s[0] + q[1] * s[2]), f[2 * j + 1] += w * (q[1] * s[1] + q[0] * s[2]);
         }
     }

@@ -39,7 +39,8 @@ void galerkin_crack_pressure (galerkin *g, double factor, double *P)
     for (size_t q = 0; q < r->n; q++)
         for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++)
             for (size_t k = 0; k < dim; k++)
-                P[(size_t) r->family.node[e] * dim + k] -= factor * r->weight[q] * r->dN[e * dim + k];
+                P[(size_t) r->family.node[e] * dim + k]
+                    -= factor * r->weight[q] * r->dN[(e + pg_rows_offset (r, q)) * dim + k];
 }
 
 double galerkin_crack_volume (galerkin *g, const double *d)

@@ -1,0 +1,124 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Points of a lattice that see their nodes alike share their rows: every row has the bits that it has alone,
+ * before bonds break and after; where rows are corrected, or each is another, none is shared. */
+#include "../scene_runs/run.h"
+#include "force/galerkin.h"
+
+#define SOLID "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 0.63, 0.7]}}}]\nspacing: 0.1\n"
+#define PLATE "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}, {subtract: {disk: " \
+              "{center: [0.4, 0.3], diameter: 0.2}}}]\nspacing: 0.03\n"
+#define REST "materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}\nsolver: {kind: static}\n"
+
+static const char *const sharing[] = {
+    SOLID REST "method: {integration: gauss}\n",
+    SOLID REST "method: {integration: nodal, approximation: pddo}\n",
+    SOLID REST "method: {integration: gauss, dilatation: projected}\n",
+    PLATE REST "method: {integration: gauss}\n",
+    PLATE REST "method: {integration: gauss, basis: quadratic, horizon: 3 spacing}\n",
+};
+static const char *const alone[] = {
+    SOLID REST "method: {integration: consistent}\n",
+    SOLID REST "method: {approximation: nosb, integration: nodal, stabilization: silling}\n",
+    SOLID REST "method: {integration: gauss}\nperturb: {amount: 0.1}\n",
+    SOLID REST "method: {integration: gauss}\ncracks: [{disc: {center: [0.52, 0.31, 0.33], radius: 0.2, "
+               "normal: [0, 0, 1]}}]\n",
+};
+enum { SHARING = sizeof sharing / sizeof *sharing, ALONE = sizeof alone / sizeof *alone };
+
+static galerkin *force_of (const run *r)
+{
+    void *self;
+    pg_solver_force (r->solver, &self);
+    return self;
+}
+
+/* Rows of all nodes and points to the bit, and what is made of them. */
+static void same_rows (const galerkin *a, const galerkin *b)
+{
+    size_t dim = (size_t) a->dim;
+    for (int s = PG_NODES; s <= PG_POINTS; s++) {
+        const pg_rows *r = &a->rows[s], *q = &b->rows[s];
+        assert_memory_equal (r->grade, q->grade, r->n);
+        for (size_t i = 0; i < r->n; i++) {
+            size_t e = r->family.start[i], n = r->family.start[i + 1] - e, at = e + pg_rows_offset (r, i);
+            assert_memory_equal (r->N + at, q->N + e, n * sizeof *r->N);
+            assert_memory_equal (r->dN + at * dim, q->dN + e * dim, n * dim * sizeof *r->dN);
+            assert_memory_equal (r->w + at, q->w + e, n * sizeof *r->w);
+        }
+    }
+}
+
+static void rows_are_those_of_points_alone (void **state)
+{
+    (void) state;
+    for (int k = 0; k < SHARING; k++) {
+        run r = scene_of (2, "%s", sharing[k]), own = scene_of (1, "%s", sharing[k]);
+        own.problem->plain = 1;                        /* after the scene: it rounds bonds alike */
+        refresh (&r, NULL), refresh (&own, NULL);
+        galerkin *a = force_of (&r), *b = force_of (&own);
+        const pg_rows *bulk = &a->rows[a->bulk];
+        size_t most = 0;
+        assert_non_null (bulk->at), assert_null (b->rows[b->bulk].at);
+        assert_ptr_equal (a->sums.at, bulk->at), assert_ptr_equal (a->sums.dN, bulk->dN);
+        for (size_t i = 0; i < bulk->n; i++) most = bulk->at[i] > most ? bulk->at[i] : most;
+        check_below ((double) most, 0.8 * (double) bulk->family.start[bulk->n]);
+        same_rows (a, b);
+        /* the last point of evaluation loses a bond: all have rows of their own, that one another */
+        size_t bond = r.problem->first_bond[a->bulk + 1] - 1;
+        r.state->alive[bond] = own.state->alive[bond] = 0;
+        pg_changes changes = { 1, 1, &bond };
+        refresh (&r, &changes), refresh (&own, &changes);
+        assert_null (bulk->at), assert_ptr_equal (a->sums.dN, bulk->dN);
+        same_rows (a, b);
+        clear (&r), clear (&own);
+    }
+}
+
+static void corrected_and_irregular_rows_are_alone (void **state)
+{
+    (void) state;
+    for (int k = 0; k < ALONE; k++) {
+        run r = scene_of (1, "%s", alone[k]);
+        refresh (&r, NULL);
+        const galerkin *g = force_of (&r);
+        assert_null (g->rows[g->bulk].at), assert_null (g->sums.at);
+        clear (&r);
+    }
+}
+
+/* Memory that ends while rows are made, or parted, is told; then the force makes all rows anew. */
+static void memory_that_ends_is_told (void **state)
+{
+    (void) state;
+    run own = scene_of (1, "%s", sharing[3]);
+    size_t bond = own.problem->first_bond[PG_POINTS] + 100;
+    own.problem->plain = 1, own.state->alive[bond] = 0;
+    refresh (&own, NULL);
+    for (int parted = 0; parted <= 1; parted++)
+        for (size_t k = 1, failed = 1; failed; k++) {
+            run r = scene_of (1, "%s", sharing[3]);
+            galerkin *g = force_of (&r);
+            void *self;
+            pg_changes changes = { 1, 1, &bond };
+            if (parted) refresh (&r, NULL), r.state->alive[bond] = 0;
+            pg_memory_fail_at (k);
+            failed = pg_solver_force (r.solver, &self)->refresh (g, r.state, parted ? &changes : NULL)
+                     != PG_OK;
+            pg_memory_fail_at (0);
+            r.state->alive[bond] = 0;
+            if (failed) refresh (&r, NULL);
+            if (failed || parted) same_rows (g, force_of (&own));
+            clear (&r);
+        }
+    clear (&own);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (rows_are_those_of_points_alone),
+        cmocka_unit_test (corrected_and_irregular_rows_are_alone),
+        cmocka_unit_test (memory_that_ends_is_told),
+    };
+    return cmocka_run_group_tests_name ("force/share", tests, NULL, NULL);
+}
