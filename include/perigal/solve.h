@@ -273,6 +273,8 @@ typedef struct pg_progress {
     double      damage;  /* largest damage in solver.stop.set; NAN: none, or not looked at yet */
 } pg_progress;
 void      pg_solver_progress (const pg_solver *solver, const pg_state *state, pg_progress *out);
+/* What the faces behind a tip of the state do to each other, with contact; 0: the run has none. */
+int pg_solver_tip_faces (const pg_solver *solver, const pg_state *state, size_t tip, pg_tip_faces *out);
 /* What the solver has measured at the tip of that id; NULL: nothing. */
 const pg_tip_values *pg_solver_tip (const pg_solver *solver, long id);
 /* What was measured at the vertices of crack fronts in the last step, front by front; *n: how many.

@@ -86,7 +86,10 @@ static pg_status values_of (pg_result *r, const pg_state *state, size_t tip, pg_
     if (known && t->open) *out = *known;
     out->id = t->id, out->x[0] = t->x[0], out->x[1] = t->x[1];
     if (known || !r->measuring || !t->open) goto done;
-    PG_TRY (pg_tip_measure (&field, r->problem, force, self, state, tip, 1, &d, &time));
+    pg_tip_faces faces;
+    int touch = pg_solver_tip_faces (r->solver, state, tip, &faces);
+    PG_TRY (pg_tip_measure_faces (&field, r->problem, force, self, state, tip, 1, &d, &time,
+                                  touch ? &faces : NULL));
     if (isnan (field.near)) goto done;
     pg_tip_combine (&field, 1, &one, &out->J, NULL, &out->T);
     pg_tip_intensities (&field, 1, &one, out->K);

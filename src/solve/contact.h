@@ -49,7 +49,7 @@ const double *contact_forces (const pg_system *s);
 pg_status contact_settle_tips (pg_system *s, pg_state *state);
 /* Mean tractions on the face behind a tip, as stresses in its frame, Pa: across the crack (negative: it is
  * closed) and along it. *nearest: distance to the next closed piece, m; INFINITY: none. */
-void contact_at_tip (const pg_system *s, const double *x, const double *e, double h, double stress[2],
+void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, double stress[2],
                      double *nearest);
 
 /* ---- contact_memory.c ---------------------------------------------------------------------------------- */

@@ -227,14 +227,18 @@ done:
 
 /* ---- tips ---------------------------------------------------------------------------------------------- */
 /* Pieces within so many spacings behind a tip, and so far beside its line, bear what its frame is loaded
- * with; the last one and a half carry too little, as the tip of a discretisation is not sharp. */
-static const double NEXT = 1.5, LAST = 9, ASIDE = 1;
+ * with; the last one and a half carry too little, as the tip of a discretisation is not sharp. The direction
+ * is that of the chord, up to the last turn. */
+static const double NEXT = 1.5, LAST = 9, ASIDE = 1, CHORD = 2.5;
 
-void contact_at_tip (const pg_system *s, const double *x, const double *e, double h, double stress[2],
+void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, double stress[2],
                      double *nearest)
 {
     const struct system_contact *c = s->contact;
-    double area = 0, normal = 0, shear = 0;
+    const double *x = state->paths->tip[tip].x;
+    double area = 0, normal = 0, shear = 0, from[2], e[2], h = pg_problem_spacing_at (s->problem, x),
+           straight = pg_tip_straight (state, tip, PG_CONTACT_TURN);
+    pg_tip_chord (state, tip, fmin (CHORD * h, straight), from, e);
     stress[0] = stress[1] = 0, *nearest = INFINITY;
     for (size_t k = 0; c && c->active && k < c->pieces.n; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
@@ -242,14 +246,13 @@ void contact_at_tip (const pg_system *s, const double *x, const double *e, doubl
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
         if (c->force[2*k] > 0)
             *nearest = fmin (*nearest, fmax (0, hypot (to[0], to[1]) - 0.5 * p->length));
-        if (beside > ASIDE * h || behind < NEXT * h || behind > LAST * h) continue;
+        if (beside > ASIDE * h || behind < NEXT * h || behind > fmin (LAST * h, straight)) continue;
         area += p->area, normal += c->force[2*k], shear += c->force[2*k + 1];
     }
     /* the force on the left face is the traction of the stress behind it, turned round */
     if (area > 0) stress[0] = -normal / area, stress[1] = -shear / area;
 }
 
-static const double CHORD = 2.5;                       /* spacings of path that tell its direction */
 
 pg_status contact_settle_tips (pg_system *s, pg_state *state)
 {
@@ -262,10 +265,8 @@ pg_status contact_settle_tips (pg_system *s, pg_state *state)
     /* a body without an equilibrium at full load says so when it is asked for it */
     if (now == PG_E_MEMORY) PG_TRY (now);
     for (size_t i = 0; now == PG_OK && i < state->paths->ntip; i++) {
-        const double *x = state->paths->tip[i].x;
-        double from[2], e[2], stress[2], nearest, h = pg_problem_spacing_at (s->problem, x);
-        pg_tip_chord (state, i, CHORD * h, from, e);
-        contact_at_tip (s, x, e, h, stress, &nearest);
+        double stress[2], nearest, h = pg_problem_spacing_at (s->problem, state->paths->tip[i].x);
+        contact_at_tip (s, state, i, stress, &nearest);
         if (!(stress[0] < 0)) continue;
         pg_tip_draw_back (state, s->problem, i, s->problem->closed_tip_offset / s->problem->cloud.h * h);
         any = 1;
@@ -274,4 +275,15 @@ pg_status contact_settle_tips (pg_system *s, pg_state *state)
 done:
     pg_free (d);
     return status;
+}
+
+/* Under event stepping forces are those of load factor 1. */
+int pg_solver_tip_faces (const pg_solver *s, const pg_state *state, size_t tip, pg_tip_faces *out)
+{
+    double scale = s->options.event ? state->factor : 1;
+    memset (out, 0, sizeof *out);
+    if (!s->break_loop.system.contact) return 0;
+    contact_at_tip (&s->break_loop.system, state, tip, out->stress[0], &out->nearest);
+    out->stress[0][0] *= scale, out->stress[0][1] *= scale;
+    return 1;
 }

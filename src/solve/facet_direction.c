@@ -8,9 +8,11 @@
 #include "facet_growth.h"
 #include <math.h>
 
+/* The first facet of a closed crack, which turns away from it, is twice as long: a ring that must end before
+ * the closed faces has no room around a shorter one. */
 double facet_length (const facet_growth *g, const pg_tip_field *field)
 {
-    return g->length > 0 ? g->length : field->h;
+    return (field->closed ? 2 : 1) * (g->length > 0 ? g->length : field->h);
 }
 
 /* The material is that of the nearest node. */

@@ -15,8 +15,9 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* Spacings of path that tell the direction of faces that touch; T sqrt (h) over K_I that is large. */
-static const double CHORD_OF_FACES = 2.5, LARGE_T = 0.2;
+/* T sqrt (h) over K_I that is large. Tips of closed cracks, and their wings, that are as near to growth as
+ * the scatter of K between two places of a lattice are tied: wings of one crack grow together. */
+static const double LARGE_T = 0.2, CLOSED_TIE = 0.05;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
 /* A facet longer than the zone in which a material of that strength fails, E G0 / f_t^2, is no longer one of
@@ -171,12 +172,7 @@ static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, co
     pg_system *s = &b->system;
     pg_tip_field *f = &g->field[i];
     pg_tip_faces faces = { .nearest = INFINITY };
-    if (s->contact) {
-        const double *x = state->paths->tip[i].x;
-        double e[2], from[2], h = pg_problem_spacing_at (s->problem, x);
-        pg_tip_chord (state, i, CHORD_OF_FACES * h, from, e);
-        contact_at_tip (s, x, e, h, faces.stress[0], &faces.nearest);
-    }
+    if (s->contact) contact_at_tip (s, state, i, faces.stress[0], &faces.nearest);
     PG_TRY (pg_tip_measure_faces (f, s->problem, s->force, s->self, state, i, g->nfield, d, times,
                                   s->contact ? &faces : NULL));
     if (s->contact && !f->closed && !isnan (f->near)
@@ -392,7 +388,8 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
-    double top = facet_utilisation (b, state, factor), least = top * (1 - facet_tie), angle;
+    double top = facet_utilisation (b, state, factor), angle,
+           least = top * (1 - (b->system.contact ? CLOSED_TIE : facet_tie));
     b->changes.n = 0, g->closed = g->began = g->going = 0, g->event_energy = 0, g->event_tip = -1;
     if (in_space (b)) {
         PG_TRY (fronts_grow (b, state, factor, least));
