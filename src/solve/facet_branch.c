@@ -68,8 +68,9 @@ pg_status facet_fork (break_loop *b, pg_state *state, size_t i, double t, const 
     size_t last = state->paths->ntip;
     PG_TRY (facet_make_room (g, last));
     g->run[last - 1] = g->run[last - 2] = run;
-    PG_TRY (facet_hold_begin (b, t, d, (long) last - 2, facet_zone (b) * l,
-                              branch[0].energy + branch[1].energy));
+    const facet_hold what = { .tip = (long) last - 2, .length = facet_zone (b) * l,
+                              .energy = branch[0].energy + branch[1].energy };
+    PG_TRY (facet_hold_begin (b, t, d, &what));
     *done = 1;
 done:
     return status;

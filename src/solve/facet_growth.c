@@ -257,6 +257,9 @@ pg_status facet_show (pg_solver *s, const pg_state *state, double factor)
         pg_tip_intensities (f, n, l, v.K);
         v.uncertainty = pg_tip_uncertainty (f, n, l);
         v.utilisation = pow (facet_judge (&s->break_loop, state, i, factor, &angle), 2);
+        double trust = facet_trust (g, i);
+        v.J *= trust, v.utilisation *= trust;
+        for (int m = 0; m < 3; m++) v.K[m] *= sqrt (trust);
         PG_TRY (solver_note_tip (s, &v));
     }
 done:

@@ -31,6 +31,11 @@ typedef struct {
     long    tip;                                       /* whose way counts */
     double  way, length;  /* way of the tip since it was cut; over which it opens, m */
     double  energy;                                    /* what it takes in all, J */
+    /* 1: bonds that it cut are those of no other tip, so that what it dissipates is its tip's. */
+    int     alone;
+    /* As it was last accounted for: the way; force times displacement, J; of the energy that its cut set
+     * free, J, as much as was not counted yet. */
+    double  way0, product, drop;
     size_t  n;  long *unknown;  double *force;         /* where they act, ascending (n) */
 } facet_hold;
 /* A tip in motion. */
@@ -41,6 +46,9 @@ typedef struct {
     double least;                                      /* its speed along that is no less, m/s */
     /* So far a branch goes straight on and is not looked at, from the start of its facet, m. */
     double straight;
+    double come;                                       /* its way since it was last looked at, m */
+    /* What its facets dissipated of late, and what the rings said that they would, J; both 0: none yet. */
+    double taken, shown;
 } facet_run;
 /* What a step that is refused goes back to. */
 typedef struct {
@@ -131,6 +139,8 @@ pg_status facet_save    (break_loop *b);
 void      facet_return  (break_loop *b);
 pg_status facet_motion_keep (break_loop *b, const pg_keeper *keeper);
 
+/* Energy that tip i takes over what the rings show; 1: it does not run, or nothing is known yet. */
+double    facet_trust     (const facet_growth *g, size_t i);
 double    facet_zone      (const break_loop *b);  /* way of a tip in which a facet opens, in facets */
 pg_status facet_make_room (facet_growth *g, size_t ntip);              /* runs of so many tips */
 
@@ -141,15 +151,17 @@ int       facet_branches (const break_loop *b, const pg_state *state, size_t i);
 pg_status facet_fork    (break_loop *b, pg_state *state, size_t i, double t, const double *d, int *done);
 
 /* ---- facet_hold.c -------------------------------------------------------------------------------------- */
-/* The forces before a cut; and after it, the caches of the force being fresh: what has changed is held. The
- * forces after it are those before the next one. */
+/* The forces before a cut; and after it, the caches of the force being fresh: what has changed is held, for
+ * the tip, with the length and the energy of `what`. The forces after it are those before the next one. */
 pg_status facet_hold_before (break_loop *b, double t, const double *d);
-pg_status facet_hold_begin  (break_loop *b, double t, const double *d, long tip, double length,
-                             double energy);
+pg_status facet_hold_begin  (break_loop *b, double t, const double *d, const facet_hold *what);
 /* Of all holds; what `to` had is freed. */
 pg_status facet_hold_copy   (facet_hold **to, size_t *n, size_t *capacity, const facet_hold *from,
                              size_t count);
 void      facet_hold_drop   (break_loop *b, int all);  /* those that are open, or all */
+/* What the facets of a tip have dissipated since they were last accounted for, at the displacement d, J, and
+ * what the ones that show G0 should have. */
+void      facet_hold_account (break_loop *b, size_t tip, const double *d, double *taken, double *needed);
 void      facet_hold_sum    (break_loop *b);
 void      facet_hold_free   (facet_growth *g);
 pg_status facet_hold_keep   (break_loop *b, const pg_keeper *keeper);

@@ -21,8 +21,20 @@
 #include <math.h>
 #include <string.h>
 
-/* The share of the force that is left. */
-static double left (const facet_hold *h) { return h->way >= h->length ? 0 : 1 - h->way / h->length; }
+/* The share of the force that is left after a way. */
+static double left_at (const facet_hold *h, double way) { return way >= h->length ? 0 : 1 - way / h->length; }
+static double left (const facet_hold *h) { return left_at (h, h->way); }
+
+/* The share of its energy that a facet has taken after a way, if it opens linearly: 2 int left ds / l. */
+static double taken_at (const facet_hold *h, double way) { return 1 - left_at (h, way) * left_at (h, way); }
+
+/* f . d, J. */
+static double product (const facet_hold *h, const double *d)
+{
+    double sum = 0;
+    for (size_t i = 0; i < h->n; i++) sum += h->force[i] * d[h->unknown[i]];
+    return sum;
+}
 
 static void clear (facet_hold *hold, size_t first, size_t n)
 {
@@ -49,7 +61,7 @@ void facet_hold_sum (break_loop *b)
     for (size_t k = 0; k < g->nhold; k++) {
         const facet_hold *h = &g->hold[k];
         for (size_t i = 0; i < h->n; i++) g->held[h->unknown[i]] += left (h) * h->force[i];
-        closed += left (h) * left (h) * h->energy;     /* int of left ds, if it opens linearly in s */
+        closed += (1 - taken_at (h, h->way)) * h->energy;
     }
     b->system.held = g->nhold ? g->held : NULL;
     b->system.report->energy_fracture = g->needed - closed;
@@ -74,13 +86,13 @@ done:
     return status;
 }
 
-pg_status facet_hold_begin (break_loop *b, double t, const double *d, long tip, double length,
-                            double energy)
+pg_status facet_hold_begin (break_loop *b, double t, const double *d, const facet_hold *what)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     pg_system *s = &b->system;
-    facet_hold h = { .tip = tip, .length = length, .energy = energy };
+    facet_hold h = { .tip = what->tip, .length = what->length, .energy = what->energy,
+                     .alone = what->alone };
     double *after = NULL, most = 0;
     PG_ALLOC (after, s->ndof);
     PG_TRY (forces_at (s, t, d, after));
@@ -95,6 +107,7 @@ pg_status facet_hold_begin (break_loop *b, double t, const double *d, long tip, 
     h.n = 0;
     for (size_t i = 0; i < s->ndof; i++)
         if (fabs (after[i]) > 1e-15 * most) h.unknown[h.n] = (long) i, h.force[h.n++] = after[i];
+    h.product = product (&h, d), h.drop = -0.5 * h.product;
     PG_GROW (g->hold, g->cap_hold, g->nhold + 1);
     g->hold[g->nhold++] = h;
     h.unknown = NULL, h.force = NULL;
@@ -102,6 +115,24 @@ pg_status facet_hold_begin (break_loop *b, double t, const double *d, long tip, 
 done:
     pg_free (after), pg_free (h.unknown), pg_free (h.force);
     return status;
+}
+
+/* Trapezoids: between two looks the forces die linearly. The cut itself set free 1/2 d (F_old - F_new) of a
+ * linear body; it counts along the first facet of the way, as the tip takes it. */
+void facet_hold_account (break_loop *b, size_t tip, const double *d, double *taken, double *needed)
+{
+    facet_growth *g = b->growth;
+    double zone = facet_zone (b);
+    *taken = *needed = 0;
+    for (size_t k = 0; k < g->nhold; k++) {
+        facet_hold *h = &g->hold[k];
+        if (h->tip != (long) tip || !h->alone) continue;
+        double q = product (h, d), l0 = left_at (h, h->way0), l1 = left (h), facet = h->length / zone;
+        double part = h->way0 < facet ? fmin (1, (h->way - h->way0) / (facet - h->way0)) * h->drop : 0;
+        *taken += part - 0.5 * (l0 + l1) * (q - h->product);
+        *needed += h->energy * (taken_at (h, h->way) - taken_at (h, h->way0));
+        h->product = q, h->drop -= part, h->way0 = h->way;
+    }
 }
 
 /* Facets that are open are no longer needed. */
@@ -141,15 +172,16 @@ static pg_status keep_one (break_loop *b, facet_hold *h, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     const facet_growth *g = b->growth;
-    long count[2] = { h->tip, (long) h->n };
-    double number[3] = { h->way, h->length, h->energy };
-    PG_TRY (k->counts (k->context, "facets.opening", 2, count));
-    PG_TRY (k->numbers (k->context, "facets.opened", 3, number));
+    long count[3] = { h->tip, (long) h->n, h->alone };
+    double number[6] = { h->way, h->length, h->energy, h->way0, h->product, h->drop };
+    PG_TRY (k->counts (k->context, "facets.opening", 3, count));
+    PG_TRY (k->numbers (k->context, "facets.opened", 6, number));
     PG_KEEP_BOUND (k, "the tip of a facet that opens", count[0], 0, (long) g->nrun - 1);
     PG_KEEP_BOUND (k, "the unknowns that a facet holds", count[1], 0, (long) b->system.ndof);
     if (k->reading) {
         *h = (facet_hold) { .tip = count[0], .way = number[0], .length = number[1],
-                             .energy = number[2] };
+                             .energy = number[2], .alone = count[2] != 0, .way0 = number[3],
+                             .product = number[4], .drop = number[5] };
         PG_ALLOC (h->unknown, (size_t) count[1] + 1);
         PG_ALLOC (h->force, (size_t) count[1] + 1);
         h->n = (size_t) count[1];

@@ -15,6 +15,11 @@
  * time that a Rayleigh wave takes for half a spacing: the field around the tip is that of a little while
  * ago.
  *
+ * The rings lie where the facets open and short waves leave the tip: at 0.75 c_R they miss a seventh of what
+ * it takes. What the facets dissipate is known to the last bit, though only when they have opened: it is the
+ * work of the forces that hold them. So G (v) is what the rings show times what the facets of the last two
+ * spacings of its way took over what the rings had promised for them (compare).
+ *
  * A facet is cut when a tip begins to run and when it has come to the end of the one before; behind the tip
  * it opens (facet_hold.c). The field of the near ring answers to a turn only when the crack has gone on for
  * a few spacings and waves have told of it: of the turn that it asks for a running tip takes a part in each
@@ -29,6 +34,8 @@ static const double part_of_turn = 0.3;
 /* An event leaves its tip at G = G0, an equilibrium that it would take for ever to leave, though it is not
  * stable: along the facet of the event it runs at this share of c_R at least. */
 static const double set_off = 0.1;
+/* Rings are trusted within this factor; the memory for what facets took, in zones. */
+static const double most_trust = 2, recent = 0.5;
 static const double between = 0.25;  /* way of a Rayleigh wave from look to look, in spacings, at least */
 
 /* Bonds between points reach over three spacings and more themselves. */
@@ -72,12 +79,20 @@ void facet_forward (break_loop *b, double dt)
     for (size_t i = 0; i < g->nrun; i++) {
         facet_run *r = &g->run[i];
         r->way = ends ? r->length : r->way + r->speed * dt;
+        r->come += ends ? 0 : r->speed * dt;
     }
     for (size_t k = 0; k < g->nhold; k++) {
         facet_hold *h = &g->hold[k];
         h->way = ends ? h->length : h->way + g->run[h->tip].speed * dt;
     }
-    facet_hold_drop (b, 0);
+    if (ends) facet_hold_drop (b, 0);
+    else facet_hold_sum (b);
+}
+
+double facet_trust (const facet_growth *g, size_t i)
+{
+    if (!g->moving || i >= g->nrun || !(g->run[i].shown > 0)) return 1;
+    return fmin (most_trust, fmax (1 / most_trust, g->run[i].taken / g->run[i].shown));
 }
 
 /* The speed of a tip for the steps to come. share: G (v) / G0; dt: since it was last looked at. */
@@ -91,6 +106,22 @@ static void pace (facet_run *r, double share, double c_R, double h, double dt)
     r->steady += (isfinite (dt) ? 1 - exp (-way / steadiness) : 1) * (g - r->steady);
 }
 
+/* What the facets of tip i dissipate beside what the rings say, along the last half of a zone of its way. Of
+ * a tip that stands rings are right, and the work of its faces under forces that stay comes back: in the time
+ * of a Rayleigh wave (its way: m) both become alike. */
+static void compare (break_loop *b, size_t i, const double *d, double share, double way)
+{
+    facet_growth *g = b->growth;
+    facet_run *r = &g->run[i];
+    double taken, needed, zone = facet_zone (b) * facet_length (g, &g->field[i]);
+    facet_hold_account (b, i, d, &taken, &needed);
+    if (r->come > 0 && needed > 0) {
+        double fade = exp (-r->come / (recent * zone));
+        r->taken = fade * r->taken + taken, r->shown = fade * r->shown + share * needed;
+    } else if (!(r->come > 0) && isfinite (way)) r->taken += (1 - exp (-way / zone)) * (r->shown - r->taken);
+    r->come = 0;
+}
+
 /* One facet of tip i, cut and held. */
 static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, double t, const double *d)
 {
@@ -101,7 +132,11 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
     double length = hypot (c->to[0] - g->field[i].x[0], c->to[1] - g->field[i].x[1]);
     PG_TRY (facet_grow_one (b, state, c, t));
     PG_TRY (system_refresh (&b->system, state, &b->changes));
-    PG_TRY (facet_hold_begin (b, t, d, c->tip, facet_zone (b) * length, c->energy));
+    double zone = facet_zone (b) * length;
+    const facet_hold what = { .tip = c->tip, .length = zone, .energy = c->energy,
+                              .alone = g->field[i].wide >= zone };
+    PG_TRY (facet_hold_begin (b, t, d, &what));
+    if (!(r->shown > 0)) r->taken = r->shown = facet_zone (b) * c->energy;
     r->way = r->length > 0 ? fmin (r->way - r->length, length) : 0;
     r->length = length, r->straight -= length;
     if (!(r->straight > 0)) r->least = 0;
@@ -158,7 +193,11 @@ static pg_status run_tip (break_loop *b, pg_state *state, size_t i, double t, co
     const pg_tip_field *f = &g->field[i];
     facet_candidate c;
     int forks = 0;
-    if (!isnan (f->near) && !(r->straight > r->length)) pace (r, share, rayleigh_speed (b, f->x), f->h, dt);
+    if (!isnan (f->near) && !(r->straight > r->length)) {
+        double c_R = rayleigh_speed (b, f->x);
+        compare (b, i, d, share, dt * c_R);
+        pace (r, share * facet_trust (g, i), c_R, f->h, dt);
+    }
     if (!(r->speed > 0) || r->way < r->length) return PG_OK;
     if (facet_branches (b, state, i)) {
         if (!*any) PG_TRY (facet_hold_before (b, t, d));
@@ -188,6 +227,7 @@ pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d,
         if (state->paths->tip[i].open)
             PG_TRY (run_tip (b, state, i, t, d, dt, over * over, angle, any));
     }
+    facet_hold_drop (b, 0);
 done:
     return status;
 }
@@ -209,8 +249,11 @@ pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const d
     size_t i = (size_t) g->event_tip;
     PG_TRY (facet_make_room (g, state->paths->ntip));
     g->run[i].length = g->event_length;
+    g->run[i].taken = g->run[i].shown = facet_zone (b) * g->event_energy;
     g->run[i].speed = g->run[i].least = set_off * rayleigh_speed (b, state->paths->tip[i].x);
-    PG_TRY (facet_hold_begin (b, t, d, (long) i, facet_zone (b) * g->event_length, g->event_energy));
+    const facet_hold what = { .tip = (long) i, .length = facet_zone (b) * g->event_length,
+                              .energy = g->event_energy, .alone = 1 };
+    PG_TRY (facet_hold_begin (b, t, d, &what));
 done:
     return status;
 }
@@ -227,10 +270,11 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
     g->nrun = (size_t) n;
     for (size_t i = 0; i < g->nrun; i++) {
         facet_run *r = &g->run[i];
-        double number[8] = { r->speed, r->g, r->mean, r->steady, r->way, r->length, r->least, r->straight };
-        PG_TRY (k->numbers (k->context, "facets.speed", 8, number));
-        *r = (facet_run) { number[0], number[1], number[2], number[3],
-                           number[4], number[5], number[6], number[7] };
+        double number[11] = { r->speed, r->g,     r->mean,     r->steady, r->way,  r->length,
+                              r->least, r->straight, r->come, r->taken,  r->shown };
+        PG_TRY (k->numbers (k->context, "facets.speed", 11, number));
+        *r = (facet_run) { number[0], number[1], number[2], number[3], number[4], number[5],
+                           number[6], number[7], number[8], number[9], number[10] };
     }
     double last[2] = { g->since, g->top };
     PG_TRY (k->numbers (k->context, "facets.since", 2, last));
