@@ -136,8 +136,7 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
     return over;
 }
 
-/* The largest utilisation of all bonds; if it is above 1, `over` lists those that may break now. */
-static pg_status look (break_loop *b, const pg_state *state, const double *d, double *top)
+pg_status break_loop_look (break_loop *b, const pg_state *state, const double *d, double *top)
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
@@ -153,6 +152,14 @@ static pg_status look (break_loop *b, const pg_state *state, const double *d, do
 done:
     s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     return status;
+}
+
+double break_loop_cut (const break_loop *b, double top)
+{
+    const pg_solver_options *o = b->system.options;
+    if (o->break_mode == PG_BREAK_ALL) return 1;
+    if (o->break_mode == PG_BREAK_WORST) return top * (1 - o->tie);
+    return fmax (1, top * (1 - fmax (o->break_fraction, o->tie)));
 }
 
 /* The loop: equilibrium, utilisation of all bonds, breaking of those over the limit as solver.break has
@@ -176,7 +183,11 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
             b->stopped = 0;
         }
         s->begins = step->iterations == 0;
-        PG_TRY (system_solve (s, t, d, dyn, &step->residual));
+        double top;
+        int rough = 0;
+        if (step->iterations > 1 && break_loop_judges (b))
+            PG_TRY (break_loop_rough (b, state, t, d, dyn, &top, &rough));
+        if (!rough) PG_TRY (system_solve (s, t, d, dyn, &step->residual));
         /* later rounds: loads and goals stay */
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
         if (b->growth) {
@@ -192,8 +203,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
             continue;
         }
         if (!break_loop_judges (b)) break;
-        double top;
-        PG_TRY (look (b, state, d, &top));
+        if (!rough) PG_TRY (break_loop_look (b, state, d, &top));
         step->utilisation = top;
         if (!(top > 1)) {
             if (!judges_few (b))
@@ -206,11 +216,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
                      "solver.max_iterations "
                      "or take smaller steps",
                      step->iterations, b->nbroken, top);
-        double cut =
-            o->break_mode == PG_BREAK_ALL
-                ? 1
-                : top * (1 - (o->break_mode == PG_BREAK_WORST ? o->tie : fmax (o->break_fraction, o->tie)));
-        if (o->break_mode != PG_BREAK_WORST) cut = fmax (cut, 1);
+        double cut = break_loop_cut (b, top);
         if (judges_few (b)) PG_TRY (kill_listed (b, state, cut, t));
         else PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
         PG_TRY (system_refresh (s, state, &b->changes));

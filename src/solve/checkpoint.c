@@ -248,18 +248,19 @@ done:
     return status;
 }
 
-/* What a factor and finite elements have cost in this motion. */
-static pg_status keep_ways (pg_ways *w, const pg_keeper *k)
+/* What a factor and finite elements have cost in this motion, and how well rough solutions did. */
+static pg_status keep_ways (pg_ways *w, pg_rough *rough, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[2] = { w->meanwhile, w->solves };
-    double number[6] = { w->regret, w->iterations, w->breaking, w->bonds, w->fresh, w->spent };
-    PG_TRY (k->counts (k->context, "system.ways", 2, count));
-    PG_TRY (k->numbers (k->context, "system.ways.seconds", 6, number));
+    long count[4] = { w->meanwhile, w->solves, rough->rounds, rough->again };
+    double number[7] = { w->regret, w->iterations, w->breaking, w->bonds, w->fresh, w->spent, rough->share };
+    PG_TRY (k->counts (k->context, "system.ways", 4, count));
+    PG_TRY (k->numbers (k->context, "system.ways.seconds", 7, number));
     PG_KEEP_BOUND (k, "whether elements stand in for a factor", count[0], 0, 1);
     PG_KEEP_BOUND (k, "solves in place of a factor", count[1], 0, most);
     *w = (pg_ways){ (int) count[0], number[0], number[1], number[2], number[3], number[4], number[5],
                     count[1] };
+    rough->rounds = count[2], rough->again = count[3], rough->share = number[6];
 done:
     return status;
 }
@@ -295,7 +296,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     PG_TRY (keep_preconditioner (s, solves, count[4], k));
     PG_TRY (system_guess_keep (s, k));
     PG_TRY (keep_following (s, k));
-    PG_TRY (keep_ways (&s->ways, k));
+    PG_TRY (keep_ways (&s->ways, &s->rough, k));
     s->stale = (int) count[5];
 done:
     return status;

@@ -3,10 +3,17 @@
  * (small time steps, where the mass dominates, and bodies whose factor would not fit), or by the factor of an
  * earlier K, which breaking has changed a little. */
 #include "solve.h"
+#include <math.h>
 #include <string.h>
 
 /* image: (k K + m M) T x of the last product, all ndof rows of it */
-typedef struct { pg_system *s; const dynamics *dyn; const pg_sparse *T; const double *image; } combined;
+typedef struct {
+    pg_system *s;
+    const dynamics *dyn;
+    const pg_sparse *T;
+    const double *image;
+    double keep;                                       /* residual of the iterate that is kept, N; 0: none */
+} combined;
 
 /* y = T' (k K + m M) T x */
 static void apply_combined (void *context, const double *x, double *y)
@@ -43,11 +50,26 @@ static void diagonal_combined (void *context, double *d)
     }
 }
 
+/* The first iterate whose residual is below `keep`: how much later ones move tells how far it was off. */
+static void keep_earlier (combined *c)
+{
+    pg_system *s = c->s;
+    double sum = 0;
+    if (c->T) pg_sparse_multiply_transposed (c->T, s->residual, s->scratch);
+    const double *r = c->T ? s->scratch : s->residual;
+    for (size_t i = 0; i < s->nred; i++) sum += r[i] * r[i];
+    if (sqrt (sum) > c->keep || s->rough.found) return;
+    memcpy (s->rough.earlier, s->delta, s->nred * sizeof *s->delta);
+    s->rough.found = sqrt (sum) > c->keep / ROUGHER ? 1 : -1;      /* the last one is no earlier one */
+}
+
 /* R of all rows, those of prescribed unknowns too, goes on with the iterations. */
 static void carry_residual (void *context, double alpha)
 {
-    const combined *c = context;
-    for (size_t i = 0; i < c->s->ndof; i++) c->s->residual[i] -= alpha * c->image[i];
+    combined *c = context;
+    pg_system *s = c->s;
+    for (size_t i = 0; i < s->ndof; i++) s->residual[i] -= alpha * c->image[i];
+    if (c->keep > 0) keep_earlier (c);
 }
 
 /* The factor of an earlier K as preconditioner (kept_factor.c). */
@@ -77,13 +99,14 @@ done:
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
                           size_t *used)
 {
-    combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL, NULL };
+    combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL, NULL, 0 };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
     int carries = dyn && !s->options->plain;
     pg_preconditioner P = { s, by == BY_FACTOR ? by_factor_of_before : by_elements, s->problem->threads };
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
+    if (carries && s->rough.goal > 0) c.keep = ROUGHER * s->rough.goal * s->unbalanced;
     pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,
                                                        s->delta, tolerance, limit, used,
                                                        carries ? carry_residual : NULL, &c);

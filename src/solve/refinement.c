@@ -191,6 +191,37 @@ done:
     return status;
 }
 
+/* Iterations alone can be left early; by the diagonal they are few. */
+pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamics *dyn, double share,
+                                int *done)
+{
+    pg_status status = PG_OK;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    pg_rough *rough = &s->rough;
+    double r;
+    *done = 0;
+    if (!dyn || s->options->plain || s->mode != SYSTEM_NO_FACTOR) return PG_OK;
+    if (!rough->earlier) PG_ALLOC (rough->earlier, s->ndof);
+    if (!rough->before) PG_ALLOC (rough->before, s->ndof);
+    if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
+    PG_TRY (system_residual (s, t, d, dyn, &r));
+    if (!(0.1 * share * r > s->options->tolerance)) return PG_OK;
+    s->carried = s->known = 0, rough->found = 0, rough->goal = share;
+    status = system_solve_once (s, dyn, share);
+    rough->goal = 0;
+    PG_TRY (status);
+    rough->found = rough->found > 0;
+    if (T && rough->found) pg_sparse_multiply (T, rough->earlier, s->full);
+    const double *step = T ? s->full : rough->earlier;
+    for (size_t i = 0; i < s->ndof && rough->found; i++) rough->before[i] = d[i] + step[i];
+    if (T) pg_sparse_multiply (T, s->delta, s->full);
+    step = T ? s->full : s->delta;
+    for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];
+    *done = rough->found;
+done:
+    return status;
+}
+
 /* Iterative refinement: solve, add, measure, by forces of the force itself. It ends when the residual is
  * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
  * half, in itself or against the forces (which vanish with it in a body that is unloaded); then the state is

@@ -31,6 +31,19 @@ enum {
 enum { GUESS_PAIRS = 5 };
 typedef struct { double *x, *y; int n, next, fresh; } pg_guess;
 
+/* How much larger than that of the last iterate the residual of the earlier one is, about. */
+enum { ROUGHER = 10 };
+/* Solutions that need to show only which bonds break (rough_round.c). */
+typedef struct {
+    double  goal;  /* of the solve at hand, over its first residual: the earlier iterate is kept; 0: not */
+    int     found;                                     /* that iterate was met */
+    double *earlier;                                   /* delta of it (nred) */
+    double *before;  /* displacement that belongs to it (ndof) */
+    double *earlier_u; size_t room_u;                  /* utilisation by it of the bonds near their limit */
+    double  share;  /* goal of the next rough solve; 0: the first one; below 0: there are none */
+    long    rounds, again;                             /* how many sufficed; how many did not */
+} pg_rough;
+
 /* Factor or finite elements, in motion (factor_or_elements.c): seconds by stored rates. */
 typedef struct {
     int    meanwhile;                                  /* 1: elements stand in for a factor */
@@ -89,6 +102,7 @@ typedef struct {
     pg_guess  guess;
     pg_ways   ways;
     int       begins;                                  /* the state to be solved for begins a step */
+    pg_rough  rough;
     int       carried;  /* `residual` went with the last iterations to the state that they lead to */
     int       known;                                   /* `residual` is that of the state last solved for */
     long      unmeasured;                              /* states accepted by carried residuals */
@@ -160,6 +174,11 @@ pg_status system_residual (pg_system *s, double t, const double *d, const dynami
 pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 /* The same with the forces of contact that are at hand. */
 pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
+/* The same to a residual `share` times that of d only, nothing being judged; rough.before is an earlier, ten
+ * times rougher iterate. *done 0: the way to solve is not fit for it, d has almost as small a residual as is
+ * asked of exact solutions, or there was no earlier iterate. */
+pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamics *dyn, double share,
+                                int *done);
 
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */
 /* After the first refresh; consistent: by the force, not lumped. */
@@ -199,6 +218,14 @@ pg_status break_loop_ready  (break_loop *b);
 pg_status break_loop_log    (break_loop *b, size_t bond, char kind, double utilisation, double t);
 /* 1: bonds are judged in this run: there is a criterion of bonds, and a force that knows how they stand. */
 int       break_loop_judges (const break_loop *b);
+/* The largest utilisation of all bonds; above 1, `over` lists those that may break now. */
+pg_status break_loop_look   (break_loop *b, const pg_state *state, const double *d, double *top);
+/* Bonds with so large a utilisation break in this round. */
+double    break_loop_cut    (const break_loop *b, double top);
+/* rough_round.c: a round in the middle of a cascade by a rough solution. *done 1: `top` and `over` are what
+ * they would be of the exact one, but for digits that decide nothing; 0: it has to be solved exactly. */
+pg_status break_loop_rough  (break_loop *b, const pg_state *state, double t, double *d, const dynamics *dyn,
+                             double *top, int *done);
 /* Kills the bonds with measure[i] >= cut, logs them with the given utilisation scale. */
 pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
                            double t);

@@ -252,6 +252,13 @@ static void report_skips (pg_solver *s)
                             "while much broke, conjugate gradients with finite elements were cheaper by "
                             "stored rates");
     }
+    if (sys->rough.rounds) {
+        char what[96];
+        snprintf (what, sizeof what, "exact equilibria in %ld rounds of breaking", sys->rough.rounds);
+        pg_statistics_skip (&s->report, NAN, what,
+                            "nothing of them is kept but which bonds break, and rougher ones left no doubt "
+                            "of it");
+    }
     if (!sys->unmeasured) return;
     pg_statistics_skip (&s->report,
                         8e-9 * (double) sys->unmeasured * (double) s->problem->first_bond[PG_BOND_SETS],
