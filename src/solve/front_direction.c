@@ -129,12 +129,16 @@ static void hold_ends (const front_growth *f, size_t first, size_t n)
     }
 }
 
+/* The load of an event is that at which those who lead set free what they take: the mean of their energies
+ * over their ways to this power. By the ways themselves it would be that of the middle of the step. */
+enum { LEADERS = 4 };
+
 /* ---- all vertices -------------------------------------------------------------------------------------- */
 double fronts_plan (const break_loop *b, const pg_state *state, double factor)
 {
     const facet_growth *g = b->growth;
     const front_growth *f = g->fronts;
-    double top = 0, gained = 0, taken = 0;
+    double top = 0, gained = 0, taken = 0, lead;
     size_t nfront;
     const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
     for (size_t i = 0; i < f->n; i++) front_judge (b, &f->field[i], factor, &f->vertex[i]);
@@ -149,8 +153,8 @@ double fronts_plan (const break_loop *b, const pg_state *state, double factor)
         if (!n) continue;
         settle_rises (&front[k], v, facet_length (g, &f->field[first]));
         for (size_t i = 0; i < n; i++)
-            gained += v[i].J * v[i].ratio * v[i].way * v[i].way * v[i].width,
-                taken += v[i].need * v[i].way * v[i].way * v[i].width;
+            lead = pow (v[i].way, LEADERS) * v[i].width,
+                gained += v[i].J * v[i].ratio * lead, taken += v[i].need * lead;
     }
     return taken > 0 && gained > 0 ? sqrt (gained / taken) : 0;
 }

@@ -3,9 +3,9 @@
  * integrals over a tube around it (fracture/front_measure.c), a plan for all vertices together
  * (front_direction.c), and the surface advances by a strip of triangles (model/crack_surfaces.c); every bond
  * that the strip crosses dies at once. J of a vertex scatters by a per cent or two, so the load of an event
- * is that at which the advance as a whole sets as much energy free as it takes, sum J_i d_i w_i = sum G0_i
- * d_i w_i: the load of the single vertex that comes first would be too low by that scatter. This file: what
- * facet_growth.c asks of fronts; the events are those of facet_events.c. */
+ * is that at which those who lead set as much energy free as they take: the load of the single vertex that
+ * comes first would be too low by that scatter. This file: what facet_growth.c asks of fronts; the events are
+ * those of facet_events.c. */
 #include "front_growth.h"
 #include <math.h>
 #include <string.h>
