@@ -37,6 +37,8 @@ typedef struct {
     /* 1: at the end of a front on the surface of the body, from the next vertices: the surface has a
      * singularity of its own */
     int    extrapolated;
+    /* 1: nothing is known (near = NAN) because materials of unlike stiffness meet there; in space only */
+    int    interface;
     /* 1: its faces press on each other behind it: K_I is 0, J that of K_II, T is not known */
     int    closed;
 } pg_tip_field;

@@ -38,6 +38,10 @@ static pg_status read_energy (pg_criterion *c, const pg_scene *scene, const pg_c
     PG_TRY (pg_expression_compile (&own->energy, pg_scene_text (scene, "%s", path), "J/m2"));
     if (pg_expression_uses (own->energy, 't'))
         pg_scene_fault (scene, path, "may depend on x, y and angle (the direction of growth), not on t");
+    /* in space no single angle says how the new surface lies */
+    if (setting->mode == PG_SOLID && pg_expression_uses (own->energy, 'a'))
+        pg_scene_fault (scene, path, "may depend on x, y and z; angle, the direction of growth, is for "
+                                     "cracks in the plane");
 done:
     return status;
 }

@@ -41,6 +41,9 @@ void front_section_make (front_section *out, double h);
 double front_room (const pg_problem *p, const pg_state *state, const front_place *at, double h, double offset,
                    double limit, int tail);
 
+/* Do materials of unlike stiffness meet within the distance (m) of x? */
+int front_at_interface (const pg_problem *p, const double *x, double distance);
+
 /* ---- front_integrals.c --------------------------------------------------------------------------------- */
 /* Fields at the places of one cross section, in the frame of the front there. H, S as above; excess: trace of
  * the stress above that of the strain, a third, Pa (NULL: 0); load: b - rho a, N/m^3 (x 3, NULL); kinetic:

@@ -537,6 +537,8 @@ pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_for
         int radii = begin_vertex (&m, i, &out[i]);
         if (radii) fill_vertex (&m, i, radii, &out[i]);
     }
+    for (size_t i = 0; i < m.front->n; i++)
+        out[i].interface = isnan (out[i].near) && front_at_interface (p, out[i].x, front_radius[0] * m.h);
     PG_TRY (add_core (&m, out));
     PG_TRY (smooth (m.front, out));
     extrapolate (m.front, out);

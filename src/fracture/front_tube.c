@@ -129,7 +129,34 @@ static double room_of_loads (const view *v, double room)
     return room;
 }
 
-/* To points of another material than that of the nearest one. */
+/* Are the fields of two materials alike: same stiffness, so that a front does not feel where they meet? */
+static int alike (const pg_problem *p, size_t i, size_t j)
+{
+    const pg_material *a = &p->material[p->block[PG_NODES][i]], *b = &p->material[p->block[PG_NODES][j]];
+    double lambda[2] = { 0, 0 };
+    if (p->patches)
+        lambda[0] = p->patches->lambda[p->block[PG_NODES][i]],
+        lambda[1] = p->patches->lambda[p->block[PG_NODES][j]];
+    return a == b || (a->E == b->E && a->nu == b->nu && lambda[0] == lambda[1]);
+}
+
+int front_at_interface (const pg_problem *p, const double *x, double distance)
+{
+    size_t nearest = 0;
+    double least = INFINITY;
+    if (p->nmaterial == 1) return 0;
+    for (int pass = 0; pass < 2; pass++)               /* the nearest point, then all within the distance */
+        for (size_t i = 0; i < p->cloud.n; i++) {
+            double d = 0;
+            for (size_t k = 0; k < 3; k++) d = hypot (d, p->cloud.x[3*i + k] - x[k]);
+            if (pass == 0 && d < least) least = d, nearest = i;
+            if (pass && d - 0.5 * pg_problem_spacing (p, PG_NODES, i) < distance && !alike (p, i, nearest))
+                return 1;
+        }
+    return 0;
+}
+
+/* To points of a material whose stiffness is not that of the nearest one. */
 static double room_of_interfaces (const view *v, double room)
 {
     const pg_problem *p = v->p;
@@ -142,7 +169,7 @@ static double room_of_interfaces (const view *v, double room)
     }
     for (size_t i = 0; i < p->cloud.n; i++) {
         double away = across (v, p->cloud.x + 3*i) - 0.5 * pg_problem_spacing (p, PG_NODES, i);
-        if (away < room && p->block[PG_NODES][i] != p->block[PG_NODES][nearest]) room = fmax (0, away);
+        if (away < room && !alike (p, i, nearest)) room = fmax (0, away);
     }
     return room;
 }

@@ -32,6 +32,11 @@ pg_status pg_interfaces_read (pg_problem *p, const pg_scene *scene)
                         pg_criterion_by_need (PG_NEEDS_FACETS));
         return PG_OK;
     }
+    if (p->dim == 3) {
+        pg_scene_fault (scene, "failure.interfaces", "is for cracks in the plane: fronts in space know no "
+                                                     "energy of interfaces");
+        return PG_OK;
+    }
     PG_ALLOC (p->interface, n);
     p->ninterface = n;
     for (size_t k = 0; k < n; k++) {

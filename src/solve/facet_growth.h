@@ -89,7 +89,7 @@ typedef struct facet_growth {
     double  event_length;
     unsigned said;                                     /* warnings that were given: FACET_SAID_... */
 } facet_growth;
-enum { FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4 };
+enum { FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4, FACET_SAID_INTERFACE = 8 };
 
 /* Tips whose utilisation is within this share of the largest grow together: keeps symmetric scenes
  * symmetric. */

@@ -54,13 +54,14 @@ static size_t nearest_known (const unsigned char *known, size_t n, int closed, s
     return n;
 }
 
-/* A vertex whose tube has no room takes over what its nearest neighbour shows; a front without any stays. */
+/* A vertex whose tube has no room takes over what its nearest neighbour shows, but not where materials of
+ * unlike stiffness meet: it stays there, as a front without any number does. */
 static int fill_gaps (pg_tip_field *field, const pg_front *front, unsigned char *known)
 {
     size_t n = front->n, gaps = 0;
     for (size_t i = 0; i < n; i++) known[i] = (unsigned char) !isnan (field[i].near), gaps += !known[i];
     for (size_t i = 0; gaps && gaps < n && i < n; i++) {
-        if (known[i]) continue;
+        if (known[i] || field[i].interface) continue;
         const pg_tip_field own = field[i], *from = &field[nearest_known (known, n, front->closed, i)];
         field[i] = *from;
         memcpy (field[i].x, own.x, sizeof own.x), memcpy (field[i].e, own.e, sizeof own.e);
@@ -68,6 +69,13 @@ static int fill_gaps (pg_tip_field *field, const pg_front *front, unsigned char 
         field[i].h = own.h, field[i].room = own.room;
     }
     return gaps == n;
+}
+
+/* A vertex of front k that lies where materials of unlike stiffness meet; NULL: there is none. */
+static const pg_tip_field *at_interface (const front_growth *f, size_t k)
+{
+    for (size_t i = f->first[k]; i < f->first[k + 1]; i++) if (f->field[i].interface) return &f->field[i];
+    return NULL;
 }
 
 /* What the user should know, each said once. */
@@ -80,12 +88,21 @@ static void tell (const break_loop *b, const pg_front *front, size_t nfront, lon
         open += front[k].open != 0;
         if (!front[k].open) continue;
         const double *x = front[k].x;
-        if (f->blind[k] && events == 0 && !(g->said & FACET_SAID_ROOM)) {
+        if (f->blind[k] && !at_interface (f, k) && events == 0 && !(g->said & FACET_SAID_ROOM)) {
             pg_statistics_warn (b->system.report,
                                 "no room for integrals around any vertex of crack front %ld at (%.6g, %.6g, "
                                 "%.6g) m: it does not grow; take a smaller spacing",
                                 front[k].id, x[0], x[1], x[2]);
             g->said |= FACET_SAID_ROOM;
+        }
+        const pg_tip_field *held = at_interface (f, k);
+        if (held && !(g->said & FACET_SAID_INTERFACE)) {
+            pg_statistics_warn (b->system.report,
+                                "crack front %ld comes within 1.5 spacings of where materials of unlike "
+                                "stiffness meet, at (%.6g, %.6g, %.6g) m: J is not known there, and it goes "
+                                "no further",
+                                front[k].id, held->x[0], held->x[1], held->x[2]);
+            g->said |= FACET_SAID_INTERFACE;
         }
         for (size_t i = f->first[k]; i < f->first[k + 1] && !f->blind[k]; i++) {
             double l[2], K[3];
@@ -222,7 +239,7 @@ pg_status fronts_run_out (break_loop *b, pg_state *state, int *grew)
         const pg_front *front = pg_fronts_of_state (p, state, &nfront);
         pg_fracture_limits limits;
         double need = 0, far = 0;
-        if (!is_as_measured (f, front, k) || !f->blind[k]) continue;
+        if (!is_as_measured (f, front, k) || !f->blind[k] || at_interface (f, k)) continue;
         for (size_t i = 0; i < front[k].n; i++) {
             size_t at = f->first[k] + i;
             int can = facet_limits (b, f->field[at].x, 0, &limits);
