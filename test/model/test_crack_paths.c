@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Cracks that grow: which bonds they cut, on which side points on their line stay, what is known of their
  * tips, what lies around these; copies, memory that runs out, checkpoints. */
-#include "scenes.h"
+#include "growing.h"
 #include <stdlib.h>
 
 #define CRACKED(cracks, more) \
@@ -11,61 +11,10 @@
 #define LOW "{from: [-0.1, 0.06], to: [0.42, 0.06]}"
 #define INSIDE "{from: [0.33, 0.22], to: [0.57, 0.28]}"
 
-typedef struct { built b; const pg_problem *p; pg_state *s; pg_changes cut; } growing;
-
-static growing begin (const char *text)
-{
-    growing g = { .b = build (text) };
-    g.p = g.b.problem;
-    check_ok (pg_state_create (&g.s, g.p, pg_problem_unknowns (g.p)));
-    return g;
-}
-
-static void end (growing *g)
-{
-    pg_free (g->cut.bond);
-    pg_state_free (&g->s);
-    unbuild (&g->b);
-}
-
-/* The bonds that were found die. */
-static size_t bury (growing *g)
-{
-    size_t n = g->cut.n;
-    for (size_t i = 0; i < n; i++) {
-        assert_true (i == 0 || g->cut.bond[i] > g->cut.bond[i - 1]);
-        assert_true (g->s->alive[g->cut.bond[i]]);
-        g->s->alive[g->cut.bond[i]] = 0;
-    }
-    g->cut.n = 0;
-    return n;
-}
-
 static size_t grow (growing *g, size_t tip, double x, double y, int close)
 {
     check_ok (pg_crack_grow (g->s, g->p, tip, (double[]) { x, y }, close, &g->cut));
     return bury (g);
-}
-
-/* Every bond of every set is dead exactly if the cracks of the state cut it; returns the dead ones. */
-static size_t check_mask (const growing *g)
-{
-    const pg_problem *p = g->p;
-    const pg_cracks *cracks = pg_state_cracks (p, g->s);
-    pg_cracks plain = { .dim = 2, .crack = cracks->crack, .n = cracks->n };    /* no boxes */
-    size_t dead = 0;
-    for (int set = 0; set < PG_BOND_SETS; set++)
-        for (size_t q = 0; q < p->rows[set].n; q++)
-            for (size_t e = p->rows[set].family.start[q]; e < p->rows[set].family.start[q + 1]; e++) {
-                int j = p->rows[set].family.node[e];
-                const double *x = p->rows[set].x + 2*q, *y = p->cloud.x + 2 * (size_t) j;
-                if (j == p->rows[set].own[q]) continue;
-                int cut = pg_cracks_cut (&plain, x, y, 1e-9 * p->cloud.h) != NULL;
-                assert_int_equal (cut, pg_cracks_cut (cracks, x, y, 1e-9 * p->cloud.h) != NULL);
-                assert_int_equal (g->s->alive[p->first_bond[set] + e], !cut);
-                dead += (size_t) cut;
-            }
-    return dead;
 }
 
 static void what_dies_is_what_the_path_cuts (void **state)
@@ -78,7 +27,7 @@ static void what_dies_is_what_the_path_cuts (void **state)
         char text[900];
         snprintf (text, sizeof text, CRACKED (EDGE ", {from: [0.7, 0.1], to: [0.8, 0.2]}", "%s"), method[m]);
         growing g = begin (text);
-        size_t dead = check_mask (&g);
+        size_t dead = check_mask (&g, 1);
         assert_int_equal (g.s->paths->ntip, 3);
         assert_int_equal (g.s->paths->nfirst, 2);
         srand (3);
@@ -87,16 +36,16 @@ static void what_dies_is_what_the_path_cuts (void **state)
             angle += 1.2 * (rand () / (double) RAND_MAX - 0.5);
             x += 0.07 * cos (angle), y += 0.07 * sin (angle);
             dead += grow (&g, 0, x, y, 0);
-            assert_int_equal (check_mask (&g), dead);
+            assert_int_equal (check_mask (&g, 1), dead);
         }
         dead += grow (&g, 1, 0.66, 0.03, 0);           /* the `from` of the other crack */
-        assert_int_equal (check_mask (&g), dead);
+        assert_int_equal (check_mask (&g, 1), dead);
         check_relative (g.s->paths->length, 6 * 0.07 + hypot (0.04, 0.07), 1e-12);
         check_relative (g.s->paths->tip[0].grown, 6 * 0.07, 1e-12);
         check_absolute (g.s->paths->tip[0].x[0], x, 0), check_absolute (g.s->paths->tip[0].x[1], y, 0);
         assert_true (g.s->paths->tip[0].id == 1 && g.s->paths->tip[1].id == 2 && g.s->paths->tip[2].id == 3);
         dead += grow (&g, 1, 0.64, 0, 1);
-        assert_int_equal (check_mask (&g), dead);
+        assert_int_equal (check_mask (&g, 1), dead);
         assert_false (g.s->paths->tip[1].open);
         check_fails (pg_crack_grow (g.s, g.p, 1, (double[]) { 0.6, 0 }, 0, &g.cut), PG_E_USAGE);
         check_fails (pg_crack_grow (g.s, g.p, 0, (double[]) { x, y }, 0, &g.cut), PG_E_USAGE);
@@ -143,7 +92,7 @@ static void points_on_the_line_stay_on_its_left (void **state)
                                 : CRACKED ("{from: [-0.1, 0.2], to: [0.3, 0.2]}", NEAR_TIP));
         assert_int_equal (g.p->eroded, 3);             /* of the scene's crack, the tip's own point lives */
         for (int k = 0; k < 4; k++) grow (&g, 0, 0.4 + 0.1 * k, 0.2, 0);
-        check_mask (&g);
+        check_mask (&g, 1);
         const pg_family *f = &g.p->rows[PG_NODES].family;
         for (size_t i = 0; i < g.p->cloud.n; i++) {
             const double *x = g.p->cloud.x + 2*i;
@@ -171,7 +120,7 @@ static void a_closed_path_severs_the_body (void **state)
     assert_int_equal (what, PG_MEETS_SURFACE);
     for (int k = 1; k <= 5; k++) y += 0.01, grow (&g, 0, 0.42 + 0.1 * k, y, 0);
     grow (&g, 0, 1, y, 1);
-    check_mask (&g);
+    check_mask (&g, 1);
     size_t severed = 0;
     for (int set = 0; set < PG_BOND_SETS; set++)
         for (size_t q = 0; q < g.p->rows[set].n; q++)
@@ -198,7 +147,7 @@ static void points_beyond_the_surface_are_severed (void **state)
     size_t outside = 0;
     grow (&g, 0, 0.1 + pg_tip_ahead (g.p, g.s, 0, (double[]) { 1, 0 }, 1, NULL), 0.03, 1);
     check_relative (g.s->paths->tip[0].x[0], sqrt (0.25 - 0.0009), 1e-12);
-    check_mask (&g);
+    check_mask (&g, 1);
     const pg_family *f = &g.p->rows[PG_NODES].family;
     for (size_t i = 0; i < g.p->cloud.n; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
@@ -290,7 +239,7 @@ static void cracks_that_meet_end (void **state)
     grow (&g, 0, 0.5, 0.26, 0);
     grow (&g, 0, 0.6, 0.26, 1);
     assert_true (!g.s->paths->tip[0].open && !g.s->paths->tip[1].open && g.s->paths->tip[2].open);
-    check_mask (&g);
+    check_mask (&g, 1);
     const pg_crack whole = { .kind = PG_CRACK_SEGMENT, .vertex = (double[]) { -0.1, 0.26, 0.8, 0.26 },
                              .nvertex = 2, .normal = { 0, 1 },
                              .retreat = (double[]) { 0, g.s->paths->tip[2].offset } };
@@ -309,16 +258,16 @@ static void cracks_begin_inside_and_at_the_surface (void **state)
     growing g = begin (CRACKED (EDGE, ""));
     check_ok (pg_crack_start (g.s, g.p, (double[]) { 0.6, 0.5 }, (double[]) { 0.63, 0.4 }, 2, &g.cut));
     assert_true (bury (&g) > 10);
-    check_mask (&g);
+    check_mask (&g, 1);
     check_ok (pg_crack_start (g.s, g.p, (double[]) { 0.7, 0.1 }, (double[]) { 0.9, 0.15 }, 3, &g.cut));
     assert_true (bury (&g) > 10);
-    check_mask (&g);
+    check_mask (&g, 1);
     assert_int_equal (g.s->paths->ntip, 4);
     for (size_t t = 0; t < 4; t++) assert_int_equal (g.s->paths->tip[t].id, t + 1);
     assert_true (g.s->paths->tip[1].offset > 0 && g.s->paths->tip[1].offset < 0.3 * 0.1);
     check_relative (g.s->paths->length, hypot (0.03, 0.1) + hypot (0.2, 0.05), 1e-12);
     grow (&g, 1, 0.66, 0.3, 0), grow (&g, 2, 0.65, 0.08, 0), grow (&g, 3, 0.95, 0.2, 0);
-    check_mask (&g);
+    check_mask (&g, 1);
     assert_true (g.s->paths->tip[1].offset > 0.02);
     const double here[2] = { 0.7, 0.1 };
     check_fails (pg_crack_start (g.s, g.p, here, here, 3, &g.cut), PG_E_USAGE);
@@ -342,9 +291,9 @@ static void copies_are_deep (void **state)
     pg_status status = pg_state_copy (a.s, s);
     pg_memory_fail_at (0);
     check_ok (status);
-    check_mask (&a);
+    check_mask (&a, 1);
     grow (&a, 0, 0.9, 0.2, 0);
-    check_mask (&a);
+    check_mask (&a, 1);
     pg_state_free (&s);
     end (&a), end (&b);
 }
@@ -367,7 +316,7 @@ static void no_memory_changes_nothing (void **state)
     }
     assert_int_equal (g.s->paths->cracks.n, 3);
     bury (&g);
-    check_mask (&g);
+    check_mask (&g, 1);
     end (&g);
 }
 
@@ -438,7 +387,7 @@ static void checkpoints_keep_the_paths (void **state)
     const pg_keeper reader = { &t, 1, read_numbers, read_counts, NULL };
     check_ok (pg_crack_paths_keep (b.s->paths, b.p, "x", &reader));
     memcpy (b.s->alive, a.s->alive, a.s->nbond);
-    check_mask (&b);
+    check_mask (&b, 1);
     grow (&a, 0, 0.6, 0, 1), grow (&b, 0, 0.6, 0, 1);
     assert_memory_equal (a.s->alive, b.s->alive, a.s->nbond);
     assert_memory_equal (a.s->paths->tip, b.s->paths->tip, a.s->paths->ntip * sizeof (pg_tip));

@@ -2,9 +2,8 @@
  * What a run leaves of cracks that grow by facets: the length and the tips in history.csv, every piece in
  * cracks.csv, every tip in tips.csv, report.json, the summary, faces as lines in result.e; and the columns of
  * tips that do not grow. */
-#include "folder.h"
+#include "grown.h"
 #include "picture/fonts.h"
-#include <netcdf.h>
 
 #define PLATE_OF(failure) \
     "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 0.9]}}}]\nspacing: 0.05\n" \
@@ -15,24 +14,6 @@
 #define GROWING \
     PLATE_OF ("failure: {fracture_energy: 400 J/m2}\n") \
     "solver: {stepping: event, max_events: 7}\noutput: {pictures: [damage], magnify: 20, at: {events: 1}}\n"
-
-/* Runs the scene into the folder; returns the last line of the summary that begins with `begins`. */
-static void leave (const char *text, const char *folder, const char *begins, char line[400])
-{
-    run r = prepare (1, text);
-    pg_result *result = NULL;
-    char row[400];
-    check_ok (pg_result_open (&result, folder, r.scene, r.problem, r.solver));
-    while (!pg_solver_done (r.solver, r.state)) {
-        check_ok (pg_solver_step (r.solver, r.state, &r.step));
-        check_ok (pg_result_step (result, r.state, &r.step));
-    }
-    check_ok (pg_result_finish (result, r.state, NULL, 0, 0));
-    for (size_t k = 0; begins && pg_result_words (result, k, row, sizeof row); k++)
-        if (strncmp (row, begins, strlen (begins)) == 0) strcpy (line, row);
-    pg_result_free (&result);
-    clear (&r);
-}
 
 /* Length of the pieces that tips have made up to a step. */
 static double length_in (const char *cracks, double step)
@@ -102,27 +83,22 @@ static void result_e_has_the_faces (void **state)
 {
     (void) state;
     char where[64], line[400];
-    int ncid, var;
-    size_t n = 0, steps = 0, lines = 0;
-    double *time = NULL, exists = 0, exist = 0;
+    int ncid;
+    size_t steps = 0, lines = 0;
+    double *time = NULL, exist = 0;
     pg_cloud cloud = { 0 };
     make_folder (where);
     leave (GROWING, where, NULL, line);
     char *cracks = slurp (inside (where, "cracks.csv"));
     check_ok (pg_exodus_points (inside (where, "result.e"), &cloud, &steps, &time));
     assert_int_equal (nc_open (inside (where, "result.e"), NC_NOWRITE, &ncid), NC_NOERR);
-    assert_int_equal (nc_inq_dimid (ncid, "num_el_in_blk2", &var), NC_NOERR);
-    assert_int_equal (nc_inq_dimlen (ncid, var, &lines), NC_NOERR);
+    exist = faces_at (ncid, 0, &lines);
     /* a row for each piece, and the one that the scene's crack has split off has none */
     assert_int_equal (lines, 2 * count_lines (cracks));
-    assert_int_equal (nc_inq_varid (ncid, "vals_elem_var1eb2", &var), NC_NOERR);
     for (size_t k = 0; k < steps; k++) {
         pg_cracks at = { 0 };
         check_ok (pg_result_cracks (&at, where, time[k]));
-        for (n = 0, exist = 0; n < lines; n++) {
-            assert_int_equal (nc_get_var1_double (ncid, var, (size_t[2]) { k, n }, &exists), NC_NOERR);
-            exist += exists;
-        }
+        exist = faces_at (ncid, k, &lines);
         assert_true (exist == 2.0 * (double) (at.n + 1));
         double sum = 0;
         for (size_t c = 0; c < at.n; c++) {

@@ -53,9 +53,8 @@ static run strip (double shift, double amount, int seed, double constant, int ev
                         "{set: back, displacement: {z: 0}}, {set: front, displacement: {z: 0}}]\n"
                         "method: {horizon: 2.01 spacing}\n"
                         "failure: {criterion: energy_release, fracture_energy: %g}\n"
-                        "solver: {max_events: %d}\n", amount, seed, events > 5 ? 34 : 22, shift, 8 + shift, shift, 8 + shift,
-                            shift, shift,
-                     E, NU, -constant * u, u, G0, events);
+                        "solver: {max_events: %d}\n", amount, seed, events > 5 ? 34 : 22, shift, 8 + shift,
+                     shift, 8 + shift, shift, shift, E, NU, -constant * u, u, G0, events);
 }
 
 /* Over so many events; the first front is drawn straight, and the load falls to its own within the first. */
