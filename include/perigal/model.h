@@ -490,6 +490,7 @@ typedef struct {
     double points, cells, evaluation, facets;
     double bonds[PG_BOND_SETS], dofs;
     double slaves, eliminated;  /* essential: transformation: unknowns, entries of its matrices */
+    int    shared;  /* 1: points of a lattice, none of whose bonds breaks, share rows that are alike */
     double summed;  /* consistent integration: what its points and faces see; else 0 */
     double patched;  /* nodes of all patches of the dilatation, once the problem is built */
     double pairs;                                      /* nodes I <= J that share a point of evaluation */

@@ -111,6 +111,10 @@ const char *pg_forecast_item (int item)
  * hold. They are upper bounds within some 20 %, checked against the peak of whole runs
  * (test/results/test_memory.c). */
 
+/* Where points of a lattice share their rows (force/galerkin_share.c): different rows at most, as counted on
+ * blocks and bodies with holes, and bonds of a part that is evaluated at a time. */
+static const double most_different = 4000, part = 5e5;
+
 /* Shape functions and their derivatives, strains and stresses at all points (galerkin), or the bonds of
  * forces that carry them alone: bits on a lattice, ends and a coefficient each in a list. rows: points of
  * all sets; all: bonds of all sets. */
@@ -118,7 +122,9 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
 {
     double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points, bytes;
     int listed = f->listed || f->by_list, factors = f->linear != NULL;
-    bytes = (16 + 8 * d) * all + rows * (16 * nv + 8 * d + 37) + 24 * f->dofs;             /* galerkin */
+    double different = all;
+    if (f->shared && !f->interpolates) different = fmin (all, most_different * all / rows + 2 * part);
+    bytes = (16 + 8 * d) * different + rows * (16 * nv + 8 * d + 45) + 24 * f->dofs;       /* galerkin */
     bytes += (12 + 8 * d) * f->summed;  /* pg_consistency */
     bytes += (4 + 8 * d * (d + 1)) * f->patched;  /* galerkin_dilatation */
     if (!f->method->shape_functions)  /* pg_bond_loop, bond */
@@ -281,17 +287,22 @@ void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, d
 
 /* ---- what would fit ------------------------------------------------------------------------------------ */
 /* Counts scaled from one spacing to another: bodies with (h / h')^dim, faces with one power less, the
- * factor as dissection scales it. */
+ * factor as dissection scales it. Points at the vertices of n cells along an edge are n + 1. */
 pg_forecast pg_forecast_at (const pg_forecast *f, double spacing)
 {
     pg_forecast g = *f;
     double finer = f->spacing / spacing, more = pow (finer, f->dim), entries, flops,
            known = f->factor_entries, known_flops = f->factor_flops;
+    double nodes = 1;
     g.spacing = spacing;
-    g.points *= more, g.cells *= more, g.evaluation *= more, g.pairs *= more, g.summed *= more;
+    for (int k = 0; k < f->dim; k++) {
+        double edge = f->behind || !(f->edge[k] > 1) ? f->edge[k] * finer : 1 + (f->edge[k] - 1) * finer;
+        g.edge[k] = edge, nodes *= edge / f->edge[k];
+    }
+    g.points *= nodes, g.cells *= more, g.evaluation *= more, g.pairs *= nodes, g.summed *= more;
     g.facets *= more / finer, g.slaves *= more / finer, g.eliminated *= more * more / (finer * finer);
-    g.bonds[PG_NODES] *= more, g.bonds[PG_POINTS] *= more, g.bonds[PG_FACETS] *= more / finer;
-    for (int k = 0; k < f->dim; k++) g.step[k] /= finer, g.edge[k] *= finer;
+    g.bonds[PG_NODES] *= nodes, g.bonds[PG_POINTS] *= more, g.bonds[PG_FACETS] *= more / finer;
+    for (int k = 0; k < f->dim; k++) g.step[k] /= finer;
     dissect (f, &entries, &flops);
     dissect (&g, &g.factor_entries, &g.factor_flops);
     if (entries > 0) g.factor_entries *= known / entries, g.factor_flops *= known_flops / flops;

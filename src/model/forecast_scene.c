@@ -97,6 +97,10 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
     f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
+    f->shared = f->method->shape_functions && !(f->summed > 0) && !f->breaks
+                && !pg_scene_bool (scene, "solver.plain") && !(pg_scene_number (scene, "perturb.amount") > 0)
+                && !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh")
+                && pg_scene_count (scene, "cracks") == 0;
     read_solver (f, scene);
 }
 
