@@ -168,6 +168,10 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
         { p->problem->approx.congruent && p->problem->method->shape_functions,
           "shape functions of most places",
           "places of a lattice that see their nodes alike have the same ones: evaluated once" },
+        { p->problem->approx.congruent && p->forecast->shared && !p->forecast->interpolates
+          && p->forecast->points + p->forecast->evaluation > 1000,
+          "memory for the shape functions of every point",
+          "points of a lattice that see their nodes alike share them; no bond is broken" },
         { steps, "stiffness matrix and factorization", "explicit time steps need neither" },
         { steps && !o->plain, "forces and energies for rows of history.csv",
           "the step before a row leaves the forces, from which work and energy follow" },
