@@ -66,6 +66,8 @@ typedef struct {
     int     gauge;  double opening;                    /* number of a gauge, -1: none; m */
     /* number of a load, -1: none; its force falls by this share of the largest */
     int     load;   double drop;
+    /* taken out of the body in this stage; NULL: nothing */
+    const pg_set *remove;
     long    events;                                    /* 0: any number */
     double  growth;  /* of cracks since the stage began, m (in space m^2); 0: any */
 } pg_stage;
@@ -298,6 +300,11 @@ pg_status pg_problem_staged      (pg_problem **out, const pg_problem *problem);
 void      pg_problem_staged_free (pg_problem **staged);
 /* The loads as they are where stage k ends at the share share[k] (0 to 1) of its way; NULL: all at 1. */
 void      pg_stages_follow       (pg_problem *staged, const double *share);
+/* The live bonds of the nodes that a stage (from 0) removes, and of the points of evaluation and facets that
+ * are nearest to one of them: ascending, each once. */
+pg_status pg_stage_removes       (const pg_problem *problem, size_t stage, const unsigned char *alive,
+                                  pg_changes *out);
+int       pg_problem_removes     (const pg_problem *problem);          /* 1: some stage removes something */
 /* 1: a load changes in that stage (from 0). */
 int       pg_stage_loads         (const pg_problem *problem, size_t stage);
 

@@ -67,6 +67,11 @@ static const pg_key keys[] = {
       "straight line from what it was. 0: unloaded." },
     { "stages[].steps", PG_INTEGER, NULL, "[1, 100000000]", "", NULL, NULL, NULL,
       "Equal load steps of this stage, with stepping: fixed; solver.steps if not given." },
+    { "stages[].remove", PG_NAME, NULL, NULL, "",
+      "sets.{}|left|right|bottom|top|back|front", NULL, NULL,
+      "A set whose points are taken out of the body (excavated): at the start of the stage what is left "
+      "still bears the forces that they exerted on it, and these go to zero in a straight line along the "
+      "stage." },
     { "stages[].until", PG_MAP, NULL, NULL, "", NULL, NULL, NULL,
       "What ends the stage early, whichever comes first; the loads then stay what they are. Looked at in "
       "states that bear their load: the first one that meets it ends the stage." },

@@ -69,6 +69,38 @@ void pg_problem_staged_free (pg_problem **problem)
     *problem = NULL;
 }
 
+/* ---- removal ------------------------------------------------------------------------------------------- */
+int pg_problem_removes (const pg_problem *p)
+{
+    for (size_t k = 0; k < p->nstage; k++) if (p->stage[k].remove) return 1;
+    return 0;
+}
+
+pg_status pg_stage_removes (const pg_problem *p, size_t stage, const unsigned char *alive, pg_changes *out)
+{
+    pg_status status = PG_OK;
+    const pg_set *set = p->stage[stage].remove;
+    unsigned char *gone = NULL;
+    PG_ALLOC (gone, p->cloud.n);
+    for (size_t i = 0; i < set->npoint; i++) gone[set->point[i]] = 1;
+    out->n = 0;
+    for (int s = 0; s < PG_BOND_SETS; s++) {
+        const pg_family *f = &p->rows[s].family;
+        for (size_t q = 0; q < p->rows[s].n; q++) {
+            int nearest = s == PG_NODES ? (int) q : pg_bonds_nearest (p, s, q);
+            int all = nearest >= 0 && gone[nearest];
+            for (size_t b = f->start[q]; b < f->start[q + 1]; b++) {
+                if (!(all || gone[f->node[b]]) || !alive[p->first_bond[s] + b]) continue;
+                PG_GROW (out->bond, out->cap, out->n + 1);
+                out->bond[out->n++] = p->first_bond[s] + b;
+            }
+        }
+    }
+done:
+    pg_free (gone);
+    return status;
+}
+
 /* ---- reading ------------------------------------------------------------------------------------------- */
 static long load_named (const pg_problem *p, const char *name)
 {
@@ -168,6 +200,49 @@ static void read_until (const pg_problem *p, pg_stage *stage, const pg_scene *sc
     }
 }
 
+/* Do the ascending points of two sets have one in common? */
+static int share_points (const pg_set *a, const pg_set *b)
+{
+    for (size_t i = 0, k = 0; i < a->npoint && k < b->npoint;)
+        if (a->point[i] == b->point[k]) return 1;
+        else if (a->point[i] < b->point[k]) i++;
+        else k++;
+    return 0;
+}
+
+/* What leaves the body may not be held, nor loaded where loads stay on points; it goes wholly, and once. */
+static void read_removal (const pg_problem *p, pg_stage *stage, const pg_scene *scene, size_t k)
+{
+    char path[64];
+    snprintf (path, sizeof path, "stages[%zu].remove", k);
+    if (!pg_scene_given (scene, "%s", path)) return;
+    stage->remove = pg_sets_named (&p->sets, scene, path, pg_scene_text (scene, "%s", path));
+    if (!stage->remove) return;
+    if (stage->remove->npoint == 0) pg_scene_fault (scene, path, "this set holds no point");
+    else if (stage->remove->npoint == p->cloud.n) pg_scene_fault (scene, path, "nothing would be left");
+    if (pg_scene_given (scene, "stages[%zu].until", k))
+        pg_scene_fault (scene, path,
+                        "what is removed goes wholly: until is for other stages, before or after this one");
+    if (pg_problem_grows (p))
+        pg_scene_fault (scene, path,
+                        "cracks that grow by facets do not know the new surface so far: use a criterion of "
+                        "bonds, or none");
+    if (p->cracks.n)
+        pg_scene_fault (scene, path, "does not go with cracks of the scene so far");
+    for (size_t i = 0; i < p->nload; i++) {
+        const pg_load *load = &p->load[i];
+        int on_points = load->kind != PG_TRACTION && load->kind != PG_PRESSURE && load->kind != PG_BODY_FORCE;
+        if (!load->cracks && share_points (load->set, stage->remove)
+            && (on_points || !p->method->shape_functions))
+            pg_scene_fault (scene, path,
+                            "shares points with the load or support %s, which has to be elsewhere",
+                            load->name);
+    }
+    for (size_t i = 0; i < k; i++)
+        if (p->stage[i].remove && share_points (p->stage[i].remove, stage->remove))
+            pg_scene_fault (scene, path, "shares points with what stage %s removes", p->stage[i].name);
+}
+
 /* Is there any value in the load that is not zero? Asked at places at which no formula vanishes by design. */
 static int is_zero (const pg_load *load, int dim)
 {
@@ -236,6 +311,7 @@ pg_status pg_stages_read (pg_problem *p, const pg_scene *scene)
             stage->steps = pg_scene_integer (scene, "stages[%zu].steps", k);
         PG_TRY (read_targets (p, stage, scene, k));
         read_until (p, stage, scene, k);
+        read_removal (p, stage, scene, k);
     }
     for (size_t i = 0; i < p->nload; i++)
         for (int c = 0; c < 3; c++) {

@@ -45,6 +45,7 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
     int set = p->rows[PG_POINTS].n ? PG_POINTS : PG_NODES;
     double area = 0;
     r->crack = (result_crack) { .length = NAN, .dissipated = NAN };
+    if (pg_problem_removes (p)) return PG_OK;              /* bonds of what was removed are no crack */
     if (r->grows && state->paths) {                        /* known, not estimated */
         r->crack.length = state->paths->length, r->crack.area = r->crack.length * p->cloud.thickness;
         r->crack.found = r->crack.area > 0;

@@ -25,7 +25,8 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
         dyn->resist (dyn->context, d, s->full);
     }
     /* at rest reactions contain the forces of contact on nodes that are held */
-    PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : contact_forces (s), &b->work_balance));
+    const double *rest = s->excavated ? s->excavated : contact_forces (s);
+    PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : rest, &b->work_balance));
     PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
@@ -38,7 +39,7 @@ pg_status break_loop_account_rest (break_loop *b, double t, const double *d, dou
     pg_status status = PG_OK;
     pg_system *s = &b->system;
     /* with friction half the work of the loads is not what is stored */
-    if (s->problem->plain || !s->force->equilibrium_balance || contact_forces (s))
+    if (s->problem->plain || !s->force->equilibrium_balance || contact_forces (s) || s->excavated)
         return break_loop_account (b, t, d, NULL, scale);
     double t0 = pg_seconds ();
     PG_TRY (s->force->equilibrium_balance (s->self, t, d, &b->work_balance));

@@ -28,7 +28,8 @@ pg_status event_start (pg_solver *s, const pg_state *state)
     } else
         for (size_t i = 0; state->factor != 0 && i < state->ndof; i++)
             e->unit[i] = state->d[i] / state->factor;
-    if (!s->break_loop.growth && !s->break_loop.system.contact && !e->engine)
+    if (!s->break_loop.growth && !s->break_loop.system.contact && !pg_problem_removes (s->problem)
+        && !e->engine)
         PG_TRY (event_solver_create (&e->engine, &s->break_loop.system, affine ? 2 : 1,
                                      affine ? (const double[2]) { 0, 1 } : (const double[2]) { 1, 0 }));
     PG_TRY (event_solve (s));
@@ -66,7 +67,9 @@ pg_status event_solve (pg_solver *s)
         event_solver_at (e->engine, e->base ? stage_start (s) : stage_end (s), stage_end (s));
         return solve_by_engine (e);
     }
+    stage_bear (s, stage_start (s));
     if (e->base) PG_TRY (system_solve (sys, stage_start (s), e->base, NULL, &first));
+    stage_bear (s, stage_end (s));
     PG_TRY (system_solve (sys, stage_end (s), e->unit, NULL, &second));
     e->unit_residual = fmax (first, second);
 done:
@@ -86,7 +89,7 @@ void event_displacement (const pg_solver *s, double factor, double *d)
 
 /* The first step of a stage of loading: the state is at its start, in the equilibrium at which the last one
  * ended, from which `base` and `unit` are solved for anew. */
-static pg_status begin_stage (pg_solver *s, double ended)
+static pg_status begin_stage (pg_solver *s, pg_state *state, double ended)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
@@ -95,6 +98,8 @@ static pg_status begin_stage (pg_solver *s, double ended)
     for (size_t i = 0; i < n; i++)
         e->base[i] = e->unit[i] = e->base[i] + share * (e->unit[i] - e->base[i]);
     s->break_loop.system.borne = fmax (s->break_loop.system.borne, s->break_loop.system.reference);
+    memcpy (state->d, e->base, n * sizeof *state->d);
+    PG_TRY (stage_remove (s, state));
     e->balance_fresh = 0, e->secant0 = 0;
     if (s->break_loop.growth) s->break_loop.growth->fresh = 0;
     PG_TRY (event_solve (s));
@@ -410,7 +415,7 @@ pg_status event_step (pg_solver *s, pg_state *state, pg_step *step)
     if (instability_moves (&e->unstable)) return instability_step (s, &e->unstable, state, step);
     if (e->ended != PG_OK) return pg_error (e->ended, PG_HERE, "%s", e->why);
     double ended = state->factor;
-    if (stage_next (s, state)) PG_TRY (begin_stage (s, ended));
+    if (stage_next (s, state)) PG_TRY (begin_stage (s, state, ended));
     else if (e->lost) PG_TRY (event_solve (s));
     e->lost = 0;
     return PG_OWN (pg_static_options, &s->options)->affine ? affine_step (s, state, step)

@@ -200,6 +200,7 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     if (event_ended (s, state, factor, solved)) goto done;
     PG_TRY (solved);
     event_move (s, state, factor);
+    stage_bear (s, factor);
     PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
@@ -243,6 +244,7 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     event_move (s, state, factor);
     state->factor = state->time = step->factor = step->time = factor;
     e->top_factor = fmax (e->top_factor, factor);
+    stage_bear (s, factor);
     PG_TRY (break_loop_account (b, factor, state->d, NULL, 1));
     s->report.energy_strain = b->work_balance.strain;
     if (b->work_balance.reaction)

@@ -460,6 +460,9 @@ void instability_read (pg_solver_options *o, const pg_problem *problem, const pg
         if (!dynamic && pg_scene_given (scene, "%s", keys[k].path))
             pg_scene_fault (scene, keys[k].path, "goes with on_instability: dynamic");
     if (!dynamic) return;
+    if (pg_problem_removes (problem))
+        pg_scene_fault (scene, "solver.on_instability",
+                        "what stages remove goes slowly, through states at rest: use follow or hold");
     if (problem->dim == 3 && pg_criterion_of_tips (problem->criterion))
         pg_scene_fault (scene, "solver.on_instability",
                         "fronts in space grow in equilibrium only: use follow "

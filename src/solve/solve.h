@@ -82,6 +82,7 @@ typedef struct {
     double   *mass;                                    /* lumped, per unknown, kg */
     const pg_sparse *M;                                /* consistent, or NULL */
     double   *residual, *reduced, *delta, *full, *best, *scratch;
+    const double *excavated;  /* forces at rest that what was removed still exerts, N (ndof); NULL: none */
     const double *held;  /* forces that facets still carry while they open, N (ndof); NULL: none */
     /* of the last state measured, N: its forces; what it lacks to balance */
     double    reference, unbalanced;
@@ -287,6 +288,8 @@ typedef struct {
     double side;  /* until.gauge: 1: it comes from below, -1: from above, 0: not known yet */
 } stage_place;
 typedef struct {
+    /* forces of what this stage removes, N (ndof; NULL: nothing): at its start, and now */
+    double     *excavated, *excavated_now;
     stage_place now, before;                           /* before: at the start of the step at hand */
     long        level_before;                          /* s->next_level there */
     pg_problem *staged;                                /* with loads of the solver's own */
@@ -329,6 +332,10 @@ double    stage_growth  (const pg_state *state);
 /* At the start of a step: where the last one ended its stage, the next begins. 1: it did, and the state is at
  * its start, with the same loads and displacements. */
 int       stage_next    (pg_solver *s, pg_state *state);
+/* After that: takes out what the stage removes, with the displacement at its start. */
+pg_status stage_remove  (pg_solver *s, pg_state *state);
+/* The forces of it at t. */
+void      stage_bear    (pg_solver *s, double t);
 /* Event stepping, d = base + (t - start) (unit - base) between t = now and *factor: if until.gauge is met
  * there, the stage is over and *factor is where. */
 pg_status stage_cross   (pg_solver *s, const pg_state *state, const double *base, const double *unit,

@@ -165,7 +165,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->residual_max = fmax (r->residual_max, step->residual);
     r->utilisation_max = fmax (r->utilisation_max, step->utilisation);
     report_sums (s);
-    if (step->level && s->break_loop.system.force->overlap)
+    if (step->level && s->break_loop.system.force->overlap && !pg_problem_removes (s->problem))
         r->overlap_max = fmax (r->overlap_max, s->break_loop.system.force->overlap (s->break_loop.system.self,
                                                                                     state, state->d));
     r->energy_external = s->break_loop.work;
@@ -319,7 +319,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
     if (sys->force->census)
         sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
                             &s->report.fragments);
-    if (sys->force->overlap)
+    if (sys->force->overlap && !pg_problem_removes (s->problem))
         s->report.overlap_max = fmax (s->report.overlap_max,
                                       sys->force->overlap (sys->self, state, state->d));
     report_skips (s);

@@ -44,6 +44,7 @@ done:
 void stages_free (pg_solver *s)
 {
     stage_path *p = &s->stage;
+    pg_free (p->excavated), pg_free (p->excavated_now);
     pg_free (p->share), pg_free (p->record), pg_free (p->opening);
     pg_problem_staged_free (&p->staged);
 }
@@ -88,6 +89,47 @@ int stage_next (pg_solver *s, pg_state *state)
     return 1;
 }
 
+/* ---- removal ------------------------------------------------------------------------------------------- */
+static void forget_removed (pg_solver *s)
+{
+    stage_path *p = &s->stage;
+    s->break_loop.system.excavated = NULL;
+    pg_free (p->excavated), pg_free (p->excavated_now);
+    p->excavated = p->excavated_now = NULL;
+}
+
+/* Of what is removed the rest of the body bears f = - (P - F) at the displacement at hand, so that nothing
+ * moves as its bonds go: the forces on the new surface (and inside, what the shape functions have changed).
+ * Along the stage they fall to zero, as behind the face of a tunnel that comes nearer and leaves. */
+pg_status stage_remove (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    stage_path *p = &s->stage;
+    break_loop *b = &s->break_loop;
+    pg_system *sys = &b->system;
+    double reference;
+    forget_removed (s);
+    if (!s->problem->stage[p->now.number - 1].remove) return PG_OK;
+    PG_ALLOC (p->excavated, sys->ndof);
+    PG_ALLOC (p->excavated_now, sys->ndof);
+    PG_TRY (pg_stage_removes (s->problem, (size_t) p->now.number - 1, state->alive, &b->changes));
+    for (size_t k = 0; k < b->changes.n; k++) state->alive[b->changes.bond[k]] = 0;
+    PG_TRY (system_refresh (sys, state, &b->changes));
+    PG_TRY (sys->force->balance (sys->self, stage_start (s), state->d, p->excavated, &reference));
+    for (size_t i = 0; i < sys->ndof; i++) p->excavated[i] = -p->excavated[i];
+done:
+    return status;
+}
+
+void stage_bear (pg_solver *s, double t)
+{
+    stage_path *p = &s->stage;
+    double left = 1 - (t - stage_start (s));
+    s->break_loop.system.excavated = p->excavated && left > 0 ? p->excavated_now : NULL;
+    for (size_t i = 0; p->excavated && i < s->break_loop.system.ndof; i++)
+        p->excavated_now[i] = left * p->excavated[i];
+}
+
 /* What a step goes back to where it is refused: the stage in which it began, which is the one at hand or the
  * one before. */
 void stage_save (pg_solver *s)
@@ -100,7 +142,10 @@ void stage_return (pg_solver *s)
 {
     stage_path *p = &s->stage;
     if (!p->now.number) return;
-    if (p->now.number > p->before.number) p->share[p->before.number - 1] = 1;
+    if (p->now.number > p->before.number) {
+        forget_removed (s);
+        p->share[p->before.number - 1] = 1;
+    }
     p->now = p->before, s->next_level = p->level_before;
     follow (s);
 }
@@ -275,6 +320,15 @@ pg_status stages_keep (pg_solver *s, const pg_keeper *k)
     PG_TRY (keep_place (&p->before, (long) n, "stage.before", k));
     PG_TRY (k->counts (k->context, "stage.level", 1, &p->level_before));
     PG_TRY (k->numbers (k->context, "stage.share", n, p->share));
+    long removes = p->excavated != NULL;
+    PG_TRY (k->counts (k->context, "stage.removes", 1, &removes));
+    if (k->reading && !removes) forget_removed (s);
+    if (removes && !p->excavated) {
+        PG_ALLOC (p->excavated, s->break_loop.system.ndof);
+        PG_ALLOC (p->excavated_now, s->break_loop.system.ndof);
+    }
+    if (removes)
+        PG_TRY (k->numbers (k->context, "stage.excavated", s->break_loop.system.ndof, p->excavated));
     PG_TRY (k->numbers (k->context, "stage.borne", 1, &s->break_loop.system.borne));
     for (size_t i = 0; i < n; i++) PG_TRY (keep_record (&p->record[i], s->problem->ngauge, k));
     follow (s);

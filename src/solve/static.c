@@ -14,6 +14,7 @@ static pg_status static_start (pg_solver *s, pg_state *state)
     PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
     PG_TRY (contact_settle_tips (&s->break_loop.system, state));
     s->next_level = 1;
+    if (s->stage.now.number) PG_TRY (stage_remove (s, state));         /* in the first stage */
     if (s->options.event) PG_TRY (event_start (s, state));
 done:
     return status;
@@ -25,9 +26,10 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     int meets;
-    if (b->round == 0) stage_next (s, state);
+    if (b->round == 0 && stage_next (s, state)) PG_TRY (stage_remove (s, state));
     long made = state->step - s->stage.now.first_step + 1, all = stage_steps (s, s->stage.now.number);
     double t = stage_start (s) + (double) made / (double) all;
+    stage_bear (s, t);
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     b->system.borne = fmax (b->system.borne, b->system.reference);
@@ -86,6 +88,8 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
         pg_scene_fault (scene, "solver.stepping",
                         "event does not yet go with contact.kind where loads have a constant part: use "
                         "fixed");
+    if (closes && pg_problem_removes (problem))
+        pg_scene_fault (scene, "stages", "remove does not go with contact.kind so far");
     if (o->event && o->break_mode == PG_BREAK_ALL)
         pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
     instability_read (o, problem, scene);

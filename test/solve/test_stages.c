@@ -287,6 +287,104 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
         }
 }
 
+/* ---- excavation ---------------------------------------------------------------------------------------- */
+#define ROCK \
+    "dimension: 2\nplane: strain\nthickness: 1 m\nbody: [{add: {box: {low: [-4, -4], high: [4, 4]}}}]\n" \
+    "spacing: 0.5\nmaterials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}\n" \
+    "sets: {tunnel: {where: 'r < 1.1'}}\noutput: {at: {levels: 2}, gauges: [{name: convergence, from: [0, " \
+    "-2.5], to: [0, 2.5]}]}\nboundary:\n - {set: bottom, displacement: {x: 0, y: 0}}\n" \
+    " - {name: top, set: top, traction: {y: -8 MPa, x: 1 MPa}}\n - {name: side, set: right, pressure: 3 " \
+    "MPa}\n"
+static const struct { const char *keys; double near;
+} kinds[] = {
+    { "", 1e-9 },
+    { "method: {integration: consistent}\n", 1e-9 },
+    { "method: {essential: transformation}\n", 1e-9 },
+    { "method: {force: bond, horizon: 3 spacing}\n", 1e-8 },
+    { "method: {force: lps, horizon: 3 spacing}\n", 1e-8 },
+};
+
+/* Loaded and then excavated, half-way and in the end, beside excavated and then loaded: the body is linear,
+ * so that the end is the same, and half-way there is half-way in all. What is removed bears nothing. */
+static void excavation_ends_where_a_body_with_the_hole_is (void **state)
+{
+    (void) state;
+    for (size_t k = 0; k < sizeof kinds / sizeof *kinds; k++)
+        for (int fixed = 0; fixed < 2; fixed++) {
+            const char *stepping = fixed ? "fixed" : "event";
+            run a = scene_of (1,
+                              ROCK "stages: [{name: load, boundary: {top: 1, side: 1}}, {name: excavate, "
+                                   "remove: tunnel}, {name: hold}]\n%ssolver: {stepping: %s, steps: 2}\n",
+                              kinds[k].keys, stepping),
+                b = scene_of (1,
+                              ROCK "stages: [{name: excavate, remove: tunnel}, {name: load, boundary: {top: "
+                                   "1, side: 1}}]\n%ssolver: {stepping: %s, steps: 2}\n",
+                              kinds[k].keys, stepping);
+            size_t n;
+            const pg_stage_record *one = pg_solver_stages (a.solver, &n);
+            const pg_stage_record *other = pg_solver_stages (b.solver, &n);
+            double half = NAN;
+            while (!pg_solver_done (a.solver, a.state)) {
+                advance (&a);
+                if (fabs (a.state->factor - 1.5) < 1e-9) {
+                    void *self;
+                    double u[2][3];
+                    const pg_force_type *force = pg_solver_force (a.solver, &self);
+                    for (int end = 0; end < 2; end++)
+                        check_ok (force->sample (self, a.state, a.state->d, 1,
+                                                 end ? a.problem->gauge->to : a.problem->gauge->from, u[end],
+                                                 NULL, NULL));
+                    half = u[1][1] - u[0][1];
+                }
+            }
+            to_the_end (&b);
+            double size = fabs (other[1].gauge[0]);
+            /* the hole makes a difference, and no force of it is left */
+            assert_true (fabs (one[1].gauge[0] - one[0].gauge[0]) > 0.1 * size);
+            check_scaled (one[1].gauge[0], other[1].gauge[0], kinds[k].near, size);
+            check_scaled (one[2].gauge[0], other[1].gauge[0], kinds[k].near, size);
+            check_scaled (half, 0.5 * (one[0].gauge[0] + one[1].gauge[0]), kinds[k].near, size);
+            check_scaled (one[1].strain, other[1].strain, 1e-7, other[1].strain);
+            /* the rest of the loads' work was stored in the hole, or given back by its edge: positive */
+            assert_true (one[1].dissipated > 0 && fabs (other[1].dissipated) < 1e-8 * other[1].strain);
+            assert_true (a.state->broken == 0 && pg_solver_report_now (a.solver)->energy_dissipated > 0);
+            int components;
+            double *stress = field_of (&a, NULL, "stress", &components);
+            const pg_set *tunnel = a.problem->stage[1].remove;
+            for (size_t i = 0; i < tunnel->npoint; i++)
+                for (int c = 0; c < components; c++)
+                    assert_true (stress[(size_t) tunnel->point[i] * (size_t) components + (size_t) c] == 0);
+            pg_free (stress);
+            clear (&a), clear (&b);
+        }
+}
+
+/* A checkpoint before, within and after an excavation. */
+static void a_resumed_excavation_goes_on_bit_by_bit (void **state)
+{
+    (void) state;
+    for (int fixed = 0; fixed < 2; fixed++) {
+        char text[2048];
+        snprintf (text, sizeof text,
+                ROCK "failure: {criterion: principal_stress, tensile_strength: 1 MPa}\nstages: [{name: load, "
+                       "boundary: {top: 0.1, side: 0.1}}, {name: excavate, remove: tunnel}, {name: more, "
+                       "boundary: {top: 0.2}}]\nsolver: {stepping: %s, steps: 3, max_events: 30}\n",
+                  fixed ? "fixed" : "event");
+        run a = prepare (1, text);
+        for (int step = 0; step < (fixed ? 8 : 7); step++) {
+            run b = prepare (1, text), c = prepare (1, text);
+            tape t = { 0 };
+            advance (&a);
+            keep (&a, &t, 0), keep (&b, &t, 1);
+            for (int k = 0; k <= step; k++) advance (&c);
+            for (int k = 0; k < 2 && !pg_solver_done (c.solver, c.state); k++) advance_alike (&c, &b);
+            pg_free (t.byte);
+            clear (&b), clear (&c);
+        }
+        clear (&a);
+    }
+}
+
 /* ---- what is no such stage ----------------------------------------------------------------------------- */
 static void wrong_stages_are_faults (void **state)
 {
@@ -306,6 +404,10 @@ static void wrong_stages_are_faults (void **state)
         { "", "{name: a, boundary: {pull: 1}, until: {load: pull}}", "", "goes with until.drop" },
         { "", "{name: a, boundary: {pull: 1}, until: {crack_length: 1 mm}}", "",
           "is for cracks that grow by facets" },
+        { "", "{name: a, boundary: {pull: 1}}, {name: b, remove: left}", "",
+          "shares points with the load" },
+        { "", "{name: a, boundary: {pull: 1}}, {name: b, remove: top, until: {events: 1}}", "",
+          "what is removed goes wholly" },
         { "", "{name: a, boundary: {pull: 1}}", "solver: {kind: newmark, dt: 1 us, end: 1 ms}\n",
           "does not know stages of loading so far" },
         { "", "{name: a, boundary: {pull: 1}}", "solver: {kind: adr}\n",
@@ -342,6 +444,8 @@ int main (void)
         cmocka_unit_test (unloading_returns_to_the_origin),
         cmocka_unit_test (growth_and_a_drop_of_force_end_a_stage),
         cmocka_unit_test (a_resumed_run_goes_on_bit_by_bit),
+        cmocka_unit_test (excavation_ends_where_a_body_with_the_hole_is),
+        cmocka_unit_test (a_resumed_excavation_goes_on_bit_by_bit),
         cmocka_unit_test (wrong_stages_are_faults),
     };
     return cmocka_run_group_tests_name ("solve/stages", tests, NULL, NULL);
