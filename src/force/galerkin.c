@@ -41,6 +41,7 @@ static void galerkin_free (void **self)
     pg_nearest_free (&g->near_point);
     pg_nearest_free (&g->near_node);
     pg_family_search_free (&g->search);
+    galerkin_again_free (&g->again);
     galerkin_alike_free (&g->alike);
     pg_free (g->work), pg_free (g->stale), pg_free (g->diagonal), pg_free (g->wide),
         pg_free (g->ends);
@@ -289,6 +290,12 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
         snprintf (what, 96, "memory for the shape functions of every point");
         snprintf (why, 160, "points of a lattice that see their nodes alike share them; no bond is broken");
         *seconds = 4e-10 * 8 * (double) (2 + g->dim) * (double) shared;        /* of fresh memory, s a byte */
+        return 1;
+    }
+    if (galerkin_again_served (g) && k-- == 0) {
+        snprintf (what, 96, "shape functions of places around tips");
+        snprintf (why, 160, "no bond broke and no crack grew near them since they were asked for");
+        *seconds = NAN;
         return 1;
     }
     if (k > 0 || places == 0) return galerkin_spared (self, k - (places > 0 && k > 0), what, why, seconds);

@@ -10,6 +10,7 @@
  * (preconditioner), galerkin_intact.c (rows of the intact body), galerkin_share.c
  * (rows that are alike), galerkin_sample.c (any place),
  * galerkin_sample_alike.c (places that are alike),
+ * galerkin_sample_again.c (places that are asked for again),
  * galerkin_estimate.c (error of the stress). */
 #ifndef PG_GALERKIN_H
 #define PG_GALERKIN_H
@@ -89,6 +90,7 @@ typedef struct {
     pg_nearest *near_point, *near_node;  /* bulk points, nodes; NULL until a place is asked for */
     pg_family_search *search;            /* nodes that a place sees; likewise */
     struct galerkin_alike *alike;        /* places that see them alike; likewise, where there are such */
+    struct galerkin_again *again;        /* places that were asked for before; likewise */
 } galerkin;
 
 /* scene: entries of pg_method */
@@ -312,6 +314,16 @@ int    galerkin_alike_good (const galerkin_alike *alike, int key);      /* 0: th
 size_t galerkin_alike_scratch (const galerkin_alike *alike);
 void   galerkin_alike_values (const galerkin_alike *alike, int key, const double *x, const double *d,
                               double *value, size_t *held, double *u, double *H);
+
+/* sample_again: shape functions of places that are asked for again, n <= a chunk. Is it worth looking? */
+typedef struct galerkin_again galerkin_again;
+void   galerkin_again_free (galerkin_again **again);
+int    galerkin_again_serves (const galerkin *g, size_t n);
+pg_status galerkin_again_find (galerkin *g, const pg_state *state, size_t n, const double *x,
+                               const pg_rows **rows, size_t **at);
+pg_status galerkin_again_keep (galerkin *g, const pg_state *state, size_t n, const double *x, pg_rows *rows,
+                               size_t **at);
+int    galerkin_again_served (const galerkin *g);      /* were any used again? */
 
 /* Four numbers at a time; the same operations in the same order with and without AVX. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));

@@ -232,9 +232,8 @@ static void find_nodes (const galerkin *g, size_t n, const double *x, int *own)
     }
 }
 
-/* The places of a chunk that need rows of their own. Those that are the first of their kind leave their rows
- * for others (leaves: key or -1; NULL: none does). */
-static pg_status sample_each (sampling *s, size_t n, const double *x, int *own, const int *leaves)
+/* Rows of places, and where bonds are lost or materials differ the evaluation points nearest to them. */
+static pg_status make_rows (sampling *s, size_t n, const double *x, int *own)
 {
     pg_status status = PG_OK;
     const pg_problem *p = s->g->problem;
@@ -251,11 +250,43 @@ static pg_status sample_each (sampling *s, size_t n, const double *x, int *own, 
     if (!s->intact) pg_parallel (s->g->threads, n, find_bonds, s);
     else if (!s->uniform) pg_parallel (s->g->threads, n, find_points, s);
     PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &s->rows, s->alive, n, NULL, s->g->threads));
+done:
+    pg_free (s->alive), s->alive = NULL;
+    return status;
+}
+
+/* The places of a chunk that need rows of their own. Those that are the first of their kind leave their rows
+ * for others (leaves: key or -1; NULL: none does). */
+static pg_status sample_each (sampling *s, size_t n, const double *x, int *own, const int *leaves)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) s->g->dim;
+    PG_TRY (make_rows (s, n, x, own));
     pg_parallel (s->g->threads, n, evaluate, s);
     for (size_t i = 0; leaves && i < n; i++)
         if (leaves[i] >= 0) galerkin_alike_keep (s->g->alike, leaves[i], &s->rows, i, x + i * dim);
 done:
-    pg_free (s->alive), s->alive = NULL;
+    pg_rows_clear (&s->rows);
+    return status;
+}
+
+/* Places among cracks that may be asked for again: by rows that were kept, else by new ones, which are. */
+static pg_status sample_again (sampling *s, size_t n, const double *x, int *own)
+{
+    pg_status status = PG_OK;
+    const pg_rows *rows;
+    size_t *at;
+    PG_TRY (galerkin_again_find (s->g, s->state, n, x, &rows, &at));
+    if (rows) {
+        sampling again = *s;
+        again.rows = *rows, again.at = at;
+        pg_parallel (s->g->threads, n, evaluate, &again);
+        return PG_OK;
+    }
+    PG_TRY (make_rows (s, n, x, own));
+    pg_parallel (s->g->threads, n, evaluate, s);
+    PG_TRY (galerkin_again_keep (s->g, s->state, n, x, &s->rows, &s->at));
+done:
     pg_rows_clear (&s->rows);
     return status;
 }
@@ -347,6 +378,11 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     if (g->dilatation && stress) s.pressure = galerkin_dilatation_of_nodes (g, d);
     int alike = s.uniform && !s.pressure && n >= MANY && SHARE * n >= g->n;
     if (alike && !g->alike) PG_TRY (galerkin_alike_create (&g->alike, g->problem));
+    if (!s.intact && n <= CHUNK && galerkin_again_serves (g, n)) {
+        s.u = u, s.stress = stress, s.gradient = gradient;
+        PG_TRY (sample_again (&s, n, x, own));
+        goto done;
+    }
     if (alike && g->alike) galerkin_alike_begin (g->alike, g->n * (size_t) g->dim, d);
     for (size_t first = 0; first < n; first += CHUNK) {
         s.u = u + 3 * first, s.stress = stress ? stress + 6 * first : NULL;
