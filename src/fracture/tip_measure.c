@@ -264,13 +264,19 @@ void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double 
     }
 }
 
+/* In space the share s of modes II and III is left as the interaction integrals have it, K^2 (1 - s) E' J /
+ * size^2 + s K^2: a front that slides acts as one some tenths of a spacing further ahead, which J feels and K
+ * about the place where it is drawn does not to first order (doc/method.md, "The front of a crack in
+ * space"). */
 void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, double *K)
 {
-    double J, size = 0;
+    double J, size = 0, share = 0;
     pg_tip_combine (f, nfield, l, &J, K, NULL);
-    size = hypot (hypot (K[0], K[1]), sqrt (f->antiplane) * K[2]);
+    size = K[0] * K[0] + K[1] * K[1] + f->antiplane * K[2] * K[2];
     if (!(J > 0) || !(size > 0) || K[0] < 0) return;
-    for (int m = 0; m < 3; m++) K[m] *= sqrt (f->modulus * J) / size;
+    if (f->antiplane > 0) share = 1 - K[0] * K[0] / size;
+    double scale = sqrt ((1 - share) * f->modulus * J / size + share);
+    for (int m = 0; m < 3; m++) K[m] *= scale;
 }
 
 double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l)

@@ -221,13 +221,34 @@ static void check_straight (exact *m, double unit, size_t margin, int nfield)
             check_relative (J, G, 1e-3);
             for (int k = 0; k < 3; k++) check_scaled (K[k], right[k], 1e-3, size);
             check_scaled (T, m->T, 1e-3, size / sqrt (unit));
+            double all = K[0] * K[0] + K[1] * K[1] + K[2] * K[2] / (1 - m->nu), open = K[0] * K[0] / all;
             pg_tip_intensities (&f[i], nfield, both, K);
-            check_relative (K[0] * K[0] + K[1] * K[1] + K[2] * K[2] / (1 - m->nu), E * J, 1e-9);
+            check_relative (K[0] * K[0] + K[1] * K[1] + K[2] * K[2] / (1 - m->nu),
+                            open * E * J + (1 - open) * all, 1e-9);
         }
     }
     assert_true (seen > 4);
     free (f);
     clear (&tst);
+}
+
+/* J of twice what K makes: what opens takes its magnitude, what slides or tears keeps its own. */
+static void intensities_of_what_slides (void **state)
+{
+    (void) state;
+    for (int mode = 0; mode < 3; mode++) {
+        pg_tip_field f = { .modulus = 1, .antiplane = 1.25 };
+        double K[3];
+        const double one = 1;
+        f.K[mode][0] = 2, f.J[0][0] = 2 * 4 * (mode == 2 ? 1.25 : 1);
+        pg_tip_intensities (&f, 1, &one, K);
+        for (int k = 0; k < 3; k++) check_scaled (K[k], k == mode ? (mode ? 2 : 2 * sqrt (2)) : 0, 1e-12, 1);
+        f.antiplane = 0;                               /* in the plane J decides */
+        f.J[0][0] = 8;
+        if (mode == 2) continue;
+        pg_tip_intensities (&f, 1, &one, K);
+        check_relative (K[mode], 2 * sqrt (2), 1e-12);
+    }
 }
 
 static void straight_fronts_come_back (void **state)
@@ -331,6 +352,7 @@ static void what_cannot_be_measured (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (straight_fronts_come_back),
+                                        cmocka_unit_test (intensities_of_what_slides),
                                         cmocka_unit_test (pennies_come_back),
                                         cmocka_unit_test (tubes_hold_nothing_else),
                                         cmocka_unit_test (what_cannot_be_measured) };
