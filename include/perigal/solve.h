@@ -273,6 +273,15 @@ typedef struct pg_progress {
     double      damage;  /* largest damage in solver.stop.set; NAN: none, or not looked at yet */
 } pg_progress;
 void      pg_solver_progress (const pg_solver *solver, const pg_state *state, pg_progress *out);
+/* Contact of a piece of crack in the state of the last step: pressure and shear stress on its left face,
+ * along the path (Pa), mean gap and slip (m). */
+typedef struct {
+    size_t path;
+    double x[2], length, arc, pressure, shear, gap, slip;
+    pg_contact_status status;
+} pg_contact_values;
+/* Piece by piece, path by path; *n: how many, 0 without contact. Borrowed until the next step. */
+const pg_contact_values *pg_solver_contact (const pg_solver *solver, size_t *n);
 /* What the faces behind a tip of the state do to each other, with contact; 0: the run has none. */
 int pg_solver_tip_faces (const pg_solver *solver, const pg_state *state, size_t tip, pg_tip_faces *out);
 /* What the solver has measured at the tip of that id; NULL: nothing. */

@@ -84,6 +84,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     PG_TRY (from ? pg_table_open (&r->events, path, EVENT_COLUMNS, event_columns, from->events)
                  : pg_table_create (&r->events, path, EVENT_COLUMNS, event_columns));
     PG_TRY (pg_result_paths_create (r, from));
+    PG_TRY (pg_result_contact_create (r, from));
 done:
     pg_free (name), pg_free (column);
     return status;
@@ -192,6 +193,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     PG_TRY (pg_table_row (r->history, r->row));
     PG_TRY (event_rows (r, step));
     PG_TRY (pg_result_paths_write (r, state, step));
+    PG_TRY (pg_result_contact_write (r, step));
 done:
     return status;
 }

@@ -138,6 +138,7 @@ result_marks pg_result_marks_now (const pg_result *r)
                        .pieces = r->pieces ? pg_table_rows (r->pieces) : 0,
                        .tips = r->tip_rows ? pg_table_rows (r->tip_rows) : 0,
                        .npiece = r->npiece,
+                       .contact = r->contact ? pg_table_rows (r->contact) : 0,
                        .stamp = r->stamp,
                        .time = r->time };
     pg_exodus_size (r->file, &m.steps, &m.bytes);
@@ -283,6 +284,7 @@ void pg_result_free (pg_result **result)
     pg_table_close (&r->history);
     pg_table_close (&r->events);
     pg_result_paths_close (r);
+    pg_result_contact_close (r);
     pg_result_unlock (r->folder, &r->lock);
     pg_scene_files_free (r->nnamed, &r->named);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);

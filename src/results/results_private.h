@@ -22,6 +22,7 @@ typedef struct {
     long     next_broken, points, last_written;
     /* Rows of cracks.csv and of tips.csv; pieces of cracks that are in cracks.csv or need no row. */
     long     pieces, tips, npiece;
+    long     contact;                                  /* rows of contact.csv */
     /* Time of the last step, and of the last fields in result.e (s, or load factor). */
     double   stamp, time;
 } result_marks;
@@ -101,6 +102,7 @@ struct pg_result {
     int       grows, measuring;
     /* cracks.csv and tips.csv (in space fronts.csv), or NULL; the next piece to write. */
     pg_table *pieces, *tip_rows;
+    pg_table *contact;                                 /* contact.csv, or NULL */
     long      npiece;
     /* What the tips of the state of the last row bear. */
     pg_tip_values *tip_value;  size_t cap_tip_value;
@@ -189,6 +191,10 @@ double    pg_result_paths_ratio    (const pg_result *r);
 void      pg_result_paths_close    (pg_result *r);
 /* Adds the faces of all cracks to result.e, which is complete then, and closes it (crack_lines.c). */
 pg_status pg_result_paths_lines    (pg_result *r, const pg_state *state);
+/* contact_rows.c: contact.csv, created or cut to the rows of `from`, and its rows. */
+pg_status pg_result_contact_create (pg_result *r, const result_marks *from);
+pg_status pg_result_contact_write  (pg_result *r, const pg_step *step);
+void      pg_result_contact_close  (pg_result *r);
 /* grown_surfaces.c: what pg_result_paths_... do where the body has three dimensions. */
 size_t    pg_result_surfaces_columns (const pg_result *r);
 void      pg_result_surfaces_column  (const pg_result *r, size_t i, char *out, size_t size);

@@ -15,7 +15,7 @@
 #include <unistd.h>
 
 /* Bytes of a hash and of the version; whole numbers of a set of marks. */
-enum { WORD = 64, MARKS = 10 };
+enum { WORD = 64, MARKS = 11 };
 /* A checkpoint that is being written or read. */
 typedef struct {
     pg_result *r;
@@ -129,7 +129,7 @@ static pg_status keep_marks (const memory *of, result_marks *m, const char *name
     pg_status status = PG_OK;
     char part[WORD];
     long count[MARKS] = { m->history, m->events,       m->steps,  m->bytes, m->next_broken,
-                          m->points,  m->last_written, m->pieces, m->tips,  m->npiece };
+                          m->points,  m->last_written, m->pieces, m->tips,  m->npiece, m->contact };
     double number[2] = { m->stamp, m->time };
     snprintf (part, sizeof part, "%s.counts", name);
     PG_TRY (k->counts (k->context, part, MARKS, count));
@@ -137,7 +137,7 @@ static pg_status keep_marks (const memory *of, result_marks *m, const char *name
     PG_TRY (k->numbers (k->context, part, 2, number));
     if (k->reading) PG_TRY (check_marks (of, name, count));
     *m = (result_marks){ count[0], count[1], count[2], count[3], count[4],  count[5],
-                         count[6], count[7], count[8], count[9], number[0], number[1] };
+                         count[6], count[7], count[8], count[9], count[10], number[0], number[1] };
 done:
     return status;
 }
@@ -248,6 +248,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     PG_TRY (pg_table_sync (r->events));
     if (r->pieces) PG_TRY (pg_table_sync (r->pieces));
     if (r->tip_rows) PG_TRY (pg_table_sync (r->tip_rows));
+    if (r->contact) PG_TRY (pg_table_sync (r->contact));
     PG_TRY (pg_exodus_sync (r->file));
     PG_TRY (pg_checkpoint_write (path, keep_all, &m));
 done:

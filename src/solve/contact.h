@@ -31,6 +31,7 @@ struct system_contact {
     double   *nodal;                                   /* G' f, N (ndof) */
     int       active;                                  /* some force is not zero */
     int       history;                                 /* 1: slip has a memory from step to step */
+    pg_contact_values *shown;  size_t nshown, cap_shown;         /* of the last step, for results */
     contact_memory now, start;                         /* start: of the step, for one that is refused */
 };
 
@@ -51,6 +52,9 @@ pg_status contact_settle_tips (pg_system *s, pg_state *state);
  * closed) and along it. *nearest: distance to the next closed piece, m; INFINITY: none. */
 void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, double stress[2],
                      double *nearest);
+
+/* The pieces of the state at hand for results, loads scaled. */
+pg_status contact_show (pg_system *s, double scale);
 
 /* ---- contact_memory.c ---------------------------------------------------------------------------------- */
 /* Values of the memory at the pieces at hand. */

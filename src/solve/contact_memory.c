@@ -111,6 +111,42 @@ done:
     return status;
 }
 
+/* What results have not written yet. */
+static pg_status keep_shown (struct system_contact *c, const pg_system *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    enum { NUMBERS = 8 };
+    long n = (long) c->nshown, *count = NULL;
+    double *number = NULL;
+    PG_TRY (k->counts (k->context, "contact.shown_count", 1, &n));
+    PG_KEEP_BOUND (k, "the number of pieces in contact", n, 0, (long) s->problem->first_bond[PG_BOND_SETS]);
+    if (k->reading) PG_GROW (c->shown, c->cap_shown, (size_t) n);
+    PG_ALLOC (count, 2 * (size_t) n + 1);
+    PG_ALLOC (number, NUMBERS * (size_t) n + 1);
+    for (long i = 0; !k->reading && i < n; i++) {
+        const pg_contact_values *v = &c->shown[i];
+        const double value[NUMBERS] = { v->x[0],     v->x[1],  v->length, v->arc,
+                                        v->pressure, v->shear, v->gap,    v->slip };
+        count[2*i] = (long) v->path, count[2*i + 1] = (long) v->status;
+        memcpy (number + NUMBERS * i, value, sizeof value);
+    }
+    if (n) PG_TRY (k->counts (k->context, "contact.shown", 2 * (size_t) n, count));
+    if (n) PG_TRY (k->numbers (k->context, "contact.shown_values", NUMBERS * (size_t) n, number));
+    for (long i = 0; k->reading && i < n; i++) {
+        const double *v = number + NUMBERS * i;
+        PG_KEEP_BOUND (k, "the path of a piece", count[2*i], 0,
+                       (long) s->problem->first_bond[PG_BOND_SETS]);
+        PG_KEEP_BOUND (k, "the status of a piece", count[2*i + 1], PG_CONTACT_OPEN, PG_CONTACT_BACKWARD);
+        c->shown[i] = (pg_contact_values) { .path = (size_t) count[2*i], .x = { v[0], v[1] }, .length = v[2],
+                                            .arc = v[3], .pressure = v[4], .shear = v[5], .gap = v[6],
+                                            .slip = v[7], .status = (pg_contact_status) count[2*i + 1] };
+    }
+    c->nshown = (size_t) n;
+done:
+    pg_free (count), pg_free (number);
+    return status;
+}
+
 /* Forces, gaps and states of the pieces of the state at hand: it has been solved for, and is not again.
  * Called when caches have been made again. */
 pg_status contact_keep (pg_system *s, const pg_keeper *k)
@@ -122,6 +158,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     long count[4] = { (long) c->pieces.n, c->active, r->contact_passes, r->contact_sweeps };
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
     PG_TRY (keep_memory (&c->start, "contact.start", s, k));
+    PG_TRY (keep_shown (c, s, k));
     PG_TRY (k->counts (k->context, "contact.counts", 4, count));
     PG_KEEP_BOUND (k, "the number of pieces of cracks", count[0], (long) c->pieces.n, (long) c->pieces.n);
     PG_KEEP_BOUND (k, "contact", count[1], 0, 1);

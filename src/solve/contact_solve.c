@@ -44,7 +44,7 @@ void contact_free (pg_system *s)
     struct system_contact *c = s->contact;
     if (!c) return;
     clear (c);
-    pg_free (c->nodal), pg_free (c->now.value), pg_free (c->start.value);
+    pg_free (c->nodal), pg_free (c->now.value), pg_free (c->start.value), pg_free (c->shown);
     pg_free (c);
     s->contact = NULL;
 }
@@ -286,4 +286,32 @@ int pg_solver_tip_faces (const pg_solver *s, const pg_state *state, size_t tip, 
     contact_at_tip (&s->break_loop.system, state, tip, out->stress[0], &out->nearest);
     out->stress[0][0] *= scale, out->stress[0][1] *= scale;
     return 1;
+}
+
+pg_status contact_show (pg_system *s, double scale)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    if (!c) return PG_OK;
+    PG_GROW (c->shown, c->cap_shown, c->pieces.n);
+    c->nshown = c->pieces.n;
+    for (size_t k = 0; k < c->nshown; k++) {
+        const pg_contact_piece *p = &c->pieces.piece[k];
+        double force = c->active ? scale / p->area : 0;
+        c->shown[k] = (pg_contact_values) { .path = p->path, .x = { p->x[0], p->x[1] },
+                                            .length = p->length, .arc = p->arc,
+                                            .pressure = force * c->force[2*k],
+                                            .shear = force * c->force[2*k + 1],
+                                            .gap = scale * c->gap[2*k], .slip = scale * c->gap[2*k + 1],
+                                            .status = c->active ? c->status[k] : PG_CONTACT_OPEN };
+    }
+done:
+    return status;
+}
+
+const pg_contact_values *pg_solver_contact (const pg_solver *s, size_t *n)
+{
+    const struct system_contact *c = s->break_loop.system.contact;
+    *n = c ? c->nshown : 0;
+    return c ? c->shown : NULL;
 }

@@ -4,6 +4,7 @@
  * the bonds that reach their limit (ties included), solve for the new d_1, and so on; levels that the user
  * wants are reported as they are passed. This file: loads proportional to lambda, and what both kinds share;
  * event_stepping_affine.c: loads with a constant part as well. */
+#include "contact.h"
 #include "event_stepping.h"
 #include "facet_growth.h"
 #include <math.h>
@@ -303,6 +304,7 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     *scale = factor;
+    PG_TRY (contact_show (&b->system, factor));
     if (b->growth) {
         step->utilisation = facet_utilisation (b, state, factor);
         return facet_show (s, state, factor);

@@ -34,6 +34,7 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     b->system.borne = fmax (b->system.borne, b->system.reference);
     contact_accept (&b->system);
+    PG_TRY (contact_show (&b->system, 1));
     state->factor = state->time = t;
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);

@@ -16,6 +16,12 @@
     "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 0.9]}}}]\nspacing: 0.05\n" \
     "cracks: [{from: [-0.1, 0.46], to: [0.43, 0.43]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
     "poissons_ratio: 0.2, density: 2000}}\nfailure: {fracture_energy: 400 J/m2}\n"
+#define WINGS \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 1.2]}}}]\nspacing: 0.05\n" \
+    "cracks: [{from: [0.33, 0.41], to: [0.67, 0.76]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
+    "poissons_ratio: 0.2, density: 2000}}\nfailure: {fracture_energy: 4 J/m2}\n" \
+    "contact: {kind: friction, coefficient: 0.2}\nboundary: [{name: foot, set: bottom, displacement: " \
+    "{x: 0, y: 0}}, {name: head, set: top, displacement: {y: -1 mm}}]\n"
 static const struct { const char *name, *text;
 } scenes[] = {
     { "event", BODY PULL
@@ -51,6 +57,10 @@ static const struct { const char *name, *text;
                 "boundary: [{set: back, displacement: {x: 0, y: 0, z: 0}}, {set: front, displacement: "
                 "{x: 2 mm, z: 10 mm}}]\nsolver: {stepping: event, max_events: 5}\n"
                 "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+    { "wings", WINGS "solver: {stepping: event, max_events: 6}\n"
+                     "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+    { "wings_fixed", WINGS "solver: {stepping: fixed, steps: 4}\n"
+                           "output: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
