@@ -210,6 +210,20 @@ static int share_points (const pg_set *a, const pg_set *b)
     return 0;
 }
 
+/* Loads on points and supports have to be elsewhere; what acts by shape functions goes with its place. */
+static void check_loads (const pg_problem *p, const pg_set *remove, const pg_scene *scene, const char *path)
+{
+    for (size_t i = 0; i < p->nload; i++) {
+        const pg_load *load = &p->load[i];
+        int on_points = load->kind != PG_TRACTION && load->kind != PG_PRESSURE && load->kind != PG_BODY_FORCE;
+        if (!load->cracks && share_points (load->set, remove)
+            && (on_points || !p->method->shape_functions))
+            pg_scene_fault (scene, path,
+                            "shares points with the load or support %s, which has to be elsewhere",
+                            load->name);
+    }
+}
+
 /* What leaves the body may not be held, nor loaded where loads stay on points; it goes wholly, and once. */
 static void read_removal (const pg_problem *p, pg_stage *stage, const pg_scene *scene, size_t k)
 {
@@ -229,15 +243,7 @@ static void read_removal (const pg_problem *p, pg_stage *stage, const pg_scene *
                         "bonds, or none");
     if (p->cracks.n)
         pg_scene_fault (scene, path, "does not go with cracks of the scene so far");
-    for (size_t i = 0; i < p->nload; i++) {
-        const pg_load *load = &p->load[i];
-        int on_points = load->kind != PG_TRACTION && load->kind != PG_PRESSURE && load->kind != PG_BODY_FORCE;
-        if (!load->cracks && share_points (load->set, stage->remove)
-            && (on_points || !p->method->shape_functions))
-            pg_scene_fault (scene, path,
-                            "shares points with the load or support %s, which has to be elsewhere",
-                            load->name);
-    }
+    check_loads (p, stage->remove, scene, path);
     for (size_t i = 0; i < k; i++)
         if (p->stage[i].remove && share_points (p->stage[i].remove, stage->remove))
             pg_scene_fault (scene, path, "shares points with what stage %s removes", p->stage[i].name);

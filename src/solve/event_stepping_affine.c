@@ -111,6 +111,20 @@ done:
     return status;
 }
 
+/* Nothing below this factor bears its loads either. Told once. */
+static void tell_driven (pg_solver *s, const pg_state *state, double factor)
+{
+    int facets = s->break_loop.growth != NULL;
+    events_of (s)->driven = 1;
+    if (events_of (s)->constant_events++) return;
+    pg_statistics_warn (&s->report,
+                        "at load factor %.6g, after event %ld, no lower factor lets %s: %s drive the crack, "
+                        "which then runs at a held factor, %s (in truth a dynamic event)",
+                        factor, state->events, facets ? "the crack rest" : "the remaining bonds live",
+                        stage_start (s) > 0 ? "the loads of earlier stages" : "the constant loads",
+                        facets ? "facet by facet" : "bond by bond");
+}
+
 /* Where the next bonds break, or the next level; *breaks: something breaks there. b->utilisation is that of
  * *factor. */
 static pg_status choose (pg_solver *s, pg_state *state, double level, double *factor, int *breaks)
@@ -143,16 +157,8 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, double *fa
     else if (there > 1) PG_TRY (search (s, state, now, there, top, &in, &found));
     if (found) PG_TRY (way_out (s, state, in, now, factor));
     else {
-        *factor = now, events_of (s)->driven = 1;
-        if (!events_of (s)->constant_events++)
-            pg_statistics_warn (&s->report,
-                                "at load factor %.6g, after event %ld, no lower factor lets %s: %s "
-                                "drive the crack, which then runs at a held factor, %s (in truth a "
-                                "dynamic event)",
-                                now, state->events,
-                                b->growth ? "the crack rest" : "the remaining bonds live",
-                                start > 0 ? "the loads of earlier stages" : "the constant loads",
-                                b->growth ? "facet by facet" : "bond by bond");
+        *factor = now;
+        tell_driven (s, state, now);
         PG_TRY (look (s, state, now, b->utilisation, &top));
     }
 done:
@@ -222,25 +228,32 @@ static void take_level (pg_solver *s, pg_step *step)
     else if (s->stage.now.over == STAGE_GOES_ON) s->stage.now.over = STAGE_LOADS;
 }
 
-/* One step: to the next break or level, in either direction; at load factor 0 first, where the constant
- * part acts alone. */
-pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
+/* A state from which nothing goes on at a held load: conditions of a stage may be asked of it. */
+static int rests (const event_stepping *e) { return !e->driven && !e->unstable.held; }
+
+/* Where this step goes, *breaks: to break something there; *stops: to end the stage, since a condition is met
+ * by what the last event has left behind, or by a gauge on the way. */
+static pg_status aim (pg_solver *s, pg_state *state, double level, double *factor, int *breaks, int *stops)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    double now = state->factor;
+    *stops = 0;
+    PG_TRY (choose (s, state, level, factor, breaks));
+    if (*breaks && *factor > level) *factor = level;
+    if (e->bears) PG_TRY (stage_meets (s, state, s->break_loop.work_balance.reaction, stops));
+    if (*stops) *factor = now;
+    else if (rests (e)) PG_TRY (stage_cross (s, state, e->base, e->unit, now, factor, stops));
+done:
+    return status;
+}
+
+/* The state at this factor, work and reactions there. */
+static pg_status go_to (pg_solver *s, pg_state *state, double factor, pg_step *step)
 {
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
-    double level = stage_level (s), now = state->factor, factor;
-    int breaks, crosses = 0, meets = 0, start = state->step == 0;
-    b->nbroken = 0;
-    step->iterations = 1;
-    PG_TRY (choose (s, state, level, &factor, &breaks));
-    step->instability = e->unstable.held ? e->unstable.count : 0;
-    if (breaks && factor > level) factor = level;
-    /* what an event has left behind may end the stage at once */
-    if (e->bears) PG_TRY (stage_meets (s, state, b->work_balance.reaction, &meets));
-    if (meets) factor = now;
-    else if (!e->driven && !e->unstable.held)
-        PG_TRY (stage_cross (s, state, e->base, e->unit, now, &factor, &crosses));
     event_move (s, state, factor);
     state->factor = state->time = step->factor = step->time = factor;
     e->top_factor = fmax (e->top_factor, factor);
@@ -249,21 +262,46 @@ pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
     s->report.energy_strain = b->work_balance.strain;
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
-    if (start || (s->stage.now.number && e->secant0 == 0)) PG_TRY (event_secant (s, &e->secant0));
+    if (state->step == 0 || (s->stage.now.number && e->secant0 == 0)) PG_TRY (event_secant (s, &e->secant0));
     step->residual = e->unit_residual;
+done:
+    return status;
+}
+
+/* How near to their limits bonds or facets are there. */
+static pg_status judge (pg_solver *s, const pg_state *state, double factor, int breaks, pg_step *step)
+{
+    const event_stepping *e = events_of (s);
+    const break_loop *b = &s->break_loop;
     if (b->growth) {
         step->utilisation = facet_utilisation (b, state, factor - stage_start (s));
-        PG_TRY (facet_show (s, state, factor - stage_start (s)));
-    } else if (break_loop_judges (b)) {
-        long over = break_loop_over (b, state, 1, &step->utilisation);
-        /* at a held factor they are about to break */
-        if ((!e->constant_events && !e->unstable.held) || !breaks) s->report.bonds_over_limit += over;
+        return facet_show (s, state, factor - stage_start (s));
     }
-    if (!e->driven && !e->unstable.held && !crosses && !meets)
-        PG_TRY (stage_meets (s, state, s->reaction, &meets));
-    if (crosses || meets) breaks = 0;
-    if (breaks && b->growth) PG_TRY (facet_event (s, state, factor, step));
-    else if (breaks) PG_TRY (break_here (s, state, factor, step));
+    if (!break_loop_judges (b)) return PG_OK;
+    long over = break_loop_over (b, state, 1, &step->utilisation);
+    /* at a held factor they are about to break */
+    if ((!e->constant_events && !e->unstable.held) || !breaks) s->report.bonds_over_limit += over;
+    return PG_OK;
+}
+
+/* One step: to the next break or level, in either direction; at load factor 0 first, where the constant
+ * part acts alone. */
+pg_status affine_step (pg_solver *s, pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    break_loop *b = &s->break_loop;
+    double level = stage_level (s), factor;
+    int breaks, stops, start = state->step == 0;
+    b->nbroken = 0;
+    step->iterations = 1;
+    PG_TRY (aim (s, state, level, &factor, &breaks, &stops));
+    step->instability = e->unstable.held ? e->unstable.count : 0;
+    PG_TRY (go_to (s, state, factor, step));
+    PG_TRY (judge (s, state, factor, breaks, step));
+    if (!stops && rests (e)) PG_TRY (stage_meets (s, state, s->reaction, &stops));
+    if (breaks && !stops)
+        PG_TRY (b->growth ? facet_event (s, state, factor, step) : break_here (s, state, factor, step));
     if (start) step->level = 1;
     else if (!(level > factor)) take_level (s, step);
     event_limit (s, state, factor);

@@ -66,26 +66,16 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
 /* ---- the entry ----------------------------------------------------------------------------------------- */
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 
-/* event where it can be: loads that are proportional to the load factor make it exact and cheap. */
-static void static_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+/* What does not go together with the stepping that was asked for, or found. */
+static void check_stepping (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene,
+                            int closes)
 {
-    const char *stepping = pg_scene_text (scene, "solver.stepping");
-    int proportional = pg_problem_proportional (problem);
-    pg_static_options *own = PG_OWN (pg_static_options, o);
-    own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
-    o->steps = pg_scene_integer (scene, "solver.steps");
-    /* with a constant part the faces change their state between events */
-    int closes = pg_contact_read (scene).kind != PG_CONTACT_NONE;
-    int suits = proportional
-                || (!closes && (problem->nstage
-                                || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem))));
-    o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
-    own->affine = o->event && !proportional;
-    if (own->affine && !pg_problem_affine (problem))
+    int affine = PG_OWN (pg_static_options, o)->affine;
+    if (affine && !pg_problem_affine (problem))
         pg_scene_fault (scene, "solver.stepping",
                         "event stepping needs loads that grow with the load factor (ramp: linear), stay "
                         "(ramp: constant), or both: use fixed, or stages");
-    if (o->event && closes && (own->affine || problem->nstage))
+    if (o->event && closes && affine)
         pg_scene_fault (scene, "solver.stepping",
                         "event does not yet go with contact.kind where loads have a constant part: use "
                         "fixed");
@@ -93,11 +83,36 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
         pg_scene_fault (scene, "stages", "remove does not go with contact.kind so far");
     if (o->event && o->break_mode == PG_BREAK_ALL)
         pg_scene_fault (scene, "solver.break", "all goes with stepping: fixed");
-    instability_read (o, problem, scene);
-    if (!pg_scene_given (scene, "solver.steps") && o->levels > o->steps) o->steps = o->levels;
-    own->steps = o->steps;
+}
+
+/* Fixed load steps: of a stage, and of the run. */
+static void read_steps (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    pg_static_options *own = PG_OWN (pg_static_options, o);
+    own->steps = pg_scene_integer (scene, "solver.steps");
+    if (!pg_scene_given (scene, "solver.steps") && o->levels > own->steps) own->steps = o->levels;
+    o->steps = problem->nstage ? 0 : own->steps;
     for (size_t k = 0; k < problem->nstage; k++)
-        o->steps += (problem->stage[k].steps ? problem->stage[k].steps : own->steps) - (k ? 0 : own->steps);
+        o->steps += problem->stage[k].steps ? problem->stage[k].steps : own->steps;
+}
+
+/* event where it can be: loads that are proportional to the load factor make it exact and cheap. */
+static void static_read (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    const char *stepping = pg_scene_text (scene, "solver.stepping");
+    int proportional = pg_problem_proportional (problem);
+    pg_static_options *own = PG_OWN (pg_static_options, o);
+    own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
+    /* with a constant part the faces change their state between events */
+    int closes = pg_contact_read (scene).kind != PG_CONTACT_NONE;
+    int suits = proportional
+                || (!closes && (problem->nstage
+                                || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem))));
+    o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
+    own->affine = o->event && !proportional;
+    check_stepping (o, problem, scene, closes);
+    instability_read (o, problem, scene);
+    read_steps (o, problem, scene);
 }
 
 static const char *static_manner (const pg_solver_options *o)
