@@ -63,7 +63,8 @@ double stage_level (const pg_solver *s)
 
 long stage_steps (const pg_solver *s, long number)
 {
-    long own = s->problem->nstage ? s->problem->stage[number - 1].steps : 0;
+    if (!s->problem->nstage) return s->options.steps;  /* a caller may have made it one step */
+    long own = s->problem->stage[number - 1].steps;
     return own ? own : PG_OWN (pg_static_options, &s->options)->steps;
 }
 

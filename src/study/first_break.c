@@ -63,7 +63,10 @@ static pg_status measure_tips (pg_first_break *b, const pg_problem *p, pg_solver
         b->refused = pg_tip_refuses (p, force);
         if (!b->refused && b->ntip < PG_FIRST_TIPS) {
             b->id[b->ntip] = state->paths->tip[t].id;
-            PG_TRY (pg_tip_measure (&b->tip[b->ntip], p, force, self, state, t, 1, &d, &one));
+            pg_tip_faces faces;
+            int touch = pg_solver_tip_faces (solver, state, t, &faces);
+            PG_TRY (pg_tip_measure_faces (&b->tip[b->ntip], p, force, self, state, t, 1, &d, &one,
+                                          touch ? &faces : NULL));
         }
         b->ntip++;
     }
