@@ -131,6 +131,37 @@ static void result_e_has_the_faces (void **state)
 }
 
 /* Nothing grows, but J and K of every vertex are asked for. */
+/* Another crack a spacing ahead of one end of a front: there is no number there, but two vertices further
+ * there is one, of a narrower hat; it is near what the whole hats farther on show. */
+static void hats_are_narrower_beside_an_obstacle (void **state)
+{
+    (void) state;
+    char where[64], line[400];
+    size_t known = 0, narrow = 0;
+    double whole = 0, n = 0;
+    make_folder (where);
+    leave ("dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [8, 12, 6]}}}]\nspacing: 1\n"
+           "perturb: {amount: 0.1}\n"
+           "cracks: [{polygon: [[-1, -1, 3.1], [3.1, -1, 3.1], [3.1, 13, 3.1], [-1, 13, 3.1]]}, "
+           "{polygon: [[4.2, -1, 2.2], [4.2, 1.3, 2.2], [4.2, 1.3, 4.1], [4.2, -1, 4.1]]}]\n"
+           "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
+           "boundary: [{set: back, displacement: {x: 0, y: 0, z: 0}}, {set: front, displacement: {z: 10 mm}}]"
+           "\nsolver: {kind: static}\noutput: {pictures: [], stress_intensity: on}\n", where, NULL, line);
+    char *fronts = slurp (inside (where, "fronts.csv"));
+    for (int turn = 0; turn < 2; turn++)
+        for (size_t i = 1; i < count_lines (fronts); i++) {
+            double y = number_at (fronts, i, "y [m]"), J = number_at (fronts, i, "J [J/m^2]");
+            if (number_at (fronts, i, "front [1]") != 1 || number_at (fronts, i, "step [1]") != 1) continue;
+            if (turn == 0 && y > 5 && y < 10) whole += J, n++;       /* whole hats, away from the ends */
+            if (turn == 0 || !(y > 1.6 && y < 4.2)) continue;
+            narrow++;
+            if (isfinite (J) && J > 0) check_relative (J, whole / n, 0.05), known++;
+        }
+    assert_true (n > 3 && narrow > 0 && known == narrow);
+    pg_free (fronts);
+    remove_folder (where);
+}
+
 static void fronts_that_stay_are_measured (void **state)
 {
     (void) state;
@@ -153,6 +184,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (the_tables_agree), cmocka_unit_test (result_e_has_the_faces),
         cmocka_unit_test (fronts_that_stay_are_measured),
+        cmocka_unit_test (hats_are_narrower_beside_an_obstacle),
     };
     return cmocka_run_group_tests_name ("results/grown_surfaces", tests, NULL, NULL);
 }
