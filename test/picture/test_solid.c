@@ -331,6 +331,70 @@ static void an_oblique_slice_shows_the_cells_it_cuts (void **state)
     drop_body (&b);
 }
 
+/* A square of two triangles, in parts of the box; turned: their corners the other way around. */
+static void put_square (const body *b, double corner[6][3], pg_crack crack[2], const double x[2],
+                        const double y[2], const double z[2], int turned)
+{
+    static const int to[6] = { 0, 1, 2, 0, 2, 3 };
+    for (int i = 0; i < 6; i++) {
+        int k = to[turned ? 5 - i : i];
+        const double at[3] = { x[k == 1 || k == 2], y[k > 1], z[k > 1] };
+        for (int a = 0; a < 3; a++)
+            corner[i][a] = b->grid.low[a] + at[a] * (b->grid.high[a] - b->grid.low[a]);
+    }
+    for (int k = 0; k < 2; k++)
+        crack[k] = (pg_crack) { .kind = PG_CRACK_POLYGON, .vertex = corner[3*k], .nvertex = 3, .sided = 1 };
+}
+
+/* Surfaces of cracks from every side: what lies in the box and nothing else, at its place and with its depth,
+ * whichever way the triangles turn; what is nearer hides what is behind. */
+static void surfaces_of_cracks_are_seen_from_every_side (void **state)
+{
+    (void) state;
+    static const struct { int view, turned; double width, height; } look[] = {
+        { PG_VIEW_FRONT, 0, 0.5, 0.7 }, { PG_VIEW_FRONT, 1, 0.5, 0.7 }, { PG_VIEW_BACK, 0, 0.5, 0.7 },
+        { PG_VIEW_TOP, 1, 0.5, 0.5 * 0.7 / 1.1 }, { PG_VIEW_RIGHT, 0, 0, 0 } };
+    unsigned char keep[M * M * M] = { 0 };
+    body b;
+    make_body (&b);
+    for (size_t k = 0; k < sizeof look / sizeof *look; k++) {
+        double corner[12][3], box = b.grid.high[2] - b.grid.low[2];
+        pg_crack crack[4];
+        /* a slope that begins outside of the box, and a small level square in front of it */
+        put_square (&b, corner, crack, (const double[]) { 0.25, 0.75 }, (const double[]) { -0.4, 0.7 },
+                    (const double[]) { 0.3, 0.8 }, look[k].turned);
+        put_square (&b, corner + 6, crack + 2, (const double[]) { 0.4, 0.6 }, (const double[]) { 0.2, 0.4 },
+                    (const double[]) { 0.95, 0.95 }, look[k].turned);
+        pg_cracks cracks = { .dim = 3, .crack = crack, .n = look[k].width > 0 ? 4 : 2 };
+        pg_eye eye;
+        pg_screen s;
+        size_t seen = 0, level = 0, wrong = 0;
+        draw (&b, look[k].view, 0, keep, &eye, &s);
+        assert_int_equal (count_of (&s, 0), 0);
+        assert_true (pg_cracks_grown (&cracks));
+        check_ok (pg_cracks_draw (&(pg_solid) { &b.cloud, &b.grid, &eye, NULL, 0, keep, NULL }, &s, &cracks,
+                                  NULL, 2, 1e-3));
+        for (size_t p = 0; p < SIZE * SIZE; p++) {
+            if (s.owner[p] != 0) continue;
+            double up = s.top - ((double) (p / SIZE) + 0.5) / s.scale;
+            double z = (s.value[p] * 1e-3 - b.grid.low[2]) / box;
+            double y = (up - b.grid.low[1]) / box, slope = 0.3 + (y + 0.4) / 1.1 * 0.5;
+            seen++, level += fabs (z - 0.95) < 1e-9;
+            if (look[k].view <= PG_VIEW_BACK)
+                wrong += fabs (z - 0.95) > 1e-9 && fabs (z - slope) > 0.01;
+            assert_true (s.shade[p] > 0 && s.shade[p] <= 1);
+        }
+        double pixels = box * s.scale;
+        assert_int_equal (wrong, 0);
+        double expected = look[k].width * look[k].height * pixels * pixels;   /* but for pixels at the edges */
+        assert_true (fabs ((double) seen - expected) < 3 * pixels);
+        if (look[k].view == PG_VIEW_FRONT) check_relative ((double) level, 0.04 * pixels * pixels, 0.15);
+        if (look[k].view == PG_VIEW_BACK) assert_int_equal (level, 0);
+        pg_screen_close (&s);
+    }
+    drop_body (&b);
+}
+
 static void any_allocation_may_fail (void **state)
 {
     (void) state;
@@ -377,6 +441,7 @@ int main (void)
         cmocka_unit_test (a_cloud_without_lattice_is_drawn_as_loose_cubes),
         cmocka_unit_test (the_body_behind_a_choice_is_a_ghost),
         cmocka_unit_test (an_oblique_slice_shows_the_cells_it_cuts),
+        cmocka_unit_test (surfaces_of_cracks_are_seen_from_every_side),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests_name ("output/picture_solid", tests, NULL, remove_folder);
