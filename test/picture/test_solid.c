@@ -386,7 +386,7 @@ static void surfaces_of_cracks_are_seen_from_every_side (void **state)
         }
         double pixels = box * s.scale;
         assert_int_equal (wrong, 0);
-        double expected = look[k].width * look[k].height * pixels * pixels;   /* but for pixels at the edges */
+        double expected = look[k].width * look[k].height * pixels * pixels;    /* but for the edges */
         assert_true (fabs ((double) seen - expected) < 3 * pixels);
         if (look[k].view == PG_VIEW_FRONT) check_relative ((double) level, 0.04 * pixels * pixels, 0.15);
         if (look[k].view == PG_VIEW_BACK) assert_int_equal (level, 0);
