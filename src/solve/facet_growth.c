@@ -84,7 +84,7 @@ pg_status facet_keep (break_loop *b, const pg_keeper *k)
     long said = (long) g->said;
     PG_TRY (k->counts (k->context, "facets.said", 1, &said));
     PG_TRY (k->numbers (k->context, "facets.needed", 1, &g->needed));
-    PG_KEEP_BOUND (k, "what was said of facets", said, 0, 7);
+    PG_KEEP_BOUND (k, "what was said of facets", said, 0, FACET_SAID_ALL);
     g->said = (unsigned) said;
     if (k->reading) g->fresh = 0, g->needed0 = g->needed, b->system.report->energy_fracture = g->needed;
     PG_TRY (facet_motion_keep (b, k));

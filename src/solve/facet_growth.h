@@ -89,7 +89,10 @@ typedef struct facet_growth {
     double  event_length;
     unsigned said;                                     /* warnings that were given: FACET_SAID_... */
 } facet_growth;
-enum { FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4, FACET_SAID_INTERFACE = 8 };
+enum {
+    FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4, FACET_SAID_INTERFACE = 8,
+    FACET_SAID_BEGINS = 16, FACET_SAID_ALL = 31
+};
 
 /* Tips whose utilisation is within this share of the largest grow together: keeps symmetric scenes
  * symmetric. */
@@ -197,6 +200,9 @@ int  facet_way_out (const break_loop *b, const pg_state *state, size_t tip, face
 /* Offers facets that no field around a tip can judge, for the displacement fields at hand (g->nfield of them,
  * ndof each). Called after the tips have been measured: g->field[i].near is NAN where tip i has no room. */
 pg_status trial_facets (break_loop *b, const pg_state *state, const double *const *d, const double *t);
+/* Where does the displacement d at t reach the strength, away from tips and cracks? x: 3, m. */
+pg_status trial_hot_place (break_loop *b, const pg_state *state, const double *d, double t, double *x,
+                           int *any);
 pg_status facet_offer  (facet_growth *g, const facet_candidate *c);                    /* facet_growth.c */
 /* Square root of energy set free over energy taken, at most stress over strength of a new crack. */
 double    facet_trial_utilisation (const facet_growth *g, const facet_candidate *c, double factor);

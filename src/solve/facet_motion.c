@@ -212,6 +212,26 @@ done:
     return status;
 }
 
+/* New cracks do not begin in motion: said where one might, once. */
+static pg_status tell_of_starts (break_loop *b, const pg_state *state, double t, const double *d)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    double x[3];
+    int any;
+    if (g->said & FACET_SAID_BEGINS) return PG_OK;
+    PG_TRY (trial_hot_place (b, state, d, t, x, &any));
+    if (!any) goto done;
+    g->said |= FACET_SAID_BEGINS;
+    pg_statistics_warn (b->system.report,
+                        "in motion the stress reaches the strength at (%.4g, %.4g) m, at %.6g: new cracks do "
+                        "not begin while the body moves, so that what follows may lack some; take a "
+                        "criterion that breaks single bonds to see them",
+                        x[0], x[1], t);
+done:
+    return status;
+}
+
 pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d, double *top, int *any)
 {
     pg_status status = PG_OK;
@@ -219,6 +239,7 @@ pg_status facet_move (break_loop *b, pg_state *state, double t, const double *d,
     double dt = g->since;
     *any = 0, *top = 0, g->moving = 1, g->since = 0;
     PG_TRY (facet_measure (b, state, NULL, d, t));
+    PG_TRY (tell_of_starts (b, state, t, d));
     size_t n = g->ntip;
     PG_TRY (facet_make_room (g, n));
     for (size_t i = 0; i < n; i++) {

@@ -348,6 +348,26 @@ static void doubt_interfaces (const break_loop *b)
     }
 }
 
+pg_status trial_hot_place (break_loop *b, const pg_state *state, const double *d, double t, double *x,
+                           int *any)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    trial_fields f;
+    hot_spot spot;
+    size_t n = 0;
+    *any = 0;
+    if (!trial_has_strength (b->system.problem)) return PG_OK;
+    if (!g->trials) PG_TRY (trials_create (&g->trials, &b->system));
+    PG_TRY (trial_take_fields (g->trials, 1, &d, &t, &f));
+    const search all = { g->trials, state, &f, limits_at, b, 1 };
+    PG_TRY (hot_spots (&all, 1, &spot, &n));
+    *any = n > 0 && spot.factor <= 1;
+    if (*any) memcpy (x, spot.x, sizeof spot.x);
+done:
+    return status;
+}
+
 pg_status trial_facets (break_loop *b, const pg_state *state, const double *const *d, const double *t)
 {
     pg_status status = PG_OK;
