@@ -369,7 +369,8 @@ static void print_tips (const plan *p)
         else
             printf (" (+-%.2g %%, rings of %.2g and %.2g spacings)", 100 * off, f->near / f->h,
                     f->wide / f->h);
-        printf (", T %.4g Pa\n", f->T[0]);
+        if (f->closed) printf (", closed\n");
+        else printf (", T %.4g Pa\n", f->T[0]);
     }
     if (b->ntip > PG_FIRST_TIPS && !b->refused)
         printf ("  %-18s  %zu more tips\n", "crack tips", b->ntip - PG_FIRST_TIPS);

@@ -117,7 +117,7 @@ static void close_tip (pg_tip_field *out, int nfield)
         out->K[0][a] = out->K_wide[0][a] = 0, out->K[1][a] = out->K_wide[1][a], out->T[a] = NAN;
         for (int b = 0; b < nfield; b++) {
             out->J[a][b] = out->K_wide[1][a] * out->K_wide[1][b] / out->modulus;
-            out->J_near[a][b] = out->K[1][a] * out->K[1][b] / out->modulus;
+            out->J_near[a][b] = NAN;                   /* one ring: nothing to compare it with */
         }
     }
 }

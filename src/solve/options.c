@@ -298,6 +298,11 @@ static void read_contact (pg_solver_options *o, const pg_problem *problem, const
         pg_scene_fault (scene, "contact.kind",
                         "does not go with a strength yet, at which new cracks begin: leave failure.strength "
                         "out, or set none");
+    for (size_t k = 0; k < problem->nstage; k++)
+        if (problem->stage[k].remove)
+            pg_scene_fault (scene, "contact.kind",
+                            "does not know parts that stages take out of the body: leave their remove out, "
+                            "or set none");
     if (o->on_instability != PG_UNSTABLE_FOLLOW)
         pg_scene_fault (scene, "solver.on_instability",
                         "with contact.kind the load follows equilibrium only: use follow");

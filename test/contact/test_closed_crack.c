@@ -321,6 +321,46 @@ static void wings_leave_a_closed_crack (void **state)
     }
 }
 
+/* Confine, compress, unload, compress again, with friction: on the way back the faces stick before they slide
+ * the other way, so that work is taken on both ways; the second loading ends in the state of the first, and
+ * the energies of all of it balance. */
+static void stages_go_around_a_loop (void **state)
+{
+    (void) state;
+    run r = scene_of (1,
+        "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [-2, -2], high: [2, 2]}}}]\n"
+        "spacing: 0.2\nlattice: cells\ncracks: [{from: [-0.7, -0.71], to: [0.7, 0.71]}]\n"
+        "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
+        "contact: {kind: friction, coefficient: 0.3}\nboundary:\n"
+        "  - {name: foot, set: bottom, displacement: {x: 0, y: 0}}\n"
+        "  - {name: head, set: top, traction: {y: -10}}\n  - {name: r, set: right, traction: {x: -1}}\n"
+        "  - {name: l, set: left, traction: {x: 1}}\nstages:\n  - {name: confine, boundary: {r: 1, l: 1}}\n"
+        "  - {name: compress, boundary: {head: 1}}\n  - {name: unload, boundary: {head: 0}}\n"
+        "  - {name: again, boundary: {head: 1}}\n"
+        "solver: {kind: static, stepping: fixed, steps: 6}\noutput: {at: {levels: 1}}\n");
+    enum { PIECES = 16 };
+    double slip[25] = { 0 }, friction[25] = { 0 }, strain[25] = { 0 };
+    long sticks = 0;
+    for (size_t step = 1; !pg_solver_done (r.solver, r.state); step++) {
+        advance (&r);
+        size_t n;
+        const pg_contact_values *v = pg_solver_contact (r.solver, &n);
+        const pg_statistics *s = pg_solver_report_now (r.solver);
+        assert_true (step < 25 && n > 2 && n < PIECES);
+        slip[step] = v[n / 2].slip, friction[step] = s->energy_friction, strain[step] = s->energy_strain;
+        assert_true (v[n / 2].pressure > 0 && fabs (v[n / 2].shear) <= 0.3 * v[n / 2].pressure * (1 + 1e-9));
+        assert_true (friction[step] >= friction[step - 1] * (1 - 1e-12));
+        check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-9, 1);
+        sticks += v[n / 2].status == PG_CONTACT_STICK;
+        if (v[n / 2].status == PG_CONTACT_STICK) check_relative (slip[step], slip[step - 1], 1e-9);
+    }
+    assert_true (sticks >= 2);
+    check_relative (slip[24], slip[12], 1e-9);
+    check_relative (strain[24], strain[12], 1e-9);
+    assert_true (friction[18] > 1.1 * friction[12] && friction[24] > 1.1 * friction[18]);
+    clear (&r);
+}
+
 /* What is not built is refused with words. */
 static void the_rest_is_refused (void **state)
 {
@@ -374,6 +414,7 @@ int main (void)
         cmocka_unit_test (slip_remembers_the_way),
         cmocka_unit_test (bending_closes_a_part),
         cmocka_unit_test (wings_leave_a_closed_crack),
+        cmocka_unit_test (stages_go_around_a_loop),
         cmocka_unit_test (the_rest_is_refused),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
