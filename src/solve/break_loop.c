@@ -162,6 +162,54 @@ double break_loop_cut (const break_loop *b, double top)
     return fmax (1, top * (1 - fmax (o->break_fraction, o->tie)));
 }
 
+/* One round of breaking, of the bonds that the last look has found. */
+static pg_status break_worst (break_loop *b, pg_state *state, double t, const pg_step *step, double top)
+{
+    pg_status status = PG_OK;
+    double cut = break_loop_cut (b, top);
+    if (step->iterations >= b->system.options->max_iterations)
+        PG_FAIL (PG_E_EQUILIBRIUM,
+                 "bonds still break after %ld rounds (%zu in this step, worst utilisation %.6g): raise "
+                 "solver.max_iterations "
+                 "or take smaller steps",
+                 step->iterations, b->nbroken, top);
+    if (judges_few (b)) PG_TRY (kill_listed (b, state, cut, t));
+    else PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
+    PG_TRY (system_refresh (&b->system, state, &b->changes));
+done:
+    return status;
+}
+
+/* One round of growth by facets. In motion what is cut is held, so that there is no second round. */
+static pg_status grow (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step,
+                       int *again)
+{
+    pg_status status = PG_OK;
+    int over = 0;
+    *again = 0;
+    if (!dyn) {
+        PG_TRY (facet_round (b, state, t, d, step, again));
+        goto done;
+    }
+    if (facet_due (b, dyn->dt)) PG_TRY (facet_move (b, state, t, d, &step->utilisation, &over));
+    if (over) PG_TRY (break_loop_account (b, t, d, dyn, 1));
+done:
+    return status;
+}
+
+/* The caller's look between two rounds. */
+static pg_status show_caller (break_loop *b, const pg_state *state, pg_step *step)
+{
+    pg_status status = PG_OK;
+    if (!b->watch || step->iterations <= b->began) return PG_OK;
+    step->nbroken = b->nbroken, step->broken = b->broken;
+    b->stopped = 1;
+    PG_TRY (b->watch (b->watching, state, step));
+    b->stopped = 0;
+done:
+    return status;
+}
+
 /* The loop: equilibrium, utilisation of all bonds, breaking of those over the limit as solver.break has
  * it, update, and again. Work is accounted before the first break and after the last: between them loads
  * and supports stay. The caller may look in between the rounds and stop the step; it then goes on where it
@@ -171,38 +219,26 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
 {
     pg_status status = PG_OK;
     pg_system *s = &b->system;
-    const pg_solver_options *o = s->options;
     if (b->round == 0) b->nbroken = 0;
     if (b->growth && dyn && b->round == 0) facet_forward (b, dyn->dt);
     step->utilisation = 0;
     for (step->iterations = b->round;; b->round = ++step->iterations) {
-        if (b->watch && step->iterations > b->began) {
-            step->nbroken = b->nbroken, step->broken = b->broken;
-            b->stopped = 1;
-            PG_TRY (b->watch (b->watching, state, step));
-            b->stopped = 0;
-        }
+        PG_TRY (show_caller (b, state, step));
         s->begins = step->iterations == 0;
         double top;
-        int rough = 0;
-        if (step->iterations > 1 && break_loop_judges (b))
+        int rough = 0, judges = !b->growth && break_loop_judges (b);
+        if (judges && step->iterations > 1)
             PG_TRY (break_loop_rough (b, state, t, d, dyn, &top, &rough));
         if (!rough) PG_TRY (system_solve (s, t, d, dyn, &step->residual));
         /* later rounds: loads and goals stay */
         if (step->iterations == 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
         if (b->growth) {
-            int over = 0;
-            if (dyn) {                                 /* what is cut is held: no second round */
-                if (facet_due (b, dyn->dt))
-                    PG_TRY (facet_move (b, state, t, d, &step->utilisation, &over));
-                if (over) PG_TRY (break_loop_account (b, t, d, dyn, 1));
-                break;
-            }
-            PG_TRY (facet_round (b, state, t, d, step, &over));
-            if (!over) break;
+            int again;
+            PG_TRY (grow (b, state, t, d, dyn, step, &again));
+            if (!again) break;
             continue;
         }
-        if (!break_loop_judges (b)) break;
+        if (!judges) break;
         if (!rough) PG_TRY (break_loop_look (b, state, d, &top));
         step->utilisation = top;
         if (!(top > 1)) {
@@ -210,16 +246,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
                 s->report->bonds_over_limit += break_loop_over (b, state, 1, &step->utilisation);
             break;
         }
-        if (step->iterations >= o->max_iterations)
-            PG_FAIL (PG_E_EQUILIBRIUM,
-                     "bonds still break after %ld rounds (%zu in this step, worst utilisation %.6g): raise "
-                     "solver.max_iterations "
-                     "or take smaller steps",
-                     step->iterations, b->nbroken, top);
-        double cut = break_loop_cut (b, top);
-        if (judges_few (b)) PG_TRY (kill_listed (b, state, cut, t));
-        else PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
-        PG_TRY (system_refresh (s, state, &b->changes));
+        PG_TRY (break_worst (b, state, t, step, top));
     }
     if (step->iterations > 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
     b->round = 0;

@@ -192,6 +192,24 @@ done:
     return status;
 }
 
+/* to = d + T x */
+static void go_on (pg_system *s, const pg_sparse *T, const double *d, const double *x, double *to)
+{
+    if (T) pg_sparse_multiply (T, x, s->full);
+    const double *step = T ? s->full : x;
+    for (size_t i = 0; i < s->ndof; i++) to[i] = d[i] + step[i];
+}
+
+/* Room for the earlier iterate, once. */
+static pg_status rough_ready (pg_rough *rough, size_t ndof)
+{
+    pg_status status = PG_OK;
+    if (!rough->earlier) PG_ALLOC (rough->earlier, ndof);
+    if (!rough->before) PG_ALLOC (rough->before, ndof);
+done:
+    return status;
+}
+
 /* Iterations alone can be left early; by the diagonal they are few. */
 pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamics *dyn, double share,
                                 int *done)
@@ -202,8 +220,7 @@ pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamic
     double r;
     *done = 0;
     if (!dyn || s->options->plain || s->mode != SYSTEM_NO_FACTOR) return PG_OK;
-    if (!rough->earlier) PG_ALLOC (rough->earlier, s->ndof);
-    if (!rough->before) PG_ALLOC (rough->before, s->ndof);
+    PG_TRY (rough_ready (rough, s->ndof));
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
     PG_TRY (system_residual (s, t, d, dyn, &r));
     if (!(0.1 * share * r > s->options->tolerance)) return PG_OK;
@@ -211,14 +228,9 @@ pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamic
     status = system_solve_once (s, dyn, share);
     rough->goal = 0;
     PG_TRY (status);
-    rough->found = rough->found > 0;
-    if (T && rough->found) pg_sparse_multiply (T, rough->earlier, s->full);
-    const double *step = T ? s->full : rough->earlier;
-    for (size_t i = 0; i < s->ndof && rough->found; i++) rough->before[i] = d[i] + step[i];
-    if (T) pg_sparse_multiply (T, s->delta, s->full);
-    step = T ? s->full : s->delta;
-    for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];
-    *done = rough->found;
+    if (rough->found > 0) go_on (s, T, d, rough->earlier, rough->before);
+    go_on (s, T, d, s->delta, d);
+    *done = rough->found > 0;
 done:
     return status;
 }

@@ -70,6 +70,23 @@ static int decides (const break_loop *b, double top, double cut)
     return top - error > 1;
 }
 
+/* Also the first share of a run. */
+static int may_be_rough (pg_system *s)
+{
+    if (!s->force->worst || !s->force->judge_group || s->options->plain || s->rough.share < 0) return 0;
+    if (s->rough.share == 0) s->rough.share = first_share;
+    return 1;
+}
+
+/* What a round teaches of the share. */
+static void learn (pg_rough *rough, int done, int tries)
+{
+    rough->share = done && tries == 1 ? fmin (most_share, 2 * rough->share)
+                                      : fmax (least_share, 0.5 * rough->share);
+    if (done) rough->rounds++;
+    else rough->again++;
+}
+
 pg_status break_loop_rough (break_loop *b, const pg_state *state, double t, double *d, const dynamics *dyn,
                             double *top, int *done)
 {
@@ -78,8 +95,7 @@ pg_status break_loop_rough (break_loop *b, const pg_state *state, double t, doub
     pg_rough *rough = &s->rough;
     int can = 1, fit = 1, tries = 0;
     *done = 0;
-    if (!s->force->worst || !s->force->judge_group || s->options->plain || rough->share < 0) return PG_OK;
-    if (rough->share == 0) rough->share = first_share;
+    if (!may_be_rough (s)) return PG_OK;
     for (; tries < MOST_TRIES && !*done; tries++) {
         PG_TRY (system_solve_roughly (s, t, d, dyn, tries ? further : rough->share, &fit));
         if (!fit) break;
@@ -88,11 +104,7 @@ pg_status break_loop_rough (break_loop *b, const pg_state *state, double t, doub
         *done = decides (b, *top, break_loop_cut (b, *top));
     }
     if (!can) rough->share = -1;                       /* never again */
-    if (tries == 0 || !can || !(*top > 1)) return PG_OK;     /* nothing was learnt of the share */
-    rough->share = *done && tries == 1 ? fmin (most_share, 2 * rough->share)
-                                       : fmax (least_share, 0.5 * rough->share);
-    if (*done) rough->rounds++;
-    else rough->again++;
+    else if (tries > 0 && *top > 1) learn (rough, *done, tries);
 done:
     return status;
 }
