@@ -181,8 +181,8 @@ done:
 }
 
 /* One round of growth by facets. In motion what is cut is held, so that there is no second round. */
-static pg_status grow (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn, pg_step *step,
-                       int *again)
+static pg_status grow (break_loop *b, pg_state *state, double t, double *d, const dynamics *dyn,
+                       pg_step *step, int *again)
 {
     pg_status status = PG_OK;
     int over = 0;
