@@ -92,6 +92,25 @@ static void a_gauge_ends_a_stage (void **state)
     }
 }
 
+/* The force that a drop is measured from is the largest of the stage, not of one before it. */
+static void a_drop_of_force_is_one_within_the_stage (void **state)
+{
+    (void) state;
+    run r = scene_of (1,
+                      BAR "stages:\n - {name: pull, boundary: {pull: 1}, until: {load: pull, drop: 60 %%}}\n"
+                          " - {name: back, boundary: {pull: 0.2}}\n - {name: confine, boundary: {jacket: 1}, "
+                          "until: {load: pull, drop: 60 %%}}\n - {name: off, boundary: {pull: 0}, until: "
+                          "{load: pull, drop: 60 %%}}\noutput: {at: {levels: 10}}\n");
+    size_t n;
+    const pg_stage_record *record = pg_solver_stages (r.solver, &n);
+    to_the_end (&r);
+    for (int k = 0; k < 3; k++) assert_true (record[k].done && record[k].share == 1);
+    /* the first level at which no more than 0.4 of it is left */
+    check_relative (record[3].share, 0.6, 1e-9);
+    assert_string_equal (record[3].why, "drop of force");
+    clear (&r);
+}
+
 /* Confined, then loaded along x until the first bond breaks: uniform stress, so that it does at the strength
  * of Mohr and Coulomb, s_1 = 2 c cos phi / (1 - sin phi) + s_3 (1 + sin phi) / (1 - sin phi); the stress
  * along z lies between both. */
@@ -439,6 +458,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_bar_follows_its_stages),
         cmocka_unit_test (a_gauge_ends_a_stage),
+        cmocka_unit_test (a_drop_of_force_is_one_within_the_stage),
         cmocka_unit_test (the_strength_under_confinement_is_that_of_mohr_coulomb),
         cmocka_unit_test (confinement_and_a_ramp_is_an_affine_run),
         cmocka_unit_test (unloading_returns_to_the_origin),
