@@ -22,9 +22,10 @@
 #include <math.h>
 #include <string.h>
 
-/* Strength of what resists deviations from a linear field, in units of mu / (h^2 m), and the least spread of
- * the nodes of a point, in units of h^2. */
-static const double deviation = 8, least_spread = 0.02;
+/* Strength of what resists deviations from a linear field, in units of mu / (h^2 m): also where nodes are
+ * evaluation points without stabilisation, whose K hardly sees what alternates from node to node; and the
+ * least spread of the nodes of a point, in units of h^2. */
+static const double deviation = 8, free_deviation = 2, least_spread = 0.02;
 /* Weights at a facet point end there: this many times the squared distance of the farthest node. */
 static const double beyond = 1.2;
 
@@ -160,6 +161,12 @@ static const double *cell_matrix (element_list *b, double share, int kind, size_
     return scaled (b, width, share);
 }
 
+/* Nodes without stabilisation see less of what alternates. */
+static double resistance (const element_list *b)
+{
+    return b->set == PG_NODES && !(b->g->options->silling > 0) ? free_deviation : deviation;
+}
+
 /* Stiffness of the element of point p. */
 static const double *point_matrix (element_list *b, size_t p, double w, size_t m, const int *node)
 {
@@ -167,7 +174,7 @@ static const double *point_matrix (element_list *b, size_t p, double w, size_t m
     const pg_material *material = galerkin_plain (g, b->set, p);
     size_t dim = (size_t) g->dim, width = m * dim;
     double c[3] = { 0 }, A[9] = { 0 }, q[MOST_NODES * 3], R[MOST_NODES * MOST_NODES], *K = b->K,
-                    h = pg_problem_spacing (g->problem, b->set, p);
+                    h = pg_problem_spacing (g->problem, b->set, p), resists = resistance (b);
     for (size_t a = 0; a < m; a++)
         for (size_t k = 0; k < dim; k++) c[k] += place (g, node[a])[k] / (double) m;
     for (size_t a = 0; a < m; a++)
@@ -191,7 +198,7 @@ static const double *point_matrix (element_list *b, size_t p, double w, size_t m
         for (size_t e = a; e < m; e++) {
             double s = 0;
             for (size_t k = 0; k < m; k++) s += R[k * m + a] * R[k * m + e];
-            s *= w * deviation * material->mu / (h * h * (double) m);
+            s *= w * resists * material->mu / (h * h * (double) m);
             for (size_t k = 0; k < dim; k++) K[(a * dim + k) * width + e * dim + k] += s;
         }
     mirror (width, K);

@@ -79,6 +79,14 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }
 
+/* Do points of a lattice share their rows, as far as integration and criterion allow (force/galerkin_share.c)? */
+static int shares_rows (const pg_forecast *f, const pg_scene *scene)
+{
+    if (!f->method->shape_functions || pg_scene_bool (scene, "solver.plain")) return 0;
+    return !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh")
+           && !(pg_scene_number (scene, "perturb.amount") > 0) && pg_scene_count (scene, "cracks") == 0;
+}
+
 /* What of the method changes counts or bytes. */
 static void read_method (pg_forecast *f, const pg_scene *scene)
 {
@@ -97,10 +105,7 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
     f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
-    f->shared = f->method->shape_functions && !(f->summed > 0) && !f->breaks
-                && !pg_scene_bool (scene, "solver.plain") && !(pg_scene_number (scene, "perturb.amount") > 0)
-                && !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh")
-                && pg_scene_count (scene, "cracks") == 0;
+    f->shared = !(f->summed > 0) && !f->breaks && shares_rows (f, scene);
     read_solver (f, scene);
 }
 

@@ -39,6 +39,7 @@ static const struct { const char *body, *points; double nu; const char *method; 
     { "", "", 0.2, "horizon: 2 spacing, essential: transformation", 27 },
     { "", moved, 0.2, "horizon: 2 spacing, integration: consistent", 45 },
     { "", disc, 0.2, "horizon: 2 spacing, approximation: nosb, integration: nodal", 34 },
+    { "", "", 0.2, "horizon: 2 spacing, integration: nodal", 50 },
 };
 enum { CASES = sizeof cases / sizeof *cases };
 
