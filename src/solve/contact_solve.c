@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { MOST_ROUNDS = 4 };
+enum { MOST_ROUNDS = 4, MANY = 4 };
 /* Of columns by iterations, where there is no factor; of gaps, relative: no further round is worth it. */
 static const double COLUMN = 1e-10, GOOD = 1e-13;
 
@@ -104,7 +104,9 @@ static pg_status solve_columns (pg_system *s)
     PG_ALLOC (rhs, s->nred * n);
     PG_ALLOC (solved, s->nred * n);
     for (size_t j = 0; j < n; j++) load_column (s, j, s->full, rhs + j * s->nred);
-    /* the first solve makes the factor if there is to be one */
+    /* so many columns are worth a factor of this K where an older one would only precondition; else the first
+     * solve makes the factor if there is to be one */
+    if (s->mode == SYSTEM_KEPT_FACTOR && s->stale && n > MANY) PG_TRY (system_factorize (s, NULL));
     size_t first = 0;
     for (; first < n && !has_factor (s); first++) {
         memcpy (s->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
