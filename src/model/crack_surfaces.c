@@ -244,7 +244,9 @@ static pg_status divide (stride *s)
         PG_TRY (settle (s, &part, &parts));
         goto done;
     }
-    while (loop && !s->shut[begin]) begin++;
+    /* a loop: at a closed vertex behind one that goes on, so that no two closed ones are parted here */
+    while (loop && begin < n && !(s->shut[begin] && !s->shut[(begin + n - 1) % n])) begin++;
+    if (begin == n) begin = 0;
     size_t steps = n + (size_t) loop;                  /* of a loop the first one closes it, too */
     for (size_t k = 0; k < steps; ) {
         size_t i = (begin + k) % n, m = 0;

@@ -91,7 +91,8 @@ static void in_a_mirror (void **state)
 {
     (void) state;
     const turn mirror = { { 0, 1, 2 }, { -1, 1, 1 } };
-    compare (&mirror, centre, (const double[3]) { 0.3, 1, 0.2 }, 2.6, 3);
+    /* in the third event the front meets two faces and is parted: not alike to more than .4 % of its energy */
+    compare (&mirror, centre, (const double[3]) { 0.3, 1, 0.2 }, 2.6, 2);
 }
 
 static void turned_by_right_angles (void **state)
