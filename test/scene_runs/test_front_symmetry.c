@@ -91,7 +91,7 @@ static void in_a_mirror (void **state)
 {
     (void) state;
     const turn mirror = { { 0, 1, 2 }, { -1, 1, 1 } };
-    /* in the third event the front meets two faces and is parted: not alike to more than .4 % of its energy */
+    /* in the third event the front meets two faces and is parted: alike to .4 % of its energy only */
     compare (&mirror, centre, (const double[3]) { 0.3, 1, 0.2 }, 2.6, 2);
 }
 
