@@ -123,7 +123,7 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
     double d = f->dim, nv = f->dim * (f->dim + 1) / 2, n = f->points, bytes;
     int listed = f->listed || f->by_list, factors = f->linear != NULL;
     double different = all;
-    if (f->shared && !f->interpolates) different = fmin (all, most_different * all / rows + 2 * part);
+    if (f->shared && !f->interpolates) different = fmin (all, most_different * all / rows + part);
     bytes = (16 + 8 * d) * different + rows * (16 * nv + 8 * d + 45) + 24 * f->dofs;       /* galerkin */
     bytes += (12 + 8 * d) * f->summed;  /* pg_consistency */
     bytes += (4 + 8 * d * (d + 1)) * f->patched;  /* galerkin_dilatation */
