@@ -351,13 +351,14 @@ static void settle_range (const plot_request *q, pg_picture_style *style)
 }
 
 /* "damage, iso (damage >= 0.35), time 2 ms, displacements x 10": what the picture shows, as far as it is
- * not usual. */
-static void write_title (const plot_request *q, const source *s, const pg_picture_style *style,
+ * not usual. surfaces: cracks that have grown are drawn themselves, whatever the damage is. */
+static void write_title (const plot_request *q, const source *s, const pg_picture_style *style, int surfaces,
                          const char *stage_title, char *title, size_t size)
 {
-    const char *unit = q->limited ? s->unit : "";
-    int used = snprintf (title, size, "%s%s%.60s", s->name, q->look ? ", " : "", q->look ? q->look : "");
-    if (style->view == PG_VIEW_CRACK || q->limited)
+    const char *unit = q->limited ? s->unit : "", *name = surfaces && style->by_depth ? "" : s->name;
+    int used = snprintf (title, size, "%s%s%.60s", name, q->look && *name ? ", " : "",
+                         q->look ? q->look : "");
+    if ((style->view == PG_VIEW_CRACK && !surfaces) || q->limited)
         used += snprintf (title + used, size - (size_t) used, " (%s\xe2\x89\xa5 %.4g%s%s)",
                           q->limited ? "" : "damage ", style->above, unit[0] ? " " : "", unit);
     if (stage_title) used += snprintf (title + used, size - (size_t) used, ", %s", stage_title);
@@ -390,7 +391,8 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     }
     if (crack) style.by_depth = strcmp (q->field, "damage") == 0;
     if (crack && !q->limited) style.above = PG_CRACK_DAMAGE;
-    write_title (q, s, &style, n == 1 ? g->title : NULL, title, sizeof title);
+    int surfaces = crack && n && g[n - 1].cracks.n;
+    write_title (q, s, &style, surfaces, n == 1 ? g->title : NULL, title, sizeof title);
     write_label (s, &style, label, sizeof label);
     style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
     style.outline = s->outline.body || s->outline.mesh ? &s->outline : NULL;
