@@ -274,11 +274,10 @@ static int begins_cracks (const pg_problem *problem)
 }
 
 /* Contact of crack faces goes where it is built, and is refused elsewhere. */
-static void read_contact (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+static void check_contact (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const pg_force_type *force = pg_force_of (problem);
     char names[200];
-    o->contact = pg_contact_read (scene);
     if (o->contact.kind == PG_CONTACT_NONE) return;
     solver_names_that (knows_contact, NULL, names, sizeof names);
     if (problem->dim != 2)
@@ -328,9 +327,10 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     o->max_iterations = pg_scene_integer (scene, "solver.max_iterations");
     o->levels = pg_scene_integer (scene, "output.at.levels");
     o->rows = o->flags & PG_SOLVER_IMPLICIT ? 0 : options_integer (scene, "output.at.rows");
+    o->contact = pg_contact_read (scene);
     read_breaking (o, problem, scene);
     if (type && type->read) type->read (o, problem, scene);
-    read_contact (o, problem, scene);
+    check_contact (o, problem, scene);
     find_unused (o, scene);
     if (o->flags & PG_SOLVER_NEEDS_DENSITY) need_density (o, problem, scene);
     check_force (o, problem, scene);

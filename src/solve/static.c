@@ -104,7 +104,7 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     pg_static_options *own = PG_OWN (pg_static_options, o);
     own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
     /* with a constant part the faces change their state between events */
-    int closes = pg_contact_read (scene).kind != PG_CONTACT_NONE;
+    int closes = o->contact.kind != PG_CONTACT_NONE;
     int suits = proportional
                 || (!closes && (problem->nstage
                                 || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem))));
