@@ -117,7 +117,7 @@ static void touched_points (const galerkin *g, const pg_changes *changes, size_t
 /* Shape functions of points that lost a bond (changes NULL: of all) are evaluated anew, then all that
  * depends on them: consistent derivatives, patches, stale rows of K, elimination. Strains measured at the
  * last displacement stay known: only those of touched points are taken again. */
-static pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes)
+pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes)
 {
     pg_status status = PG_OK;
     galerkin *g = self;

@@ -290,6 +290,8 @@ pg_status galerkin_judge_others (void *self, const pg_state *state, const unsign
                                  int of_unit, size_t count, const double *d, double *top);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+/* The force's refresh, for who asks before the first one. */
+pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes);
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
                           int *components, const char **unit, double *value);
 pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value);

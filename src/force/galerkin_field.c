@@ -58,6 +58,7 @@ static void displacement (const galerkin *g, const double *d, double *u)
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
                           int *components, const char **unit, double *value)
 {
+    pg_status status = PG_OK;
     galerkin *g = self;
     size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
     *components = 0, *unit = "";
@@ -65,15 +66,17 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
         *components = 1;
         return damage (g, state, value);
     }
-    if (strcmp (name, "error_estimate") == 0) {
-        pg_estimate sums;
-        *components = 1, *unit = "Pa";
-        return galerkin_estimate (g, d, &sums, value);
-    }
     if (strcmp (name, "coefficient") == 0) {
         *components = g->dim, *unit = "m";
         memcpy (value, d, g->n * dim * sizeof *value);
         return PG_OK;
+    }
+    /* asked before the first step: nothing has been evaluated yet */
+    if (!g->rows[PG_NODES].N) PG_TRY (galerkin_refresh (self, state, NULL));
+    if (strcmp (name, "error_estimate") == 0) {
+        pg_estimate sums;
+        *components = 1, *unit = "Pa";
+        return galerkin_estimate (g, d, &sums, value);
     }
     if (strcmp (name, "displacement") == 0 || strcmp (name, "velocity") == 0) {
         *components = g->dim, *unit = *name == 'd' ? "m" : "m/s";
@@ -83,5 +86,6 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
         galerkin_measure (g, PG_NODES, d);
         memcpy (value, **unit ? g->stress[PG_NODES] : g->strain[PG_NODES], g->n * nv * sizeof *value);
     }
-    return PG_OK;
+done:
+    return status;
 }
