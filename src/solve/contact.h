@@ -27,6 +27,7 @@ struct system_contact {
     double   *Z, *C;                                   /* K^-1 G' (ndof x 2 n); G Z (2 n x 2 n), m/N */
     double   *coefficient, *cohesion, *before;         /* mu, c A (N), slip before (n) */
     double   *force, *gap, *open;                      /* f; g; gaps without contact (2 n each) */
+    double   *initial;                                 /* gaps without displacement, m (2 n) */
     unsigned char *status;                             /* of each piece (n) */
     double   *nodal;                                   /* G' f, N (ndof) */
     int       active;                                  /* some force is not zero */

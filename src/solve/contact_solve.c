@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Equilibria with contact of crack faces. With the cracks open, K u0 = F, gaps are g0 = G u0; where one is
- * negative, forces f of the pieces follow from the complementarity of g = g0 + C f, C = G K^-1 G', and the
- * displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is factored again). What rounding leaves is
- * mended by the same refinement as all equilibria, with G' f among the loads, and by forces for the gaps that
- * are then measured. */
+ * Equilibria with contact of crack faces. With the cracks open, K u0 = F, gaps are g0 = gi + G u0, gi without
+ * displacement; where one is negative, forces f of the pieces follow from the complementarity of g = g0 + C f,
+ * C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is factored again).
+ * What rounding leaves is mended by the same refinement as all equilibria, with G' f among the loads, and by
+ * forces for the gaps that are then measured. */
 #include "contact.h"
 #include <float.h>
 #include <math.h>
@@ -33,8 +33,8 @@ static void clear (struct system_contact *c)
     pg_contact_pieces_clear (&c->pieces);
     pg_sparse_clear (&c->G);
     pg_free (c->Z), pg_free (c->C), pg_free (c->coefficient), pg_free (c->cohesion), pg_free (c->before);
-    pg_free (c->force), pg_free (c->gap), pg_free (c->open), pg_free (c->status);
-    c->Z = c->C = c->coefficient = c->cohesion = c->before = c->force = c->gap = c->open = NULL;
+    pg_free (c->force), pg_free (c->gap), pg_free (c->open), pg_free (c->status), pg_free (c->initial);
+    c->Z = c->C = c->coefficient = c->cohesion = c->before = c->force = c->gap = c->open = c->initial = NULL;
     c->status = NULL;
     c->made = 0;
 }
@@ -64,6 +64,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state)
     PG_ALLOC (c->force, 2*n);
     PG_ALLOC (c->gap, 2*n);
     PG_ALLOC (c->open, 2*n);
+    PG_ALLOC (c->initial, 2*n);
     PG_ALLOC (c->status, n);
     for (size_t k = 0; k < n; k++) {
         c->coefficient[k] = c->setting.coefficient;
@@ -156,6 +157,13 @@ static int any_overlap (const struct system_contact *c)
     return 0;
 }
 
+/* Gaps of a displacement. */
+static void measure_gaps (struct system_contact *c, const double *d)
+{
+    pg_sparse_multiply_transposed (&c->G, d, c->gap);
+    for (size_t i = 0; i < 2 * c->pieces.n; i++) c->gap[i] += c->initial[i];
+}
+
 /* Forces for the gaps at hand, which those of now belong to; d follows. *change: of the forces, turned into
  * gaps, over the largest gap without contact. */
 static pg_status press (pg_system *s, double *d, double *change)
@@ -213,14 +221,14 @@ pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
     memset (c->force, 0, n * sizeof *c->force);
     memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
     PG_TRY (system_solve_linear (s, t, d, NULL, residual));
-    if (n) pg_sparse_multiply_transposed (&c->G, d, c->gap);
+    if (n) measure_gaps (c, d);
     double change = 1;
     int closes = any_overlap (c);
     if (closes) PG_TRY (condense (s));
     for (int round = 0; closes && round < MOST_ROUNDS && change > GOOD; round++) {
         PG_TRY (press (s, d, &change));
         PG_TRY (system_solve_linear (s, t, d, NULL, residual));
-        pg_sparse_multiply_transposed (&c->G, d, c->gap);
+        measure_gaps (c, d);
     }
     contact_count (s);
 done:
