@@ -50,6 +50,42 @@ pg_status pg_contact_solve (pg_contact_solution *out, const pg_contact_problem *
  * into lengths by the diagonal of C, over the largest |g0|. */
 double pg_contact_violation (const pg_contact_problem *problem, const pg_contact_solution *s);
 
+/* ---- along a path of loads ----------------------------------------------------------------------------- */
+/* Loads that are a constant part and s times another: without contact the gaps are gap + s rate. While no
+ * pair changes its status forces and gaps are straight lines of s, too (a *stretch*), and the next change
+ * follows from a ratio test. Rate form: a slip goes on from where it is, so that pairs stick when it turns
+ * round, and what happened before counts; total form: slips count from `slip` at every s, which a path may
+ * be followed to and fro with. Borrowed. */
+typedef struct {
+    size_t n;                                          /* pairs */
+    const double *C, *gap, *rate;                      /* m/N (2 n x 2 n); m, m per s (2 n each) */
+    const double *coefficient, *cohesion;              /* as in a problem (n); NULL: none */
+    const double *slip;                                /* m (n): total form; NULL: rate form */
+} pg_contact_path;
+/* Where a track along it stands, in arrays of the caller's. */
+typedef struct {
+    double s;
+    double *force, *gap;                               /* there: N, m (2 n each) */
+    double *force_rate, *gap_rate;                     /* of the stretch, per unit of s (2 n each) */
+    unsigned char *status;                             /* pg_contact_status in the stretch (n) */
+    unsigned char *due;                                /* 1: it changes at the end of the stretch (n) */
+    double end;                                        /* of the stretch */
+    int    changes;                                    /* 1: pairs change there, 0: none do */
+    int    leapt;                                      /* 1: force and gap were others before */
+    /* pairs that have changed; dense solves and sweeps; leaps: no way went on without one */
+    long   total, solves, sweeps, leaps;
+} pg_contact_track;
+/* Begins at s with the solution of pg_contact_solve there, slips counting from `slip` (m, n; NULL: zero).
+ * Errors as there. */
+pg_status pg_contact_begin (pg_contact_track *track, const pg_contact_path *path, double s,
+                                  const double *slip);
+/* The stretch from where the track stands towards `until`, in either sense, which ends where the first pair
+ * changes, at the latest there. In total form the statuses are those at hand. Cohesion is lost at once where
+ * a pair opens: force and gap leap then, at the same s. PG_E_EQUILIBRIUM: no way leads on. */
+pg_status pg_contact_stretch (pg_contact_track *track, const pg_contact_path *path, double until);
+/* Along the stretch to s. */
+void      pg_contact_go (pg_contact_track *track, const pg_contact_path *path, double s);
+
 /* ---- pieces of cracks ---------------------------------------------------------------------------------- */
 /* Mean gaps over pieces of about two spacings are what a discretisation of that spacing can hold closed
  * without pressures that swing from piece to piece (the pairs then satisfy the condition of Ladyzhenskaya,
