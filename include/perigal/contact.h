@@ -2,15 +2,17 @@
  * contact.h: bodies that touch, and the faces of closed cracks: unilateral contact with Coulomb's friction as
  * a small dense problem of complementarity, and the pieces of cracks that it is asked for.
  *
- * A *pair* of rows belongs to a piece of surface: its mean gap g_n (positive: open) and its mean slip g_t,
- * both linear in the displacement, g = g0 + G d. A force of the pair is conjugate to it: G' f acts on the
- * nodes, so that f_n >= 0 presses the two sides apart and f_t resists the slip. With K u = F + G' f,
+ * A *pair* belongs to a piece of surface: its mean gap g_n (positive: open) and its mean slip g_t, a number
+ * in the plane and two in space, all linear in the displacement, g = g0 + G d. A force of the pair is
+ * conjugate to it: G' f acts on the nodes, so that f_n >= 0 presses the two sides apart and f_t resists the
+ * slip. With K u = F + G' f,
  *
  *     g = g0 + C f,    C = G K^-1 G'  (symmetric, positive definite, m/N),    g0: without contact,
  *     g_n >= 0,  f_n >= 0,  f_n g_n = 0,    |f_t| <= mu f_n + c where f_n > 0,  a slip opposes f_t:
  *
  * the stiffness stays as it is, and only pairs of numbers remain (Signorini 1933; Coulomb; condensed as in
- * Klarbring 1986). Pairs in the plane: one normal, one tangent. */
+ * Klarbring 1986). A pair has `dim` rows: its normal, then dim - 1 tangents, which are at right angles to
+ * each other; |.| is the length of the two numbers in space (Coulomb's cone). */
 #ifndef PERIGAL_CONTACT_H
 #define PERIGAL_CONTACT_H
 #include "perigal/fracture.h"
@@ -18,23 +20,26 @@
 PG_API_BEGIN
 
 /* ---- the problem of complementarity -------------------------------------------------------------------- */
-/* How a pair stands: apart; together without slip; sliding towards positive or negative g_t. */
-typedef enum { PG_CONTACT_OPEN, PG_CONTACT_STICK, PG_CONTACT_FORWARD, PG_CONTACT_BACKWARD } pg_contact_status;
+/* How a pair stands: apart; together without slip; sliding towards positive or negative g_t (plane); sliding
+ * in a direction of its own (space). */
+typedef enum {
+    PG_CONTACT_OPEN, PG_CONTACT_STICK, PG_CONTACT_FORWARD, PG_CONTACT_BACKWARD, PG_CONTACT_SLIDING
+} pg_contact_status;
 
-/* All borrowed. Rows 2 k and 2 k + 1 are the normal and the tangent of pair k. */
+/* All borrowed. Row dim k is the normal of pair k, dim k + 1 .. dim k + dim - 1 are its tangents. */
 typedef struct {
-    size_t n;                                          /* pairs */
-    const double *C;                                   /* compliance, m/N (2 n x 2 n, symmetric) */
-    const double *gap;                                 /* g0: gaps and slips without contact, m (2 n) */
+    size_t n, dim;                                     /* pairs; rows of each: 2 (plane) or 3 (space) */
+    const double *C;                                   /* compliance, m/N (dim n x dim n, symmetric) */
+    const double *gap;                                 /* g0: gaps and slips without contact, m (dim n) */
     const double *coefficient;                         /* of friction, mu >= 0 (n); NULL: none */
     const double *cohesion;                            /* c: force that a closed pair bears besides, N (n) */
-    /* slip that there was before, m (n): a pair that sticks keeps it; NULL: none */
+    /* slip that there was before, m (n x (dim - 1)): a pair that sticks keeps it; NULL: none */
     const double *slip;
 } pg_contact_problem;
 
 /* What solves it; arrays of the caller's. */
 typedef struct {
-    double *force, *gap;                               /* f, N; g, m (2 n each) */
+    double *force, *gap;                               /* f, N; g, m (dim n each) */
     unsigned char *status;                             /* pg_contact_status of each pair (n) */
     size_t open, stick, sliding;                       /* pairs of each kind */
     size_t sweeps, passes;                             /* of relaxation; of the active set */
@@ -95,23 +100,26 @@ void      pg_contact_go (pg_contact_track *track, const pg_contact_path *path, d
 #define PG_CONTACT_RADIUS 2.5                          /* how far they see (pg_force_type.jump) */
 #define PG_CONTACT_TURN   0.5                          /* rad: no piece goes around such a turn */
 typedef struct {
-    double x[2], normal[2];                            /* middle; unit normal to the left of the path, m, 1 */
+    /* middle, m; unit normal (plane: to the left of the path); directions of slips, dim - 1 of them */
+    double x[3], normal[3], tangent[2][3];
     double area;                                       /* of its faces, thickness included, m^2 */
-    double length;                                     /* m */
+    double length;                                     /* m; space: side of a square of that area */
     size_t path;                                       /* pieces of one path follow each other */
-    double arc;                                        /* of its middle along its path, m */
+    double arc;                                        /* of its middle along its path, m; space: 0 */
 } pg_contact_piece;
 /* The cracks of a state in pieces, as far as they cut bonds and lie in the body. */
 typedef struct {
-    size_t n;  pg_contact_piece *piece;
-    size_t npoint;  double *x, *normal, *weight;       /* x 2, x 2, m^2: points that sample the gap */
+    size_t n, dim;  pg_contact_piece *piece;
+    /* points that sample the gap: places (x dim), unit normals (x dim), tangents (x dim - 1 x dim), m^2 */
+    size_t npoint;  double *x, *normal, *tangent, *weight;
     size_t *first;                                     /* those of piece k: first[k] .. first[k + 1] - 1 */
 } pg_contact_pieces;
 pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *problem, const pg_state *state);
 void      pg_contact_pieces_clear  (pg_contact_pieces *pieces);
-/* Their rows as columns of G' (unknowns x 2 n): column 2 k makes the mean gap of piece k, 2 k + 1 its mean
- * slip, positive where the left face goes ahead along the path; f acts on the nodes as G' f. *poor: points
- * that see too little on one side, and do not count. PG_E_USAGE: a piece has no other points. */
+/* Their rows as columns of G' (unknowns x dim n): column dim k makes the mean gap of piece k, those after it
+ * its mean slips, positive where the face that the normal shows to goes ahead along the tangent (plane: the
+ * left face along the path); f acts on the nodes as G' f. *poor: points that see too little on one side, and
+ * do not count. PG_E_USAGE: a piece has no other points. */
 pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
                            const pg_force_type *force, void *self, const pg_state *state, size_t *poor);
 

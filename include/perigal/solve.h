@@ -273,11 +273,12 @@ typedef struct pg_progress {
     double      damage;  /* largest damage in solver.stop.set; NAN: none, or not looked at yet */
 } pg_progress;
 void      pg_solver_progress (const pg_solver *solver, const pg_state *state, pg_progress *out);
-/* Contact of a piece of crack in the state of the last step: pressure and shear stress on its left face,
- * along the path (Pa), mean gap and slip (m). */
+/* Contact of a piece of crack in the state of the last step: pressure and shear stress (Pa) on the face that
+ * its normal shows to (plane: the left one), mean gap and slip (m). Shear stress and slip are one number,
+ * along the path, in the plane, and vectors in space. */
 typedef struct {
     size_t path;
-    double x[2], length, arc, pressure, shear, gap, slip;
+    double x[3], normal[3], area, length, arc, pressure, shear[3], gap, slip[3];
     pg_contact_status status;
 } pg_contact_values;
 /* Piece by piece, path by path; *n: how many, 0 without contact. Borrowed until the next step. */

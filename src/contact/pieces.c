@@ -23,7 +23,7 @@ typedef struct {
     double nothing;                                    /* places no further apart are one, m */
     segment *segment;  size_t nsegment;
     link *link;  size_t nlink, cap_link;
-    size_t cap_x, cap_normal, cap_weight, cap_piece, cap_first;
+    size_t cap_x, cap_normal, cap_tangent, cap_weight, cap_piece, cap_first;
 } division;
 
 /* ---- segments and paths -------------------------------------------------------------------------------- */
@@ -134,14 +134,16 @@ static pg_status add_points (division *d, pg_contact_pieces *out, const link *l,
     for (int m = 0; m < 2; m++) t[m] = (l->to[m] - l->from[m]) / l->length;
     PG_GROW (out->x, d->cap_x, 2 * (out->npoint + count));
     PG_GROW (out->normal, d->cap_normal, 2 * (out->npoint + count));
+    PG_GROW (out->tangent, d->cap_tangent, 2 * (out->npoint + count));
     PG_GROW (out->weight, d->cap_weight, out->npoint + count);
     for (size_t i = 0; i < count; i++) {
         double s = u + ((double) i + 0.5) / (double) count * (v - u), x[3] = { 0 };
         for (int m = 0; m < 2; m++) x[m] = l->from[m] + s * (l->to[m] - l->from[m]);
         if (!pg_problem_has_body (d->p, x)) continue;
-        double part = size / (double) count, *n = out->normal + 2 * out->npoint;
+        double part = size / (double) count, *n = out->normal + 2 * out->npoint,
+               *along = out->tangent + 2 * out->npoint;
         memcpy (out->x + 2 * out->npoint, x, 2 * sizeof *x);
-        n[0] = -t[1], n[1] = t[0];
+        n[0] = -t[1], n[1] = t[0], along[0] = n[1], along[1] = -n[0];
         out->weight[out->npoint++] = part * d->p->cloud.thickness;
         piece->length += part, piece->area += part * d->p->cloud.thickness;
         for (int m = 0; m < 2; m++) piece->x[m] += part * x[m], piece->normal[m] += part * n[m];
@@ -157,6 +159,7 @@ static void end_piece (pg_contact_pieces *out)
     double size = hypot (k->normal[0], k->normal[1]);
     if (out->npoint == out->first[out->n] || !(size > 0)) return;
     for (int m = 0; m < 2; m++) k->x[m] /= k->length, k->normal[m] /= size;
+    k->tangent[0][0] = k->normal[1], k->tangent[0][1] = -k->normal[0];
     out->first[++out->n] = out->npoint;
 }
 
@@ -199,6 +202,7 @@ pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *p,
     pg_status status = PG_OK;
     division d = { .p = p, .nothing = PG_NO_LENGTH * p->cloud.h };
     memset (out, 0, sizeof *out);
+    out->dim = 2;
     PG_GROW (out->first, d.cap_first, 1);
     PG_TRY (take_segments (&d, pg_state_cracks (p, state)));
     PG_TRY (find_paths (&d));
@@ -214,21 +218,22 @@ done:
 
 void pg_contact_pieces_clear (pg_contact_pieces *k)
 {
-    pg_free (k->piece), pg_free (k->x), pg_free (k->normal), pg_free (k->weight), pg_free (k->first);
+    pg_free (k->piece), pg_free (k->first);
+    pg_free (k->x), pg_free (k->normal), pg_free (k->tangent), pg_free (k->weight);
     memset (k, 0, sizeof *k);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
-/* Adds the points of piece k to its two rows, whose unknowns are those of both dimensions of the nodes:
- * normal[2 j + c], tangent[2 j + c]. Nodes that were touched are listed once. Returns the weight of points
+/* Adds the points of piece k to its rows, each of as many unknowns as all nodes have: row a, unknown c of
+ * node j at row[(a n + j) dim + c]. Nodes that were touched are listed once. Returns the weight of points
  * that count. */
-static double gather (const pg_contact_pieces *pieces, const pg_jump_rows *jump, size_t k, double *normal,
-                      double *tangent, unsigned char *seen, int *list, size_t *count)
+static double gather (const pg_contact_pieces *pieces, const pg_jump_rows *jump, size_t k, size_t n,
+                      double *row, unsigned char *seen, int *list, size_t *count)
 {
     double sum = 0;
+    size_t d = pieces->dim;
     *count = 0;
     for (size_t q = pieces->first[k]; q < pieces->first[k + 1]; q++) {
-        const double *n = pieces->normal + 2*q, t[2] = { n[1], -n[0] };
         double w = pieces->weight[q];
         int any = 0;
         for (size_t e = jump->start[q]; e < jump->start[q + 1]; e++) {
@@ -236,8 +241,10 @@ static double gather (const pg_contact_pieces *pieces, const pg_jump_rows *jump,
             if (jump->value[e] == 0) continue;
             any = 1;
             if (!seen[j]) seen[j] = 1, list[(*count)++] = (int) j;
-            for (size_t c = 0; c < 2; c++)
-                normal[2*j + c] += w * n[c] * jump->value[e], tangent[2*j + c] += w * t[c] * jump->value[e];
+            for (size_t a = 0; a < d; a++) {
+                const double *to = a ? pieces->tangent + ((d - 1) * q + a - 1) * d : pieces->normal + d*q;
+                for (size_t c = 0; c < d; c++) row[(a*n + j) * d + c] += w * to[c] * jump->value[e];
+            }
         }
         if (any) sum += w;
     }
@@ -250,14 +257,14 @@ static int compare_nodes (const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
-/* Two columns of the listed nodes, divided by the weight; the row is zeroed for the next piece. */
-static void put_column (pg_sparse *out, size_t column, const int *list, size_t count, double weight,
-                        double *row)
+/* A column of the listed nodes, divided by the weight; the row is zeroed for the next piece. */
+static void put_column (pg_sparse *out, size_t column, size_t dim, const int *list, size_t count,
+                        double weight, double *row)
 {
     long at = out->start[column];
     for (size_t i = 0; i < count; i++)
-        for (size_t c = 0; c < 2; c++) {
-            size_t unknown = 2 * (size_t) list[i] + c;
+        for (size_t c = 0; c < dim; c++) {
+            size_t unknown = dim * (size_t) list[i] + c;
             out->row[at] = (long) unknown, out->value[at++] = row[unknown] / weight;
             row[unknown] = 0;
         }
@@ -269,32 +276,34 @@ pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, cons
 {
     pg_status status = PG_OK;
     pg_jump_rows jump = { 0 };
-    size_t n = p->cloud.n, count, most = 0;
+    size_t n = p->cloud.n, d = pieces->dim, count, most = 0;
     double *row = NULL;
     unsigned char *seen = NULL;
     int *list = NULL;
     memset (out, 0, sizeof *out);
-    if (!force->jump || p->dim != 2)
-        PG_FAIL (PG_E_USAGE, "contact of crack faces is known in the plane and of forces that show the jump "
-                             "of the displacement across a crack");
+    if (!force->jump)
+        PG_FAIL (PG_E_USAGE, "contact of crack faces is known of forces that show the jump of the "
+                             "displacement across a crack");
     PG_TRY (force->jump (self, state, pieces->npoint, pieces->x, pieces->normal, PG_CONTACT_RADIUS, &jump));
     *poor = jump.poor;
     for (size_t e = 0; e < jump.start[jump.n]; e++) most += jump.value[e] != 0;
-    PG_TRY (pg_sparse_create (out, 2 * n, 2 * pieces->n, 4 * most, 0));
-    PG_ALLOC (row, 4 * n);
+    PG_TRY (pg_sparse_create (out, d * n, d * pieces->n, d * d * most, 0));
+    PG_ALLOC (row, d * d * n);
     PG_ALLOC (seen, n);
     PG_ALLOC (list, n);
     for (size_t k = 0; k < pieces->n; k++) {
-        double weight = gather (pieces, &jump, k, row, row + 2*n, seen, list, &count);
+        double weight = gather (pieces, &jump, k, n, row, seen, list, &count);
+        char third[32] = "";
+        if (d == 3) snprintf (third, sizeof third, ", %.6g", pieces->piece[k].x[2]);
         if (!(weight > 0))
             PG_FAIL (PG_E_USAGE,
-                     "contact of crack faces: within %g spacings of (%.6g, %.6g) m the body sees too little "
-                     "on one side of the crack for a gap: take a smaller spacing, or keep cracks and "
+                     "contact of crack faces: within %g spacings of (%.6g, %.6g%s) m the body sees too "
+                     "little on one side of the crack for a gap: take a smaller spacing, or keep cracks and "
                      "surfaces further apart",
-                     PG_CONTACT_RADIUS, pieces->piece[k].x[0], pieces->piece[k].x[1]);
+                     PG_CONTACT_RADIUS, pieces->piece[k].x[0], pieces->piece[k].x[1], third);
         qsort (list, count, sizeof *list, compare_nodes);
-        put_column (out, 2*k, list, count, weight, row);
-        put_column (out, 2*k + 1, list, count, weight, row + 2*n);
+        for (size_t a = 0; a < d; a++)
+            put_column (out, d*k + a, d, list, count, weight, row + a * d * n);
         for (size_t i = 0; i < count; i++) seen[list[i]] = 0;
     }
 done:

@@ -31,7 +31,7 @@ pg_status pg_result_contact_write (pg_result *r, const pg_step *step)
         const double row[COLUMNS] = { (double) step->number, step->time,  step->factor,
                                       (double) v[k].path + 1,
                                       v[k].arc,              v[k].x[0],   v[k].x[1],    v[k].length,
-                                      v[k].pressure,         v[k].shear,  v[k].gap,     v[k].slip,
+                                      v[k].pressure,         v[k].shear[0],  v[k].gap,     v[k].slip[0],
                                       (double) v[k].status };
         PG_TRY (pg_table_row (r->contact, row));
     }

@@ -11,23 +11,30 @@
  * crack has grown, and is then taken over place by place. */
 typedef struct {
     size_t  n, room;
-    double *value;                                     /* CONTACT_VALUES of each piece */
+    double *value;                                     /* of each piece: contact_layout */
     double  friction;                                  /* work of friction so far, J */
 } contact_memory;
-/* Place of the middle (2), length, shear force over area and slip when work was last booked, slip of the last
- * accepted step. */
-enum { CONTACT_X, CONTACT_LENGTH = 2, CONTACT_SHEAR, CONTACT_SLIP, CONTACT_ACCEPTED, CONTACT_VALUES };
+/* Place of the middle (dim), length, shear force over area and slip when work was last booked, slip of the
+ * last accepted step: numbers along the path in the plane, vectors in space. */
+typedef struct { size_t length, shear, slip, accepted, values, parts; } contact_layout;
+static inline contact_layout contact_layout_of (size_t dim)
+{
+    size_t m = dim == 3 ? 3 : 1;
+    return (contact_layout){ .length = dim, .shear = dim + 1, .slip = dim + 1 + m, .accepted = dim + 1 + 2*m,
+                             .values = dim + 1 + 3*m, .parts = m };
+}
 
 struct system_contact {
     pg_contact_setting setting;
     pg_contact_pieces  pieces;
-    pg_sparse G;                                       /* G', ndof x 2 n */
+    pg_sparse G;                                       /* G', ndof x dim n */
     size_t    poor;                                    /* points that see too little */
     unsigned long made;                                /* revision of K that Z and C belong to, + 1 */
-    double   *Z, *C;                                   /* K^-1 G' (ndof x 2 n); G Z (2 n x 2 n), m/N */
-    double   *coefficient, *cohesion, *before;         /* mu, c A (N), slip before (n) */
-    double   *force, *gap, *open;                      /* f; g; gaps without contact (2 n each) */
-    double   *initial;                                 /* gaps without displacement, m (2 n) */
+    double   *Z, *C;                                   /* K^-1 G' (ndof x dim n); G Z (dim n x dim n), m/N */
+    double   *coefficient, *cohesion;                  /* mu, c A (N), of each piece (n) */
+    double   *before;                                  /* slip before (n x (dim - 1)) */
+    double   *force, *gap, *open;                      /* f; g; gaps without contact (dim n each) */
+    double   *initial;                                 /* gaps without displacement, m (dim n) */
     unsigned char *status;                             /* of each piece (n) */
     double   *nodal;                                   /* G' f, N (ndof) */
     int       active;                                  /* some force is not zero */
@@ -58,6 +65,9 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, doub
 pg_status contact_show (pg_system *s, double scale);
 
 /* ---- contact_memory.c ---------------------------------------------------------------------------------- */
+/* Numbers along the tangents of piece k, times scale, as a vector (space: 3) or a number (plane: 1). */
+void      contact_vector   (const pg_contact_pieces *pieces, size_t k, const double *along, double scale,
+                            double *out);
 /* Values of the memory at the pieces at hand. */
 pg_status contact_remember (struct system_contact *c);
 /* Work of friction from the state booked last to the one at hand, loads scaled. */

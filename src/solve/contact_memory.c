@@ -7,15 +7,38 @@
 #include <math.h>
 #include <string.h>
 
-/* Piece of the memory that lies at x; SIZE_MAX: none. */
-static size_t piece_at (const contact_memory *m, const double *x)
+/* Half the diagonal of a square of length 1: pieces in space reach so far. */
+static const double SQUARE = 0.70710678118654752;
+
+void contact_vector (const pg_contact_pieces *pieces, size_t k, const double *along, double scale,
+                     double *out)
+{
+    const pg_contact_piece *p = &pieces->piece[k];
+    if (pieces->dim == 2) out[0] = scale * along[0];
+    for (int c = 0; c < 3 && pieces->dim == 3; c++)
+        out[c] = scale * (along[0] * p->tangent[0][c] + along[1] * p->tangent[1][c]);
+}
+
+/* The other way round: parts along the tangents of piece k. */
+static void part_along (const pg_contact_pieces *pieces, size_t k, const double *vector, double *out)
+{
+    const pg_contact_piece *p = &pieces->piece[k];
+    if (pieces->dim == 2) out[0] = vector[0];
+    for (int a = 0; a < 2 && pieces->dim == 3; a++)
+        out[a] = vector[0] * p->tangent[a][0] + vector[1] * p->tangent[a][1] + vector[2] * p->tangent[a][2];
+}
+
+/* Piece of the memory that lies at x; SIZE_MAX: none. In space pieces are about as wide as long. */
+static size_t piece_at (const contact_memory *m, size_t dim, const double *x)
 {
     size_t found = SIZE_MAX;
     double least = INFINITY;
+    contact_layout l = contact_layout_of (dim);
     for (size_t k = 0; k < m->n; k++) {
-        const double *v = m->value + k * CONTACT_VALUES;
-        double away = hypot (v[CONTACT_X] - x[0], v[CONTACT_X + 1] - x[1]);
-        if (away > 0.5 * v[CONTACT_LENGTH] * (1 + 1e-6) || away >= least) continue;
+        const double *v = m->value + k * l.values;
+        double away = hypot (v[0] - x[0], v[1] - x[1]), reach = 0.5;
+        if (dim == 3) away = hypot (away, v[2] - x[2]), reach = SQUARE;
+        if (away > reach * v[l.length] * (1 + 1e-6) || away >= least) continue;
         least = away, found = k;
     }
     return found;
@@ -24,21 +47,23 @@ static size_t piece_at (const contact_memory *m, const double *x)
 pg_status contact_remember (struct system_contact *c)
 {
     pg_status status = PG_OK;
+    size_t dim = c->pieces.dim;
+    contact_layout l = contact_layout_of (dim);
     contact_memory fresh = { .friction = c->now.friction, .n = c->pieces.n };
-    PG_GROW (fresh.value, fresh.room, fresh.n * CONTACT_VALUES);
+    PG_GROW (fresh.value, fresh.room, fresh.n * l.values);
     for (size_t k = 0; k < fresh.n; k++) {
-        double *v = fresh.value + k * CONTACT_VALUES, sum = 0;
+        double *v = fresh.value + k * l.values, sum = 0;
         const pg_contact_piece *p = &c->pieces.piece[k];
-        memset (v, 0, CONTACT_VALUES * sizeof *v);
-        v[CONTACT_X] = p->x[0], v[CONTACT_X + 1] = p->x[1], v[CONTACT_LENGTH] = p->length;
+        memset (v, 0, l.values * sizeof *v);
+        memcpy (v, p->x, dim * sizeof *v), v[l.length] = p->length;
         for (size_t q = c->pieces.first[k]; q < c->pieces.first[k + 1]; q++) {
-            size_t at = piece_at (&c->now, c->pieces.x + 2*q);
+            size_t at = piece_at (&c->now, dim, c->pieces.x + dim * q);
             sum += c->pieces.weight[q];
-            for (int i = CONTACT_SHEAR; at != SIZE_MAX && i < CONTACT_VALUES; i++)
-                v[i] += c->pieces.weight[q] * c->now.value[at * CONTACT_VALUES + (size_t) i];
+            for (size_t i = l.shear; at != SIZE_MAX && i < l.values; i++)
+                v[i] += c->pieces.weight[q] * c->now.value[at * l.values + i];
         }
-        for (int i = CONTACT_SHEAR; i < CONTACT_VALUES; i++) v[i] /= sum;
-        c->before[k] = v[CONTACT_ACCEPTED];
+        for (size_t i = l.shear; i < l.values; i++) v[i] /= sum;
+        part_along (&c->pieces, k, v + l.accepted, c->before + k * (dim - 1));
     }
     pg_free (c->now.value);
     c->now = fresh;
@@ -49,11 +74,17 @@ done:
 void contact_book (pg_system *s, double scale)
 {
     struct system_contact *c = s->contact;
+    contact_layout l = contact_layout_of (c ? c->pieces.dim : 2);
     for (size_t k = 0; c && k < c->pieces.n; k++) {
-        double *v = c->now.value + k * CONTACT_VALUES, area = c->pieces.piece[k].area,
-               shear = c->active ? scale * c->force[2*k + 1] : 0, slip = scale * c->gap[2*k + 1];
-        c->now.friction -= 0.5 * (area * v[CONTACT_SHEAR] + shear) * (slip - v[CONTACT_SLIP]);
-        v[CONTACT_SHEAR] = shear / area, v[CONTACT_SLIP] = slip;
+        const double none[2] = { 0, 0 };
+        size_t i = c->pieces.dim * k + 1;
+        double *v = c->now.value + k * l.values, area = c->pieces.piece[k].area, shear[3], slip[3];
+        contact_vector (&c->pieces, k, c->active ? c->force + i : none, scale, shear);
+        contact_vector (&c->pieces, k, c->gap + i, scale, slip);
+        for (size_t m = 0; m < l.parts; m++) {
+            c->now.friction -= 0.5 * (area * v[l.shear + m] + shear[m]) * (slip[m] - v[l.slip + m]);
+            v[l.shear + m] = shear[m] / area, v[l.slip + m] = slip[m];
+        }
     }
     if (c) s->report->energy_friction = c->now.friction;
 }
@@ -61,16 +92,30 @@ void contact_book (pg_system *s, double scale)
 void contact_accept (pg_system *s)
 {
     struct system_contact *c = s->contact;
-    for (size_t k = 0; c && k < c->pieces.n; k++)
-        c->before[k] = c->now.value[k * CONTACT_VALUES + CONTACT_ACCEPTED] = c->gap[2*k + 1];
+    contact_layout l = contact_layout_of (c ? c->pieces.dim : 2);
+    for (size_t k = 0; c && k < c->pieces.n; k++) {
+        const double *slip = c->gap + c->pieces.dim * k + 1;
+        contact_vector (&c->pieces, k, slip, 1, c->now.value + k * l.values + l.accepted);
+        memcpy (c->before + k * (c->pieces.dim - 1), slip, (c->pieces.dim - 1) * sizeof *slip);
+    }
+}
+
+/* Slips of the last accepted step, as the memory has them. */
+static void take_before (struct system_contact *c)
+{
+    contact_layout l = contact_layout_of (c->pieces.dim);
+    for (size_t k = 0; c->now.n == c->pieces.n && k < c->now.n; k++)
+        part_along (&c->pieces, k, c->now.value + k * l.values + l.accepted,
+                    c->before + k * (c->pieces.dim - 1));
 }
 
 /* One memory as another. */
-static pg_status copy (contact_memory *to, const contact_memory *from)
+static pg_status copy (contact_memory *to, const contact_memory *from, size_t dim)
 {
     pg_status status = PG_OK;
-    PG_GROW (to->value, to->room, from->n * CONTACT_VALUES);
-    if (from->n) memcpy (to->value, from->value, from->n * CONTACT_VALUES * sizeof *to->value);
+    size_t values = contact_layout_of (dim).values;
+    PG_GROW (to->value, to->room, from->n * values);
+    if (from->n) memcpy (to->value, from->value, from->n * values * sizeof *to->value);
     to->n = from->n, to->friction = from->friction;
 done:
     return status;
@@ -78,7 +123,8 @@ done:
 
 pg_status contact_save (pg_system *s)
 {
-    return s->contact ? copy (&s->contact->start, &s->contact->now) : PG_OK;
+    struct system_contact *c = s->contact;
+    return c ? copy (&c->start, &c->now, c->pieces.dim) : PG_OK;
 }
 
 /* The pieces at hand may be those of the step that is refused: what they remember follows. Nothing is
@@ -86,11 +132,9 @@ pg_status contact_save (pg_system *s)
 void contact_return (pg_system *s)
 {
     struct system_contact *c = s->contact;
-    if (!c || copy (&c->now, &c->start) != PG_OK) return;
+    if (!c || copy (&c->now, &c->start, c->pieces.dim) != PG_OK) return;
     s->report->energy_friction = c->now.friction;
-    if (c->now.n == c->pieces.n)
-        for (size_t k = 0; k < c->now.n; k++)
-            c->before[k] = c->now.value[k * CONTACT_VALUES + CONTACT_ACCEPTED];
+    take_before (c);
 }
 
 static pg_status keep_memory (contact_memory *m, const char *name, const pg_system *s, const pg_keeper *k)
@@ -98,15 +142,16 @@ static pg_status keep_memory (contact_memory *m, const char *name, const pg_syst
     pg_status status = PG_OK;
     char part[64];
     long n = (long) m->n;
+    size_t values = contact_layout_of ((size_t) s->problem->dim).values;
     strcat (strcpy (part, name), ".count");
     PG_TRY (k->counts (k->context, part, 1, &n));
     PG_KEEP_BOUND (k, "the number of pieces in contact", n, 0, (long) s->problem->first_bond[PG_BOND_SETS]);
-    if (k->reading) PG_GROW (m->value, m->room, (size_t) n * CONTACT_VALUES);
+    if (k->reading) PG_GROW (m->value, m->room, (size_t) n * values);
     m->n = (size_t) n;
     strcat (strcpy (part, name), ".friction");
     PG_TRY (k->numbers (k->context, part, 1, &m->friction));
     strcat (strcpy (part, name), ".values");
-    if (n) PG_TRY (k->numbers (k->context, part, (size_t) n * CONTACT_VALUES, m->value));
+    if (n) PG_TRY (k->numbers (k->context, part, (size_t) n * values, m->value));
 done:
     return status;
 }
@@ -115,7 +160,7 @@ done:
 static pg_status keep_shown (struct system_contact *c, const pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    enum { NUMBERS = 8 };
+    enum { NUMBERS = 17 };
     long n = (long) c->nshown, *count = NULL;
     double *number = NULL;
     PG_TRY (k->counts (k->context, "contact.shown_count", 1, &n));
@@ -125,8 +170,9 @@ static pg_status keep_shown (struct system_contact *c, const pg_system *s, const
     PG_ALLOC (number, NUMBERS * (size_t) n + 1);
     for (long i = 0; !k->reading && i < n; i++) {
         const pg_contact_values *v = &c->shown[i];
-        const double value[NUMBERS] = { v->x[0],     v->x[1],  v->length, v->arc,
-                                        v->pressure, v->shear, v->gap,    v->slip };
+        const double value[NUMBERS] = {
+            v->x[0], v->x[1], v->x[2], v->normal[0], v->normal[1], v->normal[2], v->area, v->length, v->arc,
+            v->pressure, v->shear[0], v->shear[1], v->shear[2], v->gap, v->slip[0], v->slip[1], v->slip[2] };
         count[2*i] = (long) v->path, count[2*i + 1] = (long) v->status;
         memcpy (number + NUMBERS * i, value, sizeof value);
     }
@@ -136,10 +182,12 @@ static pg_status keep_shown (struct system_contact *c, const pg_system *s, const
         const double *v = number + NUMBERS * i;
         PG_KEEP_BOUND (k, "the path of a piece", count[2*i], 0,
                        (long) s->problem->first_bond[PG_BOND_SETS]);
-        PG_KEEP_BOUND (k, "the status of a piece", count[2*i + 1], PG_CONTACT_OPEN, PG_CONTACT_BACKWARD);
-        c->shown[i] = (pg_contact_values) { .path = (size_t) count[2*i], .x = { v[0], v[1] }, .length = v[2],
-                                            .arc = v[3], .pressure = v[4], .shear = v[5], .gap = v[6],
-                                            .slip = v[7], .status = (pg_contact_status) count[2*i + 1] };
+        PG_KEEP_BOUND (k, "the status of a piece", count[2*i + 1], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
+        c->shown[i] = (pg_contact_values) { .path = (size_t) count[2*i], .x = { v[0], v[1], v[2] },
+                                            .normal = { v[3], v[4], v[5] }, .area = v[6], .length = v[7],
+                                            .arc = v[8], .pressure = v[9], .shear = { v[10], v[11], v[12] },
+                                            .gap = v[13], .slip = { v[14], v[15], v[16] },
+                                            .status = (pg_contact_status) count[2*i + 1] };
     }
     c->nshown = (size_t) n;
 done:
@@ -164,13 +212,12 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_KEEP_BOUND (k, "contact", count[1], 0, 1);
     c->active = (int) count[1], r->contact_passes = count[2], r->contact_sweeps = count[3];
     if (!c->pieces.n) return PG_OK;
-    PG_TRY (k->numbers (k->context, "contact.force", 2 * c->pieces.n, c->force));
-    PG_TRY (k->numbers (k->context, "contact.gap", 2 * c->pieces.n, c->gap));
+    PG_TRY (k->numbers (k->context, "contact.force", c->pieces.dim * c->pieces.n, c->force));
+    PG_TRY (k->numbers (k->context, "contact.gap", c->pieces.dim * c->pieces.n, c->gap));
     PG_TRY (k->bytes (k->context, "contact.status", c->pieces.n, c->status));
-    for (size_t i = 0; k->reading && i < c->pieces.n; i++) {
-        PG_KEEP_BOUND (k, "the status of a piece", c->status[i], PG_CONTACT_OPEN, PG_CONTACT_BACKWARD);
-        if (c->now.n == c->pieces.n) c->before[i] = c->now.value[i * CONTACT_VALUES + CONTACT_ACCEPTED];
-    }
+    for (size_t i = 0; k->reading && i < c->pieces.n; i++)
+        PG_KEEP_BOUND (k, "the status of a piece", c->status[i], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
+    if (k->reading) take_before (c);
     if (k->reading) pg_sparse_multiply (&c->G, c->force, c->nodal);
     if (k->reading) contact_count (s);
 done:

@@ -57,14 +57,14 @@ pg_status contact_refresh (pg_system *s, const pg_state *state)
     clear (c);
     PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
     PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
-    size_t n = c->pieces.n;
+    size_t n = c->pieces.n, dim = c->pieces.dim;
     PG_ALLOC (c->coefficient, n);
     PG_ALLOC (c->cohesion, n);
-    PG_ALLOC (c->before, n);
-    PG_ALLOC (c->force, 2*n);
-    PG_ALLOC (c->gap, 2*n);
-    PG_ALLOC (c->open, 2*n);
-    PG_ALLOC (c->initial, 2*n);
+    PG_ALLOC (c->before, n * (dim - 1));
+    PG_ALLOC (c->force, dim * n);
+    PG_ALLOC (c->gap, dim * n);
+    PG_ALLOC (c->open, dim * n);
+    PG_ALLOC (c->initial, dim * n);
     PG_ALLOC (c->status, n);
     for (size_t k = 0; k < n; k++) {
         c->coefficient[k] = c->setting.coefficient;
@@ -99,7 +99,7 @@ static pg_status solve_columns (pg_system *s)
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    size_t n = 2 * c->pieces.n;
+    size_t n = c->pieces.dim * c->pieces.n;
     double *rhs = NULL, *solved = NULL, t0 = pg_seconds ();
     if (!c->Z) PG_ALLOC (c->Z, s->ndof * n);
     PG_ALLOC (rhs, s->nred * n);
@@ -131,7 +131,7 @@ static pg_status condense (pg_system *s)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
-    size_t n = 2 * c->pieces.n;
+    size_t n = c->pieces.dim * c->pieces.n;
     if (c->made == s->revision + 1) return PG_OK;
     PG_TRY (solve_columns (s));
     if (!c->C) PG_ALLOC (c->C, n * n);
@@ -153,7 +153,7 @@ const double *contact_forces (const pg_system *s)
 
 static int any_overlap (const struct system_contact *c)
 {
-    for (size_t k = 0; k < c->pieces.n; k++) if (c->gap[2*k] < 0) return 1;
+    for (size_t k = 0; k < c->pieces.n; k++) if (c->gap[c->pieces.dim * k] < 0) return 1;
     return 0;
 }
 
@@ -170,14 +170,14 @@ static pg_status press (pg_system *s, double *d, double *change)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
-    size_t n = 2 * c->pieces.n;
+    size_t n = c->pieces.dim * c->pieces.n;
     double *old = NULL, size = 0;
     PG_ALLOC (old, n);
     memcpy (old, c->force, n * sizeof *old);
     memcpy (c->open, c->gap, n * sizeof *old);
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; old[j] != 0 && i < n; i++) c->open[i] -= c->C[j * n + i] * old[j];
-    pg_contact_problem problem = { c->pieces.n, c->C, c->open, c->coefficient, c->cohesion,
+    pg_contact_problem problem = { c->pieces.n, c->pieces.dim, c->C, c->open, c->coefficient, c->cohesion,
                                    c->history ? c->before : NULL };
     pg_contact_solution solution = { .force = c->force, .gap = c->gap, .status = c->status };
     PG_TRY (pg_contact_solve (&solution, &problem));
@@ -205,7 +205,7 @@ void contact_count (pg_system *s)
     r->contact_pieces = (long) c->pieces.n;
     r->contact_open = r->contact_stick = r->contact_sliding = 0;
     for (size_t k = 0; k < c->pieces.n; k++) {
-        r->contact_overlap = fmax (r->contact_overlap, -c->gap[2*k]);
+        r->contact_overlap = fmax (r->contact_overlap, -c->gap[c->pieces.dim * k]);
         if (!c->active || c->status[k] == PG_CONTACT_OPEN) r->contact_open++;
         else if (c->status[k] == PG_CONTACT_STICK) r->contact_stick++;
         else r->contact_sliding++;
@@ -216,7 +216,7 @@ pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
-    size_t n = 2 * c->pieces.n;
+    size_t n = c->pieces.dim * c->pieces.n;
     c->active = 0;
     memset (c->force, 0, n * sizeof *c->force);
     memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
@@ -250,7 +250,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, doub
            straight = pg_tip_straight (state, tip, PG_CONTACT_TURN);
     pg_tip_chord (state, tip, fmin (CHORD * h, straight), from, e);
     stress[0] = stress[1] = 0, *nearest = INFINITY;
-    for (size_t k = 0; c && c->active && k < c->pieces.n; k++) {
+    for (size_t k = 0; c && c->active && c->pieces.dim == 2 && k < c->pieces.n; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         double to[2] = { x[0] - p->x[0], x[1] - p->x[1] };
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
@@ -307,13 +307,15 @@ pg_status contact_show (pg_system *s, double scale)
     c->nshown = c->pieces.n;
     for (size_t k = 0; k < c->nshown; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
+        size_t i = c->pieces.dim * k;
         double force = c->active ? scale / p->area : 0;
-        c->shown[k] = (pg_contact_values) { .path = p->path, .x = { p->x[0], p->x[1] },
-                                            .length = p->length, .arc = p->arc,
-                                            .pressure = force * c->force[2*k],
-                                            .shear = force * c->force[2*k + 1],
-                                            .gap = scale * c->gap[2*k], .slip = scale * c->gap[2*k + 1],
+        c->shown[k] = (pg_contact_values) { .path = p->path, .x = { p->x[0], p->x[1], p->x[2] },
+                                            .normal = { p->normal[0], p->normal[1], p->normal[2] },
+                                            .area = p->area, .length = p->length, .arc = p->arc,
+                                            .pressure = force * c->force[i], .gap = scale * c->gap[i],
                                             .status = c->active ? c->status[k] : PG_CONTACT_OPEN };
+        contact_vector (&c->pieces, k, c->force + i + 1, force, c->shown[k].shear);
+        contact_vector (&c->pieces, k, c->gap + i + 1, scale, c->shown[k].slip);
     }
 done:
     return status;

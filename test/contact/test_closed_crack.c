@@ -347,8 +347,8 @@ static void stages_go_around_a_loop (void **state)
         const pg_contact_values *v = pg_solver_contact (r.solver, &n);
         const pg_statistics *s = pg_solver_report_now (r.solver);
         assert_true (step < 25 && n > 2 && n < PIECES);
-        slip[step] = v[n / 2].slip, friction[step] = s->energy_friction, strain[step] = s->energy_strain;
-        assert_true (v[n / 2].pressure > 0 && fabs (v[n / 2].shear) <= 0.3 * v[n / 2].pressure * (1 + 1e-9));
+        slip[step] = v[n / 2].slip[0], friction[step] = s->energy_friction, strain[step] = s->energy_strain;
+        check_below (fabs (v[n / 2].shear[0]), 0.3 * v[n / 2].pressure * (1 + 1e-9));
         assert_true (friction[step] >= friction[step - 1] * (1 - 1e-12));
         check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-9, 1);
         sticks += v[n / 2].status == PG_CONTACT_STICK;

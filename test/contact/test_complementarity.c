@@ -54,7 +54,7 @@ static void one_pair_has_its_closed_form (void **state)
         room r;
         pg_contact_solution s = solution_in (&r);
         double gap[2] = { cases[i].gn, cases[i].gt };
-        pg_contact_problem p = { 1, C, gap, &cases[i].mu, &cases[i].c, NULL };
+        pg_contact_problem p = { 1, 2, C, gap, &cases[i].mu, &cases[i].c, NULL };
         check_ok (pg_contact_solve (&s, &p));
         check_absolute (r.force[0], cases[i].fn, 1e-15);
         check_absolute (r.force[1], cases[i].ft, 1e-15);
@@ -81,7 +81,7 @@ static void slip_has_a_memory (void **state)
         room r;
         pg_contact_solution s = solution_in (&r);
         double gap[2] = { -1, drive[i] };
-        pg_contact_problem p = { 1, C, gap, &mu, NULL, &slip };
+        pg_contact_problem p = { 1, 2, C, gap, &mu, NULL, &slip };
         check_ok (pg_contact_solve (&s, &p));
         check_absolute (r.gap[1], goal[i], 1e-14);
         check_below (s.violation, 1e-14);
@@ -129,7 +129,7 @@ static void of_all_combinations_the_right_one_is_found (void **state)
         random_compliance (3, &seed, C);
         for (int i = 0; i < 6; i++) gap[i] = random_number (&seed) - (i % 2 ? 0 : 0.3);
         for (int k = 0; k < 3; k++) mu[k] = trial % 3 == 0 ? 0 : 0.2 * (1 + random_number (&seed));
-        pg_contact_problem p = { 3, C, gap, mu, NULL, NULL };
+        pg_contact_problem p = { 3, 2, C, gap, mu, NULL, NULL };
         int solutions = 0;
         for (int combination = 0; combination < 64; combination++) {
             int kind[3] = { combination % 4, combination / 4 % 4, combination / 16 };
@@ -168,7 +168,7 @@ static void a_string_lies_on_its_floor (void **state)
         C[(2*i + 1) * 2*N + 2*i + 1] = 1;
         gap[2*i] = a - 0.5 * p * x * (1 - x);
     }
-    pg_contact_problem problem = { N, C, gap, NULL, NULL, NULL };
+    pg_contact_problem problem = { N, 2, C, gap, NULL, NULL, NULL };
     room r;
     pg_contact_solution s = solution_in (&r);
     check_ok (pg_contact_solve (&s, &problem));
@@ -196,7 +196,7 @@ static void forces_follow_the_gaps (void **state)
     random_compliance (8, &seed, C);
     for (int i = 0; i < 16; i++) gap[i] = random_number (&seed) - (i % 2 ? 0 : 0.4);
     for (int k = 0; k < 8; k++) mu[k] = 0.15;
-    pg_contact_problem p = { 8, C, gap, mu, NULL, NULL };
+    pg_contact_problem p = { 8, 2, C, gap, mu, NULL, NULL };
     room one, more;
     pg_contact_solution s = solution_in (&one), t = solution_in (&more);
     check_ok (pg_contact_solve (&s, &p));
@@ -205,7 +205,7 @@ static void forces_follow_the_gaps (void **state)
         for (int unit = 0; unit < 2; unit++) {         /* unit 1: lengths in other units, forces stay */
             for (int i = 0; i < 16; i++) scaled[i] = factor[f] * gap[i];
             for (int i = 0; i < 4 * 64; i++) other[i] = unit ? factor[f] * C[i] : C[i];
-            pg_contact_problem q = { 8, other, scaled, mu, NULL, NULL };
+            pg_contact_problem q = { 8, 2, other, scaled, mu, NULL, NULL };
             check_ok (pg_contact_solve (&t, &q));
             for (int i = 0; i < 16; i++) {
                 check_absolute (more.force[i] / (unit ? 1 : factor[f]), one.force[i], 1e-13);
@@ -227,7 +227,7 @@ static void a_mirrored_problem_has_the_mirrored_solution (void **state)
         turned[i] = i % 2 ? -gap[i] : gap[i];
         for (int j = 0; j < 10; j++) other[10*i + j] = (i + j) % 2 ? -C[10*i + j] : C[10*i + j];
     }
-    pg_contact_problem p = { 5, C, gap, mu, NULL, NULL }, q = { 5, other, turned, mu, NULL, NULL };
+    pg_contact_problem p = { 5, 2, C, gap, mu, NULL, NULL }, q = { 5, 2, other, turned, mu, NULL, NULL };
     room a, b;
     pg_contact_solution s = solution_in (&a), t = solution_in (&b);
     check_ok (pg_contact_solve (&s, &p));
@@ -257,7 +257,7 @@ static void violations_are_seen (void **state)
         room r = { { cases[i].fn, cases[i].ft }, { cases[i].gn, cases[i].gt }, { 0 } };
         pg_contact_solution s = solution_in (&r);
         double free_gap[2] = { 1, 0.5 };
-        pg_contact_problem p = { 1, C, free_gap, &mu, NULL, NULL };
+        pg_contact_problem p = { 1, 2, C, free_gap, &mu, NULL, NULL };
         check_absolute (pg_contact_violation (&p, &s), cases[i].worst, 1e-15);
     }
 }
@@ -268,7 +268,7 @@ static void what_is_no_problem_is_refused (void **state)
     double C[4] = { 1, 0, 0, 1 }, gap[2] = { -1, 0 }, mu = -0.1;
     room r;
     pg_contact_solution s = solution_in (&r);
-    pg_contact_problem p = { 1, C, gap, &mu, NULL, NULL };
+    pg_contact_problem p = { 1, 2, C, gap, &mu, NULL, NULL };
     check_fails (pg_contact_solve (&s, &p), PG_E_USAGE);
     p.coefficient = NULL, p.cohesion = &mu;
     check_fails (pg_contact_solve (&s, &p), PG_E_USAGE);
@@ -286,10 +286,10 @@ static void what_is_no_problem_is_refused (void **state)
     assert_true (r.force[0] == 0 && r.force[1] == 0);
     /* one pair slides against its own normal: C_nt / C_nn too large for friction that high */
     double coupled[4] = { 1, 0.95, 0.95, 1 }, rough = 30, free_gap[2] = { 0.1, -1 };
-    pg_contact_problem q = { 1, coupled, free_gap, &rough, NULL, NULL };
+    pg_contact_problem q = { 1, 2, coupled, free_gap, &rough, NULL, NULL };
     pg_status now = pg_contact_solve (&s, &q);
     assert_true (now == PG_OK ? s.violation < 1e-9 : now == PG_E_EQUILIBRIUM);
-    pg_contact_problem again = { 1, coupled, gap, NULL, NULL, NULL };
+    pg_contact_problem again = { 1, 2, coupled, gap, NULL, NULL, NULL };
     gap[0] = -1;
     for (size_t k = 1; k <= 2; k++) {
         pg_memory_fail_at (k);
