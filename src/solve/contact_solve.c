@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Equilibria with contact of crack faces. With the cracks open, K u0 = F, gaps are g0 = gi + G u0, gi without
- * displacement; where one is negative, forces f of the pieces follow from the complementarity of g = g0 + C f,
- * C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is factored again).
+ * displacement; where one is negative, forces f of the pieces follow from the complementarity of g = g0 +
+ * C f, C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is factored again).
  * What rounding leaves is mended by the same refinement as all equilibria, with G' f among the loads, and by
  * forces for the gaps that are then measured. */
 #include "contact.h"
@@ -161,7 +161,7 @@ static int any_overlap (const struct system_contact *c)
 static void measure_gaps (struct system_contact *c, const double *d)
 {
     pg_sparse_multiply_transposed (&c->G, d, c->gap);
-    for (size_t i = 0; i < 2 * c->pieces.n; i++) c->gap[i] += c->initial[i];
+    for (size_t i = 0; i < c->pieces.dim * c->pieces.n; i++) c->gap[i] += c->initial[i];
 }
 
 /* Forces for the gaps at hand, which those of now belong to; d follows. *change: of the forces, turned into
