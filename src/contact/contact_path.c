@@ -305,7 +305,7 @@ static pg_status solve_at (pg_contact_track *m, const pg_contact_path *p, double
     PG_ALLOC (c, p->n + 1);
     for (size_t i = 0; i < 2 * p->n; i++) gap[i] = p->gap[i] + s * p->rate[i];
     for (size_t k = 0; k < p->n; k++) c[k] = lost && lost[k] ? 0 : cohesion (p, k);
-    pg_contact_problem problem = { p->n, p->C, gap, p->coefficient, c, slip };
+    pg_contact_problem problem = { p->n, 2, p->C, gap, p->coefficient, c, slip };
     pg_contact_solution solution = { .force = m->force, .gap = m->gap, .status = m->status };
     PG_TRY (pg_contact_solve (&solution, &problem));
     m->s = m->end = s, m->changes = 0;

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Equilibria with contact of crack faces. With the cracks open, K u0 = F, gaps are g0 = gi + G u0, gi without
- * displacement; where one is negative, forces f of the pieces follow from the complementarity of g = g0 +
- * C f, C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is factored again).
+ * displacement; where one is negative, forces f of the pieces follow from the complementarity of
+ * g = g0 + C f, C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is
+ * factored again).
  * What rounding leaves is mended by the same refinement as all equilibria, with G' f among the loads, and by
  * forces for the gaps that are then measured. */
 #include "contact.h"

@@ -55,7 +55,7 @@ static void by_steps (const room *r, long steps, double to, double *force, doubl
     size_t n = r->path.n;
     double open[ROWS], slip[MOST] = { 0 };
     unsigned char status[MOST];
-    pg_contact_problem p = { n, r->C, open, r->mu, r->cohesion, slip };
+    pg_contact_problem p = { n, 2, r->C, open, r->mu, r->cohesion, slip };
     pg_contact_solution s = { .force = force, .gap = gap, .status = status };
     for (long step = 0; step <= steps; step++) {
         double at = to * (double) step / (double) steps;
@@ -81,7 +81,7 @@ static int follow (room *r, double to, long *changes, int *turns)
         double middle = 0.5 * (r->track.s + r->track.end), end = r->track.end, open[ROWS];
         pg_contact_go (&r->track, &r->path, middle);
         for (size_t i = 0; i < 2 * n; i++) open[i] = r->gap[i] + middle * r->rate[i];
-        pg_contact_problem p = { n, r->C, open, r->mu, r->cohesion, slip };
+        pg_contact_problem p = { n, 2, r->C, open, r->mu, r->cohesion, slip };
         pg_contact_solution s = { .force = r->force, .gap = r->now, .status = r->status };
         check_below (pg_contact_violation (&p, &s), 1e-10);
         pg_contact_go (&r->track, &r->path, end);
@@ -251,7 +251,7 @@ static void the_total_form_goes_to_and_fro (void **state)
             double end = r.track.end;
             pg_contact_go (&r.track, &r.path, to);
             for (size_t k = 0; k < rows; k++) open[k] = r.gap[k] + to * r.rate[k];
-            pg_contact_problem p = { n, r.C, open, r.mu, r.cohesion, slip };
+            pg_contact_problem p = { n, 2, r.C, open, r.mu, r.cohesion, slip };
             pg_contact_solution s = { .force = force, .gap = gap, .status = status };
             check_ok (pg_contact_solve (&s, &p));
             for (size_t k = 0; k < rows; k++) check_absolute (r.force[k], force[k], 1e-11);
