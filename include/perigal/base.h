@@ -131,6 +131,17 @@ typedef struct {
             PG_FAIL (PG_E_FILE, "the checkpoint is not of this run: %s is %ld, not from %ld to %ld", (name), \
                      (long) (value), (long) (low), (long) (high)); \
     } while (0)
+/* A list of records as two arrays of a checkpoint: whole numbers (n x counts) and numbers (n x numbers). */
+typedef struct {
+    const char *count_name, *number_name;
+    size_t n, counts, numbers;
+    /* Writes record i into its whole numbers and its numbers; reads it back from them, bounds looked at
+     * first (PG_KEEP_BOUND). */
+    void      (*give) (void *context, size_t i, long *count, double *number);
+    pg_status (*take) (void *context, size_t i, const long *count, const double *number, const pg_keeper *k);
+    void *context;
+} pg_records;
+pg_status pg_keep_records (const pg_keeper *k, const pg_records *records);
 
 /* ---- clock and threads --------------------------------------------------------------------------------- */
 /* Monotonic wall clock, s. */

@@ -129,72 +129,50 @@ void pg_crack_paths_free (pg_crack_paths **paths)
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
 /* Pieces: four whole numbers and seven numbers each. */
-static pg_status keep_pieces (pg_crack_paths *w, size_t n, const char *name, const pg_keeper *k)
+static void give_piece (void *context, size_t i, long *count, double *number)
+{
+    const pg_crack_paths *w = context;
+    count[0] = w->cracks.crack[i].sided, count[1] = w->parent[i] == SIZE_MAX ? -1 : (long) w->parent[i];
+    count[2] = (long) w->path[i], count[3] = w->owner[i];
+    memcpy (number, w->store + 6*i, 6 * sizeof *number), number[6] = w->cracks.crack[i].width;
+}
+
+static pg_status take_piece (void *context, size_t i, const long *c, const double *number,
+                             const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    enum { COUNTS = 4, NUMBERS = 7 };
-    char part[80];
-    long *count = NULL;
-    double *number = NULL;
-    PG_ALLOC (count, COUNTS * n + 1);
-    PG_ALLOC (number, NUMBERS * n + 1);
-    for (size_t i = 0; !k->reading && i < n; i++) {
-        const pg_crack *c = &w->cracks.crack[i];
-        const long whole[COUNTS] = { c->sided, w->parent[i] == SIZE_MAX ? -1 : (long) w->parent[i],
-                                     (long) w->path[i], w->owner[i] };
-        memcpy (count + COUNTS * i, whole, sizeof whole);
-        memcpy (number + NUMBERS * i, w->store + 6*i, 6 * sizeof *number), number[NUMBERS * i + 6] = c->width;
-    }
-    snprintf (part, sizeof part, "%s.pieces", name);
-    PG_TRY (k->counts (k->context, part, COUNTS * n, count));
-    snprintf (part, sizeof part, "%s.places", name);
-    PG_TRY (k->numbers (k->context, part, NUMBERS * n, number));
-    for (size_t i = 0; k->reading && i < n; i++) {
-        const long *c = count + COUNTS * i;
-        PG_KEEP_BOUND (k, "the sides of a crack", c[0], 0, 1);
-        PG_KEEP_BOUND (k, "the parent of a crack", c[1], -1, (long) n - 1);
-        PG_KEEP_BOUND (k, "the path of a crack", c[2], 0, (long) n - 1);
-        w->cracks.crack[i] = (pg_crack) { .kind = PG_CRACK_SEGMENT, .nvertex = 2, .sided = (int) c[0],
-                                          .width = number[NUMBERS * i + 6] };
-        w->parent[i] = c[1] < 0 ? SIZE_MAX : (size_t) c[1], w->path[i] = (size_t) c[2], w->owner[i] = c[3];
-        memcpy (w->store + 6*i, number + NUMBERS * i, 6 * sizeof *number);
-    }
+    pg_crack_paths *w = context;
+    long n = (long) w->cracks.n;
+    PG_KEEP_BOUND (k, "the sides of a crack", c[0], 0, 1);
+    PG_KEEP_BOUND (k, "the parent of a crack", c[1], -1, n - 1);
+    PG_KEEP_BOUND (k, "the path of a crack", c[2], 0, n - 1);
+    w->cracks.crack[i]
+        = (pg_crack) { .kind = PG_CRACK_SEGMENT, .nvertex = 2, .sided = (int) c[0], .width = number[6] };
+    w->parent[i] = c[1] < 0 ? SIZE_MAX : (size_t) c[1], w->path[i] = (size_t) c[2], w->owner[i] = c[3];
+    memcpy (w->store + 6*i, number, 6 * sizeof *number);
 done:
-    pg_free (count), pg_free (number);
     return status;
 }
 
 /* Tips: four whole numbers and four numbers each. */
-static pg_status keep_tips (pg_crack_paths *w, size_t n, const char *name, const pg_keeper *k)
+static void give_tip (void *context, size_t i, long *count, double *number)
+{
+    const pg_tip *t = &((const pg_crack_paths *) context)->tip[i];
+    const long whole[4] = { t->id, (long) t->segment, t->end, t->open };
+    const double real[4] = { t->x[0], t->x[1], t->offset, t->grown };
+    memcpy (count, whole, sizeof whole), memcpy (number, real, sizeof real);
+}
+
+static pg_status take_tip (void *context, size_t i, const long *c, const double *x, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    enum { EACH = 4 };
-    char part[80];
-    long *count = NULL;
-    double *number = NULL;
-    PG_ALLOC (count, EACH * n + 1);
-    PG_ALLOC (number, EACH * n + 1);
-    for (size_t i = 0; !k->reading && i < n; i++) {
-        const pg_tip *t = &w->tip[i];
-        const long whole[EACH] = { t->id, (long) t->segment, t->end, t->open };
-        const double real[EACH] = { t->x[0], t->x[1], t->offset, t->grown };
-        memcpy (count + EACH * i, whole, sizeof whole), memcpy (number + EACH * i, real, sizeof real);
-    }
-    snprintf (part, sizeof part, "%s.tips", name);
-    PG_TRY (k->counts (k->context, part, EACH * n, count));
-    snprintf (part, sizeof part, "%s.tip_places", name);
-    PG_TRY (k->numbers (k->context, part, EACH * n, number));
-    for (size_t i = 0; k->reading && i < n; i++) {
-        const long *c = count + EACH * i;
-        const double *x = number + EACH * i;
-        PG_KEEP_BOUND (k, "the piece of a tip", c[1], 0, (long) w->cracks.n - 1);
-        PG_KEEP_BOUND (k, "the end of a tip", c[2], 0, 1);
-        PG_KEEP_BOUND (k, "whether a tip is open", c[3], 0, 1);
-        w->tip[i] = (pg_tip) { .id = c[0], .segment = (size_t) c[1], .end = (int) c[2], .open = (int) c[3],
-                               .x = { x[0], x[1] }, .offset = x[2], .grown = x[3] };
-    }
+    pg_crack_paths *w = context;
+    PG_KEEP_BOUND (k, "the piece of a tip", c[1], 0, (long) w->cracks.n - 1);
+    PG_KEEP_BOUND (k, "the end of a tip", c[2], 0, 1);
+    PG_KEEP_BOUND (k, "whether a tip is open", c[3], 0, 1);
+    w->tip[i] = (pg_tip) { .id = c[0], .segment = (size_t) c[1], .end = (int) c[2], .open = (int) c[3],
+                           .x = { x[0], x[1] }, .offset = x[2], .grown = x[3] };
 done:
-    pg_free (count), pg_free (number);
     return status;
 }
 
@@ -214,12 +192,19 @@ pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const cha
     if (k->reading) {
         PG_TRY (pg_crack_paths_reserve (w, (size_t) count[0]));
         PG_GROW (w->tip, w->tip_capacity, (size_t) count[1]);
-        w->cracks.n = w->ntip = 0;                     /* what fails below leaves none of them half read */
+        w->cracks.n = (size_t) count[0], w->ntip = (size_t) count[1];
     }
-    PG_TRY (keep_pieces (w, (size_t) count[0], name, k));
-    w->cracks.n = (size_t) count[0];
-    PG_TRY (keep_tips (w, (size_t) count[1], name, k));
-    w->ntip = (size_t) count[1];
+    char pieces[80], places[80], tips[80], tip_places[80];
+    snprintf (pieces, sizeof pieces, "%s.pieces", name), snprintf (places, sizeof places, "%s.places", name);
+    snprintf (tips, sizeof tips, "%s.tips", name);
+    snprintf (tip_places, sizeof tip_places, "%s.tip_places", name);
+    const pg_records list[2] = {
+        { .count_name = pieces, .number_name = places, .n = w->cracks.n, .counts = 4, .numbers = 7,
+          .give = give_piece, .take = take_piece, .context = w },
+        { .count_name = tips, .number_name = tip_places, .n = w->ntip, .counts = 4, .numbers = 4,
+          .give = give_tip, .take = take_tip, .context = w },
+    };
+    for (int i = 0; i < 2; i++) PG_TRY (pg_keep_records (k, &list[i]));
     if (!k->reading) goto done;
     point_into_store (w);
     for (size_t i = 0; i < w->cracks.n; i++) pg_crack_orient (&w->cracks.crack[i]);

@@ -57,22 +57,26 @@ done:
     return status;
 }
 
-/* One broken bond as three whole numbers and five numbers, word by word: the struct has gaps, and what it
- * holds is looked at before it is used as an index. */
-static pg_status keep_bond (const pg_problem *p, pg_broken *b, const pg_keeper *k, long *count,
-                            double *number)
+/* A list of broken bonds, and the problem that they belong to. */
+typedef struct { const pg_problem *p; pg_broken *broken; } broken_list;
+
+static void give_bond (void *context, size_t i, long *count, double *number)
+{
+    const pg_broken *b = &((broken_list *) context)->broken[i];
+    count[0] = (long) b->bond, count[1] = b->set, count[2] = b->kind;
+    number[0] = b->utilisation, number[1] = b->time;
+    memcpy (number + 2, b->place, 3 * sizeof *number);
+}
+
+static pg_status take_bond (void *context, size_t i, const long *count, const double *number,
+                            const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    if (!k->reading) {
-        count[0] = (long) b->bond, count[1] = b->set, count[2] = b->kind;
-        number[0] = b->utilisation, number[1] = b->time;
-        for (int i = 0; i < 3; i++) number[2 + i] = b->place[i];
-        goto done;
-    }
+    const broken_list *list = context;
     PG_KEEP_BOUND (k, "the set of a broken bond", count[1], 0, PG_BOND_SETS - 1);
-    PG_KEEP_BOUND (k, "a broken bond", count[0], 0, (long) p->first_bond[PG_BOND_SETS] - 1);
+    PG_KEEP_BOUND (k, "a broken bond", count[0], 0, (long) list->p->first_bond[PG_BOND_SETS] - 1);
     PG_KEEP_BOUND (k, "the kind of a broken bond", count[2], 0, 127);
-    *b = (pg_broken){
+    list->broken[i] = (pg_broken){
         (size_t) count[0], (int) count[1], (char) count[2], number[0], { number[2], number[3], number[4] },
         number[1]
     };
@@ -80,28 +84,15 @@ done:
     return status;
 }
 
-/* A list of broken bonds as two arrays, whole numbers (n x 3) and numbers (n x 5): the file has no
- * structs. */
 pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_broken *broken,
                           const pg_keeper *k)
 {
-    pg_status status = PG_OK;
-    char part[64];
-    long *count = NULL;
-    double *number = NULL;
-    PG_ALLOC (count, 3 * n + 1);
-    PG_ALLOC (number, 5 * n + 1);
-    for (size_t i = 0; !k->reading && i < n; i++)
-        PG_TRY (keep_bond (p, &broken[i], k, count + 3 * i, number + 5 * i));
-    strcat (strcpy (part, name), ".bonds");
-    PG_TRY (k->counts (k->context, part, 3 * n, count));
-    strcat (strcpy (part, name), ".values");
-    PG_TRY (k->numbers (k->context, part, 5 * n, number));
-    for (size_t i = 0; k->reading && i < n; i++)
-        PG_TRY (keep_bond (p, &broken[i], k, count + 3 * i, number + 5 * i));
-done:
-    pg_free (count), pg_free (number);
-    return status;
+    broken_list list = { p, broken };
+    char bonds[64], values[64];
+    snprintf (bonds, sizeof bonds, "%s.bonds", name), snprintf (values, sizeof values, "%s.values", name);
+    const pg_records records = { .count_name = bonds, .number_name = values, .n = n, .counts = 3,
+                                 .numbers = 5, .give = give_bond, .take = take_bond, .context = &list };
+    return pg_keep_records (k, &records);
 }
 
 /* Counts, numbers and texts of the report, seconds too: those of the run so far, so that a resumed run
