@@ -238,9 +238,10 @@ done:
 
 /* ---- tips ---------------------------------------------------------------------------------------------- */
 /* Pieces within so many spacings behind a tip, and so far beside its line, bear what its frame is loaded
- * with; the last one and a half carry too little, as the tip of a discretisation is not sharp. The direction
+ * with; the last two spacings carry too little, as the tip of a discretisation is not sharp, and what they
+ * lack swings from piece to piece behind them: so the weight of pieces comes and goes gently. The direction
  * is that of the chord, up to the last turn. */
-static const double NEXT = 1.5, LAST = 9, ASIDE = 1, CHORD = 2.5;
+static const double NEXT = 2, LAST = 14, ASIDE = 1, CHORD = 2.5;
 
 void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, double stress[2],
                      double *nearest)
@@ -257,8 +258,10 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, doub
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
         if (c->force[2*k] > 0)
             *nearest = fmin (*nearest, fmax (0, hypot (to[0], to[1]) - 0.5 * p->length));
-        if (beside > ASIDE * h || behind < NEXT * h || behind > fmin (LAST * h, straight)) continue;
-        area += p->area, normal += c->force[2*k], shear += c->force[2*k + 1];
+        double place = (behind - NEXT * h) / (fmin (LAST * h, straight) - NEXT * h);
+        if (beside > ASIDE * h || !(place > 0) || !(place < 1)) continue;
+        double weight = pow (sin (3.14159265358979323846 * place), 2);
+        area += weight * p->area, normal += weight * c->force[2*k], shear += weight * c->force[2*k + 1];
     }
     /* the force on the left face is the traction of the stress behind it, turned round */
     if (area > 0) stress[0] = -normal / area, stress[1] = -shear / area;
