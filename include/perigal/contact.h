@@ -125,11 +125,61 @@ pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, cons
 
 /* ---- what a scene asks for ----------------------------------------------------------------------------- */
 typedef enum { PG_CONTACT_NONE, PG_CONTACT_NORMAL, PG_CONTACT_FRICTION } pg_contact_kind;
+/* What is looked at: faces of cracks whose normals are known; or all points that no live bond joins, which
+ * short-range forces keep apart. */
+typedef enum { PG_CONTACT_FACES, PG_CONTACT_SHORT_RANGE } pg_contact_search;
 typedef struct {
     pg_contact_kind kind;
     double coefficient, cohesion;                      /* mu; c, Pa */
+    pg_contact_search search;
+    double distance, stiffness;                        /* of short-range forces: in spacings; a factor */
 } pg_contact_setting;
 /* Reads the section `contact`. */
 pg_contact_setting pg_contact_read (const pg_scene *scene);
+
+/* ---- short-range forces -------------------------------------------------------------------------------- */
+/* Points that no live bond joins repel each other when they come nearer than a contact distance, so that
+ * bodies, fragments and the faces of cracks do not pass through each other (Silling and Askari 2005; Madenci
+ * and Oterkus 2014, section 10.2). Of a pair that is r apart now, and was |X| apart at the start,
+ *
+ *     F_n = k (l - r),   l = min (distance (s_i + s_j) / 2, |X|),   s: local spacing,
+ *     k = stiffness M min (V_i / s_i^2, V_j / s_j^2),   M = 2 M_i M_j / (M_i + M_j),
+ *
+ * along the line between them: no force at the start, and the stiffness of a column of the material as wide
+ * and as long as a spacing (M = density c_p^2). Friction: a spring of stiffness k mu_s / M (mu_s: shear
+ * modulus) across that line, made longer by the relative motion of the two, which bears at most coefficient
+ * F_n; what it cannot follow is slip. Forces on the two are equal and opposite to the last bit. The faces of
+ * a lattice are not smooth: points that slide over others feel their spacing. */
+typedef struct pg_short_range pg_short_range;
+typedef struct {
+    size_t listed, touching;                           /* pairs near each other; pairs that bear a force */
+    long   searches, evaluations, free;  /* so far; of these evaluations, those without any pair */
+    double energy;                                     /* stored by the forces at hand, J */
+    double friction;                                   /* work of friction so far, J */
+    double overlap, overlap_max;                       /* largest l - r: now; so far, m */
+    double rate;  /* largest sum of 2 k / m over the contacts of a point so far, 1/s^2 */
+} pg_short_range_report;
+/* Unknowns of a point: `stride`, of which the first dim are its displacement. The setting is copied. */
+pg_status pg_short_range_create (pg_short_range **out, const pg_problem *problem,
+                                 const pg_contact_setting *setting, size_t stride);
+void      pg_short_range_free   (pg_short_range **contact);
+/* Bound of 2 / m times the sum of k over the contacts of a point, 1/s^2, as many as the faces of bodies have:
+ * explicit steps are stable up to 2 / sqrt (omega^2 + this), omega being the largest frequency without. */
+double    pg_short_range_rate   (const pg_short_range *contact);
+/* Adds the forces on all points to f, N (n x stride), at the displacement d, m; v, m/s: the velocity at which
+ * d was reached in the last dt (s; 0: it is the first). broken: bonds that died since the last call, if the
+ * caller knows all of them, else NULL and `changed` 1. Pairs are found by search, and by another one when
+ * points have moved so far that one may be missing. The same bits for any number of threads. */
+pg_status pg_short_range_add    (pg_short_range *contact, const pg_state *state, const pg_changes *broken,
+                                 int changed, const double *v, double dt, double *f);
+const pg_short_range_report *pg_short_range_now (const pg_short_range *contact);
+/* The slips at hand, kept at the start of a step, and put back where it is refused; checkpoints. */
+pg_status pg_short_range_save   (pg_short_range *contact);
+pg_status pg_short_range_return (pg_short_range *contact);
+pg_status pg_short_range_keep   (pg_short_range *contact, const pg_keeper *keeper);
+/* The pairs nearer than their contact distance at the last evaluation, i < j, ascending (caller frees). */
+typedef struct { int i, j; } pg_contact_pair;
+pg_status pg_short_range_pairs  (const pg_short_range *contact, const pg_state *state, size_t *n,
+                                 pg_contact_pair **pair);
 PG_API_END
 #endif

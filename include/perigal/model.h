@@ -107,6 +107,9 @@ double pg_gauge_opening (const pg_gauge *gauge, int dim, const double *a, const 
  * its own. */
 typedef struct { int material[2]; double energy, strength; } pg_interface;
 
+/* Velocity of the points of a set at the start, per component, m/s; NULL: at rest. */
+typedef struct { const pg_set *set; pg_expression *value[3]; } pg_initial;
+
 /* What a force tells the model about itself before any of it exists: what it stands on, which keys it reads,
  * what it can carry. Every force has one of these in its own file (src/force/<name>.c). The model asks these
  * flags and calls these functions; it compares no names. */
@@ -223,6 +226,7 @@ struct pg_problem {
     pg_stage *stage; size_t nstage;                    /* none: one path, t from 0 to 1 */
     pg_gauge *gauge; size_t ngauge;
     pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */
+    pg_initial *motion;  size_t nmotion;               /* velocities of sets in its place; later ones count */
     pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL */
     double  *facet_normal;  /* outward unit normal at the points of PG_FACETS (n x dim) */
     size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b] */

@@ -116,11 +116,14 @@ typedef struct {                                       /* of the run so far */
     double utilisation_max, residual_max, overlap_max; /* over accepted steps; m */
     /* J; dissipated: by breaking, the rest */
     double energy_strain, energy_kinetic, energy_external, energy_damping, energy_dissipated;
+    double energy_contact;                             /* J: stored by short-range contact */
     double energy_friction;                            /* J: of it, by friction of crack faces */
     /* Contact of crack faces, in the state last solved for: pieces, and how they stand; passes and sweeps
      * that this took; largest overlap of a mean gap over the run, m */
     long   contact_pieces, contact_open, contact_stick, contact_sliding, contact_passes, contact_sweeps;
     double contact_overlap;
+    /* Short-range contact in the last state: pairs without a bond that are near each other; that touch. */
+    long   contact_pairs, contact_touching;
     double energy_fracture;  /* J: what cracks that grew should have taken: fracture energy times new area */
     double seconds[PG_SECONDS_COUNT];
     double factor_entries, factor_flops;

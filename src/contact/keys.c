@@ -15,8 +15,36 @@ static const pg_key keys[] = {
     { "contact.cohesion", PG_NUMBER, "Pa", "[0, inf)", "0", NULL, NULL, NULL,
       "kind: friction: shear stress that closed faces bear besides. It does not grow with the load: needs "
       "stepping: fixed." },
+    { "contact.search", PG_NAME, NULL, NULL, "faces", "faces|short_range", NULL, NULL,
+      "faces: what touches are the faces of cracks, where their normals are known. short_range: any two "
+      "points that no live bond joins, fragments and separate bodies too, found by search while they move "
+      "(solver: verlet, central)." },
+    { "contact.distance", PG_NUMBER, "1", "(0, 2]", "1", NULL, NULL, NULL,
+      "search: short_range: points repel each other when they are nearer than this, in local spacings, and "
+      "nearer than at the start." },
+    { "contact.stiffness", PG_NUMBER, "1", "(0, 1000]", "1", NULL, NULL, NULL,
+      "search: short_range: stiffness of a pair in contact over that of a column of the material as wide and "
+      "as long as a spacing; larger: less overlap and smaller time steps." },
 };
 const pg_key_table pg_keys_contact = { "contact", keys, sizeof keys / sizeof *keys };
+
+/* What short-range forces alone know. */
+static void read_search (pg_contact_setting *out, const pg_scene *scene)
+{
+    static const char *const own[2] = { "contact.distance", "contact.stiffness" };
+    const char *search = pg_scene_text (scene, "contact.search");
+    if (search && strcmp (search, "short_range") == 0) out->search = PG_CONTACT_SHORT_RANGE;
+    out->distance = pg_scene_number (scene, own[0]), out->stiffness = pg_scene_number (scene, own[1]);
+    for (int k = 0; k < 2 && out->search != PG_CONTACT_SHORT_RANGE; k++)
+        if (pg_scene_given (scene, "%s", own[k]))
+            pg_scene_fault (scene, own[k],
+                            "has a meaning with contact.search: short_range alone: leave it out, or set the "
+                            "search");
+    if (out->search == PG_CONTACT_SHORT_RANGE && pg_scene_given (scene, "contact.cohesion"))
+        pg_scene_fault (scene, "contact.cohesion",
+                        "is a stress on faces, which short-range forces between points do not know: leave it "
+                        "out");
+}
 
 pg_contact_setting pg_contact_read (const pg_scene *scene)
 {
@@ -34,5 +62,6 @@ pg_contact_setting pg_contact_read (const pg_scene *scene)
     if (out.kind == PG_CONTACT_FRICTION && given)
         out.coefficient = pg_scene_number (scene, "contact.coefficient");
     if (out.kind == PG_CONTACT_FRICTION) out.cohesion = pg_scene_number (scene, "contact.cohesion");
+    read_search (&out, scene);
     return out;
 }

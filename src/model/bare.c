@@ -75,6 +75,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     for (int s = 0; s < PG_BOND_SETS; s++) b->block[s] = NULL, b->exempt[s] = NULL;
     b->spacing[PG_FACETS] = NULL, b->borne = NULL;
     for (int k = 0; k < 3; k++) b->initial[k] = NULL;
+    b->motion = NULL, b->nmotion = 0;
     b->material = NULL, b->nmaterial = 1, b->sets.set = NULL, b->sets.n = 0;
     PG_ALLOC (b->material, 1);
     *b->material = *stiffest (p);

@@ -61,10 +61,16 @@ static void instability_block (pg_json *j, const pg_result *res, const pg_statis
 }
 
 /* Contact of crack faces: pieces, and how they stand in the last state; work of the last solve; the largest
- * overlap of a mean gap over the run, m. */
-static void contact_block (pg_json *j, const pg_statistics *r)
+ * overlap of a mean gap over the run, m. By short range: pairs near each other, and pairs that touch. */
+static void contact_block (pg_json *j, const pg_statistics *r, pg_contact_search search)
 {
     pg_json_open (j, "contact", '{');
+    if (search == PG_CONTACT_SHORT_RANGE) {
+        pg_json_count (j, "pairs", (size_t) r->contact_pairs);
+        pg_json_count (j, "touching", (size_t) r->contact_touching);
+        pg_json_shut (j);
+        return;
+    }
     pg_json_count (j, "pieces", (size_t) r->contact_pieces);
     pg_json_count (j, "open", (size_t) r->contact_open);
     pg_json_count (j, "stick", (size_t) r->contact_stick);
@@ -80,7 +86,8 @@ static void contact_block (pg_json *j, const pg_statistics *r)
 static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
 {
     const pg_problem *p = res->problem;
-    int contact = pg_solver_settled (res->solver)->contact.kind != PG_CONTACT_NONE;
+    const pg_contact_setting *setting = &pg_solver_settled (res->solver)->contact;
+    int contact = setting->kind != PG_CONTACT_NONE;
     pg_json_count (j, "points", p->cloud.n);
     pg_json_count (j, "bonds", p->first_bond[PG_BOND_SETS]);
     pg_json_count (j, "dofs", state->ndof);
@@ -113,8 +120,10 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_number (j, "damping", r->energy_damping);
     pg_json_number (j, "dissipated", r->energy_dissipated);
     if (contact) pg_json_number (j, "friction", r->energy_friction);
+    if (contact && setting->search == PG_CONTACT_SHORT_RANGE)
+        pg_json_number (j, "contact", r->energy_contact);
     pg_json_shut (j);
-    if (contact) contact_block (j, r);
+    if (contact) contact_block (j, r, setting->search);
 }
 
 /* Stages of loading: how each ended, energies and openings of gauges then; those that the run did not come to

@@ -109,7 +109,7 @@ static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
                                 &r->energy_strain,   &r->energy_kinetic,    &r->energy_external,
                                 &r->energy_damping,  &r->energy_dissipated, &r->factor_entries,
                                 &r->factor_flops,    &r->energy_fracture,   &r->energy_friction,
-                                &r->contact_overlap };
+                                &r->contact_overlap, &r->energy_contact };
     enum {
         VALUES = sizeof value / sizeof *value,
         SKIPS = sizeof r->skipped / sizeof *r->skipped,

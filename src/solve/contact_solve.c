@@ -19,7 +19,7 @@ pg_status contact_create (pg_system *s)
 {
     pg_status status = PG_OK;
     const pg_solver_options *o = s->options;
-    if (o->contact.kind == PG_CONTACT_NONE) return PG_OK;
+    if (o->contact.kind == PG_CONTACT_NONE || o->contact.search != PG_CONTACT_FACES) return PG_OK;
     PG_ALLOC (s->contact, 1);
     s->contact->setting = o->contact;
     /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */

@@ -80,6 +80,7 @@ void explicit_free (pg_solver *s)
 {
     motion *m = motion_of (s);
     if (!m) return;
+    explicit_contact_free (s);
     pg_free (m->prescribed), pg_free (m->lists), pg_free (m->push), pg_free (m->P), pg_free (m->inverse),
         pg_free (m->sum);
 }
@@ -281,6 +282,7 @@ pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
     m->most = number[4];
     if (m->nprescribed) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nprescribed, m->push));
     if (k->reading) m->fresh = 0;
+    PG_TRY (explicit_contact_keep (s, k));
     PG_TRY (facet_keep (&s->break_loop, k));
 done:
     return status;

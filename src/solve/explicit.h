@@ -25,6 +25,7 @@ typedef struct {
     double  damped, damped0;  /* energy taken by damping, J; at the start of the step */
     double  resist, resist0;  /* m v_n v(n+1/2) where the last step was closed; as damped0 */
     struct relaxation *relaxation;                         /* relax.h */
+    struct explicit_contact *contact;                  /* short-range; NULL: none */
 } motion;
 static inline motion *motion_of (const pg_solver *s) { return s->own; }
 /* Work of loads over the half step before t_n and after; m v_n v before and after; m v v; not finite. */
@@ -50,6 +51,28 @@ long      explicit_row     (const pg_solver *s, long total, long now);
 int       explicit_level   (pg_solver *s, long total, long now);
 pg_status explicit_end     (pg_solver *s, const pg_state *state, int last, const char *what, double t);
 pg_status explicit_keep    (pg_solver *s, const pg_keeper *keeper);
+
+/* ---- explicit_contact.c -------------------------------------------------------------------------------- */
+struct explicit_contact {
+    pg_short_range *pairs;
+    double *f;  int active;                            /* forces at hand, N (ndof); some are not zero */
+    long    broken;  /* bonds dead at the last evaluation; -1: not known */
+    double  bare;                                      /* largest frequency without contact, rad/s */
+    double  energy0, friction0;                        /* J, at the start of the step */
+    int     warned;
+};
+pg_status explicit_contact_create (pg_solver *s);      /* where the options ask for it, else nothing */
+void      explicit_contact_free   (pg_solver *s);
+/* Square of the frequency that contact adds at most, 1/s^2. */
+double    explicit_contact_rate   (const pg_solver *s);
+/* Adds its forces to the residual at hand; first: no step has led there. */
+pg_status explicit_contact_add    (pg_solver *s, pg_state *state, int first);
+const double *explicit_contact_forces (const pg_solver *s);            /* NULL: none */
+void      explicit_contact_show   (pg_solver *s);
+pg_status explicit_contact_save   (pg_solver *s);
+void      explicit_contact_return (pg_solver *s);
+double    explicit_contact_took   (const pg_solver *s);
+pg_status explicit_contact_keep   (pg_solver *s, const pg_keeper *k);
 
 /* ---- stable_time_step.c -------------------------------------------------------------------------------- */
 /* Bound of the largest frequency into omega, stable and from; then options.dt: 0.9 of the stable one if not

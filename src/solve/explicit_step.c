@@ -62,6 +62,7 @@ pg_status explicit_prepare (pg_solver *s)
 {
     pg_status status = PG_OK;
     PG_TRY (explicit_create (s));
+    PG_TRY (explicit_contact_create (s));
     PG_TRY (explicit_stable (s));
     PG_TRY (count_steps (s));
 done:
@@ -211,6 +212,7 @@ static pg_status arrive (pg_solver *s, pg_state *state, long n)
     break_loop *b = &s->break_loop;
     if (b->growth && n > 0) facet_forward (b, s->options.dt);
     PG_TRY (explicit_force (s, state, t, 1, NULL));
+    PG_TRY (explicit_contact_add (s, state, n == 0));
     system_add_held (&b->system, b->system.residual);
     if (b->growth && n > 0) PG_TRY (run_tips (s, state, t));
     if (n > 0) PG_TRY (explicit_follow (s, time_at (s, n - 1), t, (double) (n + 1) * s->options.dt));
@@ -238,13 +240,15 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     const motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
-    int spare = sys->force->work_of_residual && !s->options.plain && !b->growth;
+    const double *contact = explicit_contact_forces (s);
+    int spare = sys->force->work_of_residual && !s->options.plain && !b->growth && !contact;
     for (size_t i = 0; !spare && i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
         sys->full[i] = inertia_of (s, state, staggered, 1, i);
         if (spare) sys->residual[i] = m->left[k];
     }
+    for (size_t i = 0; contact && i < sys->ndof; i++) sys->full[i] += contact[i];
     system_add_held (sys, sys->full);
     s->spared += spare;
     if (spare)
@@ -353,9 +357,10 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
                  && s->problem->criterion->type;
     if (!m->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
     s->report.energy_damping = m->damped;
+    explicit_contact_show (s);
     PG_TRY (check_growth (s, state, t));
     step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0)
-                       - (m->damped - m->damped0);
+                       - (m->damped - m->damped0) - explicit_contact_took (s);
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     state->time = step->time = t;
@@ -381,6 +386,7 @@ pg_status explicit_step (pg_solver *s, pg_state *state, pg_step *step, kick_rang
     if (b->round == 0) {
         b->nbroken = 0;
         m->damped0 = m->damped, m->resist0 = m->resist;
+        PG_TRY (explicit_contact_save (s));
         if (n == 0) PG_TRY (begin (s, state, staggered));
         if (m->nprescribed) memcpy (m->push0, m->push, m->nprescribed * sizeof *m->push);
     }
@@ -413,6 +419,7 @@ void explicit_refused (pg_solver *s)
 {
     motion *m = motion_of (s);
     m->damped = m->damped0, m->resist = m->resist0;
+    explicit_contact_return (s);
     if (m->nprescribed) memcpy (m->push, m->push0, m->nprescribed * sizeof *m->push);
     m->fresh = 0;
 }

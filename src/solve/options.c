@@ -273,12 +273,49 @@ static int begins_cracks (const pg_problem *problem)
     return 0;
 }
 
+static int steps_explicitly (const pg_solver_type *type, const void *unused)
+{
+    (void) unused;
+    return (type->flags & PG_SOLVER_EXPLICIT) != 0;
+}
+
+/* "bond, fcbm": the forces whose unknowns are displacements of points. */
+static const char *forces_of_points (char *text, size_t size)
+{
+    size_t used = 0;
+    *text = 0;
+    for (const pg_method *const *m = pg_force_methods (); *m && used < size; m++)
+        if (!(*m)->shape_functions)
+            used += (size_t) snprintf (text + used, size - used, "%s%s", used ? ", " : "", (*m)->name);
+    return text;
+}
+
+/* Short-range contact acts on displacements of points, time step by time step. */
+static void check_short_range (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    char names[200];
+    solver_names_that (steps_explicitly, NULL, names, sizeof names);
+    if (!(o->flags & PG_SOLVER_EXPLICIT))
+        pg_scene_fault (scene, "contact.search",
+                        "short_range acts in time steps by the force alone: use solver.kind: %s, or search: "
+                        "faces", names);
+    if (problem->method->shape_functions && !problem->approx.type->interpolates)
+        pg_scene_fault (scene, "contact.search",
+                        "short_range acts on displacements of points, which the unknowns of "
+                        "method.approximation: %s are not: use method.force: %s",
+                        problem->approx.type->name, forces_of_points (names, sizeof names));
+}
+
 /* Contact of crack faces goes where it is built, and is refused elsewhere. */
 static void check_contact (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const pg_force_type *force = pg_force_of (problem);
     char names[200];
     if (o->contact.kind == PG_CONTACT_NONE) return;
+    if (o->contact.search == PG_CONTACT_SHORT_RANGE) {
+        check_short_range (o, problem, scene);
+        return;
+    }
     solver_names_that (knows_contact, NULL, names, sizeof names);
     if (problem->dim != 2)
         pg_scene_fault (scene, "contact.kind", "faces of cracks are kept apart in 2D only so far: set none");

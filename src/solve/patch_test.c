@@ -337,6 +337,15 @@ done:
 }
 
 /* ---- the probe ----------------------------------------------------------------------------------------- */
+/* The outermost points keep their linear field: without loads to carry, and where the body is in several
+ * parts, each of which tractions would leave free to turn by itself. */
+static void hold_rim (probe *t)
+{
+    t->out.held = 1;
+    for (size_t i = 0; i < t->n; i++)
+        if (outermost (t->p, i)) for (size_t k = 0; k < t->stride; k++) t->inverse[i * t->stride + k] = 0;
+}
+
 /* The force on the bare body, its unknowns, and K between the fields of unit strains. Iterations are
  * bounded by what they may cost; without loads to carry the outermost points are held. */
 static pg_status prepare (probe *t)
@@ -370,9 +379,7 @@ static pg_status prepare (probe *t)
     }
     t->op->diagonal (t->op->context, t->inverse);
     for (size_t i = 0; i < t->ndof; i++) t->inverse[i] = t->inverse[i] > 0 ? 1 / t->inverse[i] : 0;
-    t->out.held = t->p->nload == 0;
-    for (size_t i = 0; t->out.held && i < t->n; i++)
-        if (outermost (t->p, i)) for (size_t k = 0; k < stride; k++) t->inverse[i * stride + k] = 0;
+    if (t->p->nload == 0) hold_rim (t);
 done:
     return status;
 }
@@ -416,6 +423,7 @@ pg_status pg_patch_probe (pg_problem *problem)
     t.p = bare, t.rows = borne_by_rows (problem);
     PG_TRY (prepare (&t));
     count_defects (&t);
+    if (t.out.fragments && !problem->method->shape_functions) hold_rim (&t);
     int whole = !t.out.held && !t.out.fragments && !t.out.isolated;
     if (whole) PG_TRY (patch_factor_create (&t.factor, bare, t.force, t.self, t.limit));
     for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));

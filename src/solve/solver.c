@@ -133,6 +133,13 @@ static void report_sums (pg_solver *s)
         pg_statistics_skip (&s->report, one.seconds_saved, one.what, one.why);
 }
 
+/* Then the largest overlap is that of its pairs. */
+static int short_range (const pg_solver *s)
+{
+    const pg_contact_setting *c = &s->options.contact;
+    return c->kind != PG_CONTACT_NONE && c->search == PG_CONTACT_SHORT_RANGE;
+}
+
 /* The method advances the state. What fails leaves the last accepted state behind, and a message with the
  * step and the load it was at. */
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -165,13 +172,14 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->residual_max = fmax (r->residual_max, step->residual);
     r->utilisation_max = fmax (r->utilisation_max, step->utilisation);
     report_sums (s);
-    if (step->level && s->break_loop.system.force->overlap && !pg_problem_removes (s->problem))
+    if (step->level && s->break_loop.system.force->overlap && !pg_problem_removes (s->problem)
+        && !short_range (s))
         r->overlap_max = fmax (r->overlap_max, s->break_loop.system.force->overlap (s->break_loop.system.self,
                                                                                     state, state->d));
     r->energy_external = s->break_loop.work;
     /* First law: work of loads = strain + motion + damping + what breaking has taken, the rest. */
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping
-                           - r->energy_friction;
+                           - r->energy_friction - r->energy_contact;
     PG_TRY (stage_close_step (s, state, step));
 done:
     if (status != PG_OK && s->started && !s->break_loop.stopped) {
@@ -302,7 +310,8 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
         s->warned_energy = 1;
     }
     warn_of_facets (s);
-    if (!s->warned_overlap && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
+    if (!s->warned_overlap && !short_range (s)
+        && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {
         pg_statistics_warn (&s->report, "crack faces overlap by up to %.3g m (%s)", s->report.overlap_max,
                             s->options.contact.kind == PG_CONTACT_NONE
                                 ? "contact is not modelled: contact.kind"
@@ -319,7 +328,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
     if (sys->force->census)
         sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
                             &s->report.fragments);
-    if (sys->force->overlap && !pg_problem_removes (s->problem))
+    if (sys->force->overlap && !pg_problem_removes (s->problem) && !short_range (s))
         s->report.overlap_max = fmax (s->report.overlap_max,
                                       sys->force->overlap (sys->self, state, state->d));
     report_skips (s);

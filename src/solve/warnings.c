@@ -101,7 +101,8 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
         pg_statistics_warn (
             report,
             "nothing keeps the body from turning: the prescribed displacements leave a rotation free");
-    if (!moving)
+    for (int k = 0; k < 3; k++) moving |= p->initial[k] != NULL;
+    if (!moving && !p->nmotion)
         pg_statistics_warn (
             report, "nothing loads the body: every prescribed displacement is zero, and there is no force");
 }

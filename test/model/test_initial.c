@@ -92,6 +92,27 @@ static void must_refuse (const char *rest, const char *part)
     pg_scene_free (&scene);
 }
 
+/* Sets have velocities of their own, the last one that holds a point counts, others that of all points. */
+static void sets_have_their_own_velocities (void **state)
+{
+    (void) state;
+    run r = scene_of (1, PLATE "method: {force: bond}\nsets: {low: {where: \"y < 0\"}, corner: {where: "
+                               "\"y < 0 and x < 0\"}}\n"
+                               "initial: {velocity: {x: 5}, sets: [{set: low, velocity: {y: 2 / s * x}}, "
+                               "{set: corner, velocity: {x: -1, y: 3}}]}\n"
+                               "solver: {kind: verlet, end: 1e-6}\n");
+    size_t seen[3] = { 0 };
+    for (size_t i = 0; i < r.problem->cloud.n; i++) {
+        const double *x = r.problem->cloud.x + 2 * i, *v = r.state->v + 2 * i;
+        int part = x[1] >= 0 ? 0 : x[0] >= 0 ? 1 : 2;
+        seen[part]++;
+        assert_true (v[0] == (part == 0 ? 5 : part == 1 ? 0 : -1));
+        check_scaled (v[1], part == 0 ? 0 : part == 1 ? 2 * x[0] : 3, 1e-15, 1);
+    }
+    assert_true (seen[0] && seen[1] && seen[2]);
+    clear (&r);
+}
+
 static void what_cannot_be_is_refused (void **state)
 {
     (void) state;
@@ -99,6 +120,9 @@ static void what_cannot_be_is_refused (void **state)
                  "initial.velocity.z = 1 m/s: a 2D body has no such component");
     must_refuse ("method: {force: bond}\ninitial: {velocity: {x: 1 m/s2 * t}}\n", "does not change with t");
     must_refuse ("initial: {velocity: {x: 1 m/s}}\n", "not with force: galerkin so far");
+    must_refuse ("initial: {sets: [{set: all, velocity: {x: 1 m/s}}]}\n", "not with force: galerkin so far");
+    must_refuse ("method: {force: bond}\ninitial: {sets: [{set: left, velocity: {z: 1}}]}\n",
+                 "initial.sets[0].velocity.z = 1: a 2D body has no such component");
 }
 
 int main (void)
@@ -106,6 +130,7 @@ int main (void)
     const struct CMUnitTest tests[] = { cmocka_unit_test (a_free_body_flies_on),
                                         cmocka_unit_test (each_point_has_its_own_velocity),
                                         cmocka_unit_test (a_spinning_body_is_at_rest_in_itself),
+                                        cmocka_unit_test (sets_have_their_own_velocities),
                                         cmocka_unit_test (what_cannot_be_is_refused) };
     return cmocka_run_group_tests_name ("model/initial", tests, NULL, NULL);
 }

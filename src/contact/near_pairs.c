@@ -1,0 +1,312 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The search for points that may touch. The moved points are sorted into the tree that finds families, with a
+ * reach of the contact distance and a skin; pairs that a live bond joins are left out. While no point has
+ * moved more than half the skin since, two points cannot have come nearer by more than the skin, and no pair
+ * is missing. Bonds that break are added to the list by themselves. */
+#include "near_pairs.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { BLOCK = 4096 };
+static const double skin = 0.5;                        /* spacings */
+
+static double size_of (const near_pairs *s, size_t i)
+{
+    const pg_cloud *c = &s->problem->cloud;
+    return c->size ? c->size[i] : c->h;
+}
+
+/* ---- life ---------------------------------------------------------------------------------------------- */
+pg_status near_create (near_pairs *s, const pg_problem *problem, const pg_contact_setting *setting,
+                       size_t stride)
+{
+    pg_status status = PG_OK;
+    size_t n = problem->cloud.n;
+    *s = (near_pairs) { .problem = problem, .stride = stride, .dim = (size_t) problem->dim,
+                        .distance = setting->distance, .stiffness = setting->stiffness,
+                        .slips = setting->kind == PG_CONTACT_FRICTION && problem->dim > 1 };
+    s->skin = problem->plain ? 0 : skin;
+    s->finest = pg_cloud_finest (&problem->cloud);
+    s->nblock = (n * stride + BLOCK - 1) / BLOCK;
+    PG_ALLOC (s->modulus, problem->nmaterial);
+    PG_ALLOC (s->shear, problem->nmaterial);
+    PG_ALLOC (s->local, n);
+    PG_ALLOC (s->start, n * stride);
+    PG_ALLOC (s->most, s->nblock);
+    for (size_t m = 0; m < problem->nmaterial; m++) {
+        const pg_material *material = &problem->material[m];
+        double c = pg_material_waves (material).pressure;
+        s->modulus[m] = c > 0 ? material->density * c * c : material->modulus;
+        s->shear[m] = material->mu;
+    }
+    for (size_t i = 0; i < n; i++) s->local[i] = problem->cloud.volume[i] / (size_of (s, i) * size_of (s, i));
+done:
+    return status;
+}
+
+/* Also of one that was made in part only. */
+void near_free (near_pairs *s)
+{
+    pg_free (s->modulus), pg_free (s->shear), pg_free (s->local), pg_free (s->start), pg_free (s->most);
+    pg_free (s->pair), pg_free (s->slip), pg_free (s->row), pg_free (s->memory);
+    memset (s, 0, sizeof *s);
+}
+
+/* ---- a pair -------------------------------------------------------------------------------------------- */
+static near_pair pair_of (const near_pairs *s, size_t i, size_t j)
+{
+    const pg_problem *p = s->problem;
+    const double *x = p->cloud.x;
+    int a = p->block[PG_NODES][i], b = p->block[PG_NODES][j];
+    double rr = 0, M = 2 * s->modulus[a] * s->modulus[b] / (s->modulus[a] + s->modulus[b]),
+           G = 2 * s->shear[a] * s->shear[b] / (s->shear[a] + s->shear[b]);
+    for (size_t k = 0; k < s->dim; k++) rr += pow (x[j * s->dim + k] - x[i * s->dim + k], 2);
+    return (near_pair) { .i = (int) i, .j = (int) j,
+                         .reach = fmin (0.5 * s->distance * (size_of (s, i) + size_of (s, j)), sqrt (rr)),
+                         .k = s->stiffness * M * fmin (s->local[i], s->local[j]),
+                         .share = G > 0 ? fmin (G / M, 1) : 0 };
+}
+
+/* The entry of j in the family of i; SIZE_MAX: it is not there. Families ascend. */
+static size_t entry_of (const pg_family *family, size_t i, int j)
+{
+    size_t low = family->start[i], high = family->start[i + 1];
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if (family->node[middle] < j) low = middle + 1;
+        else high = middle;
+    }
+    return low < family->start[i + 1] && family->node[low] == j ? low : SIZE_MAX;
+}
+
+static int bonded (const near_pairs *s, const unsigned char *alive, size_t i, size_t j)
+{
+    const pg_family *family = &s->problem->rows[PG_NODES].family;
+    const unsigned char *own = alive + s->problem->first_bond[PG_NODES];
+    size_t one = entry_of (family, i, (int) j), other = entry_of (family, j, (int) i);
+    return (one != SIZE_MAX && own[one]) || (other != SIZE_MAX && own[other]);
+}
+
+/* ---- has anything moved too far? ----------------------------------------------------------------------- */
+typedef struct { const near_pairs *s; const double *d; size_t ndof; } motion_look;
+
+/* The largest change of a component in each block, in eight lanes, which serve vector instructions. What is
+ * not finite counts as moved beyond all bounds. */
+static void look_at_blocks (void *context, size_t first, size_t last, int thread)
+{
+    const motion_look *w = context;
+    (void) thread;
+    for (size_t b = first; b < last; b++) {
+        size_t i = b * BLOCK, end = i + BLOCK < w->ndof ? i + BLOCK : w->ndof;
+        const double *restrict d = w->d, *restrict start = w->s->start;
+        double lane[8] = { 0 }, wrong = 0;
+        for (; i + 8 <= end; i += 8)
+            for (size_t k = 0; k < 8; k++) {
+                double change = fabs (d[i + k] - start[i + k]);
+                lane[k] = change > lane[k] ? change : lane[k];
+                wrong += 0 * d[i + k];
+            }
+        for (; i < end; i++) lane[0] = fmax (lane[0], fabs (d[i] - start[i])), wrong += 0 * d[i];
+        for (size_t k = 1; k < 8; k++) lane[0] = fmax (lane[0], lane[k]);
+        w->s->most[b] = wrong == 0 ? lane[0] : INFINITY;
+    }
+}
+
+/* A bound of how far a point has moved since the last search, m. */
+static double moved (near_pairs *s, const double *d)
+{
+    motion_look w = { s, d, s->problem->cloud.n * s->stride };
+    double most = 0;
+    pg_parallel (s->problem->threads, s->nblock, look_at_blocks, &w);
+    for (size_t b = 0; b < s->nblock; b++) most = fmax (most, s->most[b]);
+    return most * sqrt ((double) s->dim);
+}
+
+/* ---- slips from list to list --------------------------------------------------------------------------- */
+pg_status near_collect (near_pairs *s)
+{
+    pg_status status = PG_OK;
+    if (!s->valid) return PG_OK;                       /* what is to be remembered is there already */
+    s->nmemory = 0;
+    for (size_t q = 0; s->slips && q < s->n; q++) {
+        const double *v = s->slip + 3 * q;
+        if (v[0] == 0 && v[1] == 0 && v[2] == 0) continue;
+        PG_GROW (s->memory, s->cap_memory, s->nmemory + 1);
+        s->memory[s->nmemory] = (near_memory) { s->pair[q].i, s->pair[q].j, { v[0], v[1], v[2] } };
+        s->nmemory++;
+    }
+done:
+    return status;
+}
+
+static int before (int i, int j, int other_i, int other_j)
+{
+    return i < other_i || (i == other_i && j < other_j);
+}
+
+/* Rows of the sorted list, and the slips that its pairs had; pairs that are not in the list were apart. */
+static pg_status finish (near_pairs *s)
+{
+    pg_status status = PG_OK;
+    PG_GROW (s->row, s->cap_row, s->n + 1);
+    s->nrow = 0;
+    for (size_t q = 0; q < s->n; q++) if (q == 0 || s->pair[q].i != s->pair[q - 1].i) s->row[s->nrow++] = q;
+    s->row[s->nrow] = s->n;
+    if (s->slips) PG_GROW (s->slip, s->cap_slip, 3 * s->n);
+    if (s->slips && s->n) memset (s->slip, 0, 3 * s->n * sizeof *s->slip);
+    for (size_t q = 0, m = 0; s->slips && q < s->n; q++) {
+        while (m < s->nmemory && before (s->memory[m].i, s->memory[m].j, s->pair[q].i, s->pair[q].j)) m++;
+        if (m < s->nmemory && s->memory[m].i == s->pair[q].i && s->memory[m].j == s->pair[q].j)
+            memcpy (s->slip + 3 * q, s->memory[m].slip, sizeof s->memory[m].slip);
+    }
+    s->valid = 1;
+done:
+    return status;
+}
+
+/* ---- search -------------------------------------------------------------------------------------------- */
+/* Points of one spacing see each other; of two that differ the smaller sees the larger, if one sees any. The
+ * pair is taken where it is surely seen. */
+static int takes (const near_pairs *s, size_t i, size_t j)
+{
+    double a = size_of (s, i), b = size_of (s, j);
+    return a < b || (a == b && i < j);
+}
+
+typedef struct { size_t i, j; } found_pair;
+
+static int by_place (const void *a, const void *b)
+{
+    const near_pair *p = a, *q = b;
+    return before (p->i, p->j, q->i, q->j) ? -1 : before (q->i, q->j, p->i, p->j);
+}
+
+/* Both directions of the pairs, sorted: counted by their first point, then each row by its second. */
+static pg_status sort_pairs (near_pairs *s, size_t npair, const found_pair *found)
+{
+    pg_status status = PG_OK;
+    size_t n = s->problem->cloud.n, *at = NULL;
+    PG_ALLOC (at, n + 2);
+    PG_GROW (s->pair, s->cap, 2 * npair);
+    for (size_t q = 0; q < npair; q++) at[found[q].i + 2]++, at[found[q].j + 2]++;
+    for (size_t i = 2; i < n + 2; i++) at[i] += at[i - 1];
+    for (size_t q = 0; q < npair; q++) {
+        near_pair one = pair_of (s, found[q].i, found[q].j), other = one;
+        other.i = one.j, other.j = one.i;
+        s->pair[at[found[q].i + 1]++] = one, s->pair[at[found[q].j + 1]++] = other;
+    }
+    s->n = 2 * npair;
+    for (size_t q = 0; q < s->n;) {
+        size_t end = at[s->pair[q].i + 1];
+        qsort (s->pair + q, end - q, sizeof *s->pair, by_place);
+        q = end;
+    }
+done:
+    pg_free (at);
+    return status;
+}
+
+/* All pairs at hand, by the tree over the moved points. */
+static pg_status search (near_pairs *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
+    size_t n = p->cloud.n, npair = 0, cap = 0;
+    pg_cloud moved_cloud = p->cloud;
+    pg_family_search *tree = NULL;
+    pg_family near = { 0 };
+    found_pair *found = NULL;
+    double *x = NULL;
+    PG_TRY (near_collect (s));
+    s->valid = 0;
+    PG_ALLOC (x, n * s->dim);
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < s->dim; k++)
+            x[i * s->dim + k] = p->cloud.x[i * s->dim + k] + state->d[i * s->stride + k];
+    moved_cloud.x = x, moved_cloud.metric = NULL;
+    PG_TRY (pg_family_search_create (&tree, &moved_cloud, (s->distance + s->skin) * p->cloud.h, PG_RADIAL,
+                                     1));
+    PG_TRY (pg_family_find (&near, tree, n, x, p->threads));
+    for (size_t i = 0; i < n; i++)
+        for (size_t e = near.start[i]; e < near.start[i + 1]; e++) {
+            size_t j = (size_t) near.node[e];
+            if (j == i || !takes (s, i, j) || bonded (s, state->alive, i, j)) continue;
+            PG_GROW (found, cap, npair + 1);
+            found[npair++] = (found_pair) { i, j };
+        }
+    PG_TRY (sort_pairs (s, npair, found));
+    memcpy (s->start, state->d, n * s->stride * sizeof *s->start);
+    PG_TRY (finish (s));
+    s->searches++;
+done:
+    pg_family_search_free (&tree);
+    pg_family_clear (&near);
+    pg_free (found), pg_free (x);
+    return status;
+}
+
+/* ---- bonds that broke ---------------------------------------------------------------------------------- */
+/* Were the two so near at the last search that they may touch before the next one? */
+static int within (const near_pairs *s, size_t i, size_t j, double reach)
+{
+    double rr = 0, limit = reach + s->skin * fmax (size_of (s, i), size_of (s, j));
+    const double *x = s->problem->cloud.x;
+    for (size_t k = 0; k < s->dim; k++)
+        rr += pow (x[j * s->dim + k] + s->start[j * s->stride + k]
+                   - (x[i * s->dim + k] + s->start[i * s->stride + k]), 2);
+    return rr <= limit * limit * (1 + 1e-9);
+}
+
+/* Pairs whose bond broke and that are not joined from the other side, merged into the list. */
+static pg_status add_broken (near_pairs *s, const pg_state *state, const pg_changes *broken)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
+    near_pair *fresh = NULL, *all = NULL;
+    size_t nfresh = 0, cap = 0, kept = 0, n = 0;
+    for (size_t c = 0; c < broken->n; c++) {
+        int set;
+        size_t i, j;
+        pg_problem_locate (p, broken->bond[c], &set, &i);
+        if (set != PG_NODES) continue;
+        j = (size_t) p->rows[PG_NODES].family.node[broken->bond[c] - p->first_bond[PG_NODES]];
+        near_pair one = pair_of (s, i, j), other = one;
+        if (i == j || !within (s, i, j, one.reach) || bonded (s, state->alive, i, j)) continue;
+        other.i = one.j, other.j = one.i;
+        PG_GROW (fresh, cap, nfresh + 2);
+        fresh[nfresh++] = one, fresh[nfresh++] = other;
+    }
+    if (!nfresh) goto done;
+    PG_TRY (near_collect (s));
+    s->valid = 0;
+    qsort (fresh, nfresh, sizeof *fresh, by_place);
+    PG_ALLOC (all, s->n + nfresh);
+    for (size_t a = 0; a < s->n || kept < nfresh;) {
+        int old = a < s->n && (kept == nfresh || by_place (&s->pair[a], &fresh[kept]) <= 0);
+        near_pair next = old ? s->pair[a++] : fresh[kept++];
+        if (n == 0 || by_place (&all[n - 1], &next) != 0) all[n++] = next;
+    }
+    pg_free (s->pair);
+    s->pair = all, s->cap = s->n + nfresh, s->n = n, all = NULL;
+    PG_TRY (finish (s));
+done:
+    pg_free (fresh), pg_free (all);
+    return status;
+}
+
+pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed)
+{
+    pg_status status = PG_OK;
+    double limit = 0.5 * s->skin * s->finest, far = s->valid && !changed && limit > 0 ? moved (s, state->d)
+                                                                                       : INFINITY;
+    if (far <= limit) {
+        if (broken && broken->n) PG_TRY (add_broken (s, state, broken));
+        goto done;
+    }
+    /* lost runs end where they are looked at: there is nothing to be found in them */
+    for (size_t i = 0; i < s->problem->cloud.n * s->stride; i++) if (!isfinite (state->d[i])) goto done;
+    PG_TRY (search (s, state));
+done:
+    return status;
+}

@@ -1,0 +1,42 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: pairs of points that no live bond joins and that may come nearer than their contact distance,
+ * found by search; a list serves until some point has moved half the skin, which is the most that its reach
+ * has to spare. */
+#ifndef PG_NEAR_PAIRS_H
+#define PG_NEAR_PAIRS_H
+#include "perigal/contact.h"
+
+/* One of the two directions of a pair. */
+typedef struct {
+    int    i, j;
+    double reach;                                      /* contact distance, m */
+    double k, share;                                   /* stiffness, N/m; that across over that along */
+} near_pair;
+/* What pairs remember: the spring of friction, the displacement of j past i that it bears, m. */
+typedef struct { int i, j; double slip[3]; } near_memory;
+
+typedef struct {
+    const pg_problem *problem;
+    size_t  stride, dim;
+    double  distance, skin;                            /* in spacings */
+    double  stiffness;                                 /* factor */
+    int     slips;                                     /* 1: pairs have slips */
+    double *modulus, *shear, *local;                   /* M, mu_s of materials, Pa; V / s^2 of points, m */
+    double  finest;                                    /* smallest spacing, m */
+    double *start;                                     /* displacements at the last search, m (n x stride) */
+    double *most;  size_t nblock;                      /* of every block of unknowns */
+    int     valid;                                     /* 0: the list has to be made anew */
+    near_pair *pair;  size_t n, cap;                   /* by i, then j; each pair in both directions */
+    double *slip;  size_t cap_slip;                    /* n x 3 */
+    size_t *row, nrow, cap_row;                        /* pairs of a point: row[r] .. row[r + 1] - 1 */
+    near_memory *memory;  size_t nmemory, cap_memory;  /* slips for the next list */
+    long    searches;
+} near_pairs;
+pg_status near_create (near_pairs *s, const pg_problem *problem, const pg_contact_setting *setting,
+                       size_t stride);
+void      near_free   (near_pairs *s);
+/* Brings the list in line with the state: unchanged, with bonds that broke added, or by another search. */
+pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed);
+/* The slips that are not zero, into `memory`. */
+pg_status near_collect (near_pairs *s);
+#endif

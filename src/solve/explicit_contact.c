@@ -1,0 +1,147 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Short-range contact in explicit steps (perigal/contact.h): its forces stand in the residual beside those of
+ * the body, and in a list of their own where the work of the body's forces is asked for; its energies are
+ * booked beside theirs. */
+#include "explicit.h"
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+pg_status explicit_contact_create (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    motion *m = motion_of (s);
+    const pg_system *sys = &s->break_loop.system;
+    const pg_contact_setting *setting = &s->options.contact;
+    if (setting->kind == PG_CONTACT_NONE || setting->search != PG_CONTACT_SHORT_RANGE) return PG_OK;
+    PG_ALLOC (m->contact, 1);
+    PG_ALLOC (m->contact->f, sys->ndof);
+    PG_TRY (pg_short_range_create (&m->contact->pairs, s->problem, setting, (size_t) sys->components));
+done:
+    return status;
+}
+
+/* Also of one that was made in part only. */
+void explicit_contact_free (pg_solver *s)
+{
+    struct explicit_contact *c = motion_of (s)->contact;
+    if (!c) return;
+    pg_short_range_free (&c->pairs);
+    pg_free (c->f);
+    pg_free (c);
+    motion_of (s)->contact = NULL;
+}
+
+double explicit_contact_rate (const pg_solver *s)
+{
+    const struct explicit_contact *c = motion_of (s)->contact;
+    return c ? pg_short_range_rate (c->pairs) : 0;
+}
+
+/* More contacts on a point than faces of bodies have may take the step beyond what is stable. */
+static void doubt (pg_solver *s)
+{
+    const motion *m = motion_of (s);
+    struct explicit_contact *c = m->contact;
+    double rate = pg_short_range_now (c->pairs)->rate, dt = s->options.dt;
+    if (c->warned || !(dt * dt * (c->bare * c->bare + rate) > 4)) return;
+    c->warned = 1;
+    pg_statistics_warn (&s->report,
+                        "more points press on one than the time step counts on: it may be unstable; compare "
+                        "with solver.dt: %.3g s", 1.8 / sqrt (c->bare * c->bare + rate));
+}
+
+/* Velocities of prescribed unknowns are zero inside a step: meanwhile they take those of their motion. */
+pg_status explicit_contact_add (pg_solver *s, pg_state *state, int first)
+{
+    pg_status status = PG_OK;
+    motion *m = motion_of (s);
+    struct explicit_contact *c = m->contact;
+    pg_system *sys = &s->break_loop.system;
+    double dt = first ? 0 : s->options.dt, t0 = pg_seconds ();
+    if (!c) return PG_OK;
+    if (c->active) memset (c->f, 0, sys->ndof * sizeof *c->f);
+    /* m->goal and m->next are those of the last instant and of this one */
+    for (size_t k = 0; !first && k < m->nprescribed; k++)
+        state->v[m->prescribed[k]] = (m->next[k] - m->goal[k]) / dt;
+    const pg_changes *broken = &s->break_loop.changes;
+    int known = c->broken + (long) broken->n == state->broken;
+    status = pg_short_range_add (c->pairs, state, broken, !known, state->v, dt, c->f);
+    if (!first) explicit_release (s, state);
+    PG_TRY (status);
+    const pg_short_range_report *now = pg_short_range_now (c->pairs);
+    c->broken = state->broken, c->active = now->touching > 0;
+    for (size_t i = 0; c->active && i < sys->ndof; i++) sys->residual[i] += c->f[i];
+    doubt (s);
+done:
+    s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
+    return status;
+}
+
+const double *explicit_contact_forces (const pg_solver *s)
+{
+    const struct explicit_contact *c = motion_of (s)->contact;
+    return c && c->active ? c->f : NULL;
+}
+
+/* What the report says of contact, and what was spared. */
+void explicit_contact_show (pg_solver *s)
+{
+    const struct explicit_contact *c = motion_of (s)->contact;
+    pg_statistics *r = &s->report;
+    char what[96];
+    if (!c) return;
+    const pg_short_range_report *now = pg_short_range_now (c->pairs);
+    r->energy_contact = now->energy, r->energy_friction = now->friction;
+    r->overlap_max = now->overlap_max;
+    r->contact_pairs = (long) now->listed, r->contact_touching = (long) now->touching;
+    if (now->evaluations > now->searches) {
+        snprintf (what, sizeof what, "search for contact in %ld steps", now->evaluations - now->searches);
+        pg_statistics_skip (r, NAN, what, "no point had moved half the skin of the last search");
+    }
+    if (now->free) {
+        snprintf (what, sizeof what, "forces of contact in %ld steps", now->free);
+        pg_statistics_skip (r, NAN, what, "no two points without a bond were near each other");
+    }
+}
+
+/* A row begins: what it is put back to where it is refused. */
+pg_status explicit_contact_save (pg_solver *s)
+{
+    struct explicit_contact *c = motion_of (s)->contact;
+    if (!c) return PG_OK;
+    c->energy0 = s->report.energy_contact, c->friction0 = s->report.energy_friction;
+    return pg_short_range_save (c->pairs);
+}
+
+void explicit_contact_return (pg_solver *s)
+{
+    struct explicit_contact *c = motion_of (s)->contact;
+    if (!c) return;
+    pg_short_range_return (c->pairs);                  /* room is there: they stood in it before */
+    s->report.energy_contact = c->energy0, s->report.energy_friction = c->friction0;
+    c->broken = -1;
+}
+
+/* Energy that contact has taken up since the row began, J. */
+double explicit_contact_took (const pg_solver *s)
+{
+    const struct explicit_contact *c = motion_of (s)->contact;
+    return c ? s->report.energy_contact - c->energy0 + s->report.energy_friction - c->friction0 : 0;
+}
+
+pg_status explicit_contact_keep (pg_solver *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    struct explicit_contact *c = motion_of (s)->contact;
+    long count = c ? c->warned : 0;
+    if (!c) return PG_OK;
+    double number[2] = { c->energy0, c->friction0 };
+    PG_TRY (k->counts (k->context, "contact.warned", 1, &count));
+    PG_TRY (k->numbers (k->context, "contact.energies", 2, number));
+    c->warned = count != 0, c->energy0 = number[0], c->friction0 = number[1];
+    if (k->reading) c->broken = -1;
+    PG_TRY (pg_short_range_keep (c->pairs, k));
+done:
+    return status;
+}
