@@ -51,8 +51,9 @@ typedef struct {
     size_t  nnode;  int *node;  /* nodes whose unknowns make displacement and stress there, ascending */
 } pg_bond_group;
 void pg_bond_group_clear (pg_bond_group *group);
-/* The jump of the displacement at places on cracks: that of place q is the sum of value[e] times the unknowns
- * of node[e], component by component, over e from start[q] to before start[q + 1]. */
+/* The jump of the displacement at places on cracks, or the displacement at places on the surface: that of
+ * place q is the sum of value[e] times the unknowns of node[e], component by component, over e from start[q]
+ * to before start[q + 1]. */
 typedef struct {
     size_t  n, *start;  int *node;  double *value;
     size_t  poor;                                      /* places whose values are zero: see pg_force_type */
@@ -196,6 +197,11 @@ typedef struct {
      * cannot be asked of this force. */
     pg_status (*jump) (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                        double radius, pg_jump_rows *out);
+    /* Displacement at n places on the surface of the body (x, outward unit normal: n x dim), by the shape
+     * functions that carry a traction there, the body being seen from inside. NULL: platens cannot be asked
+     * of this force. */
+    pg_status (*trace) (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                        pg_jump_rows *out);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

@@ -20,13 +20,16 @@ typedef enum {
     PG_POINT_FORCE,
     PG_BODY_FORCE,
     PG_ROTATION,
-    PG_MOMENT
+    PG_MOMENT,
+    PG_PLATEN_MOTION,                                  /* of a rigid platen, m; its set is empty */
+    PG_PLATEN_FORCE                                    /* on a rigid platen, N; its set is empty */
 } pg_load_kind;
 typedef enum { PG_ESSENTIAL_NITSCHE, PG_ESSENTIAL_TRANSFORMATION, PG_ESSENTIAL_PENALTY } pg_essential;
 typedef struct pg_load {
     char           name[64];
     pg_load_kind   kind;
     const pg_set  *set;
+    int            platen;                             /* 1 + number of the platen that it moves; 0: none */
     /* 1: a pressure in all cracks, also in those that come into being, the same at all places; the set is
      * empty */
     int            cracks;
@@ -71,6 +74,30 @@ typedef struct {
     long    events;                                    /* 0: any number */
     double  growth;  /* of cracks since the stage began, m (in space m^2); 0: any */
 } pg_stage;
+
+/* A rigid platen or indenter (key `platens`): what of the body comes to its surface is pressed, and rubbed, by
+ * it. It is moved or pressed by loads of its own, which follow those of `boundary`. Components that have
+ * neither a displacement nor a force are held. */
+typedef enum { PG_PLATEN_PLANE, PG_PLATEN_CYLINDER, PG_PLATEN_SPHERE } pg_platen_shape;
+typedef struct {
+    char   name[64];
+    pg_platen_shape shape;
+    /* a place of the plane; the centre of the sphere, of the cylinder in the plane; a place of its axis. It
+     * turns about this place */
+    double point[3];
+    /* plane: unit normal towards the body; cylinder in space: unit vector along its axis */
+    double normal[3];
+    double radius;                                     /* of cylinder and sphere, m */
+    double width;  /* plane: only so wide about `point` (3D: diameter), m; INFINITY: without end */
+    int    concave;                                    /* 1: the body lies inside cylinder or sphere */
+    double friction;                                   /* Coulomb's coefficient */
+    int    tilts;                                      /* 1: free to turn, without a moment */
+    int    free[3];                                    /* 1: moves along that axis as its force has it */
+    int    motion, force;                              /* numbers of its loads; -1: none */
+} pg_platen;
+/* Distance of a place from the surface of the platen where it was at the start, m; negative: inside it.
+ * INFINITY: beside the platen. normal (dim): unit, from the platen towards the body. */
+double pg_platen_distance (const pg_platen *platen, int dim, const double *x, double *normal);
 
 /* ---- problem ------------------------------------------------------------------------------------------- */
 /* Bond sets, each a list of points and the nodes they see (style: one array of alive bits per set, all in
@@ -223,6 +250,7 @@ struct pg_problem {
     void    *options;                                  /* what method->read made of the keys; NULL: nothing */
     pg_sums *sums;                                     /* without shape functions; else NULL */
     pg_load *load;   size_t nload;
+    pg_platen *platen; size_t nplaten;
     pg_stage *stage; size_t nstage;                    /* none: one path, t from 0 to 1 */
     pg_gauge *gauge; size_t ngauge;
     pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */

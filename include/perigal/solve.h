@@ -284,6 +284,11 @@ typedef struct {
     double x[3], normal[3], area, length, arc, pressure, shear[3], gap, slip[3];
     pg_contact_status status;
 } pg_contact_values;
+/* What a rigid platen exerts on the body in the state of the last step (N; moments about its `point`, N m), and
+ * how it has moved (m) and turned (rad); along and about x, y, z. */
+typedef struct { double force[6], motion[6]; } pg_platen_values;
+/* Platen by platen, as problem->platen; *n 0: there are none. Borrowed until the next step. */
+const pg_platen_values *pg_solver_platens (const pg_solver *solver, size_t *n);
 /* Piece by piece, path by path; *n: how many, 0 without contact. Borrowed until the next step. */
 const pg_contact_values *pg_solver_contact (const pg_solver *solver, size_t *n);
 /* What the faces behind a tip of the state do to each other, with contact; 0: the run has none. */

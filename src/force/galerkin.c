@@ -349,5 +349,6 @@ const pg_force_type pg_force_galerkin = {
     .lend = galerkin_lend,
     .change = galerkin_change_of,
     .elements = galerkin_elements,
-    .jump = galerkin_jump
+    .jump = galerkin_jump,
+    .trace = galerkin_trace
 };

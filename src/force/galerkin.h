@@ -269,6 +269,9 @@ size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residua
 /* jump: across cracks */
 pg_status galerkin_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                          double radius, pg_jump_rows *out);
+/* trace: on the surface of the body */
+pg_status galerkin_trace (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                          pg_jump_rows *out);
 /* elements: finite elements on the nodes, as a preconditioner */
 pg_status galerkin_elements (void *self, pg_elements *out);
 /* bonds and fields */

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Keys of the model: blocks, boundary, initial, gauges. Those of `method` stand with the forces that read
- * them. */
+ * Keys of the model: blocks, boundary, platens, stages, initial, gauges. Those of `method` stand with the
+ * forces that read them. */
 #include "perigal/scene.h"
 
 static const char *const no_choice = NULL;
@@ -54,6 +54,46 @@ static const pg_key keys[] = {
       "Factor over time as pairs [t, factor], linear between, constant beyond." },
     { "boundary[].table[]", PG_NUMBERS, NULL, NULL, "", NULL, NULL, NULL,
       "One pair: t in s (static: load factor 0 to 1), factor." },
+    { "platens", PG_LIST, NULL, NULL, "", no_choice, NULL, NULL,
+      "Rigid platens and indenters: what of the surface of the body comes to theirs is pressed, and rubbed, "
+      "by them (force: galerkin, solver: static; elsewhere they are refused)." },
+    { "platens[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL,
+      "Name in history.csv and in stages[].boundary." },
+    { "platens[].shape", PG_NAME, NULL, NULL, "plane", "plane|cylinder|sphere", NULL, NULL,
+      "Its surface. A cylinder is a circle in the plane." },
+    { "platens[].point", PG_VECTOR, "m", NULL, NULL, NULL, NULL, NULL,
+      "plane: a place of it; else the centre, or a place of the axis. Moments are about this place." },
+    { "platens[].normal", PG_VECTOR, "1", NULL, "", no_choice, NULL, NULL,
+      "plane: direction from the platen towards the body, of any length." },
+    { "platens[].axis", PG_VECTOR, "1", NULL, "", no_choice, NULL, NULL,
+      "cylinder in space: direction of its axis." },
+    { "platens[].radius", PG_NUMBER, "m", "(0, inf)", "", no_choice, NULL, NULL, "cylinder, sphere: radius." },
+    { "platens[].width", PG_NUMBER, "m", "(0, inf)", "", no_choice, NULL, NULL,
+      "plane: it is only so wide, half of it on either side of `point` (in space: a disk of this diameter); "
+      "without end if not given." },
+    { "platens[].concave", PG_BOOL, NULL, NULL, "false", no_choice, NULL, NULL,
+      "cylinder, sphere: the body lies inside (curved jaws)." },
+    { "platens[].friction", PG_NUMBER, "1", "[0, 10]", "0", no_choice, NULL, NULL,
+      "Coulomb's coefficient: shear that the surface bears over the pressure on it." },
+    { "platens[].displacement", PG_MAP, NULL, NULL, "", no_choice, NULL, NULL,
+      "How far it moves; axes that have neither a displacement nor a force are held." },
+    { "platens[].displacement.x", PG_EXPRESSION, "m", NULL, "", no_choice, NULL, NULL,
+      "Component along x." },
+    { "platens[].displacement.y", PG_EXPRESSION, "m", NULL, "", no_choice, NULL, NULL,
+      "Component along y." },
+    { "platens[].displacement.z", PG_EXPRESSION, "m", NULL, "", no_choice, NULL, NULL,
+      "Component along z." },
+    { "platens[].force", PG_MAP, NULL, NULL, "", no_choice, NULL, NULL,
+      "Force that presses it; it moves freely along these axes." },
+    { "platens[].force.x", PG_EXPRESSION, "N", NULL, "", no_choice, NULL, NULL, "Component along x." },
+    { "platens[].force.y", PG_EXPRESSION, "N", NULL, "", no_choice, NULL, NULL, "Component along y." },
+    { "platens[].force.z", PG_EXPRESSION, "N", NULL, "", no_choice, NULL, NULL, "Component along z." },
+    { "platens[].tilt", PG_NAME, NULL, NULL, "held", "held|free", NULL, NULL,
+      "free: it turns about `point` until the moment of what it bears is zero there (a spherical seat)." },
+    { "platens[].ramp", PG_TEXT, NULL, NULL, "linear", NULL, NULL, NULL,
+      "Factor of its displacement over time: linear, constant, or an expression in t." },
+    { "platens[].force_ramp", PG_TEXT, NULL, NULL, "linear", NULL, NULL, NULL,
+      "The same of its force." },
     { "stages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
       "Stages of loading, one after the other: confine, load axially, unload ... Stage k runs from t = k - 1 "
       "to t = k (load_factor of history.csv). Without them all loads grow from 0 to 1 together." },

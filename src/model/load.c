@@ -375,7 +375,10 @@ static void name_apart (pg_problem *problem, const pg_scene *scene)
         for (size_t k = 0; k < i; k++) {
             if (strcmp (problem->load[i].name, problem->load[k].name) != 0) continue;
             snprintf (path, sizeof path, "boundary[%zu].name", i);
-            if (pg_scene_given (scene, "%s", path))
+            if (problem->load[i].platen)
+                pg_scene_fault (scene, "platens", "boundary or another platen has the name %s too",
+                                problem->load[i].name);
+            else if (pg_scene_given (scene, "%s", path))
                 pg_scene_fault (scene, path, "boundary[%zu] has this name too", k);
             else {
                 char longer[64];
@@ -395,10 +398,12 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
         duration = (double) pg_scene_integer (scene, "solver.time_steps")
                    * pg_scene_number (scene, "solver.dt");
     if (!(duration > 0)) duration = 1;
-    problem->nload = pg_scene_count (scene, "boundary");
+    size_t own = pg_scene_count (scene, "boundary");
+    problem->nload = own + pg_platens_loads (scene);
     PG_ALLOC (problem->load, problem->nload);
-    for (size_t i = 0; i < problem->nload; i++)
+    for (size_t i = 0; i < own; i++)
         PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
+    PG_TRY (pg_platens_read (problem, scene, own));
     name_apart (problem, scene);
     PG_TRY (pg_stages_read (problem, scene));
     if (problem->nstage) duration = (double) problem->nstage;
@@ -415,5 +420,5 @@ void pg_loads_clear (pg_problem *problem)
         pg_expression_free (&problem->load[i].ramp);
         pg_free (problem->load[i].table);
     }
-    pg_free (problem->load);
+    pg_free (problem->load), pg_free (problem->platen);
 }

@@ -9,6 +9,9 @@ pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_supports_check (pg_problem *problem, const pg_scene *scene, double duration);
 void      pg_supports_check_eliminated (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
+/* platens.c: rigid platens; their loads take the places of problem->load from `first` on. */
+size_t    pg_platens_loads (const pg_scene *scene);    /* how many these are */
+pg_status pg_platens_read  (pg_problem *problem, const pg_scene *scene, size_t first);
 /* stages.c: once the loads have their names. A load that follows the stages gets its table, still empty. */
 pg_status pg_stages_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_stages_clear (pg_problem *problem);

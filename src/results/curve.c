@@ -15,7 +15,7 @@ enum { STEP, TIME, FACTOR, FIRST_GAUGE };
 static double push_along (const pg_problem *p, const pg_load *load, int k)
 {
     double size = 0;
-    if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE) {
+    if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE || load->kind == PG_PLATEN_FORCE) {
         if (!load->value[k]) return 0;
         if (load->set->npoint == 0 || !pg_load_separates (load)) return 1;
         for (size_t i = 0; i < load->set->npoint; i++) {
@@ -54,8 +54,11 @@ void pg_result_curve_choose (pg_result *r)
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; k < p->dim; k++) {
             const pg_load *load = &p->load[l];
-            if (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_rotates (load)) continue;
-            double size = farthest (p, load, k);
+            static const double anywhere[3] = { 0 };
+            int platen = load->kind == PG_PLATEN_MOTION;
+            if (!platen && (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_rotates (load)))
+                continue;
+            double size = platen ? fabs (pg_load_value (load, k, p->dim, anywhere, 1)) : farthest (p, load, k);
             if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
         }
     for (size_t l = 0; l < p->nload && r->curve_load < 0; l++) {

@@ -3,6 +3,7 @@
  *
  *   step, time, load_factor
  *   per load     reaction (N; N m for rotations) and mean displacement of its points (m; rad), per component
+ *   per platen   force and moment on the body, displacement and rotation, per component
  *   per gauge    opening, m                     per entry of output.averages   its mean
  *   per entry of output.tips   length of the crack, m
  *   cracks that grow and their tips (grown_cracks.c)
@@ -37,6 +38,9 @@ static int goes_unstable (const pg_result *r)
 /* Columns of events.csv: numbers, then the names of bond set and kind. */
 enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
 
+/* Forces and displacements along the axes of the body, moments and rotations about those it can turn about. */
+static int platen_has (const pg_problem *p, int k) { return p->dim == 3 || k < 2 || k == 5; }
+
 /* The order of the columns here is that of the values in pg_result_history_row. Names are at
  * most 127 bytes. */
 pg_status pg_result_history_create (pg_result *r, const result_marks *from)
@@ -46,18 +50,26 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
     size_t n = 0, tips = pg_result_paths_columns (r),
-           most = 14 + UNSTABLE_COLUMNS + 6 * p->nload + p->ngauge + r->naverage + r->ntip + tips + 1;
+           most = 14 + UNSTABLE_COLUMNS + 6 * p->nload + 12 * p->nplaten + p->ngauge + r->naverage + r->ntip + tips + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
     for (size_t l = 0; l < p->nload; l++)
-        for (int k = 0; k < pg_load_components (&p->load[l], p->dim); k++) {
+        for (int k = 0; !p->load[l].platen && k < pg_load_components (&p->load[l], p->dim); k++) {
             char axis = pg_load_axis (&p->load[l], p->dim, k);
             int turns = pg_load_rotates (&p->load[l]);
             snprintf (name[n++], sizeof *name, turns ? "%s.moment_%c [N m]" : "%s.force_%c [N]",
                       p->load[l].name, axis);
             snprintf (name[n++], sizeof *name, turns ? "%s.rotation_%c [rad]" : "%s.displacement_%c [m]",
                       p->load[l].name, axis);
+        }
+    for (size_t i = 0; i < p->nplaten; i++)
+        for (int k = 0; k < 6; k++) {
+            static const char *const what[4] = { "%s.force_%c [N]", "%s.displacement_%c [m]",
+                                                 "%s.moment_%c [N m]", "%s.rotation_%c [rad]" };
+            if (!platen_has (p, k)) continue;
+            for (int m = 0; m < 2; m++)
+                snprintf (name[n++], sizeof *name, what[2 * (k / 3) + m], p->platen[i].name, "xyz"[k % 3]);
         }
     for (size_t g = 0; g < p->ngauge; g++) snprintf (name[n++], sizeof *name, "%s [m]", p->gauge[g].name);
     for (size_t a = 0; a < r->naverage; a++) pg_result_average_column (r, a, name[n++], sizeof *name);
@@ -146,7 +158,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     const pg_statistics *report = pg_solver_report_now (r->solver);
-    size_t n = 0;
+    size_t n = 0, platens;
     double x = 0, y = 0;                               /* of the load-displacement curve */
     int components;
     const char *unit;
@@ -155,12 +167,21 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     if (force->field && pg_problem_rotations (p))
         PG_TRY (force->field (self, state, state->d, "rotation", &components, &unit, r->u + 3 * p->cloud.n));
     for (size_t l = 0; l < p->nload; l++)
-        for (int k = 0; k < pg_load_components (&p->load[l], p->dim); k++) {
+        for (int k = 0; !p->load[l].platen && k < pg_load_components (&p->load[l], p->dim); k++) {
             int turns = pg_load_rotates (&p->load[l]);
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
             double u = mean_of (p->load[l].set, turns ? r->u + 3 * p->cloud.n : r->u,
                                 turns ? pg_problem_rotations (p) : p->dim, k);
             if ((int) l == r->curve_load && k == r->curve_component) x = u, y = f;
+            r->row[n++] = f, r->row[n++] = u;
+        }
+    const pg_platen_values *platen = pg_solver_platens (r->solver, &platens);
+    for (size_t i = 0; i < p->nplaten; i++)
+        for (int k = 0; k < 6; k++) {
+            int load = p->platen[i].motion >= 0 ? p->platen[i].motion : p->platen[i].force;
+            if (!platen_has (p, k)) continue;
+            double f = i < platens ? platen[i].force[k] : 0, u = i < platens ? platen[i].motion[k] : 0;
+            if (load >= 0 && load == r->curve_load && k == r->curve_component) x = u, y = f;
             r->row[n++] = f, r->row[n++] = u;
         }
     const double *gauges = r->row + n;

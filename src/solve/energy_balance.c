@@ -27,6 +27,7 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     /* at rest reactions contain the forces of contact on nodes that are held */
     const double *rest = s->excavated ? s->excavated : contact_forces (s);
     PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : rest, &b->work_balance));
+    if (!dyn) platens_reactions (s, b->work_balance.reaction);
     PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
@@ -64,6 +65,7 @@ pg_status break_loop_book (break_loop *b, double scale)
         b->work += 0.5 * (b->before.force[k] + f) * (u - b->before.displacement[k]);
         b->before.force[k] = f, b->before.displacement[k] = u;
     }
+    b->work += platens_book (&b->system, scale);
     contact_book (&b->system, scale);
 done:
     return status;

@@ -158,6 +158,7 @@ pg_status event_secant (pg_solver *s, double *out)
     pg_work_balance zero = { 0 }, one = { 0 };
     *out = 0;
     for (size_t k = 0; !e->base && k < b->npair; k++) *out += b->force[k] * b->displacement[k];
+    if (!e->base) *out += platens_secant (sys);
     if (!e->base || !sys->force->work_balance) return PG_OK;
     PG_TRY (sys->force->work_balance (sys->self, stage_start (s), e->base, NULL, &zero));
     PG_TRY (sys->force->work_balance (sys->self, stage_end (s), e->unit, NULL, &one));

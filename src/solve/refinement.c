@@ -43,6 +43,7 @@ pg_status system_residual (pg_system *s, double t, const double *d, const dynami
     if (dyn) dyn->add (dyn->context, d, s->residual, &reference);
     const double *contact = contact_forces (s);
     for (size_t i = 0; contact && i < s->ndof; i++) s->residual[i] += contact[i];
+    if (!dyn) loose_forces (s, d, s->residual);
     for (size_t i = 0; s->excavated && !dyn && i < s->ndof; i++) s->residual[i] += s->excavated[i];
     if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
     else memcpy (s->reduced, s->residual, s->ndof * sizeof *s->reduced);

@@ -173,6 +173,7 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
             value[q] += first > 1e-9 * s->mean_diagonal ? first : s->mean_diagonal;
         else if (m == 0 && weak) value[q] += s->shift * s->mean_diagonal;
     }
+    if (m == 0) loose_matrix (s, K, value);
     if (m != 0) system_add_mass_matrix (s, m, K, value);
     /* a point that no evaluation point sees has no consistent mass either */
     for (size_t j = 0; j < s->ndof && m != 0; j++) {
@@ -331,7 +332,8 @@ pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn)
     s->matrix_iterations = info.iterations;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     int keep = operator_of (s) && strcmp (s->options->linear, "auto") == 0 && !s->indefinite && s->unshifted;
-    if (keep && system_factor_cost (s) > worth_keeping * system_solve_cost (s)) {
+    if (keep && !(s->contact && s->contact->loose.n)
+        && system_factor_cost (s) > worth_keeping * system_solve_cost (s)) {
         s->mode = SYSTEM_KEPT_FACTOR;
         PG_TRY (system_follow (s, dyn));
     }

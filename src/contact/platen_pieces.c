@@ -1,0 +1,335 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The surface of the body opposite a platen, in pieces of about two spacings, and what a rigid motion of the
+ * platen does to their gaps.
+ *
+ * Points are those by which a traction is integrated over the boundary facets, so that forces of pieces are
+ * tractions like any other, also on cut cells and meshes. They count where the surface faces the platen
+ * within 60 degrees and nothing of the body lies between. Along the platen (in space: on a grid of its two
+ * directions) they are divided into pieces of equal size; gaps are measured along the normal n of the platen
+ * at its nearest place, from the positions at the start:
+ *
+ *     g_n = distance + n . (u - v),    g_t = t . (u - v),    v = q + w x (x - point) the motion of the platen. */
+#include "perigal/contact.h"
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Cosine of the largest angle between the surface and the platen; how much deeper than another a point lies
+ * that it hides, and the size of the boxes in which it does, spacings. */
+static const double FACES = 0.5, HIDES = 1.5, BOX = 0.5;
+/* Points further apart along the platen belong to two stretches, spacings. */
+static const double APART = 1.25;
+
+/* A point of the surface: where it lies along the platen, m, and how far from it. */
+typedef struct { size_t at; double s[2], distance, h, normal[3]; long box[2]; } candidate;
+typedef struct {
+    const pg_problem *p;
+    const pg_platen *platen;
+    const pg_quadrature *q;
+    candidate *point;  size_t n;
+    double along[2][3];                                /* directions along the platen, at its `point` */
+} facing;
+
+/* ---- which points -------------------------------------------------------------------------------------- */
+static double dot (const double *a, const double *b, size_t dim)
+{
+    double sum = 0;
+    for (size_t k = 0; k < dim; k++) sum += a[k] * b[k];
+    return sum;
+}
+
+/* A unit vector at right angles to n, as near as can be to a; the other one completes a right-handed set. */
+static void tangents (const double *n, const double *a, size_t dim, double t[2][3])
+{
+    if (dim == 2) {
+        t[0][0] = n[1], t[0][1] = -n[0], t[0][2] = 0;
+        return;
+    }
+    double along = dot (a, n, 3), size = 0;
+    for (int k = 0; k < 3; k++) t[0][k] = a[k] - along * n[k], size += t[0][k] * t[0][k];
+    if (!(size > 1e-12)) {                             /* a sphere, a quarter around */
+        const double other[3] = { a[1], a[2], a[0] };
+        tangents (n, other, dim, t);
+        return;
+    }
+    for (int k = 0; k < 3; k++) t[0][k] /= sqrt (size);
+    for (int k = 0; k < 3; k++)
+        t[1][k] = n[(k + 1) % 3] * t[0][(k + 2) % 3] - n[(k + 2) % 3] * t[0][(k + 1) % 3];
+}
+
+/* The mean normal of the platen over what faces it; the axis from which directions along it are taken is the
+ * coordinate axis that lies flattest. */
+static void find_directions (facing *f)
+{
+    size_t dim = (size_t) f->p->dim, flat = 0;
+    double mean[3] = { 0 }, size = 0, axis[3] = { 0 };
+    for (size_t i = 0; i < f->n; i++)
+        for (size_t k = 0; k < dim; k++) mean[k] += f->point[i].normal[k];
+    for (size_t k = 0; k < dim; k++) size += mean[k] * mean[k];
+    if (!(size > 0)) mean[dim - 1] = size = 1;
+    for (size_t k = 0; k < dim; k++) mean[k] /= sqrt (size);
+    for (size_t k = 1; k < dim; k++) if (fabs (mean[k]) < fabs (mean[flat]) - 1e-9) flat = k;
+    axis[flat] = 1;
+    if (f->platen->shape == PG_PLATEN_CYLINDER && dim == 3) memcpy (axis, f->platen->normal, sizeof axis);
+    tangents (mean, axis, dim, f->along);
+}
+
+/* Places along the platen: lengths on its surface, from its middle. */
+static void find_places (facing *f)
+{
+    const pg_platen *p = f->platen;
+    size_t dim = (size_t) f->p->dim;
+    double mean[3];
+    for (size_t k = 0; k < 3; k++) mean[k] = 0;
+    for (size_t k = 0; k < dim && dim == 3; k++)
+        mean[k] = f->along[0][(k + 1) % 3] * f->along[1][(k + 2) % 3]
+                  - f->along[0][(k + 2) % 3] * f->along[1][(k + 1) % 3];
+    if (dim == 2) mean[0] = -f->along[0][1], mean[1] = f->along[0][0];
+    for (size_t i = 0; i < f->n; i++) {
+        candidate *c = &f->point[i];
+        const double *x = f->q->x + c->at * dim;
+        double v[3] = { 0 }, flat = 0;
+        for (size_t k = 0; k < dim; k++) v[k] = x[k] - p->point[k];
+        for (size_t a = 0; a + 1 < dim; a++) c->s[a] = dot (v, f->along[a], dim), flat += c->s[a] * c->s[a];
+        flat = sqrt (flat);
+        if (p->shape == PG_PLATEN_PLANE || !(flat > 0)) continue;
+        double ahead = (p->concave ? -1 : 1) * dot (v, mean, dim);
+        if (p->shape == PG_PLATEN_CYLINDER && dim == 3) c->s[1] = p->radius * atan2 (c->s[1], ahead);
+        else
+            for (size_t a = 0; a + 1 < dim; a++) c->s[a] *= p->radius * atan2 (flat, ahead) / flat;
+    }
+}
+
+static int compare_boxes (const void *a, const void *b)
+{
+    const candidate *i = a, *j = b;
+    for (int k = 0; k < 2; k++) if (i->box[k] != j->box[k]) return i->box[k] < j->box[k] ? -1 : 1;
+    if (i->distance != j->distance) return i->distance < j->distance ? -1 : 1;
+    return (i->at > j->at) - (i->at < j->at);
+}
+
+/* Takes out what others hide: of the points of a small box along the platen those that lie much deeper. */
+static void drop_hidden (facing *f)
+{
+    size_t kept = 0, dim = (size_t) f->p->dim;
+    double least = INFINITY;
+    for (size_t i = 0; i < f->n; i++)
+        for (size_t a = 0; a < 2; a++)
+            f->point[i].box[a] = a + 1 < dim ? lround (floor (f->point[i].s[a] / (BOX * f->p->cloud.h))) : 0;
+    qsort (f->point, f->n, sizeof *f->point, compare_boxes);
+    for (size_t i = 0; i < f->n; i++) {
+        const candidate c = f->point[i];
+        const long *last = kept ? f->point[kept - 1].box : NULL;
+        if (!last || last[0] != c.box[0] || last[1] != c.box[1]) least = c.distance;
+        if (c.distance <= least + HIDES * c.h) f->point[kept++] = c;
+    }
+    f->n = kept;
+}
+
+static pg_status find_points (facing *f)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) f->p->dim;
+    PG_ALLOC (f->point, f->q->n);
+    for (size_t i = 0; i < f->q->n; i++) {
+        candidate c = { .at = i, .h = pg_problem_spacing_at (f->p, f->q->x + i * dim) };
+        c.distance = pg_platen_distance (f->platen, f->p->dim, f->q->x + i * dim, c.normal);
+        if (!isfinite (c.distance) || dot (f->q->normal + i * dim, c.normal, dim) > -FACES) continue;
+        if (fabs (c.distance) <= PG_NO_LENGTH * c.h) c.distance = 0;
+        f->point[f->n++] = c;
+    }
+    find_directions (f);
+    find_places (f);
+    drop_hidden (f);
+done:
+    return status;
+}
+
+/* ---- pieces -------------------------------------------------------------------------------------------- */
+static int compare_places (const void *a, const void *b)
+{
+    const candidate *i = a, *j = b;
+    if (i->s[0] != j->s[0]) return i->s[0] < j->s[0] ? -1 : 1;
+    return (i->at > j->at) - (i->at < j->at);
+}
+
+/* Plane: number of the piece of each point (box[0]), along stretches without breaks, by equal lengths in local
+ * spacings. */
+static long divide_line (facing *f)
+{
+    long pieces = 0;
+    double thick = f->p->cloud.thickness;
+    qsort (f->point, f->n, sizeof *f->point, compare_places);
+    for (size_t from = 0, to; from < f->n; from = to) {
+        double whole = 0, passed = 0;
+        for (to = from; to < f->n; to++) {
+            if (to > from && f->point[to].s[0] - f->point[to - 1].s[0] > APART * f->point[to].h) break;
+            whole += f->q->weight[f->point[to].at] / thick / f->point[to].h;
+        }
+        long n = (long) fmax (1, round (whole / PG_CONTACT_PIECE * (1 - 1e-9)));
+        for (size_t i = from; i < to; i++) {
+            double part = f->q->weight[f->point[i].at] / thick / f->point[i].h;
+            long k = (long) floor ((passed + 0.5 * part) / whole * (double) n);
+            f->point[i].box[0] = pieces + (k < n ? k : n - 1), f->point[i].box[1] = 0;
+            passed += part;
+        }
+        pieces += n;
+    }
+    return pieces;
+}
+
+/* Space: boxes of a grid along the platen, of equal sizes. */
+static long divide_grid (facing *f)
+{
+    double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY }, h = INFINITY;
+    long n[2];
+    for (size_t i = 0; i < f->n; i++) {
+        double half = 0.5 * sqrt (f->q->weight[f->point[i].at]);
+        h = fmin (h, f->point[i].h);
+        for (int a = 0; a < 2; a++)
+            low[a] = fmin (low[a], f->point[i].s[a] - half), high[a] = fmax (high[a], f->point[i].s[a] + half);
+    }
+    for (int a = 0; a < 2 && f->n; a++)
+        n[a] = (long) fmax (1, round ((high[a] - low[a]) / (PG_CONTACT_PIECE * h) * (1 - 1e-9)));
+    for (size_t i = 0; i < f->n; i++)
+        for (int a = 0; a < 2; a++) {
+            long k = (long) floor ((f->point[i].s[a] - low[a]) / (high[a] - low[a]) * (double) n[a]);
+            f->point[i].box[a] = k < 0 ? 0 : k < n[a] ? k : n[a] - 1;
+        }
+    for (size_t i = 0; i < f->n; i++) f->point[i].box[0] += f->point[i].box[1] * n[0], f->point[i].box[1] = 0;
+    return f->n ? n[0] * n[1] : 0;
+}
+
+/* Boxes with less than a third of a whole one go to the box that is nearest to their middle. */
+static pg_status join_small (facing *f, long boxes)
+{
+    pg_status status = PG_OK;
+    double *area = NULL, (*middle)[2] = NULL;
+    long *to = NULL;
+    PG_ALLOC (area, (size_t) boxes);
+    PG_ALLOC (middle, (size_t) boxes);
+    PG_ALLOC (to, (size_t) boxes);
+    for (size_t i = 0; i < f->n; i++) {
+        const candidate *c = &f->point[i];
+        double w = f->q->weight[c->at] / (c->h * c->h);
+        area[c->box[0]] += w;
+        for (int a = 0; a < 2; a++) middle[c->box[0]][a] += w * c->s[a];
+    }
+    for (long k = 0; k < boxes; k++)
+        for (int a = 0; a < 2 && area[k] > 0; a++) middle[k][a] /= area[k];
+    for (long k = 0; k < boxes; k++) {
+        const double whole = PG_CONTACT_PIECE * PG_CONTACT_PIECE, small = whole / 3;
+        double least = INFINITY;
+        to[k] = k;
+        for (long j = 0; area[k] > 0 && area[k] < small && j < boxes; j++) {
+            double away = hypot (middle[k][0] - middle[j][0], middle[k][1] - middle[j][1]);
+            if (j != k && area[j] >= small && away < least) least = away, to[k] = j;
+        }
+    }
+    for (size_t i = 0; i < f->n; i++) f->point[i].box[0] = to[f->point[i].box[0]];
+done:
+    pg_free (area), pg_free (middle), pg_free (to);
+    return status;
+}
+
+static int compare_pieces (const void *a, const void *b)
+{
+    const candidate *i = a, *j = b;
+    if (i->box[0] != j->box[0]) return i->box[0] < j->box[0] ? -1 : 1;
+    return (i->at > j->at) - (i->at < j->at);
+}
+
+/* The mean direction of the points of a piece is its normal. */
+static void end_piece (pg_contact_pieces *out, const facing *f, double *gap, double weight)
+{
+    size_t dim = out->dim;
+    pg_contact_piece *k = &out->piece[out->n];
+    double size = sqrt (dot (k->normal, k->normal, dim));
+    if (!(weight > 0) || !(size > 0)) return;
+    for (size_t m = 0; m < dim; m++) k->x[m] /= weight, k->normal[m] /= size;
+    tangents (k->normal, f->along[0], dim, k->tangent);
+    k->area = weight, k->arc /= weight, gap[out->n] /= weight;
+    k->length = dim == 2 ? weight / f->p->cloud.thickness : sqrt (weight);
+    out->first[++out->n] = out->npoint;
+}
+
+/* Points, sorted by pieces, in the arrays of `out`. */
+static pg_status collect (facing *f, pg_contact_pieces *out, double **gap)
+{
+    pg_status status = PG_OK;
+    size_t dim = out->dim, pieces = 0;
+    double weight = 0;
+    for (size_t i = 0; i < f->n; i++) pieces += i == 0 || f->point[i].box[0] != f->point[i - 1].box[0];
+    PG_ALLOC (out->piece, pieces + 1);
+    PG_ALLOC (out->first, pieces + 2);
+    PG_ALLOC (out->x, f->n * dim);
+    PG_ALLOC (out->normal, f->n * dim);
+    PG_ALLOC (out->tangent, f->n * dim * (dim - 1));
+    PG_ALLOC (out->weight, f->n);
+    PG_ALLOC (*gap, pieces + 1);
+    for (size_t i = 0; i < f->n; i++) {
+        const candidate *c = &f->point[i];
+        if (i && c->box[0] != f->point[i - 1].box[0]) end_piece (out, f, *gap, weight), weight = 0;
+        pg_contact_piece *k = &out->piece[out->n];
+        double w = f->q->weight[c->at], t[2][3];
+        size_t q = out->npoint++;
+        tangents (c->normal, f->along[0], dim, t);
+        memcpy (out->x + q * dim, f->q->x + c->at * dim, dim * sizeof *out->x);
+        memcpy (out->normal + q * dim, c->normal, dim * sizeof *out->x);
+        for (size_t a = 0; a + 1 < dim; a++)
+            memcpy (out->tangent + (q * (dim - 1) + a) * dim, t[a], dim * sizeof *out->x);
+        out->weight[q] = w, weight += w;
+        for (size_t m = 0; m < dim; m++) k->x[m] += w * out->x[q * dim + m], k->normal[m] += w * c->normal[m];
+        k->arc += w * c->s[0], (*gap)[out->n] += w * c->distance;
+    }
+    end_piece (out, f, *gap, weight);
+done:
+    return status;
+}
+
+pg_status pg_platen_pieces_create (pg_contact_pieces *out, double **gap, const pg_problem *p, size_t platen)
+{
+    pg_status status = PG_OK;
+    pg_quadrature q = { 0 };
+    facing f = { .p = p, .platen = &p->platen[platen], .q = &q };
+    memset (out, 0, sizeof *out);
+    *gap = NULL;
+    out->dim = (size_t) p->dim;
+    PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
+    PG_TRY (find_points (&f));
+    if (p->dim == 2) divide_line (&f);
+    else PG_TRY (join_small (&f, divide_grid (&f)));
+    qsort (f.point, f.n, sizeof *f.point, compare_pieces);
+    PG_TRY (collect (&f, out, gap));
+    for (size_t k = 0; k < out->n; k++) out->piece[k].platen = platen + 1;
+done:
+    pg_free (f.point);
+    pg_quadrature_clear (&q);
+    if (status != PG_OK) {
+        pg_contact_pieces_clear (out);
+        pg_free (*gap), *gap = NULL;
+    }
+    return status;
+}
+
+void pg_platen_row (const pg_contact_pieces *pieces, size_t k, const double *about, double *row)
+{
+    size_t dim = pieces->dim;
+    double whole = 0;
+    memset (row, 0, 6 * dim * sizeof *row);
+    for (size_t q = pieces->first[k]; q < pieces->first[k + 1]; q++) {
+        double w = pieces->weight[q], r[3] = { 0 };
+        whole += w;
+        for (size_t m = 0; m < dim; m++) r[m] = pieces->x[q * dim + m] - about[m];
+        for (size_t a = 0; a < dim; a++) {
+            const double *e = a ? pieces->tangent + (q * (dim - 1) + a - 1) * dim : pieces->normal + q * dim;
+            double to[3] = { e[0], e[1], dim == 3 ? e[2] : 0 };
+            for (int m = 0; m < 3; m++) {
+                row[6 * a + (size_t) m] -= w * to[m];
+                row[6 * a + 3 + (size_t) m] -= w * (r[(m + 1) % 3] * to[(m + 2) % 3]
+                                                    - r[(m + 2) % 3] * to[(m + 1) % 3]);
+            }
+        }
+    }
+    for (size_t i = 0; i < 6 * dim; i++) row[i] /= whole;
+}

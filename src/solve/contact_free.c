@@ -1,0 +1,249 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Contact where something moves freely: platens under a force or free to tilt, and parts of the body that
+ * supports do not hold. Their amounts y stand in the gaps, g = g0 + C f + B y, and each has an equation of
+ * balance, Q + B' f = 0: Q is the force on the platen (a free tilt: 0), or what the loads of a part do along
+ * its rigid motion. The method of multipliers finds them: springs of compliance S, much softer than the body,
+ * pull each motion to where it was last,
+ *
+ *     y = y_old + S (Q + B' f),    g = g0 + B (y_old + S Q) + (C + B S B') f,
+ *
+ * which is a problem of contact of the usual kind, and leave no trace once y no longer changes (Rockafellar
+ * 1976). Each round takes the springs' share of the balance off, a hundredth of it and less. */
+#include "contact.h"
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <string.h>
+
+/* Springs are so much softer than a piece of the surface. */
+static const double SOFT = 1000;
+/* Balance of a motion over the largest force that is reached; that is accepted where rounding ends. */
+static const double BALANCED = 1e-13, ACCEPTED = 1e-9;
+enum { MOST_ROUNDS = 80 };
+
+/* A free motion: of a platen along an axis (3..5: about it), or of a part. */
+typedef struct { size_t platen; int axis; size_t mode; } motion;
+
+/* Its gaps per unit are columns of B, dim n x m, lengths per length. */
+typedef struct {
+    pg_system *s;
+    struct system_contact *c;
+    size_t  m, rows;
+    double  size;                                      /* of the body, m: rotations are by arcs of that radius */
+    motion *motion;
+    double *B, *Q, *S, *y, *C, *gap;
+} problem_of_motions;
+
+/* ---- motions ------------------------------------------------------------------------------------------- */
+static double size_of_body (const pg_problem *p)
+{
+    double low[3], high[3], sum = 0;
+    pg_problem_box (p, low, high);
+    for (int k = 0; k < p->dim; k++) sum += (high[k] - low[k]) * (high[k] - low[k]);
+    return sqrt (sum);
+}
+
+/* 1: the platen turns freely about that axis, and its gaps tell. */
+static int turns (const pg_problem *p, const pg_platen *w, int axis)
+{
+    if (!w->tilts) return 0;
+    if (p->dim == 2) return axis == 2;
+    /* about its own normal or axis a surface of revolution does not change */
+    return w->shape != PG_PLATEN_PLANE || fabs (w->normal[axis]) < 1 - 1e-12;
+}
+
+size_t contact_motions (const pg_system *s)
+{
+    const struct system_contact *c = s->contact;
+    size_t m = c->loose.n;
+    for (size_t i = 0; i < c->platens.n; i++)
+        for (int k = 0; k < 6; k++)
+            m += k < 3 ? (size_t) s->problem->platen[i].free[k]
+                       : (size_t) turns (s->problem, &s->problem->platen[i], k - 3);
+    return m;
+}
+
+static void column_of_platen (problem_of_motions *w, size_t j)
+{
+    const contact_platens *p = &w->c->platens;
+    size_t dim = w->c->pieces.dim;
+    double unit = w->motion[j].axis < 3 ? 1 : 1 / w->size;
+    for (size_t k = w->c->ncrack; k < w->c->pieces.n; k++) {
+        size_t piece = p->at[k - w->c->ncrack];
+        if (p->all.piece[piece].platen != w->motion[j].platen + 1) continue;
+        for (size_t a = 0; a < dim; a++)
+            w->B[j * w->rows + dim * k + a] = unit * p->row[6 * (dim * piece + a) + (size_t) w->motion[j].axis];
+    }
+}
+
+static pg_status find_motions (problem_of_motions *w)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = w->s->problem;
+    const contact_loose *l = &w->c->loose;
+    PG_ALLOC (w->motion, w->m);
+    PG_ALLOC (w->B, w->m * w->rows);
+    PG_ALLOC (w->S, w->m);
+    PG_ALLOC (w->y, w->m);
+    PG_ALLOC (w->C, w->rows * w->rows);
+    PG_ALLOC (w->gap, w->rows);
+    size_t j = 0;
+    for (size_t i = 0; i < w->c->platens.n; i++)
+        for (int k = 0; k < 6; k++) {
+            if (k < 3 ? !p->platen[i].free[k] : !turns (p, &p->platen[i], k - 3)) continue;
+            w->motion[j] = (motion) { i, k, SIZE_MAX };
+            column_of_platen (w, j++);
+        }
+    for (size_t i = 0; i < l->n; i++, j++) {
+        w->motion[j] = (motion) { SIZE_MAX, 0, i };
+        pg_sparse_multiply_transposed (&w->c->G, l->mode + i * w->s->ndof, w->B + j * w->rows);
+    }
+done:
+    return status;
+}
+
+/* What loads do along each motion at t. */
+static pg_status find_loads (problem_of_motions *w, double t, double *Q)
+{
+    pg_status status = PG_OK;
+    pg_system *s = w->s;
+    double *zero = NULL, *residual = NULL, reference;
+    PG_ALLOC (zero, s->ndof);
+    PG_ALLOC (residual, s->ndof);
+    if (w->c->loose.n) PG_TRY (s->force->balance (s->self, t, zero, residual, &reference));
+    for (size_t j = 0; j < w->m; j++) {
+        const motion *q = &w->motion[j];
+        Q[j] = q->mode != SIZE_MAX ? 0
+               : q->axis < 3       ? platens_press (s->problem, q->platen, q->axis, t)
+                                   : 0;
+        const double *mode = q->mode != SIZE_MAX ? w->c->loose.mode + q->mode * s->ndof : NULL;
+        for (size_t i = 0; mode && i < s->ndof; i++) Q[j] += mode[i] * residual[i];
+    }
+done:
+    pg_free (zero), pg_free (residual);
+    return status;
+}
+
+/* ---- messages ------------------------------------------------------------------------------------------ */
+static pg_status refuse (const problem_of_motions *w, size_t j, double left)
+{
+    const motion *q = &w->motion[j];
+    const pg_problem *p = w->s->problem;
+    if (q->mode == SIZE_MAX)
+        return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                         "the platen %s moves %s %c without end: nothing of the body bears %.3g N of what "
+                         "presses it; prescribe its displacement, or hold the body",
+                         p->platen[q->platen].name, q->axis < 3 ? "along" : "about", "xyz"[q->axis % 3], left);
+    const double *x = w->c->loose.place + 3 * q->mode;
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                     "a part of the body is held neither by prescribed displacements nor by what it touches: "
+                     "the one around (%.6g, %.6g, %.6g) m, of whose loads %.3g N stay unbalanced; prescribe "
+                     "displacements of it, more friction, or use a solver of motion", x[0], x[1], x[2], left);
+}
+
+/* ---- the rounds ---------------------------------------------------------------------------------------- */
+/* Springs by the compliance of the pieces that a motion reaches, and C with them. */
+static void soften (problem_of_motions *w)
+{
+    size_t n = w->rows;
+    memcpy (w->C, w->c->C, n * n * sizeof *w->C);
+    for (size_t j = 0; j < w->m; j++) {
+        const double *b = w->B + j * n;
+        double own = 0, size = 0, count = 0;
+        for (size_t i = 0; i < n; i++)
+            if (b[i] != 0) own += w->c->C[i * n + i], size += b[i] * b[i], count++;
+        w->S[j] = size > 0 ? SOFT * own / count / size : 0;
+        for (size_t i = 0; i < n; i++)
+            for (size_t k = 0; b[i] != 0 && k < n; k++) w->C[i * n + k] += w->S[j] * b[i] * b[k];
+    }
+}
+
+/* Unbalanced force of each motion at the forces at hand; the largest, and the largest force there is. */
+static void find_balance (const problem_of_motions *w, const double *f, double *left, double *worst,
+                          size_t *which, double *size)
+{
+    *worst = *size = 0, *which = 0;
+    for (size_t j = 0; j < w->m; j++) {
+        double sum = w->Q[j], all = fabs (w->Q[j]);
+        for (size_t i = 0; i < w->rows; i++)
+            sum += w->B[j * w->rows + i] * f[i], all += fabs (w->B[j * w->rows + i] * f[i]);
+        left[j] = sum, *size = fmax (*size, all);
+        if (fabs (sum) > *worst) *worst = fabs (sum), *which = j;
+    }
+}
+
+static pg_status iterate (problem_of_motions *w, pg_contact_solution *out, const double *open)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = w->c;
+    double *left = NULL, worst = INFINITY, last, size;
+    size_t which = 0;
+    PG_ALLOC (left, w->m);
+    soften (w);
+    for (size_t i = 0; i < w->rows; i++) out->force[i] = 0;
+    find_balance (w, out->force, left, &worst, &which, &size);
+    for (size_t j = 0; j < w->m; j++)
+        if (w->S[j] == 0 && fabs (w->Q[j]) > ACCEPTED * size) {
+            status = refuse (w, j, fabs (w->Q[j]));
+            goto done;
+        }
+    worst = INFINITY;
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        for (size_t i = 0; i < w->rows; i++) {
+            w->gap[i] = open[i];
+            for (size_t j = 0; j < w->m; j++)
+                w->gap[i] += w->B[j * w->rows + i] * (w->y[j] + w->S[j] * w->Q[j]);
+        }
+        pg_contact_problem problem = { .n = c->pieces.n, .dim = c->pieces.dim, .C = w->C, .gap = w->gap,
+                                       .coefficient = c->coefficient, .cohesion = c->cohesion,
+                                       .slip = c->history ? c->before : NULL };
+        PG_TRY (pg_contact_solve (out, &problem));
+        last = worst;
+        find_balance (w, out->force, left, &worst, &which, &size);
+        for (size_t j = 0; j < w->m; j++) w->y[j] += w->S[j] * left[j];
+        if (worst <= BALANCED * size || (worst <= ACCEPTED * size && worst > 0.5 * last)) goto done;
+        for (size_t j = 0; j < w->m; j++)
+            if (!(fabs (w->y[j]) <= w->size) && fabs (left[j]) > ACCEPTED * size) {
+                status = refuse (w, j, fabs (left[j]));
+                goto done;
+            }
+    }
+    if (!(worst <= ACCEPTED * size)) status = refuse (w, which, worst);
+done:
+    pg_free (left);
+    return status;
+}
+
+/* Amounts of now, as y: those that the gaps at hand contain. */
+static double *amount_of (problem_of_motions *w, size_t j)
+{
+    const motion *q = &w->motion[j];
+    return q->mode != SIZE_MAX ? &w->c->loose.amount[q->mode] : &w->c->platens.motion[q->platen][q->axis];
+}
+
+pg_status contact_press_free (pg_system *s, double t, pg_contact_solution *out, double *open, double *d)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    problem_of_motions w = { .s = s, .c = c, .m = contact_motions (s), .rows = c->pieces.dim * c->pieces.n,
+                             .size = size_of_body (s->problem) };
+    PG_ALLOC (w.Q, w.m);
+    PG_TRY (find_motions (&w));
+    PG_TRY (find_loads (&w, t, w.Q));
+    for (size_t j = 0; j < w.m; j++) {
+        double unit = w.motion[j].mode == SIZE_MAX && w.motion[j].axis > 2 ? w.size : 1;
+        w.y[j] = *amount_of (&w, j) * unit;
+        for (size_t i = 0; i < w.rows; i++) open[i] -= w.B[j * w.rows + i] * w.y[j];
+    }
+    PG_TRY (iterate (&w, out, open));
+    for (size_t j = 0; j < w.m; j++) {
+        double unit = w.motion[j].mode == SIZE_MAX && w.motion[j].axis > 2 ? w.size : 1, *now = amount_of (&w, j);
+        if (w.motion[j].mode == SIZE_MAX) *now = w.y[j] / unit;
+        else loose_move (&c->loose, s->ndof, w.motion[j].mode, w.y[j] - *now, d);
+    }
+    platens_gaps (s);
+done:
+    pg_free (w.motion), pg_free (w.B), pg_free (w.Q), pg_free (w.S), pg_free (w.y), pg_free (w.C),
+        pg_free (w.gap);
+    return status;
+}

@@ -1,0 +1,370 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Rigid platens in equilibria with contact: their pieces stand behind those of cracks, their prescribed motion
+ * enters the gaps, their free motion is an unknown beside the forces (contact_free.c). Only pieces that can
+ * come near are pairs: those within two spacings of the nearest one and the way that the platen goes; the gaps
+ * of the others are looked at after each solve, and what has closed becomes a pair. Work of a platen is the
+ * force that it exerts times its motion, by trapezoids like that of loads. */
+#include "contact.h"
+#include <math.h>
+#include <string.h>
+
+/* How far beyond the nearest piece and the way of the platen pieces are pairs, spacings. */
+static const double NEAR = 1;
+
+/* ---- life ---------------------------------------------------------------------------------------------- */
+static pg_status append (pg_contact_pieces *to, const pg_contact_pieces *from, const unsigned char *which)
+{
+    pg_status status = PG_OK;
+    size_t dim = from->dim, points = to->npoint, pieces = to->n;
+    for (size_t k = 0; k < from->n; k++)
+        if (!which || which[k]) pieces++, points += from->first[k + 1] - from->first[k];
+    size_t room[6] = { 0 };
+    PG_GROW (to->piece, room[0], pieces + 1);
+    PG_GROW (to->first, room[1], pieces + 1);
+    PG_GROW (to->x, room[2], points * dim);
+    PG_GROW (to->normal, room[3], points * dim);
+    PG_GROW (to->tangent, room[4], points * dim * (dim - 1));
+    PG_GROW (to->weight, room[5], points);
+    to->dim = dim;
+    if (!to->n) to->first[0] = 0;
+    for (size_t k = 0; k < from->n; k++) {
+        if (which && !which[k]) continue;
+        size_t q = from->first[k], count = from->first[k + 1] - q, at = to->npoint;
+        memcpy (to->x + at * dim, from->x + q * dim, count * dim * sizeof *to->x);
+        memcpy (to->normal + at * dim, from->normal + q * dim, count * dim * sizeof *to->x);
+        memcpy (to->tangent + at * dim * (dim - 1), from->tangent + q * dim * (dim - 1),
+                count * dim * (dim - 1) * sizeof *to->x);
+        memcpy (to->weight + at, from->weight + q, count * sizeof *to->x);
+        to->piece[to->n++] = from->piece[k];
+        to->npoint += count, to->first[to->n] = to->npoint;
+    }
+done:
+    return status;
+}
+
+/* The pieces opposite all platens, from the positions at the start; a platen in the body is refused. */
+pg_status platens_create (pg_system *s)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    contact_platens *w = &c->platens;
+    const pg_problem *p = s->problem;
+    pg_contact_pieces one = { 0 };
+    double *gap = NULL;
+    size_t dim = (size_t) p->dim, room = 0;
+    w->n = p->nplaten;
+    PG_ALLOC (w->motion, w->n);
+    PG_ALLOC (w->reaction, w->n);
+    PG_ALLOC (w->booked, w->n);
+    PG_ALLOC (w->start, w->n);
+    PG_ALLOC (w->shown, w->n);
+    for (size_t i = 0; i < w->n; i++) {
+        PG_TRY (pg_platen_pieces_create (&one, &gap, p, i));
+        if (!one.n)
+            PG_FAIL (PG_E_USAGE, "nothing of the body's surface faces the platen %s: turn its normal, or move "
+                     "it", p->platen[i].name);
+        for (size_t k = 0; k < one.n; k++)
+            if (gap[k] < -PG_NO_LENGTH * pg_problem_spacing_at (p, one.piece[k].x))
+                PG_FAIL (PG_E_USAGE, "the platen %s overlaps the body by %.3g m at (%.6g, %.6g, %.6g) m before "
+                         "anything moves: put it where it touches at most", p->platen[i].name, -gap[k],
+                         one.piece[k].x[0], one.piece[k].x[1], one.piece[k].x[2]);
+        size_t before = w->all.n;
+        PG_TRY (append (&w->all, &one, NULL));
+        PG_GROW (w->distance, room, w->all.n);
+        memcpy (w->distance + before, gap, one.n * sizeof *gap);
+        pg_contact_pieces_clear (&one);
+        pg_free (gap), gap = NULL;
+    }
+    PG_ALLOC (w->row, 6 * dim * w->all.n);
+    PG_ALLOC (w->taken, w->all.n);
+    PG_ALLOC (w->at, w->all.n);
+    for (size_t k = 0; k < w->all.n; k++)
+        pg_platen_row (&w->all, k, p->platen[w->all.piece[k].platen - 1].point, w->row + 6 * dim * k);
+    platens_take (s);
+done:
+    pg_contact_pieces_clear (&one);
+    pg_free (gap);
+    return status;
+}
+
+void platens_free (contact_platens *w)
+{
+    pg_contact_pieces_clear (&w->all);
+    pg_sparse_clear (&w->G);
+    pg_free (w->distance), pg_free (w->row), pg_free (w->taken), pg_free (w->at);
+    pg_free (w->motion), pg_free (w->reaction), pg_free (w->booked), pg_free (w->start), pg_free (w->shown);
+    memset (w, 0, sizeof *w);
+}
+
+/* Prescribed component k of a platen at t, m. */
+static double prescribed (const pg_problem *p, size_t i, int k, double t)
+{
+    static const double anywhere[3] = { 0 };
+    int load = p->platen[i].motion;
+    return load < 0 ? 0 : pg_load_value (&p->load[load], k, p->dim, anywhere, t);
+}
+
+/* Marks the pieces that are pairs from the start. */
+void platens_take (pg_system *s)
+{
+    contact_platens *w = &s->contact->platens;
+    const pg_problem *p = s->problem;
+    double ends = p->nstage ? (double) p->nstage : 1;
+    for (size_t i = 0; i < w->n; i++) {
+        double least = INFINITY, way = 0;
+        for (size_t k = 0; k < w->all.n; k++)
+            if (w->all.piece[k].platen == i + 1) least = fmin (least, w->distance[k]);
+        for (int look = 1; look <= 8; look++) {
+            double size = 0;
+            for (int k = 0; k < p->dim; k++) size += pow (prescribed (p, i, k, ends * look / 8), 2);
+            way = fmax (way, sqrt (size));
+        }
+        for (size_t k = 0; k < w->all.n; k++) {
+            if (w->all.piece[k].platen != i + 1) continue;
+            double near = NEAR * pg_problem_spacing_at (p, w->all.piece[k].x);
+            w->taken[k] = w->distance[k] <= least + near || w->distance[k] <= way;
+        }
+    }
+}
+
+/* ---- rows ---------------------------------------------------------------------------------------------- */
+/* Columns of two matrices side by side, of the second one those that are taken. */
+static pg_status join_columns (pg_sparse *out, const pg_sparse *a, const pg_sparse *b, size_t width,
+                               const unsigned char *taken)
+{
+    pg_status status = PG_OK;
+    size_t entries = a->start ? (size_t) a->start[a->ncol] : 0, columns = a->ncol, at = 0;
+    for (size_t j = 0; j < b->ncol; j++)
+        if (taken[j / width]) columns++, entries += (size_t) (b->start[j + 1] - b->start[j]);
+    PG_TRY (pg_sparse_create (out, b->nrow, columns, entries, 0));
+    for (int part = 0; part < 2; part++) {
+        const pg_sparse *m = part ? b : a;
+        for (size_t j = 0; m->start && j < m->ncol; j++) {
+            if (part && !taken[j / width]) continue;
+            size_t count = (size_t) (m->start[j + 1] - m->start[j]);
+            long to = out->start[at];
+            memcpy (out->row + to, m->row + m->start[j], count * sizeof *out->row);
+            memcpy (out->value + to, m->value + m->start[j], count * sizeof *out->value);
+            out->start[++at] = to + (long) count;
+        }
+    }
+done:
+    return status;
+}
+
+pg_status platens_join (pg_system *s)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    contact_platens *w = &c->platens;
+    pg_sparse both = { 0 };
+    c->pieces.n = c->ncrack, c->pieces.npoint = c->ncrack ? c->pieces.first[c->ncrack] : 0;
+    PG_TRY (append (&c->pieces, &w->all, w->taken));
+    for (size_t k = 0, at = c->ncrack; k < w->all.n; k++) if (w->taken[k]) w->at[at++ - c->ncrack] = k;
+    if (c->ncrack) c->G.ncol = c->ncrack * c->pieces.dim;
+    else c->G.ncol = 0;
+    PG_TRY (join_columns (&both, &c->G, &w->G, c->pieces.dim, w->taken));
+    pg_sparse_clear (&c->G);
+    c->G = both;
+done:
+    return status;
+}
+
+pg_status platens_refresh (pg_system *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    contact_platens *w = &s->contact->platens;
+    pg_jump_rows rows = { 0 };
+    if (!w->n) return PG_OK;
+    if (!s->force->trace)
+        PG_FAIL (PG_E_USAGE, "platens are known of forces that show the displacement of the surface");
+    PG_TRY (s->force->trace (s->self, state, w->all.npoint, w->all.x, w->all.normal, &rows));
+    pg_sparse_clear (&w->G);
+    PG_TRY (pg_contact_rows_of (&w->G, &w->all, s->problem, &rows));
+    PG_TRY (platens_join (s));
+done:
+    pg_jump_rows_clear (&rows);
+    return status;
+}
+
+/* ---- motion -------------------------------------------------------------------------------------------- */
+void platens_place (pg_system *s, double t)
+{
+    contact_platens *w = &s->contact->platens;
+    for (size_t i = 0; i < w->n; i++) {
+        memset (w->motion[i], 0, sizeof w->motion[i]);
+        for (int k = 0; k < s->problem->dim; k++) w->motion[i][k] = prescribed (s->problem, i, k, t);
+    }
+    platens_gaps (s);
+}
+
+/* What rows of a pair gain by the motion of its platen. */
+static double gain (const contact_platens *w, size_t piece, size_t row)
+{
+    const double *b = w->row + 6 * (w->all.dim * piece + row), *q = w->motion[w->all.piece[piece].platen - 1];
+    double sum = 0;
+    for (int k = 0; k < 6; k++) sum += b[k] * q[k];
+    return sum;
+}
+
+void platens_gaps (pg_system *s)
+{
+    struct system_contact *c = s->contact;
+    contact_platens *w = &c->platens;
+    size_t dim = c->pieces.dim;
+    for (size_t k = c->ncrack; w->n && k < c->pieces.n; k++) {
+        size_t piece = w->at[k - c->ncrack];
+        for (size_t a = 0; a < dim; a++)
+            c->initial[dim * k + a] = (a ? 0 : w->distance[piece]) + gain (w, piece, a);
+    }
+}
+
+/* Pieces that are no pairs yet, and have closed: now they are. */
+int platens_look (pg_system *s, const double *d)
+{
+    contact_platens *w = &s->contact->platens;
+    size_t dim = w->all.dim;
+    int found = 0;
+    for (size_t k = 0; k < w->all.n; k++) {
+        double gap = w->distance[k] + (w->taken[k] ? 0 : gain (w, k, 0));
+        if (w->taken[k]) continue;
+        for (long e = w->G.start[dim * k]; e < w->G.start[dim * k + 1]; e++)
+            gap += w->G.value[e] * d[w->G.row[e]];
+        if (gap < 0) w->taken[k] = 1, found = 1;
+    }
+    return found;
+}
+
+double platens_press (const pg_problem *p, size_t i, int k, double t)
+{
+    static const double anywhere[3] = { 0 };
+    int load = p->platen[i].force;
+    return load < 0 || k >= 3 ? 0 : pg_load_value (&p->load[load], k, p->dim, anywhere, t);
+}
+
+/* Forces and moments (about `point`) that the platens exert on the body: - B' f. */
+void platens_react (pg_system *s)
+{
+    struct system_contact *c = s->contact;
+    contact_platens *w = &c->platens;
+    size_t dim = c->pieces.dim;
+    for (size_t i = 0; i < w->n; i++) memset (w->reaction[i], 0, sizeof w->reaction[i]);
+    for (size_t k = c->ncrack; w->n && c->active && k < c->pieces.n; k++) {
+        size_t piece = w->at[k - c->ncrack];
+        double *to = w->reaction[w->all.piece[piece].platen - 1];
+        for (size_t a = 0; a < dim; a++)
+            for (int m = 0; m < 6; m++)
+                to[m] -= w->row[6 * (dim * piece + a) + (size_t) m] * c->force[dim * k + a];
+    }
+}
+
+/* ---- work and results ---------------------------------------------------------------------------------- */
+double platens_book (pg_system *s, double scale)
+{
+    contact_platens *w = s->contact ? &s->contact->platens : NULL;
+    double work = 0;
+    for (size_t i = 0; w && i < w->n; i++)
+        for (int k = 0; k < 6; k++) {
+            double f = scale * w->reaction[i][k], q = scale * w->motion[i][k], *old = w->booked[i];
+            work += 0.5 * (old[k] + f) * (q - old[6 + k]);
+            old[k] = f, old[6 + k] = q;
+        }
+    return work;
+}
+
+void platens_reactions (const pg_system *s, double *reaction)
+{
+    const contact_platens *w = s->contact ? &s->contact->platens : NULL;
+    for (size_t i = 0; w && reaction && i < w->n; i++)
+        for (int k = 0; k < 3; k++) {
+            const pg_platen *p = &s->problem->platen[i];
+            if (p->motion >= 0) reaction[3 * p->motion + k] = w->reaction[i][k];
+            if (p->force >= 0) reaction[3 * p->force + k] = w->reaction[i][k];
+        }
+}
+
+double platens_secant (const pg_system *s)
+{
+    const contact_platens *w = s->contact ? &s->contact->platens : NULL;
+    double sum = 0;
+    for (size_t i = 0; w && i < w->n; i++)
+        for (int k = 0; k < 6; k++) sum += w->reaction[i][k] * w->motion[i][k];
+    return sum;
+}
+
+void platens_show (pg_system *s, double scale)
+{
+    contact_platens *w = &s->contact->platens;
+    for (size_t i = 0; i < w->n; i++)
+        for (int k = 0; k < 6; k++)
+            w->shown[i].force[k] = scale * w->reaction[i][k], w->shown[i].motion[k] = scale * w->motion[i][k];
+}
+
+const pg_platen_values *pg_solver_platens (const pg_solver *s, size_t *n)
+{
+    const struct system_contact *c = s->break_loop.system.contact;
+    *n = c ? c->platens.n : 0;
+    return c ? c->platens.shown : NULL;
+}
+
+/* A platen that goes along its surface meets other places of a curved one: the distance by the linear gap and
+ * that of the place itself, the body having moved, differ; told where that is much. */
+void platens_doubt (pg_system *s, const double *d)
+{
+    struct system_contact *c = s->contact;
+    contact_platens *w = &c->platens;
+    size_t dim = c->pieces.dim;
+    double worst = 0, h = s->problem->cloud.h;
+    size_t at = 0;
+    if (w->warned || !w->n || !c->active) return;
+    for (size_t k = c->ncrack; k < c->pieces.n; k++) {
+        const pg_contact_piece *piece = &c->pieces.piece[k];
+        const pg_platen *p = &s->problem->platen[piece->platen - 1];
+        double side = 0;
+        if (!(c->force[dim * k] > 0) || p->shape == PG_PLATEN_PLANE) continue;
+        for (size_t a = 1; a < dim; a++) side += c->gap[dim * k + a] * c->gap[dim * k + a];
+        if (0.5 * side / p->radius > worst) worst = 0.5 * side / p->radius, at = k;
+    }
+    (void) d;
+    if (!(worst > 1e-2 * h)) return;
+    w->warned = 1;
+    pg_statistics_warn (s->report,
+                        "the body slides along the curved platen %s by %.3g m: gaps are measured along the "
+                        "normals at the start, which puts them out by %.2g m there",
+                        s->problem->platen[c->pieces.piece[at].platen - 1].name,
+                        sqrt (2 * worst * s->problem->platen[c->pieces.piece[at].platen - 1].radius), worst);
+}
+
+/* ---- checkpoints --------------------------------------------------------------------------------------- */
+void platens_save (contact_platens *w)
+{
+    if (w->n) memcpy (w->start, w->booked, w->n * sizeof *w->start);
+}
+
+void platens_return (contact_platens *w)
+{
+    if (w->n) memcpy (w->booked, w->start, w->n * sizeof *w->start);
+}
+
+/* Called before the pairs are read: which pieces they are belongs to it. */
+pg_status platens_keep (pg_system *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    contact_platens *w = &s->contact->platens;
+    long warned = w->warned;
+    if (!w->n) return PG_OK;
+    PG_TRY (k->bytes (k->context, "platens.taken", w->all.n, w->taken));
+    PG_TRY (k->counts (k->context, "platens.warned", 1, &warned));
+    PG_KEEP_BOUND (k, "a warning of platens", warned, 0, 1);
+    w->warned = (int) warned;
+    PG_TRY (k->numbers (k->context, "platens.motion", 6 * w->n, w->motion[0]));
+    PG_TRY (k->numbers (k->context, "platens.reaction", 6 * w->n, w->reaction[0]));
+    PG_TRY (k->numbers (k->context, "platens.booked", 12 * w->n, w->booked[0]));
+    PG_TRY (k->numbers (k->context, "platens.start", 12 * w->n, w->start[0]));
+    for (size_t i = 0; i < w->n; i++) {
+        PG_TRY (k->numbers (k->context, "platens.force_shown", 6, w->shown[i].force));
+        PG_TRY (k->numbers (k->context, "platens.motion_shown", 6, w->shown[i].motion));
+    }
+done:
+    return status;
+}
