@@ -105,6 +105,7 @@ typedef struct {
     double area;                                       /* of its faces, thickness included, m^2 */
     double length;                                     /* m; space: side of a square of that area */
     size_t path;                                       /* pieces of one path follow each other */
+    size_t platen;                                     /* 1 + number of the platen opposite; 0: a crack */
     double arc;                                        /* of its middle along its path, m; space: 0 */
 } pg_contact_piece;
 /* The cracks of a state in pieces, as far as they cut bonds and lie in the body. */
@@ -122,6 +123,20 @@ void      pg_contact_pieces_clear  (pg_contact_pieces *pieces);
  * do not count. PG_E_USAGE: a piece has no other points. */
 pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
                            const pg_force_type *force, void *self, const pg_state *state, size_t *poor);
+
+/* The same from the displacement, or jump, at the points. */
+pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
+                              const pg_jump_rows *jump);
+
+/* ---- platens ------------------------------------------------------------------------------------------- */
+/* The surface of the body that faces a platen (problem->platen) in pieces of about two spacings, their
+ * normals from the platen towards the body; *gap: mean distance of each at the start, m, which the caller
+ * frees. Slips are those of the body over the platen. */
+pg_status pg_platen_pieces_create (pg_contact_pieces *out, double **gap, const pg_problem *problem,
+                                   size_t platen);
+/* What the gap and the slips of piece k gain by each of six motions of its platen: translations along x, y, z
+ * (per m), rotations about axes through `about` (m, per rad). row: dim x 6. */
+void pg_platen_row (const pg_contact_pieces *pieces, size_t k, const double *about, double *row);
 
 /* ---- what a scene asks for ----------------------------------------------------------------------------- */
 typedef enum { PG_CONTACT_NONE, PG_CONTACT_NORMAL, PG_CONTACT_FRICTION } pg_contact_kind;

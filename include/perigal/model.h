@@ -75,8 +75,8 @@ typedef struct {
     double  growth;  /* of cracks since the stage began, m (in space m^2); 0: any */
 } pg_stage;
 
-/* A rigid platen or indenter (key `platens`): what of the body comes to its surface is pressed, and rubbed, by
- * it. It is moved or pressed by loads of its own, which follow those of `boundary`. Components that have
+/* A rigid platen or indenter (key `platens`): what of the body comes to its surface is pressed, and rubbed,
+ * by it. It is moved or pressed by loads of its own, which follow those of `boundary`. Components that have
  * neither a displacement nor a force are held. */
 typedef enum { PG_PLATEN_PLANE, PG_PLATEN_CYLINDER, PG_PLATEN_SPHERE } pg_platen_shape;
 typedef struct {

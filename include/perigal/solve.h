@@ -276,16 +276,16 @@ typedef struct pg_progress {
     double      damage;  /* largest damage in solver.stop.set; NAN: none, or not looked at yet */
 } pg_progress;
 void      pg_solver_progress (const pg_solver *solver, const pg_state *state, pg_progress *out);
-/* Contact of a piece of crack in the state of the last step: pressure and shear stress (Pa) on the face that
- * its normal shows to (plane: the left one), mean gap and slip (m). Shear stress and slip are one number,
- * along the path, in the plane, and vectors in space. */
+/* Contact of a piece of crack, or of the surface opposite a platen, in the state of the last step: pressure
+ * and shear stress (Pa) on the face that its normal shows to (plane: the left one), mean gap and slip (m).
+ * Shear stress and slip are one number, along the path, in the plane, and vectors in space. */
 typedef struct {
-    size_t path;
+    size_t path, platen;                               /* 1 + number of the platen opposite; 0: a crack */
     double x[3], normal[3], area, length, arc, pressure, shear[3], gap, slip[3];
     pg_contact_status status;
 } pg_contact_values;
-/* What a rigid platen exerts on the body in the state of the last step (N; moments about its `point`, N m), and
- * how it has moved (m) and turned (rad); along and about x, y, z. */
+/* What a rigid platen exerts on the body in the state of the last step (N; moments about its `point`, N m),
+ * and how it has moved (m) and turned (rad); along and about x, y, z. */
 typedef struct { double force[6], motion[6]; } pg_platen_values;
 /* Platen by platen, as problem->platen; *n 0: there are none. Borrowed until the next step. */
 const pg_platen_values *pg_solver_platens (const pg_solver *solver, size_t *n);

@@ -271,35 +271,29 @@ static void put_column (pg_sparse *out, size_t column, size_t dim, const int *li
     out->start[column + 1] = at;
 }
 
-pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *p,
-                           const pg_force_type *force, void *self, const pg_state *state, size_t *poor)
+pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *p,
+                              const pg_jump_rows *jump)
 {
     pg_status status = PG_OK;
-    pg_jump_rows jump = { 0 };
     size_t n = p->cloud.n, d = pieces->dim, count, most = 0;
     double *row = NULL;
     unsigned char *seen = NULL;
     int *list = NULL;
     memset (out, 0, sizeof *out);
-    if (!force->jump)
-        PG_FAIL (PG_E_USAGE, "contact of crack faces is known of forces that show the jump of the "
-                             "displacement across a crack");
-    PG_TRY (force->jump (self, state, pieces->npoint, pieces->x, pieces->normal, PG_CONTACT_RADIUS, &jump));
-    *poor = jump.poor;
-    for (size_t e = 0; e < jump.start[jump.n]; e++) most += jump.value[e] != 0;
+    for (size_t e = 0; e < jump->start[jump->n]; e++) most += jump->value[e] != 0;
     PG_TRY (pg_sparse_create (out, d * n, d * pieces->n, d * d * most, 0));
     PG_ALLOC (row, d * d * n);
     PG_ALLOC (seen, n);
     PG_ALLOC (list, n);
     for (size_t k = 0; k < pieces->n; k++) {
-        double weight = gather (pieces, &jump, k, n, row, seen, list, &count);
+        double weight = gather (pieces, jump, k, n, row, seen, list, &count);
         char third[32] = "";
         if (d == 3) snprintf (third, sizeof third, ", %.6g", pieces->piece[k].x[2]);
         if (!(weight > 0))
             PG_FAIL (PG_E_USAGE,
-                     "contact of crack faces: within %g spacings of (%.6g, %.6g%s) m the body sees too "
-                     "little on one side of the crack for a gap: take a smaller spacing, or keep cracks and "
-                     "surfaces further apart",
+                     "contact: within %g spacings of (%.6g, %.6g%s) m the body sees too little on one side "
+                     "of the surface for a gap: take a smaller spacing, or keep cracks and surfaces further "
+                     "apart",
                      PG_CONTACT_RADIUS, pieces->piece[k].x[0], pieces->piece[k].x[1], third);
         qsort (list, count, sizeof *list, compare_nodes);
         for (size_t a = 0; a < d; a++)
@@ -308,7 +302,23 @@ pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, cons
     }
 done:
     pg_free (row), pg_free (seen), pg_free (list);
-    pg_jump_rows_clear (&jump);
     if (status != PG_OK) pg_sparse_clear (out);
+    return status;
+}
+
+pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *p,
+                           const pg_force_type *force, void *self, const pg_state *state, size_t *poor)
+{
+    pg_status status = PG_OK;
+    pg_jump_rows jump = { 0 };
+    memset (out, 0, sizeof *out);
+    if (!force->jump)
+        PG_FAIL (PG_E_USAGE, "contact of crack faces is known of forces that show the jump of the "
+                             "displacement across a crack");
+    PG_TRY (force->jump (self, state, pieces->npoint, pieces->x, pieces->normal, PG_CONTACT_RADIUS, &jump));
+    *poor = jump.poor;
+    PG_TRY (pg_contact_rows_of (out, pieces, p, &jump));
+done:
+    pg_jump_rows_clear (&jump);
     return status;
 }

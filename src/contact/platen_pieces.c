@@ -8,7 +8,8 @@
  * directions) they are divided into pieces of equal size; gaps are measured along the normal n of the platen
  * at its nearest place, from the positions at the start:
  *
- *     g_n = distance + n . (u - v),    g_t = t . (u - v),    v = q + w x (x - point) the motion of the platen. */
+ *     g_n = distance + n . (u - v),    g_t = t . (u - v),    v = q + w x (x - point) the motion of the
+ * platen. */
 #include "perigal/contact.h"
 #include <math.h>
 #include <stdlib.h>
@@ -153,8 +154,8 @@ static int compare_places (const void *a, const void *b)
     return (i->at > j->at) - (i->at < j->at);
 }
 
-/* Plane: number of the piece of each point (box[0]), along stretches without breaks, by equal lengths in local
- * spacings. */
+/* Plane: number of the piece of each point (box[0]), along stretches without breaks, by equal lengths in
+ * local spacings. */
 static long divide_line (facing *f)
 {
     long pieces = 0;
@@ -187,7 +188,8 @@ static long divide_grid (facing *f)
         double half = 0.5 * sqrt (f->q->weight[f->point[i].at]);
         h = fmin (h, f->point[i].h);
         for (int a = 0; a < 2; a++)
-            low[a] = fmin (low[a], f->point[i].s[a] - half), high[a] = fmax (high[a], f->point[i].s[a] + half);
+            low[a] = fmin (low[a], f->point[i].s[a] - half),
+            high[a] = fmax (high[a], f->point[i].s[a] + half);
     }
     for (int a = 0; a < 2 && f->n; a++)
         n[a] = (long) fmax (1, round ((high[a] - low[a]) / (PG_CONTACT_PIECE * h) * (1 - 1e-9)));

@@ -67,7 +67,8 @@ static const pg_key keys[] = {
       "plane: direction from the platen towards the body, of any length." },
     { "platens[].axis", PG_VECTOR, "1", NULL, "", no_choice, NULL, NULL,
       "cylinder in space: direction of its axis." },
-    { "platens[].radius", PG_NUMBER, "m", "(0, inf)", "", no_choice, NULL, NULL, "cylinder, sphere: radius." },
+    { "platens[].radius", PG_NUMBER, "m", "(0, inf)", "", no_choice, NULL, NULL,
+      "cylinder, sphere: radius." },
     { "platens[].width", PG_NUMBER, "m", "(0, inf)", "", no_choice, NULL, NULL,
       "plane: it is only so wide, half of it on either side of `point` (in space: a disk of this diameter); "
       "without end if not given." },

@@ -162,7 +162,8 @@ static pg_status read_load (pg_problem *problem, size_t i, const pg_scene *scene
         PG_TRY (pg_expression_compile (&load->value[k], text, unit));
         for (const char *c = "xyzra"; *c; c++)
             if (pg_expression_uses (load->value[k], *c)) {
-                pg_scene_fault (scene, path, "a rigid platen has one for all places: an expression of t alone");
+                pg_scene_fault (scene, path, "a rigid platen has one for all places: an expression of t "
+                                             "alone");
                 break;
             }
         if (pg_expression_uses (load->value[k], 't')) load->proportional = 0;

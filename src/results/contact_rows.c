@@ -1,12 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * contact.csv: what the faces of cracks bear, piece by piece, one row for each at every row of history.csv.
- * Runs without contact.kind have none. */
+ * contact.csv: what the faces of cracks, and surfaces opposite platens, bear, piece by piece, one row for
+ * each at every row of history.csv. Runs without contact.kind and platens have none. */
 #include "results_private.h"
 
 static const char *const columns[] = { "step [1]",     "time [s]",      "load_factor [1]", "path [1]",
                                        "arc [m]",      "x [m]",         "y [m]",           "length [m]",
                                        "pressure [Pa]", "shear [Pa]",   "gap [m]",         "slip [m]",
-                                       "status_code [1]" };
+                                       "status_code [1]", "platen_code [1]" };
 enum { COLUMNS = sizeof columns / sizeof *columns };
 
 pg_status pg_result_contact_create (pg_result *r, const result_marks *from)
@@ -14,7 +14,7 @@ pg_status pg_result_contact_create (pg_result *r, const result_marks *from)
     pg_status status = PG_OK;
     char path[4096];
     if (!from) PG_TRY (pg_result_remove (r, "contact.csv"));       /* of an earlier run */
-    if (pg_solver_settled (r->solver)->contact.kind == PG_CONTACT_NONE) return PG_OK;
+    if (pg_solver_settled (r->solver)->contact.kind == PG_CONTACT_NONE && !r->problem->nplaten) return PG_OK;
     snprintf (path, sizeof path, "%s/contact.csv", r->folder);
     PG_TRY (from ? pg_table_open (&r->contact, path, COLUMNS, columns, from->contact)
                  : pg_table_create (&r->contact, path, COLUMNS, columns));
@@ -32,7 +32,7 @@ pg_status pg_result_contact_write (pg_result *r, const pg_step *step)
                                       (double) v[k].path + 1,
                                       v[k].arc,              v[k].x[0],   v[k].x[1],    v[k].length,
                                       v[k].pressure,         v[k].shear[0],  v[k].gap,     v[k].slip[0],
-                                      (double) v[k].status };
+                                      (double) v[k].status, (double) v[k].platen };
         PG_TRY (pg_table_row (r->contact, row));
     }
 done:

@@ -58,7 +58,8 @@ void pg_result_curve_choose (pg_result *r)
             int platen = load->kind == PG_PLATEN_MOTION;
             if (!platen && (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_rotates (load)))
                 continue;
-            double size = platen ? fabs (pg_load_value (load, k, p->dim, anywhere, 1)) : farthest (p, load, k);
+            double size = platen ? fabs (pg_load_value (load, k, p->dim, anywhere, 1))
+                                 : farthest (p, load, k);
             if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
         }
     for (size_t l = 0; l < p->nload && r->curve_load < 0; l++) {

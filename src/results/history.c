@@ -38,7 +38,8 @@ static int goes_unstable (const pg_result *r)
 /* Columns of events.csv: numbers, then the names of bond set and kind. */
 enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
 
-/* Forces and displacements along the axes of the body, moments and rotations about those it can turn about. */
+/* Forces and displacements along the axes of the body, moments and rotations about those it can turn about.
+ * */
 static int platen_has (const pg_problem *p, int k) { return p->dim == 3 || k < 2 || k == 5; }
 
 /* The order of the columns here is that of the values in pg_result_history_row. Names are at
@@ -50,7 +51,8 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
     size_t n = 0, tips = pg_result_paths_columns (r),
-           most = 14 + UNSTABLE_COLUMNS + 6 * p->nload + 12 * p->nplaten + p->ngauge + r->naverage + r->ntip + tips + 1;
+           most = 14 + UNSTABLE_COLUMNS + 6 * p->nload + 12 * p->nplaten + p->ngauge + r->naverage
+                  + r->ntip + tips + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);

@@ -87,7 +87,7 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
 {
     const pg_problem *p = res->problem;
     const pg_contact_setting *setting = &pg_solver_settled (res->solver)->contact;
-    int contact = setting->kind != PG_CONTACT_NONE;
+    int contact = setting->kind != PG_CONTACT_NONE || p->nplaten;
     pg_json_count (j, "points", p->cloud.n);
     pg_json_count (j, "bonds", p->first_bond[PG_BOND_SETS]);
     pg_json_count (j, "dofs", state->ndof);

@@ -24,9 +24,37 @@ static inline contact_layout contact_layout_of (size_t dim)
                              .values = dim + 1 + 3*m, .parts = m };
 }
 
+/* Rigid motions of parts of the body that supports do not hold: K is singular along them (contact_loose.c).
+ * */
+typedef struct {
+    size_t  n, cap_mode, cap_prop, cap_place, cap_amount, cap_target;
+    double *mode;                                      /* displacement of each, about 1 (ndof x n) */
+    size_t *prop;                                      /* unknown on which a spring stands for each (n) */
+    double *place;                                     /* middle of its part, m (3 n) */
+    double *amount, *target;  /* how far each has moved; where that puts the feet of the springs, m (n) */
+} contact_loose;
+
+/* Rigid platens (contact_platens.c). */
+typedef struct {
+    size_t  n;
+    pg_contact_pieces all;                             /* of the surface opposite them, platen by platen */
+    double *distance, *row;  /* mean distances at the start, m; rows of pg_platen_row (6 dim each) */
+    pg_sparse G;                                       /* columns of all pieces */
+    unsigned char *taken;                              /* 1: the piece is a pair (all.n) */
+    size_t *at;                                        /* piece of each pair behind those of cracks */
+    double (*motion)[6], (*reaction)[6];  /* of the state last solved for: m, rad; on the body, N, N m */
+    /* forces and ways of each piece when work was last booked; at the step's start (2 dim all.n) */
+    double *booked, *start;
+    pg_platen_values *shown;
+    int     warned;
+} contact_platens;
+
 struct system_contact {
     pg_contact_setting setting;
-    pg_contact_pieces  pieces;
+    pg_contact_pieces  pieces;                         /* of cracks, then of platens */
+    size_t    ncrack;                                  /* those of cracks */
+    contact_platens platens;
+    contact_loose   loose;
     pg_sparse G;                                       /* G', ndof x dim n */
     size_t    poor;                                    /* points that see too little */
     unsigned long made;                                /* revision of K that Z and C belong to, + 1 */
@@ -63,6 +91,53 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, doub
 
 /* The pieces of the state at hand for results, loads scaled. */
 pg_status contact_show (pg_system *s, double scale);
+
+/* After pieces of platens have been taken: pairs anew. */
+pg_status contact_more_pairs (pg_system *s);
+
+/* ---- contact_platens.c: all do nothing without platens, or without contact (s->contact NULL) ----------- */
+pg_status platens_create  (pg_system *s);
+void      platens_free    (contact_platens *platens);
+void      platens_take    (pg_system *s);              /* marks the pieces that are pairs from the start */
+pg_status platens_refresh (pg_system *s, const pg_state *state);       /* rows of the state; then joins */
+pg_status platens_join    (pg_system *s);              /* pieces and rows of cracks and of what is taken */
+/* Platens where their displacements at t put them, free motions at 0; initial gaps of their pairs. */
+void      platens_place   (pg_system *s, double t);
+void      platens_gaps    (pg_system *s);              /* initial gaps for the motions at hand */
+/* Marks pieces that are no pairs and overlap at d; 1: there are some. */
+int       platens_look    (pg_system *s, const double *d);
+/* Force along axis k on a platen at t, N. */
+double    platens_press   (const pg_problem *p, size_t platen, int k, double t);
+void      platens_react   (pg_system *s);              /* reactions from the forces of the pairs */
+/* Work from the state booked last to the one at hand, loads scaled, J. */
+double    platens_book    (pg_system *s, double scale);
+/* Fills in the reactions of their loads (nload x 3). */
+void      platens_reactions (const pg_system *s, double *reaction);
+double    platens_secant  (const pg_system *s);        /* sum of reactions times motions, J */
+void      platens_show    (pg_system *s, double scale);
+void      platens_doubt   (pg_system *s);              /* warns where the body slides along a curved one */
+void      platens_save    (contact_platens *platens);
+void      platens_return  (contact_platens *platens);
+pg_status platens_keep    (pg_system *s, const pg_keeper *k);
+/* platen_options.c: what does not go together with platens, as faults of the scene; 1: all of them touch the
+ * body from the start on whole facets, so that equilibria scale with the load. */
+void      platens_check   (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
+int       platens_touch   (const pg_problem *problem);
+
+/* ---- contact_loose.c ----------------------------------------------------------------------------------- */
+pg_status loose_refresh (contact_loose *l, const pg_system *s, const pg_state *state);
+void      loose_free    (contact_loose *l);
+/* Springs on K's diagonal. */
+void      loose_matrix  (const pg_system *s, const pg_sparse *K, double *value);
+void      loose_forces  (const pg_system *s, const double *d, double *residual);    /* residual -= theirs */
+double    loose_pull    (const pg_system *s, const double *d);         /* the largest of them, N */
+void      loose_move    (contact_loose *l, size_t ndof, size_t mode, double by, double *d);
+
+/* ---- contact_free.c ------------------------------------------------------------------------------------ */
+size_t    contact_motions (const pg_system *s);        /* how many amounts are unknowns */
+/* As pg_contact_solve, with free motions: `open` are gaps without forces, those of the motions at hand in
+ * them (it is scratch). Motions, initial gaps and d of loose parts follow. */
+pg_status contact_press_free (pg_system *s, double t, pg_contact_solution *out, double *open, double *d);
 
 /* ---- contact_memory.c ---------------------------------------------------------------------------------- */
 /* Numbers along the tangents of piece k, times scale, as a vector (space: 3) or a number (plane: 1). */

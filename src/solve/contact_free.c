@@ -29,7 +29,7 @@ typedef struct {
     pg_system *s;
     struct system_contact *c;
     size_t  m, rows;
-    double  size;                                      /* of the body, m: rotations are by arcs of that radius */
+    double  size;                                      /* of the body, m: radius of arcs of rotations */
     motion *motion;
     double *B, *Q, *S, *y, *C, *gap;
 } problem_of_motions;
@@ -72,7 +72,8 @@ static void column_of_platen (problem_of_motions *w, size_t j)
         size_t piece = p->at[k - w->c->ncrack];
         if (p->all.piece[piece].platen != w->motion[j].platen + 1) continue;
         for (size_t a = 0; a < dim; a++)
-            w->B[j * w->rows + dim * k + a] = unit * p->row[6 * (dim * piece + a) + (size_t) w->motion[j].axis];
+            w->B[j * w->rows + dim * k + a] = unit * p->row[6 * (dim * piece + a)
+                                                            + (size_t) w->motion[j].axis];
     }
 }
 
@@ -133,7 +134,8 @@ static pg_status refuse (const problem_of_motions *w, size_t j, double left)
         return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
                          "the platen %s moves %s %c without end: nothing of the body bears %.3g N of what "
                          "presses it; prescribe its displacement, or hold the body",
-                         p->platen[q->platen].name, q->axis < 3 ? "along" : "about", "xyz"[q->axis % 3], left);
+                         p->platen[q->platen].name, q->axis < 3 ? "along" : "about", "xyz"[q->axis % 3],
+                         left);
     const double *x = w->c->loose.place + 3 * q->mode;
     return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
                      "a part of the body is held neither by prescribed displacements nor by what it touches: "
@@ -237,7 +239,8 @@ pg_status contact_press_free (pg_system *s, double t, pg_contact_solution *out, 
     }
     PG_TRY (iterate (&w, out, open));
     for (size_t j = 0; j < w.m; j++) {
-        double unit = w.motion[j].mode == SIZE_MAX && w.motion[j].axis > 2 ? w.size : 1, *now = amount_of (&w, j);
+        double unit = w.motion[j].mode == SIZE_MAX && w.motion[j].axis > 2 ? w.size : 1,
+               *now = amount_of (&w, j);
         if (w.motion[j].mode == SIZE_MAX) *now = w.y[j] / unit;
         else loose_move (&c->loose, s->ndof, w.motion[j].mode, w.y[j] - *now, d);
     }

@@ -1,9 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Parts of the body that supports do not hold: what a crack has cut off, or a block that lies on platens. K is
- * singular along their rigid motions R. As many springs as there are motions, on unknowns of these parts, make
- * it regular without any force of their own: with f such that R' (F + G' f) = 0 a statically determinate set
- * of springs bears nothing, so that the solution of the sprung system is one of K, and all others differ from
- * it by R y. The amounts y are unknowns beside the forces of contact (Farhat and Roux 1991; contact_free.c). */
+ * Parts of the body that supports do not hold: what a crack has cut off, or a block that lies on platens. K
+ * is singular along their rigid motions R. As many springs as there are motions, on unknowns of these parts,
+ * make it regular without any force of their own: with f such that R' (F + G' f) = 0 a statically determinate
+ * set of springs bears nothing, so that the solution of the sprung system is one of K, and all others differ
+ * from it by R y. The amounts y are unknowns beside the forces of contact (Farhat and Roux 1991;
+ * contact_free.c). */
 #include "contact.h"
 #include <math.h>
 #include <string.h>
@@ -166,8 +167,9 @@ pg_status loose_refresh (contact_loose *l, const pg_system *s, const pg_state *s
         size_t count = free_motions (&w, r, motion);
         if (l->n + count > MOST_MODES)
             PG_FAIL (PG_E_USAGE,
-                     "more than %d rigid motions of parts of the body are held by contact alone, which is too "
-                     "many for equilibria: prescribe displacements of these parts, or use a solver of motion",
+                     "more than %d rigid motions of parts of the body are held by contact alone, which is "
+                     "too many for equilibria: prescribe displacements of these parts, or use a solver of "
+                     "motion",
                      MOST_MODES);
         if (count) PG_TRY (add_motions (&w, l, r, count, motion));
     }

@@ -124,6 +124,7 @@ done:
 pg_status contact_save (pg_system *s)
 {
     struct system_contact *c = s->contact;
+    if (c) platens_save (&c->platens);
     return c ? copy (&c->start, &c->now, c->pieces.dim) : PG_OK;
 }
 
@@ -134,6 +135,9 @@ void contact_return (pg_system *s)
     struct system_contact *c = s->contact;
     if (!c || copy (&c->now, &c->start, c->pieces.dim) != PG_OK) return;
     s->report->energy_friction = c->now.friction;
+    platens_return (&c->platens);
+    /* pieces of platens that the refused step has met stay pairs */
+    if (c->now.n != c->pieces.n && contact_remember (c) != PG_OK) return;
     take_before (c);
 }
 
@@ -166,28 +170,30 @@ static pg_status keep_shown (struct system_contact *c, const pg_system *s, const
     PG_TRY (k->counts (k->context, "contact.shown_count", 1, &n));
     PG_KEEP_BOUND (k, "the number of pieces in contact", n, 0, (long) s->problem->first_bond[PG_BOND_SETS]);
     if (k->reading) PG_GROW (c->shown, c->cap_shown, (size_t) n);
-    PG_ALLOC (count, 2 * (size_t) n + 1);
+    PG_ALLOC (count, 3 * (size_t) n + 1);
     PG_ALLOC (number, NUMBERS * (size_t) n + 1);
     for (long i = 0; !k->reading && i < n; i++) {
         const pg_contact_values *v = &c->shown[i];
         const double value[NUMBERS] = {
             v->x[0], v->x[1], v->x[2], v->normal[0], v->normal[1], v->normal[2], v->area, v->length, v->arc,
             v->pressure, v->shear[0], v->shear[1], v->shear[2], v->gap, v->slip[0], v->slip[1], v->slip[2] };
-        count[2*i] = (long) v->path, count[2*i + 1] = (long) v->status;
+        count[3*i] = (long) v->path, count[3*i + 1] = (long) v->status, count[3*i + 2] = (long) v->platen;
         memcpy (number + NUMBERS * i, value, sizeof value);
     }
-    if (n) PG_TRY (k->counts (k->context, "contact.shown", 2 * (size_t) n, count));
+    if (n) PG_TRY (k->counts (k->context, "contact.shown", 3 * (size_t) n, count));
     if (n) PG_TRY (k->numbers (k->context, "contact.shown_values", NUMBERS * (size_t) n, number));
     for (long i = 0; k->reading && i < n; i++) {
         const double *v = number + NUMBERS * i;
-        PG_KEEP_BOUND (k, "the path of a piece", count[2*i], 0,
+        PG_KEEP_BOUND (k, "the path of a piece", count[3*i], 0,
                        (long) s->problem->first_bond[PG_BOND_SETS]);
-        PG_KEEP_BOUND (k, "the status of a piece", count[2*i + 1], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
-        c->shown[i] = (pg_contact_values) { .path = (size_t) count[2*i], .x = { v[0], v[1], v[2] },
+        PG_KEEP_BOUND (k, "the status of a piece", count[3*i + 1], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
+        PG_KEEP_BOUND (k, "the platen of a piece", count[3*i + 2], 0, (long) s->problem->nplaten);
+        c->shown[i] = (pg_contact_values) { .path = (size_t) count[3*i], .platen = (size_t) count[3*i + 2],
+                                            .x = { v[0], v[1], v[2] },
                                             .normal = { v[3], v[4], v[5] }, .area = v[6], .length = v[7],
                                             .arc = v[8], .pressure = v[9], .shear = { v[10], v[11], v[12] },
                                             .gap = v[13], .slip = { v[14], v[15], v[16] },
-                                            .status = (pg_contact_status) count[2*i + 1] };
+                                            .status = (pg_contact_status) count[3*i + 1] };
     }
     c->nshown = (size_t) n;
 done:
@@ -203,6 +209,8 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     struct system_contact *c = s->contact;
     if (!c) return PG_OK;
     pg_statistics *r = s->report;
+    PG_TRY (platens_keep (s, k));
+    if (k->reading && c->platens.n) PG_TRY (contact_more_pairs (s));
     long count[4] = { (long) c->pieces.n, c->active, r->contact_passes, r->contact_sweeps };
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
     PG_TRY (keep_memory (&c->start, "contact.start", s, k));

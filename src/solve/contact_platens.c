@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Rigid platens in equilibria with contact: their pieces stand behind those of cracks, their prescribed motion
- * enters the gaps, their free motion is an unknown beside the forces (contact_free.c). Only pieces that can
- * come near are pairs: those within two spacings of the nearest one and the way that the platen goes; the gaps
- * of the others are looked at after each solve, and what has closed becomes a pair. Work of a platen is the
- * force that it exerts times its motion, by trapezoids like that of loads. */
+ * Rigid platens in equilibria with contact: their pieces stand behind those of cracks, their prescribed
+ * motion enters the gaps, their free motion is an unknown beside the forces (contact_free.c). Only pieces
+ * that can come near are pairs: those within a spacing of the nearest one, or the way that the platen
+ * goes; the gaps of the others are looked at after each solve, and what has closed becomes a pair. Work of
+ * platens is summed by trapezoids like that of loads. */
 #include "contact.h"
 #include <math.h>
 #include <string.h>
@@ -55,18 +55,16 @@ pg_status platens_create (pg_system *s)
     w->n = p->nplaten;
     PG_ALLOC (w->motion, w->n);
     PG_ALLOC (w->reaction, w->n);
-    PG_ALLOC (w->booked, w->n);
-    PG_ALLOC (w->start, w->n);
     PG_ALLOC (w->shown, w->n);
     for (size_t i = 0; i < w->n; i++) {
         PG_TRY (pg_platen_pieces_create (&one, &gap, p, i));
         if (!one.n)
-            PG_FAIL (PG_E_USAGE, "nothing of the body's surface faces the platen %s: turn its normal, or move "
-                     "it", p->platen[i].name);
+            PG_FAIL (PG_E_USAGE, "nothing of the body's surface faces the platen %s: turn its normal, or "
+                     "move it", p->platen[i].name);
         for (size_t k = 0; k < one.n; k++)
             if (gap[k] < -PG_NO_LENGTH * pg_problem_spacing_at (p, one.piece[k].x))
-                PG_FAIL (PG_E_USAGE, "the platen %s overlaps the body by %.3g m at (%.6g, %.6g, %.6g) m before "
-                         "anything moves: put it where it touches at most", p->platen[i].name, -gap[k],
+                PG_FAIL (PG_E_USAGE, "the platen %s overlaps the body by %.3g m at (%.6g, %.6g, %.6g) m "
+                         "before anything moves: put it where it touches at most", p->platen[i].name, -gap[k],
                          one.piece[k].x[0], one.piece[k].x[1], one.piece[k].x[2]);
         size_t before = w->all.n;
         PG_TRY (append (&w->all, &one, NULL));
@@ -76,6 +74,8 @@ pg_status platens_create (pg_system *s)
         pg_free (gap), gap = NULL;
     }
     PG_ALLOC (w->row, 6 * dim * w->all.n);
+    PG_ALLOC (w->booked, 2 * dim * w->all.n);
+    PG_ALLOC (w->start, 2 * dim * w->all.n);
     PG_ALLOC (w->taken, w->all.n);
     PG_ALLOC (w->at, w->all.n);
     for (size_t k = 0; k < w->all.n; k++)
@@ -259,16 +259,26 @@ void platens_react (pg_system *s)
 }
 
 /* ---- work and results ---------------------------------------------------------------------------------- */
+/* Piece by piece, as forces times the way of what they move: across the surface that of the body, so that a
+ * platen that comes from afar works from where it touches on, along it that of the platen, so that what slips
+ * is friction's. */
 double platens_book (pg_system *s, double scale)
 {
-    contact_platens *w = s->contact ? &s->contact->platens : NULL;
+    struct system_contact *c = s->contact;
+    contact_platens *w = c ? &c->platens : NULL;
     double work = 0;
-    for (size_t i = 0; w && i < w->n; i++)
-        for (int k = 0; k < 6; k++) {
-            double f = scale * w->reaction[i][k], q = scale * w->motion[i][k], *old = w->booked[i];
-            work += 0.5 * (old[k] + f) * (q - old[6 + k]);
-            old[k] = f, old[6 + k] = q;
+    size_t dim = c ? c->pieces.dim : 0;
+    for (size_t k = c ? c->ncrack : 0; w && w->n && k < c->pieces.n; k++) {
+        size_t piece = w->at[k - c->ncrack];
+        double *old = w->booked + 2 * dim * piece;
+        for (size_t a = 0; a < dim; a++) {
+            size_t i = dim * k + a;
+            double f = c->active ? scale * c->force[i] : 0,
+                   way = scale * (a ? -gain (w, piece, a) : c->gap[i] - c->initial[i]);
+            work += 0.5 * (old[a] + f) * (way - old[dim + a]);
+            old[a] = f, old[dim + a] = way;
         }
+    }
     return work;
 }
 
@@ -309,7 +319,7 @@ const pg_platen_values *pg_solver_platens (const pg_solver *s, size_t *n)
 
 /* A platen that goes along its surface meets other places of a curved one: the distance by the linear gap and
  * that of the place itself, the body having moved, differ; told where that is much. */
-void platens_doubt (pg_system *s, const double *d)
+void platens_doubt (pg_system *s)
 {
     struct system_contact *c = s->contact;
     contact_platens *w = &c->platens;
@@ -325,7 +335,6 @@ void platens_doubt (pg_system *s, const double *d)
         for (size_t a = 1; a < dim; a++) side += c->gap[dim * k + a] * c->gap[dim * k + a];
         if (0.5 * side / p->radius > worst) worst = 0.5 * side / p->radius, at = k;
     }
-    (void) d;
     if (!(worst > 1e-2 * h)) return;
     w->warned = 1;
     pg_statistics_warn (s->report,
@@ -338,12 +347,12 @@ void platens_doubt (pg_system *s, const double *d)
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
 void platens_save (contact_platens *w)
 {
-    if (w->n) memcpy (w->start, w->booked, w->n * sizeof *w->start);
+    if (w->n) memcpy (w->start, w->booked, 2 * w->all.dim * w->all.n * sizeof *w->start);
 }
 
 void platens_return (contact_platens *w)
 {
-    if (w->n) memcpy (w->booked, w->start, w->n * sizeof *w->start);
+    if (w->n) memcpy (w->booked, w->start, 2 * w->all.dim * w->all.n * sizeof *w->start);
 }
 
 /* Called before the pairs are read: which pieces they are belongs to it. */
@@ -359,8 +368,8 @@ pg_status platens_keep (pg_system *s, const pg_keeper *k)
     w->warned = (int) warned;
     PG_TRY (k->numbers (k->context, "platens.motion", 6 * w->n, w->motion[0]));
     PG_TRY (k->numbers (k->context, "platens.reaction", 6 * w->n, w->reaction[0]));
-    PG_TRY (k->numbers (k->context, "platens.booked", 12 * w->n, w->booked[0]));
-    PG_TRY (k->numbers (k->context, "platens.start", 12 * w->n, w->start[0]));
+    PG_TRY (k->numbers (k->context, "platens.booked", 2 * w->all.dim * w->all.n, w->booked));
+    PG_TRY (k->numbers (k->context, "platens.start", 2 * w->all.dim * w->all.n, w->start));
     for (size_t i = 0; i < w->n; i++) {
         PG_TRY (k->numbers (k->context, "platens.force_shown", 6, w->shown[i].force));
         PG_TRY (k->numbers (k->context, "platens.motion_shown", 6, w->shown[i].motion));

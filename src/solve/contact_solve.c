@@ -1,10 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Equilibria with contact of crack faces. With the cracks open, K u0 = F, gaps are g0 = gi + G u0, gi without
- * displacement; where one is negative, forces f of the pieces follow from the complementarity of
- * g = g0 + C f, C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is
- * factored again).
- * What rounding leaves is mended by the same refinement as all equilibria, with G' f among the loads, and by
- * forces for the gaps that are then measured. */
+ * Equilibria with contact of crack faces and platens. With the cracks open, K u0 = F, gaps are g0 = gi + G
+ * u0, gi without displacement; where one is negative, forces f of the pieces follow from the complementarity
+ * of g = g0 + C f, C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is
+ * factored again). What rounding leaves is mended by the same refinement as all equilibria, with G' f among
+ * the loads, and by forces for the gaps that are then measured. */
 #include "contact.h"
 #include <float.h>
 #include <math.h>
@@ -19,20 +18,22 @@ pg_status contact_create (pg_system *s)
 {
     pg_status status = PG_OK;
     const pg_solver_options *o = s->options;
-    if (o->contact.kind == PG_CONTACT_NONE || o->contact.search != PG_CONTACT_FACES) return PG_OK;
+    int faces = o->contact.kind != PG_CONTACT_NONE && o->contact.search == PG_CONTACT_FACES,
+        platens = s->problem->nplaten && (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
+    if (!faces && !platens) return PG_OK;
     PG_ALLOC (s->contact, 1);
     s->contact->setting = o->contact;
     /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */
     s->contact->history = !o->event;
     PG_ALLOC (s->contact->nodal, s->ndof);
+    s->contact->pieces.dim = (size_t) s->problem->dim;
+    if (platens) PG_TRY (platens_create (s));
 done:
     return status;
 }
 
-static void clear (struct system_contact *c)
+static void clear_pairs (struct system_contact *c)
 {
-    pg_contact_pieces_clear (&c->pieces);
-    pg_sparse_clear (&c->G);
     pg_free (c->Z), pg_free (c->C), pg_free (c->coefficient), pg_free (c->cohesion), pg_free (c->before);
     pg_free (c->force), pg_free (c->gap), pg_free (c->open), pg_free (c->status), pg_free (c->initial);
     c->Z = c->C = c->coefficient = c->cohesion = c->before = c->force = c->gap = c->open = c->initial = NULL;
@@ -40,25 +41,31 @@ static void clear (struct system_contact *c)
     c->made = 0;
 }
 
+static void clear (struct system_contact *c)
+{
+    pg_contact_pieces_clear (&c->pieces);
+    pg_sparse_clear (&c->G);
+    clear_pairs (c);
+}
+
 void contact_free (pg_system *s)
 {
     struct system_contact *c = s->contact;
     if (!c) return;
     clear (c);
+    platens_free (&c->platens), loose_free (&c->loose);
     pg_free (c->nodal), pg_free (c->now.value), pg_free (c->start.value), pg_free (c->shown);
     pg_free (c);
     s->contact = NULL;
 }
 
-pg_status contact_refresh (pg_system *s, const pg_state *state)
+/* Arrays of the pairs at hand. */
+static pg_status make_pairs (pg_system *s)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
-    if (!c) return PG_OK;
-    clear (c);
-    PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
-    PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
     size_t n = c->pieces.n, dim = c->pieces.dim;
+    clear_pairs (c);
     PG_ALLOC (c->coefficient, n);
     PG_ALLOC (c->cohesion, n);
     PG_ALLOC (c->before, n * (dim - 1));
@@ -68,10 +75,39 @@ pg_status contact_refresh (pg_system *s, const pg_state *state)
     PG_ALLOC (c->initial, dim * n);
     PG_ALLOC (c->status, n);
     for (size_t k = 0; k < n; k++) {
-        c->coefficient[k] = c->setting.coefficient;
-        c->cohesion[k] = c->setting.cohesion * c->pieces.piece[k].area;
+        const pg_contact_piece *piece = &c->pieces.piece[k];
+        c->coefficient[k] = piece->platen ? s->problem->platen[piece->platen - 1].friction
+                                          : c->setting.coefficient;
+        c->cohesion[k] = piece->platen ? 0 : c->setting.cohesion * piece->area;
     }
     PG_TRY (contact_remember (c));
+done:
+    return status;
+}
+
+pg_status contact_more_pairs (pg_system *s)
+{
+    pg_status status = PG_OK;
+    PG_TRY (platens_join (s));
+    PG_TRY (make_pairs (s));
+done:
+    return status;
+}
+
+pg_status contact_refresh (pg_system *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    if (!c) return PG_OK;
+    clear (c);
+    if (c->setting.kind != PG_CONTACT_NONE && c->setting.search == PG_CONTACT_FACES) {
+        PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
+        PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
+    }
+    c->pieces.dim = (size_t) s->problem->dim, c->ncrack = c->pieces.n;
+    PG_TRY (platens_refresh (s, state));
+    PG_TRY (make_pairs (s));
+    PG_TRY (loose_refresh (&c->loose, s, state));
 done:
     return status;
 }
@@ -167,7 +203,7 @@ static void measure_gaps (struct system_contact *c, const double *d)
 
 /* Forces for the gaps at hand, which those of now belong to; d follows. *change: of the forces, turned into
  * gaps, over the largest gap without contact. */
-static pg_status press (pg_system *s, double *d, double *change)
+static pg_status press (pg_system *s, double t, double *d, double *change)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
@@ -178,10 +214,13 @@ static pg_status press (pg_system *s, double *d, double *change)
     memcpy (c->open, c->gap, n * sizeof *old);
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; old[j] != 0 && i < n; i++) c->open[i] -= c->C[j * n + i] * old[j];
-    pg_contact_problem problem = { c->pieces.n, c->pieces.dim, c->C, c->open, c->coefficient, c->cohesion,
-                                   c->history ? c->before : NULL };
     pg_contact_solution solution = { .force = c->force, .gap = c->gap, .status = c->status };
-    PG_TRY (pg_contact_solve (&solution, &problem));
+    if (contact_motions (s)) PG_TRY (contact_press_free (s, t, &solution, c->open, d));
+    else {
+        pg_contact_problem problem = { c->pieces.n, c->pieces.dim, c->C, c->open, c->coefficient,
+                                       c->cohesion, c->history ? c->before : NULL };
+        PG_TRY (pg_contact_solve (&solution, &problem));
+    }
     pg_statistics *r = s->report;
     r->contact_passes = (long) solution.passes, r->contact_sweeps = (long) solution.sweeps;
     *change = 0;
@@ -213,7 +252,20 @@ void contact_count (pg_system *s)
     }
 }
 
-pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
+/* Springs of loose parts bear nothing in an equilibrium. */
+static pg_status check_loose (const pg_system *s, const double *d)
+{
+    const contact_loose *l = &s->contact->loose;
+    double pull = loose_pull (s, d), size = fmax (s->reference, s->borne);
+    if (!l->n || pull <= s->options->tolerance * size) return PG_OK;
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                     "a part of the body around (%.6g, %.6g, %.6g) m, which contact alone holds, is out of "
+                     "balance by %.3g N (reference force %.3g N): hold it by prescribed displacements",
+                     l->place[0], l->place[1], l->place[2], pull, size);
+}
+
+/* Equilibrium with the pairs at hand. */
+static pg_status solve_pairs (pg_system *s, double t, double *d, double *residual)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
@@ -221,16 +273,41 @@ pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
     c->active = 0;
     memset (c->force, 0, n * sizeof *c->force);
     memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
+    platens_place (s, t);
+    for (size_t j = 0; j < c->loose.n; j++) c->loose.amount[j] = c->loose.target[j] = 0;
+    if (c->loose.n && (s->stale || !s->factor)) {
+        if (!system_has_matrix (s) || !s->linear->factors)
+            PG_FAIL (PG_E_USAGE, "parts of the body that contact alone holds need a factor of K: set "
+                     "solver.linear: auto");
+        s->mode = SYSTEM_FACTOR;
+        PG_TRY (system_factorize (s, NULL));
+    }
     PG_TRY (system_solve_linear (s, t, d, NULL, residual));
     if (n) measure_gaps (c, d);
     double change = 1;
-    int closes = any_overlap (c);
+    int closes = any_overlap (c) || contact_motions (s) > 0;
     if (closes) PG_TRY (condense (s));
     for (int round = 0; closes && round < MOST_ROUNDS && change > GOOD; round++) {
-        PG_TRY (press (s, d, &change));
+        PG_TRY (press (s, t, d, &change));
         PG_TRY (system_solve_linear (s, t, d, NULL, residual));
         measure_gaps (c, d);
     }
+    PG_TRY (check_loose (s, d));
+done:
+    return status;
+}
+
+/* Pieces of platens that were no pairs may have closed: then once more, with them. */
+pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
+{
+    pg_status status = PG_OK;
+    for (;;) {
+        PG_TRY (solve_pairs (s, t, d, residual));
+        if (!platens_look (s, d)) break;
+        PG_TRY (contact_more_pairs (s));
+    }
+    platens_react (s);
+    platens_doubt (s);
     contact_count (s);
 done:
     return status;
@@ -307,13 +384,15 @@ pg_status contact_show (pg_system *s, double scale)
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     if (!c) return PG_OK;
+    platens_show (s, scale);
     PG_GROW (c->shown, c->cap_shown, c->pieces.n);
     c->nshown = c->pieces.n;
     for (size_t k = 0; k < c->nshown; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         size_t i = c->pieces.dim * k;
         double force = c->active ? scale / p->area : 0;
-        c->shown[k] = (pg_contact_values) { .path = p->path, .x = { p->x[0], p->x[1], p->x[2] },
+        c->shown[k] = (pg_contact_values) { .path = p->path, .platen = p->platen,
+                                            .x = { p->x[0], p->x[1], p->x[2] },
                                             .normal = { p->normal[0], p->normal[1], p->normal[2] },
                                             .area = p->area, .length = p->length, .arc = p->arc,
                                             .pressure = force * c->force[i], .gap = scale * c->gap[i],

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Options of the solver from the keys of a scene, and what does not go together. */
+#include "contact.h"
 #include "facet_growth.h"
 #include <math.h>
 #include <stdio.h>
@@ -260,7 +261,7 @@ static int knows_contact (const pg_solver_type *type, const void *unused)
 }
 
 /* Do new cracks begin where a strength is reached? */
-static int begins_cracks (const pg_problem *problem)
+int options_begin_cracks (const pg_problem *problem)
 {
     const double origin[3] = { 0, 0, 0 };
     for (size_t m = 0; m < problem->nmaterial; m++) {
@@ -330,7 +331,7 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
         pg_scene_fault (scene, "contact.kind",
                         "keeps the faces of cracks apart, not single broken bonds: judge tips (break: "
                         "facet), leave failure out, or set none");
-    else if (begins_cracks (problem))
+    else if (options_begin_cracks (problem))
         pg_scene_fault (scene, "contact.kind",
                         "does not go with a strength yet, at which new cracks begin: leave failure.strength "
                         "out, or set none");
@@ -368,6 +369,7 @@ pg_status pg_solver_options_read (pg_solver_options *o, const pg_problem *proble
     read_breaking (o, problem, scene);
     if (type && type->read) type->read (o, problem, scene);
     check_contact (o, problem, scene);
+    platens_check (o, problem, scene);
     find_unused (o, scene);
     if (o->flags & PG_SOLVER_NEEDS_DENSITY) need_density (o, problem, scene);
     check_force (o, problem, scene);

@@ -108,6 +108,7 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     int suits = proportional
                 || (!closes && (problem->nstage
                                 || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem))));
+    if (problem->nplaten) suits = proportional && platens_touch (problem);
     o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
     own->affine = o->event && !proportional;
     check_stepping (o, problem, scene, closes);

@@ -87,7 +87,8 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
 {
     int moving = 0, everywhere = 1;
     for (int k = 0; k < p->dim; k++) {
-        int held = !(o->flags & PG_SOLVER_QUASI_STATIC) || held_along (p, k);
+        /* what platens hold shows in contact only */
+        int held = !(o->flags & PG_SOLVER_QUASI_STATIC) || p->nplaten || held_along (p, k);
         for (size_t l = 0; l < p->nload; l++)
             moving |= acts (p, &p->load[l], k, (o->flags & PG_SOLVER_QUASI_STATIC) ? 1 : o->end)
                       || p->load[l].kind == PG_PRESSURE;
@@ -97,7 +98,7 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
                 report, "nothing holds the body along %c: no displacement along %c is prescribed anywhere",
                 "xyz"[k], "xyz"[k]);
     }
-    if (everywhere && (o->flags & PG_SOLVER_QUASI_STATIC) && p->nload && may_turn (p))
+    if (everywhere && (o->flags & PG_SOLVER_QUASI_STATIC) && p->nload && !p->nplaten && may_turn (p))
         pg_statistics_warn (
             report,
             "nothing keeps the body from turning: the prescribed displacements leave a rotation free");

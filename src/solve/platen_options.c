@@ -1,0 +1,79 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What does not go together with platens. */
+#include "contact.h"
+#include <math.h>
+#include <stdio.h>
+
+/* Does a facet lie on the platen, face to face? */
+static int lies_on (const pg_problem *p, const pg_platen *platen, size_t facet)
+{
+    size_t dim = (size_t) p->dim;
+    const double *x = p->cells.facet_centre + facet * dim, *outward = p->cells.normal + facet * dim;
+    double normal[3], along = 0, away = pg_platen_distance (platen, p->dim, x, normal);
+    for (size_t k = 0; k < dim; k++) along += normal[k] * outward[k];
+    return fabs (away) <= PG_NO_LENGTH * p->cloud.h && along < -1 + 1e-9;
+}
+
+int platens_touch (const pg_problem *p)
+{
+    for (size_t i = 0; i < p->nplaten; i++) {
+        size_t f = 0;
+        while (f < p->cells.nfacet && !lies_on (p, &p->platen[i], f)) f++;
+        if (f == p->cells.nfacet) return 0;
+    }
+    return 1;
+}
+
+static int finds_equilibria (const pg_solver_type *type, const void *unused)
+{
+    (void) unused;
+    return (type->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
+}
+
+static void check_stepping (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    if (!o->event) return;
+    if (PG_OWN (pg_static_options, o)->affine)
+        pg_scene_fault (scene, "solver.stepping",
+                        "event does not go with platens where loads have a constant part, or stages: use "
+                        "fixed");
+    else if (!platens_touch (problem))
+        pg_scene_fault (scene, "solver.stepping",
+                        "event needs platens that touch the body from the start, face to face, as equilibria "
+                        "do not grow in proportion to the load else: use fixed");
+}
+
+void platens_check (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
+{
+    const pg_force_type *force = pg_force_of (problem);
+    char names[200];
+    if (!problem->nplaten) return;
+    solver_names_that (finds_equilibria, NULL, names, sizeof names);
+    if (force && !force->trace)
+        pg_scene_fault (scene, "platens",
+                        "force: %s does not show the displacement of the surface: take a force with shape "
+                        "functions", problem->method->name);
+    if (!problem->cells.nfacet)
+        pg_scene_fault (scene, "platens", "a body of explicit points has no surface that could touch them");
+    if ((o->flags & PG_SOLVER_STATIC) != PG_SOLVER_STATIC) {
+        pg_scene_fault (scene, "platens", "solver.kind: %s does not know rigid platens so far: use %s, or "
+                        "supports on sets", o->kind, names);
+        return;
+    }
+    if (problem->criterion->type && !pg_criterion_of_tips (problem->criterion))
+        pg_scene_fault (scene, "platens",
+                        "go with cracks that grow by facets, not with single bonds that break: judge tips "
+                        "(break: facet), or leave failure out");
+    else if (options_begin_cracks (problem))
+        pg_scene_fault (scene, "platens",
+                        "do not go with a strength yet, at which new cracks begin: leave failure.strength "
+                        "out");
+    for (size_t k = 0; k < problem->nstage; k++)
+        if (problem->stage[k].remove)
+            pg_scene_fault (scene, "platens",
+                            "do not know parts that stages take out of the body: leave their remove out");
+    if (o->on_instability != PG_UNSTABLE_FOLLOW)
+        pg_scene_fault (scene, "solver.on_instability",
+                        "with platens the load follows equilibrium only: use follow");
+    check_stepping (o, problem, scene);
+}

@@ -1,0 +1,254 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Rigid platens: blocks between them that nothing else holds, against closed forms; forces, tilting seats,
+ * friction, gaps; cylinders on planes (Hertz); units, mirrors and threads; checkpoints; what is refused. */
+#include "scene_runs/run.h"
+#include "solve/tape.h"
+
+static int is_long (void)
+{
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    return size && strcmp (size, "long") == 0;
+}
+
+#define BLOCK(mode, size, unit, more) \
+    "dimension: 2\nplane: " mode "\nthickness: 0.5\n" \
+    "body: [{add: {box: {low: [0, 0], high: " size "}}}]\nspacing: " unit "\nlattice: cells\n" \
+    "method: {integration: consistent}\nmaterials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n" more
+
+static const pg_platen_values *platen_of (const run *r, size_t i)
+{
+    size_t n;
+    const pg_platen_values *v = pg_solver_platens (r->solver, &n);
+    assert_true (i < n);
+    return &v[i];
+}
+
+/* All pieces of a run bear this pressure and shear. */
+static void check_pieces (const run *r, double pressure, double shear, double tolerance)
+{
+    size_t n;
+    const pg_contact_values *v = pg_solver_contact (r->solver, &n);
+    assert_true (n > 1);
+    for (size_t k = 0; k < n; k++) {
+        assert_true (v[k].platen > 0);
+        check_scaled (v[k].pressure, pressure, tolerance, pressure);
+        check_scaled (fabs (v[k].shear[0]), shear, tolerance, pressure);
+    }
+}
+
+/* A block that two frictionless platens alone hold bears a uniform stress, whatever its points, and stores
+ * all of the work; in plane strain it is stiffer. */
+static void a_block_is_pressed_uniformly (void **state)
+{
+    (void) state;
+    static const struct { const char *mode; double perturb, modulus; const char *stepping; } cases[] = {
+        { "stress", 0, 1000, "fixed, steps: 2" },
+        { "stress", 0.2, 1000, "event" },
+        { "strain", 0.2, 1000 / (1 - 0.0625), "fixed, steps: 1" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        run r = scene_of (1,
+            BLOCK ("%s", "[1, 2]", "0.1", "perturb: {amount: %g}\n")
+            "platens:\n  - {name: base, point: [0.5, 0], normal: [0, 1]}\n"
+            "  - {name: head, point: [0.5, 2], normal: [0, -3], displacement: {y: -0.02}}\n"
+            "solver: {kind: static, stepping: %s}\noutput: {at: {levels: 1}}\n", cases[i].mode,
+            cases[i].perturb, cases[i].stepping);
+        to_the_end (&r);
+        const pg_statistics *s = pg_solver_report_now (r.solver);
+        double pressure = 0.01 * cases[i].modulus;
+        check_pieces (&r, pressure, 0, 1e-10);
+        check_relative (platen_of (&r, 0)->force[1], 0.5 * pressure, 1e-11);
+        check_relative (platen_of (&r, 1)->force[1], -0.5 * pressure, 1e-11);
+        check_scaled (platen_of (&r, 1)->force[0], 0, 1e-11, pressure);
+        check_scaled (platen_of (&r, 1)->force[5], 0, 1e-11, pressure);
+        check_relative (platen_of (&r, 1)->motion[1], -0.02, 1e-15);
+        check_relative (s->energy_strain, 0.5 * 0.5 * pressure * 0.02, 1e-10);
+        check_relative (s->energy_external, s->energy_strain, 1e-10);
+        assert_true (s->nwarning == 0);
+        clear (&r);
+    }
+}
+
+/* Pressed by a force from a distance, by a platen that is slanted by 0.01 rad and may tilt: it comes, turns
+ * until the moment about its seat is zero, and lies flat. One that is held presses one edge. */
+static void a_seat_tilts_until_it_lies_flat (void **state)
+{
+    (void) state;
+    for (int tilts = 0; tilts < 2; tilts++) {
+        run r = scene_of (1,
+            BLOCK ("stress", "[1, 1]", "0.1", "")
+            "platens:\n  - {name: base, point: [0.5, 0], normal: [0, 1], friction: 0.5}\n"
+            "  - {name: head, point: [0.5, 1.03], normal: [0.01, -1], force: {y: -5}, tilt: %s}\n"
+            "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
+            tilts ? "free" : "held");
+        to_the_end (&r);
+        const pg_platen_values *head = platen_of (&r, 1);
+        const pg_statistics *s = pg_solver_report_now (r.solver);
+        check_relative (head->force[1], -5, 1e-11);
+        check_relative (head->force[0], 0.05, 1e-9);   /* along its normal of the start */
+        check_relative (s->energy_external, s->energy_strain + s->energy_friction, 1e-9);
+        if (tilts) {
+            size_t n;
+            const pg_contact_values *v = pg_solver_contact (r.solver, &n);
+            check_scaled (head->force[5], 0, 1e-11, 5);
+            check_relative (head->motion[5], -0.01, 0.1);
+            for (size_t k = 0; k < n; k++) assert_true (v[k].pressure > 5 && v[k].pressure < 15);
+        } else assert_true (fabs (head->force[5]) > 0.1 && head->motion[5] == 0);
+        clear (&r);
+    }
+}
+
+/* A block is pressed between rough platens and dragged: they slide at mu times the force, the rougher one
+ * sticks; the work of the drag is friction's and the strain's. */
+static void platens_drag_by_friction (void **state)
+{
+    (void) state;
+    run r = scene_of (1,
+        BLOCK ("stress", "[2, 0.5]", "0.1", "")
+        "platens:\n  - {name: base, point: [0, 0], normal: [0, 1], friction: 0.6}\n"
+        "  - {name: head, point: [1, 0.5], normal: [0, -1], friction: 0.2, displacement: {x: 0.02}, "
+        "force: {y: -10}, force_ramp: constant}\n"
+        "solver: {kind: static, stepping: fixed, steps: 20}\noutput: {at: {levels: 1}}\n");
+    double slid = 0, before = 0;
+    while (!pg_solver_done (r.solver, r.state)) {
+        advance (&r);
+        const pg_statistics *s = pg_solver_report_now (r.solver);
+        check_relative (platen_of (&r, 1)->force[1], -10, 1e-10);
+        check_scaled (platen_of (&r, 0)->force[0], -platen_of (&r, 1)->force[0], 1e-10, 10);
+        assert_true (platen_of (&r, 1)->force[0] <= 2 * (1 + 1e-9));
+        assert_true (s->energy_friction >= before * (1 - 1e-9));
+        before = s->energy_friction;
+        slid = platen_of (&r, 1)->force[0];
+    }
+    const pg_statistics *s = pg_solver_report_now (r.solver);
+    check_relative (slid, 2, 1e-8);
+    assert_true (s->energy_friction > 0.1 * s->energy_external);
+    check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-2, s->energy_external);
+    clear (&r);
+}
+
+/* A rigid cylinder of radius R pressed into a wide block: the half width a of contact under the force F a
+ * length is a^2 = 4 F R (1 - nu^2) / (pi E), the pressure p0 sqrt (1 - x^2 / a^2), p0 = 2 F / (pi a). */
+static void a_cylinder_is_pressed_in_as_hertz_has_it (void **state)
+{
+    (void) state;
+    const double pi = 3.14159265358979323846, R = 100, F = 8;
+    for (int n = 1; n <= (is_long () ? 3 : 1); n++) {
+        double h = 0.1 / n;
+        run r = scene_of (1,
+            "dimension: 2\nplane: strain\nthickness: 1\n"
+            "body: [{add: {box: {low: [-6, -6], high: [6, 0]}}}]\nspacing: %.17g\n"
+            "%s"
+            "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
+            "boundary: [{set: bottom, displacement: {x: 0, y: 0}}]\n"
+            "platens: [{name: roll, shape: cylinder, point: [0, 100], radius: 100, force: {y: -8}}]\n"
+            "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n", h,
+            "lattice: cells\n");
+        to_the_end (&r);
+        double force = 0, second = 0, peak = 0, a = sqrt (4 * F * R * (1 - 0.0625) / (pi * 1000));
+        size_t count, closed = 0;
+        const pg_contact_values *v = pg_solver_contact (r.solver, &count);
+        for (size_t k = 0; k < count; k++) {
+            force += v[k].pressure * v[k].area, second += v[k].pressure * v[k].area * v[k].x[0] * v[k].x[0];
+            peak = fmax (peak, v[k].pressure), closed += v[k].pressure > 0;
+        }
+        check_relative (platen_of (&r, 0)->force[1], -F, 1e-11);
+        check_relative (force, F, 1e-4);               /* normals are nearly upright */
+        /* the mean square of x under the ellipse of pressure is a^2 / 4 */
+        print_message ("Hertz, a / h = %.1f: width %.4f, pressure %.4f of theory, %zu pieces of %zu closed\n",
+                       a / h, 2 * sqrt (second / force) / a, peak / (2 * F / (pi * a)), closed, count);
+        check_relative (2 * sqrt (second / force), a, 0.05 / n);
+        check_relative (peak, 2 * F / (pi * a), 0.05 / n);
+        clear (&r);
+    }
+}
+
+/* What does not go together is told with words; so is a body that nothing holds. */
+static void the_rest_is_refused (void **state)
+{
+    (void) state;
+#define PLATE(more) \
+    BLOCK ("stress", "[1, 1]", "0.25", more) "boundary: [{set: bottom, displacement: {x: 0, y: 0}}]\n"
+#define HEAD "platens: [{name: head, point: [0.5, 1], normal: [0, -1], displacement: {y: -0.01}}]\n"
+    static const struct { const char *scene, *words; } wrong[] = {
+        { PLATE ("") "platens: [{name: head, point: [0.5, 1], displacement: {y: -0.01}}]\n",
+          "shape: plane needs it" },
+        { PLATE ("") "platens: [{name: head, shape: cylinder, point: [0.5, 1]}]\n", "cylinder needs it" },
+        { PLATE ("") "platens: [{name: head, shape: sphere, radius: 1, point: [0.5, 2]}]\n", "use cylinder" },
+        { PLATE ("") "platens: [{name: a, point: [0, 1], normal: [0, -1]}, {name: a, point: [0, 1], normal: "
+          "[0, -1]}]\n", "has this name too" },
+        { PLATE ("") "platens: [{name: a, point: [0, 1], normal: [0, -1], displacement: {y: \"-0.1*x\"}}]\n",
+          "an expression of t alone" },
+        { PLATE ("") "platens: [{name: a, point: [0, 1], normal: [0, -1], displacement: {y: -1}, force: "
+          "{y: -1}}]\n",
+          "leave one of them out" },
+        { PLATE ("") HEAD "solver: {kind: static, stepping: event}\nfailure: {criterion: principal_stress, "
+          "tensile_strength: 1}\n", "single bonds" },
+        { PLATE ("") "platens: [{name: head, shape: cylinder, radius: 1, point: [0.5, 2], displacement: {y: "
+          "-0.01}}]\nsolver: {kind: static, stepping: event}\n", "face to face" },
+    };
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
+        pg_scene *scene = NULL;
+        pg_problem *problem = NULL;
+        pg_solver_options options;
+        check_ok (pg_scene_parse (&scene, wrong[i].scene, "test.yaml"));
+        pg_status status = pg_problem_build (&problem, scene, 1);
+        if (status == PG_OK) status = pg_solver_options_read (&options, problem, scene);
+        if (status != PG_E_SCENE) print_error ("scene %zu: %s\n", i, pg_last_error ());
+        assert_int_equal (status, PG_E_SCENE);
+        check_contains (pg_last_error (), wrong[i].words);
+        pg_problem_free (&problem);
+        pg_scene_free (&scene);
+    }
+    static const struct { const char *platens, *words; } loose[] = {
+        { "{name: base, point: [0.5, 0], normal: [0, 1]}, {name: side, point: [0, 0.5], normal: [1, 0], "
+          "force: {x: 1}}", "without end" },
+        { "{name: base, point: [0.5, 0], normal: [0, 1]}]\nboundary: [{set: right, traction: {x: 1}}",
+          "held neither by prescribed displacements nor by what it touches" },
+    };
+    for (size_t i = 0; i < sizeof loose / sizeof *loose; i++) {
+        run r = scene_of (1, BLOCK ("stress", "[1, 1]", "0.25", "") "platens: [%s]\n"
+                          "solver: {kind: static, stepping: fixed, steps: 1}\n", loose[i].platens);
+        assert_int_equal (pg_solver_step (r.solver, r.state, &r.step), PG_E_EQUILIBRIUM);
+        check_contains (pg_last_error (), loose[i].words);
+        clear (&r);
+    }
+}
+
+/* A run that is stopped in its middle and read back goes on bit by bit. */
+static void a_run_goes_on_from_its_checkpoint (void **state)
+{
+    (void) state;
+#define DRAGGED \
+    BLOCK ("stress", "[1, 0.5]", "0.1", "") \
+    "platens:\n  - {name: base, point: [0.5, 0], normal: [0, 1], friction: 0.6}\n" \
+    "  - {name: head, shape: cylinder, radius: 2, point: [0.5, 2.501], friction: 0.2, " \
+    "displacement: {x: 0.02}, force: {y: -10}}\n" \
+    "solver: {kind: static, stepping: fixed, steps: 6}\noutput: {at: {levels: 1}}\n"
+    run a = scene_of (1, "%s", DRAGGED), b = scene_of (1, "%s", DRAGGED);
+    static tape t;
+    for (int k = 0; k < 3; k++) advance (&a);
+    keep (&a, &t, 0), keep (&b, &t, 1);
+    for (int k = 0; k < 3; k++) {
+        advance_alike (&a, &b);
+        size_t n;
+        const pg_platen_values *u = pg_solver_platens (a.solver, &n), *v = pg_solver_platens (b.solver, &n);
+        assert_memory_equal (u, v, n * sizeof *u);
+    }
+    assert_true (pg_solver_report_now (a.solver)->energy_external
+                 == pg_solver_report_now (b.solver)->energy_external);
+    clear (&a), clear (&b);
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (a_block_is_pressed_uniformly),
+        cmocka_unit_test (a_seat_tilts_until_it_lies_flat),
+        cmocka_unit_test (platens_drag_by_friction),
+        cmocka_unit_test (a_cylinder_is_pressed_in_as_hertz_has_it),
+        cmocka_unit_test (the_rest_is_refused),
+        cmocka_unit_test (a_run_goes_on_from_its_checkpoint),
+    };
+    return cmocka_run_group_tests (tests, NULL, NULL);
+}
