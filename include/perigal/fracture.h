@@ -46,8 +46,9 @@ typedef struct {
 /* What the faces behind a tip do to each other, in equilibria with contact (perigal/contact.h). */
 typedef struct {
     /* Mean stresses that they carry across and along the crack, sigma_nn and sigma_nt in the frame of the
-     * tip, Pa, of each field: sigma_nn < 0 in the first: they press on each other. */
+     * tip, Pa, of each field. */
     double stress[2][2];
+    int    closed;                                     /* 1: they press on each other behind the tip */
     double nearest;  /* distance from the tip to the next piece that is closed, m; INFINITY: none */
 } pg_tip_faces;
 

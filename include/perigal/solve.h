@@ -120,6 +120,10 @@ typedef struct {                                       /* of the run so far */
     double energy_friction;                            /* J: of it, by friction of crack faces */
     /* Contact of crack faces, in the state last solved for: pieces, and how they stand; passes and sweeps
      * that this took; largest overlap of a mean gap over the run, m */
+    /* of contact: right-hand sides for the compliance of pieces, dense solves, changes of status on the way,
+     * all of the run; seconds of them */
+    long   contact_columns, contact_solves, contact_changes;
+    double contact_seconds;
     long   contact_pieces, contact_open, contact_stick, contact_sliding, contact_passes, contact_sweeps;
     double contact_overlap;
     /* Short-range contact in the last state: pairs without a bond that are near each other; that touch. */

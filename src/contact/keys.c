@@ -13,8 +13,8 @@ static const pg_key keys[] = {
     { "contact.coefficient", PG_NUMBER, "1", "[0, 10]", "", NULL, NULL, NULL,
       "kind: friction: shear that faces bear over the pressure on them." },
     { "contact.cohesion", PG_NUMBER, "Pa", "[0, inf)", "0", NULL, NULL, NULL,
-      "kind: friction: shear stress that closed faces bear besides. It does not grow with the load: needs "
-      "stepping: fixed." },
+      "kind: friction: shear stress that closed faces bear besides; faces that part have it no more until "
+      "they close again." },
     { "contact.search", PG_NAME, NULL, NULL, "faces", "faces|short_range", NULL, NULL,
       "faces: what touches are the faces of cracks, where their normals are known. short_range: any two "
       "points that no live bond joins, fragments and separate bodies too, found by search while they move "

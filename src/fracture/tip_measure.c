@@ -222,7 +222,7 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
         PG_FAIL (PG_E_USAGE, "%d displacement fields at a tip: 1 or 2 can be measured", nfield);
     PG_TRY (tip_domain (out, p, state, tip, &node));
     tip_material m = material_at (p, node);
-    int closed = touch && touch->stress[0][0] < 0;
+    int closed = touch && touch->closed;
     out->modulus = m.modulus;
     if (touch && !closed) limit_rings (out, touch);
     unknown (out);

@@ -61,7 +61,9 @@ static void instability_block (pg_json *j, const pg_result *res, const pg_statis
 }
 
 /* Contact of crack faces: pieces, and how they stand in the last state; work of the last solve; the largest
- * overlap of a mean gap over the run, m. By short range: pairs near each other, and pairs that touch. */
+ * overlap of a mean gap over the run, m; of the whole run right-hand sides for compliances, dense solves,
+ * changes of status on the way, and seconds of all this, per event or in all. By short range: pairs near each
+ * other, and pairs that touch. */
 static void contact_block (pg_json *j, const pg_statistics *r, pg_contact_search search)
 {
     pg_json_open (j, "contact", '{');
@@ -77,6 +79,11 @@ static void contact_block (pg_json *j, const pg_statistics *r, pg_contact_search
     pg_json_count (j, "sliding", (size_t) r->contact_sliding);
     pg_json_count (j, "passes", (size_t) r->contact_passes);
     pg_json_count (j, "sweeps", (size_t) r->contact_sweeps);
+    pg_json_count (j, "columns", (size_t) r->contact_columns);
+    pg_json_count (j, "solves", (size_t) r->contact_solves);
+    pg_json_count (j, "changes", (size_t) r->contact_changes);
+    pg_json_number (j, "seconds", r->contact_seconds);
+    pg_json_number (j, "seconds_per_event", r->contact_seconds / (double) (r->events > 0 ? r->events : 1));
     pg_json_number (j, "overlap_of_means", r->contact_overlap);
     pg_json_shut (j);
 }

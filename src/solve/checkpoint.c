@@ -100,36 +100,38 @@ pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_br
 static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long *const word[9] = { &r->steps,   &r->events,           &r->iterations,
+    long *const word[] = { &r->steps,   &r->events,           &r->iterations,
                             &r->broken,  &r->bonds_over_limit, &r->factorizations,
-                            &r->updates, &r->solves,           &r->preconditioners };
+                            &r->updates, &r->solves,           &r->preconditioners,
+                            &r->contact_columns, &r->contact_solves, &r->contact_changes };
     size_t *const size[6] = { &r->cg_iterations, &r->degenerate_points, &r->isolated_nodes,
                               &r->fragments,     &r->nskipped,          &r->nwarning };
     double *const value[] = { &r->utilisation_max, &r->residual_max,      &r->overlap_max,
                                 &r->energy_strain,   &r->energy_kinetic,    &r->energy_external,
                                 &r->energy_damping,  &r->energy_dissipated, &r->factor_entries,
                                 &r->factor_flops,    &r->energy_fracture,   &r->energy_friction,
-                                &r->contact_overlap, &r->energy_contact };
+                                &r->contact_overlap, &r->energy_contact,    &r->contact_seconds };
     enum {
         VALUES = sizeof value / sizeof *value,
+        WORDS = sizeof word / sizeof *word,
         SKIPS = sizeof r->skipped / sizeof *r->skipped,
         WARNINGS = sizeof r->warning / sizeof *r->warning
     };
-    long count[15];
+    long count[WORDS + 6];
     double number[VALUES + PG_SECONDS_COUNT], saved[SKIPS];
     /* Gathered, given to the keeper, and spread again: when writing the keeper leaves them as they are,
      * so that spreading changes nothing. */
-    for (int i = 0; i < 9; i++) count[i] = *word[i];
-    for (int i = 0; i < 6; i++) count[9 + i] = (long) *size[i];
+    for (int i = 0; i < WORDS; i++) count[i] = *word[i];
+    for (int i = 0; i < 6; i++) count[WORDS + i] = (long) *size[i];
     for (int i = 0; i < VALUES; i++) number[i] = *value[i];
     memcpy (number + VALUES, r->seconds, sizeof r->seconds);
-    PG_TRY (k->counts (k->context, "report.counts", 15, count));
+    PG_TRY (k->counts (k->context, "report.counts", WORDS + 6, count));
     PG_TRY (k->numbers (k->context, "report.numbers", VALUES + PG_SECONDS_COUNT, number));
-    for (int i = 0; i < 13; i++) PG_KEEP_BOUND (k, "a count of the report", count[i], 0, most);
-    PG_KEEP_BOUND (k, "the number of skipped things", count[13], 0, SKIPS);
-    PG_KEEP_BOUND (k, "the number of warnings", count[14], 0, WARNINGS);
-    for (int i = 0; i < 9; i++) *word[i] = count[i];
-    for (int i = 0; i < 6; i++) *size[i] = (size_t) count[9 + i];
+    for (int i = 0; i < WORDS + 4; i++) PG_KEEP_BOUND (k, "a count of the report", count[i], 0, most);
+    PG_KEEP_BOUND (k, "the number of skipped things", count[WORDS + 4], 0, SKIPS);
+    PG_KEEP_BOUND (k, "the number of warnings", count[WORDS + 5], 0, WARNINGS);
+    for (int i = 0; i < WORDS; i++) *word[i] = count[i];
+    for (int i = 0; i < 6; i++) *size[i] = (size_t) count[WORDS + i];
     for (int i = 0; i < VALUES; i++) *value[i] = number[i];
     memcpy (r->seconds, number + VALUES, sizeof r->seconds);
     PG_TRY (keep_text ("report.ordering", sizeof r->ordering, r->ordering, k));

@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: contact of crack faces in equilibria of linear systems (perigal/contact.h). The stiffness and its
  * factor are those of the open cracks; forces of contact stand beside the loads and are found from the
- * condensed compliance of the pieces. Files: contact_solve.c (equilibria), contact_memory.c (what was before:
- * slips, work of friction; checkpoints). */
+ * condensed compliance of the pieces. Files: contact_solve.c (equilibria), contact_route.c (those along loads
+ * with a constant part), contact_memory.c (what was before: slips, work of friction; checkpoints). */
 #ifndef PG_SOLVE_CONTACT_H
 #define PG_SOLVE_CONTACT_H
 #include "solve.h"
@@ -13,6 +13,7 @@ typedef struct {
     size_t  n, room;
     double *value;                                     /* of each piece: contact_layout */
     double  friction;                                  /* work of friction so far, J */
+    double  at;                                        /* loads with a constant part: their t */
 } contact_memory;
 /* Place of the middle (dim), length, shear force over area and slip when work was last booked, slip of the
  * last accepted step: numbers along the path in the plane, vectors in space. */
@@ -49,6 +50,17 @@ typedef struct {
     int     warned;
 } contact_platens;
 
+/* Along loads that are a constant part and the share s = t - from times another (contact_route.c). */
+typedef struct {
+    double  from;
+    double *open[2];                                   /* displacements with open cracks at s = 0, 1 (ndof) */
+    double  reference;                                 /* the larger of the forces of these, N */
+    double *gap, *rate;                                /* gaps without contact: gap + s rate, m (2 n each) */
+    int     touches, ready;  /* some piece closes; the stretch at hand leads on from where it stands */
+    pg_contact_track track;                            /* force, gap and status are those of the contact */
+    double *mark;  size_t nmark, cap_mark;             /* places to which it may return */
+} contact_route;
+
 struct system_contact {
     pg_contact_setting setting;
     pg_contact_pieces  pieces;                         /* of cracks, then of platens */
@@ -68,6 +80,7 @@ struct system_contact {
     int       active;                                  /* some force is not zero */
     int       history;                                 /* 1: slip has a memory from step to step */
     pg_contact_values *shown;  size_t nshown, cap_shown;         /* of the last step, for results */
+    contact_route route;
     contact_memory now, start;                         /* start: of the step, for one that is refused */
 };
 
@@ -84,10 +97,10 @@ void contact_count (pg_system *s);
 const double *contact_forces (const pg_system *s);
 /* At the start of a run: tips that are closed at full load cut bonds up to an offset of their own. */
 pg_status contact_settle_tips (pg_system *s, pg_state *state);
-/* Mean tractions on the face behind a tip, as stresses in its frame, Pa: across the crack (negative: it is
- * closed) and along it. *nearest: distance to the next closed piece, m; INFINITY: none. */
-void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, double stress[2],
-                     double *nearest);
+/* What the faces behind a tip do to each other, in the one field at hand, or in the two of a stretch. */
+void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int nfield, pg_tip_faces *out);
+/* Z and C for the K of now, unless they are. */
+pg_status contact_condense (pg_system *s);
 
 /* The pieces of the state at hand for results, loads scaled. */
 pg_status contact_show (pg_system *s, double scale);
@@ -138,6 +151,33 @@ size_t    contact_motions (const pg_system *s);        /* how many amounts are u
 /* As pg_contact_solve, with free motions: `open` are gaps without forces, those of the motions at hand in
  * them (it is scratch). Motions, initial gaps and d of loose parts follow. */
 pg_status contact_press_free (pg_system *s, double t, pg_contact_solution *out, double *open, double *d);
+
+/* ---- contact_route.c ----------------------------------------------------------------------------------- */
+void contact_route_clear (struct system_contact *c);
+void contact_route_free  (struct system_contact *c);
+/* Equilibria with open cracks at t = from and from + 1 (guesses: base, unit), and that with contact at
+ * c->now.at, slips counting from the last accepted ones. */
+pg_status contact_route_begin (pg_system *s, double from, double *base, double *unit, double *residual);
+/* base and unit become the line of the stretch that leads on from where it stands, towards s = 1; *fresh 0:
+ * they were it. */
+pg_status contact_route_ahead (pg_system *s, double *base, double *unit, double *residual, int *fresh);
+/* The same towards s = 0, in total form: slips count from the last accepted ones all the way. Where the
+ * stretch has ended in a change of status, contact_route_behind takes up the path behind it. */
+pg_status contact_route_back   (pg_system *s, double *base, double *unit, double *residual);
+pg_status contact_route_behind (pg_system *s);
+/* t at which the stretch ends; 1: pieces change their status there; 1: at its beginning forces and gaps have
+ * leapt. */
+double contact_route_end     (const pg_system *s);
+int    contact_route_changes (const pg_system *s);
+int    contact_route_leapt   (const pg_system *s);
+pg_status contact_route_go   (pg_system *s, double t);         /* to t in the stretch */
+long      contact_route_due  (const pg_system *s);             /* pieces that change where it stands */
+/* Marks the place where it stands; goes back to mark k, with the displacement there (NULL: no matter). */
+pg_status contact_route_mark   (pg_system *s);
+size_t    contact_route_marks  (const pg_system *s);
+void      contact_route_return (pg_system *s, size_t k, double *d);
+void      contact_route_forget (pg_system *s);         /* all marks */
+pg_status contact_route_keep   (pg_system *s, const pg_keeper *k);
 
 /* ---- contact_memory.c ---------------------------------------------------------------------------------- */
 /* Numbers along the tangents of piece k, times scale, as a vector (space: 3) or a number (plane: 1). */

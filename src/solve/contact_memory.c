@@ -49,7 +49,7 @@ pg_status contact_remember (struct system_contact *c)
     pg_status status = PG_OK;
     size_t dim = c->pieces.dim;
     contact_layout l = contact_layout_of (dim);
-    contact_memory fresh = { .friction = c->now.friction, .n = c->pieces.n };
+    contact_memory fresh = { .friction = c->now.friction, .at = c->now.at, .n = c->pieces.n };
     PG_GROW (fresh.value, fresh.room, fresh.n * l.values);
     for (size_t k = 0; k < fresh.n; k++) {
         double *v = fresh.value + k * l.values, sum = 0;
@@ -116,7 +116,7 @@ static pg_status copy (contact_memory *to, const contact_memory *from, size_t di
     size_t values = contact_layout_of (dim).values;
     PG_GROW (to->value, to->room, from->n * values);
     if (from->n) memcpy (to->value, from->value, from->n * values * sizeof *to->value);
-    to->n = from->n, to->friction = from->friction;
+    to->n = from->n, to->friction = from->friction, to->at = from->at;
 done:
     return status;
 }
@@ -154,6 +154,8 @@ static pg_status keep_memory (contact_memory *m, const char *name, const pg_syst
     m->n = (size_t) n;
     strcat (strcpy (part, name), ".friction");
     PG_TRY (k->numbers (k->context, part, 1, &m->friction));
+    strcat (strcpy (part, name), ".at");
+    PG_TRY (k->numbers (k->context, part, 1, &m->at));
     strcat (strcpy (part, name), ".values");
     if (n) PG_TRY (k->numbers (k->context, part, (size_t) n * values, m->value));
 done:
@@ -219,6 +221,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_KEEP_BOUND (k, "the number of pieces of cracks", count[0], (long) c->pieces.n, (long) c->pieces.n);
     PG_KEEP_BOUND (k, "contact", count[1], 0, 1);
     c->active = (int) count[1], r->contact_passes = count[2], r->contact_sweeps = count[3];
+    PG_TRY (contact_route_keep (s, k));
     if (!c->pieces.n) return PG_OK;
     PG_TRY (k->numbers (k->context, "contact.force", c->pieces.dim * c->pieces.n, c->force));
     PG_TRY (k->numbers (k->context, "contact.gap", c->pieces.dim * c->pieces.n, c->gap));

@@ -10,8 +10,9 @@
 #include <string.h>
 
 enum { MOST_ROUNDS = 4, MANY = 4 };
-/* Of columns by iterations, where there is no factor; of gaps, relative: no further round is worth it. */
-static const double COLUMN = 1e-10, GOOD = 1e-13;
+/* Of columns by iterations, where there is no factor, and by a factor; of gaps, relative: no further round is
+ * worth it. */
+static const double COLUMN = 1e-10, REFINED = 1e-12, GOOD = 1e-13;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
 pg_status contact_create (pg_system *s)
@@ -24,7 +25,7 @@ pg_status contact_create (pg_system *s)
     PG_ALLOC (s->contact, 1);
     s->contact->setting = o->contact;
     /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */
-    s->contact->history = !o->event;
+    s->contact->history = !o->event;                   /* loads with a constant part: contact_route.c */
     PG_ALLOC (s->contact->nodal, s->ndof);
     s->contact->pieces.dim = (size_t) s->problem->dim;
     if (platens) PG_TRY (platens_create (s));
@@ -34,6 +35,7 @@ done:
 
 static void clear_pairs (struct system_contact *c)
 {
+    contact_route_clear (c);
     pg_free (c->Z), pg_free (c->C), pg_free (c->coefficient), pg_free (c->cohesion), pg_free (c->before);
     pg_free (c->force), pg_free (c->gap), pg_free (c->open), pg_free (c->status), pg_free (c->initial);
     c->Z = c->C = c->coefficient = c->cohesion = c->before = c->force = c->gap = c->open = c->initial = NULL;
@@ -54,6 +56,7 @@ void contact_free (pg_system *s)
     if (!c) return;
     clear (c);
     platens_free (&c->platens), loose_free (&c->loose);
+    contact_route_free (c);
     pg_free (c->nodal), pg_free (c->now.value), pg_free (c->start.value), pg_free (c->shown);
     pg_free (c);
     s->contact = NULL;
@@ -99,6 +102,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state)
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     if (!c) return PG_OK;
+    double t0 = pg_seconds ();
     clear (c);
     if (c->setting.kind != PG_CONTACT_NONE && c->setting.search == PG_CONTACT_FACES) {
         PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
@@ -108,6 +112,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state)
     PG_TRY (platens_refresh (s, state));
     PG_TRY (make_pairs (s));
     PG_TRY (loose_refresh (&c->loose, s, state));
+    s->report->contact_seconds += pg_seconds () - t0;
 done:
     return status;
 }
@@ -128,6 +133,55 @@ static int has_factor (const pg_system *s)
 {
     return s->factor && !s->stale && s->linear->factors
            && (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR || s->mode == SYSTEM_UNDECIDED);
+}
+
+/* What K z leaves of the columns of G', over the larger of both: springs of weak unknowns in the factor show
+ * there. rest: nred x n. */
+static double rest_of_columns (pg_system *s, const double *rhs, const double *solved, size_t n, double *rest)
+{
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    double worst = 0;
+    for (size_t j = 0; j < n; j++) {
+        const double *z = solved + j * s->nred, *b = rhs + j * s->nred;
+        double *r = rest + j * s->nred, left = 0, size = 0;
+        if (T) {
+            pg_sparse_multiply (T, z, s->full);
+            system_multiply (s, s->full, s->scratch);
+            pg_sparse_multiply_transposed (T, s->scratch, r);
+        } else system_multiply (s, z, r);
+        for (size_t k = 0; k < s->nred; k++) {
+            r[k] = b[k] - r[k];
+            left = fmax (left, fabs (r[k])), size = fmax (size, fabs (b[k]));
+        }
+        worst = fmax (worst, left / size);
+    }
+    return worst;
+}
+
+/* Refinement of all columns by the factor at hand, as long as it gains: lines of stretches are sums of
+ * them; single states are mended as a whole. */
+static pg_status refine_columns (pg_system *s, const double *rhs, double *solved, size_t n)
+{
+    pg_status status = PG_OK;
+    double *rest = NULL, *step = NULL, before = INFINITY;
+    if (!has_factor (s) || !s->contact->route.open[0]) return PG_OK;
+    PG_ALLOC (rest, s->nred * n);
+    PG_ALLOC (step, s->nred * n);
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        double left = rest_of_columns (s, rhs, solved, n, rest);
+        if (!(left < 0.1 * before)) {
+            for (size_t k = 0; round && left > before && k < s->nred * n; k++) solved[k] -= step[k];
+            break;
+        }
+        if (left <= REFINED) break;
+        before = left;
+        PG_TRY (s->linear->solve (s->factor, n, rest, step));
+        for (size_t k = 0; k < s->nred * n; k++) solved[k] += step[k];
+        s->report->contact_columns += (long) n;
+    }
+done:
+    pg_free (rest), pg_free (step);
+    return status;
 }
 
 /* Z = K^-1 G', by the factor at hand all columns at once, else one after the other. */
@@ -154,6 +208,8 @@ static pg_status solve_columns (pg_system *s)
     }
     if (first < n)
         PG_TRY (s->linear->solve (s->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
+    s->report->contact_columns += (long) n;
+    PG_TRY (refine_columns (s, rhs, solved, n));
     for (size_t j = 0; j < n; j++)
         if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);
         else memcpy (c->Z + j * s->ndof, solved + j * s->nred, s->ndof * sizeof *rhs);
@@ -164,12 +220,13 @@ done:
 }
 
 /* C = G Z, symmetric but for rounding, which is taken out. */
-static pg_status condense (pg_system *s)
+pg_status contact_condense (pg_system *s)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     size_t n = c->pieces.dim * c->pieces.n;
     if (c->made == s->revision + 1) return PG_OK;
+    double t0 = pg_seconds ();
     PG_TRY (solve_columns (s));
     if (!c->C) PG_ALLOC (c->C, n * n);
     for (size_t j = 0; j < n; j++)
@@ -178,6 +235,7 @@ static pg_status condense (pg_system *s)
         for (size_t i = 0; i < j; i++)
             c->C[j * n + i] = c->C[i * n + j] = 0.5 * (c->C[j * n + i] + c->C[i * n + j]);
     c->made = s->revision + 1;
+    s->report->contact_seconds += pg_seconds () - t0;
 done:
     return status;
 }
@@ -223,6 +281,7 @@ static pg_status press (pg_system *s, double t, double *d, double *change)
     }
     pg_statistics *r = s->report;
     r->contact_passes = (long) solution.passes, r->contact_sweeps = (long) solution.sweeps;
+    r->contact_solves += r->contact_passes;
     *change = 0;
     for (size_t i = 0; i < n; i++) {
         double step = c->force[i] - old[i];
@@ -286,7 +345,7 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, double *residua
     if (n) measure_gaps (c, d);
     double change = 1;
     int closes = any_overlap (c) || contact_motions (s) > 0;
-    if (closes) PG_TRY (condense (s));
+    if (closes) PG_TRY (contact_condense (s));
     for (int round = 0; closes && round < MOST_ROUNDS && change > GOOD; round++) {
         PG_TRY (press (s, t, d, &change));
         PG_TRY (system_solve_linear (s, t, d, NULL, residual));
@@ -320,61 +379,80 @@ done:
  * is that of the chord, up to the last turn. */
 static const double NEXT = 2, LAST = 14, ASIDE = 1, CHORD = 2.5;
 
-void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, double stress[2],
-                     double *nearest)
+void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int nfield, pg_tip_faces *out)
 {
     const struct system_contact *c = s->contact;
     const double *x = state->paths->tip[tip].x;
-    double area = 0, normal = 0, shear = 0, from[2], e[2], h = pg_problem_spacing_at (s->problem, x),
+    double area = 0, force[2][2] = { { 0 } }, from[2], e[2], h = pg_problem_spacing_at (s->problem, x),
            straight = pg_tip_straight (state, tip, PG_CONTACT_TURN);
     pg_tip_chord (state, tip, fmin (CHORD * h, straight), from, e);
-    stress[0] = stress[1] = 0, *nearest = INFINITY;
+    *out = (pg_tip_faces){ .nearest = INFINITY };
     for (size_t k = 0; c && c->active && c->pieces.dim == 2 && k < c->pieces.n; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         double to[2] = { x[0] - p->x[0], x[1] - p->x[1] };
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
-        if (c->force[2*k] > 0)
-            *nearest = fmin (*nearest, fmax (0, hypot (to[0], to[1]) - 0.5 * p->length));
+        int presses = nfield == 1 ? c->force[2*k] > 0 : c->status[k] != PG_CONTACT_OPEN;
+        if (presses) out->nearest = fmin (out->nearest, fmax (0, hypot (to[0], to[1]) - 0.5 * p->length));
         double place = (behind - NEXT * h) / (fmin (LAST * h, straight) - NEXT * h);
         if (beside > ASIDE * h || !(place > 0) || !(place < 1)) continue;
         double weight = pow (sin (3.14159265358979323846 * place), 2);
-        area += weight * p->area, normal += weight * c->force[2*k], shear += weight * c->force[2*k + 1];
+        area += weight * p->area, out->closed |= presses;
+        for (size_t i = 0; i < 2; i++) {
+            double rate = nfield == 2 ? c->route.track.force_rate[2*k + i] : 0;
+            force[0][i] += weight * (c->force[2*k + i] - rate * c->route.track.s);
+            force[1][i] += weight * rate;
+        }
     }
     /* the force on the left face is the traction of the stress behind it, turned round */
-    if (area > 0) stress[0] = -normal / area, stress[1] = -shear / area;
+    for (int a = 0; a < nfield && area > 0; a++)
+        for (int i = 0; i < 2; i++) out->stress[a][i] = -force[a][i] / area;
 }
 
+/* Which tips are closed at t; a body without an equilibrium there says so when it is asked for it. */
+static pg_status find_closed (pg_system *s, const pg_state *state, double t, double *d, unsigned char *closed)
+{
+    double residual;
+    pg_status now = contact_solve (s, t, d, &residual);
+    for (size_t i = 0; now == PG_OK && i < state->paths->ntip; i++) {
+        pg_tip_faces faces;
+        contact_at_tip (s, state, i, 1, &faces);
+        closed[i] |= (unsigned char) faces.closed;
+    }
+    return now == PG_E_MEMORY ? now : PG_OK;
+}
 
+/* With stages: at the end of any of them. */
 pg_status contact_settle_tips (pg_system *s, pg_state *state)
 {
     pg_status status = PG_OK;
-    double *d = NULL, residual;
+    double *d = NULL;
+    unsigned char *closed = NULL;
     int any = 0;
     if (!s->contact || !state->paths || !state->paths->ntip) return PG_OK;
     PG_ALLOC (d, s->ndof);
-    pg_status now = contact_solve (s, 1, d, &residual);
-    /* a body without an equilibrium at full load says so when it is asked for it */
-    if (now == PG_E_MEMORY) PG_TRY (now);
-    for (size_t i = 0; now == PG_OK && i < state->paths->ntip; i++) {
-        double stress[2], nearest, h = pg_problem_spacing_at (s->problem, state->paths->tip[i].x);
-        contact_at_tip (s, state, i, stress, &nearest);
-        if (!(stress[0] < 0)) continue;
+    PG_ALLOC (closed, state->paths->ntip);
+    for (size_t t = 1; t <= (s->problem->nstage ? s->problem->nstage : 1); t++)
+        PG_TRY (find_closed (s, state, (double) t, d, closed));
+    for (size_t i = 0; i < state->paths->ntip; i++) {
+        double h = pg_problem_spacing_at (s->problem, state->paths->tip[i].x);
+        if (!closed[i]) continue;
         pg_tip_draw_back (state, s->problem, i, s->problem->closed_tip_offset / s->problem->cloud.h * h);
         any = 1;
     }
     if (any) PG_TRY (system_refresh (s, state, NULL));
 done:
-    pg_free (d);
+    pg_free (d), pg_free (closed);
     return status;
 }
 
-/* Under event stepping forces are those of load factor 1. */
+/* Under event stepping and proportional loads forces are those of load factor 1. */
 int pg_solver_tip_faces (const pg_solver *s, const pg_state *state, size_t tip, pg_tip_faces *out)
 {
-    double scale = s->options.event ? state->factor : 1;
+    const struct system_contact *c = s->break_loop.system.contact;
+    double scale = s->options.event && c && !c->route.open[0] ? state->factor : 1;
     memset (out, 0, sizeof *out);
-    if (!s->break_loop.system.contact) return 0;
-    contact_at_tip (&s->break_loop.system, state, tip, out->stress[0], &out->nearest);
+    if (!c) return 0;
+    contact_at_tip (&s->break_loop.system, state, tip, 1, out);
     out->stress[0][0] *= scale, out->stress[0][1] *= scale;
     return 1;
 }

@@ -68,6 +68,8 @@ pg_status event_solve (pg_solver *s)
         event_solver_at (e->engine, e->base ? stage_start (s) : stage_end (s), stage_end (s));
         return solve_by_engine (e);
     }
+    if (e->base && sys->contact)
+        return contact_route_begin (sys, stage_start (s), e->base, e->unit, &e->unit_residual);
     stage_bear (s, stage_start (s));
     if (e->base) PG_TRY (system_solve (sys, stage_start (s), e->base, NULL, &first));
     stage_bear (s, stage_end (s));
@@ -102,6 +104,7 @@ static pg_status begin_stage (pg_solver *s, pg_state *state, double ended)
     memcpy (state->d, e->base, n * sizeof *state->d);
     PG_TRY (stage_remove (s, state));
     e->balance_fresh = 0, e->secant0 = 0;
+    if (s->break_loop.system.contact) s->break_loop.system.contact->now.at = stage_start (s);
     if (s->break_loop.growth) s->break_loop.growth->fresh = 0;
     PG_TRY (event_solve (s));
 done:

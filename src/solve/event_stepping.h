@@ -57,6 +57,10 @@ void      ahead_free   (struct event_ahead **q);
 /* Affine loads: one event or level; facets: where the next one grows, *end, at most at full load. */
 pg_status affine_step  (pg_solver *s, pg_state *state, pg_step *step);
 pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end);
+/* With contact: accounts the way of a facet from before it to where the next one grows, at which
+ * affine_next_growth has left the forces of contact, and back through all changes of status to the state
+ * after it. */
+pg_status affine_account (pg_solver *s, pg_state *state, double end);
 
 /* break: facet (facet_events.c): the measurement of tips is that of the equilibria at hand; proportional
  * loads: the load factor of the next growth (INFINITY: none); one event. */

@@ -81,6 +81,7 @@ static pg_status account (pg_solver *s, pg_state *state, double factor, double e
     event_stepping *e = events_of (s);
     break_loop *b = &s->break_loop;
     double ways[2] = { end, factor };
+    if (e->base && b->system.contact) return affine_account (s, state, end);
     for (int k = 0; k < 2; k++) {
         double scale = e->base ? 1 : ways[k];
         event_move (s, state, ways[k]);

@@ -162,6 +162,16 @@ static void tell (break_loop *b, const pg_state *state)
     }
 }
 
+/* Is the stress along the crack large? Of two fields: at either end of their loads. */
+static int has_large_T (const pg_tip_field *f, int nfield)
+{
+    double T = f->T[0], K = f->K_wide[0][0];
+    int large = fabs (T) * sqrt (f->h) > LARGE_T * fabs (K);
+    if (nfield == 1) return large;
+    T += f->T[1], K += f->K_wide[0][1];
+    return large || fabs (T) * sqrt (f->h) > LARGE_T * fabs (K);
+}
+
 /* One tip; with contact its faces may touch. Then a large stress along the crack falsifies the energy of a
  * field that is not exact, and the magnitude comes from K. */
 static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, const double *const *d,
@@ -171,14 +181,15 @@ static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, co
     facet_growth *g = b->growth;
     pg_system *s = &b->system;
     pg_tip_field *f = &g->field[i];
-    pg_tip_faces faces = { .nearest = INFINITY };
-    if (s->contact) contact_at_tip (s, state, i, faces.stress[0], &faces.nearest);
+    pg_tip_faces faces;
+    if (s->contact) contact_at_tip (s, state, i, g->nfield, &faces);
     PG_TRY (pg_tip_measure_faces (f, s->problem, s->force, s->self, state, i, g->nfield, d, times,
                                   s->contact ? &faces : NULL));
-    if (s->contact && !f->closed && !isnan (f->near)
-        && fabs (f->T[0]) * sqrt (f->h) > LARGE_T * fabs (f->K_wide[0][0]))
-        f->J[0][0] = f->J_near[0][0] =
-            (f->K_wide[0][0] * f->K_wide[0][0] + f->K_wide[1][0] * f->K_wide[1][0]) / f->modulus;
+    if (!s->contact || f->closed || isnan (f->near) || !has_large_T (f, g->nfield)) goto done;
+    for (int a = 0; a < g->nfield; a++)
+        for (int c = 0; c < g->nfield; c++)
+            f->J[a][c] = f->J_near[a][c] =
+                (f->K_wide[0][a] * f->K_wide[0][c] + f->K_wide[1][a] * f->K_wide[1][c]) / f->modulus;
 done:
     return status;
 }

@@ -343,10 +343,6 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
     if (o->on_instability != PG_UNSTABLE_FOLLOW)
         pg_scene_fault (scene, "solver.on_instability",
                         "with contact.kind the load follows equilibrium only: use follow");
-    if (o->event && o->contact.cohesion > 0)
-        pg_scene_fault (scene, "contact.cohesion",
-                        "does not grow with the load, on which event stepping relies: use solver.stepping: "
-                        "fixed");
 }
 
 /* The common part here, then that of the method; then what goes with nothing. */

@@ -75,10 +75,11 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
         pg_scene_fault (scene, "solver.stepping",
                         "event stepping needs loads that grow with the load factor (ramp: linear), stay "
                         "(ramp: constant), or both: use fixed, or stages");
-    if (o->event && closes && affine)
+    /* Coulomb's cone is round in space: forces are no straight lines between changes of status */
+    if (o->event && closes && affine && problem->dim == 3)
         pg_scene_fault (scene, "solver.stepping",
-                        "event does not yet go with contact.kind where loads have a constant part: use "
-                        "fixed");
+                        "event goes with contact.kind in space where all loads grow with the load factor: "
+                        "with a constant part, cohesion, or stages, use fixed");
     if (closes && pg_problem_removes (problem))
         pg_scene_fault (scene, "stages", "remove does not go with contact.kind so far");
     if (o->event && o->break_mode == PG_BREAK_ALL)
@@ -103,14 +104,14 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     int proportional = pg_problem_proportional (problem);
     pg_static_options *own = PG_OWN (pg_static_options, o);
     own->stop_stiffness = pg_scene_number (scene, "solver.stop.stiffness");
-    /* with a constant part the faces change their state between events */
     int closes = o->contact.kind != PG_CONTACT_NONE;
-    int suits = proportional
-                || (!closes && (problem->nstage
-                                || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem))));
+    int suits = proportional || problem->nstage
+                || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem));
     if (problem->nplaten) suits = proportional && platens_touch (problem);
+    if (closes && problem->dim == 3 && (!proportional || o->contact.cohesion > 0)) suits = 0;
     o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
-    own->affine = o->event && !proportional;
+    /* cohesion does not grow with the load */
+    own->affine = o->event && (!proportional || o->contact.cohesion > 0);
     check_stepping (o, problem, scene, closes);
     instability_read (o, problem, scene);
     read_steps (o, problem, scene);

@@ -310,11 +310,6 @@ static void the_rest_is_refused (void **state)
           "does not know contact" },
         { FLAT "]\ncontact: {kind: friction}\n", "kind: friction needs it" },
         { FLAT "]\ncontact: {kind: normal, coefficient: 0.3}\n", "kind: friction alone" },
-        { FLAT "]\ncontact: {kind: friction, coefficient: 0.3, cohesion: 1}\n"
-          "solver: {kind: static, stepping: event}\n",
-          "does not grow with the load" },
-        { FLAT ", {set: right, traction: {x: -1}, ramp: constant}]\ncontact: {kind: normal}\n"
-          "solver: {kind: static, stepping: event}\n", "constant part" },
         { FLAT "]\ncontact: {kind: normal}\n"
           "failure: {criterion: energy_release, fracture_energy: 1, tensile_strength: 1}\n",
           "with a strength" },
