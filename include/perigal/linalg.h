@@ -169,12 +169,19 @@ typedef struct {
 /* The same with a preconditioner of the caller's; P NULL: the diagonal. */
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                        double *x, double tolerance, size_t limit, size_t *iterations);
-/* The same; `stepped` (NULL: nobody) hears after every iteration that x has gone on by alpha times the vector
- * that A was applied to last. Whoever keeps more of that product than the n rows solved for, such as those of
- * prescribed unknowns, can keep b - A x of all rows that way. */
+/* The same, and who watches: `stepped` (NULL: nobody) hears after every iteration that x has gone on by alpha
+ * times the vector that A was applied to last. Whoever keeps more of that product than the n rows solved for,
+ * such as those of prescribed unknowns, can keep b - A x of all rows that way. */
+typedef struct {
+    void (*stepped) (void *context, double alpha);
+    void  *context;
+    /* 1: what is left of b is local: entries of directions that only what may stay unbalanced would ask for
+     * are zero, so that products need not look there. By the diagonal alone. */
+    int    local;
+} pg_cg_watch;
 pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_preconditioner *P, const double *b,
-                                       double *x, double tolerance, size_t limit, size_t *iterations,
-                                       void (*stepped) (void *context, double alpha), void *context);
+                                          double *x, double tolerance, size_t limit, size_t *iterations,
+                                          const pg_cg_watch *watch);
 /* Unknown whose pivot failed in the most recent failed Cholesky factorisation on this thread; -1: none has
  * failed yet. A later success does not reset it. */
 long pg_linear_failed_row (void);

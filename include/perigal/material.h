@@ -86,5 +86,9 @@ double pg_rayleigh_speed (double pressure, double shear);
 /* sigma_1 >= sigma_2 >= sigma_3 of n stresses (n x nv) with out-of-plane zz (n or NULL = 0). principal is n x
  * 3. */
 void pg_principal (int dim, size_t n, const double *stress, const double *zz, double *principal);
+/* most >= sigma_1 and least <= sigma_3 (n each): in space without an angle, and by no more than 5e-5 of the
+ * largest shear too far; else these stresses themselves. */
+void pg_principal_bounds (int dim, size_t n, const double *stress, const double *zz, double *most,
+                          double *least);
 PG_API_END
 #endif

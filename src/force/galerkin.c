@@ -29,12 +29,15 @@ static void galerkin_free (void **self)
         pg_free (g->strain[s]), pg_free (g->stress[s]), pg_free (g->zz[s]), pg_free (g->u[s]);
         pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->seen[s]), pg_free (g->list[s]),
             pg_free (g->judged[s]);
+        pg_free (g->alone[s]), pg_free (g->exact[s]), pg_free (g->bounded[s]);
+        pg_free (g->disturbed[s]);
     }
     pg_assembly_free (&g->K);
     pg_assembly_free (&g->M);
     galerkin_boundary_free (g);
     galerkin_basis_free (g);
     galerkin_slices_free (g);
+    galerkin_sight_free (g);
     galerkin_silling_free (g);
     galerkin_dilatation_free (g);
     galerkin_change_free (g);

@@ -3,7 +3,8 @@
  * blocks, energy), galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
  * galerkin_sum.c (loops over points), galerkin_runs.c (points that are alike), galerkin_silling.c
  * (stabilisation), galerkin_operator.c (K x, K),
- * galerkin_bonds.c (utilisation, overlap, census), galerkin_groups.c (bonds outside of a group),
+ * galerkin_bonds.c (utilisation, overlap, census), galerkin_worst.c (the worst bonds),
+ * galerkin_groups.c (bonds outside of a group), galerkin_sight.c (which points see which nodes),
  * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
@@ -32,6 +33,7 @@ typedef struct {  /* one component's elimination: C_s d_s = g - C_m d_m */
 } elimination;
 
 typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c */
+typedef struct galerkin_sight galerkin_sight;           /* galerkin_sight.c */
 typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c */
 typedef struct galerkin_change galerkin_change;         /* galerkin_change.c */
 
@@ -56,8 +58,16 @@ typedef struct {
     /* of the last measure */
     double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];
     double  *s1[PG_BOND_SETS], *s3[PG_BOND_SETS];
+    /* galerkin_worst.c: a bound of what each point would use of the limits, NULL until asked for; 1: s1 and
+     * s3 of a point are no bounds; 1: those of a block of points are by the stress of the last measure */
+    double  *alone[PG_BOND_SETS];
+    unsigned char *exact[PG_BOND_SETS], *bounded[PG_BOND_SETS];
+    galerkin_sight *sight[PG_BOND_SETS];               /* NULL until asked for */
     double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof) */
-    int      fresh[PG_BOND_SETS];  /* the measure is that of `seen` and of the rows as they are */
+    /* the measure is that of `seen` and of the rows as they are, but for blocks of points that are disturbed
+     * (NULL: none) */
+    int      fresh[PG_BOND_SETS];
+    unsigned char *disturbed[PG_BOND_SETS];
     galerkin_slices *slices;
     double  *kept, *place;  /* galerkin_silling.c; NULL: no stabilisation */
     galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere */
@@ -123,6 +133,12 @@ pg_status galerkin_slices_create (galerkin *g);
 void galerkin_slices_free (galerkin *g);
 /* The rows of these points have changed (list NULL: of all). */
 void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list);
+/* sight: points in blocks of so many; those that see a node where x and other differ (NULL: where x is not
+ * zero) are marked, block by block. NULL: most of them do, or the table is not to be had. Valid until the
+ * next call for this set. */
+enum { GALERKIN_BLOCK = 64 };
+const unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other);
+void galerkin_sight_free (galerkin *g);
 /* u, strain, stress, zz of every point, unless known */
 void galerkin_measure (galerkin *g, int set, const double *d);
 /* again, after a change of rows */
@@ -163,9 +179,11 @@ typedef struct {
 } galerkin_run_list;
 void galerkin_runs_find  (const galerkin *g, galerkin_run_list *list);
 void galerkin_runs_clear (galerkin_run_list *list);
-/* f += sum w B' D B x of a run; x, f: an array for each component, f from node `low` on. */
+/* f += sum w B' D B x of a run; x, f: an array for each component, f from node `low` on; active: blocks of
+ * points that x is not zero at (NULL: all). */
 void galerkin_run_sum (const galerkin *g, const galerkin_run_list *list, const galerkin_run *run,
-                       const double *const x[3], double *const f[3], size_t low);
+                       const double *const x[3], double *const f[3], size_t low,
+                       const unsigned char *active);
 /* Eight groups of a run: the first of them is number `lane` of the run, `left` of them exist; x, f: nodal
  * values and forces, one array a component, f from node `low` on. */
 typedef struct {
@@ -275,8 +293,23 @@ pg_status galerkin_trace (void *self, const pg_state *state, size_t n, const dou
 /* elements: finite elements on the nodes, as a preconditioner */
 pg_status galerkin_elements (void *self, pg_elements *out);
 /* bonds and fields */
+/* Bonds of a set that are judged, with the arrays that take what they show (NULL: not wanted). */
+typedef struct {
+    galerkin *g;
+    const pg_state *state;
+    int     set;
+    double *utilisation, *factor;
+    char   *kind;
+} galerkin_judging;
+enum { GALERKIN_BATCH = 128 };
+/* At most so many live bonds by the principal stresses of both ends; to: their places in the arrays. */
+void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond, const size_t *point,
+                     const size_t *to);
+/* s1 and s3 of a point by the stress measured last. */
+void galerkin_principal (galerkin *g, int set, size_t p);
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,
                                 char *kind, double *factor);
+/* worst: the worst bonds alone */
 pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
                           double *utilisation, char *kind, double *top, pg_changes *over);
 /* g->judged, once */

@@ -6,21 +6,20 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct {
-    galerkin *g;
-    const pg_state *state;
-    int     set;
-    double *utilisation, *factor;
-    char   *kind;
-} judging;
+enum { BATCH = GALERKIN_BATCH };
 
-enum { BATCH = 128 };
-static const double NEVER = -1e300;
+void galerkin_principal (galerkin *g, int set, size_t p)
+{
+    double principal[3];
+    pg_principal (g->dim, 1, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p, principal);
+    g->s1[set][p] = principal[0], g->s3[set][p] = principal[2];
+}
 
 /* What some bonds show against one law: utilisation, and the factor by which a proportional load may grow;
  * `to`: their places in the arrays. Of two laws that judge one bond the weaker decides: the larger
  * utilisation, the smaller factor. */
-static void judge_by (const judging *s, const pg_criterion *c, const pg_bond_measures *m, const size_t *to)
+static void judge_by (const galerkin_judging *s, const pg_criterion *c, const pg_bond_measures *m,
+                      const size_t *to)
 {
     double out[BATCH];
     char kind[BATCH];
@@ -36,7 +35,7 @@ static void judge_by (const judging *s, const pg_criterion *c, const pg_bond_mea
 }
 
 /* Of a batch those bonds that have an end in a material, copied together and judged by its law. */
-static void judge_material (const judging *s, int material, pg_bond_measures m, const size_t *bond,
+static void judge_material (const galerkin_judging *s, int material, pg_bond_measures m, const size_t *bond,
                             const size_t *point, const size_t *to)
 {
     const galerkin *g = s->g;
@@ -83,7 +82,8 @@ double galerkin_reach (const galerkin *g, int set, size_t point, size_t entry)
 /* Measures `count` live bonds and hands them to the laws: bond vector xi and relative displacement eta
  * (m), principal stresses as the mean of both ends (Pa), and in graded clouds the local spacing over h,
  * by which limits of stretch scale. Most batches are of one material and need no second copy. */
-static void judge (const judging *s, size_t count, const size_t *bond, const size_t *point, const size_t *to)
+void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond, const size_t *point,
+                     const size_t *to)
 {
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
@@ -122,7 +122,7 @@ static void judge (const judging *s, size_t count, const size_t *bond, const siz
  * factor. */
 static void judge_points (void *context, size_t first, size_t last, int thread)
 {
-    const judging *s = context;
+    const galerkin_judging *s = context;
     const galerkin *g = s->g;
     const pg_rows *r = &g->rows[s->set];
     const unsigned char *alive = s->state->alive + g->problem->first_bond[s->set],
@@ -136,9 +136,9 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
             if (s->factor) s->factor[base + e] = INFINITY;
             if (!alive[e] || !judged[e]) continue;
             bond[count] = e, to[count] = base + e, point[count++] = p;
-            if (count == BATCH) judge (s, count, bond, point, to), count = 0;
+            if (count == BATCH) galerkin_judge (s, count, bond, point, to), count = 0;
         }
-    if (count) judge (s, count, bond, point, to);
+    if (count) galerkin_judge (s, count, bond, point, to);
 }
 
 /* Which bonds are looked at, once for all: those of no length and those of exempt ends never break. */
@@ -159,57 +159,14 @@ done:
     return status;
 }
 
-/* ---- the worst bonds ----------------------------------------------------------------------------------- */
-/* Principal stresses of a range of points; alone: what each would use of the limits if both ends of a bond
- * were like it. */
-typedef struct { galerkin *g; int set; double *alone; } principals;
-
-/* The weakest law decides, as in a bond; points whose bonds never break are marked by -1e300. */
-static void judge_alone (const principals *c, size_t first, size_t last)
-{
-    const galerkin *g = c->g;
-    const unsigned char *exempt = g->problem->exempt[c->set];
-    double out[BATCH];
-    for (size_t p = first; p < last; p++) c->alone[p] = exempt[p] ? NEVER : 0;
-    for (size_t k = 0; k < g->problem->nmaterial; k++)
-        for (size_t p = first; p < last; p += BATCH) {
-            const pg_criterion *law = &g->problem->criterion[k];
-            size_t n = last - p < BATCH ? last - p : BATCH;
-            pg_bond_measures m = { .n = n, .dim = g->dim, .s1 = g->s1[c->set] + p, .s3 = g->s3[c->set] + p };
-            law->type->utilisation (law, &m, out, NULL);
-            for (size_t i = 0; i < n; i++)
-                if (!exempt[p + i] && out[i] > c->alone[p + i]) c->alone[p + i] = out[i];
-        }
-}
-
 /* Largest and smallest principal stress at a range of points of a set, Pa. */
+typedef struct { galerkin *g; int set; } principals;
+
 static void principal_points (void *context, size_t first, size_t last, int thread)
 {
     const principals *c = context;
-    galerkin *g = c->g;
-    double principal[3];
     (void) thread;
-    for (size_t p = first; p < last; p++) {
-        pg_principal (g->dim, 1, g->stress[c->set] + p * (size_t) g->nv, g->zz[c->set] + p, principal);
-        g->s1[c->set][p] = principal[0], g->s3[c->set][p] = principal[2];
-    }
-    if (c->alone) judge_alone (c, first, last);
-}
-
-/* The largest utilisation, and if it is above 1 the bonds from `from` on, by looking at all. */
-static pg_status utilisation_over (const pg_state *state, const double *utilisation, double from, double *top,
-                               pg_changes *over)
-{
-    pg_status status = PG_OK;
-    *top = 0, over->n = 0;
-    for (size_t i = 0; i < state->nbond; i++) if (utilisation[i] > *top) *top = utilisation[i];
-    for (size_t i = 0; *top > 1 && i < state->nbond; i++) {
-        if (!state->alive[i] || !(utilisation[i] >= from)) continue;
-        PG_GROW (over->bond, over->cap, over->n + 1);
-        over->bond[over->n++] = i;
-    }
-done:
-    return status;
+    for (size_t p = first; p < last; p++) galerkin_principal (c->g, c->set, p);
 }
 
 /* Of every bond of every set. Stresses at all sets first, as a bond joins a point of its set with a node. */
@@ -223,137 +180,15 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
         const pg_rows *r = &g->rows[set];
         if (r->n == 0) continue;
         galerkin_measure (g, set, d);
-        principals c = { g, set, NULL };
+        principals c = { g, set };
         if (g->problem->criterion->type->needs & PG_NEEDS_STRESS)
             pg_parallel (g->threads, r->n, principal_points, &c);
     }
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        judging s = { g, state, set, utilisation, factor, kind };
+        galerkin_judging s = { g, state, set, utilisation, factor, kind };
         pg_parallel (g->threads, g->rows[set].n, judge_points, &s);
     }
 done:
-    return status;
-}
-
-/* A search among bonds. Utilisation by stress is the largest of some linear functions of the mean (s1, s3) of
- * both ends, so that a bond uses at most the mean of what its ends would use alone: only bonds are judged for
- * which this bound is above `least`. */
-typedef struct {
-    judging judge;
-    double *alone[PG_BOND_SETS], top_node;             /* per point; the largest of a node */
-    double  least, top;
-    pg_changes *list;                                  /* takes bonds from `least` on; NULL: not wanted */
-    size_t  bond[BATCH], point[BATCH], count;
-} search;
-
-/* Judges the bonds collected. Without a list the largest utilisation so far is what others have to reach. */
-static pg_status judge_collected (search *s)
-{
-    pg_status status = PG_OK;
-    size_t base = s->judge.g->problem->first_bond[s->judge.set];
-    double *u = s->judge.utilisation;
-    size_t to[BATCH];
-    for (size_t k = 0; k < s->count; k++) to[k] = base + s->bond[k], u[to[k]] = 0;
-    if (s->count) judge (&s->judge, s->count, s->bond, s->point, to);
-    for (size_t k = 0; k < s->count; k++) {
-        size_t i = to[k];
-        if (u[i] > s->top) s->top = u[i];
-        if (!s->list || !(u[i] >= s->least)) continue;
-        PG_GROW (s->list->bond, s->list->cap, s->list->n + 1);
-        s->list->bond[s->list->n++] = i;
-    }
-    if (!s->list) s->least = s->top;
-done:
-    s->count = 0;
-    return status;
-}
-
-/* Could this point, or this bond of it, reach `least`? A hair is left for rounding. */
-static int may (const search *s, double one, double other)
-{
-    return 0.5 * (one + other) >= s->least * (1 - 1e-12);
-}
-
-/* Live bonds of a point that may reach `least`, in batches. */
-static pg_status search_point (search *s, size_t p)
-{
-    pg_status status = PG_OK;
-    const galerkin *g = s->judge.g;
-    int set = s->judge.set;
-    const pg_family *f = &g->rows[set].family;
-    const unsigned char *alive = s->judge.state->alive + g->problem->first_bond[set];
-    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
-        double other = s->alone[PG_NODES][f->node[e]];
-        if (!alive[e] || !may (s, s->alone[set][p], other) || pg_problem_no_bond (g->problem, set, p, e))
-            continue;
-        s->bond[s->count] = e, s->point[s->count++] = p;
-        if (s->count == BATCH) PG_TRY (judge_collected (s));
-    }
-done:
-    return status;
-}
-
-/* All bonds of all sets that may reach `least`, ascending. */
-static pg_status search_all (search *s)
-{
-    pg_status status = PG_OK;
-    galerkin *g = s->judge.g;
-    for (s->judge.set = 0; s->judge.set < PG_BOND_SETS; s->judge.set++) {
-        const double *alone = s->alone[s->judge.set];
-        for (size_t p = 0; p < g->rows[s->judge.set].n; p++)
-            if (may (s, alone[p], s->top_node)) PG_TRY (search_point (s, p));
-        PG_TRY (judge_collected (s));
-    }
-done:
-    return status;
-}
-
-/* What the largest utilisation is at least: that of the bonds of the point that alone would use most. */
-static pg_status search_first (search *s)
-{
-    pg_status status = PG_OK;
-    galerkin *g = s->judge.g;
-    for (s->judge.set = 0; s->judge.set < PG_BOND_SETS; s->judge.set++) {
-        const double *alone = s->alone[s->judge.set];
-        size_t worst = 0, n = g->rows[s->judge.set].n;
-        for (size_t p = 1; p < n; p++) if (alone[p] > alone[worst]) worst = p;
-        if (n) PG_TRY (search_point (s, worst));
-        PG_TRY (judge_collected (s));
-    }
-done:
-    return status;
-}
-
-/* The largest utilisation of a live bond, and if it is above 1, all bonds from `from` on, ascending, with
- * utilisation and kind at their places of the two arrays (the other places have no meaning). The same numbers
- * as galerkin_utilisation, of the few bonds that matter. */
-pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
-                          double *utilisation, char *kind, double *top, pg_changes *over)
-{
-    pg_status status = PG_OK;
-    galerkin *g = self;
-    search s = { .judge = { g, state, 0, utilisation, NULL, kind }, .top_node = NEVER };
-    over->n = 0;
-    if (g->problem->criterion->type->needs != PG_NEEDS_STRESS) {
-        PG_TRY (galerkin_utilisation (g, state, d, utilisation, kind, NULL));
-        return utilisation_over (state, utilisation, from, top, over);
-    }
-    for (int set = 0; set < PG_BOND_SETS; set++) {
-        size_t n = g->rows[set].n;
-        PG_ALLOC (s.alone[set], n);
-        if (n) galerkin_measure (g, set, d);
-        principals c = { g, set, s.alone[set] };
-        pg_parallel (g->threads, n, principal_points, &c);
-    }
-    for (size_t i = 0; i < g->n; i++) s.top_node = fmax (s.top_node, s.alone[PG_NODES][i]);
-    PG_TRY (search_first (&s));
-    PG_TRY (search_all (&s));
-    *top = s.top;
-    if (!(s.top > 1)) goto done;
-    s.list = over, s.least = from;
-    PG_TRY (search_all (&s));
-done:
-    for (int set = 0; set < PG_BOND_SETS; set++) pg_free (s.alone[set]);
     return status;
 }
 
@@ -367,17 +202,13 @@ pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond
     size_t bond[BATCH], point[BATCH], to[BATCH];
     PG_TRY (galerkin_find_judged (g));
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        double principal[3];
         galerkin_measure_some (g, set, d, group->npoint[set], group->point[set], group->nnode, group->node);
         for (size_t k = 0; (g->problem->criterion->type->needs & PG_NEEDS_STRESS) && k < group->npoint[set];
-             k++) {
-            size_t p = group->point[set][k];
-            pg_principal (g->dim, 1, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p, principal);
-            g->s1[set][p] = principal[0], g->s3[set][p] = principal[2];
-        }
+             k++)
+            galerkin_principal (g, set, group->point[set][k]);
     }
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        judging s = { g, state, set, utilisation, factor, kind };
+        galerkin_judging s = { g, state, set, utilisation, factor, kind };
         size_t base = g->problem->first_bond[set], count = 0;
         for (size_t k = group->first[set]; k < group->first[set + 1]; k++) {
             size_t e = group->bond[k] - base;
@@ -385,9 +216,9 @@ pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond
             if (factor) factor[k] = INFINITY;
             if (!state->alive[base + e] || !g->judged[set][e]) continue;
             bond[count] = e, to[count] = k, point[count++] = group->owner[k];
-            if (count == BATCH) judge (&s, count, bond, point, to), count = 0;
+            if (count == BATCH) galerkin_judge (&s, count, bond, point, to), count = 0;
         }
-        if (count) judge (&s, count, bond, point, to);
+        if (count) galerkin_judge (&s, count, bond, point, to);
     }
 done:
     return status;

@@ -249,12 +249,22 @@ INLINE void sum_bundle (int dim, const galerkin_bundle *b)
 PG_WIDEST static void sum_solid (const galerkin_bundle *b) { sum_bundle (3, b); }
 PG_WIDEST static void sum_plane (const galerkin_bundle *b) { sum_bundle (2, b); }
 
+/* Is any point of the lanes at hand in an active block? */
+static int is_active (const galerkin_bundle *b, const unsigned char *active)
+{
+    size_t first = b->run->point + b->lane * b->run->points, last = first + b->left * b->run->points - 1;
+    int any = 0;
+    for (size_t k = first / GALERKIN_BLOCK; k <= last / GALERKIN_BLOCK; k++) any |= active[k];
+    return any;
+}
+
 void galerkin_run_sum (const galerkin *g, const galerkin_run_list *l, const galerkin_run *run,
-                       const double *const x[3], double *const f[3], size_t low)
+                       const double *const x[3], double *const f[3], size_t low, const unsigned char *active)
 {
     galerkin_bundle b = { g, run, l->entry + run->entry, x, f, low, 0, 0 };
     for (; b.lane < run->count; b.lane += LANES) {
         b.left = run->count - b.lane < LANES ? run->count - b.lane : LANES;
+        if (active && !is_active (&b, active)) continue;
         if (g->kept) galerkin_silling_bundle (&b);
         else (g->dim == 3 ? sum_solid : sum_plane) (&b);
     }

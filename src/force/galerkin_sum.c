@@ -158,7 +158,14 @@ INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, do
 }
 
 /* ---- measures ------------------------------------------------------------------------------------------ */
-typedef struct { galerkin *g; int set; const pg_rows *rows; const double *x; const size_t *list; } measuring;
+typedef struct {
+    galerkin *g;
+    int       set;
+    const pg_rows *rows;
+    const double  *x;
+    const size_t  *list;
+    const unsigned char *active;                       /* blocks of points; NULL: all */
+} measuring;
 
 PG_WIDE static void measure_solid (const measuring *m, size_t first, size_t last)
 {
@@ -201,15 +208,45 @@ static const double *four_a_node (galerkin *g, const double *d)
 /* Nodal values as the loops over points take them. */
 static const double *widened (galerkin *g, const double *d) { return g->dim == 3 ? four_a_node (g, d) : d; }
 
+/* What is derived of the stress of a block of points is to be derived anew. */
+static void forget_bounds (galerkin *g, int set, size_t block)
+{
+    if (g->bounded[set]) g->bounded[set][block] = 0;
+}
+
+static size_t blocks_of (const galerkin *g, int set)
+{
+    return (g->rows[set].n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
+}
+
+/* Points in those of some blocks that are active. */
+static void measure_blocks (void *context, size_t first, size_t last, int thread)
+{
+    const measuring *m = context;
+    size_t n = m->g->rows[m->set].n;
+    for (size_t b = first; b < last; b++) {
+        size_t end = (b + 1) * GALERKIN_BLOCK < n ? (b + 1) * GALERKIN_BLOCK : n;
+        const unsigned char *disturbed = m->g->disturbed[m->set];
+        if (m->active && !m->active[b] && !(disturbed && disturbed[b])) continue;
+        measure_points (context, b * GALERKIN_BLOCK, end, thread);
+        forget_bounds (m->g, m->set, b);
+    }
+}
+
 /* All points of a set, unless they were measured at the same displacement already: balances, fields and
- * criteria ask for the same one several times a step. */
+ * criteria ask for the same one several times a step. Where only some nodes have moved since, the points that
+ * see them. */
 void galerkin_measure (galerkin *g, int set, const double *d)
 {
     size_t bytes = g->n * (size_t) g->dim * sizeof *d;
-    if (g->fresh[set] && memcmp (g->seen[set], d, bytes) == 0) return;
+    const unsigned char *active = NULL;
+    int whole = g->fresh[set] && (!g->disturbed[set] || !memchr (g->disturbed[set], 1, blocks_of (g, set)));
+    if (whole && memcmp (g->seen[set], d, bytes) == 0) return;
+    if (g->fresh[set]) active = galerkin_active (g, set, d, g->seen[set]);
     memcpy (g->seen[set], d, bytes);
-    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, d), NULL };
-    pg_parallel (g->threads, g->rows[set].n, measure_points, &m);
+    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, d), NULL, active };
+    pg_parallel (g->threads, blocks_of (g, set), measure_blocks, &m);
+    if (g->disturbed[set]) memset (g->disturbed[set], 0, blocks_of (g, set));
     if (g->dilatation) galerkin_dilatation_measure (g, set, d);
     g->fresh[set] = 1;
 }
@@ -217,28 +254,41 @@ void galerkin_measure (galerkin *g, int set, const double *d)
 /* Some points anew at the displacement measured last, after their shape functions have changed. */
 void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list)
 {
-    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, g->seen[set]), list };
+    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, g->seen[set]), list,
+                    NULL };
     measure_points (&m, 0, count, 0);
+    for (size_t k = 0; k < count; k++) forget_bounds (g, set, list[k] / GALERKIN_BLOCK);
 }
 
-/* Some points at a displacement that is known at some nodes only, all that these points see. What was
- * measured before at the other points belongs to another displacement: nothing of the set is known any
- * more. */
+/* What was measured at these points belongs to another displacement than what was at all others. */
+static void disturb (galerkin *g, int set, size_t count, const size_t *list)
+{
+    if (!g->disturbed[set]) g->disturbed[set] = pg_calloc (blocks_of (g, set), 1);
+    if (!g->disturbed[set]) g->fresh[set] = 0;         /* without memory nothing is known any more */
+    for (size_t k = 0; k < count && g->disturbed[set]; k++) g->disturbed[set][list[k] / GALERKIN_BLOCK] = 1;
+}
+
+/* Some points at a displacement that is known at some nodes only, all that these points see. */
 void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count, const size_t *list,
                             size_t nnode, const int *node)
 {
     double *x = g->slices->x;
     for (size_t k = 0; g->dim == 3 && k < nnode; k++)
         for (size_t c = 0, i = (size_t) node[k]; c < 3; c++) x[4 * i + c] = d[3 * i + c];
-    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], g->dim == 3 ? x : d, list };
-    g->fresh[set] = 0;
+    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], g->dim == 3 ? x : d, list, NULL };
+    disturb (g, set, count, list);
     measure_points (&m, 0, count, 0);
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
 /* x: nodal values whose stresses are summed; NULL: stresses of the last measure. at: the nodal values, four
  * numbers a node, where there is a stabilisation. */
-typedef struct { galerkin *g; const double *x, *at; double *f; } summing;
+typedef struct {
+    galerkin *g;
+    const double *x, *at;
+    double   *f;
+    const unsigned char *active;                       /* blocks of points that x is not zero at; NULL: all */
+} summing;
 
 /* s = D e in space; a loop of constant length. */
 INLINE void tangent (const double *D, const double *e, double *s)
@@ -301,6 +351,15 @@ static void sum_line (const summing *m, size_t first, size_t last, double *sum, 
 static void sum_points (const summing *m, size_t k, size_t first, size_t last)
 {
     const galerkin *g = m->g;
+    for (size_t from = first; m->active && from < last; ) {
+        size_t block = from / GALERKIN_BLOCK, end = (block + 1) * GALERKIN_BLOCK;
+        summing all = *m;
+        all.active = NULL;
+        if (end > last) end = last;
+        if (m->active[block]) sum_points (&all, k, from, end);
+        from = end;
+    }
+    if (m->active) return;
     const galerkin_slices *s = g->slices;
     if (g->kept)
         galerkin_silling_sum (g, first, last, m->x ? NULL : g->stress[g->bulk], m->at, s->sum[k], s->low[k]);
@@ -326,7 +385,7 @@ static void sum_slices (void *context, size_t first, size_t last, int thread)
             const galerkin_run *run = &s->runs[k].run[i];
             sum_points (m, k, at, run->point);
             galerkin_run_sum (m->g, &s->runs[k], run, (const double *const *) s->component, s->part[k],
-                              s->low[k]);
+                              s->low[k], m->active);
             at = run->point + run->points * run->count;
         }
         sum_points (m, k, at, s->first[k + 1]);
@@ -361,7 +420,7 @@ static void split (galerkin *g, const double *x)
 /* x NULL: stresses as measured, at displacement d. */
 static void sum_all (galerkin *g, const double *x, const double *d, double *f)
 {
-    summing m = { g, x, NULL, f };
+    summing m = { g, x, NULL, f, x ? galerkin_active (g, g->bulk, x, NULL) : NULL };
     if (g->kept) m.at = four_a_node (g, d);
     else if (x) m.x = widened (g, x);
     if (x && g->slices->has_runs) split (g, x);

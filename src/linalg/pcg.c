@@ -5,6 +5,11 @@
  *     z = P^-1 r,   beta = r.z / (r.z)_before,   p = z + beta p,   alpha = r.z / p.A p,   x += alpha p,
  *     r -= alpha A p.
  *
+ * Where b is local and A couples little beyond its neighbours, so are r and p: their entries fall off within
+ * a few neighbours to what may stay unbalanced anyway. Such entries of p are then left out
+ * (local_direction), and alpha = r.p / p.A p is the best step along what remains: r stays b - A x whatever is
+ * left out, and is what the iterations end by.
+ *
  * Every sum over the unknowns is taken in chunks of fixed length, each chunk in four partial sums, and the
  * chunks are added in their order: the result has the same bits for any number of threads and any width of
  * the vector registers. */
@@ -17,11 +22,12 @@ enum { CHUNK = 4096 };
 
 /* Vectors of an iteration (n each): residual r, preconditioned residual z, direction p, q = A p, inverse
  * diagonal d, solution x; sums of the chunks (nchunk); step length alpha and turn = beta of the new
- * direction; a, b: arguments of a dot product. */
+ * direction; entries of r that p need not follow are below `least` (0: none); a, b: arguments of a dot
+ * product. */
 typedef struct {
     size_t n, nchunk;
     int threads;
-    double *r, *z, *p, *q, *d, *x, *sum, alpha, turn;
+    double *r, *z, *p, *q, *d, *x, *sum, alpha, turn, least;
     const double *a, *b;
 } vectors;
 
@@ -128,10 +134,42 @@ done:
     return status;
 }
 
+/* ---- local right-hand sides ---------------------------------------------------------------------------- */
+/* Share of the goal that entries may have, all together, that are left out. */
+static const double left_out = 0.5;
+
+/* The largest `least` of a row of halves, from a tenth of the goal on, for which the entries of r below it
+ * have no more than their share. */
+static void find_least (vectors *v, double goal)
+{
+    double sum;
+    v->least = 0.2 * goal;
+    do {
+        v->least *= 0.5, sum = 0;
+        for (size_t i = 0; i < v->n; i++) if (fabs (v->r[i]) < v->least) sum += v->r[i] * v->r[i];
+    } while (sum > left_out * goal * left_out * goal && v->least > 1e-6 * goal);
+}
+
+/* Leaves entries of p out that are as small as those of d r below `least`, which falls where more of r stays
+ * behind than may. Without any entry left nothing is left out any more. */
+static void local_direction (vectors *v, double goal)
+{
+    double behind = 0;
+    size_t kept = 0;
+    for (size_t i = 0; i < v->n; i++) {
+        if (fabs (v->p[i]) < v->least * v->d[i]) v->p[i] = 0, behind += v->r[i] * v->r[i];
+        else kept++;
+    }
+    if (behind > 2 * left_out * goal * left_out * goal) v->least *= 0.5;
+    if (kept > 0) return;
+    v->least = 0;
+    memcpy (v->p, v->z, v->n * sizeof *v->p);
+}
+
 /* The test `!(pq > 0)` also catches NaN. */
 pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_preconditioner *P, const double *b,
-                                       double *x, double tolerance, size_t limit, size_t *iterations,
-                                       void (*stepped) (void *context, double alpha), void *context)
+                                          double *x, double tolerance, size_t limit, size_t *iterations,
+                                          const pg_cg_watch *watch)
 {
     pg_status status = PG_OK;
     vectors v = { 0 };
@@ -139,21 +177,23 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
     PG_TRY (make_vectors (&v, A, P, x));
     first_residual (A, b, &v);
     double goal = tolerance * sqrt (dot (&v, b, b)), rz = 0, rr = sqrt (dot (&v, v.r, v.r));
+    if (watch && watch->local && !P && rr > goal) find_least (&v, goal);
     for (k = 0; rr > goal && k < limit; k++) {
         PG_TRY (precondition (P, &v));
         double next = dot (&v, v.r, v.z);
         v.turn = k ? next / rz : 0;
         pg_parallel_heavy (v.threads, v.nchunk, turn_chunks, &v);
         rz = next;
+        if (v.least > 0) local_direction (&v, goal), next = dot (&v, v.r, v.p);
         A->apply (A->context, v.p, v.q);
         double pq = dot (&v, v.p, v.q);
         /* Written so that NaN ends the iteration as well. */
         if (!(pq > 0))
             PG_FAIL (PG_E_NOT_SPD, "conjugate gradients met a direction of energy %g after %zu iterations",
                      pq, k);
-        v.alpha = rz / pq;
+        v.alpha = next / pq;
         rr = sqrt (total (&v, step_chunks));
-        if (stepped) stepped (context, v.alpha);
+        if (watch && watch->stepped) watch->stepped (watch->context, v.alpha);
     }
     if (!(rr <= goal))
         PG_FAIL (PG_E_EQUILIBRIUM, "conjugate gradients stopped after %zu iterations at residual %g of %g", k,
@@ -168,7 +208,7 @@ done:
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                        double *x, double tolerance, size_t limit, size_t *iterations)
 {
-    return pg_conjugate_gradients_watched (A, P, b, x, tolerance, limit, iterations, NULL, NULL);
+    return pg_conjugate_gradients_watched (A, P, b, x, tolerance, limit, iterations, NULL);
 }
 
 /* Without a preconditioner of the caller's there are no threads of the caller's either. */

@@ -94,6 +94,13 @@ done:
     return status;
 }
 
+/* In the rounds of breaking within a small time step, for which the diagonal does, a break is felt no further
+ * than a wave gets in a few steps. */
+static int is_local (const pg_system *s, const dynamics *dyn)
+{
+    return dyn && s->mode == SYSTEM_DIAGONAL && !s->begins && !s->options->plain && !s->problem->sums;
+}
+
 /* Conjugate gradients on the reduced unknowns, from zero; counts what they cost. In motion `residual` becomes
  * that of the new state, by the sums that the iterations make anyway. */
 pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tolerance, size_t limit,
@@ -107,9 +114,9 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
     system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
     if (carries && s->rough.goal > 0) c.keep = ROUGHER * s->rough.goal * s->unbalanced;
+    pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn) };
     pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,
-                                                       s->delta, tolerance, limit, used,
-                                                       carries ? carry_residual : NULL, &c);
+                                                       s->delta, tolerance, limit, used, &watch);
     s->carried = carries && status == PG_OK;
     s->report->cg_iterations += *used;
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;

@@ -11,8 +11,9 @@
  * answer is accepted if the worst bond is above its limit by more than e, and every other one further from
  * the cut than m_i + m_w + e / 5: ten times the errors that are expected, and by the last term also of bonds
  * whose two iterates agree by chance. Else the iterations go on; after some such rounds the state is solved
- * for exactly. So are the first two of a step, and the last, which leaves the state that is accepted: what a
- * step ends with has the residual that it had without all this.
+ * for exactly. So are the first two of a step (by the diagonal, where iterations go on as cheaply as they
+ * began, the first), and the last, which leaves the state that is accepted: what a step ends with has the
+ * residual that it had without all this.
  *
  * The share is set by success, as a looser one costs fewer iterations: doubled after a round in which it
  * sufficed at once, halved after one in which it did not. */
@@ -21,6 +22,14 @@
 #include <string.h>
 
 static const double first_share = 3e-4, least_share = 1e-6, most_share = 1e-3;
+/* By the diagonal, which needs few iterations for a digit more. */
+static const double most_by_diagonal = 3e-5;
+
+static double largest_share (const pg_system *s)
+{
+    return s->mode == SYSTEM_DIAGONAL ? most_by_diagonal : most_share;
+}
+
 /* What the iterations go on by where that is not enough, and how often they do. */
 static const double further = 0.03;
 enum { MOST_TRIES = 3 };
@@ -74,14 +83,14 @@ static int decides (const break_loop *b, double top, double cut)
 static int may_be_rough (pg_system *s)
 {
     if (!s->force->worst || !s->force->judge_group || s->options->plain || s->rough.share < 0) return 0;
-    if (s->rough.share == 0) s->rough.share = first_share;
+    if (s->rough.share == 0) s->rough.share = fmin (first_share, largest_share (s));
     return 1;
 }
 
 /* What a round teaches of the share. */
-static void learn (pg_rough *rough, int done, int tries)
+static void learn (pg_rough *rough, double most, int done, int tries)
 {
-    rough->share = done && tries == 1 ? fmin (most_share, 2 * rough->share)
+    rough->share = done && tries == 1 ? fmin (most, 2 * rough->share)
                                       : fmax (least_share, 0.5 * rough->share);
     if (done) rough->rounds++;
     else rough->again++;
@@ -104,7 +113,7 @@ pg_status break_loop_rough (break_loop *b, const pg_state *state, double t, doub
         *done = decides (b, *top, break_loop_cut (b, *top));
     }
     if (!can) rough->share = -1;                       /* never again */
-    else if (tries > 0 && *top > 1) learn (rough, *done, tries);
+    else if (tries > 0 && *top > 1) learn (rough, largest_share (s), *done, tries);
 done:
     return status;
 }

@@ -258,6 +258,53 @@ static void conjugate_gradients_say_when_they_do_not_arrive (void **state)
     dense_free (&D);
 }
 
+/* A long chain of masses on springs, heavy enough that what happens at a place is not felt far away. */
+typedef struct { size_t n; double looked; } heavy_chain;
+
+static void apply_chain (void *context, const double *x, double *y)
+{
+    heavy_chain *c = context;
+    for (size_t i = 0; i < c->n; i++) {
+        y[i] = 4 * x[i] - (i > 0 ? x[i - 1] : 0) - (i + 1 < c->n ? x[i + 1] : 0);
+        c->looked += x[i] != 0;
+    }
+}
+
+static void chain_diagonal (void *context, double *d)
+{
+    for (size_t i = 0; i < ((heavy_chain *) context)->n; i++) d[i] = 4;
+}
+
+/* A push at one place beside a whisper everywhere: the solution is as good, and looks at a few places only.
+ * Nothing but whisper, or a push everywhere, is solved all the same. */
+static void local_right_hand_sides_are_solved_where_they_are (void **state)
+{
+    (void) state;
+    enum { N = 4000 };
+    for (int kind = 0; kind < 3; kind++) {
+        heavy_chain chain = { N, 0 };
+        pg_operator op = { N, &chain, apply_chain, chain_diagonal };
+        double *b = calloc (N, sizeof *b), *x = calloc (N, sizeof *x), *y = calloc (N, sizeof *y), rr = 0,
+               bb = 0, off = 0, looked;
+        pg_cg_watch watch = { .local = 1 };
+        size_t used, all;
+        for (size_t i = 0; i < N; i++) b[i] = kind == 2 ? random_number () : 1e-13 * random_number ();
+        if (kind == 0) b[1000] = 1, b[1003] = -2;
+        check_ok (pg_conjugate_gradients (&op, b, y, 1e-11, 500, &all));
+        chain.looked = 0;
+        check_ok (pg_conjugate_gradients_watched (&op, NULL, b, x, 1e-10, 500, &used, &watch));
+        looked = chain.looked / (double) used;
+        apply_chain (&chain, x, y);
+        for (size_t i = 0; i < N; i++) rr += (b[i] - y[i]) * (b[i] - y[i]), bb += b[i] * b[i];
+        off = sqrt (rr / bb);
+        print_message ("%zu iterations (%zu), residual %.1e, %.0f places of %d looked at\n", used, all, off,
+                       looked, N);
+        assert_true (off <= 1.01e-10 && used <= all + 3);
+        assert_true (kind == 0 ? looked < 60 : looked > 0.9 * N);
+        free (b), free (x), free (y);
+    }
+}
+
 static void lu_sees_a_singular_matrix (void **state)
 {
     (void) state;
@@ -388,6 +435,7 @@ int main (void)
         cmocka_unit_test (cholesky_refuses_what_is_not_positive_definite),
         cmocka_unit_test (conjugate_gradients_refuse_what_is_not_positive_definite),
         cmocka_unit_test (conjugate_gradients_say_when_they_do_not_arrive),
+        cmocka_unit_test (local_right_hand_sides_are_solved_where_they_are),
         cmocka_unit_test (lu_sees_a_singular_matrix),
         cmocka_unit_test (lu_solves_indefinite_and_unsymmetric_systems),
         cmocka_unit_test (each_failed_allocation_is_reported),

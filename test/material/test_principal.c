@@ -61,6 +61,29 @@ static void random_tensors_agree_with_the_eigenvalue_solver (void **state)
     }
 }
 
+/* Bounds without angles are on the safe side, by little; where two values are equal, too. */
+static void bounds_hold_and_are_tight (void **state)
+{
+    (void) state;
+    const double set[6][3] = { { 3, 3, -2 }, { 3, -2, -2 }, { 5, 5, 5 }, { 0, 0, -4 }, { 1, 1 - 1e-7, -1 },
+                               { 0, 0, 0 } };
+    double s[6], p[3], most, least, loosest = 0;
+    for (int k = 0; k < 20000; k++) {
+        for (int i = 0; i < 6; i++) s[i] = rnd () * (i < 3 ? 3 : 1);
+        if (k < 1200) turned (set[k % 6], s);
+        pg_principal (3, 1, s, NULL, p);
+        pg_principal_bounds (3, 1, s, NULL, &most, &least);
+        assert_true (most >= p[0] && least <= p[2]);
+        double shear = 0.5 * (p[0] - p[2]), slack = fmax (most - p[0], p[2] - least);
+        assert_true (slack <= 5e-5 * shear + 1e-10);
+        loosest = fmax (loosest, slack / fmax (shear, 1e-6));
+    }
+    print_message ("slack %.2g of the largest shear\n", loosest);
+    pg_principal (2, 1, s, NULL, p);
+    pg_principal_bounds (2, 1, s, NULL, &most, &least);
+    assert_true (most == p[0] && least == p[2]);
+}
+
 static void plane_tensor_sorts_the_stress_across (void **state)
 {
     (void) state;
@@ -103,6 +126,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (turned_tensor_gives_back_its_values),
         cmocka_unit_test (random_tensors_agree_with_the_eigenvalue_solver),
+        cmocka_unit_test (bounds_hold_and_are_tight),
         cmocka_unit_test (plane_tensor_sorts_the_stress_across),
         cmocka_unit_test (without_stress_across_it_is_zero),
         cmocka_unit_test (a_bar_has_one_principal_stress),

@@ -1,0 +1,231 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The worst bonds, found without judging all of them: what a bond uses of its limits is bounded by what its
+ * two ends would use alone, and that again by principal stresses that are bounded without an angle
+ * (pg_principal_bounds). What these bounds leave is judged, by the same numbers as all bonds would be. */
+#include "galerkin.h"
+#include <math.h>
+#include <string.h>
+
+enum { BATCH = GALERKIN_BATCH };
+static const double NEVER = -1e300;
+
+/* ---- bounds of points ---------------------------------------------------------------------------------- */
+/* No bound of the stresses but themselves: a criterion might use more with less tension. */
+typedef struct { galerkin *g; int set, loose; } bounding;
+
+/* What each point would use of the limits if both ends of a bond were like it. The weakest law decides, as in
+ * a bond; points whose bonds never break are marked by -1e300. */
+static void judge_alone (const bounding *c, size_t first, size_t last)
+{
+    const galerkin *g = c->g;
+    const unsigned char *exempt = g->problem->exempt[c->set];
+    double out[GALERKIN_BLOCK], *alone = g->alone[c->set];
+    for (size_t p = first; p < last; p++) alone[p] = exempt[p] ? NEVER : 0;
+    for (size_t k = 0; k < g->problem->nmaterial; k++) {
+        const pg_criterion *law = &g->problem->criterion[k];
+        pg_bond_measures m = { .n = last - first, .dim = g->dim, .s1 = g->s1[c->set] + first,
+                               .s3 = g->s3[c->set] + first };
+        law->type->utilisation (law, &m, out, NULL);
+        for (size_t i = 0; i < m.n; i++)
+            if (!exempt[first + i] && out[i] > alone[first + i]) alone[first + i] = out[i];
+    }
+}
+
+/* Blocks of points that have been measured since. */
+static void bound_blocks (void *context, size_t first, size_t last, int thread)
+{
+    const bounding *c = context;
+    galerkin *g = c->g;
+    size_t n = g->rows[c->set].n;
+    (void) thread;
+    for (size_t b = first; b < last; b++) {
+        size_t p = b * GALERKIN_BLOCK, end = p + GALERKIN_BLOCK < n ? p + GALERKIN_BLOCK : n;
+        if (g->bounded[c->set][b]) continue;
+        g->bounded[c->set][b] = 1;
+        memset (g->exact[c->set] + p, !c->loose, end - p);
+        if (c->loose)
+            pg_principal_bounds (g->dim, end - p, g->stress[c->set] + p * (size_t) g->nv, g->zz[c->set] + p,
+                                 g->s1[c->set] + p, g->s3[c->set] + p);
+        else for (size_t i = p; i < end; i++) galerkin_principal (g, c->set, i);
+        judge_alone (c, p, end);
+    }
+}
+
+/* Do all laws use more where the largest stress is larger or the smallest one smaller? */
+static int all_grow (const galerkin *g)
+{
+    int grow = 1;
+    for (size_t k = 0; k < g->problem->nmaterial && grow; k++) {
+        const pg_criterion *law = &g->problem->criterion[k];
+        double form[2][2];
+        int n = law->type->planes ? law->type->planes (law, form) : 0;
+        grow = n > 0;
+        for (int i = 0; i < n; i++) grow &= form[i][0] >= 0 && form[i][1] <= 0;
+    }
+    return grow;
+}
+
+/* All points of all sets, by the stress at displacement d. */
+static pg_status find_bounds (galerkin *g, const double *d)
+{
+    pg_status status = PG_OK;
+    int loose = g->dim == 3 && all_grow (g);
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        size_t n = g->rows[set].n, blocks = (n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
+        if (!g->alone[set]) PG_ALLOC (g->alone[set], n);
+        if (!g->exact[set]) PG_ALLOC (g->exact[set], n);
+        if (!g->bounded[set]) PG_ALLOC (g->bounded[set], blocks);
+        if (n) galerkin_measure (g, set, d);
+        bounding c = { g, set, loose };
+        pg_parallel (g->threads, blocks, bound_blocks, &c);
+    }
+done:
+    return status;
+}
+
+/* ---- the worst bonds ----------------------------------------------------------------------------------- */
+/* The largest utilisation, and if it is above 1 the bonds from `from` on, by looking at all. */
+static pg_status utilisation_over (const pg_state *state, const double *utilisation, double from, double *top,
+                               pg_changes *over)
+{
+    pg_status status = PG_OK;
+    *top = 0, over->n = 0;
+    for (size_t i = 0; i < state->nbond; i++) if (utilisation[i] > *top) *top = utilisation[i];
+    for (size_t i = 0; *top > 1 && i < state->nbond; i++) {
+        if (!state->alive[i] || !(utilisation[i] >= from)) continue;
+        PG_GROW (over->bond, over->cap, over->n + 1);
+        over->bond[over->n++] = i;
+    }
+done:
+    return status;
+}
+
+/* A search among bonds. Utilisation by stress is the largest of some linear functions of the mean (s1, s3) of
+ * both ends, so that a bond uses at most the mean of what its ends would use alone: only bonds are judged for
+ * which this bound is above `least`. */
+typedef struct {
+    galerkin_judging judge;
+    double  top_node;                                  /* the largest bound of a node */
+    double  least, top;
+    pg_changes *list;                                  /* takes bonds from `least` on; NULL: not wanted */
+    size_t  bond[BATCH], point[BATCH], count;
+} search;
+
+/* The principal stresses of a point themselves, where only bounds are known. */
+static void make_exact (galerkin *g, int set, size_t p)
+{
+    if (g->exact[set][p]) return;
+    galerkin_principal (g, set, p);
+    g->exact[set][p] = 1;
+}
+
+/* Judges the bonds collected. Without a list the largest utilisation so far is what others have to reach. */
+static pg_status judge_collected (search *s)
+{
+    pg_status status = PG_OK;
+    galerkin *g = s->judge.g;
+    int set = s->judge.set;
+    const int *node = g->rows[set].family.node;
+    size_t base = g->problem->first_bond[set], to[BATCH];
+    double *u = s->judge.utilisation;
+    for (size_t k = 0; k < s->count; k++) {
+        to[k] = base + s->bond[k], u[to[k]] = 0;
+        make_exact (g, set, s->point[k]);
+        make_exact (g, PG_NODES, (size_t) node[s->bond[k]]);
+    }
+    if (s->count) galerkin_judge (&s->judge, s->count, s->bond, s->point, to);
+    for (size_t k = 0; k < s->count; k++) {
+        size_t i = to[k];
+        if (u[i] > s->top) s->top = u[i];
+        if (!s->list || !(u[i] >= s->least)) continue;
+        PG_GROW (s->list->bond, s->list->cap, s->list->n + 1);
+        s->list->bond[s->list->n++] = i;
+    }
+    if (!s->list) s->least = s->top;
+done:
+    s->count = 0;
+    return status;
+}
+
+/* Could this point, or this bond of it, reach `least`? A hair is left for rounding. */
+static int may (const search *s, double one, double other)
+{
+    return 0.5 * (one + other) >= s->least * (1 - 1e-12);
+}
+
+/* Live bonds of a point that may reach `least`, in batches. */
+static pg_status search_point (search *s, size_t p)
+{
+    pg_status status = PG_OK;
+    const galerkin *g = s->judge.g;
+    int set = s->judge.set;
+    const pg_family *f = &g->rows[set].family;
+    const unsigned char *alive = s->judge.state->alive + g->problem->first_bond[set];
+    for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
+        double other = g->alone[PG_NODES][f->node[e]];
+        if (!alive[e] || !may (s, g->alone[set][p], other) || pg_problem_no_bond (g->problem, set, p, e))
+            continue;
+        s->bond[s->count] = e, s->point[s->count++] = p;
+        if (s->count == BATCH) PG_TRY (judge_collected (s));
+    }
+done:
+    return status;
+}
+
+/* All bonds of all sets that may reach `least`, ascending. */
+static pg_status search_all (search *s)
+{
+    pg_status status = PG_OK;
+    galerkin *g = s->judge.g;
+    for (s->judge.set = 0; s->judge.set < PG_BOND_SETS; s->judge.set++) {
+        const double *alone = g->alone[s->judge.set];
+        for (size_t p = 0; p < g->rows[s->judge.set].n; p++)
+            if (may (s, alone[p], s->top_node)) PG_TRY (search_point (s, p));
+        PG_TRY (judge_collected (s));
+    }
+done:
+    return status;
+}
+
+/* What the largest utilisation is at least: that of the bonds of the point that alone would use most. */
+static pg_status search_first (search *s)
+{
+    pg_status status = PG_OK;
+    galerkin *g = s->judge.g;
+    for (s->judge.set = 0; s->judge.set < PG_BOND_SETS; s->judge.set++) {
+        const double *alone = g->alone[s->judge.set];
+        size_t worst = 0, n = g->rows[s->judge.set].n;
+        for (size_t p = 1; p < n; p++) if (alone[p] > alone[worst]) worst = p;
+        if (n) PG_TRY (search_point (s, worst));
+        PG_TRY (judge_collected (s));
+    }
+done:
+    return status;
+}
+
+/* The largest utilisation of a live bond, and if it is above 1, all bonds from `from` on, ascending, with
+ * utilisation and kind at their places of the two arrays (the other places have no meaning). The same numbers
+ * as galerkin_utilisation, of the few bonds that matter. */
+pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
+                          double *utilisation, char *kind, double *top, pg_changes *over)
+{
+    pg_status status = PG_OK;
+    galerkin *g = self;
+    search s = { .judge = { g, state, 0, utilisation, NULL, kind }, .top_node = NEVER };
+    over->n = 0;
+    if (g->problem->criterion->type->needs != PG_NEEDS_STRESS) {
+        PG_TRY (galerkin_utilisation (g, state, d, utilisation, kind, NULL));
+        return utilisation_over (state, utilisation, from, top, over);
+    }
+    PG_TRY (find_bounds (g, d));
+    for (size_t i = 0; i < g->n; i++) s.top_node = fmax (s.top_node, g->alone[PG_NODES][i]);
+    PG_TRY (search_first (&s));
+    PG_TRY (search_all (&s));
+    *top = s.top;
+    if (!(s.top > 1)) goto done;
+    s.list = over, s.least = from;
+    PG_TRY (search_all (&s));
+done:
+    return status;
+}
+
