@@ -124,6 +124,11 @@ void      pg_contact_pieces_clear  (pg_contact_pieces *pieces);
 pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
                            const pg_force_type *force, void *self, const pg_state *state, size_t *poor);
 
+/* The largest overlap of the faces at the points that sample the gaps, m, of the displacement d (unknowns);
+ * 0: they overlap nowhere. */
+pg_status pg_contact_overlap (double *overlap, const pg_contact_pieces *pieces, const pg_force_type *force,
+                              void *self, const pg_state *state, const double *d);
+
 /* The same from the displacement, or jump, at the points. */
 pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
                               const pg_jump_rows *jump);

@@ -93,6 +93,9 @@ pg_status contact_refresh (pg_system *s, const pg_state *state);
 pg_status contact_solve   (pg_system *s, double t, double *d, double *residual);
 /* What the report says of the pieces. */
 void contact_count (pg_system *s);
+/* The largest overlap of faces, m, into the report: by the points of pieces; without contact by bonds that
+ * broke. No memory: nothing is told. */
+void contact_note_overlap (pg_system *s, const pg_state *state);
 /* Forces of contact on the nodes, N (ndof); NULL: none. */
 const double *contact_forces (const pg_system *s);
 /* At the start of a run: tips that are closed at full load cut bonds up to an offset of their own. */

@@ -311,6 +311,20 @@ void contact_count (pg_system *s)
     }
 }
 
+/* Ends of broken bonds beside a kink come together by strains that vary too fast for a mean of both ends, so
+ * that they say nothing of faces that are held apart: places on the faces do. */
+void contact_note_overlap (pg_system *s, const pg_state *state)
+{
+    const struct system_contact *c = s->contact;
+    double overlap = 0;
+    int points = c && s->force->jump;
+    pg_contact_pieces cracks = { 0 };                  /* borrowed: without the pieces of platens */
+    if (points) cracks = c->pieces, cracks.n = c->ncrack, cracks.npoint = cracks.first[c->ncrack];
+    if (points && pg_contact_overlap (&overlap, &cracks, s->force, s->self, state, state->d) != PG_OK) return;
+    if (!points && s->force->overlap) overlap = s->force->overlap (s->self, state, state->d);
+    s->report->overlap_max = fmax (s->report->overlap_max, overlap);
+}
+
 /* Springs of loose parts bear nothing in an equilibrium. */
 static pg_status check_loose (const pg_system *s, const double *d)
 {
@@ -387,7 +401,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
            straight = pg_tip_straight (state, tip, PG_CONTACT_TURN);
     pg_tip_chord (state, tip, fmin (CHORD * h, straight), from, e);
     *out = (pg_tip_faces){ .nearest = INFINITY };
-    for (size_t k = 0; c && c->active && c->pieces.dim == 2 && k < c->pieces.n; k++) {
+    for (size_t k = 0; c && c->active && c->pieces.dim == 2 && k < c->ncrack; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         double to[2] = { x[0] - p->x[0], x[1] - p->x[1] };
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
@@ -403,6 +417,9 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
             force[1][i] += weight * rate;
         }
     }
+    /* A branch that leaves a crack which presses elsewhere: beyond the kink its faces are those of another
+     * crack, closed or, for the last piece, just open; a ring around the kink knows nothing of the tip. */
+    if (isfinite (out->nearest)) out->nearest = fmin (out->nearest, straight);
     /* the force on the left face is the traction of the stress behind it, turned round */
     for (int a = 0; a < nfield && area > 0; a++)
         for (int i = 0; i < 2; i++) out->stress[a][i] = -force[a][i] / area;

@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The solver object: steps with refusal, the report of the run. */
-#include "solve.h"
+#include "contact.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -172,10 +172,8 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->residual_max = fmax (r->residual_max, step->residual);
     r->utilisation_max = fmax (r->utilisation_max, step->utilisation);
     report_sums (s);
-    if (step->level && s->break_loop.system.force->overlap && !pg_problem_removes (s->problem)
-        && !short_range (s))
-        r->overlap_max = fmax (r->overlap_max, s->break_loop.system.force->overlap (s->break_loop.system.self,
-                                                                                    state, state->d));
+    if (step->level && !pg_problem_removes (s->problem) && !short_range (s))
+        contact_note_overlap (&s->break_loop.system, state);
     r->energy_external = s->break_loop.work;
     /* First law: work of loads = strain + motion + damping + what breaking has taken, the rest. */
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping
@@ -328,9 +326,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
     if (sys->force->census)
         sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
                             &s->report.fragments);
-    if (sys->force->overlap && !pg_problem_removes (s->problem) && !short_range (s))
-        s->report.overlap_max = fmax (s->report.overlap_max,
-                                      sys->force->overlap (sys->self, state, state->d));
+    if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
     report_skips (s);
     report_sums (s);
     warn_at_end (s, state);

@@ -231,7 +231,11 @@ static void wings_leave_a_closed_crack (void **state)
             before = r.step.factor;
         }
         const pg_crack_paths *w = r.state->paths;
-        const pg_statistics *s = pg_solver_report_now (r.solver);
+        const pg_statistics *s = pg_solver_report (r.solver, r.state);
+        double largest = largest_of (r.state->d, r.state->ndof);
+        print_message ("overlap of faces %.2e of the largest displacement\n", s->overlap_max / largest);
+        check_below (s->overlap_max, 0.015 * largest);
+        assert_true (s->overlap_max > s->contact_overlap);
         const double *x = w->cracks.crack[1].vertex, crack = atan2 (1, 1);
         double first = atan2 (x[3] - x[1], x[2] - x[0]), turn = fmod (first - crack + 4 * pi, pi);
         print_message ("wings, friction %g: kink %.1f degrees, grown %.3f %.3f, dissipated %.3f of the "
@@ -250,6 +254,41 @@ static void wings_leave_a_closed_crack (void **state)
         }
         clear (&r);
     }
+}
+
+/* A crack through a plate whose upper half is moved down and aside: the faces overlap by what it came down,
+ * at all places of the crack, and by nothing where it was moved up. */
+static void overlap_is_seen_on_the_faces (void **state)
+{
+    (void) state;
+    static const double down[] = { 0.01, -0.01 };
+    run r = scene_of (1,
+        "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [-1, -1], high: [1, 1]}}}]\n"
+        "spacing: 0.1\nlattice: cells\nperturb: {amount: 0.2}\ncracks: [{from: [-2, -0.53], to: [2, 0.57]}]\n"
+        "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\ncontact: {kind: normal}\n"
+        "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 0}}]\n"
+        "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n");
+    void *self;
+    const pg_force_type *force = pg_solver_force (r.solver, &self);
+    const pg_crack *c = &r.problem->cracks.crack[0];
+    pg_contact_pieces pieces;
+    refresh (&r, NULL);
+    check_ok (pg_contact_pieces_create (&pieces, r.problem, r.state));
+    assert_true (pieces.n > 5);
+    for (int k = 0; k < 2; k++) {
+        for (size_t i = 0; i < r.problem->cloud.n; i++) {
+            const double *x = r.problem->cloud.x + 2*i;
+            int above = (x[0] - c->vertex[0]) * c->normal[0] + (x[1] - c->vertex[1]) * c->normal[1] > 0;
+            for (int m = 0; m < 2; m++)
+                r.state->d[2*i + (size_t) m] = above * (0.02 * c->normal[1 - m] * (m ? -1 : 1)
+                                                        - down[k] * c->normal[m]);
+        }
+        double overlap;
+        check_ok (pg_contact_overlap (&overlap, &pieces, force, self, r.state, r.state->d));
+        check_scaled (overlap, fmax (0, down[k]), 1e-9, 0.01);
+    }
+    pg_contact_pieces_clear (&pieces);
+    clear (&r);
 }
 
 /* Confine, compress, unload, compress again, with friction: on the way back the faces stick before they slide
@@ -340,6 +379,7 @@ int main (void)
         cmocka_unit_test (slip_remembers_the_way),
         cmocka_unit_test (bending_closes_a_part),
         cmocka_unit_test (wings_leave_a_closed_crack),
+        cmocka_unit_test (overlap_is_seen_on_the_faces),
         cmocka_unit_test (stages_go_around_a_loop),
         cmocka_unit_test (the_rest_is_refused),
     };
