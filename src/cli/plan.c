@@ -518,9 +518,16 @@ void plan_print_long (const plan *p)
     print_times (p);
     if (!(p->options->flags & PG_SOLVER_EXPLICIT) && !(p->options->flags & PG_SOLVER_STAGED))
         print_factor (p->forecast);
+    for (size_t i = 0; i < q->nplaten; i++)
+        printf ("  platen %-11s  %s%s\n", q->platen[i].name,
+                q->platen[i].shape == PG_PLATEN_PLANE      ? "plane"
+                : q->platen[i].shape == PG_PLATEN_CYLINDER ? "cylinder"
+                                                           : "sphere",
+                q->platen[i].concave ? ", concave" : "");
     for (size_t s = 0; s < q->nload; s++)
-        printf ("  boundary %-9s  %zu points, %zu facets\n", q->load[s].name, q->load[s].set->npoint,
-                q->load[s].set->nfacet);
+        if (!q->load[s].platen)
+            printf ("  boundary %-9s  %zu points, %zu facets\n", q->load[s].name, q->load[s].set->npoint,
+                    q->load[s].set->nfacet);
     if (q->eroded)
         printf ("  %-18s  %zu points lie on a pre-crack and lose their bonds to both sides\n", "eroded",
                 q->eroded);

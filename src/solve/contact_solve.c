@@ -370,6 +370,25 @@ done:
     return status;
 }
 
+/* Under proportional loads forces scale with the load where the pairs that bear them have touched from the
+ * start. */
+static pg_status check_proportion (const pg_system *s)
+{
+    const struct system_contact *c = s->contact;
+    if (!s->options->event) return PG_OK;
+    for (size_t k = c->ncrack; c->active && k < c->pieces.n; k++) {
+        const pg_contact_piece *p = &c->pieces.piece[k];
+        if (!(c->platens.distance[c->platens.at[k - c->ncrack]] > 0) || !(c->force[c->pieces.dim * k] > 0))
+            continue;
+        return pg_error (PG_E_USAGE, PG_HERE,
+                         "the platen %s comes to touch the body at (%.6g, %.6g, %.6g) m, where it does not at "
+                         "the start, so that equilibria do not grow in proportion to the load: use "
+                         "solver.stepping: fixed", s->problem->platen[p->platen - 1].name, p->x[0], p->x[1],
+                         p->x[2]);
+    }
+    return PG_OK;
+}
+
 /* Pieces of platens that were no pairs may have closed: then once more, with them. */
 pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
 {
@@ -379,6 +398,7 @@ pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
         if (!platens_look (s, d)) break;
         PG_TRY (contact_more_pairs (s));
     }
+    PG_TRY (check_proportion (s));
     platens_react (s);
     platens_doubt (s);
     contact_count (s);

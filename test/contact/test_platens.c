@@ -276,6 +276,26 @@ static void the_rest_is_refused (void **state)
     }
 }
 
+/* Event stepping relies on equilibria that grow with the load: a platen that touches a step of the surface
+ * from the start and comes to the next one on its way is told to take fixed steps. */
+static void a_platen_that_comes_later_needs_fixed_steps (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 2; k++) {
+        run r = scene_of (1,
+            "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}, "
+            "{add: {box: {low: [0.5, 1], high: [1, 1.1]}}}]\nspacing: 0.1\nlattice: cells\n"
+            "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
+            "boundary: [{set: bottom, displacement: {x: 0, y: 0}}]\n"
+            "platens: [{name: head, point: [0.5, 1.1], normal: [0, -1], displacement: {y: -%g}}]\n"
+            "solver: {kind: static, stepping: event}\noutput: {at: {levels: 1}}\n", k ? 0.2 : 0.02);
+        pg_status status = pg_solver_step (r.solver, r.state, &r.step);
+        assert_int_equal (status, k ? PG_E_USAGE : PG_OK);
+        if (k) check_contains (pg_last_error (), "use solver.stepping: fixed");
+        clear (&r);
+    }
+}
+
 /* A run that is stopped in its middle and read back goes on bit by bit. */
 static void a_run_goes_on_from_its_checkpoint (void **state)
 {
@@ -311,6 +331,7 @@ int main (void)
         cmocka_unit_test (platens_press_in_space),
         cmocka_unit_test (a_sphere_is_pressed_in_as_hertz_has_it),
         cmocka_unit_test (the_rest_is_refused),
+        cmocka_unit_test (a_platen_that_comes_later_needs_fixed_steps),
         cmocka_unit_test (a_run_goes_on_from_its_checkpoint),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
