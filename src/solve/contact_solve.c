@@ -381,8 +381,8 @@ static pg_status check_proportion (const pg_system *s)
         if (!(c->platens.distance[c->platens.at[k - c->ncrack]] > 0) || !(c->force[c->pieces.dim * k] > 0))
             continue;
         return pg_error (PG_E_USAGE, PG_HERE,
-                         "the platen %s comes to touch the body at (%.6g, %.6g, %.6g) m, where it does not at "
-                         "the start, so that equilibria do not grow in proportion to the load: use "
+                         "the platen %s comes to touch the body at (%.6g, %.6g, %.6g) m, where it does not "
+                         "at the start, so that equilibria do not grow in proportion to the load: use "
                          "solver.stepping: fixed", s->problem->platen[p->platen - 1].name, p->x[0], p->x[1],
                          p->x[2]);
     }

@@ -171,6 +171,36 @@ static void a_cylinder_is_pressed_in_as_hertz_has_it (void **state)
     }
 }
 
+/* A disk, its cells cut, between flat platens and between jaws of one and a half times its radius: by Hertz
+ * these touch it along sqrt (3) times the width. It rests on what touches it alone. */
+static void curved_jaws_touch_along_a_wider_arc (void **state)
+{
+#define JAW "shape: cylinder, concave: true, radius: 1.5, "
+    (void) state;
+    double width[2];
+    for (int k = 0; k < 2; k++) {
+        run r = scene_of (1,
+            "dimension: 2\nplane: stress\nthickness: 1\n"
+            "body: [{add: {disk: {center: [0, 0], radius: 1}}}]\nspacing: 0.04\nlattice: cells\ncells: cut\n"
+            "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
+            "platens: [{name: foot, friction: 0.2, %s}, {name: head, friction: 0.2, %s, force: {y: -20}}]\n"
+            "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
+            k ? JAW "point: [0, 0.5]" : "point: [0, -1], normal: [0, 1]",
+            k ? JAW "point: [0, -0.5]" : "point: [0, 1], normal: [0, -1]");
+        to_the_end (&r);
+        size_t count, closed;
+        double peak;
+        const pg_contact_values *v = pg_solver_contact (r.solver, &count);
+        width[k] = 2 * sqrt (mean_square (v, count, 1, &closed, &peak));
+        check_relative (platen_of (&r, 0)->force[1], 20, 1e-10);
+        check_scaled (platen_of (&r, 0)->force[0], 0, 1e-9, 20);
+        print_message ("disk, %s: half width %.4f of Hertz\n", k ? "curved jaws" : "flat platens",
+                       width[k] / sqrt (4 * 20 * (k ? 3 : 1) / (3.14159265358979 * 1000)));
+        clear (&r);
+    }
+    check_relative (width[1] / width[0], sqrt (3), 0.1);
+}
+
 /* In space: a block between platens that alone hold it, one of which tilts. */
 static void platens_press_in_space (void **state)
 {
@@ -328,6 +358,7 @@ int main (void)
         cmocka_unit_test (a_seat_tilts_until_it_lies_flat),
         cmocka_unit_test (platens_drag_by_friction),
         cmocka_unit_test (a_cylinder_is_pressed_in_as_hertz_has_it),
+        cmocka_unit_test (curved_jaws_touch_along_a_wider_arc),
         cmocka_unit_test (platens_press_in_space),
         cmocka_unit_test (a_sphere_is_pressed_in_as_hertz_has_it),
         cmocka_unit_test (the_rest_is_refused),
