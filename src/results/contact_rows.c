@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * contact.csv: what the faces of cracks, and surfaces opposite platens, bear, piece by piece, one row for
- * each at every row of history.csv. Runs without contact.kind and platens have none. */
+ * each at every row of history.csv. Runs without contact.kind and platens have none, nor have those in
+ * explicit steps by short range, whose contacts are of points. */
 #include "results_private.h"
 
 static const char *const columns[] = { "step [1]",     "time [s]",      "load_factor [1]", "path [1]",
@@ -14,7 +15,10 @@ pg_status pg_result_contact_create (pg_result *r, const result_marks *from)
     pg_status status = PG_OK;
     char path[4096];
     if (!from) PG_TRY (pg_result_remove (r, "contact.csv"));       /* of an earlier run */
-    if (pg_solver_settled (r->solver)->contact.kind == PG_CONTACT_NONE && !r->problem->nplaten) return PG_OK;
+    const pg_contact_setting *setting = &pg_solver_settled (r->solver)->contact;
+    int explicit_ = (pg_solver_settled (r->solver)->flags & PG_SOLVER_EXPLICIT) != 0,
+        faces = setting->kind != PG_CONTACT_NONE && setting->search == PG_CONTACT_FACES;
+    if (!faces && (explicit_ || !r->problem->nplaten)) return PG_OK;
     snprintf (path, sizeof path, "%s/contact.csv", r->folder);
     PG_TRY (from ? pg_table_open (&r->contact, path, COLUMNS, columns, from->contact)
                  : pg_table_create (&r->contact, path, COLUMNS, columns));
