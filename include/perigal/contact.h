@@ -142,6 +142,10 @@ pg_status pg_platen_pieces_create (pg_contact_pieces *out, double **gap, const p
 /* What the gap and the slips of piece k gain by each of six motions of its platen: translations along x, y, z
  * (per m), rotations about axes through `about` (m, per rad). row: dim x 6. */
 void pg_platen_row (const pg_contact_pieces *pieces, size_t k, const double *about, double *row);
+/* The same by the bonds that crossed the cracks (pg_force_type.faces): soft, m/N (dim n), is the compliance
+ * of the layer between the faces, *stiffer how much stiffer than those bonds it may be. */
+pg_status pg_contact_layer (pg_sparse *out, double *soft, double *stiffer, const pg_contact_pieces *pieces,
+                            const pg_force_type *force, void *self, const pg_state *state);
 
 /* ---- what a scene asks for ----------------------------------------------------------------------------- */
 typedef enum { PG_CONTACT_NONE, PG_CONTACT_NORMAL, PG_CONTACT_FRICTION } pg_contact_kind;

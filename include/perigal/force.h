@@ -59,6 +59,13 @@ typedef struct {
     size_t  poor;                                      /* places whose values are zero: see pg_force_type */
 } pg_jump_rows;
 void pg_jump_rows_clear (pg_jump_rows *rows);
+/* Faces of cracks that may touch, in pieces that are sampled at places. Borrowed. */
+typedef struct {
+    size_t n, dim, npoint;                             /* pieces; places of all of them */
+    const size_t *first;                               /* those of piece k: first[k] .. first[k + 1] - 1 */
+    /* of places: m (x dim); unit normals (x dim); tangents at right angles (x dim - 1 x dim); m^2 */
+    const double *x, *normal, *tangent, *weight;
+} pg_face_pieces;
 
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest
  * may be NULL. */
@@ -202,6 +209,12 @@ typedef struct {
      * of this force. */
     pg_status (*trace) (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                         pg_jump_rows *out);
+    /* Instead of jump, of forces whose bonds are what joins the two sides: columns of G' for each piece (ndof
+     * x dim n: its mean opening, then its slips), compliance of the layer between the faces, m/N (dim n), and
+     * how much stiffer than the bonds that crossed them its springs may be (*stiffer >= 1), at the last
+     * refresh. NULL: jump, if there is one. */
+    pg_status (*faces) (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,
+                        double *soft, double *stiffer);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

@@ -3,8 +3,9 @@
  * supports, mass, breaking, K, fields. Files: bond_force.c (life cycle, forces, breaking),
  * bond_force_matrix.c (K, its diagonal and row sums, the bound of the largest frequency),
  * bond_force_field.c (utilisation, fields, places, census), bond_force_energy.c (points that die by their
- * energy), bond_force_words.c (what the plan says), bond_force_scene.c (what is read from the scene). The
- * theories: pairwise.h, state_based.h, micropolar.h; the dilatation that the last two have: dilatation.h. */
+ * energy), bond_faces.c (contact of crack faces), bond_force_words.c (what the plan says),
+ * bond_force_scene.c (what is read from the scene). The theories: pairwise.h, state_based.h, micropolar.h;
+ * the dilatation that the last two have: dilatation.h. */
 #ifndef PG_BOND_FORCE_H
 #define PG_BOND_FORCE_H
 #include "point_boundary.h"
@@ -137,6 +138,9 @@ pg_status bond_force_sample (void *self, const pg_state *state, const double *d,
                              double *u, double *stress, double *gradient);
 double    bond_force_overlap (void *self, const pg_state *state, const double *d);
 void      bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+/* contact of crack faces by the bonds that crossed them (bond_faces.c) */
+pg_status bond_force_faces (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,
+                            double *soft, double *stiffer);
 /* points that die by their energy */
 pg_status bond_force_energy_create (bond_force *b);  /* NULL unless the criterion needs energies */
 void      bond_force_energy_free   (bond_force *b);
@@ -167,5 +171,5 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .bound = bond_force_bound, \
     .row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
     .couplings = bond_force_couplings, .surface = bond_force_surface, \
-    .spared = bond_force_spared
+    .spared = bond_force_spared, .faces = bond_force_faces
 #endif

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Adaptive dynamic relaxation (Kilic and Madenci 2010; theory B4): dt = 1 and masses D_ii = 1/4 sum_j |K_ij|,
  * with which the largest frequency is at most 2; damping from Rayleigh's quotient at every iteration. */
+#include "contact.h"
 #include "relaxation.h"
 #include <math.h>
 #include <string.h>
@@ -39,6 +40,7 @@ static pg_status weigh (pg_solver *s)
     double *mass = m->relaxation->mass;
     memset (mass, 0, sys->ndof * sizeof *mass);
     PG_TRY (sys->force->row_sums ? sys->force->row_sums (sys->self, mass) : sum_rows (sys, mass));
+    contact_row_sums (sys, mass);
     for (size_t i = 0; i < sys->ndof; i++) {
         mass[i] *= 0.25 * margin;
         m->inverse[i] = mass[i] > 0 ? 1 / mass[i] : 0;
@@ -67,7 +69,7 @@ done:
 const pg_solver_type pg_solver_adr = {
     .name = "adr",
     .summary = "quasi-static stages by adaptive dynamic relaxation",
-    .flags = PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED,
+    .flags = PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_CONTACT,
     .keys = { &solver_keys_stages, &solver_keys_breaking },
     .read = relaxation_read,
     .prepare = prepare,

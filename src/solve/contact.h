@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Private: contact of crack faces in equilibria of linear systems (perigal/contact.h). The stiffness and its
+ * Private: contact of crack faces (perigal/contact.h). In equilibria of linear systems the stiffness and its
  * factor are those of the open cracks; forces of contact stand beside the loads and are found from the
  * condensed compliance of the pieces. Files: contact_solve.c (equilibria), contact_route.c (those along loads
- * with a constant part), contact_memory.c (what was before: slips, work of friction; checkpoints). */
+ * with a constant part), contact_motion.c (time steps, relaxation), contact_memory.c (what was before: slips,
+ * work of friction; checkpoints). */
 #ifndef PG_SOLVE_CONTACT_H
 #define PG_SOLVE_CONTACT_H
 #include "solve.h"
@@ -75,6 +76,9 @@ struct system_contact {
     double   *before;                                  /* slip before (n x (dim - 1)) */
     double   *force, *gap, *open;                      /* f; g; gaps without contact (dim n each) */
     double   *initial;                                 /* gaps without displacement, m (dim n) */
+    /* of cracks, what the layer between closed faces gives way by, m/N (dim ncrack): 0 where faces are sharp;
+     * how much stiffer than the bonds that crossed it the layer may be */
+    double   *soft, stiffer;
     unsigned char *status;                             /* of each piece (n) */
     double   *nodal;                                   /* G' f, N (ndof) */
     int       active;                                  /* some force is not zero */
@@ -91,11 +95,15 @@ void      contact_free    (pg_system *s);
 pg_status contact_refresh (pg_system *s, const pg_state *state);
 /* As system_solve, at rest. */
 pg_status contact_solve   (pg_system *s, double t, double *d, double *residual);
+/* Gaps of a displacement under the forces at hand, without what the layer between the faces gives way by. */
+void contact_gaps (struct system_contact *c, const double *d);
 /* What the report says of the pieces. */
 void contact_count (pg_system *s);
 /* The largest overlap of faces, m, into the report: by the points of pieces; without contact by bonds that
  * broke. No memory: nothing is told. */
 void contact_note_overlap (pg_system *s, const pg_state *state);
+/* What the layers between closed faces store, J: a part of the strain energy of the body. */
+double contact_energy (const pg_system *s);
 /* Forces of contact on the nodes, N (ndof); NULL: none. */
 const double *contact_forces (const pg_system *s);
 /* At the start of a run: tips that are closed at full load cut bonds up to an offset of their own. */
@@ -107,6 +115,13 @@ pg_status contact_condense (pg_system *s);
 
 /* The pieces of the state at hand for results, loads scaled. */
 pg_status contact_show (pg_system *s, double scale);
+
+/* ---- contact_motion.c ---------------------------------------------------------------------------------- */
+/* Adds forces of contact at d to the residual. follow: slips are kept and friction is booked (a time step);
+ * else they are those of the last accepted step. */
+void contact_push (pg_system *s, const double *d, double *residual, int follow);
+/* Adds sum_j |K_ij| of the layers, N/m. */
+void contact_row_sums (const pg_system *s, double *sum);
 
 /* After pieces of platens have been taken: pairs anew. */
 pg_status contact_more_pairs (pg_system *s);

@@ -180,6 +180,7 @@ static pg_status mend (pg_system *s, int end, double *d, double *change, double 
     c->active = 1;
     PG_TRY (balance (s, r->from + end, d, residual));
     pg_sparse_multiply_transposed (&c->G, d, gap);
+    for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) gap[i] += c->soft[i] * force[i];
     *change = 0;
     for (size_t i = 0; i < n; i++) {
         double expected = c->gap[i] + way * r->track.gap_rate[i], off = gap[i] + c->initial[i] - expected;

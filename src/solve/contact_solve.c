@@ -47,6 +47,7 @@ static void clear (struct system_contact *c)
 {
     pg_contact_pieces_clear (&c->pieces);
     pg_sparse_clear (&c->G);
+    pg_free (c->soft), c->soft = NULL;
     clear_pairs (c);
 }
 
@@ -104,9 +105,13 @@ pg_status contact_refresh (pg_system *s, const pg_state *state)
     if (!c) return PG_OK;
     double t0 = pg_seconds ();
     clear (c);
+    c->stiffer = 1;
     if (c->setting.kind != PG_CONTACT_NONE && c->setting.search == PG_CONTACT_FACES) {
         PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
-        PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
+        PG_ALLOC (c->soft, c->pieces.dim * c->pieces.n);
+        if (s->force->faces)
+            PG_TRY (pg_contact_layer (&c->G, c->soft, &c->stiffer, &c->pieces, s->force, s->self, state));
+        else PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
     }
     c->pieces.dim = (size_t) s->problem->dim, c->ncrack = c->pieces.n;
     PG_TRY (platens_refresh (s, state));
@@ -122,10 +127,10 @@ done:
 static void load_column (const pg_system *s, size_t j, double *full, double *reduced)
 {
     const pg_sparse *G = &s->contact->G, *T = s->force->basis ? s->force->basis (s->self) : NULL;
-    double *at = T ? full : reduced;
-    memset (at, 0, s->ndof * sizeof *at);
-    for (long q = G->start[j]; q < G->start[j + 1]; q++) at[G->row[q]] = G->value[q];
+    memset (full, 0, s->ndof * sizeof *full);
+    for (long q = G->start[j]; q < G->start[j + 1]; q++) full[G->row[q]] = G->value[q];
     if (T) pg_sparse_multiply_transposed (T, full, reduced);
+    else memcpy (reduced, full, s->ndof * sizeof *full);
 }
 
 /* Is the factor at hand that of this K? */
@@ -201,6 +206,9 @@ static pg_status solve_columns (pg_system *s)
     if (s->mode == SYSTEM_KEPT_FACTOR && s->stale && n > MANY) PG_TRY (system_factorize (s, NULL));
     size_t first = 0;
     for (; first < n && !has_factor (s); first++) {
+        /* iterations over all unknowns begin at the full residual */
+        load_column (s, first, s->residual, s->reduced);
+        s->known = s->carried = 0;
         memcpy (s->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
         memset (s->delta, 0, s->nred * sizeof *s->delta);
         PG_TRY (system_solve_once (s, NULL, COLUMN));
@@ -234,6 +242,7 @@ pg_status contact_condense (pg_system *s)
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < j; i++)
             c->C[j * n + i] = c->C[i * n + j] = 0.5 * (c->C[j * n + i] + c->C[i * n + j]);
+    for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) c->C[i * n + i] += c->soft[i];
     c->made = s->revision + 1;
     s->report->contact_seconds += pg_seconds () - t0;
 done:
@@ -252,11 +261,20 @@ static int any_overlap (const struct system_contact *c)
     return 0;
 }
 
-/* Gaps of a displacement. */
-static void measure_gaps (struct system_contact *c, const double *d)
+void contact_gaps (struct system_contact *c, const double *d)
 {
     pg_sparse_multiply_transposed (&c->G, d, c->gap);
     for (size_t i = 0; i < c->pieces.dim * c->pieces.n; i++) c->gap[i] += c->initial[i];
+    for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) c->gap[i] += c->soft[i] * c->force[i];
+}
+
+double contact_energy (const pg_system *s)
+{
+    const struct system_contact *c = s->contact;
+    double sum = 0;
+    for (size_t i = 0; c && c->active && i < c->pieces.dim * c->ncrack; i++)
+        sum += 0.5 * c->soft[i] * c->force[i] * c->force[i];
+    return sum;
 }
 
 /* Forces for the gaps at hand, which those of now belong to; d follows. *change: of the forces, turned into
@@ -356,14 +374,14 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, double *residua
         PG_TRY (system_factorize (s, NULL));
     }
     PG_TRY (system_solve_linear (s, t, d, NULL, residual));
-    if (n) measure_gaps (c, d);
+    if (n) contact_gaps (c, d);
     double change = 1;
     int closes = any_overlap (c) || contact_motions (s) > 0;
     if (closes) PG_TRY (contact_condense (s));
     for (int round = 0; closes && round < MOST_ROUNDS && change > GOOD; round++) {
         PG_TRY (press (s, t, d, &change));
         PG_TRY (system_solve_linear (s, t, d, NULL, residual));
-        measure_gaps (c, d);
+        contact_gaps (c, d);
     }
     PG_TRY (check_loose (s, d));
 done:

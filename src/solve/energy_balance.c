@@ -28,6 +28,7 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     const double *rest = s->excavated ? s->excavated : contact_forces (s);
     PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : rest, &b->work_balance));
     if (!dyn) platens_reactions (s, b->work_balance.reaction);
+    if (!dyn) b->work_balance.strain += contact_energy (s);
     PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;

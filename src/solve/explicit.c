@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What explicit dynamics and relaxation have in common: supports, loads, forces with breaking, rows and
  * levels. */
+#include "contact.h"
 #include "explicit.h"
 #include "facet_growth.h"
 #include <math.h>
@@ -162,6 +163,13 @@ done:
     return status;
 }
 
+/* Do slips follow every evaluation? Stages that are held keep those of the last one until they are balanced:
+ * what swings on the way to a balance is no way of loading. */
+static int follows (const pg_solver *s)
+{
+    return !(s->options.flags & PG_SOLVER_STAGED) || !PG_OWN (pg_stages_options, &s->options)->hold;
+}
+
 /* One evaluation of the force, with breaking. Some forces break bonds within the evaluation; with others
  * utilisation is measured, bonds are broken, and the force is evaluated again where some were. */
 pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking, double *reference)
@@ -179,7 +187,7 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     else PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     s->evaluations++;
-    if (!breaking) goto done;
+    if (!breaking) goto press;
     if (force->balance_and_break) PG_TRY (remove_broken (s, state, t));
     else {
         PG_TRY (break_by_utilisation (s, state, t));
@@ -187,6 +195,8 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
             PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     }
     if (b->changes.n) state->events++, s->report.events++;
+press:
+    if (sys->contact) contact_push (sys, state->d, sys->residual, follows (s));
 done:
     return status;
 }

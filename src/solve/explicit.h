@@ -103,7 +103,7 @@ double    explicit_progress (const pg_solver *s, const pg_state *state);
 /* What every explicit method shares; its name, summary and step (explicit_step with its own half kicks) make
  * it whole. */
 #define EXPLICIT_ENTRIES \
-    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS, \
+    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS | PG_SOLVER_CONTACT, \
     .keys = { &solver_keys_facets, &solver_keys_step, &solver_keys_time }, \
     .read = explicit_read, .prepare = explicit_prepare, .start = explicit_start, .done = explicit_done, \
     .refused = explicit_refused, .free = explicit_free, .keep = explicit_keep, .own_size = sizeof (motion), \

@@ -3,6 +3,7 @@
  * of central differences. The energies are those that the method keeps: kinetic m v(n-1/2) v(n+1/2) / 2, work
  * by trapezoids, damping dt c m v_n^2; they add up to rounding while nothing breaks, so that the rest is what
  * breaking takes. */
+#include "contact.h"
 #include "explicit.h"
 #include "facet_growth.h"
 #include <math.h>
@@ -240,7 +241,8 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     const motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
-    const double *contact = explicit_contact_forces (s);
+    /* of contact by search, or of crack faces: never both */
+    const double *contact = sys->contact ? contact_forces (sys) : explicit_contact_forces (s);
     int spare = sys->force->work_of_residual && !s->options.plain && !b->growth && !contact;
     for (size_t i = 0; !spare && i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
     for (size_t k = 0; k < m->nprescribed; k++) {
@@ -256,6 +258,7 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
                                                &b->work_balance);
     else status = sys->force->work_balance (sys->self, t, state->d, sys->full, &b->work_balance);
     for (size_t k = 0; spare && k < m->nprescribed; k++) sys->residual[m->prescribed[k]] = 0;
+    b->work_balance.strain += contact_energy (sys);
     return status;
 }
 
@@ -369,6 +372,8 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     step->nbroken = b->nbroken, step->broken = b->broken;
     step->utilisation = b->growth ? b->growth->top : breaks ? NAN : 0;
     if (b->growth) PG_TRY (facet_show (s, state, 1));
+    if (b->system.contact) contact_count (&b->system);
+    PG_TRY (contact_show (&b->system, 1));
     PG_TRY (explicit_end (s, state, n == s->options.time_steps, "t =", t));
 done:
     return status;

@@ -307,27 +307,49 @@ static void check_short_range (const pg_solver_options *o, const pg_problem *pro
                         problem->approx.type->name, forces_of_points (names, sizeof names));
 }
 
+/* Do single bonds break? */
+static int breaks_bonds (const pg_problem *problem)
+{
+    return problem->criterion->type && !pg_criterion_of_tips (problem->criterion);
+}
+
+/* What has faces that can be told from each other. */
+static void check_faces (const pg_problem *problem, const pg_scene *scene)
+{
+    const pg_force_type *force = pg_force_of (problem);
+    if (problem->dim != 2)
+        pg_scene_fault (scene, "contact.kind", "faces of cracks are kept apart in 2D only so far: set none");
+    else if (force && !force->jump && !force->faces)
+        pg_scene_fault (scene, "contact.kind",
+                        "force: %s does not show how far crack faces are apart: set none, or take a force "
+                        "with shape functions", problem->method->name);
+    else if (force && force->faces && problem->sums && problem->sums->rule.finite)
+        pg_scene_fault (scene, "contact.kind",
+                        "faces that touch stay where they were opposite each other, which is right for small "
+                        "displacements: use method.stretch: linear, or set none");
+}
+
 /* Contact of crack faces goes where it is built, and is refused elsewhere. */
 static void check_contact (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const pg_force_type *force = pg_force_of (problem);
     char names[200];
+    int by_bonds = force && force->faces, rests = (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
     if (o->contact.kind == PG_CONTACT_NONE) return;
     if (o->contact.search == PG_CONTACT_SHORT_RANGE) {
         check_short_range (o, problem, scene);
         return;
     }
     solver_names_that (knows_contact, NULL, names, sizeof names);
-    if (problem->dim != 2)
-        pg_scene_fault (scene, "contact.kind", "faces of cracks are kept apart in 2D only so far: set none");
-    else if (force && !force->jump)
-        pg_scene_fault (scene, "contact.kind",
-                        "force: %s does not show how far crack faces are apart: set none, or take a force "
-                        "with shape functions", problem->method->name);
+    check_faces (problem, scene);
     if (!(o->flags & PG_SOLVER_CONTACT))
         pg_scene_fault (scene, "contact.kind", "solver.kind: %s does not know contact yet: use %s, or set "
                         "none", o->kind, names);
-    else if (problem->criterion->type && !pg_criterion_of_tips (problem->criterion))
+    else if (!by_bonds && !rests)
+        pg_scene_fault (scene, "contact.kind",
+                        "solver.kind: %s knows it of forces by bonds, whose layer between the faces is a "
+                        "spring: use solver.kind: static, another method.force, or set none", o->kind);
+    else if (breaks_bonds (problem) && (!by_bonds || rests))
         pg_scene_fault (scene, "contact.kind",
                         "keeps the faces of cracks apart, not single broken bonds: judge tips (break: "
                         "facet), leave failure out, or set none");

@@ -2,6 +2,7 @@
  * Stages of a load, each brought to rest by damped motion (Kilic and Madenci 2010; Shen 2016; theory B4, C).
  * While a stage is held, bonds do not break before its load has come to act, for the jolt of the load's
  * arrival is not part of a quasi-static path. */
+#include "contact.h"
 #include "relaxation.h"
 #include <math.h>
 #include <string.h>
@@ -194,7 +195,9 @@ static pg_status arm (pg_solver *s, const pg_state *state, double t, int breakin
     pg_system *sys = &s->break_loop.system;
     x->armed = 1;
     if (!sys->force->work_balance || !breaking) return PG_OK;
-    PG_TRY (sys->force->work_balance (sys->self, t, state->d, NULL, &s->break_loop.work_balance));
+    PG_TRY (sys->force->work_balance (sys->self, t, state->d, contact_forces (sys),
+                                      &s->break_loop.work_balance));
+    s->break_loop.work_balance.strain += contact_energy (sys);
     x->pending = 1;
 done:
     return status;
@@ -394,6 +397,8 @@ pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     PG_TRY (stages_of (s)->hold ? step_of_held_stage (s, state, step) : step_on (s, state, step));
+    if (b->system.contact) contact_accept (&b->system), contact_count (&b->system);
+    PG_TRY (contact_show (&b->system, 1));
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (b->work_balance.strain - b->stored0);
     state->time = step->time = step->factor = state->factor;

@@ -344,7 +344,11 @@ static void the_rest_is_refused (void **state)
           "body: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\nspacing: 0.25\nlattice: cells\n"
           "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
           "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}]\n", "in 2D only" },
-        { FLAT "]\nmethod: {force: bond}\ncontact: {kind: normal}\n", "does not show how far" },
+        { FLAT "]\nmethod: {force: bond, stretch: finite}\ncontact: {kind: normal}\n"
+          "solver: {kind: adr}\n", "small displacements" },
+        { FLAT "]\nsolver: {kind: verlet, end: 1}\ncontact: {kind: normal}\n", "forces by bonds" },
+        { FLAT "]\nmethod: {force: bond}\ncontact: {kind: normal}\n"
+          "failure: {criterion: stretch, critical_stretch: 1e-3}\n", "not single broken bonds" },
         { FLAT "]\nsolver: {kind: newmark, dt: 1, end: 2}\ncontact: {kind: normal}\n",
           "does not know contact" },
         { FLAT "]\ncontact: {kind: friction}\n", "kind: friction needs it" },
