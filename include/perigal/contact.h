@@ -205,5 +205,35 @@ pg_status pg_short_range_keep   (pg_short_range *contact, const pg_keeper *keepe
 typedef struct { int i, j; } pg_contact_pair;
 pg_status pg_short_range_pairs  (const pg_short_range *contact, const pg_state *state, size_t *n,
                                  pg_contact_pair **pair);
+
+/* ---- platens in explicit steps ------------------------------------------------------------------------- */
+/* Rigid platens (problem->platen) press the points that come nearer to their surface than half the contact
+ * distance, and nearer than at the start: F_n = k (l - distance), k as above but of the point alone, with
+ * friction by a spring across as above. A platen with a mass moves by its forces along all axes on which it
+ * has no displacement; momentum of body and platen is kept to rounding. */
+typedef struct pg_moving_platens pg_moving_platens;
+/* Force on the body, N; how far it has moved, m; its velocity in the half step to come, m/s. */
+typedef struct { double force[3], displacement[3], velocity[3]; } pg_moving_platen;
+typedef struct {
+    size_t touching;                                   /* points */
+    long   looks;                                      /* searches for points that may touch */
+    double energy, friction, kinetic;                  /* stored; work of friction so far; of platens, J */
+    double work;  /* so far: of forces on platens, and of platens that are moved, J */
+    double overlap_max, rate;                          /* as pg_short_range_report */
+    pg_moving_platen *platen;                          /* as problem->platen */
+} pg_moving_report;
+/* PG_E_SCENE: a platen is inside the body at the start. */
+pg_status pg_moving_platens_create (pg_moving_platens **out, const pg_problem *problem,
+                                    const pg_contact_setting *setting, size_t stride);
+void      pg_moving_platens_free   (pg_moving_platens **platens);
+double    pg_moving_platens_rate   (const pg_moving_platens *platens);         /* as pg_short_range_rate */
+/* Moves them from t - dt to t (dt 0: t is the first instant) and adds their forces on the points at d to f; v
+ * as in pg_short_range_add; step: the length of the step to come, s. */
+pg_status pg_moving_platens_add    (pg_moving_platens *platens, const double *d, const double *v, double t,
+                                    double dt, double step, double *f);
+const pg_moving_report *pg_moving_platens_now (const pg_moving_platens *platens);
+void      pg_moving_platens_save   (pg_moving_platens *platens);
+void      pg_moving_platens_return (pg_moving_platens *platens);
+pg_status pg_moving_platens_keep   (pg_moving_platens *platens, const pg_keeper *keeper);
 PG_API_END
 #endif

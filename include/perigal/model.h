@@ -94,6 +94,7 @@ typedef struct {
     int    tilts;                                      /* 1: free to turn, without a moment */
     int    free[3];                                    /* 1: moves along that axis as its force has it */
     int    motion, force;                              /* numbers of its loads; -1: none */
+    double mass, velocity[3];  /* in motion: kg, 0: none; at the start, m/s */
 } pg_platen;
 /* Distance of a place from the surface of the platen where it was at the start, m; negative: inside it.
  * INFINITY: beside the platen. normal (dim): unit, from the platen towards the body. */

@@ -56,7 +56,8 @@ static const pg_key keys[] = {
       "One pair: t in s (static: load factor 0 to 1), factor." },
     { "platens", PG_LIST, NULL, NULL, "", no_choice, NULL, NULL,
       "Rigid platens and indenters: what of the surface of the body comes to theirs is pressed, and rubbed, "
-      "by them (force: galerkin, solver: static; elsewhere they are refused)." },
+      "by them (force: galerkin, solver: static; forces of points, solver: verlet, central; elsewhere they "
+      "are refused)." },
     { "platens[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL,
       "Name in history.csv and in stages[].boundary." },
     { "platens[].shape", PG_NAME, NULL, NULL, "plane", "plane|cylinder|sphere", NULL, NULL,
@@ -91,6 +92,11 @@ static const pg_key keys[] = {
     { "platens[].force.z", PG_EXPRESSION, "N", NULL, "", no_choice, NULL, NULL, "Component along z." },
     { "platens[].tilt", PG_NAME, NULL, NULL, "held", "held|free", NULL, NULL,
       "free: it turns about `point` until the moment of what it bears is zero there (a spherical seat)." },
+    { "platens[].mass", PG_NUMBER, "kg", "[0, inf)", "0", no_choice, NULL, NULL,
+      "solver: verlet, central: with a mass it moves by its forces along all axes on which it has no "
+      "displacement (an impactor)." },
+    { "platens[].velocity", PG_VECTOR, "m/s", NULL, "", no_choice, NULL, NULL,
+      "Velocity at the start of a platen with a mass." },
     { "platens[].ramp", PG_TEXT, NULL, NULL, "linear", NULL, NULL, NULL,
       "Factor of its displacement over time: linear, constant, or an expression in t." },
     { "platens[].force_ramp", PG_TEXT, NULL, NULL, "linear", NULL, NULL, NULL,

@@ -199,6 +199,8 @@ pg_status pg_platens_read (pg_problem *problem, const pg_scene *scene, size_t at
         }
         read_shape (p, scene, i, problem->dim);
         p->friction = pg_scene_number (scene, "platens[%zu].friction", i);
+        p->mass = pg_scene_number (scene, "platens[%zu].mass", i);
+        pg_scene_vector (scene, 3, p->velocity, "platens[%zu].velocity", i);
         p->tilts = strcmp (pg_scene_text (scene, "platens[%zu].tilt", i), "free") == 0;
         if (pg_scene_given (scene, "platens[%zu].displacement", i))
             PG_TRY (read_load (problem, i, scene, at++, "displacement", PG_PLATEN_MOTION, "m"));

@@ -64,10 +64,10 @@ static void instability_block (pg_json *j, const pg_result *res, const pg_statis
  * overlap of a mean gap over the run, m; of the whole run right-hand sides for compliances, dense solves,
  * changes of status on the way, and seconds of all this, per event or in all. By short range: pairs near each
  * other, and pairs that touch. */
-static void contact_block (pg_json *j, const pg_statistics *r, pg_contact_search search)
+static void contact_block (pg_json *j, const pg_statistics *r, int points)
 {
     pg_json_open (j, "contact", '{');
-    if (search == PG_CONTACT_SHORT_RANGE) {
+    if (points) {
         pg_json_count (j, "pairs", (size_t) r->contact_pairs);
         pg_json_count (j, "touching", (size_t) r->contact_touching);
         pg_json_shut (j);
@@ -94,7 +94,9 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
 {
     const pg_problem *p = res->problem;
     const pg_contact_setting *setting = &pg_solver_settled (res->solver)->contact;
-    int contact = setting->kind != PG_CONTACT_NONE || p->nplaten;
+    int contact = setting->kind != PG_CONTACT_NONE || p->nplaten,
+        explicit_ = (pg_solver_settled (res->solver)->flags & PG_SOLVER_EXPLICIT) != 0,
+        points = contact && (setting->search == PG_CONTACT_SHORT_RANGE || (explicit_ && p->nplaten));
     pg_json_count (j, "points", p->cloud.n);
     pg_json_count (j, "bonds", p->first_bond[PG_BOND_SETS]);
     pg_json_count (j, "dofs", state->ndof);
@@ -127,10 +129,9 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_number (j, "damping", r->energy_damping);
     pg_json_number (j, "dissipated", r->energy_dissipated);
     if (contact) pg_json_number (j, "friction", r->energy_friction);
-    if (contact && setting->search == PG_CONTACT_SHORT_RANGE)
-        pg_json_number (j, "contact", r->energy_contact);
+    if (points) pg_json_number (j, "contact", r->energy_contact);
     pg_json_shut (j);
-    if (contact) contact_block (j, r, setting->search);
+    if (contact) contact_block (j, r, points);
 }
 
 /* Stages of loading: how each ended, energies and openings of gauges then; those that the run did not come to

@@ -313,6 +313,10 @@ void platens_show (pg_system *s, double scale)
 const pg_platen_values *pg_solver_platens (const pg_solver *s, size_t *n)
 {
     const struct system_contact *c = s->break_loop.system.contact;
+    if (s->moving) {
+        *n = s->problem->nplaten;
+        return s->moving;
+    }
     *n = c ? c->platens.n : 0;
     return c ? c->platens.shown : NULL;
 }

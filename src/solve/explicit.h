@@ -52,9 +52,10 @@ int       explicit_level   (pg_solver *s, long total, long now);
 pg_status explicit_end     (pg_solver *s, const pg_state *state, int last, const char *what, double t);
 pg_status explicit_keep    (pg_solver *s, const pg_keeper *keeper);
 
-/* ---- explicit_contact.c -------------------------------------------------------------------------------- */
+/* ---- explicit_contact.c: short range, and platens ------------------------------------------------------ */
 struct explicit_contact {
-    pg_short_range *pairs;
+    pg_short_range *pairs;                             /* NULL: platens alone */
+    pg_moving_platens *platens;  pg_platen_values *shown;              /* NULL: none */
     double *f;  int active;                            /* forces at hand, N (ndof); some are not zero */
     long    broken;  /* bonds dead at the last evaluation; -1: not known */
     double  bare;                                      /* largest frequency without contact, rad/s */
@@ -66,7 +67,8 @@ void      explicit_contact_free   (pg_solver *s);
 /* Square of the frequency that contact adds at most, 1/s^2. */
 double    explicit_contact_rate   (const pg_solver *s);
 /* Adds its forces to the residual at hand; first: no step has led there. */
-pg_status explicit_contact_add    (pg_solver *s, pg_state *state, int first);
+pg_status explicit_contact_add    (pg_solver *s, pg_state *state, double t, int first);
+double    explicit_contact_kinetic (const pg_solver *s);               /* of platens, J */
 const double *explicit_contact_forces (const pg_solver *s);            /* NULL: none */
 void      explicit_contact_show   (pg_solver *s);
 pg_status explicit_contact_save   (pg_solver *s);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Short-range contact in explicit steps (perigal/contact.h): its forces stand in the residual beside those of
- * the body, and in a list of their own where the work of the body's forces is asked for; its energies are
- * booked beside theirs. */
+ * Short-range contact and platens in explicit steps (perigal/contact.h): their forces stand in the residual
+ * beside those of the body, and in a list of their own where the work of the body's forces is asked for; its
+ * energies are booked beside theirs. */
 #include "explicit.h"
 #include <math.h>
 #include <stdio.h>
@@ -13,10 +13,16 @@ pg_status explicit_contact_create (pg_solver *s)
     motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     const pg_contact_setting *setting = &s->options.contact;
-    if (setting->kind == PG_CONTACT_NONE || setting->search != PG_CONTACT_SHORT_RANGE) return PG_OK;
+    int pairs = setting->kind != PG_CONTACT_NONE && setting->search == PG_CONTACT_SHORT_RANGE;
+    if (!pairs && !s->problem->nplaten) return PG_OK;
     PG_ALLOC (m->contact, 1);
     PG_ALLOC (m->contact->f, sys->ndof);
-    PG_TRY (pg_short_range_create (&m->contact->pairs, s->problem, setting, (size_t) sys->components));
+    if (pairs)
+        PG_TRY (pg_short_range_create (&m->contact->pairs, s->problem, setting, (size_t) sys->components));
+    if (!s->problem->nplaten) goto done;
+    PG_ALLOC (m->contact->shown, s->problem->nplaten);
+    s->moving = m->contact->shown;
+    PG_TRY (pg_moving_platens_create (&m->contact->platens, s->problem, setting, (size_t) sys->components));
 done:
     return status;
 }
@@ -27,15 +33,23 @@ void explicit_contact_free (pg_solver *s)
     struct explicit_contact *c = motion_of (s)->contact;
     if (!c) return;
     pg_short_range_free (&c->pairs);
-    pg_free (c->f);
+    pg_moving_platens_free (&c->platens);
+    pg_free (c->f), pg_free (c->shown);
     pg_free (c);
-    motion_of (s)->contact = NULL;
+    motion_of (s)->contact = NULL, s->moving = NULL;
 }
 
 double explicit_contact_rate (const pg_solver *s)
 {
     const struct explicit_contact *c = motion_of (s)->contact;
-    return c ? pg_short_range_rate (c->pairs) : 0;
+    return (c && c->pairs ? pg_short_range_rate (c->pairs) : 0)
+           + (c && c->platens ? pg_moving_platens_rate (c->platens) : 0);
+}
+
+double explicit_contact_kinetic (const pg_solver *s)
+{
+    const struct explicit_contact *c = motion_of (s)->contact;
+    return c && c->platens ? pg_moving_platens_now (c->platens)->kinetic : 0;
 }
 
 /* More contacts on a point than faces of bodies have may take the step beyond what is stable. */
@@ -43,7 +57,9 @@ static void doubt (pg_solver *s)
 {
     const motion *m = motion_of (s);
     struct explicit_contact *c = m->contact;
-    double rate = pg_short_range_now (c->pairs)->rate, dt = s->options.dt;
+    double rate = (c->pairs ? pg_short_range_now (c->pairs)->rate : 0)
+                  + (c->platens ? pg_moving_platens_now (c->platens)->rate : 0),
+           dt = s->options.dt;
     if (c->warned || !(dt * dt * (c->bare * c->bare + rate) > 4)) return;
     c->warned = 1;
     pg_statistics_warn (&s->report,
@@ -52,7 +68,7 @@ static void doubt (pg_solver *s)
 }
 
 /* Velocities of prescribed unknowns are zero inside a step: meanwhile they take those of their motion. */
-pg_status explicit_contact_add (pg_solver *s, pg_state *state, int first)
+pg_status explicit_contact_add (pg_solver *s, pg_state *state, double t, int first)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
@@ -66,11 +82,17 @@ pg_status explicit_contact_add (pg_solver *s, pg_state *state, int first)
         state->v[m->prescribed[k]] = (m->next[k] - m->goal[k]) / dt;
     const pg_changes *broken = &s->break_loop.changes;
     int known = c->broken + (long) broken->n == state->broken;
-    status = pg_short_range_add (c->pairs, state, broken, !known, state->v, dt, c->f);
+    if (c->pairs) status = pg_short_range_add (c->pairs, state, broken, !known, state->v, dt, c->f);
+    if (status == PG_OK && c->platens) {
+        double before = pg_moving_platens_now (c->platens)->work;
+        status = pg_moving_platens_add (c->platens, state->d, state->v, t, dt, s->options.dt, c->f);
+        s->break_loop.work += pg_moving_platens_now (c->platens)->work - before;
+    }
     if (!first) explicit_release (s, state);
     PG_TRY (status);
-    const pg_short_range_report *now = pg_short_range_now (c->pairs);
-    c->broken = state->broken, c->active = now->touching > 0;
+    c->broken = state->broken;
+    c->active = (c->pairs && pg_short_range_now (c->pairs)->touching > 0)
+                || (c->platens && pg_moving_platens_now (c->platens)->touching > 0);
     for (size_t i = 0; c->active && i < sys->ndof; i++) sys->residual[i] += c->f[i];
     doubt (s);
 done:
@@ -84,6 +106,17 @@ const double *explicit_contact_forces (const pg_solver *s)
     return c && c->active ? c->f : NULL;
 }
 
+static void show_platens (const struct explicit_contact *c, pg_statistics *r, size_t n)
+{
+    const pg_moving_report *now = pg_moving_platens_now (c->platens);
+    r->energy_contact += now->energy, r->energy_friction += now->friction, r->energy_kinetic += now->kinetic;
+    r->overlap_max = fmax (r->overlap_max, now->overlap_max), r->contact_touching += (long) now->touching;
+    for (size_t i = 0; i < n; i++)
+        for (int k = 0; k < 3; k++)
+            c->shown[i].force[k] = now->platen[i].force[k],
+            c->shown[i].motion[k] = now->platen[i].displacement[k];
+}
+
 /* What the report says of contact, and what was spared. */
 void explicit_contact_show (pg_solver *s)
 {
@@ -91,10 +124,13 @@ void explicit_contact_show (pg_solver *s)
     pg_statistics *r = &s->report;
     char what[96];
     if (!c) return;
+    r->energy_contact = r->energy_friction = r->overlap_max = 0, r->contact_touching = 0;
+    if (c->platens) show_platens (c, r, s->problem->nplaten);
+    if (!c->pairs) return;
     const pg_short_range_report *now = pg_short_range_now (c->pairs);
-    r->energy_contact = now->energy, r->energy_friction = now->friction;
-    r->overlap_max = now->overlap_max;
-    r->contact_pairs = (long) now->listed, r->contact_touching = (long) now->touching;
+    r->energy_contact += now->energy, r->energy_friction += now->friction;
+    r->overlap_max = fmax (r->overlap_max, now->overlap_max);
+    r->contact_pairs = (long) now->listed, r->contact_touching += (long) now->touching;
     if (now->evaluations > now->searches) {
         snprintf (what, sizeof what, "search for contact in %ld steps", now->evaluations - now->searches);
         pg_statistics_skip (r, NAN, what, "no point had moved half the skin of the last search");
@@ -111,14 +147,16 @@ pg_status explicit_contact_save (pg_solver *s)
     struct explicit_contact *c = motion_of (s)->contact;
     if (!c) return PG_OK;
     c->energy0 = s->report.energy_contact, c->friction0 = s->report.energy_friction;
-    return pg_short_range_save (c->pairs);
+    if (c->platens) pg_moving_platens_save (c->platens);
+    return c->pairs ? pg_short_range_save (c->pairs) : PG_OK;
 }
 
 void explicit_contact_return (pg_solver *s)
 {
     struct explicit_contact *c = motion_of (s)->contact;
     if (!c) return;
-    pg_short_range_return (c->pairs);                  /* room is there: they stood in it before */
+    if (c->platens) pg_moving_platens_return (c->platens);
+    if (c->pairs) pg_short_range_return (c->pairs);    /* room is there: they stood in it before */
     s->report.energy_contact = c->energy0, s->report.energy_friction = c->friction0;
     c->broken = -1;
 }
@@ -141,7 +179,8 @@ pg_status explicit_contact_keep (pg_solver *s, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "contact.energies", 2, number));
     c->warned = count != 0, c->energy0 = number[0], c->friction0 = number[1];
     if (k->reading) c->broken = -1;
-    PG_TRY (pg_short_range_keep (c->pairs, k));
+    if (c->pairs) PG_TRY (pg_short_range_keep (c->pairs, k));
+    if (c->platens) PG_TRY (pg_moving_platens_keep (c->platens, k));
 done:
     return status;
 }

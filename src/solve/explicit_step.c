@@ -213,7 +213,7 @@ static pg_status arrive (pg_solver *s, pg_state *state, long n)
     break_loop *b = &s->break_loop;
     if (b->growth && n > 0) facet_forward (b, s->options.dt);
     PG_TRY (explicit_force (s, state, t, 1, NULL));
-    PG_TRY (explicit_contact_add (s, state, n == 0));
+    PG_TRY (explicit_contact_add (s, state, t, n == 0));
     system_add_held (&b->system, b->system.residual);
     if (b->growth && n > 0) PG_TRY (run_tips (s, state, t));
     if (n > 0) PG_TRY (explicit_follow (s, time_at (s, n - 1), t, (double) (n + 1) * s->options.dt));
@@ -305,6 +305,7 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
         kinetic += 0.5 * sys->mass[m->prescribed[k]] * (m->goal[k] - m->before[k]) * (m->next[k] - m->goal[k])
                    / (dt * dt);
     show_prescribed (s, state, staggered);
+    kinetic += explicit_contact_kinetic (s);
     s->report.energy_kinetic = kinetic;
     PG_TRY (account (s, state, 0, staggered, 1));
     s->break_loop.work = s->report.energy_strain + kinetic;

@@ -43,11 +43,52 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
                         "do not grow in proportion to the load else: use fixed");
 }
 
+/* What is for motion alone. */
+static void refuse_masses (const pg_problem *problem, const pg_scene *scene)
+{
+    static const char *const key[2] = { "mass", "velocity" };
+    char path[64];
+    for (size_t i = 0; i < problem->nplaten; i++)
+        for (int k = 0; k < 2; k++) {
+            snprintf (path, sizeof path, "platens[%zu].%s", i, key[k]);
+            if (pg_scene_given (scene, "%s", path))
+                pg_scene_fault (scene, path, "has a meaning in explicit steps alone: leave it out");
+        }
+}
+
+/* In explicit steps: penalty on displacements of points. */
+static void check_moving (const pg_problem *problem, const pg_scene *scene)
+{
+    char path[64];
+    if (problem->method->shape_functions && !problem->approx.type->interpolates)
+        pg_scene_fault (scene, "platens",
+                        "in explicit steps they press points, whose displacements the unknowns of "
+                        "method.approximation: %s are not: take another force, or supports on sets",
+                        problem->approx.type->name);
+    for (size_t i = 0; i < problem->nplaten; i++) {
+        const pg_platen *p = &problem->platen[i];
+        snprintf (path, sizeof path, "platens[%zu].tilt", i);
+        if (p->tilts) pg_scene_fault (scene, path, "platens do not turn in explicit steps so far: use held");
+        snprintf (path, sizeof path, "platens[%zu].mass", i);
+        if (p->force >= 0 && !(p->mass > 0))
+            pg_scene_fault (scene, path, "a platen that a force moves needs it in explicit steps");
+        snprintf (path, sizeof path, "platens[%zu].velocity", i);
+        if (pg_scene_given (scene, "%s", path) && !(p->mass > 0))
+            pg_scene_fault (scene, path, "is that of a platen with a mass: give the mass, or a displacement "
+                            "of velocity times t (ramp: constant)");
+    }
+}
+
 void platens_check (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
     const pg_force_type *force = pg_force_of (problem);
     char names[200];
     if (!problem->nplaten) return;
+    if (o->flags & PG_SOLVER_EXPLICIT) {
+        check_moving (problem, scene);
+        return;
+    }
+    refuse_masses (problem, scene);
     solver_names_that (finds_equilibria, NULL, names, sizeof names);
     if (force && !force->trace)
         pg_scene_fault (scene, "platens",

@@ -315,6 +315,7 @@ struct pg_solver {
     pg_tip_values *tip; size_t ntip, cap_tip;          /* what was measured at tips */
     pg_front_values *front; size_t nfront, cap_front;  /* and at vertices of fronts, in the last step */
     stage_path stage;
+    const pg_platen_values *moving;                    /* of platens in explicit steps; NULL: none */
     void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */
 };
 

@@ -137,7 +137,7 @@ static void report_sums (pg_solver *s)
 static int short_range (const pg_solver *s)
 {
     const pg_contact_setting *c = &s->options.contact;
-    return c->kind != PG_CONTACT_NONE && c->search == PG_CONTACT_SHORT_RANGE;
+    return (c->kind != PG_CONTACT_NONE && c->search == PG_CONTACT_SHORT_RANGE) || s->moving;
 }
 
 /* The method advances the state. What fails leaves the last accepted state behind, and a message with the
