@@ -17,9 +17,13 @@
 
 /* Springs are so much softer than a piece of the surface. */
 static const double SOFT = 1000;
+/* A round that leaves more than this share of what was unbalanced is slow: its springs get so much softer. */
+static const double SLOW = 0.3, SOFTER = 8;
 /* Balance of a motion over the largest force that is reached; that is accepted where rounding ends. */
 static const double BALANCED = 1e-13, ACCEPTED = 1e-9;
 enum { MOST_ROUNDS = 80 };
+/* Motions count as free where closed pairs resist them by less than this share of the stiffest one. */
+static const double RESISTED = 1e-12;
 
 /* A free motion: of a platen along an axis (3..5: about it), or of a part. */
 typedef struct { size_t platen; int axis; size_t mode; } motion;
@@ -144,20 +148,39 @@ static pg_status refuse (const problem_of_motions *w, size_t j, double left)
 }
 
 /* ---- the rounds ---------------------------------------------------------------------------------------- */
-/* Springs by the compliance of the pieces that a motion reaches, and C with them. */
-static void soften (problem_of_motions *w)
+/* Springs by the compliance of the pieces that a motion reaches. */
+static void find_springs (problem_of_motions *w)
 {
     size_t n = w->rows;
-    memcpy (w->C, w->c->C, n * n * sizeof *w->C);
     for (size_t j = 0; j < w->m; j++) {
         const double *b = w->B + j * n;
         double own = 0, size = 0, count = 0;
         for (size_t i = 0; i < n; i++)
             if (b[i] != 0) own += w->c->C[i * n + i], size += b[i] * b[i], count++;
         w->S[j] = size > 0 ? SOFT * own / count / size : 0;
+    }
+}
+
+/* C with the springs. */
+static void soften (problem_of_motions *w)
+{
+    size_t n = w->rows;
+    memcpy (w->C, w->c->C, n * n * sizeof *w->C);
+    for (size_t j = 0; j < w->m; j++) {
+        const double *b = w->B + j * n;
         for (size_t i = 0; i < n; i++)
             for (size_t k = 0; b[i] != 0 && k < n; k++) w->C[i * n + k] += w->S[j] * b[i] * b[k];
     }
+}
+
+/* A motion whose balance hardly gains, as the pieces that are closed resist it little (a seat that tilts on a
+ * few of them), gets a softer spring. 1: some did. */
+static int soften_slow (problem_of_motions *w, const double *left, const double *last, double small)
+{
+    int any = 0;
+    for (size_t j = 0; j < w->m; j++)
+        if (fabs (left[j]) > small && fabs (left[j]) > SLOW * fabs (last[j])) w->S[j] *= SOFTER, any = 1;
+    return any;
 }
 
 /* Unbalanced force of each motion at the forces at hand; the largest, and the largest force there is. */
@@ -178,10 +201,11 @@ static pg_status iterate (problem_of_motions *w, pg_contact_solution *out, const
 {
     pg_status status = PG_OK;
     struct system_contact *c = w->c;
-    double *left = NULL, worst = INFINITY, last, size;
+    double *left = NULL, *before, worst = INFINITY, last, size;
     size_t which = 0;
-    PG_ALLOC (left, w->m);
-    soften (w);
+    PG_ALLOC (left, 2 * w->m);
+    before = left + w->m;
+    find_springs (w), soften (w);
     for (size_t i = 0; i < w->rows; i++) out->force[i] = 0;
     find_balance (w, out->force, left, &worst, &which, &size);
     for (size_t j = 0; j < w->m; j++)
@@ -201,6 +225,7 @@ static pg_status iterate (problem_of_motions *w, pg_contact_solution *out, const
                                        .slip = c->history ? c->before : NULL };
         PG_TRY (pg_contact_solve (out, &problem));
         last = worst;
+        memcpy (before, left, w->m * sizeof *left);
         find_balance (w, out->force, left, &worst, &which, &size);
         for (size_t j = 0; j < w->m; j++) w->y[j] += w->S[j] * left[j];
         if (worst <= BALANCED * size || (worst <= ACCEPTED * size && worst > 0.5 * last)) goto done;
@@ -209,6 +234,7 @@ static pg_status iterate (problem_of_motions *w, pg_contact_solution *out, const
                 status = refuse (w, j, fabs (left[j]));
                 goto done;
             }
+        if (round > 0 && soften_slow (w, left, before, ACCEPTED * size)) soften (w);
     }
     if (!(worst <= ACCEPTED * size)) status = refuse (w, which, worst);
 done:
@@ -216,6 +242,96 @@ done:
     return status;
 }
 
+/* ---- motions that nothing resists ---------------------------------------------------------------------- */
+/* Rows of closed pairs, and of their friction, resist the combinations of motions that change them: the sum
+ * of their squares, m x m. */
+static void find_resistance (const problem_of_motions *w, const pg_contact_solution *out, double *N)
+{
+    size_t dim = w->c->pieces.dim;
+    for (size_t k = 0; k < w->c->pieces.n; k++) {
+        if (out->status[k] == PG_CONTACT_OPEN) continue;
+        size_t rows = w->c->coefficient[k] > 0 || w->c->cohesion[k] > 0 ? dim : 1;
+        for (size_t i = dim * k; i < dim * k + rows; i++)
+            for (size_t a = 0; a < w->m; a++)
+                for (size_t b = 0; b < w->m; b++)
+                    N[a * w->m + b] += w->B[a * w->rows + i] * w->B[b * w->rows + i];
+    }
+}
+
+/* Displacement of a combination of motions, as far as it moves parts of the body. */
+static void displacement_of (const problem_of_motions *w, const double *z, size_t stride, double *u)
+{
+    size_t n = w->s->ndof;
+    memset (u, 0, n * sizeof *u);
+    for (size_t j = 0; j < w->m; j++) {
+        if (w->motion[j].mode == SIZE_MAX) continue;
+        const double *mode = w->c->loose.mode + w->motion[j].mode * n;
+        for (size_t i = 0; i < n; i++) u[i] += z[j * stride] * mode[i];
+    }
+}
+
+/* How far of the way by along z no open pair closes, at most 1; gaps at hand in `gap`. */
+static double room_for (const problem_of_motions *w, const pg_contact_solution *out, const double *z,
+                        size_t stride, double by)
+{
+    double share = 1;
+    size_t dim = w->c->pieces.dim;
+    for (size_t k = 0; k < w->c->pieces.n; k++) {
+        double change = 0;
+        if (out->status[k] != PG_CONTACT_OPEN) continue;
+        for (size_t j = 0; j < w->m; j++) change += by * z[j * stride] * w->B[j * w->rows + dim * k];
+        if (change < 0) share = fmin (share, fmax (0, out->gap[dim * k] / -change));
+    }
+    return share;
+}
+
+/* What nothing resists is not determined: of all places where a part could be that is taken which leaves the
+ * mean of its displacement along such a motion zero, or comes nearest to it without closing what is open. So
+ * the answer depends on no point of the part. */
+static pg_status centre (problem_of_motions *w, const pg_contact_solution *out, const double *d)
+{
+    pg_status status = PG_OK;
+    double *N = NULL, *value = NULL, *V = NULL, *u = NULL, *moved = NULL;
+    size_t n = w->s->ndof;
+    if (!w->c->loose.n) return PG_OK;
+    PG_ALLOC (N, w->m * w->m);
+    PG_ALLOC (V, w->m * w->m);
+    PG_ALLOC (value, w->m);
+    PG_ALLOC (u, n);
+    PG_ALLOC (moved, n);
+    find_resistance (w, out, N);
+    pg_dense_eigen ((int) w->m, N, value, V);
+    memcpy (moved, d, n * sizeof *d);
+    for (size_t j = 0; j < w->m; j++) {
+        double by = w->motion[j].mode == SIZE_MAX ? 0 : w->y[j] - w->c->loose.amount[w->motion[j].mode];
+        const double *mode = by != 0 ? w->c->loose.mode + w->motion[j].mode * n : moved;
+        for (size_t i = 0; by != 0 && i < n; i++) moved[i] += by * mode[i];
+    }
+    /* motions are not at right angles to each other: again and again */
+    double most = 1, first = 0;
+    for (int pass = 0; pass < MOST_ROUNDS && most > BALANCED * first; pass++) {
+        most = 0;
+        for (size_t a = 0; a < w->m; a++) {
+            double along = 0, size = 0;
+            if (value[a] > RESISTED * value[0] && value[0] > 0) continue;
+            displacement_of (w, V + a, w->m, u);
+            for (size_t i = 0; i < n; i++) along += u[i] * moved[i], size += u[i] * u[i];
+            if (!(size > 0)) continue;
+            double by = -along / size;
+            by *= room_for (w, out, V + a, w->m, by);
+            for (size_t j = 0; j < w->m; j++) w->y[j] += by * V[j * w->m + a];
+            for (size_t i = 0; i < n; i++) moved[i] += by * u[i];
+            most = fmax (most, fabs (by));
+        }
+        if (pass == 0) first = most;
+        if (most == 0) break;
+    }
+done:
+    pg_free (N), pg_free (V), pg_free (value), pg_free (u), pg_free (moved);
+    return status;
+}
+
+/* ---- pressing ------------------------------------------------------------------------------------------ */
 /* Amounts of now, as y: those that the gaps at hand contain. */
 static double *amount_of (problem_of_motions *w, size_t j)
 {
@@ -238,6 +354,7 @@ pg_status contact_press_free (pg_system *s, double t, pg_contact_solution *out, 
         for (size_t i = 0; i < w.rows; i++) open[i] -= w.B[j * w.rows + i] * w.y[j];
     }
     PG_TRY (iterate (&w, out, open));
+    PG_TRY (centre (&w, out, d));
     for (size_t j = 0; j < w.m; j++) {
         double unit = w.motion[j].mode == SIZE_MAX && w.motion[j].axis > 2 ? w.size : 1,
                *now = amount_of (&w, j);

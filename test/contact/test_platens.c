@@ -57,6 +57,10 @@ static void a_block_is_pressed_uniformly (void **state)
         const pg_statistics *s = pg_solver_report_now (r.solver);
         double pressure = 0.01 * cases[i].modulus;
         check_pieces (&r, pressure, 0, 1e-10);
+        assert_int_equal (s->contact_pieces, 10);      /* two spacings each */
+        double mean = 0;                               /* what nothing resists leaves it in its place */
+        for (size_t k = 0; k < r.problem->cloud.n; k++) mean += r.state->d[2*k];
+        check_scaled (mean / (double) r.problem->cloud.n, 0, 1e-12, 0.02);
         check_relative (platen_of (&r, 0)->force[1], 0.5 * pressure, 1e-11);
         check_relative (platen_of (&r, 1)->force[1], -0.5 * pressure, 1e-11);
         check_scaled (platen_of (&r, 1)->force[0], 0, 1e-11, pressure);
@@ -306,6 +310,30 @@ static void the_rest_is_refused (void **state)
     }
 }
 
+/* A small roll pressed in deep comes to places that were far from it at the start: they become pairs, so that no
+ * piece overlaps, and the outermost ones are open. */
+static void far_places_become_pairs (void **state)
+{
+    (void) state;
+    run r = scene_of (1,
+        "dimension: 2\nplane: strain\nthickness: 1\nbody: [{add: {box: {low: [-3, -2], high: [3, 0]}}}]\n"
+        "spacing: 0.1\nlattice: cells\nmaterials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
+        "boundary: [{set: bottom, displacement: {x: 0, y: 0}}]\n"
+        "platens: [{name: roll, shape: cylinder, point: [0, 1], radius: 1, force: {y: -400}}]\n"
+        "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n");
+    to_the_end (&r);
+    size_t count;
+    double reach = 0, touched = 0;
+    const pg_contact_values *v = pg_solver_contact (r.solver, &count);
+    for (size_t k = 0; k < count; k++) {
+        check_scaled (fmin (0, v[k].gap), 0, 1e-12, 1);
+        reach = fmax (reach, fabs (v[k].x[0]));
+        if (v[k].pressure > 0) touched = fmax (touched, fabs (v[k].x[0]));
+    }
+    assert_true (touched > 0.5 && reach > touched);    /* at first those within sqrt (2 R h) = .45 are pairs */
+    clear (&r);
+}
+
 /* Event stepping relies on equilibria that grow with the load: a platen that touches a step of the surface
  * from the start and comes to the next one on its way is told to take fixed steps. */
 static void a_platen_that_comes_later_needs_fixed_steps (void **state)
@@ -322,6 +350,33 @@ static void a_platen_that_comes_later_needs_fixed_steps (void **state)
         pg_status status = pg_solver_step (r.solver, r.state, &r.step);
         assert_int_equal (status, k ? PG_E_USAGE : PG_OK);
         if (k) check_contains (pg_last_error (), "use solver.stepping: fixed");
+        clear (&r);
+    }
+}
+
+/* The same disk between a jaw and a slanted platen, in metres or millimetres, mirrored, by two threads. */
+static void units_and_mirrors_do_not_count (void **state)
+{
+    (void) state;
+    double first[3] = { 0 };
+    for (int k = 0; k < 4; k++) {
+        const double u = k == 1 ? 1e-3 : 1, m = k == 2 ? -1 : 1;
+        run r = scene_of (k == 3 ? 2 : 1,
+            "dimension: 2\nplane: strain\nthickness: %g\n"
+            "body: [{add: {disk: {center: [0, 0], radius: %g}}}]\nspacing: %g\nlattice: cells\ncells: cut\n"
+            "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
+            "platens: [{name: foot, friction: 0.4, shape: cylinder, concave: true, radius: %g, point: [0, "
+            "%g]},\n  {name: head, friction: 0.4, point: [0, %.17g], normal: [%.17g, -1], force: {y: %.17g}, "
+            "tilt: free}]\n"
+            "solver: {kind: static, stepping: fixed, steps: 2}\noutput: {at: {levels: 1}}\n", u, u, 0.1 * u,
+            1.5 * u, 0.5 * u, 1.01 * u, 0.02 * m, -20 * u * u);
+        to_the_end (&r);
+        const pg_platen_values *head = platen_of (&r, 1);
+        const double now[3] = { head->motion[1] / u, m * head->motion[5], m * head->force[0] / (u * u) };
+        for (int i = 0; i < 3; i++) {
+            if (k == 0) first[i] = now[i];
+            check_relative (now[i], first[i], k == 3 ? 1e-15 : 1e-7);
+        }
         clear (&r);
     }
 }
@@ -362,6 +417,8 @@ int main (void)
         cmocka_unit_test (platens_press_in_space),
         cmocka_unit_test (a_sphere_is_pressed_in_as_hertz_has_it),
         cmocka_unit_test (the_rest_is_refused),
+        cmocka_unit_test (units_and_mirrors_do_not_count),
+        cmocka_unit_test (far_places_become_pairs),
         cmocka_unit_test (a_platen_that_comes_later_needs_fixed_steps),
         cmocka_unit_test (a_run_goes_on_from_its_checkpoint),
     };
