@@ -134,43 +134,53 @@ done:
     return status;
 }
 
+/* Component k of a load of platen i: an expression of t alone, of an axis that the body has and nothing else
+ * moves. */
+static pg_status read_component (pg_problem *problem, pg_platen *p, pg_load *load, const pg_scene *scene,
+                                 const char *path, int k, const char *text)
+{
+    pg_status status = PG_OK;
+    int force = load->kind == PG_PLATEN_FORCE;
+    if (k >= problem->dim) {
+        pg_scene_fault (scene, path, "a %dD body has no such component", problem->dim);
+        return PG_OK;
+    }
+    PG_TRY (pg_expression_compile (&load->value[k], text, force ? "N" : "m"));
+    int places = 0;
+    for (const char *c = "xyzra"; *c; c++) places |= pg_expression_uses (load->value[k], *c);
+    if (places)
+        pg_scene_fault (scene, path, "a rigid platen has one for all places: an expression of t alone");
+    if (pg_expression_uses (load->value[k], 't')) load->proportional = 0;
+    if (force && p->motion >= 0 && problem->load[p->motion].value[k])
+        pg_scene_fault (scene, path, "along %c it is moved by a displacement: leave one of them out",
+                        "xyz"[k]);
+    if (force) p->free[k] = 1;
+done:
+    return status;
+}
+
 /* One of its loads: `displacement` or `force`. Values are the same everywhere. */
-static pg_status read_load (pg_problem *problem, size_t i, const pg_scene *scene, size_t at, const char *key,
-                            pg_load_kind kind, const char *unit)
+static pg_status read_load (pg_problem *problem, size_t i, const pg_scene *scene, size_t at,
+                            pg_load_kind kind)
 {
     pg_status status = PG_OK;
     pg_load *load = &problem->load[at];
     pg_platen *p = &problem->platen[i];
     char path[96];
-    int found = 0, force = kind == PG_PLATEN_FORCE;
+    int found = 0, force = kind == PG_PLATEN_FORCE, second = force && p->motion >= 0;
+    const char *key = force ? "force" : "displacement";
     load->kind = kind, load->set = &nothing, load->platen = (int) i + 1;
     load->essential = PG_ESSENTIAL_NITSCHE;            /* it holds no points */
-    snprintf (load->name, sizeof load->name, force && p->motion >= 0 ? "%.57s.force" : "%.63s", p->name);
-    snprintf (path, sizeof path, "platens[%zu].%s", i, force && p->motion >= 0 ? "force_ramp" : "ramp");
-    if (force && p->motion < 0 && pg_scene_given (scene, "platens[%zu].force_ramp", i))
-        snprintf (path, sizeof path, "platens[%zu].force_ramp", i);
+    snprintf (load->name, sizeof load->name, second ? "%.57s.force" : "%.63s", p->name);
+    int own = second || (force && pg_scene_given (scene, "platens[%zu].force_ramp", i));
+    snprintf (path, sizeof path, "platens[%zu].%s", i, own ? "force_ramp" : "ramp");
     PG_TRY (read_ramp (load, scene, path, pg_scene_count (scene, "stages")));
     for (int k = 0; k < 3; k++) {
         const char *text = pg_scene_text (scene, "platens[%zu].%s.%c", i, key, "xyz"[k]);
         if (!text || !*text) continue;
         snprintf (path, sizeof path, "platens[%zu].%s.%c", i, key, "xyz"[k]);
         found = 1;
-        if (k >= problem->dim) {
-            pg_scene_fault (scene, path, "a %dD body has no such component", problem->dim);
-            continue;
-        }
-        PG_TRY (pg_expression_compile (&load->value[k], text, unit));
-        for (const char *c = "xyzra"; *c; c++)
-            if (pg_expression_uses (load->value[k], *c)) {
-                pg_scene_fault (scene, path, "a rigid platen has one for all places: an expression of t "
-                                             "alone");
-                break;
-            }
-        if (pg_expression_uses (load->value[k], 't')) load->proportional = 0;
-        if (force && p->motion >= 0 && problem->load[p->motion].value[k])
-            pg_scene_fault (scene, path, "along %c it is moved by a displacement: leave one of them out",
-                            "xyz"[k]);
-        if (force) p->free[k] = 1;
+        PG_TRY (read_component (problem, p, load, scene, path, k, text));
     }
     snprintf (path, sizeof path, "platens[%zu].%s", i, key);
     if (!found) pg_scene_fault (scene, path, "at least one component x, y, z is needed");
@@ -203,9 +213,9 @@ pg_status pg_platens_read (pg_problem *problem, const pg_scene *scene, size_t at
         pg_scene_vector (scene, 3, p->velocity, "platens[%zu].velocity", i);
         p->tilts = strcmp (pg_scene_text (scene, "platens[%zu].tilt", i), "free") == 0;
         if (pg_scene_given (scene, "platens[%zu].displacement", i))
-            PG_TRY (read_load (problem, i, scene, at++, "displacement", PG_PLATEN_MOTION, "m"));
+            PG_TRY (read_load (problem, i, scene, at++, PG_PLATEN_MOTION));
         if (pg_scene_given (scene, "platens[%zu].force", i))
-            PG_TRY (read_load (problem, i, scene, at++, "force", PG_PLATEN_FORCE, "N"));
+            PG_TRY (read_load (problem, i, scene, at++, PG_PLATEN_FORCE));
     }
 done:
     return status;

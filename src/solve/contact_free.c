@@ -197,46 +197,60 @@ static void find_balance (const problem_of_motions *w, const double *f, double *
     }
 }
 
+/* A motion that no row resists has to be in balance by itself. */
+static size_t without_rows (const problem_of_motions *w, double size)
+{
+    for (size_t j = 0; j < w->m; j++)
+        if (w->S[j] == 0 && fabs (w->Q[j]) > ACCEPTED * size) return j;
+    return SIZE_MAX;
+}
+
+/* One that has gone further than the body is large, and is not in balance; SIZE_MAX: none. */
+static size_t runs_away (const problem_of_motions *w, const double *left, double size)
+{
+    for (size_t j = 0; j < w->m; j++)
+        if (!(fabs (w->y[j]) <= w->size) && fabs (left[j]) > ACCEPTED * size) return j;
+    return SIZE_MAX;
+}
+
+/* The problem of contact with the springs where they stand. */
+static pg_status press_springs (problem_of_motions *w, pg_contact_solution *out, const double *open)
+{
+    const struct system_contact *c = w->c;
+    for (size_t i = 0; i < w->rows; i++) {
+        w->gap[i] = open[i];
+        for (size_t j = 0; j < w->m; j++)
+            w->gap[i] += w->B[j * w->rows + i] * (w->y[j] + w->S[j] * w->Q[j]);
+    }
+    pg_contact_problem problem = { .n = c->pieces.n, .dim = c->pieces.dim, .C = w->C, .gap = w->gap,
+                                   .coefficient = c->coefficient, .cohesion = c->cohesion,
+                                   .slip = c->history ? c->before : NULL };
+    return pg_contact_solve (out, &problem);
+}
+
 static pg_status iterate (problem_of_motions *w, pg_contact_solution *out, const double *open)
 {
     pg_status status = PG_OK;
-    struct system_contact *c = w->c;
     double *left = NULL, *before, worst = INFINITY, last, size;
-    size_t which = 0;
+    size_t which = 0, bad;
     PG_ALLOC (left, 2 * w->m);
     before = left + w->m;
     find_springs (w), soften (w);
     for (size_t i = 0; i < w->rows; i++) out->force[i] = 0;
     find_balance (w, out->force, left, &worst, &which, &size);
-    for (size_t j = 0; j < w->m; j++)
-        if (w->S[j] == 0 && fabs (w->Q[j]) > ACCEPTED * size) {
-            status = refuse (w, j, fabs (w->Q[j]));
-            goto done;
-        }
-    worst = INFINITY;
-    for (int round = 0; round < MOST_ROUNDS; round++) {
-        for (size_t i = 0; i < w->rows; i++) {
-            w->gap[i] = open[i];
-            for (size_t j = 0; j < w->m; j++)
-                w->gap[i] += w->B[j * w->rows + i] * (w->y[j] + w->S[j] * w->Q[j]);
-        }
-        pg_contact_problem problem = { .n = c->pieces.n, .dim = c->pieces.dim, .C = w->C, .gap = w->gap,
-                                       .coefficient = c->coefficient, .cohesion = c->cohesion,
-                                       .slip = c->history ? c->before : NULL };
-        PG_TRY (pg_contact_solve (out, &problem));
+    bad = without_rows (w, size), worst = INFINITY;
+    for (int round = 0; bad == SIZE_MAX && round < MOST_ROUNDS; round++) {
+        PG_TRY (press_springs (w, out, open));
         last = worst;
         memcpy (before, left, w->m * sizeof *left);
         find_balance (w, out->force, left, &worst, &which, &size);
         for (size_t j = 0; j < w->m; j++) w->y[j] += w->S[j] * left[j];
         if (worst <= BALANCED * size || (worst <= ACCEPTED * size && worst > 0.5 * last)) goto done;
-        for (size_t j = 0; j < w->m; j++)
-            if (!(fabs (w->y[j]) <= w->size) && fabs (left[j]) > ACCEPTED * size) {
-                status = refuse (w, j, fabs (left[j]));
-                goto done;
-            }
+        bad = runs_away (w, left, size);
         if (round > 0 && soften_slow (w, left, before, ACCEPTED * size)) soften (w);
     }
-    if (!(worst <= ACCEPTED * size)) status = refuse (w, which, worst);
+    if (bad == SIZE_MAX) bad = which;
+    if (!(fabs (left[bad]) <= ACCEPTED * size)) status = refuse (w, bad, fabs (left[bad]));
 done:
     pg_free (left);
     return status;
@@ -285,6 +299,21 @@ static double room_for (const problem_of_motions *w, const pg_contact_solution *
     return share;
 }
 
+/* Goes along the combination z until the mean of `moved` along it is zero; returns how far. u: scratch. */
+static double centre_along (problem_of_motions *w, const pg_contact_solution *out, const double *z, double *u,
+                            double *moved)
+{
+    double along = 0, size = 0;
+    displacement_of (w, z, w->m, u);
+    for (size_t i = 0; i < w->s->ndof; i++) along += u[i] * moved[i], size += u[i] * u[i];
+    if (!(size > 0)) return 0;
+    double by = -along / size;
+    by *= room_for (w, out, z, w->m, by);
+    for (size_t j = 0; j < w->m; j++) w->y[j] += by * z[j * w->m];
+    for (size_t i = 0; i < w->s->ndof; i++) moved[i] += by * u[i];
+    return fabs (by);
+}
+
 /* What nothing resists is not determined: of all places where a part could be that is taken which leaves the
  * mean of its displacement along such a motion zero, or comes nearest to it without closing what is open. So
  * the answer depends on no point of the part. */
@@ -312,16 +341,8 @@ static pg_status centre (problem_of_motions *w, const pg_contact_solution *out, 
     for (int pass = 0; pass < MOST_ROUNDS && most > BALANCED * first; pass++) {
         most = 0;
         for (size_t a = 0; a < w->m; a++) {
-            double along = 0, size = 0;
             if (value[a] > RESISTED * value[0] && value[0] > 0) continue;
-            displacement_of (w, V + a, w->m, u);
-            for (size_t i = 0; i < n; i++) along += u[i] * moved[i], size += u[i] * u[i];
-            if (!(size > 0)) continue;
-            double by = -along / size;
-            by *= room_for (w, out, V + a, w->m, by);
-            for (size_t j = 0; j < w->m; j++) w->y[j] += by * V[j * w->m + a];
-            for (size_t i = 0; i < n; i++) moved[i] += by * u[i];
-            most = fmax (most, fabs (by));
+            most = fmax (most, centre_along (w, out, V + a, u, moved));
         }
         if (pass == 0) first = most;
         if (most == 0) break;

@@ -75,6 +75,22 @@ static void move (const parts *w, size_t root, const double *x, const double *m,
 /* Which of the six numbers a motion has in this dimension. */
 static const int plane[3] = { 0, 1, 5 }, space[6] = { 0, 1, 2, 3, 4, 5 };
 
+/* What a prescribed displacement at a point resists: A += the squares of its rows, n x n. */
+static void resist (const parts *w, size_t root, const pg_load *load, const double *x, size_t n, double *A)
+{
+    const int *which = w->p->dim == 2 ? plane : space;
+    for (int k = 0; k < w->p->dim; k++) {
+        double row[6];
+        for (size_t a = 0; a < n; a++) {
+            double m[6] = { 0 }, u[3];
+            m[which[a]] = 1;
+            move (w, root, x, m, u);
+            row[a] = load->value[k] ? u[k] : 0;
+        }
+        for (size_t a = 0; a < n; a++) for (size_t b = 0; b < n; b++) A[a * n + b] += row[a] * row[b];
+    }
+}
+
 /* Motions of a part that no prescribed displacement resists, as columns of six numbers; returns how many. */
 static size_t free_motions (const parts *w, size_t root, double motion[6][6])
 {
@@ -84,19 +100,9 @@ static size_t free_motions (const parts *w, size_t root, double motion[6][6])
     double A[36] = { 0 }, value[6], V[36];
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        for (size_t i = 0; pg_load_prescribes (load) && i < load->set->npoint; i++) {
-            if ((size_t) pg_disjoint_root (w->parent, load->set->point[i]) != root) continue;
-            double row[3][6];
-            for (size_t a = 0; a < n; a++) {
-                double m[6] = { 0 }, u[3];
-                m[which[a]] = 1;
-                move (w, root, p->cloud.x + (size_t) load->set->point[i] * dim, m, u);
-                for (size_t k = 0; k < 3; k++) row[k][a] = load->value[k] ? u[k] : 0;
-            }
-            for (size_t k = 0; k < dim; k++)
-                for (size_t a = 0; a < n; a++)
-                    for (size_t b = 0; b < n; b++) A[a * n + b] += row[k][a] * row[k][b];
-        }
+        for (size_t i = 0; pg_load_prescribes (load) && i < load->set->npoint; i++)
+            if ((size_t) pg_disjoint_root (w->parent, load->set->point[i]) == root)
+                resist (w, root, load, p->cloud.x + (size_t) load->set->point[i] * dim, n, A);
     }
     pg_dense_eigen ((int) n, A, value, V);
     for (size_t a = 0; a < n; a++) {

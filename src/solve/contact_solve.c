@@ -364,6 +364,9 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, double *residua
     c->active = 0;
     memset (c->force, 0, n * sizeof *c->force);
     memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
+    /* a body that platens alone load has no forces while they are away: from rest, not from what rounding
+     * would leave of a displacement */
+    if (c->platens.n) memset (d, 0, s->ndof * sizeof *d);
     platens_place (s, t);
     for (size_t j = 0; j < c->loose.n; j++) c->loose.amount[j] = c->loose.target[j] = 0;
     if (c->loose.n && (s->stale || !s->factor)) {

@@ -310,8 +310,8 @@ static void the_rest_is_refused (void **state)
     }
 }
 
-/* A small roll pressed in deep comes to places that were far from it at the start: they become pairs, so that no
- * piece overlaps, and the outermost ones are open. */
+/* A small roll pressed in deep comes to places that were far from it at the start: they become pairs, so that
+ * no piece overlaps. */
 static void far_places_become_pairs (void **state)
 {
     (void) state;
@@ -323,14 +323,15 @@ static void far_places_become_pairs (void **state)
         "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n");
     to_the_end (&r);
     size_t count;
-    double reach = 0, touched = 0;
+    double touched = 0;
     const pg_contact_values *v = pg_solver_contact (r.solver, &count);
     for (size_t k = 0; k < count; k++) {
         check_scaled (fmin (0, v[k].gap), 0, 1e-12, 1);
-        reach = fmax (reach, fabs (v[k].x[0]));
         if (v[k].pressure > 0) touched = fmax (touched, fabs (v[k].x[0]));
     }
-    assert_true (touched > 0.5 && reach > touched);    /* at first those within sqrt (2 R h) = .45 are pairs */
+    /* at first those within sqrt (2 R h) = .45 are pairs; Hertz: .69 */
+    print_message ("roll pressed in deep: touches up to %.2f\n", touched);
+    assert_true (touched > 0.55);
     clear (&r);
 }
 
