@@ -328,15 +328,18 @@ pg_status pg_contact_overlap (double *overlap, const pg_contact_pieces *k, const
 {
     pg_status status = PG_OK;
     pg_jump_rows jump = { 0 };
-    size_t dim = k->dim;
+    size_t dim = k->dim, unknowns = 0;
+    pg_field field[4];
     *overlap = 0;
     if (!k->npoint) return PG_OK;
+    size_t fields = force->fields (self, 4, field);
+    for (size_t i = 0; i < fields; i++) unknowns += (size_t) field[i].components;
     PG_TRY (force->jump (self, state, k->npoint, k->x, k->normal, PG_CONTACT_RADIUS, &jump));
     for (size_t q = 0; q < k->npoint; q++) {
         double gap = 0;
         for (size_t e = jump.start[q]; e < jump.start[q + 1]; e++)
             for (size_t c = 0; c < dim; c++)
-                gap += k->normal[dim * q + c] * jump.value[e] * d[dim * (size_t) jump.node[e] + c];
+                gap += k->normal[dim * q + c] * jump.value[e] * d[unknowns * (size_t) jump.node[e] + c];
         *overlap = fmax (*overlap, -gap);
     }
 done:

@@ -13,6 +13,7 @@
  * pair gives way by l / (M area) or l / (G area) per unit force: it transmits what the intact layer did.
  * Single bonds that bear compression alone would lock the crack: inclined ones act as struts. */
 #include "dilatation.h"
+#include "jump.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -226,6 +227,16 @@ static pg_status refuse (const pg_face_pieces *f, size_t k)
                      "contact of crack faces: too few bonds crossed the crack within a spacing of (%.6g, "
                      "%.6g, %.6g) m to tell what its faces do: take a smaller spacing, or keep cracks and "
                      "surfaces further apart", x[0], x[1], f->dim > 2 ? x[2] : 0);
+}
+
+/* How far faces are apart, to look at: by functions that reproduce linear fields on either side, from the
+ * displacements of points that unknowns are whatever the force between them. */
+pg_status bond_force_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                           double radius, pg_jump_rows *out)
+{
+    const bond_force *b = self;
+    const pg_approx by = { .type = pg_approx_first (), .kernel = pg_kernel_entry (0) };
+    return jump_rows (b->problem, &by, state, n, x, normal, radius, out);
 }
 
 pg_status bond_force_faces (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,

@@ -139,6 +139,8 @@ pg_status bond_force_sample (void *self, const pg_state *state, const double *d,
 double    bond_force_overlap (void *self, const pg_state *state, const double *d);
 void      bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 /* contact of crack faces by the bonds that crossed them (bond_faces.c) */
+pg_status bond_force_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                           double radius, pg_jump_rows *out);
 pg_status bond_force_faces (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,
                             double *soft, double *stiffer);
 /* points that die by their energy */
@@ -171,5 +173,5 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .bound = bond_force_bound, \
     .row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \
     .couplings = bond_force_couplings, .surface = bond_force_surface, \
-    .spared = bond_force_spared, .faces = bond_force_faces
+    .spared = bond_force_spared, .faces = bond_force_faces, .jump = bond_force_jump
 #endif

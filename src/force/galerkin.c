@@ -3,6 +3,7 @@
  * section 3; theory F). After a break only the rows of touched points and of the nodes they see are
  * redone. */
 #include "galerkin.h"
+#include "jump.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -308,6 +309,14 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
     return 1;
 }
 
+/* By the body's own functions, of which nodal coefficients are those of the displacement. */
+static pg_status jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                       double radius, pg_jump_rows *out)
+{
+    const galerkin *g = self;
+    return jump_rows (g->problem, &g->problem->approx, state, n, x, normal, radius, out);
+}
+
 const pg_force_type pg_force_galerkin = {
     .method = { .name = "galerkin",
                 .summary = "weak form with the shape functions of method.approximation (Cui 2022)",
@@ -352,6 +361,6 @@ const pg_force_type pg_force_galerkin = {
     .lend = galerkin_lend,
     .change = galerkin_change_of,
     .elements = galerkin_elements,
-    .jump = galerkin_jump,
+    .jump = jump,
     .trace = galerkin_trace
 };

@@ -284,9 +284,6 @@ const pg_sparse *galerkin_basis (void *self);
 pg_status galerkin_impose (void *self, double t, double *d);
 size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residual, pg_work_balance *out,
                                     size_t at);
-/* jump: across cracks */
-pg_status galerkin_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
-                         double radius, pg_jump_rows *out);
 /* trace: on the surface of the body */
 pg_status galerkin_trace (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                           pg_jump_rows *out);

@@ -15,6 +15,18 @@ enum { MOST_ROUNDS = 4, MANY = 4 };
 static const double COLUMN = 1e-10, REFINED = 1e-12, GOOD = 1e-13;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
+/* Of a single bond that breaks in the run no face is known. */
+static void doubt_broken (const pg_system *s)
+{
+    const pg_criterion *breaks = s->problem->criterion;
+    int steps = (s->options->flags & PG_SOLVER_EXPLICIT) != 0;
+    if (!breaks->type || pg_criterion_of_tips (breaks)) return;
+    pg_statistics_warn (s->report,
+                        "contact.kind keeps the faces of the scene's cracks apart; where bonds break in the "
+                        "run nothing does when they close again, and overlap_max is not theirs%s",
+                        steps ? ": contact.search: short_range keeps all apart" : "");
+}
+
 pg_status contact_create (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -29,6 +41,7 @@ pg_status contact_create (pg_system *s)
     PG_ALLOC (s->contact->nodal, s->ndof);
     s->contact->pieces.dim = (size_t) s->problem->dim;
     if (platens) PG_TRY (platens_create (s));
+    if (faces) doubt_broken (s);
 done:
     return status;
 }

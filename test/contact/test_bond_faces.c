@@ -5,6 +5,7 @@
  * threads; what is refused. */
 #include "scene_runs/run.h"
 #include "perigal/contact.h"
+#include "solve/tape.h"
 
 /* A square of half width 3 m with a crack of half length 1 m, n spacings, inclined by `beta` to the load. */
 typedef struct {
@@ -237,6 +238,45 @@ static void motion_keeps_its_momenta (void **state)
     for (int i = 0; i < 3; i++) check_relative (sums[1][i], sums[0][i], 1e-9);
 }
 
+/* Read back in the middle, by one thread or two, a run goes on to the last bit: slips and the work of
+ * friction go on from where they were. */
+static void runs_go_on_bit_by_bit (void **state)
+{
+    (void) state;
+    static const char *const ways[] = { "{kind: verlet, end: 0.4}", "{kind: central, end: 0.4}",
+                                        "{kind: adr, stages: 20, hold: on}", "{kind: relax, stages: 20}",
+                                        "{kind: static, stepping: fixed, steps: 20}" };
+    for (size_t w = 0; w < sizeof ways / sizeof *ways; w++) {
+        char text[2000];
+        run r[2];
+        tape t = { 0 };
+        snprintf (text, sizeof text,
+            "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [-2, -2], high: [2, 2]}}}]\n"
+            "spacing: 0.25\nlattice: cells\ncracks: [{from: [-0.7, -0.81], to: [0.9, 0.71]}]\n"
+            "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.3333333333333333, density: 1}}\n"
+            "method: {force: bond}\ncontact: {kind: friction, coefficient: 0.2, cohesion: 0.1}\nboundary:\n"
+            "  - {set: top, traction: {y: \"-20*sin(%s*t)\"}}\n"
+            "  - {set: bottom, displacement: {x: 0, y: 0}}\n"
+            "solver: %s\noutput: {at: {levels: 1%s}}\n", w < 2 ? "15" : "5", ways[w],
+            w < 2 ? ", rows: 20" : "");
+        for (int k = 0; k < 2; k++) r[k] = prepare (k + 1, text);
+        for (int k = 0; k < 9; k++) advance (&r[0]);
+        assert_true (pg_solver_report_now (r[0].solver)->energy_friction > 0);
+        keep (&r[0], &t, 0);
+        keep (&r[1], &t, 1);
+        while (!pg_solver_done (r[0].solver, r[0].state)) {
+            advance_alike (&r[0], &r[1]);
+            const pg_statistics *a = pg_solver_report_now (r[0].solver),
+                                *b = pg_solver_report_now (r[1].solver);
+            assert_true (a->energy_friction == b->energy_friction && a->energy_strain == b->energy_strain
+                         && a->contact_sliding == b->contact_sliding);
+        }
+        assert_true (pg_solver_done (r[1].solver, r[1].state));
+        pg_free (t.byte);
+        clear (&r[0]), clear (&r[1]);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -245,6 +285,7 @@ int main (void)
         cmocka_unit_test (all_ways_lead_to_one_equilibrium),
         cmocka_unit_test (slips_as_with_shape_functions),
         cmocka_unit_test (motion_keeps_its_momenta),
+        cmocka_unit_test (runs_go_on_bit_by_bit),
     };
     return cmocka_run_group_tests_name ("contact/bond_faces", tests, NULL, NULL);
 }

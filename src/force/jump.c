@@ -1,17 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The jump of the displacement across a crack, as sums over nodal coefficients: one-sided shape functions of
+ * The jump of the displacement across a crack, as sums over nodal unknowns: one-sided shape functions of
  * a place on the crack, seen from a hair's breadth beside it on either side, one less the other. They have a
  * radius of their own: nodes beside a crack that passes close to their row see too little within that of the
  * body for a linear basis (they would lie on one line), and any functions that reproduce linear fields
  * serve. */
-#include "galerkin.h"
+#include "jump.h"
 #include <string.h>
 
 /* How far beside the crack the place looks from, spacings: beyond what counts as on it (PG_NO_LENGTH). */
 static const double BESIDE = 5 * PG_NO_LENGTH;
 
 typedef struct {
-    const galerkin *g;
+    const pg_problem *p;
     const pg_cracks *cracks;
     const pg_rows *rows;
     const double *normal;
@@ -23,7 +23,7 @@ typedef struct {
 static void look (void *context, size_t first, size_t last, int thread)
 {
     const looking *l = context;
-    const pg_problem *p = l->g->problem;
+    const pg_problem *p = l->p;
     size_t dim = (size_t) p->dim;
     (void) thread;
     for (size_t q = first; q < last; q++) {
@@ -39,13 +39,13 @@ static void look (void *context, size_t first, size_t last, int thread)
 
 /* Adds the functions of one side, times its sign, to the values of the rows; places whose basis is not the
  * whole one are marked. */
-static pg_status add_side (const galerkin *g, const pg_approx *a, looking *l, pg_rows *rows, double *value,
+static pg_status add_side (const pg_approx *a, looking *l, pg_rows *rows, double *value,
                            unsigned char *poor)
 {
     pg_status status = PG_OK;
     size_t n = rows->n;
-    pg_parallel (g->threads, n, look, l);
-    PG_TRY (a->type->evaluate (a, &g->problem->cloud, rows, l->alive, n, NULL, g->threads));
+    pg_parallel (l->p->threads, n, look, l);
+    PG_TRY (a->type->evaluate (a, &l->p->cloud, rows, l->alive, n, NULL, l->p->threads));
     for (size_t q = 0; q < n; q++) {
         poor[q] |= rows->grade[q] != PG_GRADE_FULL;
         for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
@@ -55,21 +55,19 @@ done:
     return status;
 }
 
-pg_status galerkin_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
-                         double radius, pg_jump_rows *out)
+pg_status jump_rows (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
+                     const double *x, const double *normal, double radius, pg_jump_rows *out)
 {
     pg_status status = PG_OK;
-    const galerkin *g = self;
-    const pg_problem *p = g->problem;
-    pg_approx a = p->approx;
+    pg_approx a = *by;
     pg_family_search *search = NULL;
     pg_rows rows = { 0 };
     unsigned char *poor = NULL;
-    looking l = { .g = g, .cracks = pg_state_cracks (p, state), .rows = &rows, .normal = normal };
+    looking l = { .p = p, .cracks = pg_state_cracks (p, state), .rows = &rows, .normal = normal };
     memset (out, 0, sizeof *out);
     a.horizon = radius * p->cloud.h, a.order = 1, a.congruent = a.extrapolates = a.projected = 0;
     PG_TRY (pg_rows_search (&search, &a, &p->cloud));
-    PG_TRY (pg_rows_place (&rows, search, p->dim, n, x, NULL, NULL, NULL, g->threads));
+    PG_TRY (pg_rows_place (&rows, search, p->dim, n, x, NULL, NULL, NULL, p->threads));
     size_t bonds = rows.family.start[n];
     PG_ALLOC (rows.N, bonds);
     PG_ALLOC (rows.grade, n);
@@ -80,7 +78,7 @@ pg_status galerkin_jump (void *self, const pg_state *state, size_t n, const doub
     PG_ALLOC (out->start, n + 1);
     for (int side = 0; side < 2; side++) {
         l.side = side ? -1 : 1;
-        PG_TRY (add_side (g, &a, &l, &rows, out->value, poor));
+        PG_TRY (add_side (&a, &l, &rows, out->value, poor));
     }
     out->n = n;
     memcpy (out->start, rows.family.start, (n + 1) * sizeof *out->start);
