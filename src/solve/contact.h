@@ -82,6 +82,7 @@ struct system_contact {
     unsigned char *status;                             /* of each piece (n) */
     double   *nodal;                                   /* G' f, N (ndof) */
     int       active;                                  /* some force is not zero */
+    int       touched;                                 /* the last equilibrium asked for the compliance */
     int       history;                                 /* 1: slip has a memory from step to step */
     pg_contact_values *shown;  size_t nshown, cap_shown;         /* of the last step, for results */
     contact_route route;
@@ -110,6 +111,9 @@ const double *contact_forces (const pg_system *s);
 pg_status contact_settle_tips (pg_system *s, pg_state *state);
 /* What the faces behind a tip do to each other, in the one field at hand, or in the two of a stretch. */
 void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int nfield, pg_tip_faces *out);
+/* Before an equilibrium: where the last one needed the compliance, whose columns are worth a factor of the K
+ * of now, the factor is made first, as the equilibrium of open cracks then is one solve. */
+pg_status contact_factor   (pg_system *s);
 /* Z and C for the K of now, unless they are. */
 pg_status contact_condense (pg_system *s);
 

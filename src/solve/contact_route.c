@@ -128,6 +128,7 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
                  "with a constant part, or in stages: use stepping: fixed");
     PG_TRY (make_room (s));
     *residual = r->reference = 0, r->from = from, c->active = 0, r->touches = 0;
+    PG_TRY (contact_factor (s));
     for (int i = 1; i >= 0; i--) {
         double one, *row = i ? r->rate : r->gap;
         if (!known) memcpy (r->open[i], guess[i], s->ndof * sizeof *r->open[i]);
@@ -138,6 +139,7 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
         for (size_t k = 0; k < c->pieces.n; k++) r->touches |= row[2*k] < 0;
     }
     for (size_t k = 0; k < rows_of (c); k++) r->rate[k] -= r->gap[k];
+    c->touched = r->touches;
     if (r->touches) PG_TRY (contact_condense (s));
     PG_TRY (begin_at (s, at));
     show_forces (s);

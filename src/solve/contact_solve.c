@@ -240,6 +240,13 @@ done:
     return status;
 }
 
+pg_status contact_factor (pg_system *s)
+{
+    const struct system_contact *c = s->contact;
+    int worth = c->touched && c->pieces.dim * c->pieces.n > MANY;
+    return worth && s->mode == SYSTEM_KEPT_FACTOR && s->stale ? system_factorize (s, NULL) : PG_OK;
+}
+
 /* C = G Z, symmetric but for rounding, which is taken out. */
 pg_status contact_condense (pg_system *s)
 {
@@ -389,10 +396,11 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, double *residua
         s->mode = SYSTEM_FACTOR;
         PG_TRY (system_factorize (s, NULL));
     }
+    PG_TRY (contact_factor (s));
     PG_TRY (system_solve_linear (s, t, d, NULL, residual));
     if (n) contact_gaps (c, d);
     double change = 1;
-    int closes = any_overlap (c) || contact_motions (s) > 0;
+    int closes = c->touched = any_overlap (c) || contact_motions (s) > 0;
     if (closes) PG_TRY (contact_condense (s));
     for (int round = 0; closes && round < MOST_ROUNDS && change > GOOD; round++) {
         PG_TRY (press (s, t, d, &change));
