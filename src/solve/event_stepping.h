@@ -11,6 +11,7 @@ typedef struct {                                       /* state of `static` with
     double   *base;                                    /* affine loads: at load factor 0 (ndof); else NULL */
     long      constant_events;  /* affine loads: events at a held load factor */
     int       driven;  /* 1: the event of this step is one of them */
+    int       arrested;                                /* 1: after the event at hand nothing grows any more */
     int       bears;  /* 1: the state at the start of this step bears its load */
     double    unit_residual;                           /* of `unit` (and `base`) */
     event_solver *engine;  /* exact equilibria after breaks without a new factor; NULL: not used */

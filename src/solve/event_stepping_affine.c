@@ -306,7 +306,7 @@ static pg_status next_through_stretches (pg_solver *s, pg_state *state, double *
     int leapt, found;
     contact_route_forget (sys);
     PG_TRY (contact_route_mark (sys));
-    *end = now;
+    *end = now, here = 0;
     for (double at = now; there <= 1 && (at == now || at < full); at = *end) {
         PG_TRY (stretch_ahead (s, &leapt));
         if (leapt) PG_TRY (contact_route_mark (sys));
@@ -326,6 +326,14 @@ static pg_status next_through_stretches (pg_solver *s, pg_state *state, double *
         event_move (s, state, *end);
         PG_TRY (contact_route_go (sys, *end));
         PG_TRY (contact_route_mark (sys));
+    }
+    /* it comes to rest: the load stays, and the facet takes what it takes there */
+    if (!(here > 1) && !(there > 1)) {
+        events_of (s)->arrested = 1, *end = now;
+        contact_route_return (sys, 0, state->d);
+        contact_route_forget (sys);
+        if (s->break_loop.growth) s->break_loop.growth->fresh = 0;
+        goto done;
     }
     event_move (s, state, *end);
 done:
@@ -348,6 +356,7 @@ pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end)
 {
     pg_status status = PG_OK;
     double now = state->factor, start = stage_start (s), full = stage_end (s), here, there;
+    events_of (s)->arrested = 0;
     if (contact_of (s)) return next_through_stretches (s, state, end);
     *end = now;
     PG_TRY (look (s, state, now, s->break_loop.factor, &here));

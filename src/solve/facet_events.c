@@ -4,7 +4,8 @@
  * lambda_k+1, where the next begins, so that it dissipates lambda_k lambda_k+1 times the drop at load
  * factor 1. At a fixed load the same facet would take more under forces, less under displacements: that
  * jump is not the equilibrium path. Where all that grew has ended in the surface or a crack there is no
- * such lambda_k+1: the way ends where the facet has taken its energy. */
+ * such lambda_k+1: the way ends where the facet has taken its energy. So it does, with contact, where the
+ * crack comes to rest, as one that is unloaded does: what lies between is no way of the crack. */
 #include "event_stepping.h"
 #include "facet_growth.h"
 #include <math.h>
@@ -127,7 +128,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     if (g->began) end = factor;
     PG_TRY (account (s, state, factor, end));
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
-    if (!g->going && step->dissipated > g->event_energy) {
+    if ((!g->going || e->arrested) && step->dissipated > g->event_energy) {
         b->work -= step->dissipated - g->event_energy;
         step->dissipated = g->event_energy;
     }
