@@ -382,6 +382,64 @@ static void units_and_mirrors_do_not_count (void **state)
     }
 }
 
+/* Confined by a pressure, pressed by a platen, unloaded: stages move platens by their names, friction takes
+ * work on both ways, and the platen lets go of what it does not press. */
+static void stages_move_platens (void **state)
+{
+    (void) state;
+    run r = scene_of (1,
+        BLOCK ("stress", "[1, 1]", "0.1", "")
+        "sets: {sides: {boundary: [left, right]}}\nboundary: [{name: jacket, set: sides, pressure: 2}]\n"
+        "platens:\n  - {name: foot, point: [0.5, 0], normal: [0, 1], friction: 0.1}\n"
+        "  - {name: head, point: [0.5, 1], normal: [0, -1], friction: 0.1, displacement: {y: -0.02}}\n"
+        "stages:\n  - {name: press, boundary: {head: 1}}\n  - {name: confine, boundary: {jacket: 1}}\n"
+        "  - {name: unload, boundary: {head: 0, jacket: 0}}\n"
+        "solver: {kind: static, stepping: fixed, steps: 4}\noutput: {at: {levels: 1}}\n");
+    double force[13] = { 0 }, friction = 0;
+    for (int k = 1; k <= 12; k++) {
+        advance (&r);
+        const pg_statistics *s = pg_solver_report_now (r.solver);
+        force[k] = -platen_of (&r, 1)->force[1];
+        check_relative (platen_of (&r, 0)->force[1], force[k] > 0 ? force[k] : 1, force[k] > 0 ? 1e-9 : 1);
+        assert_true (s->energy_friction >= friction * (1 - 1e-9));
+        friction = s->energy_friction;
+    }
+    check_relative (force[4], 10, 0.02);               /* half the thickness times E times 2 %, a bit more */
+    assert_true (force[8] > force[4] + 0.1 && friction > 0);   /* confined: nu times the pressure more */
+    check_scaled (force[12], 0, 1e-2, force[8]);
+    clear (&r);
+}
+
+/* Wings of a closed flaw in a plate that two smooth platens press, and nothing else holds, grow as between
+ * supports, event by event, and take the same energy of the platens. */
+static void cracks_grow_between_platens (void **state)
+{
+    (void) state;
+    double factor[2] = { 0 }, energy[2] = { 0 };
+    for (int k = 0; k < 2; k++) {
+        run r = scene_of (1,
+            "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [-3, -4], high: [3, 4]}}}]\n"
+            "spacing: 0.125\nlattice: cells\ncracks: [{from: [-0.7071, -0.7071], to: [0.7071, 0.7071]}]\n"
+            "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
+            "contact: {kind: friction, coefficient: 0.2}\n"
+            "failure: {criterion: energy_release, fracture_energy: 1e-3}\n%s"
+            "solver: {kind: static, stepping: event, max_events: 3}\noutput: {at: {levels: 1}}\n",
+            k ? "platens:\n  - {name: foot, point: [0, -4], normal: [0, 1]}\n"
+                "  - {name: head, point: [0, 4], normal: [0, -1], displacement: {y: -0.1}}\n"
+              : "sets: {pin: {where: \"x < -2.9 and y < -3.9\"}}\nboundary:\n"
+                "  - {set: bottom, displacement: {y: 0}}\n  - {set: top, displacement: {y: -0.1}}\n"
+                "  - {set: pin, essential: penalty, displacement: {x: 0}}\n");
+        to_the_end (&r);
+        const pg_statistics *s = pg_solver_report_now (r.solver);
+        assert_int_equal (s->events, 3);
+        check_relative (r.state->paths->tip[0].grown, r.state->paths->tip[1].grown, 1e-9);
+        factor[k] = r.state->factor, energy[k] = s->energy_dissipated;
+        clear (&r);
+    }
+    check_relative (factor[1], factor[0], 1e-3);
+    check_relative (energy[1], energy[0], 1e-3);
+}
+
 /* A run that is stopped in its middle and read back goes on bit by bit. */
 static void a_run_goes_on_from_its_checkpoint (void **state)
 {
@@ -421,6 +479,8 @@ int main (void)
         cmocka_unit_test (units_and_mirrors_do_not_count),
         cmocka_unit_test (far_places_become_pairs),
         cmocka_unit_test (a_platen_that_comes_later_needs_fixed_steps),
+        cmocka_unit_test (stages_move_platens),
+        cmocka_unit_test (cracks_grow_between_platens),
         cmocka_unit_test (a_run_goes_on_from_its_checkpoint),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
