@@ -18,12 +18,12 @@ typedef struct {
 } contact_memory;
 /* Place of the middle (dim), length, shear force over area and slip when work was last booked, slip of the
  * last accepted step: numbers along the path in the plane, vectors in space. */
-typedef struct { size_t length, shear, slip, accepted, values, parts; } contact_layout;
+typedef struct { size_t length, old, shear, slip, accepted, values, parts; } contact_layout;
 static inline contact_layout contact_layout_of (size_t dim)
 {
     size_t m = dim == 3 ? 3 : 1;
-    return (contact_layout){ .length = dim, .shear = dim + 1, .slip = dim + 1 + m, .accepted = dim + 1 + 2*m,
-                             .values = dim + 1 + 3*m, .parts = m };
+    return (contact_layout){ .length = dim, .old = dim + 1, .shear = dim + 2, .slip = dim + 2 + m,
+                             .accepted = dim + 2 + 2*m, .values = dim + 2 + 3*m, .parts = m };
 }
 
 /* Rigid motions of parts of the body that supports do not hold: K is singular along them (contact_loose.c).

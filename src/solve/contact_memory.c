@@ -2,7 +2,9 @@
  * What crack faces bore and how far they had slipped, for the work of friction and for slips that go on from
  * those before. Friction takes - sum f_t dg_t, by trapezoids between booked states as the work of loads; with
  * f_t of the total form and proportional loads that is exact. After a crack has grown there are other pieces:
- * each takes the values of those that lay where its points are now, new faces begin with none. */
+ * each takes the values of those that lay where its points are now. New faces begin without slip, and bear
+ * from the beginning what they bear when they are booked first: what a facet that slides takes while it comes
+ * into being is the energy of its material and the work of the friction that is left. */
 #include "contact.h"
 #include <math.h>
 #include <string.h>
@@ -52,17 +54,18 @@ pg_status contact_remember (struct system_contact *c)
     contact_memory fresh = { .friction = c->now.friction, .at = c->now.at, .n = c->pieces.n };
     PG_GROW (fresh.value, fresh.room, fresh.n * l.values);
     for (size_t k = 0; k < fresh.n; k++) {
-        double *v = fresh.value + k * l.values, sum = 0;
+        double *v = fresh.value + k * l.values, sum = 0, old = 0;
         const pg_contact_piece *p = &c->pieces.piece[k];
         memset (v, 0, l.values * sizeof *v);
         memcpy (v, p->x, dim * sizeof *v), v[l.length] = p->length;
         for (size_t q = c->pieces.first[k]; q < c->pieces.first[k + 1]; q++) {
             size_t at = piece_at (&c->now, dim, c->pieces.x + dim * q);
-            sum += c->pieces.weight[q];
+            sum += c->pieces.weight[q], old += at != SIZE_MAX || !c->now.n ? c->pieces.weight[q] : 0;
             for (size_t i = l.shear; at != SIZE_MAX && i < l.values; i++)
                 v[i] += c->pieces.weight[q] * c->now.value[at * l.values + i];
         }
         for (size_t i = l.shear; i < l.values; i++) v[i] /= sum;
+        v[l.old] = old / sum;
         part_along (&c->pieces, k, v + l.accepted, c->before + k * (dim - 1));
     }
     pg_free (c->now.value);
@@ -82,9 +85,11 @@ void contact_book (pg_system *s, double scale)
         contact_vector (&c->pieces, k, c->active ? c->force + i : none, scale, shear);
         contact_vector (&c->pieces, k, c->gap + i, scale, slip);
         for (size_t m = 0; m < l.parts; m++) {
-            c->now.friction -= 0.5 * (area * v[l.shear + m] + shear[m]) * (slip[m] - v[l.slip + m]);
+            c->now.friction -=
+                0.5 * (area * v[l.shear + m] + (2 - v[l.old]) * shear[m]) * (slip[m] - v[l.slip + m]);
             v[l.shear + m] = shear[m] / area, v[l.slip + m] = slip[m];
         }
+        v[l.old] = 1;
     }
     if (c) s->report->energy_friction = c->now.friction;
 }

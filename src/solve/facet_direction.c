@@ -156,7 +156,9 @@ static double along_path (const view *v, const double *path, size_t n, double *a
 }
 
 /* ---- a tip --------------------------------------------------------------------------------------------- */
-double facet_judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle)
+/* facet_judge, with how: 1: it slides. */
+static double judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle,
+                     int *slide)
 {
     const pg_problem *p = b->system.problem;
     const facet_growth *g = b->growth;
@@ -165,14 +167,28 @@ double facet_judge (const break_loop *b, const pg_state *state, size_t tip, doub
     double l[2], T, theta = 0, slip = 0;
     size_t n;
     const double *path = p->criterion->type->path (p->criterion, &n);
-    *angle = 0;
+    *angle = 0, *slide = 0;
     if (!state->paths->tip[tip].open || isnan (f->near)) return 0;
     pg_tip_combine (f, facet_factors (g, factor, l), l, &v.J, v.K, &T);
     if (path) return along_path (&v, path, n, angle);
     double top = opening (&v, T, &theta);
     v.sliding = 1;
     double sliding = slides (p, f->x) ? best (&v, &slip) : 0;
-    if (sliding > top) top = sliding, theta = slip;
+    if (sliding > top) top = sliding, theta = slip, *slide = 1;
     *angle = atan2 (f->e[1], f->e[0]) + theta;
     return top;
+}
+
+double facet_judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle)
+{
+    int slide;
+    return judge (b, state, tip, factor, angle, &slide);
+}
+
+int facet_slides (const break_loop *b, const pg_state *state, size_t tip, double factor)
+{
+    double angle;
+    int slide;
+    judge (b, state, tip, factor, &angle, &slide);
+    return slide;
 }

@@ -413,7 +413,7 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     for (size_t i = 0; i < g->ntip && top > 0; i++) {
         facet_candidate c;
         if (facet_judge (b, state, i, factor, &angle) < least) continue;
-        facet_place (b, state, i, angle, &c);
+        facet_place (b, state, i, angle, facet_slides (b, state, i, factor), &c);
         PG_TRY (grow_one (b, state, &c));
     }
     PG_TRY (grow_trials (b, state, factor, least));

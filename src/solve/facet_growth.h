@@ -19,6 +19,7 @@ typedef struct {
     /* of a new crack: bit 0: a tip at `from`, bit 1: at `to` */
     int    open;
     int    close;                                      /* of a tip: it ends here, in the surface or a crack */
+    int    slides;                                     /* 1: it takes the energy of sliding */
     double energy;                                     /* what it takes: energy per area times its area, J */
     /* what it sets free: sum_ab l_a l_b release[a][b], J */
     double release[2][2];
@@ -180,6 +181,8 @@ static inline int facet_factors (const facet_growth *g, double factor, double l[
 /* Square root of the energy that tip i sets free over what the material takes, at a load factor, in the best
  * direction (rad from the x axis), or along the imposed path. 0: it does not grow. */
 double facet_judge (const break_loop *b, const pg_state *state, size_t tip, double factor, double *angle);
+/* 1: that facet slides: it takes the energy of sliding. */
+int    facet_slides (const break_loop *b, const pg_state *state, size_t tip, double factor);
 /* Length of the next facet of a tip, m. */
 double facet_length (const facet_growth *g, const pg_tip_field *field);
 /* What a crack takes at x in a direction; 0: it cannot grow there (failure: never, exclude). */
@@ -191,8 +194,9 @@ double facet_on_path (const double *path, size_t n, const double *x, const doubl
 
 /* ---- facet_place.c ------------------------------------------------------------------------------------- */
 /* Where the facet of a tip in that direction ends: after its length, or straight on in the surface or another
- * crack that is near; fills tip, to, close and energy. */
-void facet_place (const break_loop *b, const pg_state *state, size_t tip, double angle, facet_candidate *out);
+ * crack that is near; fills tip, to, close, slides and energy. */
+void facet_place (const break_loop *b, const pg_state *state, size_t tip, double angle, int slides,
+                  facet_candidate *out);
 /* The shortest way out for a tip without room for a ring; 0: there is none near. */
 int  facet_way_out (const break_loop *b, const pg_state *state, size_t tip, facet_candidate *out);
 

@@ -152,7 +152,7 @@ static int next_facet (break_loop *b, const pg_state *state, size_t i, double an
     facet_run *r = &g->run[i];
     const pg_tip_field *f = &g->field[i];
     if (r->straight > r->length) {
-        facet_place (b, state, i, atan2 (f->e[1], f->e[0]), c);
+        facet_place (b, state, i, atan2 (f->e[1], f->e[0]), 0, c);
         return 1;
     }
     if (isnan (f->near)) {
@@ -163,7 +163,8 @@ static int next_facet (break_loop *b, const pg_state *state, size_t i, double an
     double ahead = atan2 (f->e[1], f->e[0]), turn = remainder (angle - ahead, 2 * acos (-1));
     size_t n;
     int free = !b->system.problem->criterion->type->path (b->system.problem->criterion, &n);
-    facet_place (b, state, i, r->length > 0 && free ? ahead + part_of_turn * turn : angle, c);
+    facet_place (b, state, i, r->length > 0 && free ? ahead + part_of_turn * turn : angle,
+                 facet_slides (b, state, i, 1), c);
     return 1;
 }
 

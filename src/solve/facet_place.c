@@ -31,10 +31,11 @@ static void price (const break_loop *b, const pg_tip_field *f, facet_candidate *
     double middle[3] = { f->x[0] + 0.5 * t[0], f->x[1] + 0.5 * t[1], 0 };
     pg_fracture_limits limits;
     out->energy = facet_limits (b, middle, atan2 (t[1], t[0]), &limits)
-                      ? limits.energy * length * p->cloud.thickness : 0;
+                      ? (out->slides ? limits.shear : limits.energy) * length * p->cloud.thickness : 0;
 }
 
-void facet_place (const break_loop *b, const pg_state *state, size_t tip, double angle, facet_candidate *out)
+void facet_place (const break_loop *b, const pg_state *state, size_t tip, double angle, int slides,
+                  facet_candidate *out)
 {
     const pg_problem *p = b->system.problem;
     const pg_tip_field *f = &b->growth->field[tip];
@@ -42,7 +43,7 @@ void facet_place (const break_loop *b, const pg_state *state, size_t tip, double
     size_t n;
     const double *path = p->criterion->type->path (p->criterion, &n);
     int what = PG_MEETS_NOTHING, ends = 0;
-    *out = (facet_candidate) { .tip = (long) tip };
+    *out = (facet_candidate) { .tip = (long) tip, .slides = slides };
     for (int k = 0; k < 3; k++) out->to[k] = f->x[k] + length * e[k];
     if (path) facet_on_path (path, n, f->x, f->e, length, out->to, &ends);
     double ahead = pg_tip_ahead (p, state, tip, e, length + to_surface * f->h, &what);

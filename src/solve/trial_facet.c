@@ -208,7 +208,7 @@ static pg_status offers_on_interface (break_loop *b, trials *w, const pg_state *
     for (size_t k = 0; k < nway; k++) {
         double angle = angle_to (at->x, way[k].x);
         if (turn_between (angle, e) > 1.3 * right) continue;    /* back along the crack itself */
-        facet_place (b, state, tip, angle, &c);
+        facet_place (b, state, tip, angle, 0, &c);
         if (!c.close) memcpy (c.to, way[k].x, sizeof c.to);
         double length = hypot (c.to[0] - at->x[0], c.to[1] - at->x[1]);
         c.energy = energy_between (b, &way[k], way[k].x, angle) * length
@@ -220,7 +220,7 @@ static pg_status offers_on_interface (break_loop *b, trials *w, const pg_state *
         for (size_t k = 0; k < nway; k++)
             near = fmin (near, turn_between (angle, angle_to (at->x, way[k].x)));
         if (near < 0.35 * right) continue;
-        facet_place (b, state, tip, angle, &c);
+        facet_place (b, state, tip, angle, 0, &c);
         PG_TRY (offer_of_tip (b, w, state, f, &c));
     }
 done:
@@ -272,7 +272,7 @@ static pg_status offers_of_tip (break_loop *b, trials *w, const pg_state *state,
     if (!held)
         PG_TRY (offers_at_interface (b, w, state, f, tip, &interface));
     if (interface) goto done;
-    facet_place (b, state, tip, atan2 (at->e[1], at->e[0]), &ahead);
+    facet_place (b, state, tip, atan2 (at->e[1], at->e[0]), 0, &ahead);
     PG_TRY (offer_of_tip (b, w, state, f, &ahead));
     if (held || !facet_way_out (b, state, tip, &out)) goto done;
     double turn = turn_between (angle_to (at->x, ahead.to), angle_to (at->x, out.to));
