@@ -64,7 +64,8 @@ pg_status platens_create (pg_system *s)
         for (size_t k = 0; k < one.n; k++)
             if (gap[k] < -PG_NO_LENGTH * pg_problem_spacing_at (p, one.piece[k].x))
                 PG_FAIL (PG_E_USAGE, "the platen %s overlaps the body by %.3g m at (%.6g, %.6g, %.6g) m "
-                         "before anything moves: put it where it touches at most", p->platen[i].name, -gap[k],
+                         "before anything moves: put it where it touches at most (a body of whole cells "
+                         "has a surface of steps: cells: cut)", p->platen[i].name, -gap[k],
                          one.piece[k].x[0], one.piece[k].x[1], one.piece[k].x[2]);
         size_t before = w->all.n;
         PG_TRY (append (&w->all, &one, NULL));

@@ -335,6 +335,41 @@ static void far_places_become_pairs (void **state)
     clear (&r);
 }
 
+/* A platen in the body is refused, and so is one that nothing faces; a roll that is dragged along the surface
+ * is told that its normals are those of the start. */
+static void doubtful_platens_are_told (void **state)
+{
+    (void) state;
+    static const struct { const char *platen, *words; pg_status status; } cases[] = {
+        { "shape: cylinder, radius: 1, point: [0.5, 1.9], displacement: {y: -0.1}", "overlaps the body by",
+          PG_E_USAGE },
+        { "point: [0.5, 1], normal: [0, 1]", "overlaps the body by 1", PG_E_USAGE },
+        { "point: [5, 1], normal: [0, -1], width: 1", "nothing of the body's surface faces", PG_E_USAGE },
+        { "shape: cylinder, radius: 1, point: [0.5, 2], displacement: {x: 0.3, y: -0.02}",
+          "slides along the curved platen", PG_OK },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        run r = { 0 };
+        char text[2000];
+        snprintf (text, sizeof text, BLOCK ("stress", "[1, 1]", "0.1", "")
+                  "boundary: [{set: bottom, displacement: {x: 0, y: 0}}]\nplatens: [{name: head, %s}]\n"
+                  "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
+                  cases[i].platen);
+        check_ok (pg_scene_parse (&r.scene, text, "test.yaml"));
+        check_ok (pg_problem_build (&r.problem, r.scene, 1));
+        check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
+        assert_int_equal (pg_solver_create (&r.solver, r.problem, &r.options), cases[i].status);
+        if (cases[i].status == PG_OK) {
+            check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+            advance (&r);
+            const pg_statistics *s = pg_solver_report_now (r.solver);
+            assert_true (s->nwarning > 0);
+            check_contains (s->warning[s->nwarning - 1], cases[i].words);
+        } else check_contains (pg_last_error (), cases[i].words);
+        clear (&r);
+    }
+}
+
 /* Event stepping relies on equilibria that grow with the load: a platen that touches a step of the surface
  * from the start and comes to the next one on its way is told to take fixed steps. */
 static void a_platen_that_comes_later_needs_fixed_steps (void **state)
@@ -478,6 +513,7 @@ int main (void)
         cmocka_unit_test (the_rest_is_refused),
         cmocka_unit_test (units_and_mirrors_do_not_count),
         cmocka_unit_test (far_places_become_pairs),
+        cmocka_unit_test (doubtful_platens_are_told),
         cmocka_unit_test (a_platen_that_comes_later_needs_fixed_steps),
         cmocka_unit_test (stages_move_platens),
         cmocka_unit_test (cracks_grow_between_platens),
