@@ -500,6 +500,46 @@ static void a_run_goes_on_from_its_checkpoint (void **state)
     clear (&a), clear (&b);
 }
 
+/* Builds a cut block between platens and makes two steps. */
+static pg_status press_a_cut_block (void)
+{
+    pg_status status = PG_OK;
+    run r = { 0 };
+    PG_TRY (pg_scene_parse (&r.scene,
+        BLOCK ("stress", "[1, 1]", "0.2", "cracks: [{from: [-0.1, 0.5], to: [1.1, 0.5]}]\n")
+        "contact: {kind: friction, coefficient: 0.5}\n"
+        "platens:\n  - {name: base, point: [0.5, 0], normal: [0, 1], friction: 0.3}\n"
+        "  - {name: head, shape: cylinder, radius: 4, point: [0.5, 5.01], force: {y: -5}, tilt: free}\n"
+        "solver: {kind: static, stepping: fixed, steps: 2}\noutput: {at: {levels: 1}}\n", "test.yaml"));
+    PG_TRY (pg_problem_build (&r.problem, r.scene, 1));
+    PG_TRY (pg_solver_options_read (&r.options, r.problem, r.scene));
+    PG_TRY (pg_solver_create (&r.solver, r.problem, &r.options));
+    PG_TRY (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+    while (!pg_solver_done (r.solver, r.state)) PG_TRY (pg_solver_step (r.solver, r.state, &r.step));
+done:
+    clear (&r);
+    return status;
+}
+
+/* Whichever allocation fails: it is told, and nothing is left behind. */
+static void memory_may_run_out (void **state)
+{
+    (void) state;
+    check_ok (press_a_cut_block ());                   /* what is allocated once */
+    size_t used = pg_memory_used (), calls = pg_memory_calls ();
+    check_ok (press_a_cut_block ());
+    calls = pg_memory_calls () - calls;
+    for (size_t k = calls / 2; k <= calls; k += is_long () ? 1 : 1 + calls / 60) {
+        pg_memory_fail_at (k);
+        pg_status status = press_a_cut_block ();
+        pg_memory_fail_at (0);
+        if (status != PG_E_MEMORY && status != PG_OK)
+            print_error ("allocation %zu: %s\n", k, pg_last_error ());
+        assert_true (status == PG_E_MEMORY || status == PG_OK);
+        assert_int_equal (pg_memory_used (), used);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -518,6 +558,7 @@ int main (void)
         cmocka_unit_test (stages_move_platens),
         cmocka_unit_test (cracks_grow_between_platens),
         cmocka_unit_test (a_run_goes_on_from_its_checkpoint),
+        cmocka_unit_test (memory_may_run_out),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
