@@ -20,12 +20,15 @@
  * their node. */
 #include "galerkin_elements.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Strength of what resists deviations from a linear field, in units of mu / (h^2 m): also where nodes are
  * evaluation points without stabilisation, whose K hardly sees what alternates from node to node; and the
  * least spread of the nodes of a point, in units of h^2. */
 static const double deviation = 8, free_deviation = 2, least_spread = 0.02;
+/* The same spread for tetrahedra, of their own h^2. */
+static const double soft_tetrahedron = 0.4;
 /* Weights at a facet point end there: this many times the squared distance of the farthest node. */
 static const double beyond = 1.2;
 
@@ -120,6 +123,12 @@ static const double *scaled (element_list *b, size_t width, double share)
     return b->K;
 }
 
+/* lambda of point p where the dilatation is projected; else 0: the material has it. */
+static double projected_lambda (const element_list *b, size_t p)
+{
+    return b->g->dilatation ? b->g->problem->patches->lambda[b->g->material[b->set][p]] : 0;
+}
+
 /* Where the dilatation is projected K has it as means over patches, which the elements cannot follow: with
  * all of lambda on the mean of each element they lock (1854 iterations at a Poisson's ratio of 0.49). With at
  * most mu of it, mu V b b', b the mean of the gradients, iterations are fewest (140; without 153). */
@@ -128,8 +137,7 @@ static void add_dilatation (element_list *b, size_t p, size_t width, int n, cons
 {
     const galerkin *g = b->g;
     double q[PG_ELEMENT_NODES * 3], mean[PG_ELEMENT_NODES * 3] = { 0 }, volume = 0,
-           lambda = g->dilatation ? g->problem->patches->lambda[g->material[b->set][p]] : 0;
-    lambda = fmin (lambda, galerkin_plain (g, b->set, p)->mu);
+           lambda = fmin (projected_lambda (b, p), galerkin_plain (g, b->set, p)->mu);
     for (int k = 0; k < n && lambda > 0; k++) {
         double w = fabs (gradients (g, (pg_element) kind, node, xi + k * g->dim, q)) * weight[k]
                    * g->problem->cells.thickness;
@@ -167,28 +175,80 @@ static double resistance (const element_list *b)
     return b->set == PG_NODES && !(b->g->options->silling > 0) ? free_deviation : deviation;
 }
 
-/* Stiffness of the element of point p. */
-static const double *point_matrix (element_list *b, size_t p, double w, size_t m, const int *node)
+static double product (size_t n, const double *a, const double *b)
 {
-    const galerkin *g = b->g;
-    const pg_material *material = galerkin_plain (g, b->set, p);
-    size_t dim = (size_t) g->dim, width = m * dim;
-    double c[3] = { 0 }, A[9] = { 0 }, q[MOST_NODES * 3], R[MOST_NODES * MOST_NODES], *K = b->K,
-                    h = pg_problem_spacing (g->problem, b->set, p), resists = resistance (b);
+    double s = 0;
+    for (size_t k = 0; k < n; k++) s += a[k] * b[k];
+    return s;
+}
+
+/* Displacements z (m x dim) of m nodes that turn about axis r through c. */
+static void turn (const galerkin *g, size_t m, const int *node, const double *c, size_t r, double *z)
+{
+    size_t dim = (size_t) g->dim, i = dim == 3 ? (r + 1) % 3 : 0, j = dim == 3 ? (r + 2) % 3 : 1;
+    memset (z, 0, m * dim * sizeof *z);
+    for (size_t a = 0; a < m; a++) {
+        z[a * dim + i] = c[j] - place (g, node[a])[j];
+        z[a * dim + j] = place (g, node[a])[i] - c[i];
+    }
+}
+
+/* K without the rotations about c: P K P, where P takes them off, one after the other. */
+static void take_off_rotations (const galerkin *g, size_t m, const int *node, const double *c, double *K)
+{
+    size_t width = m * (size_t) g->dim, axes = g->dim == 3 ? 3 : g->dim == 2;
+    double z[3][3 * MOST_NODES], Kz[3 * MOST_NODES];
+    for (size_t r = 0; r < axes; r++) {
+        turn (g, m, node, c, r, z[r]);
+        double whole = product (width, z[r], z[r]);
+        for (size_t o = 0; o < r; o++) {
+            double s = product (width, z[r], z[o]);
+            for (size_t k = 0; k < width; k++) z[r][k] -= s * z[o][k];
+        }
+        double rest = product (width, z[r], z[r]);
+        /* nodes on a line do not move when they turn about it */
+        double unit = rest > 1e-9 * whole ? 1 / sqrt (rest) : 0;
+        for (size_t k = 0; k < width; k++) z[r][k] *= unit;
+        for (size_t k = 0; k < width; k++) Kz[k] = product (width, K + k * width, z[r]);
+        double energy = product (width, Kz, z[r]);
+        for (size_t k = 0; k < width; k++)
+            for (size_t l = k; l < width; l++)
+                K[k * width + l] += energy * z[r][k] * z[r][l] - Kz[k] * z[r][l] - z[r][k] * Kz[l];
+        mirror (width, K);
+    }
+}
+
+/* The best linear field of m nodes: their mean place c and q (m x dim), h2: squared spacing that the least
+ * spread, in units of `soft`, is measured by; 0: becomes that of the nodes themselves. */
+static void fit_gradient (const galerkin *g, size_t m, const int *node, double soft, double *h2, double *c,
+                          double *q)
+{
+    size_t dim = (size_t) g->dim;
+    double A[9] = { 0 }, spread = 0;
+    memset (c, 0, 3 * sizeof *c);
     for (size_t a = 0; a < m; a++)
         for (size_t k = 0; k < dim; k++) c[k] += place (g, node[a])[k] / (double) m;
     for (size_t a = 0; a < m; a++)
         for (size_t k = 0; k < dim; k++)
             for (size_t l = 0; l < dim; l++)
                 A[k * dim + l] += (place (g, node[a])[k] - c[k]) * (place (g, node[a])[l] - c[l]);
-    for (size_t k = 0; k < dim; k++) A[k * dim + k] += least_spread * h * h;
+    for (size_t k = 0; k < dim; k++) spread += A[k * dim + k];
+    /* of a regular simplex the spread along each axis is half the squared edge */
+    if (!(*h2 > 0)) *h2 = 2 * spread / (double) dim;
+    for (size_t k = 0; k < dim; k++) A[k * dim + k] += soft * *h2;
     pg_dense_cholesky ((int) dim, A, 0);
     for (size_t a = 0; a < m; a++) {
         for (size_t k = 0; k < dim; k++) q[a * dim + k] = place (g, node[a])[k] - c[k];
         pg_dense_solve ((int) dim, A, q + a * dim);
     }
-    memset (K, 0, width * width * sizeof *K);
-    add_strain (g, m, q, material->D, w, K);
+}
+
+/* K += stiffness R'R (x) I of what differs from the linear field, blocks on and above the diagonal. */
+static void add_rest (const galerkin *g, size_t m, const int *node, const double *c, const double *q,
+                      double stiffness, double *K)
+{
+    size_t dim = (size_t) g->dim, width = m * dim;
+    double R[MOST_NODES * MOST_NODES];
     for (size_t a = 0; a < m; a++)
         for (size_t e = 0; e < m; e++) {
             R[a * m + e] = (a == e) - 1 / (double) m;
@@ -198,11 +258,51 @@ static const double *point_matrix (element_list *b, size_t p, double w, size_t m
         for (size_t e = a; e < m; e++) {
             double s = 0;
             for (size_t k = 0; k < m; k++) s += R[k * m + a] * R[k * m + e];
-            s *= w * resists * material->mu / (h * h * (double) m);
+            s *= stiffness;
             for (size_t k = 0; k < dim; k++) K[(a * dim + k) * width + e * dim + k] += s;
         }
-    mirror (width, K);
-    return K;
+}
+
+/* Of the element of point p. */
+static const double *point_matrix (element_list *b, size_t p, double w, size_t m, const int *node)
+{
+    const galerkin *g = b->g;
+    const pg_material *material = galerkin_plain (g, b->set, p);
+    size_t width = m * (size_t) g->dim;
+    double c[3], q[MOST_NODES * 3], h = pg_problem_spacing (g->problem, b->set, p), h2 = h * h;
+    fit_gradient (g, m, node, least_spread, &h2, c, q);
+    memset (b->K, 0, width * width * sizeof *b->K);
+    add_strain (g, m, q, material->D, w, b->K);
+    add_rest (g, m, node, c, q, w * resistance (b) * material->mu / (h2 * (double) m), b->K);
+    mirror (width, b->K);
+    return b->K;
+}
+
+/* Of a tetrahedron, of the material of point p. The exact gradient of flat ones is far stiffer than anything
+ * that shape functions of a wide support make of the same displacements: it is that of a field fitted with a
+ * large least spread, and what differs from it resists less than it would, but for rotations, which have no
+ * energy. Supports that are stretched as the elements are see steep gradients across them: theirs is the
+ * exact one. */
+static const double *tetrahedron_matrix (element_list *b, size_t p, const int *node)
+{
+    const galerkin *g = b->g;
+    const pg_material *material = galerkin_plain (g, b->set, p);
+    const double *x = place (g, node[0]);
+    double a[9], c[3], q[12], h2 = 0, soft = g->problem->cloud.metric ? 0 : soft_tetrahedron,
+           lambda = fmin (projected_lambda (b, p), 3 * material->mu);
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < 3; i++) a[3 * k + i] = place (g, node[k + 1])[i] - x[i];
+    double w = fabs (a[0] * (a[4] * a[8] - a[5] * a[7]) - a[1] * (a[3] * a[8] - a[5] * a[6])
+                     + a[2] * (a[3] * a[7] - a[4] * a[6])) / 6;
+    memset (b->K, 0, 144 * sizeof *b->K);
+    fit_gradient (g, 4, node, soft, &h2, c, q);
+    add_strain (g, 4, q, material->D, w, b->K);
+    for (size_t i = 0; i < 12; i++)
+        for (size_t j = i; j < 12; j++) b->K[i * 12 + j] += w * lambda * q[i] * q[j];
+    add_rest (g, 4, node, c, q, w * deviation * material->mu / (h2 * 4), b->K);
+    mirror (12, b->K);
+    if (soft > 0) take_off_rotations (g, 4, node, c, b->K);
+    return b->K;
 }
 
 /* phi (m): the displacement at facet point p as a sum over m nodes: that of the linear field which fits
@@ -280,6 +380,7 @@ static const double *matrix_of (element_list *b, size_t k, size_t *at)
     const int *node = b->list.node + b->list.start[k];
     if (b->cell[k] == SPRINGS) return spring_matrix (b, b->of[k], m, node);
     if (b->cell[k] == NO_CELL) return point_matrix (b, b->of[k], b->weight[k], m, node);
+    if (b->cell[k] == PG_TET4) return tetrahedron_matrix (b, point_of (b, b->of[k], at), node);
     return cell_matrix (b, b->weight[k], b->cell[k], m, node, point_of (b, b->of[k], at));
 }
 
@@ -351,18 +452,54 @@ static void add_penalties (const galerkin *g, pg_block_matrix *Q)
     }
 }
 
+static int ascending (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+/* Horizon of a point in units of the spacing of a lattice as dense as the points stand: of a mesh, whose
+ * spacing is the mean length of its edges, it is more than in units of that. In the lower quartile, as points
+ * on the surface have a part of a volume only. */
+static pg_status width_of_supports (const pg_problem *p, double *width)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *c = &p->cloud;
+    double *all = NULL;
+    PG_ALLOC (all, c->n);
+    for (size_t i = 0; i < c->n; i++)
+        all[i] = p->approx.horizon * pg_cloud_ratio (c, i)
+                 / pow (c->volume[i] / c->thickness, 1.0 / c->dim);
+    qsort (all, c->n, sizeof *all, ascending);
+    *width = all[c->n / 4];
+done:
+    pg_free (all);
+    return status;
+}
+
 /* The wider the support, the nearer to 0 N comes for patterns that alternate from node to node, and the more
  * terms the polynomial needs; a term costs a twentieth of K x or less. Fewest iterations of those tried on
- * cubes of 5 000 points. */
-static void choose_polynomial (const pg_problem *p, pg_elements *out)
+ * cubes of 5 000 points. The last one: of tetrahedra, which at a horizon of 2 edges see as many neighbours as
+ * points of a lattice at 2.4 spacings. */
+static pg_status choose_polynomial (const pg_problem *p, pg_elements *out)
 {
     static const struct { int order; double wide; int terms; double low, floor; } choice[] = {
         { 1, 1.6, 4, 0.1, 0 }, { 1, 2.2, 8, 0.03, 0.06 }, { 1, 1e9, 32, 0.01, 0 },
-        { 2, 2.7, 12, 0.02, 0.03 }, { 2, 1e9, 16, 0.01, 0 }
+        { 2, 2.7, 12, 0.02, 0.03 }, { 2, 1e9, 16, 0.01, 0 }, { 1, 2.6, 16, 0.01, 0.02 }
     };
+    enum { IRREGULAR = sizeof choice / sizeof *choice - 1 };
+    pg_status status = PG_OK;
+    double width = p->approx.horizon / p->cloud.h;
     size_t k = 0;
-    while (choice[k].order != p->approx.order || p->approx.horizon > choice[k].wide * p->cloud.h) k++;
-    out->terms = choice[k].terms, out->low = choice[k].low, out->high = 1.1, out->floor = choice[k].floor;
+    while (choice[k].order != p->approx.order || width > choice[k].wide) k++;
+    if (p->approx.order == 1 && !p->lattice.dim && !p->cloud.metric) {
+        PG_TRY (width_of_supports (p, &width));
+        if (width > choice[1].wide && width <= choice[IRREGULAR].wide) k = IRREGULAR;
+    }
+    out->terms = choice[k].terms, out->low = choice[k].low, out->floor = choice[k].floor;
+    out->high = 1.1;
+done:
+    return status;
 }
 
 static void element_list_clear (element_list *b)
@@ -384,7 +521,7 @@ pg_status galerkin_elements (void *self, pg_elements *out)
     add_penalties (g, &out->Q);
     PG_TRY (list_stiff (g, out));
     if (!g->problem->approx.type->interpolates) PG_TRY (elements_values (g, &out->Q, &out->N));
-    choose_polynomial (g->problem, out);
+    PG_TRY (choose_polynomial (g->problem, out));
     out->spacing = g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);
 done:
     element_list_clear (&b);

@@ -179,6 +179,32 @@ static double share_of (const galerkin *g, size_t cell)
     return fmin (1, c->volume[cell] / whole);
 }
 
+/* A tetrahedron with nodes in the middle of its edges as eight small ones: four at the corners, four about
+ * the shortest line that joins the middles of opposite edges. */
+static pg_status append_halved (element_list *b, size_t cell, const int *node)
+{
+    static const unsigned char corner[4][4] = { { 0, 4, 6, 7 }, { 4, 1, 5, 8 }, { 6, 5, 2, 9 },
+                                                { 7, 8, 9, 3 } },
+                               line[3][2] = { { 4, 9 }, { 5, 7 }, { 6, 8 } },
+                               about[3][4] = { { 5, 8, 7, 6 }, { 4, 8, 9, 6 }, { 4, 5, 9, 7 } };
+    pg_status status = PG_OK;
+    double least = INFINITY;
+    int best = 0, small[4];
+    for (int k = 0; k < 3; k++) {
+        double d2 = distance2 (3, place (b->g, node[line[k][0]]), place (b->g, node[line[k][1]]));
+        if (d2 < (1 - 1e-9) * least) least = d2, best = k;
+    }
+    for (int k = 0; k < 4; k++) {
+        for (int a = 0; a < 4; a++) small[a] = node[corner[k][a]];
+        PG_TRY (append (b, cell, PG_TET4, 1, 4, small));
+        small[0] = node[line[best][0]], small[1] = node[line[best][1]];
+        small[2] = node[about[best][k]], small[3] = node[about[best][(k + 1) % 4]];
+        PG_TRY (append (b, cell, PG_TET4, 1, 4, small));
+    }
+done:
+    return status;
+}
+
 /* Cells with Gauss points: whole, or point by point. Points of a cell follow one another. */
 static pg_status list_cells (element_list *b)
 {
@@ -189,7 +215,8 @@ static pg_status list_cells (element_list *b)
         int node[MOST_NODES], cell = r->cell[first];
         for (last = first; last < r->n && r->cell[last] == cell; last++) continue;
         int kind = whole_cell (g, (size_t) cell, first, last, node);
-        if (kind != NO_CELL)
+        if (kind == PG_TET10) PG_TRY (append_halved (b, (size_t) cell, node));
+        else if (kind != NO_CELL)
             PG_TRY (append (b, (size_t) cell, kind, share_of (g, (size_t) cell),
                             (size_t) pg_element_types[kind].nodes, node));
         else
