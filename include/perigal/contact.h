@@ -190,12 +190,15 @@ void      pg_short_range_free   (pg_short_range **contact);
 /* Bound of 2 / m times the sum of k over the contacts of a point, 1/s^2, as many as the faces of bodies have:
  * explicit steps are stable up to 2 / sqrt (omega^2 + this), omega being the largest frequency without. */
 double    pg_short_range_rate   (const pg_short_range *contact);
-/* Adds the forces on all points to f, N (n x stride), at the displacement d, m; v, m/s: the velocity at which
- * d was reached in the last dt (s; 0: it is the first). broken: bonds that died since the last call, if the
+/* Adds the forces on all points to f, N (n x stride), at the displacement of the state; v, m/s: the velocity
+ * at which it was reached in the last dt (s; 0: it is the first); way: no point has moved further in that
+ * step, m (INFINITY: not known). broken: bonds that died since the last call, if the
  * caller knows all of them, else NULL and `changed` 1. Pairs are found by search, and by another one when
  * points have moved so far that one may be missing. The same bits for any number of threads. */
 pg_status pg_short_range_add    (pg_short_range *contact, const pg_state *state, const pg_changes *broken,
-                                 int changed, const double *v, double dt, double *f);
+                                 int changed, const double *v, double dt, double way, double *f);
+/* The forces of the last call alone, N (n x stride). */
+const double *pg_short_range_forces (const pg_short_range *contact);
 const pg_short_range_report *pg_short_range_now (const pg_short_range *contact);
 /* The slips at hand, kept at the start of a step, and put back where it is refused; checkpoints. */
 pg_status pg_short_range_save   (pg_short_range *contact);
@@ -228,9 +231,10 @@ pg_status pg_moving_platens_create (pg_moving_platens **out, const pg_problem *p
 void      pg_moving_platens_free   (pg_moving_platens **platens);
 double    pg_moving_platens_rate   (const pg_moving_platens *platens);         /* as pg_short_range_rate */
 /* Moves them from t - dt to t (dt 0: t is the first instant) and adds their forces on the points at d to f; v
- * as in pg_short_range_add; step: the length of the step to come, s. */
+ * and way as in pg_short_range_add; step: the length of the step to come, s. */
 pg_status pg_moving_platens_add    (pg_moving_platens *platens, const double *d, const double *v, double t,
-                                    double dt, double step, double *f);
+                                    double dt, double step, double way, double *f);
+const double *pg_moving_platens_forces (const pg_moving_platens *platens);
 const pg_moving_report *pg_moving_platens_now (const pg_moving_platens *platens);
 void      pg_moving_platens_save   (pg_moving_platens *platens);
 void      pg_moving_platens_return (pg_moving_platens *platens);

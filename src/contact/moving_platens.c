@@ -29,6 +29,8 @@ struct pg_moving_platens {
     double  stiffness, finest;
     double *stiff, *share;                             /* k of points, N/m; across over along */
     double *start;                                     /* displacements at the last look, m */
+    double  way;                                       /* that points have moved since, at most, m */
+    double *force;                                     /* on the points, N (n x stride) */
     int     looked;
     one_platen *platen;
     double *sum;  size_t cap;
@@ -45,7 +47,8 @@ void pg_moving_platens_free (pg_moving_platens **platens)
         pg_free (w->platen[i].point), pg_free (w->platen[i].reach), pg_free (w->platen[i].slip),
             pg_free (w->platen[i].slip0);
     pg_free (w->now.platen);
-    pg_free (w->platen), pg_free (w->stiff), pg_free (w->share), pg_free (w->start), pg_free (w->sum);
+    pg_free (w->platen), pg_free (w->force), pg_free (w->stiff), pg_free (w->share), pg_free (w->start),
+        pg_free (w->sum);
     pg_free (w);
     *platens = NULL;
 }
@@ -93,6 +96,7 @@ pg_status pg_moving_platens_create (pg_moving_platens **out, const pg_problem *p
     PG_ALLOC (w->platen, w->nplaten);
     PG_ALLOC (w->stiff, n);
     PG_ALLOC (w->share, n);
+    PG_ALLOC (w->force, n * stride);
     PG_ALLOC (w->start, n * stride);
     PG_ALLOC (w->now.platen, w->nplaten);
     for (size_t i = 0; i < n; i++) {
@@ -199,20 +203,20 @@ static pg_status must_look (pg_moving_platens *w, const double *d, int *out)
 {
     pg_status status = PG_OK;
     size_t nblock = (w->problem->cloud.n * w->stride + BLOCK - 1) / BLOCK;
-    double most = 0, root = sqrt ((double) w->dim);
+    double most = 0, rigid = 0, root = sqrt ((double) w->dim);
     *out = 1;
     if (!w->looked || w->problem->plain) return PG_OK;
-    PG_GROW (w->sum, w->cap, nblock);
-    looking l = { w, d, 0, w->sum };
-    pg_parallel (w->problem->threads, nblock, look_at_blocks, &l);
-    for (size_t b = 0; b < nblock; b++) most = fmax (most, w->sum[b]);
-    for (size_t i = 0; i < w->nplaten; i++) {
-        double way = 0;
+    for (size_t i = 0; i < w->nplaten; i++)
         for (size_t k = 0; k < w->dim; k++)
-            way = fmax (way, fabs (w->platen[i].now.u[k] - w->platen[i].place[k]));
-        if ((most + way) * root > margin * w->finest) return PG_OK;
+            rigid = fmax (rigid, root * fabs (w->platen[i].now.u[k] - w->platen[i].place[k]));
+    if (w->way + rigid > margin * w->finest) {             /* the sum of steps is too much: look at points */
+        PG_GROW (w->sum, w->cap, nblock);
+        looking l = { w, d, 0, w->sum };
+        pg_parallel (w->problem->threads, nblock, look_at_blocks, &l);
+        for (size_t b = 0; b < nblock; b++) most = fmax (most, w->sum[b]);
+        w->way = most * root;
     }
-    *out = 0;
+    *out = w->way + rigid > margin * w->finest;
 done:
     return status;
 }
@@ -246,7 +250,7 @@ static pg_status look (pg_moving_platens *w, const double *d)
         memcpy (one->place, one->now.u, sizeof one->place);
     }
     memcpy (w->start, d, p->cloud.n * w->stride * sizeof *w->start);
-    w->looked = 1, w->now.looks++;
+    w->looked = 1, w->way = 0, w->now.looks++;
 done:
     return status;
 }
@@ -287,7 +291,8 @@ static void one_point (const pressing *a, size_t i, double *sum)
         sum[SUM_TAKEN] += 0.5 * across * slip[k] * move[k];
         sum[SUM_HELD] += 0.5 * across * slip[k] * slip[k];
     }
-    for (size_t k = 0; k < w->dim; k++) a->f[dof + k] += f[k], sum[SUM_FORCE + k] = f[k];
+    for (size_t k = 0; k < w->dim; k++)
+        a->f[dof + k] += f[k], w->force[dof + k] += f[k], sum[SUM_FORCE + k] = f[k];
 }
 
 static void press_points (void *context, size_t first, size_t last, int thread)
@@ -326,11 +331,15 @@ done:
 }
 
 pg_status pg_moving_platens_add (pg_moving_platens *w, const double *d, const double *v, double t, double dt,
-                                 double step, double *f)
+                                 double step, double way, double *f)
 {
     pg_status status = PG_OK;
     double held = 0;
     int needed;
+    w->way += way;
+    for (size_t j = 0; j < w->nplaten; j++)
+        for (size_t q = 0; q < w->platen[j].n; q++)
+            memset (w->force + w->platen[j].point[q] * w->stride, 0, w->dim * sizeof *w->force);
     for (size_t j = 0; j < w->nplaten; j++) go (w, j, t, dt);
     PG_TRY (must_look (w, d, &needed));
     if (needed) PG_TRY (look (w, d));
@@ -348,6 +357,7 @@ done:
     return status;
 }
 
+const double *pg_moving_platens_forces (const pg_moving_platens *w) { return w->force; }
 const pg_moving_report *pg_moving_platens_now (const pg_moving_platens *w) { return &w->now; }
 
 /* ---- memory -------------------------------------------------------------------------------------------- */

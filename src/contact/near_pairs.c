@@ -238,7 +238,7 @@ static pg_status search (near_pairs *s, const pg_state *state)
     PG_TRY (sort_pairs (s, npair, found));
     memcpy (s->start, state->d, n * s->stride * sizeof *s->start);
     PG_TRY (finish (s));
-    s->searches++;
+    s->way = 0, s->searches++;
 done:
     pg_family_search_free (&tree);
     pg_family_clear (&near);
@@ -295,12 +295,17 @@ done:
     return status;
 }
 
-pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed)
+/* The sum of what points have moved in each step at most is enough as long as it is small; else they are
+ * looked at. */
+pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed,
+                       double way)
 {
     pg_status status = PG_OK;
-    double limit = 0.5 * s->skin * s->finest, far = s->valid && !changed && limit > 0 ? moved (s, state->d)
-                                                                                       : INFINITY;
-    if (far <= limit) {
+    double limit = 0.5 * s->skin * s->finest;
+    int keeps = s->valid && !changed && limit > 0;
+    s->way += way;
+    if (keeps && !(s->way <= limit)) s->way = moved (s, state->d);
+    if (keeps && s->way <= limit) {
         if (broken && broken->n) PG_TRY (add_broken (s, state, broken));
         goto done;
     }

@@ -25,6 +25,7 @@ typedef struct {
     double  finest;                                    /* smallest spacing, m */
     double *start;                                     /* displacements at the last search, m (n x stride) */
     double *most;  size_t nblock;                      /* of every block of unknowns */
+    double  way;  /* that points have moved since, at most, m */
     int     valid;                                     /* 0: the list has to be made anew */
     near_pair *pair;  size_t n, cap;                   /* by i, then j; each pair in both directions */
     double *slip;  size_t cap_slip;                    /* n x 3 */
@@ -36,7 +37,8 @@ pg_status near_create (near_pairs *s, const pg_problem *problem, const pg_contac
                        size_t stride);
 void      near_free   (near_pairs *s);
 /* Brings the list in line with the state: unchanged, with bonds that broke added, or by another search. */
-pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed);
+pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed,
+                       double way);
 /* The slips that are not zero, into `memory`. */
 pg_status near_collect (near_pairs *s);
 #endif

@@ -19,6 +19,7 @@ enum { SUM_ENERGY, SUM_HELD, SUM_TAKEN, SUM_OVERLAP, SUM_RATE, SUM_TOUCHING, SUM
 struct pg_short_range {
     near_pairs near;
     pg_contact_setting setting;
+    double *force;                                     /* of the last evaluation, N (n x stride) */
     double *sum;  size_t cap;                          /* of each row (nrow x SUMS) */
     double taken, taken0;                              /* J; at the start of the step */
     pg_short_range_report now;
@@ -33,6 +34,7 @@ pg_status pg_short_range_create (pg_short_range **out, const pg_problem *problem
     *out = NULL;
     PG_ALLOC (c, 1);
     c->setting = *setting;
+    PG_ALLOC (c->force, problem->cloud.n * stride);
     PG_TRY (near_create (&c->near, problem, setting, stride));
     *out = c;
     c = NULL;
@@ -46,7 +48,7 @@ void pg_short_range_free (pg_short_range **contact)
     pg_short_range *c = *contact;
     if (!c) return;
     near_free (&c->near);
-    pg_free (c->sum), pg_free (c->start);
+    pg_free (c->sum), pg_free (c->start), pg_free (c->force);
     pg_free (c);
     *contact = NULL;
 }
@@ -122,17 +124,21 @@ static void sum_rows (void *context, size_t first, size_t last, int thread)
         memset (sum, 0, SUMS * sizeof *sum);
         for (size_t q = s->row[r]; q < s->row[r + 1]; q++) one_pair (w, q, f, sum);
         if (!(sum[SUM_TOUCHING] > 0)) continue;
+        memcpy (w->c->force + i * s->stride, f, s->dim * sizeof *f);
         sum[SUM_RATE] /= p->material[p->block[PG_NODES][i]].density * p->cloud.volume[i];
         for (size_t k = 0; k < s->dim; k++) w->f[i * s->stride + k] += f[k];
     }
 }
 
 pg_status pg_short_range_add (pg_short_range *c, const pg_state *state, const pg_changes *broken, int changed,
-                              const double *v, double dt, double *f)
+                              const double *v, double dt, double way, double *f)
 {
     pg_status status = PG_OK;
     double total[SUMS] = { 0 };
-    PG_TRY (near_update (&c->near, state, broken, changed));
+    for (size_t r = 0; r < c->near.nrow; r++)
+        memset (c->force + (size_t) c->near.pair[c->near.row[r]].i * c->near.stride, 0,
+                c->near.dim * sizeof *c->force);
+    PG_TRY (near_update (&c->near, state, broken, changed, way));
     PG_GROW (c->sum, c->cap, c->near.nrow * SUMS);
     summing w = { c, state->d, v, dt, f };
     pg_parallel (c->near.problem->threads, c->near.nrow, sum_rows, &w);
@@ -153,6 +159,7 @@ done:
     return status;
 }
 
+const double *pg_short_range_forces (const pg_short_range *c) { return c->force; }
 const pg_short_range_report *pg_short_range_now (const pg_short_range *c) { return &c->now; }
 
 /* ---- memory -------------------------------------------------------------------------------------------- */

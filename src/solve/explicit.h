@@ -28,9 +28,10 @@ typedef struct {
     struct explicit_contact *contact;                  /* short-range; NULL: none */
 } motion;
 static inline motion *motion_of (const pg_solver *s) { return s->own; }
-/* Work of loads over the half step before t_n and after; m v_n v before and after; m v v; not finite. */
+/* Work of loads over the half step before t_n and after; m v_n v before and after; m v v; not finite;
+ * largest velocity (with contact by search). */
 enum { LANES = 8 };                                   /* unknowns at once, a number the compiler knows */
-enum { SUM_A, SUM_B, SUM_C, SUM_D, SUM_K, SUM_BAD, SUMS };
+enum { SUM_A, SUM_B, SUM_C, SUM_D, SUM_K, SUM_BAD, SUM_FAST, SUMS };
 
 /* ---- explicit.c ---------------------------------------------------------------------------------------- */
 pg_status explicit_create  (pg_solver *s);             /* supports, masses, work space */
@@ -56,7 +57,8 @@ pg_status explicit_keep    (pg_solver *s, const pg_keeper *keeper);
 struct explicit_contact {
     pg_short_range *pairs;                             /* NULL: platens alone */
     pg_moving_platens *platens;  pg_platen_values *shown;              /* NULL: none */
-    double *f;  int active;                            /* forces at hand, N (ndof); some are not zero */
+    int     active;                                    /* forces at hand, some are not zero */
+    double  way;  /* no unknown has changed more in the last time step, m */
     long    broken;  /* bonds dead at the last evaluation; -1: not known */
     double  bare;                                      /* largest frequency without contact, rad/s */
     double  energy0, friction0;                        /* J, at the start of the step */
@@ -69,7 +71,8 @@ double    explicit_contact_rate   (const pg_solver *s);
 /* Adds its forces to the residual at hand; first: no step has led there. */
 pg_status explicit_contact_add    (pg_solver *s, pg_state *state, double t, int first);
 double    explicit_contact_kinetic (const pg_solver *s);               /* of platens, J */
-const double *explicit_contact_forces (const pg_solver *s);            /* NULL: none */
+int       explicit_contact_active (const pg_solver *s);                /* 1: some force at hand is not zero */
+void      explicit_contact_forces (const pg_solver *s, double *out);   /* out += those, N (ndof) */
 void      explicit_contact_show   (pg_solver *s);
 pg_status explicit_contact_save   (pg_solver *s);
 void      explicit_contact_return (pg_solver *s);

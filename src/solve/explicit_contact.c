@@ -16,7 +16,6 @@ pg_status explicit_contact_create (pg_solver *s)
     int pairs = setting->kind != PG_CONTACT_NONE && setting->search == PG_CONTACT_SHORT_RANGE;
     if (!pairs && !s->problem->nplaten) return PG_OK;
     PG_ALLOC (m->contact, 1);
-    PG_ALLOC (m->contact->f, sys->ndof);
     if (pairs)
         PG_TRY (pg_short_range_create (&m->contact->pairs, s->problem, setting, (size_t) sys->components));
     if (!s->problem->nplaten) goto done;
@@ -34,7 +33,7 @@ void explicit_contact_free (pg_solver *s)
     if (!c) return;
     pg_short_range_free (&c->pairs);
     pg_moving_platens_free (&c->platens);
-    pg_free (c->f), pg_free (c->shown);
+    pg_free (c->shown);
     pg_free (c);
     motion_of (s)->contact = NULL, s->moving = NULL;
 }
@@ -74,18 +73,19 @@ pg_status explicit_contact_add (pg_solver *s, pg_state *state, double t, int fir
     motion *m = motion_of (s);
     struct explicit_contact *c = m->contact;
     pg_system *sys = &s->break_loop.system;
-    double dt = first ? 0 : s->options.dt, t0 = pg_seconds ();
+    double dt = first ? 0 : s->options.dt, t0 = pg_seconds (), *f = sys->residual,
+           way = first ? 0 : c ? c->way * sqrt ((double) s->problem->dim) : 0;
     if (!c) return PG_OK;
-    if (c->active) memset (c->f, 0, sys->ndof * sizeof *c->f);
     /* m->goal and m->next are those of the last instant and of this one */
     for (size_t k = 0; !first && k < m->nprescribed; k++)
         state->v[m->prescribed[k]] = (m->next[k] - m->goal[k]) / dt;
     const pg_changes *broken = &s->break_loop.changes;
     int known = c->broken + (long) broken->n == state->broken;
-    if (c->pairs) status = pg_short_range_add (c->pairs, state, broken, !known, state->v, dt, c->f);
+    if (c->pairs) status = pg_short_range_add (c->pairs, state, broken, !known, state->v, dt, way, f);
     if (status == PG_OK && c->platens) {
         double before = pg_moving_platens_now (c->platens)->work;
-        status = pg_moving_platens_add (c->platens, state->d, state->v, t, dt, s->options.dt, c->f);
+        status = pg_moving_platens_add (c->platens, state->d, state->v, t, dt, s->options.dt, way,
+                                        f);
         s->break_loop.work += pg_moving_platens_now (c->platens)->work - before;
     }
     if (!first) explicit_release (s, state);
@@ -93,17 +93,25 @@ pg_status explicit_contact_add (pg_solver *s, pg_state *state, double t, int fir
     c->broken = state->broken;
     c->active = (c->pairs && pg_short_range_now (c->pairs)->touching > 0)
                 || (c->platens && pg_moving_platens_now (c->platens)->touching > 0);
-    for (size_t i = 0; c->active && i < sys->ndof; i++) sys->residual[i] += c->f[i];
     doubt (s);
 done:
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     return status;
 }
 
-const double *explicit_contact_forces (const pg_solver *s)
+int explicit_contact_active (const pg_solver *s)
 {
     const struct explicit_contact *c = motion_of (s)->contact;
-    return c && c->active ? c->f : NULL;
+    return c && c->active;
+}
+
+void explicit_contact_forces (const pg_solver *s, double *out)
+{
+    const struct explicit_contact *c = motion_of (s)->contact;
+    const double *pairs = c->pairs ? pg_short_range_forces (c->pairs) : NULL,
+                 *platens = c->platens ? pg_moving_platens_forces (c->platens) : NULL;
+    for (size_t i = 0; i < s->break_loop.system.ndof; i++)
+        out[i] += (pairs ? pairs[i] : 0) + (platens ? platens[i] : 0);
 }
 
 static void show_platens (const struct explicit_contact *c, pg_statistics *r, size_t n)

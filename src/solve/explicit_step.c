@@ -37,6 +37,21 @@ double lane_not_finite (const double *d, size_t first, size_t last)
     return lane_sum (s);
 }
 
+/* The largest size of what is compared; NaN is passed by. */
+static double lane_most (const double *a, size_t first, size_t last)
+{
+    double s[8] = { 0 };
+    size_t i = first;
+    for (; i + 8 <= last; i += 8)
+        for (size_t k = 0; k < 8; k++) {
+            double size = fabs (a[i + k]);
+            s[k] = size > s[k] ? size : s[k];
+        }
+    for (; i < last; i++) s[0] = fmax (s[0], fabs (a[i]));
+    for (size_t k = 1; k < 8; k++) s[0] = fmax (s[0], s[k]);
+    return s[0];
+}
+
 /* ---- how many steps ------------------------------------------------------------------------------------ */
 /* Time steps from `end` and `dt`, or `end` from their number; dt is shortened so that the last step ends
  * at solver.end. steps: rows of history.csv, which are what the caller steps by. */
@@ -85,7 +100,7 @@ static double time_at (const pg_solver *s, long n)
 
 /* ---- half kicks of all unknowns ------------------------------------------------------------------------ */
 /* look: whether all displacements are finite */
-typedef struct { half_kicks w; kick_range range; size_t ndof; double *sum; int look; } kicking;
+typedef struct { half_kicks w; kick_range range; size_t ndof; double *sum; int look, fast; } kicking;
 
 /* Blocks of unknowns for one thread: the work of loads before and after, the half kicks, a look whether
  * all is finite. One pass over memory for all of these. */
@@ -101,6 +116,7 @@ static void work_on_blocks (void *context, size_t first, size_t last, int thread
         c->range (w, i, end, sum);
         if (w->opening && w->P) sum[SUM_B] = lane_dot (w->P, w->v, i, end);
         sum[SUM_BAD] = w->opening && c->look ? lane_not_finite (w->d, i, end) : 0;
+        if (w->opening && c->fast) sum[SUM_FAST] = lane_most (w->v, i, end);
     }
 }
 
@@ -112,6 +128,18 @@ static double push_work (const pg_solver *s, double loads, const double *from, c
     double sum = s->options.dt * loads;
     for (size_t k = 0; k < m->nprescribed; k++) sum += m->push[k] * (to[k] - from[k]);
     return 0.5 * sum;
+}
+
+/* How far an unknown has changed at most in the step that was opened, m. */
+static double furthest (const pg_solver *s)
+{
+    const motion *m = motion_of (s);
+    double most = 0;
+    for (size_t b = 0; b < m->nblock; b++) most = fmax (most, m->sum[b * SUMS + SUM_FAST]);
+    most *= s->options.dt;
+    for (size_t k = 0; k < m->nprescribed; k++) most = fmax (most, fabs (m->next[k] - m->goal[k]));
+    /* what rounding may add to it is far below what is spared of the skin */
+    return most * (1 + 1e-9);
 }
 
 /* Half kicks of all unknowns, closing, opening or both, and what they mean for energies: work of loads and
@@ -128,7 +156,8 @@ static pg_status move (pg_solver *s, pg_state *state, kick_range range, int clos
                      range,
                      sys->ndof,
                      m->sum,
-                     look };
+                     look,
+                     m->contact != NULL };
     if (opening && !closing) explicit_release (s, state);
     pg_parallel (s->problem->threads, m->nblock, work_on_blocks, &all);
     explicit_total (s, total);
@@ -146,6 +175,7 @@ static pg_status move (pg_solver *s, pg_state *state, kick_range range, int clos
         m->damped += 0.5 * dt * c * m->resist;
         for (size_t k = 0; k < m->nprescribed; k++) state->d[m->prescribed[k]] = m->next[k];
         total[SUM_BAD] += lane_not_finite (m->next, 0, m->nprescribed);
+        if (m->contact) m->contact->way = furthest (s);
         if (total[SUM_BAD] != 0) PG_FAIL (PG_E_EQUILIBRIUM, "not finite");
     }
 done:
@@ -242,8 +272,9 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     /* of contact by search, or of crack faces: never both */
-    const double *contact = sys->contact ? contact_forces (sys) : explicit_contact_forces (s);
-    int spare = sys->force->work_of_residual && !s->options.plain && !b->growth && !contact;
+    const double *contact = sys->contact ? contact_forces (sys) : NULL;
+    int searched = explicit_contact_active (s),
+        spare = sys->force->work_of_residual && !s->options.plain && !b->growth && !contact && !searched;
     for (size_t i = 0; !spare && i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
@@ -251,6 +282,7 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
         if (spare) sys->residual[i] = m->left[k];
     }
     for (size_t i = 0; contact && i < sys->ndof; i++) sys->full[i] += contact[i];
+    if (searched) explicit_contact_forces (s, sys->full);
     system_add_held (sys, sys->full);
     s->spared += spare;
     if (spare)

@@ -103,7 +103,8 @@ static void impulses_are_equal_and_opposite (void **state)
         memcpy (start, r.problem->platen->velocity, sizeof start);
         for (int step = 0; step <= 120; step++) {
             memset (f, 0, n * d * sizeof *f);
-            check_ok (pg_moving_platens_add (w, r.state->d, v, step * dt, step ? dt : 0, dt, f));
+            check_ok (pg_moving_platens_add (w, r.state->d, v, step * dt, step ? dt : 0, dt,
+                                             dt * largest_of (v, n * d) * sqrt (dim), f));
             for (size_t i = 0; i < n * d; i++) {
                 double change = (step ? dt : 0.5 * dt) * f[i] / r.problem->cloud.volume[i / d];
                 v[i] += change, r.state->d[i] += dt * v[i];
