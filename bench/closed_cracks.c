@@ -25,7 +25,7 @@ static const double degrees[] = { 30, 45, 60 }, frictions[] = { 0, 0.3, 0.6 };
 /* What is gathered over lattices. */
 typedef struct {
     int    n, runs;
-    double sum, least, most, pressure, swing, overlap, between, seconds;
+    double sum, least, most, pressure, swing, overlap, between, seconds, factor, contact;
     long   open, stick, pieces, points;
 } tally;
 
@@ -84,6 +84,7 @@ static pg_status measure (const closed_case *c, tally *t, int show)
                 v[k].arc / c->unit, v[k].pressure, v[k].shear[0], v[k].gap, v[k].slip[0]);
     t->overlap = fmax (t->overlap, r->contact_overlap / slip);
     t->between = fmax (t->between, r->overlap_max / slip);
+    t->factor += r->seconds[PG_SECONDS_FACTOR], t->contact += r->contact_seconds;
     t->open += r->contact_open, t->stick += r->contact_stick, t->pieces += r->contact_pieces;
     t->points = (long) problem->cloud.n, t->runs++;
 done:
@@ -105,9 +106,11 @@ static pg_status run_case (const group *g, double load, double friction, int sho
         PG_TRY (measure (&c, &t, show));
     }
     double all = (double) t.pieces, runs = t.runs;
-    printf ("%s,%g,%g,%ld,%.4f,%.4f,%.4f,%.4f,%.3f,%.1e,%.1e,%.3f,%.3f,%.2f\n", g->name, load, friction,
+    printf ("%s,%g,%g,%ld,%.4f,%.4f,%.4f,%.4f,%.3f,%.1e,%.1e,%.3f,%.3f,%.2f,%.3f,%.3f\n", g->name, load,
+            friction,
             t.points, t.sum / t.n, t.least, t.most, t.pressure / runs, t.swing, t.overlap, t.between,
-            (double) t.open / all, (double) t.stick / all, t.seconds / runs);
+            (double) t.open / all, (double) t.stick / all, t.seconds / runs, t.factor / runs,
+            t.contact / runs);
     fflush (stdout);
 done:
     return status;
@@ -117,7 +120,8 @@ int main (int argc, char **argv)
 {
     pg_status status = PG_OK;
     int show = argc > 1 && strcmp (argv[1], "show") == 0, first = show ? 2 : 1;
-    printf ("group,degrees,friction,points,K,least,most,pressure,swing,overlap,between,open,stick,run_s\n");
+    printf ("group,degrees,friction,points,K,least,most,pressure,swing,overlap,between,open,stick,run_s,"
+            "factor_s,contact_s\n");
     for (size_t k = 0; k < sizeof groups / sizeof *groups; k++) {
         const group *g = &groups[k];
         int wanted = argc <= first;

@@ -455,6 +455,14 @@ done:
  * is that of the chord, up to the last turn. */
 static const double NEXT = 2, LAST = 14, ASIDE = 1, CHORD = 2.5;
 
+/* Distance of a place from a piece, `to` from its middle. */
+static double away_from (const pg_contact_piece *p, const double *to)
+{
+    double along = to[0] * p->normal[1] - to[1] * p->normal[0], half = 0.5 * p->length,
+           beyond = fmax (0, fabs (along) - half), beside = to[0] * p->normal[0] + to[1] * p->normal[1];
+    return hypot (beyond, beside);
+}
+
 void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int nfield, pg_tip_faces *out)
 {
     const struct system_contact *c = s->contact;
@@ -468,7 +476,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
         double to[2] = { x[0] - p->x[0], x[1] - p->x[1] };
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
         int presses = nfield == 1 ? c->force[2*k] > 0 : c->status[k] != PG_CONTACT_OPEN;
-        if (presses) out->nearest = fmin (out->nearest, fmax (0, hypot (to[0], to[1]) - 0.5 * p->length));
+        if (presses) out->nearest = fmin (out->nearest, away_from (p, to));
         double place = (behind - NEXT * h) / (fmin (LAST * h, straight) - NEXT * h);
         if (beside > ASIDE * h || !(place > 0) || !(place < 1)) continue;
         double weight = pow (sin (3.14159265358979323846 * place), 2);
