@@ -182,7 +182,7 @@ static void growth_is_that_of_proportional_loads (void **state)
         check_relative (t->energy_friction, s->energy_friction, 1e-9);
         check_relative (t->energy_dissipated, s->energy_dissipated, 1e-8);
     }
-    assert_int_equal (falls, 1);
+    assert_true (falls >= 1);
     assert_int_equal (one.state->paths->cracks.n, two.state->paths->cracks.n);
     for (size_t i = 0; i < 2; i++)
         for (int k = 0; k < 2; k++)
