@@ -4,6 +4,7 @@ doc/performance.md, beside an older build where PERIGAL_BENCH_BEFORE names the f
 """
 import os
 import shutil
+import subprocess
 
 from measured import command, short, spread, table
 
@@ -130,6 +131,45 @@ def iterations(bench):
             else:
                 lines[number][4:] = ["%d" % r["dofs"], "%d" % r["cg_iterations"]]
     return command("make bench T=iterations") + table(["cube", "unknowns", "iterations", "preconditioner", "unknowns", "iterations"], lines)
+
+
+BOX_GEO = """SetFactory("OpenCASCADE");
+Box(1) = {0, 0, 0, 1, 1, 1};
+Physical Volume("body") = {1};
+"""
+MESHED = """title: Cube of tetrahedra, held at the bottom, pulled and sheared at the top
+dimension: 3
+mesh: {file: %s}
+materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}
+method: {approximation: rkpm, integration: gauss, kernel: cubic_spline, horizon: 2.0 spacing}
+boundary:
+  - {name: bottom, set: bottom, displacement: {x: 0, y: 0, z: 0}}
+  - {name: top, set: top, traction: {y: 1 MPa, x: 0.3 MPa}}
+solver: {kind: static, stepping: fixed, steps: 1, linear: pcg}
+output: {at: {levels: 1}, pictures: []}
+"""
+
+
+def tetrahedra(bench):
+    """Cubes meshed by Gmsh: iterations with finite elements as preconditioner, and the run by the diagonal and by a factor."""
+    if not shutil.which("gmsh"):
+        return ["No Gmsh on this machine: not measured.", ""]
+    ways = [("finite elements", []), ("diagonal", ["solver.preconditioner=jacobi"]), ("factor", ["solver.linear=cholmod"])]
+    os.makedirs("out/bench", exist_ok=True)
+    with open("out/bench/box.geo", "w") as out:
+        out.write(BOX_GEO)
+    lines = []
+    for order, title, sizes in ((1, "tetrahedra", (0.0895, 0.0605, 0.0385)), (2, "of second order", (0.178, 0.12, 0.0775))):
+        for number, size in enumerate(sizes):
+            mesh, scene = "box_%d_%d.msh" % (order, number), "out/bench/box_%d_%d.yaml" % (order, number)
+            subprocess.run(["gmsh", "-v", "0", "-3", "-order", str(order), "-clmin", str(size), "-clmax", str(size), "-format", "msh41",
+                            "-o", "out/bench/" + mesh, "out/bench/box.geo"], check=True)
+            with open(scene, "w") as out:
+                out.write(MESHED % mesh)
+            for way, settings in ways if number < 2 else ways[:1]:
+                r = bench.run("tetrahedra", scene, settings)
+                lines.append([title, "%d" % r["dofs"], way, "%d" % r["cg_iterations"] if r["cg_iterations"] else "-", short(r["cpu"]), megabytes(r)])
+    return command("make bench T=tetrahedra") + table(["cube", "unknowns", "solved by", "iterations", "CPU s of the run", "peak MB"], lines)
 
 
 EDGE = """title: Edge crack, from intact to cut in two, bond by bond
@@ -261,6 +301,7 @@ GROUPS = {
     "solve_3d": (solve_3d, 0, "solves in space up to 107 000 unknowns, plain ones beside"),
     "engines": (engines, 0, "events of single bonds, plain ones beside"),
     "iterations": (iterations, 0, "iterations with finite elements as preconditioner, over what makes them more"),
+    "tetrahedra": (tetrahedra, 0, "meshes of tetrahedra: iterations with finite elements as preconditioner (needs Gmsh)"),
     "cuts": (cuts, 0, "events of single bonds up to the cut, plain ones beside"),
     "newmark": (newmark, 0, "implicit motion with breaking bonds, plain beside"),
     "explicit": (explicit, 0, "explicit motion and relaxation, plain beside"),
