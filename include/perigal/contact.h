@@ -97,6 +97,7 @@ void      pg_contact_go (pg_contact_track *track, const pg_contact_path *path, d
  * Babuska and Brezzi; one pair per spacing does not). All lengths in local spacings. */
 #define PG_CONTACT_PIECE  2.0                          /* length of a piece */
 #define PG_CONTACT_POINTS 8                            /* points per spacing that sample the gap */
+#define PG_CONTACT_POINTS_SPACE 4                      /* the same in space, each way */
 #define PG_CONTACT_RADIUS 2.5                          /* how far they see (pg_force_type.jump) */
 #define PG_CONTACT_TURN   0.5                          /* rad: no piece goes around such a turn */
 typedef struct {

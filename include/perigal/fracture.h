@@ -77,6 +77,20 @@ pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_for
                             const pg_state *state, size_t front, int nfield, const double *const *d,
                             const double *t);
 
+/* What the faces behind a vertex of a front do to each other, in equilibria with contact. */
+typedef struct {
+    /* Means behind the vertex of the pressure on the face that the normal of the front shows to, and of the
+     * shear stress on it as a vector, Pa; pressure > 0: the front is closed there. */
+    double pressure, shear[3];
+    double nearest;  /* distance from the vertex to the next piece that is closed, m; INFINITY: none */
+} pg_front_faces;
+/* The same where faces may touch: of each vertex what they do (NULL: they do not); one field. As with tips the
+ * uniform stress that they carry is subtracted; a closed vertex has K_I = 0 and J of K_II and K_III, T is not
+ * known there; tubes around an open one end before the next closed piece. */
+pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
+                                  void *self, const pg_state *state, size_t front, int nfield,
+                                  const double *const *d, const double *t, const pg_front_faces *faces);
+
 /* The sums for the factors l (nfield numbers): J (J/m^2), K (3, Pa m^(1/2)) and T (Pa); outputs may be
  * NULL. */
 void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double *J, double *K, double *T);

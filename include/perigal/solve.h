@@ -297,6 +297,8 @@ const pg_platen_values *pg_solver_platens (const pg_solver *solver, size_t *n);
 const pg_contact_values *pg_solver_contact (const pg_solver *solver, size_t *n);
 /* What the faces behind a tip of the state do to each other, with contact; 0: the run has none. */
 int pg_solver_tip_faces (const pg_solver *solver, const pg_state *state, size_t tip, pg_tip_faces *out);
+/* The same behind all vertices of front number `front` in space (out: one of each). */
+int pg_solver_front_faces (const pg_solver *solver, const pg_state *state, size_t front, pg_front_faces *out);
 /* What the solver has measured at the tip of that id; NULL: nothing. */
 const pg_tip_values *pg_solver_tip (const pg_solver *solver, long id);
 /* What was measured at the vertices of crack fronts in the last step, front by front; *n: how many.

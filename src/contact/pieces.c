@@ -9,7 +9,7 @@
  *     g_n = sum_q w_q n_q . [u]_q / sum_q w_q,    g_t the same with t_q,    t = (n_y, -n_x),
  *
  * [u] = u (left) - u (right) by one-sided shape functions (pg_force_type.jump). */
-#include "perigal/contact.h"
+#include "pieces.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -202,8 +202,12 @@ pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *p,
     pg_status status = PG_OK;
     division d = { .p = p, .nothing = PG_NO_LENGTH * p->cloud.h };
     memset (out, 0, sizeof *out);
-    out->dim = 2;
+    out->dim = p->dim == 3 ? 3 : 2;
     PG_GROW (out->first, d.cap_first, 1);
+    if (p->dim == 3) {
+        PG_TRY (surface_pieces_create (out, p, state));
+        goto done;
+    }
     PG_TRY (take_segments (&d, pg_state_cracks (p, state)));
     PG_TRY (find_paths (&d));
     for (size_t from = 0, to; from < d.nlink; from = to) {

@@ -2,7 +2,7 @@
  * front.h: the parts of the measurement of a front in space. Files: front_curve.c (the curve through the
  * vertices and its frame), front_fields.c (exact fields of a straight front), front_tube.c (how thick a tube
  * around the front may be, and the places in it), front_integrals.c (integrals over one cross section),
- * front_measure.c (all of it, and the sums for the vertices). */
+ * front_faces.c (faces that touch), front_measure.c (all of it, and the sums for the vertices). */
 #ifndef PG_FRACTURE_FRONT_H
 #define PG_FRACTURE_FRONT_H
 #include "tip.h"
@@ -64,4 +64,16 @@ void front_integrals (front_sums *out, const front_section *section, const front
 /* The part of J along the front within the core, from K_II K_III of two fields, and of I: times K_III, K_II;
  * m^2/N times m. */
 double front_core_along (const tip_material *m, double h);
+
+/* ---- front_faces.c ------------------------------------------------------------------------------------- */
+/* The uniform stress that faces carry at u, linear between the vertices beside it, in that frame: across the
+ * crack (2 2), along e (1 2) and along the front (2 3), Pa. 0: one of the vertices is open. */
+int    front_faces_at    (const pg_front *f, const pg_front_faces *faces, double u, const double *frame,
+                          double stress[3]);
+/* That stress and its strain, without rotation, are taken from place k of a field. */
+void   front_faces_part  (front_sample *field, size_t k, const tip_material *m, const double stress[3]);
+/* How far a tube around open vertices at u may reach, m. */
+double front_faces_clear (const pg_front *f, const pg_front_faces *faces, double u);
+/* Closed vertices do not open, and what they set free is what sliding and tearing do. */
+void   front_faces_close (const pg_front *f, const pg_front_faces *faces, pg_tip_field *vertex);
 #endif

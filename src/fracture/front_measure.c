@@ -21,6 +21,7 @@ typedef struct {
     const pg_front *front;
     int nfield;
     const double *const *d, *t;
+    const pg_front_faces *faces;                       /* of each vertex; NULL: they do not touch */
     double h;                                          /* the largest local spacing along the front, m */
     pg_nearest *near;                                  /* among the points; NULL: all are alike */
     size_t n;                                          /* cross sections */
@@ -234,8 +235,13 @@ static pg_status measure_sections (measuring *m, const front_section *s, size_t 
         }
         for (size_t j = first; j < last; j++) {
             tip_material material = material_at (m, m->place[j].x);
-            for (size_t k = (j - first) * FRONT_PLACES; k < (j - first + 1) * FRONT_PLACES; k++)
-                if (c->in[k]) take_place (m, c, a, from++, k, &m->place[j], &material, pressure);
+            double stress[3];
+            int closed = m->faces && front_faces_at (m->front, m->faces, m->u[j], m->place[j].frame, stress);
+            for (size_t k = (j - first) * FRONT_PLACES; k < (j - first + 1) * FRONT_PLACES; k++) {
+                if (!c->in[k]) continue;
+                take_place (m, c, a, from++, k, &m->place[j], &material, pressure);
+                if (closed) front_faces_part (&c->field[a], k, &material, stress);
+            }
         }
     }
     for (size_t j = first; j < last; j++) {
@@ -273,6 +279,7 @@ static void place_sections (measuring *m)
         }
         double offset = f->offset[(size_t) m->u[j] % f->n];
         m->room[j] = front_room (m->p, m->state, at, m->h, offset, limit, tail);
+        if (m->faces) m->room[j] = fmin (m->room[j], front_faces_clear (f, m->faces, m->u[j]));
         while (m->radii[j] < FRONT_RADII && front_radius[m->radii[j]] * m->h <= m->room[j] * (1 + 1e-9))
             m->radii[j]++;
     }
@@ -514,16 +521,26 @@ pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_for
                             const pg_state *state, size_t front, int nfield, const double *const *d,
                             const double *t)
 {
+    return pg_front_measure_faces (out, p, force, self, state, front, nfield, d, t, NULL);
+}
+
+pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
+                                  void *self, const pg_state *state, size_t front, int nfield,
+                                  const double *const *d, const double *t, const pg_front_faces *faces)
+{
     pg_status status = PG_OK;
     size_t nfront;
     const pg_front *fronts = pg_fronts_of_state (p, state, &nfront);
     const char *refused = pg_tip_refuses (p, force);
-    measuring m = { .p = p, .force = force, .self = self, .state = state, .nfield = nfield, .d = d, .t = t };
+    measuring m = { .p = p, .force = force, .self = self, .state = state, .nfield = nfield, .d = d, .t = t,
+                    .faces = faces };
     chunk c = { 0 };
     front_section section;
     if (refused) PG_FAIL (PG_E_USAGE, "no stress intensity factors: %s", refused);
     if (nfield < 1 || nfield > TIP_FIELDS)
         PG_FAIL (PG_E_USAGE, "%d displacement fields at a front: 1 or 2 can be measured", nfield);
+    if (faces && nfield != 1)
+        PG_FAIL (PG_E_USAGE, "a front whose faces touch is measured with one field, not %d", nfield);
     if (front >= nfront) PG_FAIL (PG_E_USAGE, "front %zu of %zu is asked for", front, nfront);
     m.front = &fronts[front];
     if (m.front->n < 2) PG_FAIL (PG_E_USAGE, "a front of %zu vertices is asked for", m.front->n);
@@ -542,6 +559,7 @@ pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_for
     PG_TRY (add_core (&m, out));
     PG_TRY (smooth (m.front, out));
     extrapolate (m.front, out);
+    if (faces) front_faces_close (m.front, faces, out);
 done:
     chunk_clear (&c);
     pg_nearest_free (&m.near);

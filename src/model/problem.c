@@ -64,12 +64,14 @@ static pg_status pass (const pg_scene *scene, pg_status status)
  * that grow, where without contact it would lose the bonds to both. */
 static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
 {
-    if (p->dim != 2 || strcmp (pg_scene_text (scene, "contact.kind"), "none") == 0) return PG_OK;
+    if (p->dim == 1 || strcmp (pg_scene_text (scene, "contact.kind"), "none") == 0) return PG_OK;
     for (size_t k = 0; k < p->cracks.n; k++) {
         pg_crack *c = &p->cracks.crack[k];
-        double middle[3] = { 0.5 * (c->vertex[0] + c->vertex[2]), 0.5 * (c->vertex[1] + c->vertex[3]), 0 };
+        size_t dim = (size_t) p->dim;
+        double middle[3] = { 0 };
+        for (size_t i = 0; i < c->nvertex * dim; i++) middle[i % dim] += c->vertex[i] / (double) c->nvertex;
         c->sided = 1, c->width = PG_NO_LENGTH * pg_problem_spacing_at (p, middle);
-        pg_crack_orient (c);
+        if (p->dim == 2) pg_crack_orient (c);
     }
     return pg_cracks_index (&p->cracks);
 }

@@ -46,10 +46,14 @@ static pg_status measure_front (pg_result *r, const pg_state *state, size_t fron
     pg_status status = PG_OK;
     const double *d = state->d, time = r->dynamic ? state->time : state->factor, one = 1;
     pg_tip_field *field = NULL;
+    pg_front_faces *faces = NULL;
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     PG_ALLOC (field, f->n);
-    PG_TRY (pg_front_measure (field, r->problem, force, self, state, front, 1, &d, &time));
+    PG_ALLOC (faces, f->n);
+    int touch = pg_solver_front_faces (r->solver, state, front, faces);
+    PG_TRY (pg_front_measure_faces (field, r->problem, force, self, state, front, 1, &d, &time,
+                                    touch ? faces : NULL));
     PG_GROW (r->front_value, r->cap_front_value, r->nfront_value + f->n);
     for (size_t i = 0; i < f->n; i++) {
         pg_front_values *v = &r->front_value[r->nfront_value++];
@@ -61,7 +65,7 @@ static pg_status measure_front (pg_result *r, const pg_state *state, size_t fron
         pg_tip_intensities (&field[i], 1, &one, v->K);
     }
 done:
-    pg_free (field);
+    pg_free (field), pg_free (faces);
     return status;
 }
 

@@ -117,6 +117,9 @@ pg_status contact_factor   (pg_system *s);
 /* Z and C for the K of now, unless they are. */
 pg_status contact_condense (pg_system *s);
 
+/* The same behind each vertex of a front, loads scaled (contact_fronts.c). */
+void contact_at_front (const pg_system *s, const pg_front *front, double scale, pg_front_faces *out);
+
 /* The pieces of the state at hand for results, loads scaled. */
 pg_status contact_show (pg_system *s, double scale);
 

@@ -12,7 +12,7 @@
 enum { MOST_ROUNDS = 4, MANY = 4 };
 /* Of columns by iterations, where there is no factor, and by a factor; of gaps, relative: no further round is
  * worth it. */
-static const double COLUMN = 1e-10, REFINED = 1e-12, GOOD = 1e-13;
+static const double COLUMN = 1e-10, COLUMN_SPACE = 1e-7, REFINED = 1e-12, GOOD = 1e-13;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
 /* Of a single bond that breaks in the run no face is known. */
@@ -202,7 +202,15 @@ done:
     return status;
 }
 
-/* Z = K^-1 G', by the factor at hand all columns at once, else one after the other. */
+/* In space slips without friction bear no force: their columns would be multiplied by zero. */
+static int needs_column (const struct system_contact *c, size_t j)
+{
+    size_t dim = c->pieces.dim, k = j / dim;
+    return dim != 3 || j % dim == 0 || c->coefficient[k] > 0 || c->cohesion[k] > 0;
+}
+
+/* Z = K^-1 G', by the factor at hand all columns at once, else one after the other. What iterations in space
+ * leave of a column is found by the rounds that follow, which are fewer than columns. */
 static pg_status solve_columns (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -219,12 +227,13 @@ static pg_status solve_columns (pg_system *s)
     if (s->mode == SYSTEM_KEPT_FACTOR && s->stale && n > MANY) PG_TRY (system_factorize (s, NULL));
     size_t first = 0;
     for (; first < n && !has_factor (s); first++) {
+        if (!needs_column (c, first)) continue;
         /* iterations over all unknowns begin at the full residual */
         load_column (s, first, s->residual, s->reduced);
         s->known = s->carried = 0;
         memcpy (s->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
         memset (s->delta, 0, s->nred * sizeof *s->delta);
-        PG_TRY (system_solve_once (s, NULL, COLUMN));
+        PG_TRY (system_solve_once (s, NULL, c->pieces.dim == 3 ? COLUMN_SPACE : COLUMN));
         memcpy (solved + first * s->nred, s->delta, s->nred * sizeof *rhs);
     }
     if (first < n)
@@ -260,8 +269,13 @@ pg_status contact_condense (pg_system *s)
     for (size_t j = 0; j < n; j++)
         pg_sparse_multiply_transposed (&c->G, c->Z + j * s->ndof, c->C + j * n);
     for (size_t j = 0; j < n; j++)
-        for (size_t i = 0; i < j; i++)
-            c->C[j * n + i] = c->C[i * n + j] = 0.5 * (c->C[j * n + i] + c->C[i * n + j]);
+        for (size_t i = 0; i < j; i++) {
+            int one = needs_column (c, i), other = needs_column (c, j);
+            double sum = (other ? c->C[j * n + i] : 0) + (one ? c->C[i * n + j] : 0);
+            c->C[j * n + i] = c->C[i * n + j] = one && other ? 0.5 * sum : sum;
+        }
+    for (size_t j = 0; j < n; j++)                     /* not asked for, but positive */
+        if (!needs_column (c, j)) c->C[j * n + j] = c->C[(j / 3 * 3) * (n + 1)];
     for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) c->C[i * n + i] += c->soft[i];
     c->made = s->revision + 1;
     s->report->contact_seconds += pg_seconds () - t0;

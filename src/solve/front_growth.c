@@ -6,6 +6,7 @@
  * is that at which those who lead set as much energy free as they take: the load of the single vertex that
  * comes first would be too low by that scatter. This file: what facet_growth.c asks of fronts; the events are
  * those of facet_events.c. */
+#include "contact.h"
 #include "front_growth.h"
 #include <math.h>
 #include <string.h>
@@ -108,6 +109,7 @@ static void tell (const break_loop *b, const pg_front *front, size_t nfront, lon
             double l[2], K[3];
             const pg_tip_field *at = &f->field[i];
             pg_tip_combine (at, facet_factors (g, 1, l), l, NULL, K, NULL);
+            if (b->system.contact) break;
             if (!(K[0] < 0 && fabs (K[0]) > 1e-2 * hypot (K[1],
                                                           K[2])) || g->said & FACET_SAID_CLOSED) continue;
             pg_statistics_warn (b->system.report,
@@ -130,7 +132,8 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
     facet_growth *g = b->growth;
     pg_system *s = &b->system;
     unsigned char *known = NULL;
-    size_t nfront;
+    pg_front_faces *faces = NULL;
+    size_t nfront, cap_faces = 0;
     const pg_front *front = pg_fronts_of_state (s->problem, state, &nfront);
     if (!g->fronts) PG_ALLOC (g->fronts, 1);
     front_growth *f = g->fronts;
@@ -140,15 +143,18 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
     for (size_t k = 0; k < nfront; k++) {
         f->blind[k] = 0;
         if (!front[k].open || !front[k].n) continue;
-        PG_TRY (pg_front_measure (f->field + f->first[k], s->problem, s->force, s->self, state, k,
-                                  g->nfield, d,
-                                  t));
+        if (s->contact) {
+            PG_GROW (faces, cap_faces, front[k].n);
+            contact_at_front (s, &front[k], 1, faces);
+        }
+        PG_TRY (pg_front_measure_faces (f->field + f->first[k], s->problem, s->force, s->self, state, k,
+                                        g->nfield, d, t, s->contact ? faces : NULL));
         f->blind[k] = (unsigned char) fill_gaps (f->field + f->first[k], &front[k], known);
     }
     if (!g->moving) PG_TRY (fronts_offer_starts (b, state, d, t));
     tell (b, front, nfront, state->events);
 done:
-    pg_free (known);
+    pg_free (known), pg_free (faces);
     return status;
 }
 

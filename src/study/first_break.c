@@ -106,16 +106,20 @@ static pg_status measure_fronts (pg_first_break *b, const pg_problem *p, pg_solv
     const pg_force_type *force = pg_solver_force (solver, &self);
     const double one = 1, *const d = state->d;
     pg_tip_field *field = NULL;
+    pg_front_faces *faces = NULL;
     const pg_front *front = pg_fronts_of_state (p, state, &b->nfront);
     if (b->nfront) b->refused = pg_tip_refuses (p, force);
     for (size_t f = 0; !b->refused && f < b->nfront && f < PG_FIRST_TIPS; f++) {
         PG_ALLOC (field, front[f].n);
-        PG_TRY (pg_front_measure (field, p, force, self, state, f, 1, &d, &one));
+        PG_ALLOC (faces, front[f].n);
+        int touch = pg_solver_front_faces (solver, state, f, faces);
+        PG_TRY (pg_front_measure_faces (field, p, force, self, state, f, 1, &d, &one,
+                                        touch ? faces : NULL));
         summarise (&b->front[f], &front[f], field);
-        pg_free (field), field = NULL;
+        pg_free (field), field = NULL, pg_free (faces), faces = NULL;
     }
 done:
-    pg_free (field);
+    pg_free (field), pg_free (faces);
     return status;
 }
 

@@ -1,0 +1,418 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Surfaces of cracks in space in pieces of about two spacings each way.
+ *
+ * A disc or polygon of the scene is looked at on a raster of four places per spacing along its longest edge
+ * and across. So much of a cell as cuts bonds and lies in the body is a point that samples the gap, in the
+ * middle of that part. Rows of the raster are joined to strips two spacings wide, and strips cut across into
+ * pieces of equal area; a strip that is interrupted is several, and the ends of a surface that are too small
+ * for a strip of their own go with their neighbours.
+ *
+ * Triangles that have grown are divided into small ones, whose middles are the points. Those of triangles that
+ * share vertices without a sharp turn are one patch, and are gathered around as many centres as it has pieces:
+ * each next to begin with where it is farthest from those there are, then where the middles of their points
+ * lie (Lloyd 1982).
+ *
+ * All areas that are compared are measured in local spacings. */
+#include "pieces.h"
+#include <math.h>
+#include <string.h>
+
+/* Parts of a cell of the raster each way; rounds of gathering; the least area of a piece, of that of a usual
+ * one; what a turn of normals counts, as a distance in spacings per rad. */
+enum { PARTS = 3, ROUNDS = 12 };
+static const double LEAST = 0.35, TURN_COUNTS = 4;
+static const double FULL = PG_CONTACT_PIECE * PG_CONTACT_PIECE;
+
+/* A point: where, normal, m^2, local spacings squared; its cell of the raster; the piece that it is in. */
+typedef struct { double x[3], normal[3], area, size; size_t row, column, piece; } dot;
+typedef struct {
+    const pg_problem *p;
+    dot *dot;  size_t ndot, cap_dot;
+    size_t npatch;
+    size_t cap_x, cap_normal, cap_tangent, cap_weight, cap_piece, cap_first;
+} surface;
+
+static double dot3 (const double *a, const double *b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
+
+static void cross3 (const double *a, const double *b, double *out)
+{
+    for (int k = 0; k < 3; k++) {
+        int m = (k + 1) % 3, n = (k + 2) % 3;
+        out[k] = a[m]*b[n] - a[n]*b[m];
+    }
+}
+
+/* ---- a plane crack on a raster ------------------------------------------------------------------------- */
+/* Axes of the crack in its plane, and how far it reaches along them from `origin`, m. */
+typedef struct { double origin[3], axis[2][3], low[2], high[2]; } sheet;
+
+/* The first axis is the longest edge, the first of them if several are alike; of a disc its first vertex. */
+static void lay_sheet (const pg_crack *c, sheet *s)
+{
+    const double *from = c->vertex;
+    double longest = 0;
+    memset (s, 0, sizeof *s);
+    for (size_t i = 0; i < c->nvertex; i++) {
+        const double *a = c->vertex + 3*i, *b = c->vertex + 3 * ((i + 1) % c->nvertex);
+        double length = hypot (hypot (b[0] - a[0], b[1] - a[1]), b[2] - a[2]);
+        if (c->kind == PG_CRACK_DISC) break;
+        if (!(length > longest * (1 + 1e-9))) continue;
+        longest = length, from = a;
+        for (int k = 0; k < 3; k++) s->axis[0][k] = (b[k] - a[k]) / length;
+    }
+    if (c->kind == PG_CRACK_DISC) {
+        for (int k = 0; k < 3; k++) s->axis[0][k] = (c->vertex[k] - c->centre[k]) / c->radius;
+        from = c->centre;
+        for (int a = 0; a < 2; a++) s->low[a] = -c->radius, s->high[a] = c->radius;
+    }
+    memcpy (s->origin, from, sizeof s->origin);
+    cross3 (c->normal, s->axis[0], s->axis[1]);
+    for (size_t i = 0; c->kind != PG_CRACK_DISC && i < c->nvertex; i++)
+        for (int a = 0; a < 2; a++) {
+            double at = 0;
+            for (int k = 0; k < 3; k++) at += s->axis[a][k] * (c->vertex[3*i + (size_t) k] - s->origin[k]);
+            s->low[a] = fmin (s->low[a], at), s->high[a] = fmax (s->high[a], at);
+        }
+}
+
+static void place (const sheet *s, double u, double v, double *x)
+{
+    for (int k = 0; k < 3; k++) x[k] = s->origin[k] + u * s->axis[0][k] + v * s->axis[1][k];
+}
+
+/* The least spacing on the sheet, m. */
+static double finest (const surface *w, const sheet *s)
+{
+    enum { LOOK = 8 };
+    double least = INFINITY, x[3];
+    for (int i = 0; i <= LOOK; i++)
+        for (int j = 0; j <= LOOK; j++) {
+            place (s, s->low[0] + i * (s->high[0] - s->low[0]) / LOOK,
+                   s->low[1] + j * (s->high[1] - s->low[1]) / LOOK, x);
+            least = fmin (least, pg_problem_spacing_at (w->p, x));
+        }
+    return least;
+}
+
+/* The part of a cell that cuts and lies in the body, as a dot; cell: its sides, m. */
+static pg_status add_cell (surface *w, const pg_crack *c, const sheet *s, const double cell[2], size_t row,
+                           size_t column)
+{
+    pg_status status = PG_OK;
+    dot d = { .area = cell[0] * cell[1] / (PARTS * PARTS), .row = row, .column = column };
+    int in = 0;
+    for (int i = 0; i < PARTS * PARTS; i++) {
+        double x[3], u = (double) row + (i / PARTS + 0.5) / PARTS,
+               v = (double) column + (i % PARTS + 0.5) / PARTS;
+        place (s, s->low[0] + cell[0] * u, s->low[1] + cell[1] * v, x);
+        if (!pg_crack_touches (c, 3, x, 1e-9 * w->p->cloud.h) || !pg_problem_has_body (w->p, x)) continue;
+        in++;
+        for (int k = 0; k < 3; k++) d.x[k] += x[k];
+    }
+    if (!in) return PG_OK;
+    for (int k = 0; k < 3; k++) d.x[k] /= in, d.normal[k] = c->normal[k];
+    double h = pg_problem_spacing_at (w->p, d.x);
+    d.area *= in, d.size = d.area / (h * h);
+    PG_GROW (w->dot, w->cap_dot, w->ndot + 1);
+    w->dot[w->ndot++] = d;
+done:
+    return status;
+}
+
+/* Which part of `parts` equal ones holds the middle of each of n sizes that follow each other? */
+static void share_out (size_t n, const double *size, size_t parts, size_t *part)
+{
+    double whole = 0, passed = 0;
+    for (size_t i = 0; i < n; i++) whole += size[i];
+    for (size_t i = 0; i < n; i++) {
+        double at = (passed + 0.5 * size[i]) / whole * (double) parts;
+        part[i] = at > 0 ? (size_t) fmin ((double) parts - 1, floor (at)) : 0;
+        passed += size[i];
+    }
+}
+
+/* Strips of the raster: of each row, which one. A row is as wide as its cells in the mean of their local
+ * spacings. Rows at the ends without enough area are joined to the next strip. */
+static pg_status find_strips (surface *w, size_t first, size_t rows, double cell, size_t *strip, size_t *count)
+{
+    pg_status status = PG_OK;
+    double *width = NULL, *area = NULL, *cells = NULL, *held = NULL, all = 0;
+    PG_ALLOC (width, rows);
+    PG_ALLOC (area, rows);
+    PG_ALLOC (cells, rows);
+    for (size_t i = first; i < w->ndot; i++) {
+        const dot *d = &w->dot[i];
+        width[d->row] += cell * sqrt (d->size / d->area), area[d->row] += d->size, cells[d->row]++;
+    }
+    for (size_t i = 0; i < rows; i++) width[i] = cells[i] > 0 ? width[i] / cells[i] : 0, all += width[i];
+    *count = (size_t) fmax (1, round (all / PG_CONTACT_PIECE));
+    share_out (rows, width, *count, strip);
+    PG_ALLOC (held, *count);
+    for (size_t i = 0; i < rows; i++) held[strip[i]] += area[i];
+    for (size_t k = 0; k + 1 < *count; k++) {          /* too small a strip goes to the next */
+        if (held[k] >= LEAST * FULL) break;
+        held[k + 1] += held[k];
+        for (size_t i = 0; i < rows; i++) if (strip[i] == k) strip[i] = k + 1;
+    }
+    for (size_t k = *count; k-- > 1;) {
+        if (held[k] >= LEAST * FULL) break;
+        held[k - 1] += held[k];
+        for (size_t i = 0; i < rows; i++) if (strip[i] == k) strip[i] = k - 1;
+    }
+done:
+    pg_free (width), pg_free (area), pg_free (cells), pg_free (held);
+    return status;
+}
+
+/* A strip in pieces: columns that follow each other without a gap are one run, and are cut into pieces of equal
+ * area. *next: number of the next piece. */
+static pg_status cut_strip (surface *w, size_t first, const size_t *strip, size_t number, size_t columns,
+                            size_t *next)
+{
+    pg_status status = PG_OK;
+    double *area = NULL;
+    size_t *piece = NULL;
+    PG_ALLOC (area, columns);
+    PG_ALLOC (piece, columns);
+    for (size_t i = first; i < w->ndot; i++)
+        if (strip[w->dot[i].row] == number) area[w->dot[i].column] += w->dot[i].size;
+    for (size_t from = 0, to; from < columns; from = to) {
+        double whole = 0;
+        for (to = from; to < columns && (area[to] > 0) == (area[from] > 0); to++) whole += area[to];
+        if (!(whole > 0)) continue;
+        size_t parts = (size_t) fmax (1, round (whole / FULL));
+        share_out (to - from, area + from, parts, piece + from);
+        for (size_t j = from; j < to; j++) piece[j] += *next;
+        *next += parts;
+    }
+    for (size_t i = first; i < w->ndot; i++)
+        if (strip[w->dot[i].row] == number) w->dot[i].piece = piece[w->dot[i].column];
+done:
+    pg_free (area), pg_free (piece);
+    return status;
+}
+
+/* ---- pieces from dots ---------------------------------------------------------------------------------- */
+/* Two tangents at right angles to the normal n: the part of `along` in its plane, and what is across. */
+static void tangents (const double *n, const double *along, double *out)
+{
+    double part = dot3 (n, along), size;
+    for (int k = 0; k < 3; k++) out[k] = along[k] - part * n[k];
+    size = sqrt (dot3 (out, out));
+    for (int k = 0; k < 3; k++) out[k] /= size;
+    cross3 (n, out, out + 3);
+}
+
+/* Appends dots from `first` on, which belong to the pieces 0 to count - 1, as pieces of one path. along: about
+ * the first tangent; NULL: the axis that lies most in the plane of each piece. */
+static pg_status put_pieces (surface *w, pg_contact_pieces *out, size_t first, size_t count,
+                             const double *along)
+{
+    pg_status status = PG_OK;
+    size_t points = out->npoint + w->ndot - first;
+    PG_GROW (out->piece, w->cap_piece, out->n + count);
+    PG_GROW (out->first, w->cap_first, out->n + count + 1);
+    PG_GROW (out->x, w->cap_x, 3 * points);
+    PG_GROW (out->normal, w->cap_normal, 3 * points);
+    PG_GROW (out->tangent, w->cap_tangent, 6 * points);
+    PG_GROW (out->weight, w->cap_weight, points);
+    for (size_t k = 0; k < count; k++) {
+        pg_contact_piece *piece = &out->piece[out->n];
+        const size_t begins = out->npoint;
+        double size, axis[3] = { 0 };
+        memset (piece, 0, sizeof *piece);
+        for (size_t i = first; i < w->ndot; i++) {
+            const dot *d = &w->dot[i];
+            if (d->piece != k) continue;
+            memcpy (out->x + 3 * out->npoint, d->x, sizeof d->x);
+            memcpy (out->normal + 3 * out->npoint, d->normal, sizeof d->normal);
+            out->weight[out->npoint++] = d->area;
+            piece->area += d->area;
+            for (int c = 0; c < 3; c++) piece->x[c] += d->area * d->x[c], piece->normal[c] += d->area * d->normal[c];
+        }
+        size = sqrt (dot3 (piece->normal, piece->normal));
+        if (out->npoint == begins || !(size > 0)) continue;
+        for (int c = 0; c < 3; c++) piece->x[c] /= piece->area, piece->normal[c] /= size;
+        int least = 0;
+        for (int c = 1; c < 3; c++) if (fabs (piece->normal[c]) < fabs (piece->normal[least])) least = c;
+        axis[least] = 1;
+        tangents (piece->normal, along ? along : axis, piece->tangent[0]);
+        for (size_t q = begins; q < out->npoint; q++)
+            tangents (out->normal + 3*q, piece->tangent[0], out->tangent + 6*q);
+        piece->length = sqrt (piece->area), piece->path = w->npatch;
+        out->first[++out->n] = out->npoint;
+    }
+    w->npatch++;
+done:
+    return status;
+}
+
+static pg_status divide_sheet (surface *w, pg_contact_pieces *out, const pg_crack *c)
+{
+    pg_status status = PG_OK;
+    size_t first = w->ndot, n[2], *strip = NULL, strips = 0, count = 0;
+    double cell[2], h;
+    sheet s;
+    lay_sheet (c, &s);
+    h = finest (w, &s);
+    for (int a = 0; a < 2; a++) {
+        double length = s.high[a] - s.low[a];
+        n[a] = (size_t) fmax (1, ceil (length * PG_CONTACT_POINTS_SPACE / h - 1e-9)), cell[a] = length / (double) n[a];
+    }
+    for (size_t i = 0; i < n[0]; i++)
+        for (size_t j = 0; j < n[1]; j++) PG_TRY (add_cell (w, c, &s, cell, i, j));
+    if (w->ndot == first) return PG_OK;
+    PG_ALLOC (strip, n[0]);
+    PG_TRY (find_strips (w, first, n[0], cell[0], strip, &strips));
+    for (size_t k = 0; k < strips; k++) PG_TRY (cut_strip (w, first, strip, k, n[1], &count));
+    PG_TRY (put_pieces (w, out, first, count, s.axis[0]));
+done:
+    pg_free (strip);
+    return status;
+}
+
+/* ---- triangles that have grown ------------------------------------------------------------------------- */
+/* A triangle in m^2 small ones, whose sides are shorter than the distance between points. */
+static pg_status add_triangle (surface *w, const pg_crack *c)
+{
+    pg_status status = PG_OK;
+    double u[3], v[3], n[3], longest = 0, least = INFINITY;
+    for (int k = 0; k < 3; k++) u[k] = c->vertex[3 + k] - c->vertex[k], v[k] = c->vertex[6 + k] - c->vertex[k];
+    cross3 (u, v, n);
+    for (size_t i = 0; i < 3; i++) {
+        const double *a = c->vertex + 3*i, *b = c->vertex + 3 * ((i + 1) % 3);
+        longest = fmax (longest, hypot (hypot (b[0] - a[0], b[1] - a[1]), b[2] - a[2]));
+        least = fmin (least, pg_problem_spacing_at (w->p, a));
+    }
+    size_t parts = (size_t) fmax (1, ceil (longest * PG_CONTACT_POINTS_SPACE / least - 1e-9));
+    double area = 0.5 * sqrt (dot3 (n, n)) / (double) (parts * parts);
+    PG_GROW (w->dot, w->cap_dot, w->ndot + parts * parts);
+    for (size_t i = 0; i < parts; i++)
+        for (size_t j = 0; j < 2 * (parts - i) - 1; j++) {
+            /* upright ones have j even, those upside down between them j odd */
+            double third = j % 2 ? 2.0 / 3 : 1.0 / 3, s = ((double) i + third) / (double) parts,
+                   t = ((double) (j / 2) + third) / (double) parts, h;
+            dot *d = &w->dot[w->ndot];
+            memset (d, 0, sizeof *d);
+            for (int k = 0; k < 3; k++) d->x[k] = c->vertex[k] + s * u[k] + t * v[k], d->normal[k] = c->normal[k];
+            if (!pg_problem_has_body (w->p, d->x)) continue;
+            h = pg_problem_spacing_at (w->p, d->x);
+            d->area = area, d->size = area / (h * h), w->ndot++;
+        }
+done:
+    return status;
+}
+
+/* How far a dot is from a place of that normal, in local spacings, squared; a turn counts as a way. */
+static double away (const dot *d, const double *x, const double *normal)
+{
+    double far = 0, turn = 0;
+    for (int k = 0; k < 3; k++) {
+        far += (d->x[k] - x[k]) * (d->x[k] - x[k]);
+        turn += (d->normal[k] - normal[k]) * (d->normal[k] - normal[k]);
+    }
+    return far * d->size / d->area + TURN_COUNTS * TURN_COUNTS * turn;
+}
+
+/* Dots from `first` on around `count` centres: place (3), normal (3), area in spacings. Those that hold too
+ * little are taken away, and the rest is gathered again. */
+static pg_status gather_dots (surface *w, size_t first, size_t *count)
+{
+    pg_status status = PG_OK;
+    double *centre = NULL, *far = NULL;
+    enum { WIDE = 7 };
+    size_t n = 0, next = first;
+    PG_ALLOC (centre, WIDE * *count);
+    PG_ALLOC (far, w->ndot);
+    for (size_t i = first; i < w->ndot; i++) far[i] = INFINITY;
+    for (; n < *count; n++) {
+        memcpy (centre + WIDE * n, w->dot[next].x, 3 * sizeof *centre);
+        memcpy (centre + WIDE * n + 3, w->dot[next].normal, 3 * sizeof *centre);
+        for (size_t i = first; i < w->ndot; i++)
+            far[i] = fmin (far[i], away (&w->dot[i], centre + WIDE * n, centre + WIDE * n + 3));
+        for (size_t i = next = first; i < w->ndot; i++) if (far[i] > far[next] * (1 + 1e-9)) next = i;
+    }
+    for (int round = 0; round < ROUNDS || n != *count; round++) {
+        *count = n;
+        for (size_t i = first; i < w->ndot; i++) {
+            double least = INFINITY;
+            for (size_t k = 0; k < n; k++) {
+                double now = away (&w->dot[i], centre + WIDE * k, centre + WIDE * k + 3);
+                if (now < least) least = now, w->dot[i].piece = k;
+            }
+        }
+        memset (centre, 0, WIDE * n * sizeof *centre);
+        for (size_t i = first; i < w->ndot; i++) {
+            const dot *d = &w->dot[i];
+            double *to = centre + WIDE * d->piece;
+            for (int k = 0; k < 3; k++) to[k] += d->size * d->x[k], to[3 + k] += d->size * d->normal[k];
+            to[6] += d->size;
+        }
+        for (size_t k = 0; k < n; k++) {
+            double *to = centre + WIDE * k, size = sqrt (dot3 (to + 3, to + 3));
+            for (int c = 0; c < 3 && to[6] > 0; c++) to[c] /= to[6], to[3 + c] /= size;
+        }
+        for (size_t k = 0; round + 1 >= ROUNDS && k < n && n > 1; k++) {
+            if (centre[WIDE * k + 6] >= LEAST * FULL) continue;
+            memmove (centre + WIDE * k, centre + WIDE * (k + 1), WIDE * (n - k - 1) * sizeof *centre);
+            n--;
+            break;
+        }
+    }
+done:
+    pg_free (centre), pg_free (far);
+    return status;
+}
+
+/* Do two triangles share a vertex without a sharp turn? */
+static int goes_on (const pg_crack_surfaces *s, size_t a, size_t b)
+{
+    if (dot3 (s->cracks.crack[s->nfirst + a].normal, s->cracks.crack[s->nfirst + b].normal)
+        < cos (PG_CONTACT_TURN)) return 0;
+    for (int i = 0; i < 9; i++)
+        if (s->corner[3*a + (size_t) (i / 3)] == s->corner[3*b + (size_t) (i % 3)]) return 1;
+    return 0;
+}
+
+/* Patch by patch: all triangles that hang together with the first one left. */
+static pg_status divide_grown (surface *w, pg_contact_pieces *out, const pg_crack_surfaces *s)
+{
+    pg_status status = PG_OK;
+    size_t n = s->cracks.n - s->nfirst, *list = NULL;
+    unsigned char *used = NULL;
+    PG_ALLOC (list, n);
+    PG_ALLOC (used, n);
+    for (size_t from = 0; from < n; from++) {
+        size_t first = w->ndot, listed = 0;
+        double whole = 0;
+        if (used[from]) continue;
+        used[from] = 1, list[listed++] = from;
+        for (size_t at = 0; at < listed; at++) {
+            PG_TRY (add_triangle (w, &s->cracks.crack[s->nfirst + list[at]]));
+            for (size_t b = 0; b < n; b++)
+                if (!used[b] && goes_on (s, list[at], b)) used[b] = 1, list[listed++] = b;
+        }
+        for (size_t i = first; i < w->ndot; i++) whole += w->dot[i].size;
+        if (w->ndot == first) continue;
+        size_t count = (size_t) fmax (1, round (whole / FULL));
+        PG_TRY (gather_dots (w, first, &count));
+        PG_TRY (put_pieces (w, out, first, count, NULL));
+    }
+done:
+    pg_free (list), pg_free (used);
+    return status;
+}
+
+pg_status surface_pieces_create (pg_contact_pieces *out, const pg_problem *p, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    surface w = { .p = p, .cap_first = 1 };
+    const pg_crack_surfaces *grown = state ? state->surfaces : NULL;
+    const pg_cracks *cracks = pg_state_cracks (p, state);
+    for (size_t k = 0; k < (grown ? grown->nfirst : cracks->n); k++)
+        if (cracks->crack[k].kind != PG_CRACK_SEGMENT) PG_TRY (divide_sheet (&w, out, &cracks->crack[k]));
+    if (grown) PG_TRY (divide_grown (&w, out, grown));
+done:
+    pg_free (w.dot);
+    return status;
+}
