@@ -240,9 +240,9 @@ typedef struct {
      * a polygon (edge i from vertex i to the next), the rim of a disc; NULL: 0. Of a segment also negative:
      * so far beyond its end it cuts, where that lies on the surface of the body. */
     double *retreat;
-    /* 1: a place within `width` (m) of its line or plane counts as on the side that the normal points to (of a
-     * segment its left), so that points there keep their bonds to that side. 0: such points lose the bonds to
-     * both sides. Cracks that grow are sided, cracks of the scene where contact is asked for. */
+    /* 1: a place within `width` (m) of its line or plane counts as on the side that the normal points to (of
+     * a segment its left), so that points there keep their bonds to that side. 0: such points lose the bonds
+     * to both sides. Cracks that grow are sided, cracks of the scene where contact is asked for. */
     int    sided;
     double width;
 } pg_crack;

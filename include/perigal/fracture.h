@@ -84,9 +84,9 @@ typedef struct {
     double pressure, shear[3];
     double nearest;  /* distance from the vertex to the next piece that is closed, m; INFINITY: none */
 } pg_front_faces;
-/* The same where faces may touch: of each vertex what they do (NULL: they do not); one field. As with tips the
- * uniform stress that they carry is subtracted; a closed vertex has K_I = 0 and J of K_II and K_III, T is not
- * known there; tubes around an open one end before the next closed piece. */
+/* The same where faces may touch: of each vertex what they do (NULL: they do not); one field. As with tips
+ * the uniform stress that they carry is subtracted; a closed vertex has K_I = 0 and J of K_II and K_III, T is
+ * not known there; tubes around an open one end before the next closed piece. */
 pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
                                   void *self, const pg_state *state, size_t front, int nfield,
                                   const double *const *d, const double *t, const pg_front_faces *faces);

@@ -7,10 +7,10 @@
  * pieces of equal area; a strip that is interrupted is several, and the ends of a surface that are too small
  * for a strip of their own go with their neighbours.
  *
- * Triangles that have grown are divided into small ones, whose middles are the points. Those of triangles that
- * share vertices without a sharp turn are one patch, and are gathered around as many centres as it has pieces:
- * each next to begin with where it is farthest from those there are, then where the middles of their points
- * lie (Lloyd 1982).
+ * Triangles that have grown are divided into small ones, whose middles are the points. Those of triangles
+ * that share vertices without a sharp turn are one patch, and are gathered around as many centres as it has
+ * pieces: each next to begin with where it is farthest from those there are, then where the middles of their
+ * points lie (Lloyd 1982).
  *
  * All areas that are compared are measured in local spacings. */
 #include "pieces.h"
@@ -133,7 +133,8 @@ static void share_out (size_t n, const double *size, size_t parts, size_t *part)
 
 /* Strips of the raster: of each row, which one. A row is as wide as its cells in the mean of their local
  * spacings. Rows at the ends without enough area are joined to the next strip. */
-static pg_status find_strips (surface *w, size_t first, size_t rows, double cell, size_t *strip, size_t *count)
+static pg_status find_strips (surface *w, size_t first, size_t rows, double cell, size_t *strip,
+                              size_t *count)
 {
     pg_status status = PG_OK;
     double *width = NULL, *area = NULL, *cells = NULL, *held = NULL, all = 0;
@@ -164,8 +165,8 @@ done:
     return status;
 }
 
-/* A strip in pieces: columns that follow each other without a gap are one run, and are cut into pieces of equal
- * area. *next: number of the next piece. */
+/* A strip in pieces: columns that follow each other without a gap are one run, and are cut into pieces of
+ * equal area. *next: number of the next piece. */
 static pg_status cut_strip (surface *w, size_t first, const size_t *strip, size_t number, size_t columns,
                             size_t *next)
 {
@@ -203,8 +204,8 @@ static void tangents (const double *n, const double *along, double *out)
     cross3 (n, out, out + 3);
 }
 
-/* Appends dots from `first` on, which belong to the pieces 0 to count - 1, as pieces of one path. along: about
- * the first tangent; NULL: the axis that lies most in the plane of each piece. */
+/* Appends dots from `first` on, which belong to the pieces 0 to count - 1, as pieces of one path. along:
+ * about the first tangent; NULL: the axis that lies most in the plane of each piece. */
 static pg_status put_pieces (surface *w, pg_contact_pieces *out, size_t first, size_t count,
                              const double *along)
 {
@@ -228,7 +229,8 @@ static pg_status put_pieces (surface *w, pg_contact_pieces *out, size_t first, s
             memcpy (out->normal + 3 * out->npoint, d->normal, sizeof d->normal);
             out->weight[out->npoint++] = d->area;
             piece->area += d->area;
-            for (int c = 0; c < 3; c++) piece->x[c] += d->area * d->x[c], piece->normal[c] += d->area * d->normal[c];
+            for (int c = 0; c < 3; c++)
+                piece->x[c] += d->area * d->x[c], piece->normal[c] += d->area * d->normal[c];
         }
         size = sqrt (dot3 (piece->normal, piece->normal));
         if (out->npoint == begins || !(size > 0)) continue;
@@ -257,7 +259,8 @@ static pg_status divide_sheet (surface *w, pg_contact_pieces *out, const pg_crac
     h = finest (w, &s);
     for (int a = 0; a < 2; a++) {
         double length = s.high[a] - s.low[a];
-        n[a] = (size_t) fmax (1, ceil (length * PG_CONTACT_POINTS_SPACE / h - 1e-9)), cell[a] = length / (double) n[a];
+        n[a] = (size_t) fmax (1, ceil (length * PG_CONTACT_POINTS_SPACE / h - 1e-9));
+        cell[a] = length / (double) n[a];
     }
     for (size_t i = 0; i < n[0]; i++)
         for (size_t j = 0; j < n[1]; j++) PG_TRY (add_cell (w, c, &s, cell, i, j));
@@ -277,7 +280,8 @@ static pg_status add_triangle (surface *w, const pg_crack *c)
 {
     pg_status status = PG_OK;
     double u[3], v[3], n[3], longest = 0, least = INFINITY;
-    for (int k = 0; k < 3; k++) u[k] = c->vertex[3 + k] - c->vertex[k], v[k] = c->vertex[6 + k] - c->vertex[k];
+    for (int k = 0; k < 3; k++)
+        u[k] = c->vertex[3 + k] - c->vertex[k], v[k] = c->vertex[6 + k] - c->vertex[k];
     cross3 (u, v, n);
     for (size_t i = 0; i < 3; i++) {
         const double *a = c->vertex + 3*i, *b = c->vertex + 3 * ((i + 1) % 3);
@@ -294,7 +298,8 @@ static pg_status add_triangle (surface *w, const pg_crack *c)
                    t = ((double) (j / 2) + third) / (double) parts, h;
             dot *d = &w->dot[w->ndot];
             memset (d, 0, sizeof *d);
-            for (int k = 0; k < 3; k++) d->x[k] = c->vertex[k] + s * u[k] + t * v[k], d->normal[k] = c->normal[k];
+            for (int k = 0; k < 3; k++)
+                d->x[k] = c->vertex[k] + s * u[k] + t * v[k], d->normal[k] = c->normal[k];
             if (!pg_problem_has_body (w->p, d->x)) continue;
             h = pg_problem_spacing_at (w->p, d->x);
             d->area = area, d->size = area / (h * h), w->ndot++;
@@ -314,49 +319,61 @@ static double away (const dot *d, const double *x, const double *normal)
     return far * d->size / d->area + TURN_COUNTS * TURN_COUNTS * turn;
 }
 
-/* Dots from `first` on around `count` centres: place (3), normal (3), area in spacings. Those that hold too
- * little are taken away, and the rest is gathered again. */
+/* Of a centre: place (3), normal (3), area in local spacings. */
+enum { WIDE = 7 };
+
+/* The first centres: the first dot, then always the one farthest from all there are. far: of each dot. */
+static void spread (const surface *w, size_t first, size_t count, double *centre, double *far)
+{
+    size_t next = first;
+    for (size_t i = first; i < w->ndot; i++) far[i] = INFINITY;
+    for (size_t n = 0; n < count; n++) {
+        double *to = centre + WIDE * n;
+        memcpy (to, w->dot[next].x, 3 * sizeof *to), memcpy (to + 3, w->dot[next].normal, 3 * sizeof *to);
+        for (size_t i = first; i < w->ndot; i++) far[i] = fmin (far[i], away (&w->dot[i], to, to + 3));
+        next = first;
+        for (size_t i = first; i < w->ndot; i++) if (far[i] > far[next] * (1 + 1e-9)) next = i;
+    }
+}
+
+/* Dots go to the nearest centre, then centres to the middle of their dots. */
+static void gather_round (surface *w, size_t first, size_t count, double *centre)
+{
+    for (size_t i = first; i < w->ndot; i++) {
+        double least = INFINITY;
+        for (size_t k = 0; k < count; k++) {
+            double now = away (&w->dot[i], centre + WIDE * k, centre + WIDE * k + 3);
+            if (now < least) least = now, w->dot[i].piece = k;
+        }
+    }
+    memset (centre, 0, WIDE * count * sizeof *centre);
+    for (size_t i = first; i < w->ndot; i++) {
+        const dot *d = &w->dot[i];
+        double *to = centre + WIDE * d->piece;
+        for (int k = 0; k < 3; k++) to[k] += d->size * d->x[k], to[3 + k] += d->size * d->normal[k];
+        to[6] += d->size;
+    }
+    for (size_t k = 0; k < count; k++) {
+        double *to = centre + WIDE * k, size = sqrt (dot3 (to + 3, to + 3));
+        for (int c = 0; c < 3 && to[6] > 0; c++) to[c] /= to[6], to[3 + c] /= size;
+    }
+}
+
+/* Dots from `first` on in *count pieces or fewer: a centre that holds too little is taken away. */
 static pg_status gather_dots (surface *w, size_t first, size_t *count)
 {
     pg_status status = PG_OK;
     double *centre = NULL, *far = NULL;
-    enum { WIDE = 7 };
-    size_t n = 0, next = first;
     PG_ALLOC (centre, WIDE * *count);
     PG_ALLOC (far, w->ndot);
-    for (size_t i = first; i < w->ndot; i++) far[i] = INFINITY;
-    for (; n < *count; n++) {
-        memcpy (centre + WIDE * n, w->dot[next].x, 3 * sizeof *centre);
-        memcpy (centre + WIDE * n + 3, w->dot[next].normal, 3 * sizeof *centre);
-        for (size_t i = first; i < w->ndot; i++)
-            far[i] = fmin (far[i], away (&w->dot[i], centre + WIDE * n, centre + WIDE * n + 3));
-        for (size_t i = next = first; i < w->ndot; i++) if (far[i] > far[next] * (1 + 1e-9)) next = i;
-    }
-    for (int round = 0; round < ROUNDS || n != *count; round++) {
-        *count = n;
-        for (size_t i = first; i < w->ndot; i++) {
-            double least = INFINITY;
-            for (size_t k = 0; k < n; k++) {
-                double now = away (&w->dot[i], centre + WIDE * k, centre + WIDE * k + 3);
-                if (now < least) least = now, w->dot[i].piece = k;
-            }
-        }
-        memset (centre, 0, WIDE * n * sizeof *centre);
-        for (size_t i = first; i < w->ndot; i++) {
-            const dot *d = &w->dot[i];
-            double *to = centre + WIDE * d->piece;
-            for (int k = 0; k < 3; k++) to[k] += d->size * d->x[k], to[3 + k] += d->size * d->normal[k];
-            to[6] += d->size;
-        }
-        for (size_t k = 0; k < n; k++) {
-            double *to = centre + WIDE * k, size = sqrt (dot3 (to + 3, to + 3));
-            for (int c = 0; c < 3 && to[6] > 0; c++) to[c] /= to[6], to[3 + c] /= size;
-        }
-        for (size_t k = 0; round + 1 >= ROUNDS && k < n && n > 1; k++) {
+    spread (w, first, *count, centre, far);
+    for (int small = 1; small;) {
+        for (int round = 0; round < ROUNDS; round++) gather_round (w, first, *count, centre);
+        small = 0;
+        for (size_t k = 0; k < *count && *count > 1 && !small; k++) {
             if (centre[WIDE * k + 6] >= LEAST * FULL) continue;
-            memmove (centre + WIDE * k, centre + WIDE * (k + 1), WIDE * (n - k - 1) * sizeof *centre);
-            n--;
-            break;
+            memmove (centre + WIDE * k, centre + WIDE * (k + 1), WIDE * (*count - k - 1) * sizeof *centre);
+            --*count, small = 1;
         }
     }
 done:

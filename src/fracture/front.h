@@ -67,7 +67,8 @@ double front_core_along (const tip_material *m, double h);
 
 /* ---- front_faces.c ------------------------------------------------------------------------------------- */
 /* The uniform stress that faces carry at u, linear between the vertices beside it, in that frame: across the
- * crack (2 2), along e (1 2) and along the front (2 3), Pa. 0: one of the vertices is open. */
+ * crack (2 2), along e (1 2) and along the front (2 3), Pa. 0: one of the vertices is open, or faces
+ * is NULL. */
 int    front_faces_at    (const pg_front *f, const pg_front_faces *faces, double u, const double *frame,
                           double stress[3]);
 /* That stress and its strain, without rotation, are taken from place k of a field. */

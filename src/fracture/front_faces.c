@@ -16,6 +16,7 @@ int front_faces_at (const pg_front *f, const pg_front_faces *faces, double u, co
                     double stress[3])
 {
     size_t i, j;
+    if (!faces) return 0;
     beside (f, u, &i, &j);
     const pg_front_faces *a = &faces[i], *b = &faces[j];
     double share = u - floor (u), along = 0, across = 0;

@@ -236,7 +236,7 @@ static pg_status measure_sections (measuring *m, const front_section *s, size_t 
         for (size_t j = first; j < last; j++) {
             tip_material material = material_at (m, m->place[j].x);
             double stress[3];
-            int closed = m->faces && front_faces_at (m->front, m->faces, m->u[j], m->place[j].frame, stress);
+            int closed = front_faces_at (m->front, m->faces, m->u[j], m->place[j].frame, stress);
             for (size_t k = (j - first) * FRONT_PLACES; k < (j - first + 1) * FRONT_PLACES; k++) {
                 if (!c->in[k]) continue;
                 take_place (m, c, a, from++, k, &m->place[j], &material, pressure);

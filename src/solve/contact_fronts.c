@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What faces do to each other behind the vertices of fronts in space: means over the pieces behind, as behind
- * the tips of the plane, in a window that rises and falls smoothly. The last one and a half spacings carry too
- * little, as the front of a discretisation is not sharp. */
+ * the tips of the plane, in a window that rises and falls smoothly. The last one and a half spacings carry
+ * too little, as the front of a discretisation is not sharp. */
 #include "contact.h"
 #include <math.h>
 #include <string.h>

@@ -485,7 +485,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
            straight = pg_tip_straight (state, tip, PG_CONTACT_TURN);
     pg_tip_chord (state, tip, fmin (CHORD * h, straight), from, e);
     *out = (pg_tip_faces){ .nearest = INFINITY };
-    for (size_t k = 0; c && c->active && c->pieces.dim == 2 && k < c->ncrack; k++) {
+    for (size_t k = 0; c && c->active && k < c->ncrack; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
         double to[2] = { x[0] - p->x[0], x[1] - p->x[1] };
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);

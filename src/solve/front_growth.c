@@ -218,12 +218,33 @@ done:
     return status;
 }
 
+/* Where closed faces end so near behind a front that has just left them there is no room for a tube, and what
+ * the front does next would be a guess. */
+static pg_status refuse_closed (const front_growth *f, double factor)
+{
+    pg_status status = PG_OK;
+    for (size_t i = 0; i < f->n; i++) {
+        const pg_tip_field *at = &f->field[i];
+        if (!at->closed || !(f->vertex[i].way > 0)) continue;
+        PG_FAIL (PG_E_USAGE,
+                 "a crack front whose faces press on each other would grow at (%.6g, %.6g, %.6g) m, at load "
+                 "factor %.6g: growth of closed fronts is not known in space yet. Its K_II and K_III are in "
+                 "fronts.csv up to there; with a larger failure.fracture_energy the run goes on",
+                 at->x[0], at->x[1], at->x[2], factor);
+    }
+done:
+    return status;
+}
+
 pg_status fronts_grow (break_loop *b, pg_state *state, double factor, double least)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     const pg_problem *p = b->system.problem;
-    if (fronts_plan (b, state, factor) >= least) PG_TRY (grow_planned (b, state));
+    if (fronts_plan (b, state, factor) >= least) {
+        PG_TRY (refuse_closed (g->fronts, factor));
+        PG_TRY (grow_planned (b, state));
+    }
     for (size_t k = 0; k < g->ntrial; k++)
         if (facet_trial_utilisation (g, &g->trial[k], factor) >= least)
             PG_TRY (fronts_start (b, state, &g->trial[k]));

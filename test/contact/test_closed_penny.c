@@ -1,13 +1,13 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Closed cracks in space: a penny-shaped crack in a box whose surface bears the tractions of a uniform stress.
+ * Closed cracks in space: a penny-shaped crack in a box whose surface bears the tractions of uniform stress.
  * Closed without friction its faces carry a uniform pressure, and what is left is the same crack under the
  * shear stress alone; friction takes mu sigma_n of that. Pieces of discs, polygons and grown surfaces; units,
  * mirrors, threads; checkpoints of its memory are those of the plane (test/results). */
 #include "contact/pieces.h"
 #include "scene_runs/run.h"
 
-/* A disc of `radius` spacings, its normal turned by `tilt` from the z axis towards x, under 1 Pa of compression
- * along z; shear: the shear part of that stress on the disc alone. */
+/* A disc of `radius` spacings, its normal turned by `tilt` from the z axis towards x, under 1 Pa of
+ * compression along z; shear: the shear part of that stress on the disc alone. */
 typedef struct {
     double radius, tilt, shift[3], unit, friction, perturb;
     int w, shear, mirrored, threads;                   /* w: half width of the box, spacings */
@@ -24,8 +24,9 @@ static run penny_run (const penny *l)
     for (int i = 0; l->shear && i < 3; i++)
         for (int j = 0; j < 3; j++) s[i][j] = sin (l->tilt) * cos (l->tilt) * (n[i] * e[j] + e[i] * n[j]);
     for (int k = 0; k < 6; k++)
-        snprintf (traction[k], sizeof traction[k], "  - {name: t%d, set: %s, traction: {x: %.17g, y: %.17g, z: "
-                  "%.17g}}\n", k, set[k], (k % 2 ? 1 : -1) * s[0][k / 2], (k % 2 ? 1 : -1) * s[1][k / 2],
+        snprintf (traction[k], sizeof traction[k],
+                  "  - {name: t%d, set: %s, traction: {x: %.17g, y: %.17g, z: %.17g}}\n", k, set[k],
+                  (k % 2 ? 1 : -1) * s[0][k / 2], (k % 2 ? 1 : -1) * s[1][k / 2],
                   (k % 2 ? 1 : -1) * s[2][k / 2]);
     int length = snprintf (text, sizeof text,
         "dimension: 3\nbody: [{add: {box: {low: [%.17g, %.17g, %.17g], high: [%.17g, %.17g, %.17g]}}}]\n"
@@ -40,8 +41,8 @@ static run penny_run (const penny *l)
         "  - {name: pb, set: b, essential: penalty, displacement: {y: 0, z: 0}}\n"
         "  - {name: pc, set: c, essential: penalty, displacement: {z: 0}}\n"
         "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n%s",
-        -w, -w, -w, w, w, w, u, l->perturb, sx * l->shift[0] * u, l->shift[1] * u, l->shift[2] * u, n[0], n[2],
-        l->radius * u, l->contact, l->mirrored ? "-x" : "x", -w + u, -w + u, -w + u,
+        -w, -w, -w, w, w, w, u, l->perturb, sx * l->shift[0] * u, l->shift[1] * u, l->shift[2] * u, n[0],
+        n[2], l->radius * u, l->contact, l->mirrored ? "-x" : "x", -w + u, -w + u, -w + u,
         l->mirrored ? "-x" : "x", w - u, -w + u, -w + u, l->mirrored ? "-x" : "x", -w + u, w - u, -w + u,
         traction[0], traction[1], traction[2], traction[3], traction[4], traction[5], l->more);
     assert_true (length > 0 && length < (int) sizeof text);
@@ -50,15 +51,22 @@ static run penny_run (const penny *l)
     return r;
 }
 
+/* The short tests take the first case of each kind. */
+static int is_long (void)
+{
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    return size && strcmp (size, "long") == 0;
+}
+
 static const char *const judged = "failure: {criterion: energy_release, fracture_energy: 1e30}\n";
 
 /* Flat under its load: it carries what the uncracked body does, its front bears nothing. */
 static void a_flat_penny_carries_the_pressure (void **state)
 {
     (void) state;
-    penny l = { .radius = 4, .shift = { 0.2, 0.1, 0.3 }, .unit = 1, .w = 6, .contact = "contact: {kind: normal}",
-                .more = judged };
-    for (int k = 0; k < 3; k++) {
+    penny l = { .radius = 4, .shift = { 0.2, 0.1, 0.3 }, .unit = 1, .w = 6,
+                .contact = "contact: {kind: normal}", .more = judged };
+    for (int k = 0; k < (is_long () ? 3 : 1); k++) {
         if (k == 1) l.shift[2] = 0;                    /* on a layer of cells' sides */
         if (k == 2) l.shift[2] = 0.5, l.perturb = 0.15;              /* points that lay on it are moved */
         run r = penny_run (&l);
@@ -73,15 +81,16 @@ static void a_flat_penny_carries_the_pressure (void **state)
         }
         print_message ("flat penny %d: %zu pieces, mean pressure %.4f, %.3f to %.3f\n", k, n, force / area,
                        least, most);
-        check_relative (force / area, 1, 0.03);
-        assert_true (least > 0.7 && most < 1.3);
+        /* on points that are moved the fields of the body itself are rough */
+        check_relative (force / area, 1, k == 2 ? 0.04 : 0.03);
+        assert_true (least > (k == 2 ? 0.6 : 0.8) && most < (k == 2 ? 1.5 : 1.2));
         check_below (pg_solver_report_now (r.solver)->contact_overlap, 1e-15);       /* of 1e-3 m */
         const pg_front_values *f = pg_solver_fronts (r.solver, &nfront);
         assert_true (nfront > 10);
         double opening = 2 * sqrt (4 / 3.14159265358979);
         for (size_t i = 0; i < nfront; i++) {
             assert_true (f[i].K[0] == 0);
-            check_below (hypot (f[i].K[1], f[i].K[2]), 0.05 * opening);
+            check_below (hypot (f[i].K[1], f[i].K[2]), (k == 2 ? 0.1 : 0.05) * opening);
         }
         clear (&r);
     }
@@ -105,14 +114,16 @@ static void an_inclined_penny_slides (void **state)
 {
     (void) state;
     static const struct { const char *contact; double left, within; } cases[] = {
-        { "contact: {kind: normal}", 1, 0.02 }, { "contact: {kind: friction, coefficient: 0.3}", 0.7, 0.025 },
-        { "contact: {kind: friction, coefficient: 1.3}", 0, 0.03 }
+        { "contact: {kind: friction, coefficient: 0.3}", 0.7, 0.025 },
+        { "contact: {kind: normal}", 1, 0.025 },
+        { "contact: {kind: friction, coefficient: 1.3}", 0, 0.05 }
     };
     penny l = { .radius = 4, .tilt = 0.7853981633974483, .shift = { 0.2, 0.1, 0.3 }, .unit = 1, .w = 6,
                 .shear = 1, .contact = "", .more = judged };
+    if (!is_long ()) l.radius = 3.5, l.w = 5;
     run open = penny_run (&l);
     l.shear = 0;
-    for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
+    for (size_t c = 0; c < (is_long () ? 3 : 1); c++) {
         l.contact = cases[c].contact;
         run r = penny_run (&l);
         const pg_statistics *s = pg_solver_report_now (r.solver);
@@ -123,15 +134,16 @@ static void an_inclined_penny_slides (void **state)
             slip = fmax (slip, hypot (hypot (v[i].slip[0], v[i].slip[1]), v[i].slip[2]));
         print_message ("%s: K off by %.4f of the largest, slip %.3g, %ld open %ld stick %ld slide\n",
                        l.contact, off, slip, s->contact_open, s->contact_stick, s->contact_sliding);
-        check_below (off, cases[c].within);
+        check_below (off, is_long () ? cases[c].within : 0.035);       /* at 4 and 3.5 spacings */
         check_below (s->contact_overlap, 1e-15);
         assert_int_equal (s->contact_open, 0);
         if (cases[c].left == 0) assert_true (s->contact_stick > s->contact_sliding);
         else assert_int_equal (s->contact_stick, 0);
         /* work = strain energy + friction, and what friction takes is not nothing */
-        check_scaled (s->energy_external - s->energy_strain - s->energy_friction, 0, 1e-9, s->energy_external);
-        if (c == 1) assert_true (s->energy_friction > 1e-3 * s->energy_strain);
-        for (size_t i = 0; c == 1 && i < n; i++) {
+        double rest = s->energy_external - s->energy_strain - s->energy_friction;
+        check_scaled (rest, 0, 1e-9, s->energy_external);
+        if (c == 0) assert_true (s->energy_friction > 1e-3 * s->energy_strain);
+        for (size_t i = 0; c == 0 && i < n; i++) {
             double shear = 0, work = 0, size = 0;
             for (int k = 0; k < 3; k++)
                 shear = hypot (shear, v[i].shear[k]), size = hypot (size, v[i].slip[k]),
@@ -148,11 +160,11 @@ static void an_inclined_penny_slides (void **state)
 static void units_and_mirrors_do_not_count (void **state)
 {
     (void) state;
-    penny l = { .radius = 3, .tilt = 0.6, .shift = { 0.2, 0.1, 0.3 }, .unit = 1, .w = 5,
+    penny l = { .radius = 2.5, .tilt = 0.6, .shift = { 0.2, 0.1, 0.3 }, .unit = 1, .w = 4,
                 .contact = "contact: {kind: friction, coefficient: 0.2}", .more = "" };
     run r = penny_run (&l);
     const pg_statistics *s = pg_solver_report_now (r.solver);
-    for (int k = 0; k < 3; k++) {
+    for (int k = is_long () ? 0 : 1; k < 3; k++) {
         penny m = l;
         if (k == 0) m.unit = 1e-3;
         if (k == 1) m.mirrored = 1;
@@ -175,8 +187,8 @@ static void surfaces_are_divided (void **state)
     static const struct { const char *crack; double area; size_t least, most; double size[2]; } cases[] = {
         { "disc: {center: [0, 0, 0.3], normal: [0, 0, 1], radius: 6}", 113.1, 24, 34, { 0.35, 1.8 } },
         { "polygon: [[-4, -6, 0.3], [4, -6, 0.3], [4, 6, 0.3], [-4, 6, 0.3]]", 96, 20, 26, { 0.6, 1.4 } },
-        { "polygon: [[-6, -6, 0.3], [6, -6, 0.3], [6, -2, 0.3], [-2, -2, 0.3], [-2, 6, 0.3], [-6, 6, 0.3]]", 80,
-          15, 23, { 0.35, 1.8 } },
+        { "polygon: [[-6, -6, 0.3], [6, -6, 0.3], [6, -2, 0.3], [-2, -2, 0.3], [-2, 6, 0.3], [-6, 6, 0.3]]",
+          80, 15, 23, { 0.35, 1.8 } },
     };
     for (size_t c = 0; c < sizeof cases / sizeof *cases; c++) {
         run r = scene_of (1,
