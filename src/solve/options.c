@@ -319,10 +319,6 @@ static void check_faces (const pg_problem *problem, const pg_scene *scene)
     const pg_force_type *force = pg_force_of (problem);
     if (problem->dim == 1)
         pg_scene_fault (scene, "contact.kind", "a body of one dimension has no faces of cracks: set none");
-    else if (problem->dim == 3 && force && force->faces)
-        pg_scene_fault (scene, "contact.kind",
-                        "force: %s keeps faces of cracks apart in 2D only so far: take method.force: "
-                        "galerkin, or set none", problem->method->name);
     else if (force && !force->jump && !force->faces)
         pg_scene_fault (scene, "contact.kind",
                         "force: %s does not show how far crack faces are apart: set none, or take a force "

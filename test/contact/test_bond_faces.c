@@ -154,6 +154,43 @@ static void all_ways_lead_to_one_equilibrium (void **state)
     }
 }
 
+/* A disc in space under compression that is inclined to it: both ways to one equilibrium, the faces slide,
+ * and bear about the pressure of the uniform stress. */
+static void discs_close_in_space (void **state)
+{
+    (void) state;
+    faces of[2];
+    memset (of, 0, sizeof of);
+    for (int w = 0; w < 2; w++) {
+        run r = scene_of (1 + w,
+            "dimension: 3\nbody: [{add: {box: {low: [-2, -2, -2], high: [2, 2, 2]}}}]\n"
+            "spacing: 0.3333333333\nlattice: cells\n"
+            "cracks: [{disc: {center: [0.03, 0.02, 0.01], normal: [1, 1, 0], radius: 1}}]\n"
+            "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25, density: 1}}\n"
+            "method: {force: bond}\n"
+            "contact: {kind: friction, coefficient: 0.3}\nboundary:\n  - {set: top, traction: {y: -1}}\n"
+            "  - {set: bottom, displacement: {x: 0, y: 0, z: 0}}\nsolver: %s\noutput: {at: {levels: 1}}\n",
+            w ? "{kind: adr, stages: 1, imbalance: 1e-9}" : "{kind: static, stepping: fixed, steps: 1}");
+        to_the_end (&r);
+        size_t n;
+        const pg_contact_values *v = pg_solver_contact (r.solver, &n);
+        double area = 0;
+        for (size_t k = 0; k < n; k++) {
+            double t = sqrt (v[k].shear[0] * v[k].shear[0] + v[k].shear[1] * v[k].shear[1]
+                             + v[k].shear[2] * v[k].shear[2]);
+            area += v[k].area, of[w].pressure += v[k].area * v[k].pressure;
+            check_relative (t, 0.3 * v[k].pressure, 1e-6);
+            of[w].slip = fmax (of[w].slip, sqrt (v[k].slip[0] * v[k].slip[0] + v[k].slip[1] * v[k].slip[1]));
+        }
+        of[w].pressure /= area;
+        clear (&r);
+    }
+    print_message ("disc: pressure %.4f, slip %.5g\n", of[0].pressure / 0.5, of[0].slip);
+    check_relative (of[0].pressure, 0.5, 0.15);
+    check_relative (of[1].pressure, of[0].pressure, 1e-6);
+    check_relative (of[1].slip, of[0].slip, 1e-6);
+}
+
 static int long_run (void)
 {
     const char *size = getenv ("PERIGAL_TEST_SIZE");
@@ -286,6 +323,7 @@ int main (void)
         cmocka_unit_test (slips_as_with_shape_functions),
         cmocka_unit_test (motion_keeps_its_momenta),
         cmocka_unit_test (runs_go_on_bit_by_bit),
+        cmocka_unit_test (discs_close_in_space),
     };
     return cmocka_run_group_tests_name ("contact/bond_faces", tests, NULL, NULL);
 }

@@ -340,10 +340,6 @@ static void the_rest_is_refused (void **state)
               "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: -0.1}}"
 #define FLAT  "dimension: 2\nplane: stress\nthickness: 1\ncracks: [{from: [-1, 0.1], to: [1, 0.1]}]\n" PLATE
     static const struct { const char *scene, *words; } wrong[] = {
-        { "dimension: 3\ncontact: {kind: normal}\nmethod: {force: bond}\n"
-          "body: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\nspacing: 0.25\nlattice: cells\n"
-          "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
-          "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}]\n", "in 2D only" },
         { FLAT "]\nmethod: {force: bond, stretch: finite}\ncontact: {kind: normal}\n"
           "solver: {kind: adr}\n", "small displacements" },
         { FLAT "]\nsolver: {kind: verlet, end: 1}\ncontact: {kind: normal}\n", "forces by bonds" },
