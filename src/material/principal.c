@@ -23,14 +23,22 @@ static void plane (const double *s, double zz, double *principal)
     sort3 (principal);
 }
 
+/* Of a deviator s - m: the mean m, p^2 = s:s / 6, and the determinant. */
+static void invariants (const double *s, double *mean, double *p2, double *det)
+{
+    *mean = (s[0] + s[1] + s[2]) / 3;
+    double a = s[0] - *mean, b = s[1] - *mean, c = s[2] - *mean, xy = s[3], yz = s[4], zx = s[5];
+    *p2 = (a * a + b * b + c * c + 2 * (xy * xy + yz * yz + zx * zx)) / 6;
+    *det = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
+}
+
 /* Roots of the characteristic polynomial by the cosine of a third of an angle (Smith 1961); nearly equal
  * roots by Jacobi rotations, which keep their digits. */
 static void solid (const double *s, double *principal)
 {
-    double mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
-    double xy = s[3], yz = s[4], zx = s[5];
-    double p = sqrt ((a * a + b * b + c * c + 2 * (xy * xy + yz * yz + zx * zx)) / 6);
-    double det = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
+    double mean, p2, det;
+    invariants (s, &mean, &p2, &det);
+    double p = sqrt (p2);
     double r = p > 0 ? det / p / p / p / 2 : 1;
     if (fabs (r) < 0.9999) {                           /* mean + 2 p cos (phi + 2 pi k / 3), cos 3 phi = r */
         double phi = acos (r) / 3, third = 2.0943951023931954923;
@@ -39,7 +47,7 @@ static void solid (const double *s, double *principal)
         principal[1] = mean + 2 * p * cos (phi - third);
         return;
     }
-    const double M[9] = { s[0], xy, zx, xy, s[1], yz, zx, yz, s[2] };
+    const double M[9] = { s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2] };
     pg_dense_eigen (3, M, principal, NULL);
 }
 
@@ -69,10 +77,9 @@ static double above_third (double r)
 static void bound_solid (const double *s, double *most, double *least)
 {
     const double hair = 1e-12;
-    double mean = (s[0] + s[1] + s[2]) / 3, a = s[0] - mean, b = s[1] - mean, c = s[2] - mean;
-    double xy = s[3], yz = s[4], zx = s[5];
-    double p2 = (a * a + b * b + c * c + 2 * (xy * xy + yz * yz + zx * zx)) / 6, p = sqrt (p2);
-    double det = a * (b * c - yz * yz) - xy * (xy * c - yz * zx) + zx * (xy * yz - b * zx);
+    double mean, p2, det;
+    invariants (s, &mean, &p2, &det);
+    double p = sqrt (p2);
     double r = fmax (-1, fmin (1, det / (2 * p2 * p)));
     double size = hair * (fabs (mean) + 2 * p);
     if (!(p2 > 1e-280)) r = 0, p = sqrt (3) * (p + 1e-140);
