@@ -121,7 +121,8 @@ void      pg_contact_pieces_clear  (pg_contact_pieces *pieces);
 /* Their rows as columns of G' (unknowns x dim n): column dim k makes the mean gap of piece k, those after it
  * its mean slips, positive where the face that the normal shows to goes ahead along the tangent (plane: the
  * left face along the path); f acts on the nodes as G' f. *poor: points that see too little on one side, and
- * do not count. PG_E_USAGE: a piece has no other points. */
+ * do not count. PG_E_USAGE: a piece has no other points; where single bonds
+ * break its columns are empty then. */
 pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
                            const pg_force_type *force, void *self, const pg_state *state, size_t *poor);
 

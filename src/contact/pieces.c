@@ -293,7 +293,8 @@ pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, c
         double weight = gather (pieces, jump, k, n, row, seen, list, &count);
         char third[32] = "";
         if (d == 3) snprintf (third, sizeof third, ", %.6g", pieces->piece[k].x[2]);
-        if (!(weight > 0))
+        /* where single bonds break faces may crumble away: there is nothing to touch any more */
+        if (!(weight > 0) && !pg_criterion_of_bonds (p->criterion))
             PG_FAIL (PG_E_USAGE,
                      "contact: within %g spacings of (%.6g, %.6g%s) m the body sees too little on one side "
                      "of the surface for a gap: take a smaller spacing, or keep cracks and surfaces further "

@@ -2,8 +2,9 @@
  * Private: contact of crack faces (perigal/contact.h). In equilibria of linear systems the stiffness and its
  * factor are those of the open cracks; forces of contact stand beside the loads and are found from the
  * condensed compliance of the pieces. Files: contact_solve.c (equilibria), contact_route.c (those along loads
- * with a constant part), contact_motion.c (time steps, relaxation), contact_memory.c (what was before: slips,
- * work of friction; checkpoints). */
+ * with a constant part), contact_motion.c (time steps, relaxation), contact_impact.c (faces that meet in a
+ * time step of Newmark's method), contact_results.c, contact_memory.c (what was before: slips, work of
+ * friction; checkpoints). */
 #ifndef PG_SOLVE_CONTACT_H
 #define PG_SOLVE_CONTACT_H
 #include "solve.h"
@@ -84,6 +85,10 @@ struct system_contact {
     int       active;                                  /* some force is not zero */
     int       touched;                                 /* the last equilibrium asked for the compliance */
     int       history;                                 /* 1: slip has a memory from step to step */
+    /* what stands in the equations of a time step over the mean force of that step; 1 at rest */
+    double    weight;
+    double   *rebound;                                 /* in motion: mean of impulses in the step, N (n) */
+    int       moves;                                   /* 1: the last state solved for is one in motion */
     pg_contact_values *shown;  size_t nshown, cap_shown;         /* of the last step, for results */
     contact_route route;
     contact_memory now, start;                         /* start: of the step, for one that is refused */
@@ -94,8 +99,8 @@ pg_status contact_create  (pg_system *s);              /* where the options ask 
 void      contact_free    (pg_system *s);
 /* After the force was refreshed: pieces and rows of the cracks of the state. */
 pg_status contact_refresh (pg_system *s, const pg_state *state);
-/* As system_solve, at rest. */
-pg_status contact_solve   (pg_system *s, double t, double *d, double *residual);
+/* As system_solve. */
+pg_status contact_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 /* Gaps of a displacement under the forces at hand, without what the layer between the faces gives way by. */
 void contact_gaps (struct system_contact *c, const double *d);
 /* What the report says of the pieces. */
@@ -105,8 +110,13 @@ void contact_count (pg_system *s);
 void contact_note_overlap (pg_system *s, const pg_state *state);
 /* What the layers between closed faces store, J: a part of the strain energy of the body. */
 double contact_energy (const pg_system *s);
-/* Forces of contact on the nodes, N (ndof); NULL: none. */
+/* Forces of contact on the nodes as they stand in the equations, N (ndof); NULL: none. */
 const double *contact_forces (const pg_system *s);
+/* In motion, pairs that were apart at displacement d and bear pressure now: their normal forces on the nodes,
+ * N (ndof), and the work that they have done on the gaps that there were, J. */
+pg_status contact_impacts (const pg_system *s, const double *d, double *nodal, double *work);
+/* Impulses so many times these forces stand beside them, for results: s over the time step. */
+void      contact_rebound (const pg_system *s, double times);
 /* At the start of a run: tips that are closed at full load cut bonds up to an offset of their own. */
 pg_status contact_settle_tips (pg_system *s, pg_state *state);
 /* What the faces behind a tip do to each other, in the one field at hand, or in the two of a stretch. */
@@ -115,7 +125,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
  * of now, the factor is made first, as the equilibrium of open cracks then is one solve. */
 pg_status contact_factor   (pg_system *s);
 /* Z and C for the K of now, unless they are. */
-pg_status contact_condense (pg_system *s);
+pg_status contact_condense (pg_system *s, const dynamics *dyn);
 
 /* The same behind each vertex of a front, loads scaled (contact_fronts.c). */
 void contact_at_front (const pg_system *s, const pg_front *front, double scale, pg_front_faces *out);

@@ -74,11 +74,32 @@ done:
     return status;
 }
 
+/* In a time step the mean force of the step does work on the slips from its begin to its end, exactly; rounds
+ * of breaking find both anew. */
+static void book_step (struct system_contact *c)
+{
+    size_t dim = c->pieces.dim;
+    contact_layout l = contact_layout_of (dim);
+    double work = 0;
+    for (size_t k = 0; k < c->pieces.n; k++) {
+        double *v = c->now.value + k * l.values, area = c->weight * c->pieces.piece[k].area;
+        for (size_t a = 1; a < dim && c->active; a++) {
+            size_t i = dim * k + a;
+            work -= c->force[i] / c->weight * (c->gap[i] - c->before[k * (dim - 1) + a - 1]);
+        }
+        contact_vector (&c->pieces, k, c->gap + dim * k + 1, 1, v + l.slip);
+        memset (v + l.shear, 0, l.parts * sizeof *v);
+        if (c->active) contact_vector (&c->pieces, k, c->force + dim * k + 1, 1 / area, v + l.shear);
+    }
+    c->now.friction = c->start.friction + work;
+}
+
 void contact_book (pg_system *s, double scale)
 {
     struct system_contact *c = s->contact;
     contact_layout l = contact_layout_of (c ? c->pieces.dim : 2);
-    for (size_t k = 0; c && k < c->pieces.n; k++) {
+    if (c && c->moves) book_step (c);
+    for (size_t k = 0; c && !c->moves && k < c->pieces.n; k++) {
         const double none[2] = { 0, 0 };
         size_t i = c->pieces.dim * k + 1;
         double *v = c->now.value + k * l.values, area = c->pieces.piece[k].area, shear[3], slip[3];

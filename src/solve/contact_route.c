@@ -140,7 +140,7 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
     }
     for (size_t k = 0; k < rows_of (c); k++) r->rate[k] -= r->gap[k];
     c->touched = r->touches;
-    if (r->touches) PG_TRY (contact_condense (s));
+    if (r->touches) PG_TRY (contact_condense (s, NULL));
     PG_TRY (begin_at (s, at));
     show_forces (s);
 done:
@@ -231,7 +231,7 @@ static pg_status find_stretch (pg_system *s, double until, const double *slip, d
         r->track.end = until, r->track.changes = r->track.leapt = 0;
         goto done;
     }
-    PG_TRY (contact_condense (s));
+    PG_TRY (contact_condense (s, NULL));
     const pg_contact_track before = r->track;
     int leapt = 0;
     double t0 = pg_seconds ();
@@ -309,7 +309,7 @@ pg_status contact_route_go (pg_system *s, double t)
     contact_route *r = &c->route;
     double to = t == contact_route_end (s) ? r->track.end : t - r->from;
     if (r->touches) {
-        PG_TRY (contact_condense (s));                 /* a resumed run has no compliance yet */
+        PG_TRY (contact_condense (s, NULL));                 /* a resumed run has no compliance yet */
         pg_contact_path path = path_of (c, NULL);
         pg_contact_go (&r->track, &path, to);
     } else {

@@ -3,7 +3,9 @@
  * u0, gi without displacement; where one is negative, forces f of the pieces follow from the complementarity
  * of g = g0 + C f, C = G K^-1 G', and the displacement is u = u0 + Z f, Z = K^-1 G' (closed form: nothing is
  * factored again). What rounding leaves is mended by the same refinement as all equilibria, with G' f among
- * the loads, and by forces for the gaps that are then measured. */
+ * the loads, and by forces for the gaps that are then measured.
+ * In motion K is the matrix of the time step, k K + m M, u its end, and the force in the equations `weight`
+ * times the mean force f of the step (newmark.c). */
 #include "contact.h"
 #include <float.h>
 #include <math.h>
@@ -37,7 +39,8 @@ pg_status contact_create (pg_system *s)
     PG_ALLOC (s->contact, 1);
     s->contact->setting = o->contact;
     /* proportional loads: every state scales with the load factor, slips too, from the unloaded one */
-    s->contact->history = !o->event;                   /* loads with a constant part: contact_route.c */
+    /* loads with a constant part: contact_route.c */
+    s->contact->history = !o->event, s->contact->weight = 1;
     PG_ALLOC (s->contact->nodal, s->ndof);
     s->contact->pieces.dim = (size_t) s->problem->dim;
     if (platens) PG_TRY (platens_create (s));
@@ -50,6 +53,7 @@ static void clear_pairs (struct system_contact *c)
 {
     contact_route_clear (c);
     pg_free (c->Z), pg_free (c->C), pg_free (c->coefficient), pg_free (c->cohesion), pg_free (c->before);
+    pg_free (c->rebound), c->rebound = NULL;
     pg_free (c->force), pg_free (c->gap), pg_free (c->open), pg_free (c->status), pg_free (c->initial);
     c->Z = c->C = c->coefficient = c->cohesion = c->before = c->force = c->gap = c->open = c->initial = NULL;
     c->status = NULL;
@@ -91,6 +95,7 @@ static pg_status make_pairs (pg_system *s)
     PG_ALLOC (c->open, dim * n);
     PG_ALLOC (c->initial, dim * n);
     PG_ALLOC (c->status, n);
+    PG_ALLOC (c->rebound, n);
     for (size_t k = 0; k < n; k++) {
         const pg_contact_piece *piece = &c->pieces.piece[k];
         c->coefficient[k] = piece->platen ? s->problem->platen[piece->platen - 1].friction
@@ -98,6 +103,9 @@ static pg_status make_pairs (pg_system *s)
         c->cohesion[k] = piece->platen ? 0 : c->setting.cohesion * piece->area;
     }
     PG_TRY (contact_remember (c));
+    for (size_t k = 0; k < c->ncrack; k++)             /* crumbled faces have no slip */
+        if (c->G.start[dim * k] == c->G.start[dim * (k + 1)])
+            memset (c->before + k * (dim - 1), 0, (dim - 1) * sizeof *c->before);
 done:
     return status;
 }
@@ -129,7 +137,9 @@ pg_status contact_refresh (pg_system *s, const pg_state *state)
     c->pieces.dim = (size_t) s->problem->dim, c->ncrack = c->pieces.n;
     PG_TRY (platens_refresh (s, state));
     PG_TRY (make_pairs (s));
-    PG_TRY (loose_refresh (&c->loose, s, state));
+    /* in motion their mass holds them */
+    if ((s->options->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC)
+        PG_TRY (loose_refresh (&c->loose, s, state));
     s->report->contact_seconds += pg_seconds () - t0;
 done:
     return status;
@@ -211,20 +221,24 @@ static int needs_column (const struct system_contact *c, size_t j)
 
 /* Z = K^-1 G', by the factor at hand all columns at once, else one after the other. What iterations in space
  * leave of a column is found by the rounds that follow, which are fewer than columns. */
-static pg_status solve_columns (pg_system *s)
+static pg_status solve_columns (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     size_t n = c->pieces.dim * c->pieces.n;
-    double *rhs = NULL, *solved = NULL, t0 = pg_seconds ();
+    double *rhs = NULL, *solved = NULL, *kept = NULL, t0 = pg_seconds ();
     if (!c->Z) PG_ALLOC (c->Z, s->ndof * n);
     PG_ALLOC (rhs, s->nred * n);
     PG_ALLOC (solved, s->nred * n);
+    if (dyn) {                                         /* iterations would carry it along */
+        PG_ALLOC (kept, s->ndof);
+        memcpy (kept, s->residual, s->ndof * sizeof *kept);
+    }
     for (size_t j = 0; j < n; j++) load_column (s, j, s->full, rhs + j * s->nred);
     /* so many columns are worth a factor of this K where an older one would only precondition; else the first
      * solve makes the factor if there is to be one */
-    if (s->mode == SYSTEM_KEPT_FACTOR && s->stale && n > MANY) PG_TRY (system_factorize (s, NULL));
+    if (s->mode == SYSTEM_KEPT_FACTOR && s->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
     size_t first = 0;
     for (; first < n && !has_factor (s); first++) {
         if (!needs_column (c, first)) continue;
@@ -233,7 +247,7 @@ static pg_status solve_columns (pg_system *s)
         s->known = s->carried = 0;
         memcpy (s->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
         memset (s->delta, 0, s->nred * sizeof *s->delta);
-        PG_TRY (system_solve_once (s, NULL, c->pieces.dim == 3 ? COLUMN_SPACE : COLUMN));
+        PG_TRY (system_solve_once (s, dyn, c->pieces.dim == 3 ? COLUMN_SPACE : COLUMN));
         memcpy (solved + first * s->nred, s->delta, s->nred * sizeof *rhs);
     }
     if (first < n)
@@ -244,7 +258,8 @@ static pg_status solve_columns (pg_system *s)
         if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);
         else memcpy (c->Z + j * s->ndof, solved + j * s->nred, s->ndof * sizeof *rhs);
 done:
-    pg_free (rhs), pg_free (solved);
+    if (kept) memcpy (s->residual, kept, s->ndof * sizeof *kept);
+    pg_free (rhs), pg_free (solved), pg_free (kept);
     s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
     return status;
 }
@@ -257,14 +272,14 @@ pg_status contact_factor (pg_system *s)
 }
 
 /* C = G Z, symmetric but for rounding, which is taken out. */
-pg_status contact_condense (pg_system *s)
+pg_status contact_condense (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     size_t n = c->pieces.dim * c->pieces.n;
     if (c->made == s->revision + 1) return PG_OK;
     double t0 = pg_seconds ();
-    PG_TRY (solve_columns (s));
+    PG_TRY (solve_columns (s, dyn));
     if (!c->C) PG_ALLOC (c->C, n * n);
     for (size_t j = 0; j < n; j++)
         pg_sparse_multiply_transposed (&c->G, c->Z + j * s->ndof, c->C + j * n);
@@ -277,6 +292,10 @@ pg_status contact_condense (pg_system *s)
     for (size_t j = 0; j < n; j++)                     /* not asked for, but positive */
         if (!needs_column (c, j)) c->C[j * n + j] = c->C[(j / 3 * 3) * (n + 1)];
     for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) c->C[i * n + i] += c->soft[i];
+    /* empty columns bear nothing, whatever their compliance */
+    double most = 0;
+    for (size_t j = 0; j < n; j++) most = fmax (most, c->C[j * n + j]);
+    for (size_t j = 0; j < n; j++) if (!(c->C[j * n + j] > 0)) c->C[j * n + j] = most;
     c->made = s->revision + 1;
     s->report->contact_seconds += pg_seconds () - t0;
 done:
@@ -318,8 +337,10 @@ static pg_status press (pg_system *s, double t, double *d, double *change)
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     size_t n = c->pieces.dim * c->pieces.n;
-    double *old = NULL, size = 0;
+    double *old = NULL, *cohesion = NULL, size = 0;
     PG_ALLOC (old, n);
+    PG_ALLOC (cohesion, c->pieces.n);
+    for (size_t k = 0; k < c->pieces.n; k++) cohesion[k] = c->weight * c->cohesion[k];
     memcpy (old, c->force, n * sizeof *old);
     memcpy (c->open, c->gap, n * sizeof *old);
     for (size_t j = 0; j < n; j++)
@@ -328,7 +349,7 @@ static pg_status press (pg_system *s, double t, double *d, double *change)
     if (contact_motions (s)) PG_TRY (contact_press_free (s, t, &solution, c->open, d));
     else {
         pg_contact_problem problem = { c->pieces.n, c->pieces.dim, c->C, c->open, c->coefficient,
-                                       c->cohesion, c->history ? c->before : NULL };
+                                       cohesion, c->history ? c->before : NULL };
         PG_TRY (pg_contact_solve (&solution, &problem));
     }
     pg_statistics *r = s->report;
@@ -344,7 +365,7 @@ static pg_status press (pg_system *s, double t, double *d, double *change)
     pg_sparse_multiply (&c->G, c->force, c->nodal);
     c->active = 1;
 done:
-    pg_free (old);
+    pg_free (old), pg_free (cohesion);
     return status;
 }
 
@@ -363,20 +384,6 @@ void contact_count (pg_system *s)
     }
 }
 
-/* Ends of broken bonds beside a kink come together by strains that vary too fast for a mean of both ends, so
- * that they say nothing of faces that are held apart: places on the faces do. */
-void contact_note_overlap (pg_system *s, const pg_state *state)
-{
-    const struct system_contact *c = s->contact;
-    double overlap = 0;
-    int points = c && s->force->jump;
-    pg_contact_pieces cracks = { 0 };                  /* borrowed: without the pieces of platens */
-    if (points) cracks = c->pieces, cracks.n = c->ncrack, cracks.npoint = cracks.first[c->ncrack];
-    if (points && pg_contact_overlap (&overlap, &cracks, s->force, s->self, state, state->d) != PG_OK) return;
-    if (!points && s->force->overlap) overlap = s->force->overlap (s->self, state, state->d);
-    s->report->overlap_max = fmax (s->report->overlap_max, overlap);
-}
-
 /* Springs of loose parts bear nothing in an equilibrium. */
 static pg_status check_loose (const pg_system *s, const double *d)
 {
@@ -390,7 +397,7 @@ static pg_status check_loose (const pg_system *s, const double *d)
 }
 
 /* Equilibrium with the pairs at hand. */
-static pg_status solve_pairs (pg_system *s, double t, double *d, double *residual)
+static pg_status solve_pairs (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
@@ -398,6 +405,7 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, double *residua
     c->active = 0;
     memset (c->force, 0, n * sizeof *c->force);
     memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
+    memset (c->rebound, 0, c->pieces.n * sizeof *c->rebound);
     /* a body that platens alone load has no forces while they are away: from rest, not from what rounding
      * would leave of a displacement */
     if (c->platens.n) memset (d, 0, s->ndof * sizeof *d);
@@ -410,15 +418,16 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, double *residua
         s->mode = SYSTEM_FACTOR;
         PG_TRY (system_factorize (s, NULL));
     }
-    PG_TRY (contact_factor (s));
-    PG_TRY (system_solve_linear (s, t, d, NULL, residual));
+    if (!dyn) PG_TRY (contact_factor (s));
+    PG_TRY (system_solve_linear (s, t, d, dyn, residual));
     if (n) contact_gaps (c, d);
+    s->begins = 0;                                     /* first guesses are those of the open faces */
     double change = 1;
     int closes = c->touched = any_overlap (c) || contact_motions (s) > 0;
-    if (closes) PG_TRY (contact_condense (s));
+    if (closes) PG_TRY (contact_condense (s, dyn));
     for (int round = 0; closes && round < MOST_ROUNDS && change > GOOD; round++) {
         PG_TRY (press (s, t, d, &change));
-        PG_TRY (system_solve_linear (s, t, d, NULL, residual));
+        PG_TRY (system_solve_linear (s, t, d, dyn, residual));
         contact_gaps (c, d);
     }
     PG_TRY (check_loose (s, d));
@@ -446,11 +455,12 @@ static pg_status check_proportion (const pg_system *s)
 }
 
 /* Pieces of platens that were no pairs may have closed: then once more, with them. */
-pg_status contact_solve (pg_system *s, double t, double *d, double *residual)
+pg_status contact_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
+    s->contact->moves = dyn != NULL, s->contact->weight = dyn ? dyn->contact : 1;
     for (;;) {
-        PG_TRY (solve_pairs (s, t, d, residual));
+        PG_TRY (solve_pairs (s, t, d, dyn, residual));
         if (!platens_look (s, d)) break;
         PG_TRY (contact_more_pairs (s));
     }
@@ -513,7 +523,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
 static pg_status find_closed (pg_system *s, const pg_state *state, double t, double *d, unsigned char *closed)
 {
     double residual;
-    pg_status now = contact_solve (s, t, d, &residual);
+    pg_status now = contact_solve (s, t, d, NULL, &residual);
     for (size_t i = 0; now == PG_OK && i < state->paths->ntip; i++) {
         pg_tip_faces faces;
         contact_at_tip (s, state, i, 1, &faces);
@@ -556,36 +566,4 @@ int pg_solver_tip_faces (const pg_solver *s, const pg_state *state, size_t tip, 
     contact_at_tip (&s->break_loop.system, state, tip, 1, out);
     out->stress[0][0] *= scale, out->stress[0][1] *= scale;
     return 1;
-}
-
-pg_status contact_show (pg_system *s, double scale)
-{
-    pg_status status = PG_OK;
-    struct system_contact *c = s->contact;
-    if (!c) return PG_OK;
-    platens_show (s, scale);
-    PG_GROW (c->shown, c->cap_shown, c->pieces.n);
-    c->nshown = c->pieces.n;
-    for (size_t k = 0; k < c->nshown; k++) {
-        const pg_contact_piece *p = &c->pieces.piece[k];
-        size_t i = c->pieces.dim * k;
-        double force = c->active ? scale / p->area : 0;
-        c->shown[k] = (pg_contact_values) { .path = p->path, .platen = p->platen,
-                                            .x = { p->x[0], p->x[1], p->x[2] },
-                                            .normal = { p->normal[0], p->normal[1], p->normal[2] },
-                                            .area = p->area, .length = p->length, .arc = p->arc,
-                                            .pressure = force * c->force[i], .gap = scale * c->gap[i],
-                                            .status = c->active ? c->status[k] : PG_CONTACT_OPEN };
-        contact_vector (&c->pieces, k, c->force + i + 1, force, c->shown[k].shear);
-        contact_vector (&c->pieces, k, c->gap + i + 1, scale, c->shown[k].slip);
-    }
-done:
-    return status;
-}
-
-const pg_contact_values *pg_solver_contact (const pg_solver *s, size_t *n)
-{
-    const struct system_contact *c = s->break_loop.system.contact;
-    *n = c ? c->nshown : 0;
-    return c ? c->shown : NULL;
 }

@@ -8,7 +8,16 @@
  * alpha = 0 is Newmark's method; alpha in [-1/3, 0) that of Hilber, Hughes and Taylor (1977), which damps the
  *     motions that the step cannot
  * resolve; beta = (1 - alpha)^2 / 4 and gamma = 1/2 - alpha then keep it of second order.
+ * Contact of crack faces (contact_solve.c) acts with a force f that is constant in a step, its impulse dt f,
+ * of which the average acceleration knows nothing: A and V = ... are those of the forces besides f, and
+ *     U = ... + dt^2/2 M^-1 G' f,   V = ... + dt M^-1 G' f   (Kane, Repetto, Ortiz, Marsden, IJNME 45, 1999).
+ * For gamma = 2 beta V is the same function of dU as without, R has f / (2 beta) besides, and A is what is
+ * above less M^-1 G' f / (2 beta). With gamma = 1/2 the energy changes by f . (g_t+dt - g_t) through contact:
+ * it falls by what friction takes, and by f_n g_n,t where faces that were apart meet, and never grows. An
+ * elastic body loses nothing where it is met: impulses restore what faces lost (newmark_rebound; Laursen and
+ * Love 2002).
  * Nodes whose motion is prescribed by elimination take V and A from that motion (newmark_start.c). */
+#include "contact.h"
 #include "facet_growth.h"
 #include "newmark_state.h"
 #include <math.h>
@@ -100,9 +109,11 @@ static void add_resistance (void *context, const double *d, double *residual)
     const course *m = context;
     newmark *n = m->n;
     double *v = n->work1, *a = n->work3, *Ma = n->work4;
+    const double *contact = contact_forces (n->system);
     rates (m, d, v, a);
     newmark_damp (n, v, residual);
     system_add_held (n->system, residual);
+    for (size_t i = 0; contact && i < n->system->ndof; i++) residual[i] += contact[i];
     memset (Ma, 0, n->system->ndof * sizeof *Ma);
     system_add_mass (n->system, 1, a, Ma);
     for (size_t i = 0; i < n->system->ndof; i++) residual[i] -= Ma[i];
@@ -113,6 +124,7 @@ const dynamics *newmark_matrix (newmark *n)
     coefficients c = coefficients_of (&n->setting, n->dt);
     double share = 1 + n->setting.alpha;
     n->dyn.k = share * (1 + c.b[3] * n->setting.rayleigh_stiffness);
+    n->dyn.contact = c.b[2];
     n->dyn.m = c.b[0] + share * c.b[3] * n->setting.rayleigh_mass;
     return &n->dyn;
 }
@@ -131,6 +143,8 @@ pg_status newmark_advance (newmark *n, break_loop *b, const pg_state *from, pg_s
     if (b->round == 0) predict (&m, state->d);
     PG_TRY (equilibrate (b, state, t, state->d, &dyn, step));
     rates (&m, state->d, state->v, state->a);
+    PG_TRY (newmark_without_contact (n, state->a));
+    PG_TRY (newmark_rebound (n, from, state->v));
     if (n->setting.alpha != 0) PG_TRY (newmark_remember (n, t, state));
 done:
     return status;
@@ -178,6 +192,8 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
+    contact_accept (&b->system);
+    PG_TRY (contact_show (&b->system, 1));
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     while ((double) s->next_level / (double) s->options.levels <= step->factor * (1 + 1e-12))
@@ -231,6 +247,13 @@ static void newmark_read (pg_solver_options *o, const pg_problem *problem, const
     if (pg_scene_given (scene, "solver.gamma")) own->gamma = pg_scene_number (scene, "solver.gamma");
     if (own->gamma > 2 * own->beta)
         pg_scene_fault (scene, "solver.beta", "newmark is unconditionally stable only for 2 beta >= gamma");
+    else if (o->contact.kind != PG_CONTACT_NONE
+             && (own->alpha != 0 || fabs (own->gamma - 2 * own->beta) > 1e-12))
+        pg_scene_fault (scene, own->alpha != 0 ? "solver.alpha" : "solver.beta",
+                        "impulses of contact go with alpha: 0 and gamma = 2 beta: leave alpha, beta and "
+                        "gamma out, or set contact.kind: none");
+    if (o->contact.kind != PG_CONTACT_NONE && own->consistent)
+        pg_scene_fault (scene, "solver.mass", "contact.kind goes with lumped masses: use lumped");
 }
 
 #define ROW PG_SOLVER_KEY
@@ -247,7 +270,7 @@ static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 const pg_solver_type pg_solver_newmark = {
     .name = "newmark",
     .summary = "implicit dynamics, Newmark's method",
-    .flags = PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS,
+    .flags = PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS | PG_SOLVER_CONTACT,
     .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear,
               &solver_keys_step, &solver_keys_time },
     .read = newmark_read,

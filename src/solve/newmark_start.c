@@ -3,7 +3,9 @@
  * Their V = T q' + z' and A = T q'' + z'' follow from z: Newmark's own recursion would turn any error in them
  * into an oscillation that never dies. Start: d, V as given but for the supports; T' M T q'' = T' (P - F_int
  * - C V - M z''). */
+#include "contact.h"
 #include "newmark_state.h"
+#include <math.h>
 #include <string.h>
 
 /* T, where the force takes prescribed values by elimination; NULL: it does not. */
@@ -138,6 +140,45 @@ static pg_status accelerate (pg_system *sys, double *a)
     const double *gain = T ? sys->full : sys->delta;
     for (size_t i = 0; i < sys->ndof; i++) a[i] += gain[i];
 done:
+    return status;
+}
+
+/* a -= what the forces of contact that stand in the equations accelerate. The residual stays as it is. */
+pg_status newmark_without_contact (newmark *n, double *a)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = n->system;
+    const double *contact = contact_forces (sys);
+    double *kept = n->work4;
+    if (!contact) return PG_OK;
+    memcpy (kept, sys->residual, sys->ndof * sizeof *kept);
+    for (size_t i = 0; i < sys->ndof; i++) sys->residual[i] = -contact[i];
+    status = accelerate (sys, a);
+    memcpy (sys->residual, kept, sys->ndof * sizeof *kept);
+    return status;
+}
+
+/* Pairs that have closed in this step have lost f_n times the gap that there was. Impulses in proportion to
+ * their forces, s q, give it back to the velocities: s^2/2 dv M dv + s v M dv = W, dv = M^-1 G' q. */
+pg_status newmark_rebound (newmark *n, const pg_state *from, double *v)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = n->system;
+    double *kept = n->work4, *dv = kept + sys->ndof, lost = 0, a = 0, b = 0;
+    if (!contact_forces (sys)) return PG_OK;
+    memcpy (kept, sys->residual, sys->ndof * sizeof *kept);
+    PG_TRY (contact_impacts (sys, from->d, sys->residual, &lost));
+    memset (dv, 0, sys->ndof * sizeof *dv);
+    if (lost > 0) PG_TRY (accelerate (sys, dv));
+    for (size_t i = 0; lost > 0 && i < sys->ndof; i++)
+        a += sys->mass[i] * dv[i] * dv[i], b += sys->mass[i] * v[i] * dv[i];
+    /* the root that presses faces apart, without cancellation */
+    double root = sqrt (b * b + 2 * a * lost),
+           s = !(a > 0) ? 0 : b > 0 ? 2 * lost / (b + root) : (root - b) / a;
+    for (size_t i = 0; a > 0 && i < sys->ndof; i++) v[i] += s * dv[i];
+    contact_rebound (sys, s / n->dt);
+done:
+    memcpy (sys->residual, kept, sys->ndof * sizeof *kept);
     return status;
 }
 

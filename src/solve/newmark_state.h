@@ -42,6 +42,10 @@ void      newmark_follow   (newmark *n, double t, double *v, double *a);
 void      newmark_resist   (newmark *n, const double *v, const double *a, double *residual);
 void      newmark_damp     (newmark *n, const double *v, double *residual);                   /* -= C v */
 pg_status newmark_remember (newmark *n, double t, const pg_state *state);  /* fills force0 */
+/* A knows nothing of contact: a less M^-1 G' f of the step's end. */
+pg_status newmark_without_contact (newmark *n, double *a);
+/* Gives back to V what faces lost that have met since `from`. */
+pg_status newmark_rebound (newmark *n, const pg_state *from, double *v);
 double    newmark_kinetic  (newmark *n, const double *v);              /* J */
 
 /* Damping, mass and scheme from the scene, below this map; its other keys are the caller's. */

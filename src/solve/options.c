@@ -334,7 +334,8 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
 {
     const pg_force_type *force = pg_force_of (problem);
     char names[200];
-    int by_bonds = force && force->faces, rests = (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
+    int by_bonds = force && force->faces, rests = (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC,
+        moves = (o->flags & PG_SOLVER_IMPLICIT) && (o->flags & PG_SOLVER_NEEDS_DENSITY);
     if (o->contact.kind == PG_CONTACT_NONE) return;
     if (o->contact.search == PG_CONTACT_SHORT_RANGE) {
         check_short_range (o, problem, scene);
@@ -345,11 +346,20 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
     if (!(o->flags & PG_SOLVER_CONTACT))
         pg_scene_fault (scene, "contact.kind", "solver.kind: %s does not know contact yet: use %s, or set "
                         "none", o->kind, names);
-    else if (!by_bonds && !rests)
+    else if (moves && problem->dim == 3)
+        pg_scene_fault (scene, "contact.kind",
+                        "solver.kind: %s keeps faces apart in the plane only so far: set none", o->kind);
+    else if (moves && (by_bonds || pg_criterion_of_tips (problem->criterion)))
+        pg_scene_fault (scene, "contact.kind",
+                        by_bonds ? "solver.kind: %s keeps faces apart in forces with shape functions only: "
+                                   "use force: galerkin, or set none"
+                                 : "solver.kind: %s does not know it with facets in motion: judge bonds, "
+                                   "leave failure out, or set none", o->kind);
+    else if (!by_bonds && !rests && !moves)
         pg_scene_fault (scene, "contact.kind",
                         "solver.kind: %s knows it of forces by bonds, whose layer between the faces is a "
                         "spring: use solver.kind: static, another method.force, or set none", o->kind);
-    else if (breaks_bonds (problem) && (!by_bonds || rests))
+    else if (breaks_bonds (problem) && !moves && (!by_bonds || rests))
         pg_scene_fault (scene, "contact.kind",
                         "keeps the faces of cracks apart, not single broken bonds: judge tips (break: "
                         "facet), leave failure out, or set none");

@@ -288,6 +288,6 @@ done:
 
 pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
-    return s->contact && !dyn ? contact_solve (s, t, d, residual)
-                              : system_solve_linear (s, t, d, dyn, residual);
+    return s->contact ? contact_solve (s, t, d, dyn, residual)
+                      : system_solve_linear (s, t, d, dyn, residual);
 }

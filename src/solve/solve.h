@@ -15,6 +15,7 @@ typedef struct pg_dynamics {                           /* what inertia and dampi
     /* x = d + c_K v with the velocity v that belongs to d: forces are linear, so that their residual at x has
      * the damping by stiffness in it, which `add` then leaves out. 0, and x is not filled: there is none. */
     int  (*join) (void *context, const double *d, double *x);
+    double contact;  /* what stands in the equations of a force of contact over its mean in the step */
     int    whole;  /* 1: that residual is P - F_int - M a - C v, as reactions need it */
     void  *context;
 } dynamics;
