@@ -115,17 +115,6 @@ void contact_book (pg_system *s, double scale)
     if (c) s->report->energy_friction = c->now.friction;
 }
 
-void contact_accept (pg_system *s)
-{
-    struct system_contact *c = s->contact;
-    contact_layout l = contact_layout_of (c ? c->pieces.dim : 2);
-    for (size_t k = 0; c && k < c->pieces.n; k++) {
-        const double *slip = c->gap + c->pieces.dim * k + 1;
-        contact_vector (&c->pieces, k, slip, 1, c->now.value + k * l.values + l.accepted);
-        memcpy (c->before + k * (c->pieces.dim - 1), slip, (c->pieces.dim - 1) * sizeof *slip);
-    }
-}
-
 /* Slips of the last accepted step, as the memory has them. */
 static void take_before (struct system_contact *c)
 {
@@ -133,6 +122,18 @@ static void take_before (struct system_contact *c)
     for (size_t k = 0; c->now.n == c->pieces.n && k < c->now.n; k++)
         part_along (&c->pieces, k, c->now.value + k * l.values + l.accepted,
                     c->before + k * (c->pieces.dim - 1));
+}
+
+void contact_accept (pg_system *s)
+{
+    struct system_contact *c = s->contact;
+    if (!c) return;
+    contact_layout l = contact_layout_of (c->pieces.dim);
+    for (size_t k = 0; k < c->pieces.n; k++)
+        contact_vector (&c->pieces, k, c->gap + c->pieces.dim * k + 1, 1,
+                        c->now.value + k * l.values + l.accepted);
+    /* by way of the memory, whose vectors round: a resumed run has them from there too */
+    take_before (c);
 }
 
 /* One memory as another. */

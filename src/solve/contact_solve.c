@@ -239,6 +239,8 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     /* so many columns are worth a factor of this K where an older one would only precondition; else the first
      * solve makes the factor if there is to be one */
     if (s->mode == SYSTEM_KEPT_FACTOR && s->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
+    /* not counted among the solves, of which every so many are measured: a resumed run has these again */
+    long solves = s->report->solves;
     size_t first = 0;
     for (; first < n && !has_factor (s); first++) {
         if (!needs_column (c, first)) continue;
@@ -252,7 +254,7 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     }
     if (first < n)
         PG_TRY (s->linear->solve (s->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
-    s->report->contact_columns += (long) n;
+    s->report->contact_columns += (long) n, s->report->solves = solves;
     PG_TRY (refine_columns (s, rhs, solved, n));
     for (size_t j = 0; j < n; j++)
         if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);

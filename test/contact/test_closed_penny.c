@@ -2,9 +2,10 @@
  * Closed cracks in space: a penny-shaped crack in a box whose surface bears the tractions of uniform stress.
  * Closed without friction its faces carry a uniform pressure, and what is left is the same crack under the
  * shear stress alone; friction takes mu sigma_n of that. Pieces of discs, polygons and grown surfaces; units,
- * mirrors, threads; checkpoints of its memory are those of the plane (test/results). */
+ * mirrors, threads, checkpoints. */
 #include "contact/pieces.h"
 #include "scene_runs/run.h"
+#include "solve/tape.h"
 
 /* A disc of `radius` spacings, its normal turned by `tilt` from the z axis towards x, under 1 Pa of
  * compression along z; shear: the shear part of that stress on the disc alone. */
@@ -228,6 +229,31 @@ static void surfaces_are_divided (void **state)
     }
 }
 
+/* Loaded and half unloaded, with friction: slips of the step before decide what sticks. */
+static void a_resumed_run_goes_on_bit_by_bit (void **state)
+{
+    (void) state;
+    const char *text =
+        "dimension: 3\nbody: [{add: {box: {low: [-4, -4, -4], high: [4, 4, 4]}}}]\nspacing: 1\n"
+        "lattice: cells\ncracks: [{disc: {center: [0.1, 0.2, 0.1], normal: [1, 0.2, 1.3], radius: 3}}]\n"
+        "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n"
+        "contact: {kind: friction, coefficient: 0.3}\nboundary:\n"
+        "  - {name: foot, set: back, displacement: {x: 0, y: 0, z: 0}}\n"
+        "  - {name: head, set: front, traction: {z: -10}, table: [[0, 0], [0.5, 1], [1, 0.4]]}\n"
+        "solver: {kind: static, stepping: fixed, steps: 4}\noutput: {at: {levels: 1}}\n";
+    run a = prepare (1, text), b = prepare (1, text);
+    tape t = { 0 };
+    for (int i = 0; i < 3; i++) advance (&a);
+    keep (&a, &t, 0);
+    keep (&b, &t, 1);
+    advance_alike (&a, &b);
+    assert_true (pg_solver_report_now (a.solver)->energy_friction > 0);
+    assert_true (pg_solver_report_now (a.solver)->energy_friction
+                 == pg_solver_report_now (b.solver)->energy_friction);
+    clear (&a), clear (&b);
+    pg_free (t.byte);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -235,6 +261,7 @@ int main (void)
         cmocka_unit_test (a_flat_penny_carries_the_pressure),
         cmocka_unit_test (an_inclined_penny_slides),
         cmocka_unit_test (units_and_mirrors_do_not_count),
+        cmocka_unit_test (a_resumed_run_goes_on_bit_by_bit),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
