@@ -13,7 +13,7 @@
  * pair gives way by l / (M area) or l / (G area) per unit force: it transmits what the intact layer did.
  * Single bonds that bear compression alone would lock the crack: inclined ones act as struts. */
 #include "dilatation.h"
-#include "jump.h"
+#include "one_sided.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>

@@ -3,7 +3,7 @@
  * section 3; theory F). After a break only the rows of touched points and of the nodes they see are
  * redone. */
 #include "galerkin.h"
-#include "jump.h"
+#include "one_sided.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -317,6 +317,13 @@ static pg_status jump (void *self, const pg_state *state, size_t n, const double
     return jump_rows (g->problem, &g->problem->approx, state, n, x, normal, radius, out);
 }
 
+static pg_status trace (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
+                        pg_jump_rows *out)
+{
+    const galerkin *g = self;
+    return trace_rows (g->problem, &g->problem->approx, state, n, x, normal, out);
+}
+
 const pg_force_type pg_force_galerkin = {
     .method = { .name = "galerkin",
                 .summary = "weak form with the shape functions of method.approximation (Cui 2022)",
@@ -362,5 +369,5 @@ const pg_force_type pg_force_galerkin = {
     .change = galerkin_change_of,
     .elements = galerkin_elements,
     .jump = jump,
-    .trace = galerkin_trace
+    .trace = trace
 };

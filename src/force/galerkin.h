@@ -284,9 +284,6 @@ const pg_sparse *galerkin_basis (void *self);
 pg_status galerkin_impose (void *self, double t, double *d);
 size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residual, pg_work_balance *out,
                                     size_t at);
-/* trace: on the surface of the body */
-pg_status galerkin_trace (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
-                          pg_jump_rows *out);
 /* elements: finite elements on the nodes, as a preconditioner */
 pg_status galerkin_elements (void *self, pg_elements *out);
 /* bonds and fields */

@@ -1,13 +1,17 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The jump of the displacement across a crack, as sums over nodal unknowns: one-sided shape functions of
- * a place on the crack, seen from a hair's breadth beside it on either side, one less the other. They have a
- * radius of their own: nodes beside a crack that passes close to their row see too little within that of the
- * body for a linear basis (they would lie on one line), and any functions that reproduce linear fields
- * serve. */
-#include "jump.h"
+ * Displacements at places on faces, as sums over nodal unknowns, by shape functions that see one side only:
+ * from a hair's breadth beside the face, nodes behind a crack are not seen.
+ *
+ * Jump across a crack: the functions of one side less those of the other. They have a radius of their own:
+ * nodes beside a crack that passes close to their row see too little within that of the body for a linear
+ * basis (they would lie on one line), and any functions that reproduce linear fields serve.
+ *
+ * Trace on the surface of the body: the functions by which a traction acts there, so that forces at these
+ * places are tractions like any other. */
+#include "one_sided.h"
 #include <string.h>
 
-/* How far beside the crack the place looks from, spacings: beyond what counts as on it (PG_NO_LENGTH). */
+/* How far beside the face the place looks from, spacings: beyond what counts as on it (PG_NO_LENGTH). */
 static const double BESIDE = 5 * PG_NO_LENGTH;
 
 typedef struct {
@@ -18,6 +22,10 @@ typedef struct {
     double side;                                       /* 1: that the normal shows to; -1 */
     unsigned char *alive;
 } looking;
+
+/* What is wanted of the two sides, 1 and -1: the factor of their functions (0: not looked at), and the least
+ * good basis that still counts. */
+typedef struct { double factor[2]; int worst; } sides;
 
 /* Which nodes does each place see from its side? */
 static void look (void *context, size_t first, size_t last, int thread)
@@ -37,36 +45,34 @@ static void look (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Adds the functions of one side, times its sign, to the values of the rows; places whose basis is not the
- * whole one are marked. */
-static pg_status add_side (const pg_approx *a, looking *l, pg_rows *rows, double *value,
-                           unsigned char *poor)
+/* Adds the functions of one side, times their factor, to the values of the rows; places whose basis is not
+ * good enough are marked. */
+static pg_status add_side (const pg_approx *a, looking *l, pg_rows *rows, double factor, int worst,
+                           double *value, unsigned char *poor)
 {
     pg_status status = PG_OK;
     size_t n = rows->n;
     pg_parallel (l->p->threads, n, look, l);
     PG_TRY (a->type->evaluate (a, &l->p->cloud, rows, l->alive, n, NULL, l->p->threads));
     for (size_t q = 0; q < n; q++) {
-        poor[q] |= rows->grade[q] != PG_GRADE_FULL;
+        poor[q] |= rows->grade[q] > worst;
         for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
-            value[e] += l->side * rows->N[e];
+            value[e] += factor * rows->N[e];
     }
 done:
     return status;
 }
 
-pg_status jump_rows (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
-                     const double *x, const double *normal, double radius, pg_jump_rows *out)
+static pg_status find (const pg_problem *p, const pg_approx *a, const pg_state *state, size_t n,
+                       const double *x, const double *normal, const sides *wanted, pg_jump_rows *out)
 {
     pg_status status = PG_OK;
-    pg_approx a = *by;
     pg_family_search *search = NULL;
     pg_rows rows = { 0 };
     unsigned char *poor = NULL;
     looking l = { .p = p, .cracks = pg_state_cracks (p, state), .rows = &rows, .normal = normal };
     memset (out, 0, sizeof *out);
-    a.horizon = radius * p->cloud.h, a.order = 1, a.congruent = a.extrapolates = a.projected = 0;
-    PG_TRY (pg_rows_search (&search, &a, &p->cloud));
+    PG_TRY (pg_rows_search (&search, a, &p->cloud));
     PG_TRY (pg_rows_place (&rows, search, p->dim, n, x, NULL, NULL, NULL, p->threads));
     size_t bonds = rows.family.start[n];
     PG_ALLOC (rows.N, bonds);
@@ -78,7 +84,8 @@ pg_status jump_rows (const pg_problem *p, const pg_approx *by, const pg_state *s
     PG_ALLOC (out->start, n + 1);
     for (int side = 0; side < 2; side++) {
         l.side = side ? -1 : 1;
-        PG_TRY (add_side (&a, &l, &rows, out->value, poor));
+        if (wanted->factor[side] == 0) continue;
+        PG_TRY (add_side (a, &l, &rows, wanted->factor[side], wanted->worst, out->value, poor));
     }
     out->n = n;
     memcpy (out->start, rows.family.start, (n + 1) * sizeof *out->start);
@@ -94,4 +101,22 @@ done:
     pg_free (l.alive), pg_free (poor);
     if (status != PG_OK) pg_jump_rows_clear (out);
     return status;
+}
+
+pg_status jump_rows (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
+                     const double *x, const double *normal, double radius, pg_jump_rows *out)
+{
+    const sides both = { { 1, -1 }, PG_GRADE_FULL };
+    pg_approx a = *by;
+    a.horizon = radius * p->cloud.h, a.order = 1, a.congruent = a.extrapolates = a.projected = 0;
+    return find (p, &a, state, n, x, normal, &both, out);
+}
+
+pg_status trace_rows (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
+                      const double *x, const double *normal, pg_jump_rows *out)
+{
+    const sides inner = { { 0, 1 }, PG_GRADE_LOWERED };
+    pg_approx a = *by;
+    a.congruent = 0;
+    return find (p, &a, state, n, x, normal, &inner, out);
 }

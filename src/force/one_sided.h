@@ -1,0 +1,13 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: displacements at places on faces by one-sided shape functions (one_sided.c), for all forces. */
+#ifndef PG_FORCE_ONE_SIDED_H
+#define PG_FORCE_ONE_SIDED_H
+#include "perigal/force.h"
+
+/* As pg_force_type.jump, by the approximation `by` with a linear basis and that radius. */
+pg_status jump_rows  (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
+                      const double *x, const double *normal, double radius, pg_jump_rows *out);
+/* As pg_force_type.trace, by the approximation `by` as it is. */
+pg_status trace_rows (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
+                      const double *x, const double *normal, pg_jump_rows *out);
+#endif
