@@ -35,6 +35,7 @@ typedef struct {
     size_t *prop;                                      /* unknown on which a spring stands for each (n) */
     double *place;                                     /* middle of its part, m (3 n) */
     double *amount, *target;  /* how far each has moved; where that puts the feet of the springs, m (n) */
+    size_t  unresisted;       /* ways to move that nothing resisted in the state last solved for */
 } contact_loose;
 
 /* Rigid platens (contact_platens.c). */
@@ -49,8 +50,9 @@ typedef struct {
     /* forces and ways of each piece when work was last booked; at the step's start (2 dim all.n) */
     double *booked, *start;
     pg_platen_values *shown;
-    int     warned;
+    int     warned;                                    /* PLATENS_..., what has been told */
 } contact_platens;
+enum { PLATENS_SLIDE = 1, PLATENS_AWAY = 2, PLATENS_UNRESISTED = 4 };
 
 /* Along loads that are a constant part and the share s = t - from times another (contact_route.c). */
 typedef struct {
@@ -157,6 +159,7 @@ int       platens_look    (pg_system *s, const double *d);
 /* Force along axis k on a platen at t, N. */
 double    platens_press   (const pg_problem *p, size_t platen, int k, double t);
 void      platens_react   (pg_system *s);              /* reactions from the forces of the pairs */
+void      platens_tell    (pg_system *s);              /* what is doubtful about the state at the end */
 /* Work from the state booked last to the one at hand, loads scaled, J. */
 double    platens_book    (pg_system *s, double scale);
 /* Fills in the reactions of their loads (nload x 3). */

@@ -336,6 +336,9 @@ static pg_status centre (problem_of_motions *w, const pg_contact_solution *out, 
         const double *mode = by != 0 ? w->c->loose.mode + w->motion[j].mode * n : moved;
         for (size_t i = 0; by != 0 && i < n; i++) moved[i] += by * mode[i];
     }
+    w->c->loose.unresisted = 0;
+    for (size_t a = 0; a < w->m; a++)
+        w->c->loose.unresisted += !(value[a] > RESISTED * value[0] && value[0] > 0);
     /* motions are not at right angles to each other: again and again */
     double most = 1, first = 0;
     for (int pass = 0; pass < MOST_ROUNDS && most > BALANCED * first; pass++) {

@@ -331,7 +331,7 @@ void platens_doubt (pg_system *s)
     size_t dim = c->pieces.dim;
     double worst = 0, h = s->problem->cloud.h;
     size_t at = 0;
-    if (w->warned || !w->n || !c->active) return;
+    if ((w->warned & PLATENS_SLIDE) || !w->n || !c->active) return;
     for (size_t k = c->ncrack; k < c->pieces.n; k++) {
         const pg_contact_piece *piece = &c->pieces.piece[k];
         const pg_platen *p = &s->problem->platen[piece->platen - 1];
@@ -341,12 +341,38 @@ void platens_doubt (pg_system *s)
         if (0.5 * side / p->radius > worst) worst = 0.5 * side / p->radius, at = k;
     }
     if (!(worst > 1e-2 * h)) return;
-    w->warned = 1;
+    w->warned |= PLATENS_SLIDE;
     pg_statistics_warn (s->report,
                         "the body slides along the curved platen %s by %.3g m: gaps are measured along the "
                         "normals at the start, which puts them out by %.2g m there",
                         s->problem->platen[c->pieces.piece[at].platen - 1].name,
                         sqrt (2 * worst * s->problem->platen[c->pieces.piece[at].platen - 1].radius), worst);
+}
+
+/* Does some platen bear a force? */
+static int any_touches (const contact_platens *w)
+{
+    for (size_t i = 0; i < w->n; i++)
+        for (int k = 0; k < 3; k++) if (w->reaction[i][k] != 0) return 1;
+    return 0;
+}
+
+void platens_tell (pg_system *s)
+{
+    struct system_contact *c = s->contact;
+    if (!c) return;
+    contact_platens *w = &c->platens;
+    if (w->n && !(w->warned & PLATENS_AWAY) && !any_touches (w)) {
+        pg_statistics_warn (s->report, "at the end no platen touches the body: look at the signs of their "
+                            "displacements and forces");
+        w->warned |= PLATENS_AWAY;
+    }
+    if (c->loose.unresisted && !(w->warned & PLATENS_UNRESISTED)) {
+        pg_statistics_warn (s->report, "parts that contact alone holds can move in %zu way%s that "
+                            "nothing resists: of all the answers this is the one that leaves their mean "
+                            "place as it was", c->loose.unresisted, c->loose.unresisted > 1 ? "s" : "");
+        w->warned |= PLATENS_UNRESISTED;
+    }
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
@@ -369,7 +395,7 @@ pg_status platens_keep (pg_system *s, const pg_keeper *k)
     if (!w->n) return PG_OK;
     PG_TRY (k->bytes (k->context, "platens.taken", w->all.n, w->taken));
     PG_TRY (k->counts (k->context, "platens.warned", 1, &warned));
-    PG_KEEP_BOUND (k, "a warning of platens", warned, 0, 1);
+    PG_KEEP_BOUND (k, "a warning of platens", warned, 0, 7);
     w->warned = (int) warned;
     PG_TRY (k->numbers (k->context, "platens.motion", 6 * w->n, w->motion[0]));
     PG_TRY (k->numbers (k->context, "platens.reaction", 6 * w->n, w->reaction[0]));

@@ -370,6 +370,36 @@ static void doubtful_platens_are_told (void **state)
     }
 }
 
+/* Smooth platens hold a block across them only; rough ones hold it; one that goes away holds nothing. */
+static void what_nothing_holds_is_told (void **state)
+{
+    (void) state;
+    static const struct { const char *friction, *way, *words; } cases[] = {
+        { "0", "-0.01", "can move in 1 way that nothing resists" },
+        { "0.3", "-0.01", NULL },
+        { "0.3", "0.01", "no platen touches the body" },
+    };
+    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
+        char text[2000];
+        snprintf (text, sizeof text, BLOCK ("stress", "[1, 1]", "0.1", "")
+                  "platens:\n  - {name: base, point: [0.5, 0], normal: [0, 1], friction: %s}\n"
+                  "  - {name: head, point: [0.5, 1], normal: [0, -1], friction: %s, displacement: {y: %s}}\n"
+                  "solver: {kind: static, stepping: fixed, steps: 1}\noutput: {at: {levels: 1}}\n",
+                  cases[i].friction, cases[i].friction, cases[i].way);
+        run r = prepare (1, text);
+        to_the_end (&r);
+        int found = 0;
+        for (int twice = 0; twice < 2; twice++) {      /* told once, however often the report is asked for */
+            const pg_statistics *s = pg_solver_report (r.solver, r.state);
+            found = 0;
+            for (size_t k = 0; k < s->nwarning; k++)
+                found += strstr (s->warning[k], cases[i].words ? cases[i].words : "nothing resists") != NULL;
+            assert_int_equal (found, cases[i].words != NULL);
+        }
+        clear (&r);
+    }
+}
+
 /* Event stepping relies on equilibria that grow with the load: a platen that touches a step of the surface
  * from the start and comes to the next one on its way is told to take fixed steps. */
 static void a_platen_that_comes_later_needs_fixed_steps (void **state)
@@ -554,6 +584,7 @@ int main (void)
         cmocka_unit_test (units_and_mirrors_do_not_count),
         cmocka_unit_test (far_places_become_pairs),
         cmocka_unit_test (doubtful_platens_are_told),
+        cmocka_unit_test (what_nothing_holds_is_told),
         cmocka_unit_test (a_platen_that_comes_later_needs_fixed_steps),
         cmocka_unit_test (stages_move_platens),
         cmocka_unit_test (cracks_grow_between_platens),
