@@ -162,9 +162,11 @@ done:
  * largest of the internal forces, the loads and the reactions, by which the residual is judged. */
 static pg_status galerkin_balance (void *self, double t, const double *d, double *residual, double *reference)
 {
+    pg_status status = PG_OK;
     galerkin *g = self;
     size_t ndof = g->n * (size_t) g->dim;
     double inside = 0, external = 0, reaction = 0;
+    PG_TRY (galerkin_sight_ready (g, 0));
     memset (residual, 0, ndof * sizeof *residual);
     for (int s = 0; s < PG_BOND_SETS; s++)
         if (s == g->bulk || s == PG_FACETS || g->npenalty || g->problem->nload) galerkin_measure (g, s, d);
@@ -172,7 +174,8 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     for (size_t i = 0; i < ndof; i++) inside += residual[i] * residual[i], residual[i] = -residual[i];
     galerkin_boundary_force (g, t, d, residual, &external, &reaction);
     *reference = sqrt (fmax (inside, fmax (external, reaction)));
-    return PG_OK;
+done:
+    return status;
 }
 
 /* The same by K x, one pass over the shape functions instead of two. Loads do not depend on d; only supports
@@ -180,9 +183,11 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
 static pg_status galerkin_balance_lean (void *self, double t, const double *d, double *residual,
                                         double *reference)
 {
+    pg_status status = PG_OK;
     galerkin *g = self;
     size_t ndof = g->n * (size_t) g->dim;
     double inside = 0, external = 0, reaction = 0;
+    PG_TRY (galerkin_sight_ready (g, 1));
     memset (residual, 0, ndof * sizeof *residual);
     if (g->nnitsche || g->dilatation) galerkin_measure (g, PG_FACETS, d);
     if (g->npenalty) galerkin_measure (g, PG_NODES, d);
@@ -190,7 +195,8 @@ static pg_status galerkin_balance_lean (void *self, double t, const double *d, d
     for (size_t i = 0; i < ndof; i++) inside += residual[i] * residual[i], residual[i] = -residual[i];
     galerkin_boundary_force (g, t, d, residual, &external, &reaction);
     *reference = sqrt (fmax (inside, fmax (external, reaction)));
-    return PG_OK;
+done:
+    return status;
 }
 
 /* Lumped: density times the volume of each node, kg. Volumes of nodes sum up to that of the body, so the

@@ -134,10 +134,12 @@ void galerkin_slices_free (galerkin *g);
 /* The rows of these points have changed (list NULL: of all). */
 void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list);
 /* sight: points in blocks of so many; those that see a node where x and other differ (NULL: where x is not
- * zero) are marked, block by block. NULL: most of them do, or the table is not to be had. Valid until the
- * next call for this set. */
+ * zero) are marked, block by block. NULL: most of them do, or there is no table (galerkin_sight_ready: makes
+ * those of sets that have been measured, and with `products` that of the bulk). Valid until the next call
+ * for this set. */
 enum { GALERKIN_BLOCK = 64 };
 const unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other);
+pg_status galerkin_sight_ready (galerkin *g, int products);
 void galerkin_sight_free (galerkin *g);
 /* u, strain, stress, zz of every point, unless known */
 void galerkin_measure (galerkin *g, int set, const double *d);

@@ -48,7 +48,6 @@ done:
     return status;
 }
 
-/* Made when it is first asked for. */
 static pg_status create (galerkin *g, int set)
 {
     pg_status status = PG_OK;
@@ -56,12 +55,24 @@ static pg_status create (galerkin *g, int set)
     galerkin_sight *s = NULL;
     size_t room = 0;
     PG_ALLOC (s, 1);
-    g->sight[set] = s;
     s->n = blocks_of (f->n, POINTS);
     PG_ALLOC (s->start, s->n + 1);
     PG_ALLOC (s->active, s->n);
     PG_ALLOC (s->node, blocks_of (g->n, NODES));
     for (size_t b = 0; b < s->n; b++) PG_TRY (list_seen (s, f, b, &room, s->node));
+    g->sight[set] = s, s = NULL;
+done:
+    if (s) free_one (s);
+    return status;
+}
+
+/* Before the first measure of a set all of it is new: it needs no table yet. */
+pg_status galerkin_sight_ready (galerkin *g, int products)
+{
+    pg_status status = PG_OK;
+    if (g->problem->plain || g->dilatation) return PG_OK;
+    for (int set = 0; set < PG_BOND_SETS; set++)
+        if ((g->fresh[set] || (products && set == g->bulk)) && !g->sight[set]) PG_TRY (create (g, set));
 done:
     return status;
 }
@@ -82,10 +93,8 @@ static size_t mark_nodes (const galerkin *g, const double *x, const double *othe
 
 const unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other)
 {
-    if (g->problem->plain || g->dilatation) return NULL;
-    if (!g->sight[set] && create (g, set) != PG_OK) return NULL;
     galerkin_sight *s = g->sight[set];
-    if (!s->start || !s->active || !s->node || !s->seen) return NULL;
+    if (!s || !s->seen) return NULL;
     /* where much has changed all is looked at */
     if (2 * mark_nodes (g, x, other, s->node) > blocks_of (g->n, NODES)) return NULL;
     for (size_t b = 0; b < s->n; b++) {

@@ -74,6 +74,7 @@ struct system_contact {
     pg_sparse G;                                       /* G', ndof x dim n */
     size_t    poor;                                    /* points that see too little */
     unsigned long made;                                /* revision of K that Z and C belong to, + 1 */
+    unsigned long again;                               /* the same of those that a resumed run makes again */
     double   *Z, *C;                                   /* K^-1 G' (ndof x dim n); G Z (dim n x dim n), m/N */
     double   *coefficient, *cohesion;                  /* mu, c A (N), of each piece (n) */
     double   *before;                                  /* slip before (n x (dim - 1)) */

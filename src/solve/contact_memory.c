@@ -240,15 +240,17 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     pg_statistics *r = s->report;
     PG_TRY (platens_keep (s, k));
     if (k->reading && c->platens.n) PG_TRY (contact_more_pairs (s));
-    long count[5] = { (long) c->pieces.n, c->active, r->contact_passes, r->contact_sweeps, c->touched };
+    long count[6] = { (long) c->pieces.n, c->active, r->contact_passes, r->contact_sweeps, c->touched,
+                      c->made == s->revision + 1 };
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
     PG_TRY (keep_memory (&c->start, "contact.start", s, k));
     PG_TRY (keep_shown (c, s, k));
-    PG_TRY (k->counts (k->context, "contact.counts", 5, count));
+    PG_TRY (k->counts (k->context, "contact.counts", 6, count));
     PG_KEEP_BOUND (k, "the number of pieces of cracks", count[0], (long) c->pieces.n, (long) c->pieces.n);
     PG_KEEP_BOUND (k, "contact", count[1], 0, 1);
     c->active = (int) count[1], r->contact_passes = count[2], r->contact_sweeps = count[3];
     c->touched = count[4] != 0;
+    if (k->reading) c->again = count[5] ? s->revision + 1 : 0;
     PG_TRY (contact_route_keep (s, k));
     if (!c->pieces.n) return PG_OK;
     PG_TRY (k->numbers (k->context, "contact.force", c->pieces.dim * c->pieces.n, c->force));

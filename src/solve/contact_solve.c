@@ -254,7 +254,9 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     }
     if (first < n)
         PG_TRY (s->linear->solve (s->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
-    s->report->contact_columns += (long) n, s->report->solves = solves;
+    s->report->solves = solves;
+    if (c->again != s->revision + 1) s->report->contact_columns += (long) n;
+    c->again = 0;
     PG_TRY (refine_columns (s, rhs, solved, n));
     for (size_t j = 0; j < n; j++)
         if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);

@@ -68,7 +68,8 @@ static void kinds_tell_what_they_do (void **state)
     assert_true (o.flags == (PG_SOLVER_STATIC | PG_SOLVER_EVENTS | PG_SOLVER_FACETS
                                  | PG_SOLVER_CONTACT));
     o = options_of (HELD "solver: {kind: newmark, dt: 1, end: 10}\n");
-    assert_true (o.flags == (PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS));
+    assert_true (o.flags == (PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS
+                             | PG_SOLVER_CONTACT));
     o = options_of (MOVED "solver: {kind: verlet, end: 10}\n");
     assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS
                              | PG_SOLVER_CONTACT));
