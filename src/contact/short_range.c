@@ -11,6 +11,7 @@
  * they do not hold is the work of friction. */
 #include "near_pairs.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* of a point, summed over its pairs */
@@ -187,38 +188,43 @@ done:
     return status;
 }
 
-/* A list of slips as two arrays. */
+/* Slips: two whole numbers and three numbers each. */
+typedef struct { near_memory *memory;  long npoint; } slip_list;
+
+static void give_slip (void *context, size_t i, long *ends, double *slip)
+{
+    const near_memory *m = &((const slip_list *) context)->memory[i];
+    ends[0] = m->i, ends[1] = m->j;
+    memcpy (slip, m->slip, sizeof m->slip);
+}
+
+static pg_status take_slip (void *context, size_t i, const long *ends, const double *slip, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    const slip_list *list = context;
+    for (int a = 0; a < 2; a++) PG_KEEP_BOUND (k, "a point in contact", ends[a], 0, list->npoint - 1);
+    list->memory[i] = (near_memory) { (int) ends[0], (int) ends[1], { slip[0], slip[1], slip[2] } };
+done:
+    return status;
+}
+
 static pg_status keep_slips (near_memory **memory, size_t *n, size_t *cap, const char *name, long npoint,
                              const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    char part[64];
-    long count = (long) *n, *ends = NULL;
-    double *value = NULL;
-    strcat (strcpy (part, name), ".count");
-    PG_TRY (k->counts (k->context, part, 1, &count));
+    char size[64], ends[64], slips[64];
+    long count = (long) *n;
+    snprintf (size, sizeof size, "%s.count", name), snprintf (ends, sizeof ends, "%s.ends", name);
+    snprintf (slips, sizeof slips, "%s.slips", name);
+    PG_TRY (k->counts (k->context, size, 1, &count));
     PG_KEEP_BOUND (k, "the number of pairs in contact", count, 0, 1L << 40);
     if (k->reading) PG_GROW (*memory, *cap, (size_t) count);
     *n = (size_t) count;
-    if (!count) goto done;
-    PG_ALLOC (ends, 2 * *n);
-    PG_ALLOC (value, 3 * *n);
-    for (size_t q = 0; !k->reading && q < *n; q++) {
-        ends[2*q] = (*memory)[q].i, ends[2*q + 1] = (*memory)[q].j;
-        memcpy (value + 3*q, (*memory)[q].slip, 3 * sizeof *value);
-    }
-    strcat (strcpy (part, name), ".ends");
-    PG_TRY (k->counts (k->context, part, 2 * *n, ends));
-    strcat (strcpy (part, name), ".slips");
-    PG_TRY (k->numbers (k->context, part, 3 * *n, value));
-    for (size_t q = 0; k->reading && q < 2 * *n; q++)
-        PG_KEEP_BOUND (k, "a point in contact", ends[q], 0, npoint - 1);
-    for (size_t q = 0; k->reading && q < *n; q++) {
-        (*memory)[q].i = (int) ends[2*q], (*memory)[q].j = (int) ends[2*q + 1];
-        memcpy ((*memory)[q].slip, value + 3*q, 3 * sizeof *value);
-    }
+    slip_list list = { *memory, npoint };
+    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = ends, .number_name = slips, .n = *n,
+                                                .counts = 2, .numbers = 3, .give = give_slip,
+                                                .take = take_slip, .context = &list }));
 done:
-    pg_free (ends), pg_free (value);
     return status;
 }
 

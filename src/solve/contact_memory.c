@@ -189,44 +189,46 @@ done:
     return status;
 }
 
-/* What results have not written yet. */
-static pg_status keep_shown (struct system_contact *c, const pg_system *s, const pg_keeper *k)
+/* What results have not written yet: three whole numbers and seventeen numbers each. */
+static void give_shown (void *context, size_t i, long *count, double *number)
+{
+    const pg_contact_values *v = &((const pg_system *) context)->contact->shown[i];
+    const double value[] = { v->x[0], v->x[1], v->x[2], v->normal[0], v->normal[1], v->normal[2], v->area,
+                             v->length, v->arc, v->pressure, v->shear[0], v->shear[1], v->shear[2], v->gap,
+                             v->slip[0], v->slip[1], v->slip[2] };
+    count[0] = (long) v->path, count[1] = (long) v->status, count[2] = (long) v->platen;
+    memcpy (number, value, sizeof value);
+}
+
+static pg_status take_shown (void *context, size_t i, const long *count, const double *v, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    enum { NUMBERS = 17 };
-    long n = (long) c->nshown, *count = NULL;
-    double *number = NULL;
+    const pg_system *s = context;
+    PG_KEEP_BOUND (k, "the path of a piece", count[0], 0, (long) s->problem->first_bond[PG_BOND_SETS]);
+    PG_KEEP_BOUND (k, "the status of a piece", count[1], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
+    PG_KEEP_BOUND (k, "the platen of a piece", count[2], 0, (long) s->problem->nplaten);
+    s->contact->shown[i] = (pg_contact_values) {
+        .path = (size_t) count[0], .status = (pg_contact_status) count[1], .platen = (size_t) count[2],
+        .x = { v[0], v[1], v[2] }, .normal = { v[3], v[4], v[5] }, .area = v[6], .length = v[7], .arc = v[8],
+        .pressure = v[9], .shear = { v[10], v[11], v[12] }, .gap = v[13], .slip = { v[14], v[15], v[16] } };
+done:
+    return status;
+}
+
+static pg_status keep_shown (pg_system *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    long n = (long) c->nshown;
     PG_TRY (k->counts (k->context, "contact.shown_count", 1, &n));
     PG_KEEP_BOUND (k, "the number of pieces in contact", n, 0, (long) s->problem->first_bond[PG_BOND_SETS]);
     if (k->reading) PG_GROW (c->shown, c->cap_shown, (size_t) n);
-    PG_ALLOC (count, 3 * (size_t) n + 1);
-    PG_ALLOC (number, NUMBERS * (size_t) n + 1);
-    for (long i = 0; !k->reading && i < n; i++) {
-        const pg_contact_values *v = &c->shown[i];
-        const double value[NUMBERS] = {
-            v->x[0], v->x[1], v->x[2], v->normal[0], v->normal[1], v->normal[2], v->area, v->length, v->arc,
-            v->pressure, v->shear[0], v->shear[1], v->shear[2], v->gap, v->slip[0], v->slip[1], v->slip[2] };
-        count[3*i] = (long) v->path, count[3*i + 1] = (long) v->status, count[3*i + 2] = (long) v->platen;
-        memcpy (number + NUMBERS * i, value, sizeof value);
-    }
-    if (n) PG_TRY (k->counts (k->context, "contact.shown", 3 * (size_t) n, count));
-    if (n) PG_TRY (k->numbers (k->context, "contact.shown_values", NUMBERS * (size_t) n, number));
-    for (long i = 0; k->reading && i < n; i++) {
-        const double *v = number + NUMBERS * i;
-        PG_KEEP_BOUND (k, "the path of a piece", count[3*i], 0,
-                       (long) s->problem->first_bond[PG_BOND_SETS]);
-        PG_KEEP_BOUND (k, "the status of a piece", count[3*i + 1], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
-        PG_KEEP_BOUND (k, "the platen of a piece", count[3*i + 2], 0, (long) s->problem->nplaten);
-        c->shown[i] = (pg_contact_values) { .path = (size_t) count[3*i], .platen = (size_t) count[3*i + 2],
-                                            .x = { v[0], v[1], v[2] },
-                                            .normal = { v[3], v[4], v[5] }, .area = v[6], .length = v[7],
-                                            .arc = v[8], .pressure = v[9], .shear = { v[10], v[11], v[12] },
-                                            .gap = v[13], .slip = { v[14], v[15], v[16] },
-                                            .status = (pg_contact_status) count[3*i + 1] };
-    }
     c->nshown = (size_t) n;
+    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = "contact.shown",
+                                                .number_name = "contact.shown_values", .n = c->nshown,
+                                                .counts = 3, .numbers = 17, .give = give_shown,
+                                                .take = take_shown, .context = s }));
 done:
-    pg_free (count), pg_free (number);
     return status;
 }
 
@@ -244,7 +246,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
                       c->made == s->revision + 1 };
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
     PG_TRY (keep_memory (&c->start, "contact.start", s, k));
-    PG_TRY (keep_shown (c, s, k));
+    PG_TRY (keep_shown (s, k));
     PG_TRY (k->counts (k->context, "contact.counts", 6, count));
     PG_KEEP_BOUND (k, "the number of pieces of cracks", count[0], (long) c->pieces.n, (long) c->pieces.n);
     PG_KEEP_BOUND (k, "contact", count[1], 0, 1);

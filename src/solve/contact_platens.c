@@ -387,6 +387,23 @@ void platens_return (contact_platens *w)
 }
 
 /* Called before the pairs are read: which pieces they are belongs to it. */
+/* Forces and motions for results: twelve numbers each. */
+static void give_shown (void *context, size_t i, long *count, double *number)
+{
+    const pg_platen_values *v = &((const pg_platen_values *) context)[i];
+    (void) count;
+    memcpy (number, v->force, sizeof v->force), memcpy (number + 6, v->motion, sizeof v->motion);
+}
+
+static pg_status take_shown (void *context, size_t i, const long *count, const double *number,
+                             const pg_keeper *k)
+{
+    pg_platen_values *v = &((pg_platen_values *) context)[i];
+    (void) count, (void) k;
+    memcpy (v->force, number, sizeof v->force), memcpy (v->motion, number + 6, sizeof v->motion);
+    return PG_OK;
+}
+
 pg_status platens_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -401,10 +418,10 @@ pg_status platens_keep (pg_system *s, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "platens.reaction", 6 * w->n, w->reaction[0]));
     PG_TRY (k->numbers (k->context, "platens.booked", 2 * w->all.dim * w->all.n, w->booked));
     PG_TRY (k->numbers (k->context, "platens.start", 2 * w->all.dim * w->all.n, w->start));
-    for (size_t i = 0; i < w->n; i++) {
-        PG_TRY (k->numbers (k->context, "platens.force_shown", 6, w->shown[i].force));
-        PG_TRY (k->numbers (k->context, "platens.motion_shown", 6, w->shown[i].motion));
-    }
+    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = "platens.shown_counts",
+                                                .number_name = "platens.shown", .n = w->n, .counts = 0,
+                                                .numbers = 12, .give = give_shown, .take = take_shown,
+                                                .context = w->shown }));
 done:
     return status;
 }

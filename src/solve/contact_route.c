@@ -378,7 +378,8 @@ pg_status contact_route_keep (pg_system *s, const pg_keeper *k)
     PG_TRY (k->counts (k->context, "contact.route.counts", 8, count));
     PG_TRY (k->numbers (k->context, "contact.route.numbers", 4, number));
     for (int i = 0; i < 4; i++) PG_KEEP_BOUND (k, "a stretch of contact", count[i], 0, 1);
-    for (int i = 0; i < 2; i++) PG_TRY (k->numbers (k->context, "contact.route.open", s->ndof, r->open[i]));
+    PG_TRY (k->numbers (k->context, "contact.route.open_from", s->ndof, r->open[0]));
+    PG_TRY (k->numbers (k->context, "contact.route.open_to", s->ndof, r->open[1]));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.gap", n, r->gap));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.rate", n, r->rate));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.force_rate", n, t->force_rate));

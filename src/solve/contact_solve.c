@@ -255,9 +255,12 @@ static pg_status solve_columns (pg_system *s, const dynamics *dyn)
     if (first < n)
         PG_TRY (s->linear->solve (s->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
     s->report->solves = solves;
-    if (c->again != s->revision + 1) s->report->contact_columns += (long) n;
-    c->again = 0;
+    long columns = s->report->contact_columns;
+    s->report->contact_columns += (long) n;
     PG_TRY (refine_columns (s, rhs, solved, n));
+    /* nor are these columns among those of the run, when a resumed one has them again */
+    if (c->again == s->revision + 1) s->report->contact_columns = columns;
+    c->again = 0;
     for (size_t j = 0; j < n; j++)
         if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);
         else memcpy (c->Z + j * s->ndof, solved + j * s->nred, s->ndof * sizeof *rhs);

@@ -276,19 +276,29 @@ const pg_stage_record *pg_solver_stages (const pg_solver *s, size_t *n)
 }
 
 /* ---- checkpoint ---------------------------------------------------------------------------------------- */
-static pg_status keep_record (pg_stage_record *r, size_t ngauge, const pg_keeper *k)
+/* Four whole numbers, five numbers and the openings of all gauges each. */
+static void give_record (void *context, size_t i, long *count, double *number)
+{
+    const pg_solver *s = context;
+    const pg_stage_record *r = &s->stage.record[i];
+    const double value[5] = { r->share, r->strain, r->external, r->dissipated, r->growth };
+    count[0] = r->done, count[1] = r->reason, count[2] = r->step, count[3] = r->events;
+    memcpy (number, value, sizeof value);
+    if (s->problem->ngauge) memcpy (number + 5, r->gauge, s->problem->ngauge * sizeof *number);
+}
+
+static pg_status take_record (void *context, size_t i, const long *count, const double *number,
+                              const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[4] = { r->done, r->reason, r->step, r->events };
-    double number[5] = { r->share, r->strain, r->external, r->dissipated, r->growth };
-    PG_TRY (k->counts (k->context, "stage.record.counts", 4, count));
-    PG_TRY (k->numbers (k->context, "stage.record.numbers", 5, number));
-    if (ngauge) PG_TRY (k->numbers (k->context, "stage.record.gauges", ngauge, r->gauge));
+    const pg_solver *s = context;
+    pg_stage_record *r = &s->stage.record[i];
     PG_KEEP_BOUND (k, "why a stage ended", count[1], 0, REASONS - 1);
     r->done = count[0] != 0, r->reason = (int) count[1], r->step = count[2], r->events = count[3];
     r->why = reasons[r->reason];
     r->share = number[0], r->strain = number[1], r->external = number[2], r->dissipated = number[3],
     r->growth = number[4];
+    if (s->problem->ngauge) memcpy (r->gauge, number + 5, s->problem->ngauge * sizeof *number);
 done:
     return status;
 }
@@ -331,7 +341,10 @@ pg_status stages_keep (pg_solver *s, const pg_keeper *k)
     if (removes)
         PG_TRY (k->numbers (k->context, "stage.excavated", s->break_loop.system.ndof, p->excavated));
     PG_TRY (k->numbers (k->context, "stage.borne", 1, &s->break_loop.system.borne));
-    for (size_t i = 0; i < n; i++) PG_TRY (keep_record (&p->record[i], s->problem->ngauge, k));
+    PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = "stage.records",
+                                                .number_name = "stage.record_values", .n = n, .counts = 4,
+                                                .numbers = 5 + s->problem->ngauge, .give = give_record,
+                                                .take = take_record, .context = s }));
     follow (s);
 done:
     return status;

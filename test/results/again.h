@@ -16,51 +16,68 @@
     "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 0.9]}}}]\nspacing: 0.05\n" \
     "cracks: [{from: [-0.1, 0.46], to: [0.43, 0.43]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
     "poissons_ratio: 0.2, density: 2000}}\nfailure: {fracture_energy: 400 J/m2}\n"
-#define WINGS \
+#define CLOSED_FLAW \
     "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 1.2]}}}]\nspacing: 0.05\n" \
     "cracks: [{from: [0.33, 0.41], to: [0.67, 0.76]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, " \
     "poissons_ratio: 0.2, density: 2000}}\nfailure: {fracture_energy: 4 J/m2}\n" \
-    "contact: {kind: friction, coefficient: 0.2}\nboundary: [{name: foot, set: bottom, displacement: " \
-    "{x: 0, y: 0}}, {name: head, set: top, displacement: {y: -1 mm}}]\n"
-static const struct { const char *name, *text;
+    "contact: {kind: friction, coefficient: 0.2}\n"
+#define WINGS \
+    CLOSED_FLAW "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, " \
+                "{name: head, set: top, displacement: {y: -1 mm}}]\n"
+/* whole: nothing is looked at within a step, as an event is one */
+static const struct { const char *name, *text; int whole;
 } scenes[] = {
     { "event", BODY PULL
-      "solver: {stepping: event}\noutput: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+      "solver: {stepping: event}\noutput: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n", 1 },
     { "fixed", BODY PULL
-      "solver: {stepping: fixed, steps: 3}\noutput: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
+      "solver: {stepping: fixed, steps: 3}\noutput: {pictures: [], at: {levels: 2, broken: 4 %}}\n", 0 },
     { "transformation", BODY PULL "method: {essential: transformation}\nsolver: {stepping: fixed, steps: 3, "
-                                  "stop: {set: right}}\noutput: {pictures: [], at: {broken: 4 %}}\n" },
+                                  "stop: {set: right}}\noutput: {pictures: [], at: {broken: 4 %}}\n", 0 },
     { "nodal", BODY PULL
       "method: {approximation: nosb, integration: nodal, horizon: 2.5 spacing, essential: penalty}\n"
       "solver: {stepping: fixed, steps: 3, break: fraction, break_fraction: 5 %}\noutput: {pictures: [], at: "
-      "{broken: 4 %}}\n" },
+      "{broken: 4 %}}\n", 0 },
     { "newmark", BODY "boundary: [{set: bottom, velocity: {x: 0, y: -4 m/s}}, {set: top, velocity: {y: 4 "
                       "m/s}, table: [[0, 0], [1e-3, 1]]}]\n"
                       "method: {essential: transformation}\nsolver: {kind: newmark, dt: 0.1 ms, end: 1 ms, "
                       "rayleigh: {stiffness: 1 us}, break: fraction, break_fraction: 5 %}\n"
-                      "output: {pictures: [], at: {levels: 5, broken: 4 %}}\n" },
+                      "output: {pictures: [], at: {levels: 5, broken: 4 %}}\n", 0 },
     { "multilevel",
       "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [0.8, 0.9]}}}]\nspacing: 0.1\n"
       "materials: {rock: {youngs_modulus: 1e9, poissons_ratio: 0.3333, density: 2500}}\ncracks: [{from: "
       "[-0.1, 0.45], to: [0.22, 0.45]}]\n"
       "failure: {criterion: stretch, critical_stretch: 1e-3, exclude: [bottom, top]}\nmethod: {force: "
       "bond}\n" PULL "solver: {stepping: event, linear: pcg, max_events: 16}\noutput: {at: {levels: 4, "
-                     "broken: 2 %}, pictures: []}\n" },
+                     "broken: 2 %}, pictures: []}\n", 1 },
     { "facets", FACETS PULL "solver: {stepping: event, max_events: 9}\n"
-                            "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+                            "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n", 1 },
     { "facets_fixed", FACETS PULL "solver: {stepping: fixed, steps: 4}\n"
-                                  "output: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
+                                  "output: {pictures: [], at: {levels: 2, broken: 4 %}}\n", 0 },
     { "fronts", "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [8, 5, 6]}}}]\nspacing: 1\n"
                 "perturb: {amount: 0.2}\ncracks: [{polygon: [[-1, -1, 3.1], [3, -1, 3.1], [3, 6, 2.9], "
                 "[-1, 6, 2.9]]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
                 "failure: {criterion: energy_release, fracture_energy: 400 J/m2}\n"
                 "boundary: [{set: back, displacement: {x: 0, y: 0, z: 0}}, {set: front, displacement: "
                 "{x: 2 mm, z: 10 mm}}]\nsolver: {stepping: event, max_events: 5}\n"
-                "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+                "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n", 1 },
     { "wings", WINGS "solver: {stepping: event, max_events: 6}\n"
-                     "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n" },
+                     "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n", 1 },
     { "wings_fixed", WINGS "solver: {stepping: fixed, steps: 4}\n"
-                           "output: {pictures: [], at: {levels: 2, broken: 4 %}}\n" },
+                           "output: {pictures: [], at: {levels: 2, broken: 4 %}}\n", 0 },
+    { "wings_confined",
+      CLOSED_FLAW "sets: {mantle: {boundary: [left, right]}}\nboundary: [{name: foot, set: bottom, "
+                  "displacement: {x: 0, y: 0}}, {name: jacket, set: mantle, pressure: 20 kPa}, "
+                  "{name: head, set: top, traction: {y: -0.8 MPa}}]\nstages: [{name: confine, boundary: "
+                  "{jacket: 1}}, {name: compress, boundary: {head: 1}}]\n"
+                  "solver: {stepping: event, max_events: 4}\n"
+                  "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n", 1 },
+    { "platens",
+      "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 0.6]}}}]\nspacing: 0.1\n"
+      "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 2000}}\nplatens: "
+      "[{name: anvil, shape: plane, point: [0.5, 0], normal: [0, 1], friction: 0.3}, {name: die, "
+      "shape: cylinder, point: [0.5, 1.1], radius: 0.5, friction: 0.2, displacement: {y: -4 mm}}]\n"
+      "solver: {stepping: fixed, steps: 6}\n"
+      "output: {pictures: [], at: {levels: 3}}\n", 1 },
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
