@@ -14,6 +14,8 @@ ORDER   := base scene kernel material criterion linalg netcdf mesh mesh_files cl
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libcmocka-dev
+# What the tests of matlab-compat need; where these cannot be had, those tests say that they are skipped.
+OCTAVE_PACKAGES := octave octave-netcdf gnuplot-nox ghostscript fonts-freefont-otf
 
 BUILD   := build/$(MODE)
 # the threaded parts are what the thread sanitizer is for
@@ -114,15 +116,18 @@ perigal.pc: perigal.pc.in FORCE
 packages:            ## install the Debian packages that are missing
 	$(Q).ci/packages $(PACKAGES)
 
+test-packages: packages
+	$(Q)$(if $(filter asan tsan,$(MODE)),,.ci/packages $(OCTAVE_PACKAGES) || echo "perigal: without Octave the tests of matlab-compat are skipped" >&2)
+
 demo: packages       ## install, build, run the Brazilian disk, leave pictures
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
 	$(Q)./perigal run data/disk_crack/scene.yaml -o out/demo --force --threads $(THREADS)
 
-test: packages       ## everything; last line: N passed, N failed
+test: test-packages  ## everything; last line: N passed, N failed
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB)) test-programs
 	$(Q).ci/test $(BUILD) "$(T)" short $(JOBS)
 
-test-long: packages
+test-long: test-packages
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB)) test-programs
 	$(Q).ci/test $(BUILD) "$(T)" long $(JOBS)
 
@@ -186,6 +191,8 @@ install: all
 	.ci/man $(PROGRAM) > $(DESTDIR)$(prefix)/share/man/man1/perigal.1
 	rm -rf $(DESTDIR)$(prefix)/share/perigal/scenes
 	cp -r data $(DESTDIR)$(prefix)/share/perigal/scenes
+	rm -rf $(DESTDIR)$(prefix)/share/perigal/matlab
+	cp -r matlab-compat $(DESTDIR)$(prefix)/share/perigal/matlab
 
 clean:
 	rm -rf build out perigal perigal.pc
@@ -195,6 +202,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
+.PHONY: FORCE all perigal packages test-packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -150,6 +150,10 @@ pg_status   pg_scene_conclude (const pg_scene *s);
 /* The path as given; the text that was read, without overrides. */
 const char *pg_scene_file    (const pg_scene *s);
 const char *pg_scene_source  (const pg_scene *s);
+/* The tree that the user wrote, overrides applied, as JSON: maps, lists, numbers without a unit as
+ * numbers, all other values as text ("2 mm", "on"). Without defaults. The caller frees *json (pg_free).
+ * PG_E_MEMORY. */
+pg_status   pg_scene_echo    (char **json, const pg_scene *s);
 /* The k-th override "key=value"; NULL past the end. */
 const char *pg_scene_setting (const pg_scene *s, size_t k);
 /* SHA-256 of text and overrides, 64 hexadecimal digits. */

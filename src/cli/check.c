@@ -5,6 +5,23 @@
 #include "cli.h"
 #include <math.h>
 
+/* --echo: the scene as it was understood, for programs that change scenes. */
+static int echo (const command *c)
+{
+    pg_status status = PG_OK;
+    pg_scene *scene = NULL;
+    char *json = NULL;
+    PG_TRY (pg_scene_load_with (&scene, c->scene, c->nset, c->set));
+    PG_TRY (pg_scene_echo (&json, scene));
+    puts (json);
+done:
+    if (status == PG_E_FILE) status = PG_E_SCENE;
+    if (status != PG_OK) command_complain (status, pg_last_error ());
+    pg_free (json);
+    pg_scene_free (&scene);
+    return pg_exit_code (status);
+}
+
 /* For explicit and relaxation solvers the solver itself is created, because only it knows its
  * time step. --solve and --spectrum come last, since they take the longest and everything else
  * must be right for them. */
@@ -23,6 +40,7 @@ int pg_cli_check (int argc, char **argv)
     double stable = NAN;
     int wrong = command_parse (&c, argc, argv);
     if (wrong >= 0) return wrong;
+    if (c.echo) return echo (&c);
     PG_TRY (command_scene (&c, &scene));
     PG_TRY (afford_scene (&c, &f));
     PG_TRY (command_problem (&c, scene, &p, &o));

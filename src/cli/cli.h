@@ -54,7 +54,7 @@ typedef struct {
     const char *scene, *folder, *set[64];
     size_t nset;
     /* Options as flags; threads is never 0. */
-    int threads, quiet, resume, force, json, solve, spectrum;
+    int threads, quiet, resume, force, json, solve, spectrum, echo;
     /* Bytes of --memory; 0: not given. */
     double memory;
     /* The text of --threads, to repeat it in messages; NULL: not given. */

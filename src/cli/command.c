@@ -72,8 +72,8 @@ static int refuse (const char *name, int option, const char *argument)
         const char *near =
             pg_nearest_name (argument,
                              strcmp (name, "check") == 0
-                                 ? "--json|--solve|--spectrum|--out|--threads|--memory|--plain|--set|--quiet|"
-                                   "--help"
+                                 ? "--json|--solve|--spectrum|--echo|--out|--threads|--memory|--plain|--set|"
+                                   "--quiet|--help"
                                  : "--out|--resume|--force|--threads|--memory|--plain|--set|--quiet|"
                                    "--help");
         fprintf (stderr, "perigal %s: unknown option %s%s%s%s\n", name, argument,
@@ -114,12 +114,12 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
     return 0;
 }
 
-/* run and check share their options but for these: --force is for run; --json, --solve, --spectrum for
- * check. */
+/* run and check share their options but for these: --force is for run; --json, --solve, --spectrum, --echo
+ * for check. */
 static int belongs_to (int option, const char *name)
 {
     int checks = strcmp (name, "check") == 0;
-    return option == 'f' ? !checks : checks || !strchr ("jvw", option);
+    return option == 'f' ? !checks : checks || !strchr ("jvwe", option);
 }
 
 /* One option of run or check; -1: go on, else the exit code. */
@@ -139,6 +139,7 @@ static int read_option (command *c, const char *name, int option, const char *wo
     case 'j': c->json = 1; return -1;
     case 'v': c->solve = 1; return -1;
     case 'w': c->spectrum = 1; return -1;
+    case 'e': c->echo = 1; return -1;
     default: return refuse (name, option, word);
     }
 }
@@ -153,7 +154,7 @@ int command_parse (command *c, int argc, char **argv)
         { "force", no_argument, NULL, 'f' },     { "memory", required_argument, NULL, 'm' },
         { "json", no_argument, NULL, 'j' },      { "solve", no_argument, NULL, 'v' },
         { "spectrum", no_argument, NULL, 'w' },  { "quiet", no_argument, NULL, 'q' },
-        { "plain", no_argument, NULL, 'p' },
+        { "plain", no_argument, NULL, 'p' },     { "echo", no_argument, NULL, 'e' },
         { "help", no_argument, NULL, 'h' },      { NULL, 0, NULL, 0 }
     };
     char unquoted[1200];
