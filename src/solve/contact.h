@@ -17,14 +17,16 @@ typedef struct {
     double  friction;                                  /* work of friction so far, J */
     double  at;                                        /* loads with a constant part: their t */
 } contact_memory;
-/* Place of the middle (dim), length, shear force over area and slip when work was last booked, slip of the
- * last accepted step: numbers along the path in the plane, vectors in space. */
-typedef struct { size_t length, old, shear, slip, accepted, values, parts; } contact_layout;
+/* Place of the middle (dim), length, share of it that is not new, normal (dim), 1 + number of the platen (0: a
+ * crack), shear force over area and slip when work was last booked, slip of the last accepted step: numbers
+ * along the path in the plane, vectors in space. */
+typedef struct { size_t length, old, normal, platen, shear, slip, accepted, values, parts; } contact_layout;
 static inline contact_layout contact_layout_of (size_t dim)
 {
-    size_t m = dim == 3 ? 3 : 1;
-    return (contact_layout){ .length = dim, .old = dim + 1, .shear = dim + 2, .slip = dim + 2 + m,
-                             .accepted = dim + 2 + 2*m, .values = dim + 2 + 3*m, .parts = m };
+    size_t m = dim == 3 ? 3 : 1, first = 2*dim + 3;
+    return (contact_layout){ .length = dim, .old = dim + 1, .normal = dim + 2, .platen = 2*dim + 2,
+                             .shear = first, .slip = first + m, .accepted = first + 2*m,
+                             .values = first + 3*m, .parts = m };
 }
 
 /* Rigid motions of parts of the body that supports do not hold: K is singular along them (contact_loose.c).
@@ -96,6 +98,12 @@ struct system_contact {
     contact_route route;
     contact_memory now, start;                         /* start: of the step, for one that is refused */
 };
+
+/* Are faces of cracks kept apart? Platens alone leave them as they are. */
+static inline int contact_of_faces (const struct system_contact *c)
+{
+    return c && c->setting.kind != PG_CONTACT_NONE && c->setting.search == PG_CONTACT_FACES;
+}
 
 /* ---- contact_solve.c ----------------------------------------------------------------------------------- */
 pg_status contact_create  (pg_system *s);              /* where the options ask for it, else nothing */

@@ -9,8 +9,9 @@
 #include <math.h>
 #include <string.h>
 
-/* Half the diagonal of a square of length 1: pieces in space reach so far. */
-static const double SQUARE = 0.70710678118654752;
+/* Half the diagonal of a square of length 1: pieces in space reach so far. Cosine between normals of faces
+ * that may be one: those of a crack that crosses or leaves another are not. */
+static const double SQUARE = 0.70710678118654752, LEANS = 0.8;
 
 void contact_vector (const pg_contact_pieces *pieces, size_t k, const double *along, double scale,
                      double *out)
@@ -30,17 +31,21 @@ static void part_along (const pg_contact_pieces *pieces, size_t k, const double 
         out[a] = vector[0] * p->tangent[a][0] + vector[1] * p->tangent[a][1] + vector[2] * p->tangent[a][2];
 }
 
-/* Piece of the memory that lies at x; SIZE_MAX: none. In space pieces are about as wide as long. */
-static size_t piece_at (const contact_memory *m, size_t dim, const double *x)
+/* Piece of the memory on which point q of the pieces lies, of the same platen or a crack of about the same
+ * direction; SIZE_MAX: none. In space pieces are about as wide as long. */
+static size_t piece_at (const contact_memory *m, const pg_contact_pieces *now, size_t platen, size_t q)
 {
-    size_t found = SIZE_MAX;
+    size_t found = SIZE_MAX, dim = now->dim;
     double least = INFINITY;
     contact_layout l = contact_layout_of (dim);
+    const double *x = now->x + dim * q, *normal = now->normal + dim * q;
     for (size_t k = 0; k < m->n; k++) {
         const double *v = m->value + k * l.values;
-        double away = hypot (v[0] - x[0], v[1] - x[1]), reach = 0.5;
+        double away = hypot (v[0] - x[0], v[1] - x[1]), reach = 0.5, along = 0;
         if (dim == 3) away = hypot (away, v[2] - x[2]), reach = SQUARE;
         if (away > reach * v[l.length] * (1 + 1e-6) || away >= least) continue;
+        for (size_t i = 0; i < dim; i++) along += v[l.normal + i] * normal[i];
+        if (v[l.platen] != (double) platen || (!platen && fabs (along) < LEANS)) continue;
         least = away, found = k;
     }
     return found;
@@ -58,8 +63,9 @@ pg_status contact_remember (struct system_contact *c)
         const pg_contact_piece *p = &c->pieces.piece[k];
         memset (v, 0, l.values * sizeof *v);
         memcpy (v, p->x, dim * sizeof *v), v[l.length] = p->length;
+        memcpy (v + l.normal, p->normal, dim * sizeof *v), v[l.platen] = (double) p->platen;
         for (size_t q = c->pieces.first[k]; q < c->pieces.first[k + 1]; q++) {
-            size_t at = piece_at (&c->now, dim, c->pieces.x + dim * q);
+            size_t at = piece_at (&c->now, &c->pieces, p->platen, q);
             sum += c->pieces.weight[q], old += at != SIZE_MAX || !c->now.n ? c->pieces.weight[q] : 0;
             for (size_t i = l.shear; at != SIZE_MAX && i < l.values; i++)
                 v[i] += c->pieces.weight[q] * c->now.value[at * l.values + i];

@@ -386,7 +386,6 @@ void platens_return (contact_platens *w)
     if (w->n) memcpy (w->booked, w->start, 2 * w->all.dim * w->all.n * sizeof *w->start);
 }
 
-/* Called before the pairs are read: which pieces they are belongs to it. */
 /* Forces and motions for results: twelve numbers each. */
 static void give_shown (void *context, size_t i, long *count, double *number)
 {
@@ -404,6 +403,7 @@ static pg_status take_shown (void *context, size_t i, const long *count, const d
     return PG_OK;
 }
 
+/* Called before the pairs are read: which pieces they are belongs to it. */
 pg_status platens_keep (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;

@@ -33,7 +33,8 @@ pg_status contact_create (pg_system *s)
 {
     pg_status status = PG_OK;
     const pg_solver_options *o = s->options;
-    int faces = o->contact.kind != PG_CONTACT_NONE && o->contact.search == PG_CONTACT_FACES,
+    const struct system_contact asked = { .setting = o->contact };
+    int faces = contact_of_faces (&asked),
         platens = s->problem->nplaten && (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
     if (!faces && !platens) return PG_OK;
     PG_ALLOC (s->contact, 1);
@@ -127,7 +128,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state)
     double t0 = pg_seconds ();
     clear (c);
     c->stiffer = 1;
-    if (c->setting.kind != PG_CONTACT_NONE && c->setting.search == PG_CONTACT_FACES) {
+    if (contact_of_faces (c)) {
         PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
         PG_ALLOC (c->soft, c->pieces.dim * c->pieces.n);
         if (s->force->faces)
