@@ -14,8 +14,8 @@ ORDER   := base scene kernel material criterion linalg netcdf mesh mesh_files cl
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libcmocka-dev
-# What the tests of matlab-compat need; where these cannot be had, those tests say that they are skipped.
-OCTAVE_PACKAGES := octave octave-netcdf gnuplot-nox ghostscript fonts-freefont-otf
+# What the tests of matlab-compat and python need; where these cannot be had, those tests say that they are skipped.
+OPTIONAL := octave octave-netcdf gnuplot-nox ghostscript fonts-freefont-otf python3-numpy python3-netcdf4
 
 BUILD   := build/$(MODE)
 # the threaded parts are what the thread sanitizer is for
@@ -117,7 +117,7 @@ packages:            ## install the Debian packages that are missing
 	$(Q).ci/packages $(PACKAGES)
 
 test-packages: packages
-	$(Q)$(if $(filter asan tsan,$(MODE)),,.ci/packages $(OCTAVE_PACKAGES) || echo "perigal: without Octave the tests of matlab-compat are skipped" >&2)
+	$(Q)$(if $(filter asan tsan,$(MODE)),,.ci/packages $(OPTIONAL) || echo "perigal: tests that need one of them will say that they are skipped" >&2)
 
 demo: packages       ## install, build, run the Brazilian disk, leave pictures
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
@@ -193,6 +193,9 @@ install: all
 	cp -r data $(DESTDIR)$(prefix)/share/perigal/scenes
 	rm -rf $(DESTDIR)$(prefix)/share/perigal/matlab
 	cp -r matlab-compat $(DESTDIR)$(prefix)/share/perigal/matlab
+	install -d $(DESTDIR)$(prefix)/share/perigal/python/perigal
+	install -m 644 python/pyproject.toml python/README.md $(DESTDIR)$(prefix)/share/perigal/python
+	install -m 644 python/perigal/*.py $(DESTDIR)$(prefix)/share/perigal/python/perigal
 
 clean:
 	rm -rf build out perigal perigal.pc

@@ -1,0 +1,103 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""checks.py ROOT FOLDER: the Python package, its answers and its errors, as TAP (run by test_package.sh)."""
+import os
+import sys
+import warnings
+
+import numpy
+import perigal
+
+root, work = sys.argv[1:]
+demo = os.path.join(root, 'data', 'disk_crack', 'scene.yaml')
+there = os.path.join(work, 'grün und weiß')
+count, bad = 0, 0
+
+
+def verdict(name, good):
+    global count, bad
+    count += 1
+    bad += not good
+    print(f'{"ok" if good else "not ok"} {count} - {name}')
+
+
+def refused(name, kind, pattern, call):
+    try:
+        call()
+        verdict(name + ' (no error)', False)
+    except kind as fault:
+        verdict(name, pattern in str(fault))
+
+
+with warnings.catch_warnings(record=True) as caught:
+    warnings.simplefilter('always')
+    r = perigal.run(demo, out=os.path.join(there, 'öut'), threads=1,
+                    set={'spacing': '4 mm', 'output.pictures': [], 'failure.fracture_energy': 20})
+verdict('run: warnings are warnings', [str(w.message) for w in caught if w.category is perigal.PerigalWarning]
+        == r.report['warnings'] and len(caught) > 0)
+plan = perigal.check(demo, set={'spacing': '4 mm'})
+verdict('check: as many points as the run had', plan['points'] == r.points and r.dimension == 2)
+verdict('report', r.report['outcome'] == 'done')
+h = r.history
+verdict('history: a row a step', len(h) == r.report['steps'] and h.data.shape[1] == len(h.names))
+verdict('history: the last row is the state of the report',
+        abs(h['energy_strain'][-1] - r.report['energy']['strain']) <= 1e-15 * h['energy_strain'][-1])
+verdict('history: units', h.units[h.names.index('top.force_y')] == 'N')
+e = r.events
+verdict('events: a row a broken bond', len(e) == r.report['broken'] and e.names[-1] == 'kind_code')
+s = r.field('stress', step=slice(None))
+verdict('field: all steps', s.shape == (len(r.times), r.points, 3) and r.fields['stress'] == ['xx', 'yy', 'xy'])
+verdict('field: one component', numpy.array_equal(r.field('stress', 'yy', step=[0, 2]), s[[0, 2], :, 1]))
+verdict('field: the last step by default', numpy.array_equal(r.field('stress'), s[-1]))
+verdict('field: units', r.units['stress'] == 'Pa')
+x = r.field('place')
+verdict('places and volumes', abs(r.field('point_volume').sum() / (numpy.pi * .05**2 * .01) - 1) < .02
+        and (numpy.hypot(x[:, 0], x[:, 1]) < .05).all() and numpy.array_equal(r.field('place', 'y'), x[:, 1]))
+
+scene = perigal.read_scene(demo, set={'spacing': '6 mm'})
+verdict('scene: as written', scene['spacing'] == '6 mm' and scene['materials']['rock']['youngs_modulus'] == '10 GPa')
+scene['output']['pictures'] = []
+scene['boundary'][0]['displacement']['y'] = -1e-5 / 3
+with warnings.catch_warnings():
+    warnings.simplefilter('ignore')
+    again = perigal.run(scene, out=os.path.join(there, 'dict'), threads=1)
+copy = perigal.read_scene(os.path.join(again.folder, 'scene.yaml'))
+verdict('run: a dict', again.report['outcome'] == 'done' and copy == scene)
+
+n = 7
+grid = (numpy.arange(n) + 1) / 7e3
+places = numpy.stack(numpy.meshgrid(grid * (1 + 2e-16), grid + 1 / 3), axis=-1).reshape(-1, 2)
+with open(os.path.join(there, 'points.csv'), 'w', encoding='utf-8') as file:
+    file.write('x [m],y [m],volume [m3],spacing [m]\n')
+    file.writelines(f'{p[0]!r},{p[1]!r},2e-11,{1 / 7e3!r}\n' for p in places.tolist())
+scene = {'dimension': 2, 'plane': 'stress', 'thickness': '1 mm', 'points': os.path.join(there, 'points.csv'),
+         'materials': {'glass': {'youngs_modulus': 7e10, 'poissons_ratio': .2}},
+         'method': {'approximation': 'rkpm', 'integration': 'nodal', 'horizon': '2.5 spacing'},
+         'boundary': [{'name': 'low', 'set': 'bottom', 'displacement': {'x': 0, 'y': 0}},
+                      {'name': 'high', 'set': 'top', 'displacement': {'y': 1e-7}}],
+         'solver': {'kind': 'static'}, 'output': {'pictures': []}}
+with warnings.catch_warnings():
+    warnings.simplefilter('ignore')
+    cloud = perigal.run(scene, out=os.path.join(there, 'cloud'), threads=1)
+verdict('places come back bit by bit', numpy.array_equal(cloud.field('place'), places))
+
+many = os.path.join(work, 'many.csv')
+with open(many, 'w') as file:
+    file.write('step [1],x [m],kind [name]\n' + ''.join(f'{k},,tension\n' for k in range(1000)) + '7,1')
+table = perigal.Table(many)
+verdict('table: empty places, an unfinished row', len(table) == 1000 and numpy.isnan(table['x']).all())
+
+refused('open: no folder', FileNotFoundError, 'nowhere', lambda: perigal.open('nowhere'))
+refused('open: no result', FileNotFoundError, 'result.e', lambda: perigal.open(there))
+refused('field: unknown', KeyError, 'displacement, damage', lambda: r.field('stres'))
+refused('field: component', KeyError, 'xx, yy', lambda: r.field('stress', 'q'))
+refused('field: step', IndexError, '', lambda: r.field('stress', step=99))
+refused('history: column', KeyError, 'energy_strain', lambda: r.history['enrgy'])
+refused('run: wrong key', perigal.SceneError, 'did you mean spacing', lambda: perigal.run(demo, there, {'spacng': 3}))
+refused('run: no file', perigal.SceneError, 'missing.yaml', lambda: perigal.run('missing.yaml', there))
+refused('run: memory', perigal.Failed, 'memory', lambda: perigal.run(demo, os.path.join(there, 'm'), memory='1 kB'))
+refused('run: memory, not a size', perigal.UsageError, 'size', lambda: perigal.run(demo, there, memory='much'))
+refused('run: not a number', ValueError, '', lambda: perigal.run(dict(scene, spacing=float('nan')), there))
+os.environ['PERIGAL'] = '/nowhere/perigal'
+refused('no program', FileNotFoundError, 'perigal', lambda: perigal.check(demo))
+print(f'1..{count}')
+sys.exit(bad > 0)
