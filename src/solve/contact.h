@@ -17,9 +17,9 @@ typedef struct {
     double  friction;                                  /* work of friction so far, J */
     double  at;                                        /* loads with a constant part: their t */
 } contact_memory;
-/* Place of the middle (dim), length, share of it that is not new, normal (dim), 1 + number of the platen
- * (0: of a crack), shear force over area and slip when work was last booked, slip of the last accepted step: numbers
- * along the path in the plane, vectors in space. */
+/* Place of the middle (dim), length, share of it that is not new, normal (dim), 1 + number of the platen (a
+ * crack: 0), shear force over area and slip when work was last booked, slip of the last accepted step: in the
+ * plane numbers along the path, vectors in space. */
 typedef struct {
     size_t length, old, normal, platen, shear, slip, accepted, values, parts;
 } contact_layout;
