@@ -17,18 +17,19 @@ typedef struct {
     double  friction;                                  /* work of friction so far, J */
     double  at;                                        /* loads with a constant part: their t */
 } contact_memory;
-/* Place of the middle (dim), length, share of it that is not new, normal (dim), 1 + number of the platen (a
- * crack: 0), shear force over area and slip when work was last booked, slip of the last accepted step: in the
- * plane numbers along the path, vectors in space. */
+/* Place of the middle (dim), length, share of it that is not new, normal (dim), 1 + number of the platen (0:
+ * a crack), shear force over area and slip when work was last booked, slip of the last accepted step: numbers
+ * along the path in the plane, vectors in space; how far the faces overlapped when they were divided into
+ * pieces in motion (contact_impact.c). */
 typedef struct {
-    size_t length, old, normal, platen, shear, slip, accepted, values, parts;
+    size_t length, old, normal, platen, shear, slip, accepted, overlap, values, parts;
 } contact_layout;
 static inline contact_layout contact_layout_of (size_t dim)
 {
     size_t m = dim == 3 ? 3 : 1, first = 2*dim + 3;
     return (contact_layout){ .length = dim, .old = dim + 1, .normal = dim + 2, .platen = 2*dim + 2,
                              .shear = first, .slip = first + m, .accepted = first + 2*m,
-                             .values = first + 3*m, .parts = m };
+                             .overlap = first + 3*m, .values = first + 3*m + 1, .parts = m };
 }
 
 /* Rigid motions of parts of the body that supports do not hold: K is singular along them (contact_loose.c).
@@ -84,6 +85,7 @@ struct system_contact {
     double   *before;                                  /* slip before (n x (dim - 1)) */
     double   *force, *gap, *open;                      /* f; g; gaps without contact (dim n each) */
     double   *initial;                                 /* gaps without displacement, m (dim n) */
+    int       waits;                                   /* 1: cracks have grown, pieces are those before */
     /* of cracks, what the layer between closed faces gives way by, m/N (dim ncrack): 0 where faces are sharp;
      * how much stiffer than the bonds that crossed it the layer may be */
     double   *soft, stiffer;
@@ -110,8 +112,9 @@ static inline int contact_of_faces (const struct system_contact *c)
 /* ---- contact_solve.c ----------------------------------------------------------------------------------- */
 pg_status contact_create  (pg_system *s);              /* where the options ask for it, else nothing */
 void      contact_free    (pg_system *s);
-/* After the force was refreshed: pieces and rows of the cracks of the state. */
-pg_status contact_refresh (pg_system *s, const pg_state *state);
+/* After the force was refreshed: pieces and rows of the cracks of the state. changes: what it was refreshed
+ * by; NULL: all. */
+pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
 /* As system_solve. */
 pg_status contact_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 /* Gaps of a displacement under the forces at hand, without what the layer between the faces gives way by. */
@@ -128,6 +131,11 @@ const double *contact_forces (const pg_system *s);
 /* In motion, pairs that were apart at displacement d and bear pressure now: their normal forces on the nodes,
  * N (ndof), and the work that they have done on the gaps that there were, J. */
 pg_status contact_impacts (const pg_system *s, const double *d, double *nodal, double *work);
+/* The acceleration of the body is a, which knows nothing of contact (newmark.c), and that by its forces: the
+ * latter is added, m/s^2. */
+void      contact_accelerate (const pg_system *s, double *a);
+/* After a step in motion in which cracks have grown: the pieces of now (contact_impact.c). */
+pg_status contact_renew   (pg_system *s, const pg_state *state);
 /* Impulses so many times these forces stand beside them, for results: s over the time step. */
 void      contact_rebound (const pg_system *s, double times);
 /* At the start of a run: tips that are closed at full load cut bonds up to an offset of their own. */
@@ -234,6 +242,8 @@ void      contact_vector   (const pg_contact_pieces *pieces, size_t k, const dou
                             double *out);
 /* Values of the memory at the pieces at hand. */
 pg_status contact_remember (struct system_contact *c);
+/* Slips of the last accepted step and overlaps to begin with, as the memory has them. */
+void      contact_recall   (struct system_contact *c);
 /* Work of friction from the state booked last to the one at hand, loads scaled. */
 void      contact_book    (pg_system *s, double scale);
 void      contact_accept  (pg_system *s);              /* a step has ended: its slips are kept */

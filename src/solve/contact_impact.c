@@ -1,6 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Contact in time steps: pairs whose faces have met within a step, and the impulses that give back what they
- * lost by it (newmark_start.c newmark_rebound). */
+ * lost by it (newmark_start.c newmark_rebound).
+ *
+ * Cracks grow at the end of a step, when its forces have done their work, and their faces are then divided
+ * into other pieces. Means that were zero are not zero over these, and faces that have just been parted may
+ * overlap by what the field varies between their points. To part them at once would be an impulse that adds
+ * energy, so a new piece closes where it stands: its gap counts from its overlap, until it has come further
+ * apart, and its slip from the slip there is. Nothing jumps, and no work is done. */
 #include "contact.h"
 #include <math.h>
 
@@ -34,4 +40,32 @@ done:
 void contact_rebound (const pg_system *s, double times)
 {
     for (size_t k = 0; k < s->contact->pieces.n; k++) s->contact->rebound[k] *= times;
+}
+
+void contact_accelerate (const pg_system *s, double *a)
+{
+    const double *force = contact_forces (s);
+    for (size_t i = 0; force && i < s->ndof; i++) a[i] += force[i] / (s->contact->weight * s->mass[i]);
+}
+
+/* Means of the displacement d of the state over the pieces of now: the memory takes them over. */
+pg_status contact_renew (pg_system *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    if (!c || !c->waits) return PG_OK;
+    PG_TRY (contact_refresh (s, state, NULL));
+    contact_layout l = contact_layout_of (c->pieces.dim);
+    pg_sparse_multiply_transposed (&c->G, state->d, c->gap);
+    for (size_t k = 0; k < c->ncrack; k++) {
+        size_t i = c->pieces.dim * k;
+        double *v = c->now.value + k * l.values;
+        contact_vector (&c->pieces, k, c->gap + i + 1, 1, v + l.accepted);
+        v[l.overlap] = fmax (0, -c->gap[i]);
+        s->report->contact_overlap = fmax (s->report->contact_overlap, v[l.overlap]);
+        c->gap[i] += v[l.overlap];
+    }
+    contact_recall (c);
+done:
+    return status;
 }

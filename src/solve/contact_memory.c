@@ -72,10 +72,10 @@ pg_status contact_remember (struct system_contact *c)
         }
         for (size_t i = l.shear; i < l.values; i++) v[i] /= sum;
         v[l.old] = old / sum;
-        part_along (&c->pieces, k, v + l.accepted, c->before + k * (dim - 1));
     }
     pg_free (c->now.value);
     c->now = fresh;
+    contact_recall (c);
 done:
     return status;
 }
@@ -121,13 +121,15 @@ void contact_book (pg_system *s, double scale)
     if (c) s->report->energy_friction = c->now.friction;
 }
 
-/* Slips of the last accepted step, as the memory has them. */
-static void take_before (struct system_contact *c)
+void contact_recall (struct system_contact *c)
 {
-    contact_layout l = contact_layout_of (c->pieces.dim);
-    for (size_t k = 0; c->now.n == c->pieces.n && k < c->now.n; k++)
-        part_along (&c->pieces, k, c->now.value + k * l.values + l.accepted,
-                    c->before + k * (c->pieces.dim - 1));
+    size_t dim = c->pieces.dim;
+    contact_layout l = contact_layout_of (dim);
+    for (size_t k = 0; c->now.n == c->pieces.n && k < c->now.n; k++) {
+        const double *v = c->now.value + k * l.values;
+        part_along (&c->pieces, k, v + l.accepted, c->before + k * (dim - 1));
+        if (k < c->ncrack) c->initial[dim * k] = v[l.overlap];
+    }
 }
 
 void contact_accept (pg_system *s)
@@ -135,11 +137,15 @@ void contact_accept (pg_system *s)
     struct system_contact *c = s->contact;
     if (!c) return;
     contact_layout l = contact_layout_of (c->pieces.dim);
-    for (size_t k = 0; k < c->pieces.n; k++)
-        contact_vector (&c->pieces, k, c->gap + c->pieces.dim * k + 1, 1,
-                        c->now.value + k * l.values + l.accepted);
+    for (size_t k = 0; k < c->pieces.n; k++) {
+        size_t i = c->pieces.dim * k;
+        double *v = c->now.value + k * l.values;
+        contact_vector (&c->pieces, k, c->gap + i + 1, 1, v + l.accepted);
+        /* faces that have come further apart need that overlap no more */
+        if (k < c->ncrack) v[l.overlap] = fmin (v[l.overlap], fmax (0, c->initial[i] - c->gap[i]));
+    }
     /* by way of the memory, whose vectors round: a resumed run has them from there too */
-    take_before (c);
+    contact_recall (c);
 }
 
 /* One memory as another. */
@@ -171,7 +177,7 @@ void contact_return (pg_system *s)
     platens_return (&c->platens);
     /* pieces of platens that the refused step has met stay pairs */
     if (c->now.n != c->pieces.n && contact_remember (c) != PG_OK) return;
-    take_before (c);
+    contact_recall (c);
 }
 
 static pg_status keep_memory (contact_memory *m, const char *name, const pg_system *s, const pg_keeper *k)
@@ -248,12 +254,13 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     pg_statistics *r = s->report;
     PG_TRY (platens_keep (s, k));
     if (k->reading && c->platens.n) PG_TRY (contact_more_pairs (s));
-    long count[6] = { (long) c->pieces.n, c->active, r->contact_passes, r->contact_sweeps, c->touched,
-                      c->made == s->revision + 1 };
+    long count[10] = { (long) c->pieces.n, c->active, r->contact_passes, r->contact_sweeps, c->touched,
+                       c->made == s->revision + 1, r->contact_pieces, r->contact_open, r->contact_stick,
+                       r->contact_sliding };
     PG_TRY (keep_memory (&c->now, "contact.now", s, k));
     PG_TRY (keep_memory (&c->start, "contact.start", s, k));
     PG_TRY (keep_shown (s, k));
-    PG_TRY (k->counts (k->context, "contact.counts", 6, count));
+    PG_TRY (k->counts (k->context, "contact.counts", 10, count));
     PG_KEEP_BOUND (k, "the number of pieces of cracks", count[0], (long) c->pieces.n, (long) c->pieces.n);
     PG_KEEP_BOUND (k, "contact", count[1], 0, 1);
     c->active = (int) count[1], r->contact_passes = count[2], r->contact_sweeps = count[3];
@@ -266,9 +273,11 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     PG_TRY (k->bytes (k->context, "contact.status", c->pieces.n, c->status));
     for (size_t i = 0; k->reading && i < c->pieces.n; i++)
         PG_KEEP_BOUND (k, "the status of a piece", c->status[i], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
-    if (k->reading) take_before (c);
+    if (k->reading) contact_recall (c);
     if (k->reading) pg_sparse_multiply (&c->G, c->force, c->nodal);
     if (k->reading) contact_count (s);
+    r->contact_pieces = count[6], r->contact_open = count[7];
+    r->contact_stick = count[8], r->contact_sliding = count[9];
 done:
     return status;
 }

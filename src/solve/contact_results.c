@@ -35,7 +35,7 @@ pg_status contact_show (pg_system *s, double scale)
                                             .area = p->area, .length = p->length, .arc = p->arc,
                                             .pressure = force * c->force[i]
                                                         + scale * c->rebound[k] / p->area,
-                                            .gap = scale * c->gap[i],
+                                            .gap = scale * (c->gap[i] - (p->platen ? 0 : c->initial[i])),
                                             .status = c->active ? c->status[k] : PG_CONTACT_OPEN };
         contact_vector (&c->pieces, k, c->force + i + 1, force, c->shown[k].shear);
         contact_vector (&c->pieces, k, c->gap + i + 1, scale, c->shown[k].slip);

@@ -120,11 +120,21 @@ done:
     return status;
 }
 
-pg_status contact_refresh (pg_system *s, const pg_state *state)
+/* A crack that grows in a time step does so behind its equations, whose forces and pairs are still asked
+ * for: contact_renew. */
+static int grows_in_step (const pg_system *s, const pg_changes *changes)
+{
+    return changes && (s->options->flags & PG_SOLVER_NEEDS_DENSITY)
+           && pg_criterion_of_tips (s->problem->criterion);
+}
+
+pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes *changes)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     if (!c) return PG_OK;
+    c->waits = grows_in_step (s, changes);
+    if (c->waits) return PG_OK;
     double t0 = pg_seconds ();
     clear (c);
     c->stiffer = 1;
@@ -385,7 +395,9 @@ void contact_count (pg_system *s)
     r->contact_pieces = (long) c->pieces.n;
     r->contact_open = r->contact_stick = r->contact_sliding = 0;
     for (size_t k = 0; k < c->pieces.n; k++) {
-        r->contact_overlap = fmax (r->contact_overlap, -c->gap[c->pieces.dim * k]);
+        size_t i = c->pieces.dim * k;
+        double open = c->gap[i] - (k < c->ncrack ? c->initial[i] : 0);
+        r->contact_overlap = fmax (r->contact_overlap, -open);
         if (!c->active || c->status[k] == PG_CONTACT_OPEN) r->contact_open++;
         else if (c->status[k] == PG_CONTACT_STICK) r->contact_stick++;
         else r->contact_sliding++;
@@ -515,7 +527,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
         area += weight * p->area, out->closed |= presses;
         for (size_t i = 0; i < 2; i++) {
             double rate = nfield == 2 ? c->route.track.force_rate[2*k + i] : 0;
-            force[0][i] += weight * (c->force[2*k + i] - rate * c->route.track.s);
+            force[0][i] += weight * (c->force[2*k + i] / c->weight - rate * c->route.track.s);
             force[1][i] += weight * rate;
         }
     }

@@ -29,6 +29,7 @@ int facet_branches (const break_loop *b, const pg_state *state, size_t i)
     const pg_criterion *c = b->system.problem->criterion;
     size_t n;
     if (!b->system.options->branching || c->type->path (c, &n) || isnan (f->near)) return 0;
+    if (f->closed || facet_slides (b, state, i, 1)) return 0;          /* it opens, or it does not branch */
     return r->steady <= 0.5 && f->wide >= least_ring * f->h && state->paths->tip[i].grown >= least_way * f->h;
 }
 
@@ -70,7 +71,7 @@ pg_status facet_fork (break_loop *b, pg_state *state, size_t i, double t, const 
     g->run[last - 1] = g->run[last - 2] = run;
     const facet_hold what = { .tip = (long) last - 2, .length = facet_zone (b) * l,
                               .energy = branch[0].energy + branch[1].energy };
-    PG_TRY (facet_hold_begin (b, t, d, &what));
+    PG_TRY (facet_hold_begin (b, t, d, &what, NULL));
     *done = 1;
 done:
     return status;

@@ -205,6 +205,8 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
     pg_system *s = &b->system;
     double t0 = pg_seconds (), times[2] = { base ? t - 1 : t, base ? t : 1 };
     const double *d[2] = { base ? base : unit, NULL };
+    pg_state measured = *state;
+    double *a = NULL;
     g->ntip = state->paths ? state->paths->ntip : 0, g->ntrial = 0, g->nfield = base ? 2 : 1;
     if (base && !g->ramp) PG_ALLOC (g->ramp, s->ndof);
     for (size_t i = 0; base && i < s->ndof; i++) g->ramp[i] = unit[i] - base[i];
@@ -214,18 +216,25 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
         g->fresh = 1;
         goto done;
     }
+    if (g->moving && s->contact) {
+        PG_ALLOC (a, s->ndof);
+        memcpy (a, state->a, s->ndof * sizeof *a);
+        contact_accelerate (s, a);
+        measured.a = a;
+    }
     PG_GROW (g->field, g->cap_field, g->ntip);
     for (size_t i = 0; i < g->ntip; i++) {
         memset (&g->field[i], 0, sizeof g->field[i]);
         g->field[i].near = NAN;
         if (!state->paths->tip[i].open) continue;
-        PG_TRY (measure_tip (b, state, i, d, times));
+        PG_TRY (measure_tip (b, &measured, i, d, times));
     }
     /* what facets set free is not known where cutting changes which faces touch */
     if (!g->moving && !s->contact) PG_TRY (trial_facets (b, state, d, times));
     tell (b, state);
     g->fresh = 1;
 done:
+    pg_free (a);
     s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     return status;
 }

@@ -154,11 +154,25 @@ int       facet_branches (const break_loop *b, const pg_state *state, size_t i);
 /* It ends, and two tips begin (facet_hold_before was called). *done 0: the material takes none there. */
 pg_status facet_fork    (break_loop *b, pg_state *state, size_t i, double t, const double *d, int *done);
 
+/* ---- facet_contact.c ----------------------------------------------------------------------------------- */
+/* Places along a facet that is cut, m, its normals, and the force on the left face there that contact goes on
+ * bearing, N (all 2 n). None without contact. */
+typedef struct { size_t n; double *x, *normal, *force; } facet_faces;
+void      facet_faces_clear  (facet_faces *faces);
+/* From the stress at d, before the cut. */
+pg_status facet_faces_before (const break_loop *b, const pg_state *state, const double *d, const double *from,
+                              const double *to, facet_faces *out);
+/* The same on the nodes, N (ndof), after it, the caches of the force being fresh. */
+pg_status facet_faces_bear   (const break_loop *b, const pg_state *state, const facet_faces *faces,
+                              double *nodal);
+
 /* ---- facet_hold.c -------------------------------------------------------------------------------------- */
 /* The forces before a cut; and after it, the caches of the force being fresh: what has changed is held, for
- * the tip, with the length and the energy of `what`. The forces after it are those before the next one. */
+ * the tip, with the length and the energy of `what`, but for the forces on the nodes that contact goes on
+ * bearing, N (ndof; NULL: none). The forces after it are those before the next one. */
 pg_status facet_hold_before (break_loop *b, double t, const double *d);
-pg_status facet_hold_begin  (break_loop *b, double t, const double *d, const facet_hold *what);
+pg_status facet_hold_begin  (break_loop *b, double t, const double *d, const facet_hold *what,
+                             const double *borne);
 /* Of all holds; what `to` had is freed. */
 pg_status facet_hold_copy   (facet_hold **to, size_t *n, size_t *capacity, const facet_hold *from,
                              size_t count);

@@ -86,7 +86,8 @@ done:
     return status;
 }
 
-pg_status facet_hold_begin (break_loop *b, double t, const double *d, const facet_hold *what)
+pg_status facet_hold_begin (break_loop *b, double t, const double *d, const facet_hold *what,
+                            const double *borne)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
@@ -98,7 +99,9 @@ pg_status facet_hold_begin (break_loop *b, double t, const double *d, const face
     PG_TRY (forces_at (s, t, d, after));
     for (size_t i = 0; i < s->ndof; i++) {
         double f = g->force_before[i] - after[i];
-        g->force_before[i] = after[i], after[i] = f;
+        g->force_before[i] = after[i];
+        if (borne) h.drop -= 0.5 * borne[i] * d[i], f -= borne[i];
+        after[i] = f;
         most = fmax (most, fabs (f));
     }
     for (size_t i = 0; i < s->ndof; i++) h.n += fabs (after[i]) > 1e-15 * most;
@@ -107,7 +110,7 @@ pg_status facet_hold_begin (break_loop *b, double t, const double *d, const face
     h.n = 0;
     for (size_t i = 0; i < s->ndof; i++)
         if (fabs (after[i]) > 1e-15 * most) h.unknown[h.n] = (long) i, h.force[h.n++] = after[i];
-    h.product = product (&h, d), h.drop = -0.5 * h.product;
+    h.product = product (&h, d), h.drop -= 0.5 * h.product;        /* of all that has changed */
     PG_GROW (g->hold, g->cap_hold, g->nhold + 1);
     g->hold[g->nhold++] = h;
     h.unknown = NULL, h.force = NULL;

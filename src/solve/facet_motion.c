@@ -129,18 +129,25 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
     facet_growth *g = b->growth;
     size_t i = (size_t) c->tip;
     facet_run *r = &g->run[i];
-    double length = hypot (c->to[0] - g->field[i].x[0], c->to[1] - g->field[i].x[1]);
+    double length = hypot (c->to[0] - g->field[i].x[0], c->to[1] - g->field[i].x[1]), *borne = NULL;
+    facet_faces faces;
+    PG_TRY (facet_faces_before (b, state, d, g->field[i].x, c->to, &faces));
     PG_TRY (facet_grow_one (b, state, c, t));
     PG_TRY (system_refresh (&b->system, state, &b->changes));
+    if (faces.n) {
+        PG_ALLOC (borne, b->system.ndof);
+        PG_TRY (facet_faces_bear (b, state, &faces, borne));
+    }
     double zone = facet_zone (b) * length;
     const facet_hold what = { .tip = c->tip, .length = zone, .energy = c->energy,
                               .alone = g->field[i].wide >= zone };
-    PG_TRY (facet_hold_begin (b, t, d, &what));
+    PG_TRY (facet_hold_begin (b, t, d, &what, borne));
     if (!(r->shown > 0)) r->taken = r->shown = facet_zone (b) * c->energy;
     r->way = r->length > 0 ? fmin (r->way - r->length, length) : 0;
     r->length = length, r->straight -= length;
     if (!(r->straight > 0)) r->least = 0;
 done:
+    facet_faces_clear (&faces), pg_free (borne);
     return status;
 }
 
@@ -275,7 +282,7 @@ pg_status facet_set_off (break_loop *b, const pg_state *state, double t, const d
     g->run[i].speed = g->run[i].least = set_off * rayleigh_speed (b, state->paths->tip[i].x);
     const facet_hold what = { .tip = (long) i, .length = facet_zone (b) * g->event_length,
                               .energy = g->event_energy, .alone = 1 };
-    PG_TRY (facet_hold_begin (b, t, d, &what));
+    PG_TRY (facet_hold_begin (b, t, d, &what, NULL));
 done:
     return status;
 }

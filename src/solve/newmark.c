@@ -192,8 +192,9 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
-    contact_accept (&b->system);
     PG_TRY (contact_show (&b->system, 1));
+    contact_accept (&b->system);
+    PG_TRY (contact_renew (&b->system, state));
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     while ((double) s->next_level / (double) s->options.levels <= step->factor * (1 + 1e-12))

@@ -349,12 +349,10 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
     else if (moves && problem->dim == 3)
         pg_scene_fault (scene, "contact.kind",
                         "solver.kind: %s keeps faces apart in the plane only so far: set none", o->kind);
-    else if (moves && (by_bonds || pg_criterion_of_tips (problem->criterion)))
+    else if (moves && by_bonds)
         pg_scene_fault (scene, "contact.kind",
-                        by_bonds ? "solver.kind: %s keeps faces apart in forces with shape functions only: "
-                                   "use force: galerkin, or set none"
-                                 : "solver.kind: %s does not know it with facets in motion: judge bonds, "
-                                   "leave failure out, or set none", o->kind);
+                        "solver.kind: %s keeps faces apart in forces with shape functions only: use force: "
+                        "galerkin, or set none", o->kind);
     else if (!by_bonds && !rests && !moves)
         pg_scene_fault (scene, "contact.kind",
                         "solver.kind: %s knows it of forces by bonds, whose layer between the faces is a "

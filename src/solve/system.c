@@ -114,7 +114,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     s->revision = now;
     s->report->updates += changes != NULL;
     if (status == PG_OK) status = system_note_change (s);
-    if (status == PG_OK) status = contact_refresh (s, state);
+    if (status == PG_OK) status = contact_refresh (s, state, changes);
     s->report->seconds[changes ? PG_SECONDS_UPDATE : PG_SECONDS_SHAPE] += pg_seconds () - t0;
     return status;
 }
