@@ -19,6 +19,7 @@
  * forces between points or by shape functions opens its facets so, with a matrix or without one. */
 #include "facet_growth.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* The share of the force that is left after a way. */
@@ -171,14 +172,23 @@ done:
 }
 
 /* ---- checkpoints and refused steps --------------------------------------------------------------------- */
-static pg_status keep_one (break_loop *b, facet_hold *h, const pg_keeper *k)
+/* Arrays of facet i; each has a name of its own. */
+static const char *named (char *name, size_t size, const char *what, size_t i)
+{
+    snprintf (name, size, "facets.%s.%zu", what, i);
+    return name;
+}
+
+static pg_status keep_one (break_loop *b, size_t i, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     const facet_growth *g = b->growth;
+    facet_hold *h = &g->hold[i];
+    char name[64];
     long count[3] = { h->tip, (long) h->n, h->alone };
     double number[6] = { h->way, h->length, h->energy, h->way0, h->product, h->drop };
-    PG_TRY (k->counts (k->context, "facets.opening", 3, count));
-    PG_TRY (k->numbers (k->context, "facets.opened", 6, number));
+    PG_TRY (k->counts (k->context, named (name, sizeof name, "opening", i), 3, count));
+    PG_TRY (k->numbers (k->context, named (name, sizeof name, "opened", i), 6, number));
     PG_KEEP_BOUND (k, "the tip of a facet that opens", count[0], 0, (long) g->nrun - 1);
     PG_KEEP_BOUND (k, "the unknowns that a facet holds", count[1], 0, (long) b->system.ndof);
     if (k->reading) {
@@ -189,10 +199,10 @@ static pg_status keep_one (break_loop *b, facet_hold *h, const pg_keeper *k)
         PG_ALLOC (h->force, (size_t) count[1] + 1);
         h->n = (size_t) count[1];
     }
-    PG_TRY (k->counts (k->context, "facets.unknowns", h->n, h->unknown));
-    PG_TRY (k->numbers (k->context, "facets.forces", h->n, h->force));
-    for (size_t i = 0; i < h->n; i++)
-        PG_KEEP_BOUND (k, "an unknown that a facet holds", h->unknown[i], 0, (long) b->system.ndof - 1);
+    PG_TRY (k->counts (k->context, named (name, sizeof name, "unknowns", i), h->n, h->unknown));
+    PG_TRY (k->numbers (k->context, named (name, sizeof name, "forces", i), h->n, h->force));
+    for (size_t j = 0; j < h->n; j++)
+        PG_KEEP_BOUND (k, "an unknown that a facet holds", h->unknown[j], 0, (long) b->system.ndof - 1);
 done:
     return status;
 }
@@ -213,7 +223,7 @@ pg_status facet_hold_keep (break_loop *b, const pg_keeper *k)
         memset (g->hold, 0, (size_t) count * sizeof *g->hold);
         g->nhold = (size_t) count;
     }
-    for (size_t i = 0; i < g->nhold; i++) PG_TRY (keep_one (b, &g->hold[i], k));
+    for (size_t i = 0; i < g->nhold; i++) PG_TRY (keep_one (b, i, k));
     facet_hold_sum (b);
 done:
     return status;

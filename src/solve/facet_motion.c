@@ -26,6 +26,7 @@
  * facet, lest it swing. New cracks do not begin in motion. */
 #include "facet_growth.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Times over which g_now is a mean, and the g that decides on branching, in spacings of a Rayleigh wave. */
@@ -299,9 +300,11 @@ pg_status facet_motion_keep (break_loop *b, const pg_keeper *k)
     g->nrun = (size_t) n;
     for (size_t i = 0; i < g->nrun; i++) {
         facet_run *r = &g->run[i];
+        char name[64];
         double number[11] = { r->speed, r->g,     r->mean,     r->steady, r->way,  r->length,
                               r->least, r->straight, r->come, r->taken,  r->shown };
-        PG_TRY (k->numbers (k->context, "facets.speed", 11, number));
+        snprintf (name, sizeof name, "facets.speed.%zu", i);
+        PG_TRY (k->numbers (k->context, name, 11, number));
         *r = (facet_run) { number[0], number[1], number[2], number[3], number[4], number[5],
                            number[6], number[7], number[8], number[9], number[10] };
     }
