@@ -62,16 +62,16 @@ double pg_contact_violation (const pg_contact_problem *problem, const pg_contact
  * round, and what happened before counts; total form: slips count from `slip` at every s, which a path may
  * be followed to and fro with. Borrowed. */
 typedef struct {
-    size_t n;                                          /* pairs */
-    const double *C, *gap, *rate;                      /* m/N (2 n x 2 n); m, m per s (2 n each) */
+    size_t n, dim;                                     /* pairs; rows of each; 3: without friction alone */
+    const double *C, *gap, *rate;                      /* m/N (dim n x dim n); m, m per s (dim n each) */
     const double *coefficient, *cohesion;              /* as in a problem (n); NULL: none */
-    const double *slip;                                /* m (n): total form; NULL: rate form */
+    const double *slip;                                /* m (n (dim - 1)): total form; NULL: rate form */
 } pg_contact_path;
 /* Where a track along it stands, in arrays of the caller's. */
 typedef struct {
     double s;
-    double *force, *gap;                               /* there: N, m (2 n each) */
-    double *force_rate, *gap_rate;                     /* of the stretch, per unit of s (2 n each) */
+    double *force, *gap;                               /* there: N, m (dim n each) */
+    double *force_rate, *gap_rate;                     /* of the stretch, per unit of s (dim n each) */
     unsigned char *status;                             /* pg_contact_status in the stretch (n) */
     unsigned char *due;                                /* 1: it changes at the end of the stretch (n) */
     double end;                                        /* of the stretch */

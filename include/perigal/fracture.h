@@ -80,11 +80,12 @@ pg_status pg_front_measure (pg_tip_field *out, const pg_problem *p, const pg_for
 /* What the faces behind a vertex of a front do to each other, in equilibria with contact. */
 typedef struct {
     /* Means behind the vertex of the pressure on the face that the normal of the front shows to, and of the
-     * shear stress on it as a vector, Pa; pressure > 0: the front is closed there. */
-    double pressure, shear[3];
+     * shear stress on it as a vector, Pa, of each field. */
+    double pressure[2], shear[2][3];
+    int    closed;                                     /* 1: they press on each other behind the vertex */
     double nearest;  /* distance from the vertex to the next piece that is closed, m; INFINITY: none */
 } pg_front_faces;
-/* The same where faces may touch: of each vertex what they do (NULL: they do not); one field. As with tips
+/* The same where faces may touch: of each vertex what they do (NULL: they do not). As with tips
  * the uniform stress that they carry is subtracted; a closed vertex has K_I = 0 and J of K_II and K_III, T is
  * not known there; tubes around an open one end before the next closed piece. */
 pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,

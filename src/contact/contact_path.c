@@ -8,7 +8,10 @@
  *     held: g' = 0;   touch: g_n' >= 0, f_n' >= 0, f_n' g_n' = 0;
  *     edge (slip towards s): g_n' = 0; g_t' = 0, - s f_t' <= mu f_n', or f_t' = - s mu f_n', s g_t' >= 0,
  * which passes of an active set solve, and projected Gauss-Seidel where these go in circles. A slip that
- * turns round sticks at once, as its pair is on the edge. */
+ * turns round sticks at once, as its pair is on the edge.
+ *
+ * In space the cone is round, and forces on its edge are no straight lines: without friction and cohesion
+ * alone is all this true there, of the normals. */
 #include "perigal/contact.h"
 #include <float.h>
 #include <math.h>
@@ -34,7 +37,8 @@ typedef struct {
     unsigned char *normal, *shear;                     /* freedoms (n) */
 } track_work;
 
-static double diagonal (const pg_contact_path *p, size_t row) { return p->C[row * 2 * p->n + row]; }
+static size_t rows_of (const pg_contact_path *p) { return p->dim * p->n; }
+static double diagonal (const pg_contact_path *p, size_t row) { return p->C[row * rows_of (p) + row]; }
 static double friction (const pg_contact_path *p, size_t k)
 {
     return p->coefficient ? p->coefficient[k] : 0;
@@ -46,24 +50,27 @@ static int is_rough (const pg_contact_path *p, size_t k)
 }
 static double direction (unsigned char status)
 {
-    return status == PG_CONTACT_FORWARD ? 1 : status == PG_CONTACT_BACKWARD ? -1 : 0;
+    return status == PG_CONTACT_FORWARD || status == PG_CONTACT_SLIDING ? 1
+           : status == PG_CONTACT_BACKWARD                              ? -1
+                                                                        : 0;
 }
-static unsigned char sliding (double direction)
+static unsigned char sliding (const pg_contact_path *p, double direction)
 {
-    return direction > 0 ? PG_CONTACT_FORWARD : PG_CONTACT_BACKWARD;
+    return p->dim == 3 ? PG_CONTACT_SLIDING : direction > 0 ? PG_CONTACT_FORWARD : PG_CONTACT_BACKWARD;
 }
 
 /* What pair k bears along the surface, less what it bears, as a length. */
 static double room (const track_work *w, size_t k)
 {
-    const double *f = w->m->force + 2*k;
-    return (friction (w->p, k) * f[0] + cohesion (w->p, k) - fabs (f[1])) * diagonal (w->p, 2*k + 1);
+    const size_t d = w->p->dim;
+    const double *f = w->m->force + d*k;
+    return (friction (w->p, k) * f[0] + cohesion (w->p, k) - fabs (f[1])) * diagonal (w->p, d*k + 1);
 }
 
 /* g = gap + s rate + C f */
 static void find_gaps (const pg_contact_path *p, pg_contact_track *m)
 {
-    size_t rows = 2 * p->n;
+    size_t rows = rows_of (p);
     for (size_t i = 0; i < rows; i++) {
         double sum = p->gap[i] + m->s * p->rate[i];
         for (size_t j = 0; j < rows; j++) sum += p->C[i * rows + j] * m->force[j];
@@ -74,12 +81,13 @@ static void find_gaps (const pg_contact_path *p, pg_contact_track *m)
 /* ---- rates --------------------------------------------------------------------------------------------- */
 static void look_at_freedom (track_work *w)
 {
+    const size_t d = w->p->dim;
     pg_contact_track *m = w->m;
     for (size_t k = 0; k < w->p->n; k++) {
         int due = m->due[k];
-        double press = m->force[2*k] * diagonal (w->p, 2*k);
+        double press = m->force[d*k] * diagonal (w->p, d*k);
         if (m->status[k] == PG_CONTACT_OPEN)
-            w->normal[k] = due || m->gap[2*k] <= w->tiny ? TOUCHING : APART;
+            w->normal[k] = due || m->gap[d*k] <= w->tiny ? TOUCHING : APART;
         else w->normal[k] = press <= w->tiny ? TOUCHING : PRESSED;
         int inside = m->status[k] != PG_CONTACT_STICK && m->status[k] != PG_CONTACT_OPEN ? 0
                      : room (w, k) > w->tiny && !(due && w->normal[k] == PRESSED);
@@ -93,20 +101,22 @@ static void look_at_freedom (track_work *w)
 /* Where a pair on the edge would slide: against its force. */
 static double edge_direction (const track_work *w, size_t k)
 {
+    const size_t d = w->p->dim;
     double now = direction (w->m->status[k]);
-    return now != 0 ? now : w->m->force[2*k + 1] < 0 ? 1 : -1;
+    return now != 0 ? now : w->m->force[d*k + 1] < 0 ? 1 : -1;
 }
 
 /* The status with which the search begins: what is due changes. */
 static void change_due (track_work *w)
 {
+    const size_t d = w->p->dim;
     pg_contact_track *m = w->m;
     for (size_t k = 0; k < w->p->n; k++) {
         if (!m->due[k]) continue;
         if (m->status[k] == PG_CONTACT_OPEN)
-            m->status[k] = w->shear[k] == SMOOTH ? sliding (m->gap[2*k + 1]) : PG_CONTACT_STICK;
+            m->status[k] = w->shear[k] == SMOOTH ? sliding (w->p, m->gap[d*k + 1]) : PG_CONTACT_STICK;
         else if (w->normal[k] == TOUCHING) m->status[k] = PG_CONTACT_OPEN;
-        else if (m->status[k] == PG_CONTACT_STICK) m->status[k] = sliding (edge_direction (w, k));
+        else if (m->status[k] == PG_CONTACT_STICK) m->status[k] = sliding (w->p, edge_direction (w, k));
         else m->status[k] = PG_CONTACT_STICK;
     }
 }
@@ -114,14 +124,15 @@ static void change_due (track_work *w)
 /* Rates that the status of all pairs asks for. */
 static pg_status solve_rates (track_work *w)
 {
+    const size_t d = w->p->dim;
     pg_status status = PG_OK;
     const pg_contact_path *p = w->p;
-    size_t rows = 2 * p->n;
+    size_t rows = rows_of (p);
     memset (w->A, 0, rows * rows * sizeof *w->A);
     for (size_t i = 0; i < rows; i++) {
-        size_t k = i / 2;
+        size_t k = i / d;
         double s = direction (w->m->status[k]);
-        int open = w->m->status[k] == PG_CONTACT_OPEN, slides = i % 2 && s != 0;
+        int open = w->m->status[k] == PG_CONTACT_OPEN, slides = i % d && s != 0;
         for (size_t j = 0; !open && !slides && j < rows; j++) w->A[j * rows + i] = p->C[j * rows + i];
         w->b[i] = open || slides ? 0 : -w->sense * p->rate[i];
         if (!open && !slides) continue;
@@ -143,20 +154,21 @@ done:
 /* The status that pair k should have by the rates at hand; *wrong: by how much the present one is wrong. */
 static unsigned char better (const track_work *w, size_t k, double *wrong)
 {
+    const size_t d = w->p->dim;
     unsigned char now = w->m->status[k];
-    double fn = w->df[2*k], ft = w->df[2*k + 1], gn = w->dg[2*k], gt = w->dg[2*k + 1],
-           mu = friction (w->p, k), ct = diagonal (w->p, 2*k + 1), s = direction (now);
+    double fn = w->df[d*k], ft = w->df[d*k + 1], gn = w->dg[d*k], gt = w->dg[d*k + 1],
+           mu = friction (w->p, k), ct = diagonal (w->p, d*k + 1), s = direction (now);
     *wrong = 0;
     if (w->normal[k] == TOUCHING && now == PG_CONTACT_OPEN) {
         if (!((*wrong = -gn) > w->slow)) return now;
-        return w->shear[k] == SMOOTH ? sliding (w->m->gap[2*k + 1]) : PG_CONTACT_STICK;
+        return w->shear[k] == SMOOTH ? sliding (w->p, w->m->gap[d*k + 1]) : PG_CONTACT_STICK;
     }
     if (now == PG_CONTACT_OPEN) return now;
-    if (w->normal[k] == TOUCHING && (*wrong = -fn * diagonal (w->p, 2*k)) > w->slow) return PG_CONTACT_OPEN;
+    if (w->normal[k] == TOUCHING && (*wrong = -fn * diagonal (w->p, d*k)) > w->slow) return PG_CONTACT_OPEN;
     if (w->shear[k] == SMOOTH || w->shear[k] == INSIDE) return now;
     if (now != PG_CONTACT_STICK) return (*wrong = -s * gt) > w->slow ? PG_CONTACT_STICK : now;
     double to = w->shear[k] == APEX ? (ft < 0 ? 1 : -1) : edge_direction (w, k);
-    return (*wrong = (-to * ft - mu * fn) * ct) > w->slow ? sliding (to) : now;
+    return (*wrong = (-to * ft - mu * fn) * ct) > w->slow ? sliding (w->p, to) : now;
 }
 
 /* 1: the rates at hand belong to their status. all: every wrong pair changes, else the worst alone. */
@@ -178,7 +190,7 @@ static int improve (track_work *w, int all)
 /* One rate of force changes: all rates of gaps follow. */
 static double push (track_work *w, size_t row, double to)
 {
-    size_t rows = 2 * w->p->n;
+    size_t rows = rows_of (w->p);
     double change = to - w->df[row];
     w->df[row] = to;
     for (size_t i = 0; change != 0 && i < rows; i++) w->dg[i] += w->p->C[row * rows + i] * change;
@@ -187,7 +199,8 @@ static double push (track_work *w, size_t row, double to)
 
 static double sweep_pair (track_work *w, size_t k)
 {
-    size_t n = 2*k, t = n + 1;
+    const size_t d = w->p->dim;
+    size_t n = d*k, t = n + 1;
     double most = 0, s = edge_direction (w, k), mu = friction (w->p, k);
     if (w->normal[k] == APART) return 0;
     double normal = w->df[n] - w->dg[n] / diagonal (w->p, n);
@@ -202,7 +215,8 @@ static double sweep_pair (track_work *w, size_t k)
 /* Rates by relaxation, and the status that they show. */
 static void relax (track_work *w)
 {
-    for (size_t i = 0; i < 2 * w->p->n; i++) w->df[i] = 0, w->dg[i] = w->sense * w->p->rate[i];
+    const size_t d = w->p->dim;
+    for (size_t i = 0; i < rows_of (w->p); i++) w->df[i] = 0, w->dg[i] = w->sense * w->p->rate[i];
     for (int sweep = 0; sweep < SWEEPS; sweep++) {
         double most = 0;
         for (size_t k = 0; k < w->p->n; k++) most = fmax (most, sweep_pair (w, k));
@@ -211,13 +225,13 @@ static void relax (track_work *w)
     }
     for (size_t k = 0; k < w->p->n; k++) {
         unsigned char *now = &w->m->status[k];
-        double fn = w->df[2*k], ft = w->df[2*k + 1], s = edge_direction (w, k),
+        double fn = w->df[d*k], ft = w->df[d*k + 1], s = edge_direction (w, k),
                cone = friction (w->p, k) * fn;
         if (w->normal[k] == APART || (w->normal[k] == TOUCHING && !(fn > 0))) *now = PG_CONTACT_OPEN;
-        else if (w->shear[k] == SMOOTH) *now = sliding (w->m->gap[2*k + 1]);
+        else if (w->shear[k] == SMOOTH) *now = sliding (w->p, w->m->gap[d*k + 1]);
         else if (w->shear[k] == INSIDE) *now = PG_CONTACT_STICK;
-        else if (w->shear[k] == EDGE) *now = -s * ft < cone ? PG_CONTACT_STICK : sliding (s);
-        else *now = fabs (ft) < cone ? PG_CONTACT_STICK : sliding (-ft);
+        else if (w->shear[k] == EDGE) *now = -s * ft < cone ? PG_CONTACT_STICK : sliding (w->p, s);
+        else *now = fabs (ft) < cone ? PG_CONTACT_STICK : sliding (w->p, -ft);
     }
 }
 
@@ -251,20 +265,21 @@ static double way_to_zero (double value, double rate, double range, double tiny)
 
 static double way_of_pair (const track_work *w, size_t k, double range)
 {
+    const size_t d = w->p->dim;
     const pg_contact_track *m = w->m;
     const pg_contact_path *p = w->p;
-    double cn = diagonal (p, 2*k), ct = diagonal (p, 2*k + 1), s = direction (m->status[k]), least;
-    if (m->status[k] == PG_CONTACT_OPEN) return way_to_zero (m->gap[2*k], w->dg[2*k], range, w->tiny);
-    least = way_to_zero (m->force[2*k] * cn, w->df[2*k] * cn, range, w->tiny);
+    double cn = diagonal (p, d*k), ct = diagonal (p, d*k + 1), s = direction (m->status[k]), least;
+    if (m->status[k] == PG_CONTACT_OPEN) return way_to_zero (m->gap[d*k], w->dg[d*k], range, w->tiny);
+    least = way_to_zero (m->force[d*k] * cn, w->df[d*k] * cn, range, w->tiny);
     if (s != 0) {
         if (!p->slip || !is_rough (p, k)) return least;
-        return fmin (least, way_to_zero (s * (m->gap[2*k + 1] - p->slip[k]), s * w->dg[2*k + 1], range,
+        return fmin (least, way_to_zero (s * (m->gap[d*k + 1] - p->slip[k]), s * w->dg[d*k + 1], range,
                                          w->tiny));
     }
     for (int sign = -1; sign <= 1; sign += 2) {
-        double most = friction (p, k) * m->force[2*k] + cohesion (p, k);
-        least = fmin (least, way_to_zero ((most - sign * m->force[2*k + 1]) * ct,
-                                          (friction (p, k) * w->df[2*k] - sign * w->df[2*k + 1]) * ct, range,
+        double most = friction (p, k) * m->force[d*k] + cohesion (p, k);
+        least = fmin (least, way_to_zero ((most - sign * m->force[d*k + 1]) * ct,
+                                          (friction (p, k) * w->df[d*k] - sign * w->df[d*k + 1]) * ct, range,
                                           w->tiny));
     }
     return least;
@@ -285,9 +300,10 @@ static void find_end (track_work *w, double until)
 /* Would pair k open with a shear force? Only cohesion makes one: it is gone at once. */
 static int drops (const track_work *w, size_t k)
 {
+    const size_t d = w->p->dim;
     const pg_contact_track *m = w->m;
     return m->status[k] == PG_CONTACT_OPEN
-           && fabs (m->force[2*k + 1]) * diagonal (w->p, 2*k + 1) > LOST / COUNTS * w->tiny;
+           && fabs (m->force[d*k + 1]) * diagonal (w->p, d*k + 1) > LOST / COUNTS * w->tiny;
 }
 static int any_drops (const track_work *w)
 {
@@ -301,11 +317,11 @@ static pg_status solve_at (pg_contact_track *m, const pg_contact_path *p, double
 {
     pg_status status = PG_OK;
     double *gap = NULL, *c = NULL;
-    PG_ALLOC (gap, 2 * p->n + 1);
+    PG_ALLOC (gap, rows_of (p) + 1);
     PG_ALLOC (c, p->n + 1);
-    for (size_t i = 0; i < 2 * p->n; i++) gap[i] = p->gap[i] + s * p->rate[i];
+    for (size_t i = 0; i < rows_of (p); i++) gap[i] = p->gap[i] + s * p->rate[i];
     for (size_t k = 0; k < p->n; k++) c[k] = lost && lost[k] ? 0 : cohesion (p, k);
-    pg_contact_problem problem = { p->n, 2, p->C, gap, p->coefficient, c, slip };
+    pg_contact_problem problem = { p->n, p->dim, p->C, gap, p->coefficient, c, slip };
     pg_contact_solution solution = { .force = m->force, .gap = m->gap, .status = m->status };
     PG_TRY (pg_contact_solve (&solution, &problem));
     m->s = m->end = s, m->changes = 0;
@@ -326,11 +342,15 @@ pg_status pg_contact_begin (pg_contact_track *m, const pg_contact_path *p, doubl
 static pg_status leap (track_work *w)
 {
     pg_status status = PG_OK;
+    const size_t d = w->p->dim;
     double *slip = NULL;
     unsigned char *lost = NULL;
-    PG_ALLOC (slip, w->p->n + 1);
+    PG_ALLOC (slip, rows_of (w->p) + 1);
     PG_ALLOC (lost, w->p->n + 1);
-    for (size_t k = 0; k < w->p->n; k++) slip[k] = w->m->gap[2*k + 1], lost[k] = (unsigned char) drops (w, k);
+    for (size_t k = 0; k < w->p->n; k++) {
+        memcpy (slip + (d - 1) * k, w->m->gap + d*k + 1, (d - 1) * sizeof *slip);
+        lost[k] = (unsigned char) drops (w, k);
+    }
     PG_TRY (solve_at (w->m, w->p, w->m->s, slip, lost));
     for (size_t k = 0; k < w->p->n; k++)
         if (lost[k] && w->m->status[k] != PG_CONTACT_OPEN) w->m->status[k] = PG_CONTACT_STICK;
@@ -343,7 +363,7 @@ done:
 static void set_sizes (track_work *w, double until)
 {
     double far = fmax (fabs (w->m->s), fabs (until)), length = 0, rate = 0;
-    for (size_t i = 0; i < 2 * w->p->n; i++) {
+    for (size_t i = 0; i < rows_of (w->p); i++) {
         length = fmax (length, fabs (w->p->gap[i]) + far * fabs (w->p->rate[i]));
         length = fmax (length, fabs (w->m->gap[i]));
         rate = fmax (rate, fabs (w->p->rate[i]));
@@ -363,7 +383,7 @@ pg_status pg_contact_stretch (pg_contact_track *m, const pg_contact_path *p, dou
 {
     pg_status status = PG_OK;
     track_work w = { .p = p, .m = m, .sense = until < m->s ? -1 : 1 };
-    size_t rows = 2 * p->n;
+    size_t rows = rows_of (p);
     int found = 1;
     m->leapt = 0;
     if (m->s != m->end) memset (m->due, 0, p->n);
@@ -394,19 +414,20 @@ done:
 
 void pg_contact_go (pg_contact_track *m, const pg_contact_path *p, double s)
 {
+    const size_t d = p->dim;
     double way = s - m->s;
     for (size_t k = 0; k < p->n; k++) {
-        double *f = m->force + 2*k, to = direction (m->status[k]);
-        for (int i = 0; i < 2; i++) f[i] += way * m->force_rate[2*k + (size_t) i];
-        if (m->status[k] == PG_CONTACT_OPEN) f[0] = f[1] = 0;
-        else if (m->due[k] && s == m->end && f[0] * diagonal (p, 2*k) <= 0) f[0] = 0;
+        double *f = m->force + d*k, to = direction (m->status[k]);
+        for (size_t i = 0; i < d; i++) f[i] += way * m->force_rate[d*k + i];
+        if (m->status[k] == PG_CONTACT_OPEN) memset (f, 0, d * sizeof *f);
+        else if (m->due[k] && s == m->end && f[0] * diagonal (p, d*k) <= 0) f[0] = 0;
         if (to != 0) f[1] = -to * (friction (p, k) * f[0] + cohesion (p, k));
     }
     m->s = s;
     find_gaps (p, m);
     for (size_t k = 0; m->changes && s == m->end && k < p->n; k++) m->total += m->due[k];
-    for (size_t k = 0; k < p->n; k++)
+    for (size_t k = 0; d == 2 && k < p->n; k++)
         if (!is_rough (p, k) && m->status[k] != PG_CONTACT_OPEN)
-            m->status[k] = m->gap[2*k + 1] < (p->slip ? p->slip[k] : 0) ? PG_CONTACT_BACKWARD
+            m->status[k] = m->gap[d*k + 1] < (p->slip ? p->slip[k] : 0) ? PG_CONTACT_BACKWARD
                                                                         : PG_CONTACT_FORWARD;
 }

@@ -7,15 +7,21 @@
  * pieces of equal area; a strip that is interrupted is several, and the ends of a surface that are too small
  * for a strip of their own go with their neighbours.
  *
- * Triangles that have grown are divided into small ones, whose middles are the points. Those of triangles
- * that share vertices without a sharp turn are one patch, and are gathered around as many centres as it has
- * pieces: each next to begin with where it is farthest from those there are, then where the middles of their
- * points lie (Lloyd 1982).
+ * Triangles that have grown are divided into small ones, whose middles are the points. Where they lie in the
+ * plane of a disc or polygon that cuts there itself they do not count again, and within half a spacing beside
+ * it, where it stopped behind its front, they go with its pieces: behind a kink there is no more than that,
+ * too narrow for pieces. The others, as far as their triangles share vertices without a sharp turn, are one
+ * patch, and are gathered around as many centres as it has pieces: each next to begin with where it is
+ * farthest from those there are, then where the middles of their points lie (Lloyd 1982).
  *
  * All areas that are compared are measured in local spacings. */
 #include "pieces.h"
 #include <math.h>
 #include <string.h>
+
+/* Grown points so near to those of a disc or polygon, and so little out of its plane, go with them: spacings,
+ * the cosine between the normals. */
+static const double BESIDE = 0.5, OFF_PLANE = 0.05, SAME_PLANE = 0.99;
 
 /* Parts of a cell of the raster each way; rounds of gathering; the least area of a piece, of that of a usual
  * one; what a turn of normals counts, as a distance in spacings per rad. */
@@ -23,11 +29,13 @@ enum { PARTS = 3, ROUNDS = 12 };
 static const double LEAST = 0.35, TURN_COUNTS = 4;
 static const double FULL = PG_CONTACT_PIECE * PG_CONTACT_PIECE;
 
-/* A point: where, normal, m^2, local spacings squared; its cell of the raster; the piece that it is in. */
-typedef struct { double x[3], normal[3], area, size; size_t row, column, piece; } dot;
+/* A point: where, normal, m^2, local spacings squared; its cell of the raster; the piece that it is in.
+ * triangle: of a grown one, until it is taken for a piece, else SIZE_MAX. */
+typedef struct { double x[3], normal[3], area, size; size_t row, column, piece, triangle; } dot;
 typedef struct {
     const pg_problem *p;
     dot *dot;  size_t ndot, cap_dot;
+    dot *grown;  size_t ngrown, cap_grown;             /* of triangles that have grown */
     size_t npatch;
     size_t cap_x, cap_normal, cap_tangent, cap_weight, cap_piece, cap_first;
 } surface;
@@ -249,6 +257,45 @@ done:
     return status;
 }
 
+/* The dot of a sheet, from `first` on, that is nearest to a grown one; local spacings squared, INFINITY: the
+ * grown one is not in the plane. */
+static double nearest_of_sheet (const surface *w, const dot *grown, size_t first, size_t *nearest)
+{
+    double least = INFINITY, h2 = grown->area / grown->size, off = 0;
+    const double *normal = w->dot[first].normal;
+    for (int k = 0; k < 3; k++) off += (grown->x[k] - w->dot[first].x[k]) * normal[k];
+    if (fabs (dot3 (grown->normal, normal)) < SAME_PLANE || off * off > OFF_PLANE * OFF_PLANE * h2)
+        return INFINITY;
+    for (size_t i = first; i < w->ndot; i++) {
+        double far = 0;
+        for (int k = 0; k < 3; k++)
+            far += (w->dot[i].x[k] - grown->x[k]) * (w->dot[i].x[k] - grown->x[k]);
+        if (far / h2 < least) least = far / h2, *nearest = i;
+    }
+    return least;
+}
+
+/* Grown dots in the plane of crack c, whose own dots are those from `first` on: where it cuts itself they are
+ * left out, beside that they become dots of the nearest piece. */
+static pg_status join_grown (surface *w, const pg_crack *c, size_t first)
+{
+    pg_status status = PG_OK;
+    size_t last = w->ndot, near = first;
+    for (size_t g = 0; g < w->ngrown; g++) {
+        dot *d = &w->grown[g];
+        if (d->triangle == SIZE_MAX) continue;
+        surface own = { .dot = w->dot, .ndot = last };
+        if (nearest_of_sheet (&own, d, first, &near) > BESIDE * BESIDE) continue;
+        d->triangle = SIZE_MAX;
+        if (pg_crack_touches (c, 3, d->x, OFF_PLANE * sqrt (d->area / d->size))) continue;
+        PG_GROW (w->dot, w->cap_dot, w->ndot + 1);
+        w->dot[w->ndot] = *d, w->dot[w->ndot].piece = w->dot[near].piece;
+        memcpy (w->dot[w->ndot++].normal, w->dot[near].normal, sizeof d->normal);
+    }
+done:
+    return status;
+}
+
 static pg_status divide_sheet (surface *w, pg_contact_pieces *out, const pg_crack *c)
 {
     pg_status status = PG_OK;
@@ -268,6 +315,7 @@ static pg_status divide_sheet (surface *w, pg_contact_pieces *out, const pg_crac
     PG_ALLOC (strip, n[0]);
     PG_TRY (find_strips (w, first, n[0], cell[0], strip, &strips));
     for (size_t k = 0; k < strips; k++) PG_TRY (cut_strip (w, first, strip, k, n[1], &count));
+    PG_TRY (join_grown (w, c, first));
     PG_TRY (put_pieces (w, out, first, count, s.axis[0]));
 done:
     pg_free (strip);
@@ -276,7 +324,7 @@ done:
 
 /* ---- triangles that have grown ------------------------------------------------------------------------- */
 /* A triangle in m^2 small ones, whose sides are shorter than the distance between points. */
-static pg_status add_triangle (surface *w, const pg_crack *c)
+static pg_status add_triangle (surface *w, const pg_crack *c, size_t number)
 {
     pg_status status = PG_OK;
     double u[3], v[3], n[3], longest = 0, least = INFINITY;
@@ -290,19 +338,19 @@ static pg_status add_triangle (surface *w, const pg_crack *c)
     }
     size_t parts = (size_t) fmax (1, ceil (longest * PG_CONTACT_POINTS_SPACE / least - 1e-9));
     double area = 0.5 * sqrt (dot3 (n, n)) / (double) (parts * parts);
-    PG_GROW (w->dot, w->cap_dot, w->ndot + parts * parts);
+    PG_GROW (w->grown, w->cap_grown, w->ngrown + parts * parts);
     for (size_t i = 0; i < parts; i++)
         for (size_t j = 0; j < 2 * (parts - i) - 1; j++) {
             /* upright ones have j even, those upside down between them j odd */
             double third = j % 2 ? 2.0 / 3 : 1.0 / 3, s = ((double) i + third) / (double) parts,
                    t = ((double) (j / 2) + third) / (double) parts, h;
-            dot *d = &w->dot[w->ndot];
+            dot *d = &w->grown[w->ngrown];
             memset (d, 0, sizeof *d);
             for (int k = 0; k < 3; k++)
                 d->x[k] = c->vertex[k] + s * u[k] + t * v[k], d->normal[k] = c->normal[k];
             if (!pg_problem_has_body (w->p, d->x)) continue;
             h = pg_problem_spacing_at (w->p, d->x);
-            d->area = area, d->size = area / (h * h), w->ndot++;
+            d->area = area, d->size = area / (h * h), d->triangle = number, w->ngrown++;
         }
 done:
     return status;
@@ -391,6 +439,19 @@ static int goes_on (const pg_crack_surfaces *s, size_t a, size_t b)
     return 0;
 }
 
+/* What is left of a triangle, to the dots of the patch at hand. */
+static pg_status take_triangle (surface *w, size_t number)
+{
+    pg_status status = PG_OK;
+    for (size_t g = 0; g < w->ngrown; g++) {
+        if (w->grown[g].triangle != number) continue;
+        PG_GROW (w->dot, w->cap_dot, w->ndot + 1);
+        w->dot[w->ndot++] = w->grown[g];
+    }
+done:
+    return status;
+}
+
 /* Patch by patch: all triangles that hang together with the first one left. */
 static pg_status divide_grown (surface *w, pg_contact_pieces *out, const pg_crack_surfaces *s)
 {
@@ -405,7 +466,7 @@ static pg_status divide_grown (surface *w, pg_contact_pieces *out, const pg_crac
         if (used[from]) continue;
         used[from] = 1, list[listed++] = from;
         for (size_t at = 0; at < listed; at++) {
-            PG_TRY (add_triangle (w, &s->cracks.crack[s->nfirst + list[at]]));
+            PG_TRY (take_triangle (w, list[at]));
             for (size_t b = 0; b < n; b++)
                 if (!used[b] && goes_on (s, list[at], b)) used[b] = 1, list[listed++] = b;
         }
@@ -426,10 +487,12 @@ pg_status surface_pieces_create (pg_contact_pieces *out, const pg_problem *p, co
     surface w = { .p = p, .cap_first = 1 };
     const pg_crack_surfaces *grown = state ? state->surfaces : NULL;
     const pg_cracks *cracks = pg_state_cracks (p, state);
+    for (size_t k = grown ? grown->nfirst : cracks->n; k < cracks->n; k++)
+        PG_TRY (add_triangle (&w, &cracks->crack[k], k - grown->nfirst));
     for (size_t k = 0; k < (grown ? grown->nfirst : cracks->n); k++)
         if (cracks->crack[k].kind != PG_CRACK_SEGMENT) PG_TRY (divide_sheet (&w, out, &cracks->crack[k]));
     if (grown) PG_TRY (divide_grown (&w, out, grown));
 done:
-    pg_free (w.dot);
+    pg_free (w.dot), pg_free (w.grown);
     return status;
 }

@@ -66,15 +66,15 @@ void front_integrals (front_sums *out, const front_section *section, const front
 double front_core_along (const tip_material *m, double h);
 
 /* ---- front_faces.c ------------------------------------------------------------------------------------- */
-/* The uniform stress that faces carry at u, linear between the vertices beside it, in that frame: across the
- * crack (2 2), along e (1 2) and along the front (2 3), Pa. 0: one of the vertices is open, or faces
- * is NULL. */
-int    front_faces_at    (const pg_front *f, const pg_front_faces *faces, double u, const double *frame,
-                          double stress[3]);
+/* The uniform stress that faces carry at u in a field, linear between the vertices beside it, in that frame:
+ * across the crack (2 2), along e (1 2) and along the front (2 3), Pa. 0: one of the vertices is open, or
+ * faces is NULL. */
+int    front_faces_at    (const pg_front *f, const pg_front_faces *faces, int field, double u,
+                          const double *frame, double stress[3]);
 /* That stress and its strain, without rotation, are taken from place k of a field. */
 void   front_faces_part  (front_sample *field, size_t k, const tip_material *m, const double stress[3]);
 /* How far a tube around open vertices at u may reach, m. */
 double front_faces_clear (const pg_front *f, const pg_front_faces *faces, double u);
 /* Closed vertices do not open, and what they set free is what sliding and tearing do. */
-void   front_faces_close (const pg_front *f, const pg_front_faces *faces, pg_tip_field *vertex);
+void   front_faces_close (const pg_front *f, const pg_front_faces *faces, int nfield, pg_tip_field *vertex);
 #endif

@@ -12,7 +12,7 @@ static void beside (const pg_front *f, double u, size_t *i, size_t *j)
     *j = f->closed ? (*i + 1) % f->n : *i + 1 < f->n ? *i + 1 : *i;
 }
 
-int front_faces_at (const pg_front *f, const pg_front_faces *faces, double u, const double *frame,
+int front_faces_at (const pg_front *f, const pg_front_faces *faces, int field, double u, const double *frame,
                     double stress[3])
 {
     size_t i, j;
@@ -20,13 +20,13 @@ int front_faces_at (const pg_front *f, const pg_front_faces *faces, double u, co
     beside (f, u, &i, &j);
     const pg_front_faces *a = &faces[i], *b = &faces[j];
     double share = u - floor (u), along = 0, across = 0;
-    if (!(a->pressure > 0) || !(b->pressure > 0)) return 0;
+    if (!a->closed || !b->closed) return 0;
     for (int k = 0; k < 3; k++) {
-        double shear = (1 - share) * a->shear[k] + share * b->shear[k];
+        double shear = (1 - share) * a->shear[field][k] + share * b->shear[field][k];
         along += frame[k] * shear, across += frame[6 + k] * shear;
     }
     /* forces on the face that the normal shows to are those of the stress behind it, turned round */
-    stress[0] = -((1 - share) * a->pressure + share * b->pressure);
+    stress[0] = -((1 - share) * a->pressure[field] + share * b->pressure[field]);
     stress[1] = -along, stress[2] = -across;
     return 1;
 }
@@ -48,20 +48,24 @@ double front_faces_clear (const pg_front *f, const pg_front_faces *faces, double
     size_t i, j;
     double nearest = INFINITY;
     beside (f, u, &i, &j);
-    if (faces[i].pressure > 0 && faces[j].pressure > 0) return INFINITY;
-    if (!(faces[i].pressure > 0)) nearest = fmin (nearest, faces[i].nearest);
-    if (!(faces[j].pressure > 0)) nearest = fmin (nearest, faces[j].nearest);
+    if (!faces[i].closed) nearest = fmin (nearest, faces[i].nearest);
+    if (!faces[j].closed) nearest = fmin (nearest, faces[j].nearest);
     return nearest;
 }
 
-void front_faces_close (const pg_front *f, const pg_front_faces *faces, pg_tip_field *vertex)
+void front_faces_close (const pg_front *f, const pg_front_faces *faces, int nfield, pg_tip_field *vertex)
 {
     for (size_t i = 0; i < f->n; i++) {
         pg_tip_field *v = &vertex[i];
-        double II = v->K_wide[1][0], III = v->K_wide[2][0];
-        if (!(faces[i].pressure > 0) || isnan (v->near)) continue;
-        v->closed = 1, v->K[0][0] = v->K_wide[0][0] = 0;
-        v->J[0][0] = (II * II + v->antiplane * III * III) / v->modulus;
-        v->T[0] = v->J_near[0][0] = NAN;               /* not known; one tube, nothing to compare it with */
+        const double *II = v->K_wide[1], *III = v->K_wide[2];
+        if (!faces[i].closed || isnan (v->near)) continue;
+        v->closed = 1;
+        for (int a = 0; a < nfield; a++) {
+            v->K[0][a] = v->K_wide[0][a] = 0, v->T[a] = NAN;
+            for (int b = 0; b < nfield; b++) {
+                v->J[a][b] = (II[a] * II[b] + v->antiplane * III[a] * III[b]) / v->modulus;
+                v->J_near[a][b] = NAN;                 /* one tube, nothing to compare it with */
+            }
+        }
     }
 }

@@ -236,7 +236,7 @@ static pg_status measure_sections (measuring *m, const front_section *s, size_t 
         for (size_t j = first; j < last; j++) {
             tip_material material = material_at (m, m->place[j].x);
             double stress[3];
-            int closed = front_faces_at (m->front, m->faces, m->u[j], m->place[j].frame, stress);
+            int closed = front_faces_at (m->front, m->faces, a, m->u[j], m->place[j].frame, stress);
             for (size_t k = (j - first) * FRONT_PLACES; k < (j - first + 1) * FRONT_PLACES; k++) {
                 if (!c->in[k]) continue;
                 take_place (m, c, a, from++, k, &m->place[j], &material, pressure);
@@ -539,8 +539,6 @@ pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const 
     if (refused) PG_FAIL (PG_E_USAGE, "no stress intensity factors: %s", refused);
     if (nfield < 1 || nfield > TIP_FIELDS)
         PG_FAIL (PG_E_USAGE, "%d displacement fields at a front: 1 or 2 can be measured", nfield);
-    if (faces && nfield != 1)
-        PG_FAIL (PG_E_USAGE, "a front whose faces touch is measured with one field, not %d", nfield);
     if (front >= nfront) PG_FAIL (PG_E_USAGE, "front %zu of %zu is asked for", front, nfront);
     m.front = &fronts[front];
     if (m.front->n < 2) PG_FAIL (PG_E_USAGE, "a front of %zu vertices is asked for", m.front->n);
@@ -559,7 +557,7 @@ pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const 
     PG_TRY (add_core (&m, out));
     PG_TRY (smooth (m.front, out));
     extrapolate (m.front, out);
-    if (faces) front_faces_close (m.front, faces, out);
+    if (faces) front_faces_close (m.front, faces, nfield, out);
 done:
     chunk_clear (&c);
     pg_nearest_free (&m.near);

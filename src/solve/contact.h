@@ -64,7 +64,7 @@ typedef struct {
     double  from;
     double *open[2];                                   /* displacements with open cracks at s = 0, 1 (ndof) */
     double  reference;                                 /* the larger of the forces of these, N */
-    double *gap, *rate;                                /* gaps without contact: gap + s rate, m (2 n each) */
+    double *gap, *rate;                                /* without contact: gap + s rate, m (dim n each) */
     int     touches, ready;  /* some piece closes; the stretch at hand leads on from where it stands */
     pg_contact_track track;                            /* force, gap and status are those of the contact */
     double *mark;  size_t nmark, cap_mark;             /* places to which it may return */
@@ -149,7 +149,8 @@ pg_status contact_factor   (pg_system *s);
 pg_status contact_condense (pg_system *s, const dynamics *dyn);
 
 /* The same behind each vertex of a front, loads scaled (contact_fronts.c). */
-void contact_at_front (const pg_system *s, const pg_front *front, double scale, pg_front_faces *out);
+void contact_at_front (const pg_system *s, const pg_front *front, int nfield, double scale,
+                       pg_front_faces *out);
 
 /* The pieces of the state at hand for results, loads scaled. */
 pg_status contact_show (pg_system *s, double scale);

@@ -12,46 +12,66 @@ static const double NEXT = 1, LAST = 8, ASIDE = 3, OFF = 1, LEANS = 0.87;
 
 static double dot (const double *a, const double *b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
 
+/* Force of piece k over its area counts in both fields: all of it in one alone, else what it is at the start
+ * of the loads that grow, and what these make of it. */
+static void add_force (const struct system_contact *c, size_t k, int nfield, double weight, double side,
+                       pg_front_faces *out)
+{
+    for (int a = 0; a < nfield; a++) {
+        double force[3], along[3];
+        for (size_t i = 0; i < 3; i++) {
+            double rate = nfield == 2 ? c->route.track.force_rate[3*k + i] : 0;
+            force[i] = a ? rate : c->force[3*k + i] - rate * c->route.track.s;
+        }
+        contact_vector (&c->pieces, k, force + 1, side < 0 ? -weight : weight, along);
+        out->pressure[a] += weight * force[0];
+        for (int m = 0; m < 3; m++) out->shear[a][m] += along[m];
+    }
+}
+
 /* One vertex at x, e ahead, n normal. */
 static void at_vertex (const struct system_contact *c, double h, const double *x, const double *e,
-                       const double *n, double scale, pg_front_faces *out)
+                       const double *n, int nfield, double scale, pg_front_faces *out)
 {
-    double area = 0, normal = 0, shear[3] = { 0 }, t[3];
+    double area = 0, t[3];
     for (int k = 0; k < 3; k++) t[k] = e[(k + 1) % 3] * n[(k + 2) % 3] - e[(k + 2) % 3] * n[(k + 1) % 3];
     memset (out, 0, sizeof *out);
     out->nearest = INFINITY;
     for (size_t k = 0; c->active && k < c->ncrack; k++) {
         const pg_contact_piece *p = &c->pieces.piece[k];
-        double to[3], along[3], side = dot (p->normal, n), f = c->force[3*k];
+        double to[3], side = dot (p->normal, n);
+        int presses = nfield == 1 ? c->force[3*k] > 0 : c->status[k] != PG_CONTACT_OPEN;
         for (int m = 0; m < 3; m++) to[m] = x[m] - p->x[m];
         double behind = dot (to, e), beside = dot (to, t), off = dot (to, n);
-        if (f > 0) out->nearest = fmin (out->nearest, fmax (0, sqrt (dot (to, to)) - 0.5 * p->length));
+        if (presses) out->nearest = fmin (out->nearest, fmax (0, sqrt (dot (to, to)) - 0.5 * p->length));
         double u = (behind - NEXT * h) / ((LAST - NEXT) * h), v = beside / (ASIDE * h);
         if (!(u > 0 && u < 1 && fabs (v) < 1) || fabs (off) > OFF * h || fabs (side) < LEANS) continue;
         double weight = pow (sin (3.14159265358979323846 * u) * (1 - v * v), 2);
-        contact_vector (&c->pieces, k, c->force + 3*k + 1, side < 0 ? -weight : weight, along);
-        area += weight * p->area, normal += weight * f;
-        for (int m = 0; m < 3; m++) shear[m] += along[m];
+        area += weight * p->area, out->closed |= presses;
+        add_force (c, k, nfield, weight, side, out);
     }
-    if (!(area > 0)) return;
-    out->pressure = scale * normal / area;
-    for (int m = 0; m < 3; m++) out->shear[m] = scale * shear[m] / area;
+    for (int a = 0; a < nfield && area > 0; a++) {
+        out->pressure[a] *= scale / area;
+        for (int m = 0; m < 3; m++) out->shear[a][m] *= scale / area;
+    }
 }
 
-void contact_at_front (const pg_system *s, const pg_front *front, double scale, pg_front_faces *out)
+void contact_at_front (const pg_system *s, const pg_front *front, int nfield, double scale,
+                       pg_front_faces *out)
 {
     for (size_t i = 0; i < front->n; i++)
         at_vertex (s->contact, pg_problem_spacing_at (s->problem, front->x + 3*i), front->x + 3*i,
-                   front->ahead + 3*i, front->normal + 3*i, scale, &out[i]);
+                   front->ahead + 3*i, front->normal + 3*i, nfield, scale, &out[i]);
 }
 
-/* Under event stepping forces are those of load factor 1. */
+/* Under event stepping and proportional loads forces are those of load factor 1. */
 int pg_solver_front_faces (const pg_solver *s, const pg_state *state, size_t front, pg_front_faces *out)
 {
     size_t n;
     const pg_front *fronts = pg_fronts_of_state (s->problem, state, &n);
     const pg_system *system = &s->break_loop.system;
     if (!system->contact || system->problem->dim != 3 || front >= n) return 0;
-    contact_at_front (system, &fronts[front], s->options.event ? state->factor : 1, out);
+    int scaled = s->options.event && !system->contact->route.open[0];
+    contact_at_front (system, &fronts[front], 1, scaled ? state->factor : 1, out);
     return 1;
 }

@@ -18,8 +18,8 @@ static size_t rows_of (const struct system_contact *c) { return c->pieces.dim * 
 
 static pg_contact_path path_of (const struct system_contact *c, const double *slip)
 {
-    return (pg_contact_path){ c->pieces.n, c->C, c->route.gap, c->route.rate, c->coefficient, c->cohesion,
-                              slip };
+    return (pg_contact_path){ c->pieces.n, c->pieces.dim, c->C, c->route.gap, c->route.rate, c->coefficient,
+                              c->cohesion, slip };
 }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
@@ -136,7 +136,7 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
         *residual = fmax (*residual, one), r->reference = fmax (r->reference, s->reference);
         if (rows_of (c)) pg_sparse_multiply_transposed (&c->G, r->open[i], row);
         for (size_t k = 0; k < rows_of (c); k++) row[k] += c->initial[k];
-        for (size_t k = 0; k < c->pieces.n; k++) r->touches |= row[2*k] < 0;
+        for (size_t k = 0; k < c->pieces.n; k++) r->touches |= row[c->pieces.dim * k] < 0;
     }
     for (size_t k = 0; k < rows_of (c); k++) r->rate[k] -= r->gap[k];
     c->touched = r->touches;
@@ -211,8 +211,10 @@ static pg_status begin_again (pg_system *s, const double *slip)
     contact_route *r = &c->route;
     pg_contact_path path = path_of (c, NULL);
     double *kept = NULL;
-    PG_ALLOC (kept, c->pieces.n + 1);
-    for (size_t k = 0; k < c->pieces.n; k++) kept[k] = slip ? slip[k] : c->gap[2*k + 1];
+    size_t d = c->pieces.dim, m = d - 1;
+    PG_ALLOC (kept, rows_of (c) + 1);
+    for (size_t k = 0; k < c->pieces.n; k++)
+        memcpy (kept + m*k, slip ? slip + m*k : c->gap + d*k + 1, m * sizeof *kept);
     PG_TRY (pg_contact_begin (&r->track, &path, r->track.s, kept));
 done:
     pg_free (kept);
@@ -325,20 +327,20 @@ done:
 
 /* ---- marks --------------------------------------------------------------------------------------------- */
 /* Share, forces, gaps, status of every place that is marked. */
-static size_t mark_size (const struct system_contact *c) { return 1 + 5 * c->pieces.n; }
+static size_t mark_size (const struct system_contact *c) { return 1 + 2 * rows_of (c) + c->pieces.n; }
 
 pg_status contact_route_mark (pg_system *s)
 {
     pg_status status = PG_OK;
     struct system_contact *c = s->contact;
     contact_route *r = &c->route;
-    size_t n = c->pieces.n, size = mark_size (c);
+    size_t n = c->pieces.n, rows = rows_of (c), size = mark_size (c);
     PG_GROW (r->mark, r->cap_mark, (r->nmark + 1) * size);
     double *at = r->mark + r->nmark++ * size;
     at[0] = r->track.s;
-    memcpy (at + 1, c->force, 2 * n * sizeof *at);
-    memcpy (at + 1 + 2*n, c->gap, 2 * n * sizeof *at);
-    for (size_t k = 0; k < n; k++) at[1 + 4*n + k] = c->status[k];
+    memcpy (at + 1, c->force, rows * sizeof *at);
+    memcpy (at + 1 + rows, c->gap, rows * sizeof *at);
+    for (size_t k = 0; k < n; k++) at[1 + 2*rows + k] = c->status[k];
 done:
     return status;
 }
@@ -347,12 +349,12 @@ void contact_route_return (pg_system *s, size_t k, double *d)
 {
     struct system_contact *c = s->contact;
     contact_route *r = &c->route;
-    size_t n = c->pieces.n;
+    size_t n = c->pieces.n, rows = rows_of (c);
     const double *at = r->mark + k * mark_size (c);
     r->track.s = r->track.end = at[0], r->track.changes = 0, r->ready = 0;
-    memcpy (c->force, at + 1, 2 * n * sizeof *at);
-    memcpy (c->gap, at + 1 + 2*n, 2 * n * sizeof *at);
-    for (size_t i = 0; i < n; i++) c->status[i] = (unsigned char) at[1 + 4*n + i];
+    memcpy (c->force, at + 1, rows * sizeof *at);
+    memcpy (c->gap, at + 1 + rows, rows * sizeof *at);
+    for (size_t i = 0; i < n; i++) c->status[i] = (unsigned char) at[1 + 2*rows + i];
     memset (r->track.due, 0, n);
     show_forces (s);
     if (d) displacement_of (s, r->track.s, c->force, d);
@@ -384,7 +386,7 @@ pg_status contact_route_keep (pg_system *s, const pg_keeper *k)
     if (n) PG_TRY (k->numbers (k->context, "contact.route.rate", n, r->rate));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.force_rate", n, t->force_rate));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.gap_rate", n, t->gap_rate));
-    if (n) PG_TRY (k->bytes (k->context, "contact.route.due", n / 2, t->due));
+    if (n) PG_TRY (k->bytes (k->context, "contact.route.due", c->pieces.n, t->due));
     r->touches = (int) count[0], r->ready = (int) count[1], t->changes = (int) count[2];
     t->leapt = (int) count[3], t->total = count[4], t->solves = count[5], t->sweeps = count[6];
     t->leaps = count[7], r->from = number[0], t->s = number[1], t->end = number[2], r->reference = number[3];

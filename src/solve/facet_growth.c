@@ -172,8 +172,18 @@ static int has_large_T (const pg_tip_field *f, int nfield)
     return large || fabs (T) * sqrt (f->h) > LARGE_T * fabs (K);
 }
 
-/* One tip; with contact its faces may touch. Then a large stress along the crack falsifies the energy of a
- * field that is not exact, and the magnitude comes from K. */
+void facet_settle_energy (pg_tip_field *f, int nfield)
+{
+    if (f->closed || isnan (f->near) || !has_large_T (f, nfield)) return;
+    for (int a = 0; a < nfield; a++)
+        for (int c = 0; c < nfield; c++) {
+            double sum = f->antiplane * f->K_wide[2][a] * f->K_wide[2][c];
+            for (int k = 0; k < 2; k++) sum += f->K_wide[k][a] * f->K_wide[k][c];
+            f->J[a][c] = f->J_near[a][c] = sum / f->modulus;
+        }
+}
+
+/* One tip; with contact its faces may touch. */
 static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, const double *const *d,
                               const double *times)
 {
@@ -185,11 +195,7 @@ static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, co
     if (s->contact) contact_at_tip (s, state, i, g->nfield, &faces);
     PG_TRY (pg_tip_measure_faces (f, s->problem, s->force, s->self, state, i, g->nfield, d, times,
                                   s->contact ? &faces : NULL));
-    if (!s->contact || f->closed || isnan (f->near) || !has_large_T (f, g->nfield)) goto done;
-    for (int a = 0; a < g->nfield; a++)
-        for (int c = 0; c < g->nfield; c++)
-            f->J[a][c] = f->J_near[a][c] =
-                (f->K_wide[0][a] * f->K_wide[0][c] + f->K_wide[1][a] * f->K_wide[1][c]) / f->modulus;
+    if (s->contact) facet_settle_energy (f, g->nfield);
 done:
     return status;
 }

@@ -107,6 +107,9 @@ pg_status facet_keep    (break_loop *b, const pg_keeper *keeper);
  * else the fields base (loads of t - 1) and unit - base, and load factors are counted from there. */
 pg_status facet_measure (break_loop *b, const pg_state *state, const double *base, const double *unit,
                          double t);
+/* Where faces may touch: a large stress along the crack falsifies the energy of a field that is not exact,
+ * and the magnitude of what is open comes from K. */
+void      facet_settle_energy (pg_tip_field *f, int nfield);
 /* The largest of all facets at a load factor, by the last measurement: 1: one grows there. */
 double    facet_utilisation (const break_loop *b, const pg_state *state, double factor);
 /* Grows what is within the tie of the largest at that factor, at least one facet; b->changes are the bonds

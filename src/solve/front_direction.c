@@ -8,11 +8,11 @@
  *
  *   K_v = cos (theta/2) / 2 (K_A + sqrt (K_A^2 + 4 K_III^2)),
  *
- * and counts J K_v^2 / (K_I^2 + K_II^2 + K_III^2 / (1 - nu)), at most J: more than all modes together hold
- * cannot be set free. K_III turns that stress out of the normal n towards the tangent t by psi, tan 2 psi =
- * 2 K_III / K_A: the new surface would fall by tan psi along the front. Facets that each turn would tear from
- * each other; here the surface stays one sheet, and the rise z of the vertices is the one nearest to both:
- * it makes
+ * and counts J K_v^2 / (K_I^2 + K_II^2 + K_III^2 / (1 - nu)), at most J but where faces press on each other:
+ * a kink of a crack that slides sets free more than the crack itself would, as in the plane. K_III turns that
+ * stress out of the normal n towards the tangent t by psi, tan 2 psi = 2 K_III / K_A: the new surface would
+ * fall by tan psi along the front. Facets that each turn would tear from each other; here the surface stays
+ * one sheet, and the rise z of the vertices is the one nearest to both: it makes
  *
  *   sum_i w_i (z_i - d_i sin theta_i)^2 + l^2 integral (dz/ds + tan psi)^2 ds
  *
@@ -43,7 +43,7 @@ void front_judge (const break_loop *b, const pg_tip_field *f, double factor, fro
     double K_v = 0.5 * c * (K_A + hypot (K_A, 2 * K[2]));
     double all = K[0] * K[0] + K[1] * K[1] + f->antiplane * K[2] * K[2];
     if (!(all > 0)) return;
-    out->ratio = fmin (1, K_v * K_v / all);
+    out->ratio = f->closed ? K_v * K_v / all : fmin (1, K_v * K_v / all);
     out->slope = -tan (0.5 * atan2 (2 * K[2], K_A));
     for (int k = 0; k < 3; k++)
         x[k] = f->x[k] + 0.5 * length * (cos (out->kink) * f->e[k] + sin (out->kink) * f->normal[k]);

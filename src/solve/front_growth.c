@@ -55,9 +55,35 @@ static size_t nearest_known (const unsigned char *known, size_t n, int closed, s
     return n;
 }
 
+/* What a vertex that has just left closed faces shows as long as there is no room around it: the stress
+ * intensity that made its first facet open, and no direction but straight on. from: a closed one beside
+ * it. */
+static void as_opened (pg_tip_field *out, const pg_tip_field *from, int nfield)
+{
+    double II = from->K_wide[1][0], III = from->K_wide[2][0], theta, K, G, of_K[2];
+    if (nfield == 2) II += from->K_wide[1][1], III += from->K_wide[2][1];
+    double J = (II * II + from->antiplane * III * III) / from->modulus;
+    int turns = pg_kink (J, 0, II, NAN, 0, &theta, &K, &G);
+    double c = turns ? cos (0.5 * theta) : 1, A = turns ? K / c : 0, root = hypot (A, 2 * III);
+    /* K_v = c / 2 (A + root) and its derivatives by K_II and K_III there: it is homogeneous */
+    of_K[0] = II != 0 ? 0.5 * c * (A + (root > 0 ? A * A / root : 0)) / II : 0;
+    of_K[1] = root > 0 ? 2 * c * III / root : 0;
+    out->closed = 0;
+    for (int a = 0; a < nfield; a++) {
+        out->K[0][a] = of_K[0] * from->K_wide[1][a] + of_K[1] * from->K_wide[2][a];
+        out->K_wide[0][a] = out->K[0][a];
+        for (int k = 1; k < 3; k++) out->K[k][a] = out->K_wide[k][a] = 0;
+    }
+    for (int a = 0; a < nfield; a++)
+        for (int b = 0; b < nfield; b++)
+            out->J[a][b] = out->J_near[a][b] = out->K[0][a] * out->K[0][b] / out->modulus;
+}
+
 /* A vertex whose tube has no room takes over what its nearest neighbour shows, but not where materials of
- * unlike stiffness meet: it stays there, as a front without any number does. */
-static int fill_gaps (pg_tip_field *field, const pg_front *front, unsigned char *known)
+ * unlike stiffness meet: it stays there, as a front without any number does. faces: NULL or what they do to
+ * each other behind the vertices. */
+static int fill_gaps (pg_tip_field *field, const pg_front *front, int nfield, const pg_front_faces *faces,
+                      unsigned char *known)
 {
     size_t n = front->n, gaps = 0;
     for (size_t i = 0; i < n; i++) known[i] = (unsigned char) !isnan (field[i].near), gaps += !known[i];
@@ -68,6 +94,8 @@ static int fill_gaps (pg_tip_field *field, const pg_front *front, unsigned char 
         memcpy (field[i].x, own.x, sizeof own.x), memcpy (field[i].e, own.e, sizeof own.e);
         memcpy (field[i].normal, own.normal, sizeof own.normal);
         field[i].h = own.h, field[i].room = own.room;
+        if (faces && from->closed && !faces[i].closed && front->grown[i] > 0)
+            as_opened (&field[i], from, nfield);
     }
     return gaps == n;
 }
@@ -145,11 +173,14 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
         if (!front[k].open || !front[k].n) continue;
         if (s->contact) {
             PG_GROW (faces, cap_faces, front[k].n);
-            contact_at_front (s, &front[k], 1, faces);
+            contact_at_front (s, &front[k], g->nfield, 1, faces);
         }
         PG_TRY (pg_front_measure_faces (f->field + f->first[k], s->problem, s->force, s->self, state, k,
                                         g->nfield, d, t, s->contact ? faces : NULL));
-        f->blind[k] = (unsigned char) fill_gaps (f->field + f->first[k], &front[k], known);
+        for (size_t i = f->first[k]; s->contact && i < f->first[k + 1]; i++) 
+            facet_settle_energy (&f->field[i], g->nfield);
+        f->blind[k] = (unsigned char) fill_gaps (f->field + f->first[k], &front[k], g->nfield,
+                                                 s->contact ? faces : NULL, known);
     }
     if (!g->moving) PG_TRY (fronts_offer_starts (b, state, d, t));
     tell (b, front, nfront, state->events);
@@ -218,33 +249,12 @@ done:
     return status;
 }
 
-/* Where closed faces end so near behind a front that has just left them there is no room for a tube, and what
- * the front does next would be a guess. */
-static pg_status refuse_closed (const front_growth *f, double factor)
-{
-    pg_status status = PG_OK;
-    for (size_t i = 0; i < f->n; i++) {
-        const pg_tip_field *at = &f->field[i];
-        if (!at->closed || !(f->vertex[i].way > 0)) continue;
-        PG_FAIL (PG_E_USAGE,
-                 "a crack front whose faces press on each other would grow at (%.6g, %.6g, %.6g) m, at load "
-                 "factor %.6g: growth of closed fronts is not known in space yet. Its K_II and K_III are in "
-                 "fronts.csv up to there; with a larger failure.fracture_energy the run goes on",
-                 at->x[0], at->x[1], at->x[2], factor);
-    }
-done:
-    return status;
-}
-
 pg_status fronts_grow (break_loop *b, pg_state *state, double factor, double least)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     const pg_problem *p = b->system.problem;
-    if (fronts_plan (b, state, factor) >= least) {
-        PG_TRY (refuse_closed (g->fronts, factor));
-        PG_TRY (grow_planned (b, state));
-    }
+    if (fronts_plan (b, state, factor) >= least) PG_TRY (grow_planned (b, state));
     for (size_t k = 0; k < g->ntrial; k++)
         if (facet_trial_utilisation (g, &g->trial[k], factor) >= least)
             PG_TRY (fronts_start (b, state, &g->trial[k]));

@@ -66,6 +66,11 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
 /* ---- the entry ----------------------------------------------------------------------------------------- */
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 
+static int is_rough (const pg_solver_options *o)
+{
+    return o->contact.kind != PG_CONTACT_NONE && (o->contact.coefficient > 0 || o->contact.cohesion > 0);
+}
+
 /* What does not go together with the stepping that was asked for, or found. */
 static void check_stepping (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene,
                             int closes)
@@ -76,10 +81,10 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
                         "event stepping needs loads that grow with the load factor (ramp: linear), stay "
                         "(ramp: constant), or both: use fixed, or stages");
     /* Coulomb's cone is round in space: forces are no straight lines between changes of status */
-    if (o->event && closes && affine && problem->dim == 3)
+    if (o->event && is_rough (o) && affine && problem->dim == 3)
         pg_scene_fault (scene, "solver.stepping",
-                        "event goes with contact.kind in space where all loads grow with the load factor: "
-                        "with a constant part, cohesion, or stages, use fixed");
+                        "event goes with friction in space where all loads grow with the load factor: with a "
+                        "constant part, cohesion, or stages, use fixed, or contact.kind: normal");
     if (closes && pg_problem_removes (problem))
         pg_scene_fault (scene, "stages", "remove does not go with contact.kind so far");
     if (o->event && o->break_mode == PG_BREAK_ALL)
@@ -108,7 +113,7 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
     int suits = proportional || problem->nstage
                 || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem));
     if (problem->nplaten) suits = proportional && platens_touch (problem);
-    if (closes && problem->dim == 3 && (!proportional || o->contact.cohesion > 0)) suits = 0;
+    if (is_rough (o) && problem->dim == 3 && (!proportional || o->contact.cohesion > 0)) suits = 0;
     o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
     /* cohesion does not grow with the load */
     own->affine = o->event && (!proportional || o->contact.cohesion > 0);

@@ -15,7 +15,7 @@ typedef struct {
 
 static void set_up (room *r, size_t n)
 {
-    r->path = (pg_contact_path){ n, r->C, r->gap, r->rate, r->mu, r->cohesion, NULL };
+    r->path = (pg_contact_path){ n, 2, r->C, r->gap, r->rate, r->mu, r->cohesion, NULL };
     r->track = (pg_contact_track){ .force = r->force, .gap = r->now, .force_rate = r->force_rate,
                                    .gap_rate = r->gap_rate, .status = r->status, .due = r->due };
 }
