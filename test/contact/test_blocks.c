@@ -2,14 +2,7 @@
  * Blocks that a crack has cut apart and only contact holds: a body cut in two and pressed, a block that
  * slides on an inclined cut, a wedge. Forces of sliding blocks follow from statics alone. */
 #include "scene_runs/run.h"
-
-static const pg_platen_values *platen_of (const run *r, size_t i)
-{
-    size_t n;
-    const pg_platen_values *v = pg_solver_platens (r->solver, &n);
-    assert_true (i < n);
-    return &v[i];
-}
+#include "platens.h"
 
 /* A column in two parts between platens, held by nothing else, bears what the uncut one bears, as well as its
  * integration beside the cut can. */

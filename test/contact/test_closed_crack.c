@@ -3,6 +3,7 @@
  * infinite plate, so that K_II = (|tau| - mu sigma_n) sqrt (pi a) is exact; bending that closes a part of a
  * crack; loads that come, go and turn; units, places and threads; what is refused. */
 #include "../../bench/closed_crack_scenes.h"
+#include "refused.h"
 #include "scene_runs/run.h"
 
 static const double pi = 3.14159265358979323846;
@@ -355,19 +356,8 @@ static void the_rest_is_refused (void **state)
         { FLAT "]\ncontact: {kind: normal}\nfailure: {criterion: principal_stress, tensile_strength: 1}\n",
           "not single broken bonds" },
     };
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        pg_scene *scene = NULL;
-        pg_problem *problem = NULL;
-        pg_solver_options options;
-        check_ok (pg_scene_parse (&scene, wrong[i].scene, "test.yaml"));
-        pg_status status = pg_problem_build (&problem, scene, 1);
-        if (status == PG_OK) status = pg_solver_options_read (&options, problem, scene);
-        if (status != PG_E_SCENE) print_error ("scene %zu: %s\n", i, pg_last_error ());
-        assert_int_equal (status, PG_E_SCENE);
-        check_contains (pg_last_error (), wrong[i].words);
-        pg_problem_free (&problem);
-        pg_scene_free (&scene);
-    }
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        check_refused (wrong[i].scene, wrong[i].words);
 }
 
 int main (void)

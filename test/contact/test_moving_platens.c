@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Rigid platens in explicit steps: walls, impactors with a mass, motions that are prescribed, friction;
  * momentum, energy; threads, checkpoints, refused steps; what is refused. */
+#include "refused.h"
 #include "scene_runs/run.h"
 #include "solve/tape.h"
 
@@ -213,23 +214,12 @@ static void threads_shortcuts_and_stops_change_nothing (void **state)
 
 static void must_refuse (const char *text, const char *part)
 {
-    pg_scene *scene = NULL;
-    pg_problem *problem = NULL;
-    pg_solver *solver = NULL;
-    pg_solver_options o;
     char all[2048];
     snprintf (all, sizeof all,
               "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [9, 9]}}}]\nspacing: 1\n"
               "lattice: cells\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.3, density: 1}}\n%s",
                   text);
-    check_ok (pg_scene_parse (&scene, all, "test.yaml"));
-    pg_status status = pg_problem_build (&problem, scene, 1);
-    if (status == PG_OK) status = pg_solver_options_read (&o, problem, scene);
-    if (status == PG_OK) status = pg_solver_create (&solver, problem, &o);
-    assert_int_equal (status, PG_E_SCENE);
-    check_contains (pg_last_error (), part);
-    pg_solver_free (&solver);
-    pg_problem_free (&problem), pg_scene_free (&scene);
+    check_refused (all, part);
 }
 
 #define BOND "method: {force: bond, accept_inexact: yes}\nsolver: {kind: verlet, end: 1}\n"

@@ -1,8 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Rigid platens: blocks between them that nothing else holds, against closed forms; forces, tilting seats,
  * friction, gaps; cylinders on planes (Hertz); units, mirrors and threads; checkpoints; what is refused. */
+#include "refused.h"
 #include "scene_runs/run.h"
 #include "solve/tape.h"
+#include "platens.h"
 
 static int is_long (void)
 {
@@ -14,14 +16,6 @@ static int is_long (void)
     "dimension: 2\nplane: " mode "\nthickness: 0.5\n" \
     "body: [{add: {box: {low: [0, 0], high: " size "}}}]\nspacing: " unit "\nlattice: cells\n" \
     "method: {integration: consistent}\nmaterials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\n" more
-
-static const pg_platen_values *platen_of (const run *r, size_t i)
-{
-    size_t n;
-    const pg_platen_values *v = pg_solver_platens (r->solver, &n);
-    assert_true (i < n);
-    return &v[i];
-}
 
 /* All pieces of a run bear this pressure and shear. */
 static void check_pieces (const run *r, double pressure, double shear, double tolerance)
@@ -282,19 +276,8 @@ static void the_rest_is_refused (void **state)
         { PLATE ("") "platens: [{name: head, shape: cylinder, radius: 1, point: [0.5, 2], displacement: {y: "
           "-0.01}}]\nsolver: {kind: static, stepping: event}\n", "face to face" },
     };
-    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++) {
-        pg_scene *scene = NULL;
-        pg_problem *problem = NULL;
-        pg_solver_options options;
-        check_ok (pg_scene_parse (&scene, wrong[i].scene, "test.yaml"));
-        pg_status status = pg_problem_build (&problem, scene, 1);
-        if (status == PG_OK) status = pg_solver_options_read (&options, problem, scene);
-        if (status != PG_E_SCENE) print_error ("scene %zu: %s\n", i, pg_last_error ());
-        assert_int_equal (status, PG_E_SCENE);
-        check_contains (pg_last_error (), wrong[i].words);
-        pg_problem_free (&problem);
-        pg_scene_free (&scene);
-    }
+    for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
+        check_refused (wrong[i].scene, wrong[i].words);
     static const struct { const char *platens, *words; } loose[] = {
         { "{name: base, point: [0.5, 0], normal: [0, 1]}, {name: side, point: [0, 0.5], normal: [1, 0], "
           "force: {x: 1}}", "without end" },

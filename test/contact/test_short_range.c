@@ -2,6 +2,7 @@
  * Short-range contact in explicit steps: the search finds what looking at all pairs finds; forces, slips and
  * energies against sums written anew; bars that collide; momentum, energy; threads, checkpoints, refused
  * steps; units and directions; what is refused. */
+#include "refused.h"
 #include "scene_runs/run.h"
 #include "solve/tape.h"
 
@@ -442,19 +443,11 @@ static void nothing_near_is_skipped (void **state)
 
 static void must_refuse (const char *text, const char *part)
 {
-    pg_scene *scene = NULL;
-    pg_problem *problem = NULL;
-    pg_solver_options o;
     char all[2048];
     snprintf (all, sizeof all,
               "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [9, 9]}}}]\nspacing: 1\n"
               "materials: {m: {youngs_modulus: 1, poissons_ratio: 0.3, density: 1}}\n%s", text);
-    check_ok (pg_scene_parse (&scene, all, "test.yaml"));
-    pg_status status = pg_problem_build (&problem, scene, 1);
-    if (status == PG_OK) status = pg_solver_options_read (&o, problem, scene);
-    assert_int_equal (status, PG_E_SCENE);
-    check_contains (pg_last_error (), part);
-    pg_problem_free (&problem), pg_scene_free (&scene);
+    check_refused (all, part);
 }
 
 static void what_it_cannot_do_is_refused (void **state)

@@ -1,9 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * scenes.h: problems from text, and scenes that must be refused with a message. */
+ * scenes.h: problems from text. */
 #ifndef PERIGAL_TEST_SCENES_H
 #define PERIGAL_TEST_SCENES_H
-#include "check.h"
-#include "perigal/solve.h"
+#include "refused.h"
 
 #define PLATE \
     "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 0.5]}}}]\nspacing: 0.1\nthickness: 0.2\n" \
@@ -25,26 +24,6 @@ static inline void unbuild (built *b)
     pg_scene_free (&b->scene);
 }
 
-/* Somewhere on the way to a solver the scene is refused, with this in the message, and nothing is left
- * over. */
-static inline void refused_at (const char *text, const char *part, const char *file, int line)
-{
-    pg_scene *scene = NULL;
-    pg_problem *problem = NULL;
-    pg_solver_options options;
-    pg_status status = pg_scene_parse (&scene, text, "test.yaml");
-    size_t used = pg_memory_used ();
-    if (status == PG_OK) status = pg_problem_build (&problem, scene, 1);
-    if (status == PG_OK) status = pg_solver_options_read (&options, problem, scene);
-    if (status != PG_E_SCENE || !strstr (pg_last_error (), part)) {
-        print_error ("status '%s', message '%s' where '%s' was expected\n", pg_status_text (status),
-                     status ? pg_last_error () : "", part);
-        _fail (file, line);
-    }
-    pg_problem_free (&problem);
-    if (scene && pg_memory_used () > used + 4096) _fail (file, line);      /* the scene keeps its faults */
-    pg_scene_free (&scene);
-}
 /* The problem of a scene built with each allocation failing in turn: told as that, and nothing is left
  * behind. */
 static inline void each_allocation_may_fail (const char *text)
@@ -69,5 +48,4 @@ static inline void each_allocation_may_fail (const char *text)
     assert_true (k > 50);
     pg_scene_free (&scene);
 }
-#define check_refused(text, part) refused_at ((text), (part), __FILE__, __LINE__)
 #endif

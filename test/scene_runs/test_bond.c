@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Runs by forces straight between points: solvers agree, loads arrive in full, cracks grow by events and in
  * time, materials, scenes refused. */
+#include "refused.h"
 #include "run.h"
 
 #define PLATE \
@@ -197,42 +198,25 @@ static void two_materials (void **unused)
     clear (&r);
 }
 
-static void refused (const char *text, const char *part)
-{
-    pg_scene *scene = NULL;
-    pg_problem *problem = NULL;
-    pg_solver_options options;
-    pg_solver *solver = NULL;
-    size_t used = pg_memory_used ();
-    check_ok (pg_scene_parse (&scene, text, "test.yaml"));
-    pg_status status = pg_problem_build (&problem, scene, 1);
-    if (status == PG_OK) status = pg_solver_options_read (&options, problem, scene);
-    if (status == PG_OK) status = pg_solver_create (&solver, problem, &options);
-    assert_true (status == PG_E_SCENE || status == PG_E_USAGE);
-    check_contains (pg_last_error (), part);
-    assert_null (solver);
-    pg_problem_free (&problem), pg_scene_free (&scene);
-    assert_int_equal (pg_memory_used (), used);
-}
-
 static void refusals (void **unused)
 {
     (void) unused;
-    refused (PLATE ROCK PULL
-             "method: {force: bond}\nfailure: {criterion: principal_stress, tensile_strength: 1 MPa}\n",
-             "use stretch, node_energy, energy_release, or force: galerkin");
-    refused (PLATE ROCK PULL "method: {force: bond, stretch: finite}\n",
-             "this solver needs linear ones");
-    refused (PLATE ROCK PULL "method: {force: bond, stretch: finite}\nfailure: {criterion: stretch, "
-                             "critical_stretch: 1e-3, stretch: linear}\n"
-                             "solver: {kind: verlet, end: 1 us}\n",
-             "method.stretch is finite");
-    refused (PLATE "perturb: {amount: 0.1}\n" ROCK PULL "method: {force: bond, partial_volume: overlap}\n",
-             "use linear or none");
-    refused (PLATE "perturb: {amount: 0.1}\n" ROCK PULL "method: {force: bond, evaluation: stencil}\n",
-             "use list or auto");
-    refused (PLATE ROCK PULL "method: {force: bond, evaluation: stencil, surface_correction: volume}\n",
-             "use list or auto");
+    check_refused (PLATE ROCK PULL
+                   "method: {force: bond}\nfailure: {criterion: principal_stress, tensile_strength: 1 MPa}\n",
+                   "use stretch, node_energy, energy_release, or force: galerkin");
+    check_refused (PLATE ROCK PULL "method: {force: bond, stretch: finite}\n",
+                   "this solver needs linear ones");
+    check_refused (PLATE ROCK PULL "method: {force: bond, stretch: finite}\nfailure: {criterion: stretch, "
+                                   "critical_stretch: 1e-3, stretch: linear}\n"
+                                   "solver: {kind: verlet, end: 1 us}\n",
+                   "method.stretch is finite");
+    check_refused (PLATE "perturb: {amount: 0.1}\n" ROCK PULL
+                   "method: {force: bond, partial_volume: overlap}\n",
+                   "use linear or none");
+    check_refused (PLATE "perturb: {amount: 0.1}\n" ROCK PULL "method: {force: bond, evaluation: stencil}\n",
+                   "use list or auto");
+    check_refused (PLATE ROCK PULL "method: {force: bond, evaluation: stencil, surface_correction: volume}\n",
+                   "use list or auto");
 }
 
 /* A galerkin scene, one key set: what means nothing now is told, and the default kernel and horizon

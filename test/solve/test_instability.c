@@ -2,6 +2,7 @@
  * Event stepping where growth goes on by itself: a held load is the limit of fixed load steps, bond by bond;
  * in motion reactions go on smoothly, energies add up, and the end is an equilibrium; both are resumed bit by
  * bit and can be stopped in the middle; what does not go together is refused. */
+#include "refused.h"
 #include "scene_runs/run.h"
 #include "tape.h"
 
@@ -338,9 +339,6 @@ static void what_does_not_go_together_is_refused (void **state)
     };
     for (size_t k = 0; k < sizeof wrong / sizeof *wrong; k++) {
         char text[1024];
-        pg_scene *scene = NULL;
-        pg_problem *problem = NULL;
-        pg_solver_options options;
         snprintf (text, sizeof text,
                   "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [8 mm, 4 mm]}}}]\nspacing: 1 mm\n"
                   "thickness: 1 mm\nmaterials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.22%s}}\n"
@@ -348,13 +346,7 @@ static void what_does_not_go_together_is_refused (void **state)
                   "bottom, displacement: {x: 0, y: 0}}\n  - {set: top, displacement: {y: 1 um}}\n"
                   "solver: {%s}\n",
                   wrong[k].density, wrong[k].solver);
-        pg_status status = pg_scene_parse (&scene, text, "test.yaml");
-        if (status == PG_OK) status = pg_problem_build (&problem, scene, 1);
-        if (status == PG_OK) status = pg_solver_options_read (&options, problem, scene);
-        assert_int_equal (status, PG_E_SCENE);
-        check_contains (pg_last_error (), wrong[k].message);
-        pg_problem_free (&problem);
-        pg_scene_free (&scene);
+        check_refused (text, wrong[k].message);
     }
 }
 

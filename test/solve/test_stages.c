@@ -2,6 +2,7 @@
  * Stages of loading: closed forms of a bar that is squeezed, pulled, unloaded and reloaded, by events and by
  * fixed steps; the same events as without stages where the path is the same; every condition that ends a
  * stage early; energies; resume in every stage; what is no such stage. */
+#include "refused.h"
 #include "scene_runs/run.h"
 #include "tape.h"
 
@@ -434,22 +435,13 @@ static void wrong_stages_are_faults (void **state)
     };
     for (size_t k = 0; k < sizeof cases / sizeof *cases; k++) {
         char text[2048];
-        pg_scene *scene = NULL;
-        pg_problem *problem = NULL;
-        pg_solver_options options;
         snprintf (text, sizeof text,
                 "dimension: 2\nthickness: 1 m\nbody: [{add: {box: {low: [0, 0], high: [1, 0.4]}}}]\nspacing: "
                   "0.1\nmaterials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}\n"
                   "boundary:\n - {set: left, displacement: {x: 0, y: 0}}\n - {name: pull, set: right, "
                   "traction: {x: 2 MPa}%s}\nstages: [%s]\n%s",
                   cases[k].load, cases[k].stages, cases[k].solver);
-        check_ok (pg_scene_parse (&scene, text, "test.yaml"));
-        pg_status status = pg_problem_build (&problem, scene, 1);
-        if (status == PG_OK) status = pg_solver_options_read (&options, problem, scene);
-        assert_int_equal (status, PG_E_SCENE);
-        check_contains (pg_last_error (), cases[k].message);
-        pg_problem_free (&problem);
-        pg_scene_free (&scene);
+        check_refused (text, cases[k].message);
     }
 }
 
