@@ -79,6 +79,13 @@ $(BUILD)/src/%.o: src/%.c Makefile
 	$(Q)$(CC) $(CFLAGS) -MMD -MP -c $< -o $@
 
 $(BUILD)/src/linalg/suitesparse.o: CFLAGS += $(call soname,BLAS,openblas) $(call soname,CHOLMOD,cholmod) $(call soname,UMFPACK,umfpack)
+# the scenes of `perigal new`, as C
+NEW     := $(sort $(wildcard data/new/*/*))
+$(BUILD)/new_scenes.h: $(NEW) .ci/new_scenes Makefile
+	@mkdir -p $(@D)
+	$(Q).ci/new_scenes $(NEW) > $@.new && mv $@.new $@
+$(BUILD)/src/cli/new.o: $(BUILD)/new_scenes.h
+$(BUILD)/src/cli/new.o: CFLAGS += -I$(BUILD)
 $(BUILD)/src/netcdf/library.o: CFLAGS += $(call soname,NETCDF,netcdf)
 $(BUILD)/src/picture/cairo_calls.o: CFLAGS += $(call soname,CAIRO,cairo)
 

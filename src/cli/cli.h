@@ -14,6 +14,8 @@ int pg_cli_run   (int argc, char **argv);
 int pg_cli_check (int argc, char **argv);
 /* DIR [REFERENCE] ...: a result against what is known of it (compare.c). */
 int pg_cli_compare (int argc, char **argv);
+/* KIND [-o DIR]: a scene to start from (new.c). */
+int pg_cli_new   (int argc, char **argv);
 /* The entries of all catalogues; the keys of the scene (inquiry.c). */
 int pg_cli_list  (int argc, char **argv);
 int pg_cli_help  (int argc, char **argv);

@@ -22,6 +22,7 @@ static const struct { const char *name; int (*run) (int, char **); const char *s
       "bench [SCENE...] [--fem]                   error and cost of methods and sizes, also of CalculiX" },
     { "converge", pg_cli_converge,
       "converge SCENE.yaml [--m]                  orders of convergence of all results of a scene" },
+    { "new", pg_cli_new, "new KIND [-o DIR]                          write a commented scene that runs" },
     { "list", pg_cli_list,
       "list                                       methods, kernels, criteria ... of this build" },
     { "help", pg_cli_help, "help [KEY | COMMAND | --manual]            explain the keys of the scene file" },

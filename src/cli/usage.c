@@ -97,6 +97,13 @@ static const char converge[] =
     "  -o, --out DIR        default out/converge\n"
     "  -q, --quiet          print nothing\n";
 
+static const char new[] =
+    "perigal new KIND [-o DIR]\n"
+    "  Writes a commented scene that runs, DIR/scene.yaml, with the files that it names; never over other\n"
+    "  files. Kinds: beam (notched, in bending), plate (with a hole), disk (Brazilian test with a crack),\n"
+    "  mesh (a body from a mesh), explicit (a crack that branches), cloud (a body of points of a file).\n"
+    "  -o, --out DIR        default: KIND\n";
+
 static const char list[] = "perigal list\n"
                            "  The methods, kernels, criteria and solvers of this build, one line each.\n";
 
@@ -108,7 +115,8 @@ static const char help[] =
 /* The commands in the order of the man page. */
 static const struct { const char *name, *text; } usages[] = {
     { "run", run },     { "check", check },       { "plot", plot }, { "compare", compare },
-    { "bench", bench }, { "converge", converge }, { "list", list }, { "help", help },
+    { "bench", bench }, { "converge", converge }, { "new", new },
+    { "list", list },   { "help", help },
 };
 
 /* Prints the usage of a command; 0 for other words, so that help can go on with keys of the
