@@ -346,9 +346,6 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
     if (!(o->flags & PG_SOLVER_CONTACT))
         pg_scene_fault (scene, "contact.kind", "solver.kind: %s does not know contact yet: use %s, or set "
                         "none", o->kind, names);
-    else if (moves && problem->dim == 3)
-        pg_scene_fault (scene, "contact.kind",
-                        "solver.kind: %s keeps faces apart in the plane only so far: set none", o->kind);
     else if (moves && by_bonds)
         pg_scene_fault (scene, "contact.kind",
                         "solver.kind: %s keeps faces apart in forces with shape functions only: use force: "

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Contact of crack faces in Newmark's method: two bars that collide exchange their velocities in twice the
- * time of a wave, momentum and energy are kept; a slowly loaded crack comes to its equilibrium; bonds break
- * around closed faces; what is stored goes on bit by bit. */
+ * time of a wave, in the plane and in space, momentum and energy are kept; a slowly loaded crack comes to its
+ * equilibrium; bonds break around closed faces; what is stored goes on bit by bit. */
 #include "scene_runs/run.h"
 #include "tape.h"
 
@@ -94,6 +94,65 @@ static void bars_collide (void **state)
     assert_true (last <= 1e-3);
     collide ("nodal", "", "friction, coefficient: 0.5", 0.5);
     collide ("gauss", "perturb: {amount: 0.1}\n", "normal", 0.5);
+}
+
+/* ---- in space ------------------------------------------------------------------------------------------ */
+/* The same with bars of ten spacings, oblique faces and friction: three numbers of momentum, energy falls by
+ * what friction takes and no more, and means stay apart; by a factor and by iterations, which are as good as
+ * their tolerance. */
+static const char solids[] =
+    "dimension: 3\nbody: [{add: {box: {low: [-10, 0, 0], high: [10, 3, 3]}}}]\nspacing: 1\nlattice: cells\n"
+    "cracks: [{polygon: [[%g, -1, -1], [%g, 4, -1], [%g, 4, 4], [%g, -1, 4]]}]\n"
+    "materials: {light: {youngs_modulus: 1 Pa, poissons_ratio: 0.2, density: 1 kg/m3}}\n"
+    "contact: {kind: %s}\nsolver: {kind: newmark, dt: 0.5, end: 32, linear: %s, tolerance: 1e-11}\n";
+
+static void solids_collide (const char *kind, double oblique, const char *linear)
+{
+    double a = -0.5 - oblique, b = -0.5 + oblique;
+    run r = scene_of (1, solids, a, b, b, a, kind, linear);
+    void *self;
+    const pg_force_type *f = pg_solver_force (r.solver, &self);
+    double *mass = pg_calloc (r.state->ndof, sizeof *mass), start = 0, grown = 0, overlap = 0, parted = 0,
+           sum[3], right = 0;
+    check_ok (f->mass (self, mass));
+    for (size_t i = 0; i < r.state->ndof; i += 3) {
+        const double *x = r.problem->cloud.x + i;
+        if (x[0] < -0.5 + oblique * (x[1] - 1.5) / 2.5) r.state->v[i] = speed, start += mass[i] * speed;
+    }
+    while (!pg_solver_done (r.solver, r.state)) {
+        size_t n;
+        advance (&r);
+        const pg_statistics *s = pg_solver_report (r.solver, r.state);
+        double energy = s->energy_kinetic + s->energy_strain + s->energy_friction;
+        const pg_contact_values *v = pg_solver_contact (r.solver, &n);
+        assert_true (n >= 2);
+        for (size_t k = 0; k < n; k++) {
+            overlap = fmax (overlap, -v[k].gap), parted = fmax (parted, v[k].gap);
+            assert_true (v[k].pressure >= 0);
+        }
+        memset (sum, 0, sizeof sum);
+        for (size_t i = 0; i < r.state->ndof; i++) sum[i % 3] += mass[i] * r.state->v[i];
+        for (int c = 0; c < 3; c++) check_absolute (sum[c], c ? 0 : start, 1e-9 * start);
+        grown = fmax (grown, fabs (energy / (0.5 * speed * start) - 1));
+    }
+    for (size_t i = 0; i < r.state->ndof; i += 3)
+        if (r.problem->cloud.x[i] > 2) right = fmax (right, r.state->v[i]);
+    double friction = pg_solver_report (r.solver, r.state)->energy_friction / (0.5 * speed * start);
+    print_message ("in space, %s, %s, oblique by %g: energy and friction off by %.1e, friction took %.1e, "
+                   "overlap of means %.1e, apart by %.2e\n", kind, linear, oblique, grown, friction, overlap,
+                   parted);
+    assert_true (grown <= 1e-9);
+    assert_true (overlap <= 1e-9 * speed && parted > 0.1 * speed && right > 0.5 * speed);
+    assert_true (strstr (kind, "friction") && oblique > 0 ? friction > 1e-4 : fabs (friction) <= 1e-10);
+    pg_free (mass);
+    clear (&r);
+}
+
+static void bars_collide_in_space (void **state)
+{
+    (void) state;
+    solids_collide ("normal", 0, "cholmod");
+    solids_collide ("friction, coefficient: 0.2", 1, "pcg");
 }
 
 /* ---- slowly -------------------------------------------------------------------------------------------- */
@@ -225,6 +284,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (bars_collide),
+        cmocka_unit_test (bars_collide_in_space),
         cmocka_unit_test (a_slow_crack_comes_to_its_equilibrium),
         cmocka_unit_test (bonds_break_around_closed_faces),
         cmocka_unit_test (a_run_goes_on_bit_by_bit),
