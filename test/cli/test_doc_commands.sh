@@ -26,7 +26,7 @@ scene_of() {
         esac
         shift
     done
-    if [ ${#options[@]} -eq 1 ]; then [ -e "$word" ]; return; fi        # test_docs.sh checks all scenes of data/
+    if [ ${#options[@]} -eq 1 ]; then [ -e "$word" ] || [ -e "$work/$word" ]; return; fi        # test_docs.sh checks all scenes of data/
     "$perigal" check "${options[@]}" > "$work/out" 2> "$work/err"
 }
 # stops CODE PATTERN ARGUMENTS...: ends for want of its folder, so that all else was understood
@@ -65,6 +65,7 @@ good() {   # the command as words
     shift
     case $1 in
         run|check) shift; scene_of "$@" ;;
+        new) "$perigal" new "$2" -o "$work/${4:-$2}" > "$work/out" 2> "$work/err" ;;
         help|list) "$perigal" "$@" > "$work/out" 2> "$work/err" ;;
         plot|compare)
             if [ -d "$(ours "$2")" ] && [[ $3 != *.frd ]]; then
@@ -79,7 +80,7 @@ good() {   # the command as words
 }
 declare -A seen
 count=0
-for page in README.md doc/*.md data/*/README.md matlab-compat/README.md; do
+for page in README.md doc/*.md data/*/README.md matlab-compat/README.md python/README.md; do
     [ $page != doc/input.md ] || continue
     : > "$work/bad"
     while IFS= read -r line; do
@@ -94,7 +95,7 @@ for page in README.md doc/*.md data/*/README.md matlab-compat/README.md; do
 done
 # ---- snippets ------------------------------------------------------------------------------------------------------------------
 # snippet LANGUAGE PAGE: the code of the page, on the demo of here
-snippet() { sed -n "/^\`\`\`$1/,/^\`\`\`/p" "$2" | grep -v '^```' | sed "s|out/demo|$work/demo|g; /^system/d"; }
+snippet() { sed -n "/^\`\`\`$1/,/^\`\`\`/p" "$2" | grep -v '^```' | sed "s|out/demo|$work/demo|g; s|out/coarse|$work/coarse|g; /^system/d"; }
 try() {   # name, what it takes, command, file
     n=$((n + 1))
     if ! eval "$2" > "$work/out" 2>&1; then echo "ok $n - $1 # skipped, it needs: $2"; return; fi
@@ -102,7 +103,9 @@ try() {   # name, what it takes, command, file
 }
 { snippet python doc/guide.md; echo "assert len (damage) == len (x) and damage.max () > 0.5"; } > "$work/a.py"
 { echo "graphics_toolkit ('gnuplot'); figure ('visible', 'off');"; snippet matlab doc/guide.md; echo "assert (max (damage(:, end)) > 0.5)"; } > "$work/a.m"
-try "doc/guide.md in Python" 'python3 -c "import netCDF4"' python3 "$work/a.py"
+python=python3; "$python" -c 'import netCDF4' 2> /dev/null || python=/usr/bin/python3      # Debian's packages are those of its own Python
+export PYTHONPATH=python PYTHONDONTWRITEBYTECODE=1 PERIGAL="$perigal"
+try "doc/guide.md in Python" "$python -c 'import netCDF4'" "$python" "$work/a.py"
 try "doc/guide.md in Octave" 'octave-cli --eval "pkg load netcdf"' octave-cli "$work/a.m"
 n=$((n + 1))
 if [ $count -ge 100 ]; then echo "ok $n - $count commands were found"; else bad=1; echo "not ok $n - only $count commands were found"; fi
