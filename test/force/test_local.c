@@ -53,6 +53,9 @@ static void a_local_product_is_that_of_the_plain_sum (void **state)
                 if (some (i) > 0.99) r.state->alive[i] = plain.state->alive[i] = 0;
             check_ok (f->refresh (self, r.state, NULL));
             check_ok (f->refresh (slow, plain.state, NULL));
+            /* residuals by products make the table of what is seen */
+            double reference;
+            check_ok (f->balance_lean (self, 0, x, y, &reference));
             for (double from = 0; from < 40; from += 7) {
                 double top = 0;
                 for (size_t i = 0; i < n; i++) x[i] = here (&r, i, from) ? some (i) : 0;
@@ -61,6 +64,15 @@ static void a_local_product_is_that_of_the_plain_sum (void **state)
                 for (size_t i = 0; i < n; i++) top = fmax (top, fabs (z[i]));
                 assert_true (top > 0);
                 for (size_t i = 0; i < n; i++) check_scaled (y[i], z[i], 1e-11, top);
+            }
+            /* one node alone, in every block of nodes: all that see it do, the last ones too */
+            memset (x, 0, n * sizeof *x);
+            for (size_t at = (size_t) (b + m); at < n; at += 11) {
+                x[at] = 1;
+                f->operator_ (self)->apply (self, x, y);
+                f->operator_ (slow)->apply (slow, x, z);
+                for (size_t i = 0; i < n; i++) check_scaled (y[i], z[i], 1e-11, fabs (z[at]));
+                x[at] = 0;
             }
             pg_free (x);
             clear (&r), clear (&plain);
