@@ -10,8 +10,9 @@
 PG_API_BEGIN
 
 /* ---- shapes -------------------------------------------------------------------------------------------- */
-/* Kinds of shapes. PG_STAIRS is no shape of a scene: it is a mesh as a lattice sees it. */
-enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_STAIRS };
+/* Kinds of shapes. Two are no shapes of a scene: PG_STAIRS is a mesh as a lattice sees it, PG_PLATE a plane
+ * polygon in space with a thickness, which a crack with a width takes from the body. */
+enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_STAIRS, PG_PLATE };
 
 /* A shape that is added to or subtracted from the body. */
 typedef struct {
@@ -29,6 +30,11 @@ typedef struct {
     double *vertex; size_t nvertex;
     /* Mesh: its elements and their surface. Stairs: the cells of a lattice. */
     struct pg_solid *solid;
+    /* Plate: `vertex` in its plane, from `centre` along `along` and axis x along (unit vectors); half of
+     * `length` on each side. */
+    double along[3];
+    /* 1: a crack with a width (pg_slots_read), whose surface is called "slot"; then its box (2 x 3), m. */
+    int    slot;  double box[6];
 } pg_shape;
 
 /* A fictitious boundary layer: a box of whole lattice cells over one face of the bounding box of the
@@ -55,7 +61,8 @@ typedef struct {
     /* The layers (nlayer). */
     pg_layer *layer; size_t nlayer;
 } pg_body;
-/* Reads `body` (a list of {add|subtract: {...}}) and `layers` (a list of {name, side, thickness, over}).
+/* Reads `body` (a list of {add|subtract: {...}}), the slots of `cracks`, which are taken from these shapes,
+ * and `layers` (a list of {name, side, thickness, over}).
  * Layers become whole cells of the lattice that pg_lattice_fit lays over the body without them at the
  * scene's spacing, round (thickness / step) of them. What is wrong is a fault of the scene: PG_E_SCENE. */
 pg_status pg_body_read  (pg_body *out, const pg_scene *scene);
@@ -227,12 +234,13 @@ long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_
 
 /* ---- cracks -------------------------------------------------------------------------------------------- */
 /* Kinds of cracks. */
-enum { PG_CRACK_SEGMENT, PG_CRACK_POLYGON, PG_CRACK_DISC };
+enum { PG_CRACK_SEGMENT, PG_CRACK_POLYGON, PG_CRACK_DISC, PG_CRACK_OUTLINE };
 
-/* A crack: a segment in 2D, a plane polygon or a disc in 3D. */
+/* A crack: a segment in 2D, a plane polygon or a disc in 3D; an outline in 2D, of a slot. */
 typedef struct {
     int    kind;
-    /* Segment: 2 x 2; polygon: n x 3; disc: a regular polygon of 64 vertices, for pictures. m. */
+    /* Segment: 2 x 2; outline: n x 2; polygon: n x 3; disc: a regular polygon of 64 vertices, for pictures.
+     * m. */
     double *vertex; size_t nvertex;
     /* Centre and radius of a disc, m; unit normal of any kind. */
     double centre[3], normal[3], radius;
@@ -245,6 +253,13 @@ typedef struct {
      * to both sides. Cracks that grow are sided, cracks of the scene where contact is asked for. */
     int    sided;
     double width;
+    /* Width of a slot, m: so much material is missing, half on each side; 0: the crack is sharp. */
+    double slot;
+    /* Index of the scene's entry in `cracks`; 1: it goes on a polyline at its first vertex. */
+    size_t entry;
+    int    bend;
+    /* Of a random network: how many cracks were drawn before this one that fitted nowhere. */
+    int    vain;
 } pg_crack;
 /* Several cracks. box: of each crack, as far as it cuts, the low and then the high coordinates (n x 2 dim,
  * m); order: the cracks so that neighbours lie near each other (n); block: the boxes of PG_CRACK_GROUP cracks
@@ -256,8 +271,43 @@ typedef struct {
     int dim;  pg_crack *crack;  size_t n;
     double *box, *block;  size_t *order, room;         /* room: how many cracks the three can hold */
 } pg_cracks;
-/* Reads `cracks`. Each must meet the body; what is wrong is a fault of the scene. */
+/* Reads the sharp cracks of `cracks`. Each entry must meet the body; what is wrong is a fault of the
+ * scene. */
 pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
+/* Reads the slots: cracks with a width, and outlines. The body lacks their material (pg_body_read); bonds
+ * that cross the middle of a slot, or pass through an outline, are cut, so that a slot narrower than the
+ * horizon parts its sides too. Slots have no tips. */
+pg_status pg_slots_read   (pg_cracks *out, const pg_scene *scene);
+int       pg_crack_is_slot (const pg_crack *crack);
+/* Everything of `cracks`, in the order of the scene; no index. */
+pg_status pg_network_read (pg_cracks *out, const pg_scene *scene);
+/* What a network amounts to. */
+typedef struct {
+    /* Cracks, a polyline being one; how many are slots, how many touch or cross another (slots by their
+     * middles), how many reach out of the body, how many lie outside; and how many of random networks were
+     * drawn in vain, because they fitted nowhere. */
+    size_t n, slots, crossing, leaving, outside, vain;
+    /* Length of all cracks (2D), m, or their area (3D), m^2; the part of it in the body; area (2D), m^2,
+     * or volume (3D), m^3, of the slots, overlaps counted twice, and of the body without slots (0: not
+     * known). */
+    double size, inside, removed, body;
+    /* Length of a crack (2D; 3D: the largest distance of two corners), m: mean, standard deviation, least,
+     * largest. */
+    double mean, deviation, least, most;
+    /* Axis along which the cracks (3D: their normals) lie on the mean, and how far: 0 in all directions, 1
+     * all along it. */
+    double axis[3], order;
+    /* Least distance of two cracks (slots: of their middles), m; INFINITY: there is one only. */
+    double nearest;
+} pg_network;
+/* Measures the cracks that a scene gives (pg_network_read). The body is sampled on a lattice of at least 2e5
+ * places where its size is not known in closed form, and cracks at 200 places each. */
+pg_status pg_network_measure (pg_network *out, const pg_cracks *all, const pg_scene *scene);
+/* Writes cracks as a table that `cracks: [{file: ...}]` reads back as the same bits, in m; where kinds are
+ * mixed (segments, polylines, outlines; discs, polygons), each in a file of its own: NAME.csv,
+ * NAME_polygon.csv. said: is given each name (NULL: nobody is). PG_E_FILE. */
+pg_status pg_cracks_write (const pg_cracks *all, const char *path,
+                           void (*said) (void *context, const char *name), void *context);
 void      pg_cracks_clear (pg_cracks *cracks);
 /* The box of one crack, as above. */
 void      pg_crack_box (const pg_crack *crack, int dim, double *box);

@@ -232,6 +232,7 @@ struct pg_problem {
     pg_mode  mode;
     pg_body  body;  pg_mesh_body part;                 /* one of them, or none: points of a file */
     pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;  pg_cracks cracks;
+    pg_cracks  slots;                                  /* of the scene: they cut bonds and have no tips */
     pg_material  *material;  size_t nmaterial;
     pg_criterion *criterion;  /* per material, all of one type; type NULL: nothing breaks */
     int          *block[PG_BOND_SETS];                 /* material of every point of a bond set */

@@ -159,6 +159,12 @@ void      pg_picture_time (double t, char *out, size_t size);
  * raised as well. */
 void      pg_picture_quantity (double value, const char *unit, char *out, size_t size);
 
+/* Draws the cracks of a scene alone, over a body of shapes (pg_body_read: without its slots): in 2D the body
+ * coloured by the distance to the nearest crack, in 3D the places that cracks pass, seen from outside. The
+ * cracks must have an index (pg_cracks_index). PG_E_USAGE: no shapes, or a bar. */
+pg_status pg_picture_network (const char *path, const pg_body *body, const pg_cracks *cracks,
+                              const char *title);
+
 enum { PG_CURVE_LINE, PG_CURVE_MARKERS, PG_CURVE_BOTH };
 /* A curve of a chart: n places (x, y), its name in the legend, and whether it is drawn as a
  * line, as markers or both. Places that are not finite, or not positive on a logarithmic axis,

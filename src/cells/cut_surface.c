@@ -197,6 +197,42 @@ done:
     return status;
 }
 
+/* One plane for each edge of a plate, in its own plane: from vertex j to i, outwards, half a thickness wide
+ * on each side; and its two faces (parts n and n + 1). */
+static pg_status add_plate (builder *m, cut_surface s, const pg_shape *shape)
+{
+    pg_status status = PG_OK;
+    const double *n = shape->axis, *e = shape->along, *v = shape->vertex;
+    double f[3], area = 0;
+    size_t last = shape->nvertex - 1;
+    cut_surface face = s;
+    memcpy (face.low, shape->box, sizeof face.low);
+    memcpy (face.high, shape->box + 3, sizeof face.high);
+    for (int k = 0; k < 3; k++) f[k] = n[(k + 1) % 3] * e[(k + 2) % 3] - n[(k + 2) % 3] * e[(k + 1) % 3];
+    for (size_t i = 0, j = last; i <= last; j = i++) area += v[2*j] * v[2*i + 1] - v[2*i] * v[2*j + 1];
+    for (size_t i = 0, j = last; i <= last; j = i++) {
+        double u = v[2*i] - v[2*j], w = v[2*i + 1] - v[2*j + 1], size = hypot (u, w), point[3], out[3];
+        if (area < 0) size = -size;
+        for (int k = 0; k < 3; k++) {
+            double a = shape->centre[k] + v[2*j] * e[k] + v[2*j + 1] * f[k], b = a + u * e[k] + w * f[k],
+                   wide = 0.5 * shape->length * fabs (n[k]);
+            point[k] = a, out[k] = (w * e[k] - u * f[k]) / size;
+            s.low[k] = fmin (a, b) - wide, s.high[k] = fmax (a, b) + wide;
+        }
+        s.part = (int) j;
+        PG_TRY (add_plane (m, s, point, out));
+    }
+    for (int side = 0; side < 2; side++) {
+        double point[3], out[3];
+        for (int k = 0; k < 3; k++)
+            out[k] = side ? n[k] : -n[k], point[k] = shape->centre[k] + 0.5 * shape->length * out[k];
+        face.part = (int) shape->nvertex + side;
+        PG_TRY (add_plane (m, face, point, out));
+    }
+done:
+    return status;
+}
+
 /* Bounding box of a shape of any kind, into s->low and s->high. */
 static void bound (cut_surface *s, const pg_shape *shape, int dim)
 {
@@ -207,7 +243,7 @@ static void bound (cut_surface *s, const pg_shape *shape, int dim)
         s->low[k] = fmin (a, b) - wide, s->high[k] = fmax (a, b) + wide;
         if (shape->kind == PG_BOX || shape->kind == PG_PRISM)
             s->low[k] = shape->low[k], s->high[k] = shape->high[k];
-        for (size_t i = 0; k < 2 && i < shape->nvertex; i++) {
+        for (size_t i = 0; k < 2 && shape->kind != PG_PLATE && i < shape->nvertex; i++) {
             double v = shape->vertex[2 * i + (size_t) k];
             s->low[k] = i ? fmin (s->low[k], v) : v, s->high[k] = i ? fmax (s->high[k], v) : v;
         }
@@ -279,6 +315,7 @@ pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattic
         bound (&s, shape, body->dim);
         if (shape->kind == PG_STAIRS) PG_TRY (add_stairs (&m, s, lattice));
         else if (shape->kind == PG_BOX) PG_TRY (add_box (&m, s, shape));
+        else if (shape->kind == PG_PLATE) PG_TRY (add_plate (&m, s, shape));
         else if (shape->kind == PG_CYLINDER) PG_TRY (add_cylinder (&m, s, shape));
         else if (shape->kind == PG_DISK || shape->kind == PG_SPHERE) PG_TRY (add_round (&m, s, shape));
         else PG_TRY (add_polygon (&m, s, shape));

@@ -68,6 +68,7 @@ static int is_called (const pg_body *body, size_t i, const char *name, size_t le
 {
     const pg_shape *s = &body->shape[i];
     const char *kind = pg_shape_kind (s);
+    if (s->slot) return 0;                             /* sides of slots have no names of their own */
     if (strlen (s->boundary) == length && !strncmp (s->boundary, name, length)) return 1;
     return i + body->nlayer < body->n && strlen (kind) == length && !strncmp (kind, name, length);
 }
@@ -82,7 +83,7 @@ void cells_parts_list (const pg_body *body, char *out, size_t size)
         const pg_shape *s = &body->shape[i];
         const char *generic[] = { "rim", "side", "hole" }, *name = s->boundary,
                    *parts = parts_of (s, body->dim);
-        int listed = 0;
+        int listed = s->slot;
         for (int k = 0; k < 3; k++)
             if (!strcmp (name, generic[k]) && !(k == 2 && s->kind != PG_MESH)) name = pg_shape_kind (s);
         for (size_t j = 0; j < i; j++)

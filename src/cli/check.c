@@ -36,6 +36,8 @@ int pg_cli_check (int argc, char **argv)
     pg_first_break first = { 0 };
     spectrum waves = { 0 };
     pg_solver *solver = NULL;
+    pg_cracks cracks = { 0 };
+    pg_network network = { 0 };
     const char *from = "";
     double stable = NAN;
     int wrong = command_parse (&c, argc, argv);
@@ -54,7 +56,9 @@ int pg_cli_check (int argc, char **argv)
     PG_TRY (pg_patch_refuse (p, scene));
     if (c.solve) PG_TRY (pg_first_break_find (&first, p, &o));
     if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
-    plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from };
+    PG_TRY (pg_network_read (&cracks, scene));
+    PG_TRY (pg_network_measure (&network, &cracks, scene));
+    plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from, &network };
     if (c.json) PG_TRY (plan_print_json (&all));
     else printf ("%s: the scene is valid\n", c.scene);
     if (!c.quiet && !c.json) plan_print_long (&all);
@@ -62,6 +66,7 @@ int pg_cli_check (int argc, char **argv)
     if (c.spectrum && c.folder) PG_TRY (spectrum_write (&waves, p, c.folder));
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
+    pg_cracks_clear (&cracks);
     spectrum_free (&waves);
     pg_solver_free (&solver);
     pg_problem_free (&p);

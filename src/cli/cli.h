@@ -16,6 +16,8 @@ int pg_cli_check (int argc, char **argv);
 int pg_cli_compare (int argc, char **argv);
 /* KIND [-o DIR]: a scene to start from (new.c). */
 int pg_cli_new   (int argc, char **argv);
+/* SCENE [-o PICTURE] [--csv FILE]: the cracks of a scene alone (cracks.c). */
+int pg_cli_cracks (int argc, char **argv);
 /* The entries of all catalogues; the keys of the scene (inquiry.c). */
 int pg_cli_list  (int argc, char **argv);
 int pg_cli_help  (int argc, char **argv);
@@ -115,6 +117,7 @@ typedef struct {
     const spectrum *waves;
     double stable;
     const char *from;
+    const pg_network *network;
 } plan;
 /* Largest frequency (rad/s), stable time step (s), c_p dt / h of Newmark steps. measured: 0:
  * an estimate, 1: by --solve, 2: by the solver itself. */
@@ -130,6 +133,9 @@ pg_status plan_print_json (const plan *p);
 /* The mesh of a body, if it has one (plan_mesh.c). */
 void plan_mesh       (const pg_problem *p);
 void plan_mesh_json  (pg_json *j, const pg_problem *p);
+/* The cracks of the scene (plan_network.c); nothing without any. */
+void plan_network      (const pg_network *network, int dim);
+void plan_network_json (pg_json *j, const pg_network *network, int dim);
 /* What the solver has settled: time steps, stages. */
 void plan_settled     (const pg_solver *solver);
 /* Warnings and notes of the scene. */

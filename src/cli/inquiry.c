@@ -104,9 +104,10 @@ int pg_cli_help (int argc, char **argv)
     else if (strcmp (argv[1], "--manual") == 0) status = pg_scene_manual (stdout);
     else if (command_usage (stdout, argv[1])) return PG_EXIT_DONE;
     else status = pg_scene_help (stdout, argv[1]);
-    const char *near = status == PG_E_USAGE
-                           ? pg_nearest_name (argv[1], "run|check|plot|compare|bench|converge|list|help")
-                           : NULL;
+    const char *near =
+        status == PG_E_USAGE
+            ? pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|new|list|help")
+            : NULL;
     if (status != PG_OK)
         fprintf (stderr, "perigal: %s%s%s%s\n", pg_last_error (), near ? "; or the command " : "",
                  near ? near : "", near ? "?" : "");

@@ -16,6 +16,8 @@ static const struct { const char *name; int (*run) (int, char **); const char *s
     { "check", pg_cli_check,
       "check SCENE.yaml [--set KEY=VALUE]         validate a scene and show what a run would do" },
     { "plot", pg_cli_plot, "plot DIR [--field NAME] [--step N]         draw pictures from a result folder" },
+    { "cracks", pg_cli_cracks,
+      "cracks SCENE.yaml [-o FILE.png] [--csv FILE]  the cracks of a scene alone" },
     { "compare", pg_cli_compare,
       "compare DIR [REFERENCE]                    compare a result with a reference" },
     { "bench", pg_cli_bench,
@@ -93,8 +95,8 @@ int main (int argc, char **argv)
             pg_memory_keep ();
             return commands[k].run (argc - 1, argv + 1);
         }
-    const char *near = pg_nearest_name (argv[1],
-                                        "run|check|plot|compare|bench|converge|list|help|--version|--help");
+    const char *near =
+        pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|new|list|help|--version|--help");
     fprintf (stderr, "perigal: unknown %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1],
              near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     usage (stderr);

@@ -46,6 +46,14 @@ static const char plot[] =
     "  Draws a field of DIR/result.e (by default damage at the last step), or two columns of\n"
     "  DIR/history.csv, as PNG or SVG. All options: perigal plot --help.\n";
 
+static const char cracks[] =
+    "perigal cracks SCENE.yaml [-o FILE.png] [--csv FILE.csv] [--set KEY=VALUE]... [--quiet]\n"
+    "  The cracks of a scene alone, given or random: number, lengths, directions, distances. Computes\n"
+    "  nothing: try seeds with --set 'cracks[0].random.seed=7'.\n"
+    "  -o, --out FILE       a picture, PNG or SVG\n"
+    "      --csv FILE       a table of the cracks, which cracks: [{file: FILE.csv}] reads back bit by bit;\n"
+    "                       where kinds are mixed further tables are called FILE_polygon.csv ...\n";
+
 static const char compare[] =
     "perigal compare DIR [REFERENCE] [--step N] [--field NAME] [--unit mm] [--shift X,Y,Z] [--scale S]\n"
     "                [--out FILE.png] [--json] [--quiet]\n"
@@ -114,9 +122,9 @@ static const char help[] =
 
 /* The commands in the order of the man page. */
 static const struct { const char *name, *text; } usages[] = {
-    { "run", run },     { "check", check },       { "plot", plot }, { "compare", compare },
-    { "bench", bench }, { "converge", converge }, { "new", new },
-    { "list", list },   { "help", help },
+    { "run", run },         { "check", check }, { "plot", plot },         { "cracks", cracks },
+    { "compare", compare }, { "bench", bench }, { "converge", converge }, { "new", new },
+    { "list", list },       { "help", help },
 };
 
 /* Prints the usage of a command; 0 for other words, so that help can go on with keys of the

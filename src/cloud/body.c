@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The body: shapes added and subtracted in the order of the scene. A position on a surface belongs to the
  * body. Later shapes win: what is subtracted may be filled again by a shape that is added after it. */
+#include "crack.h"
 #include "shape.h"
 #include <math.h>
 #include <stdio.h>
@@ -59,9 +60,10 @@ static void bound (pg_body *body)
     }
 }
 
-/* A body so far from the origin that its size is lost in rounding is refused: tolerances would be
- * meaningless. Later checks build on earlier ones, so that the faults are reported in stages. */
-pg_status pg_body_read (pg_body *out, const pg_scene *scene)
+/* The shapes of the scene; room for `more` behind them. A body so far from the origin that its size is lost
+ * in rounding is refused: tolerances would be meaningless. Later checks build on earlier ones, so that the
+ * faults are reported in stages. */
+static pg_status read_shapes (pg_body *out, const pg_scene *scene, size_t more)
 {
     pg_status status = PG_OK;
     size_t n = pg_scene_count (scene, "body"), added = 0;
@@ -70,7 +72,7 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
     if (n == 0 && !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh"))
         pg_scene_fault (scene, "body",
                         "is missing: give body (a list of shapes), points (a file) or mesh (a file)");
-    PG_ALLOC (out->shape, n + pg_scene_count (scene, "layers"));
+    PG_ALLOC (out->shape, n + more + pg_scene_count (scene, "layers"));
     out->n = n;
     /* All shapes are read, also behind a wrong one. */
     for (size_t i = 0; i < n; i++) {
@@ -91,10 +93,41 @@ pg_status pg_body_read (pg_body *out, const pg_scene *scene)
             break;
         }
     }
+    PG_TRY (pg_scene_verdict (scene));
+done:
+    return status;
+}
+
+/* The shapes, what the slots of the cracks take from them, and the layers. */
+static pg_status read_body (pg_body *out, const pg_scene *scene, const pg_cracks *cracks)
+{
+    pg_status status = PG_OK;
+    size_t slots = cracks ? crack_slot_count (cracks) : 0;
+    PG_TRY (read_shapes (out, scene, slots));
+    out->n += slots;
+    if (slots) PG_TRY (crack_slot_shapes (out->shape + out->n - slots, cracks));
+    for (size_t i = out->n - slots; i < out->n; i++) {
+        pg_shape *s = &out->shape[i];
+        pg_shape_types[s->kind].box (s, out->dim, s->box, s->box + 3);
+    }
     PG_TRY (pg_layers_read (out, scene));
     PG_TRY (pg_scene_verdict (scene));
 done:
     if (status != PG_OK) pg_body_clear (out);
+    return status;
+}
+
+pg_status pg_body_read_uncut (pg_body *out, const pg_scene *scene) { return read_body (out, scene, NULL); }
+
+pg_status pg_body_read (pg_body *out, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_cracks cracks = { 0 };
+    memset (out, 0, sizeof *out);
+    if (crack_slots_given (scene)) PG_TRY (crack_read_all (&cracks, scene));
+    PG_TRY (read_body (out, scene, &cracks));
+done:
+    pg_cracks_clear (&cracks);
     return status;
 }
 
@@ -107,6 +140,13 @@ void pg_body_clear (pg_body *body)
     memset (body, 0, sizeof *body);
 }
 
+/* Does a slot certainly not hold x, by its box? Of the many slots of a network most are far away. */
+static int misses_slot (const pg_shape *s, int dim, const double *x)
+{
+    for (int k = 0; k < dim; k++) if (x[k] < s->box[k] || x[k] > s->box[3 + k]) return 1;
+    return 0;
+}
+
 /* 1 for places in the body or within `tolerance` (m) of its surface, on either side of it: a subtracted
  * shape must hold a place by more than that. A shape that would not change the answer so far is not
  * asked. Shapes need only distances up to the tolerance. */
@@ -116,7 +156,7 @@ int pg_body_inside (const pg_body *body, const double *x, double tolerance)
     for (size_t i = 0; i < body->n; i++) {
         const pg_shape *s = &body->shape[i];
         /* An added shape cannot take away, a subtracted one cannot add. */
-        if (in == s->add) continue;
+        if (in == s->add || (s->slot && tolerance >= 0 && misses_slot (s, body->dim, x))) continue;
         double d = pg_shape_types[s->kind].distance (s, body->dim, x, tolerance);
         in = s->add ? d <= tolerance : !(d < -tolerance);
     }

@@ -207,6 +207,31 @@ static int meets_polygon (const pg_crack *c, const double *a, const double *b, d
     return 0;
 }
 
+/* ---- an outline ---------------------------------------------------------------------------------------- */
+/* Does the bond x y pass through the inside of an outline in the plane? The edges part it; a part whose
+ * middle lies deeper inside than the tolerance passes. Edges that it crosses are found one at a time, in
+ * order: the next crossing behind s. */
+static int passes_outline (const pg_crack *c, const double *x, const double *y, double tolerance)
+{
+    double s = 0;
+    while (s < 1) {
+        double next = 1;
+        for (size_t i = 0, j = c->nvertex - 1; i < c->nvertex; j = i++) {
+            const double *a = c->vertex + 2*j, *b = c->vertex + 2*i;
+            double u[2] = { y[0] - x[0], y[1] - x[1] }, v[2] = { b[0] - a[0], b[1] - a[1] },
+                   w[2] = { a[0] - x[0], a[1] - x[1] }, det = u[0] * v[1] - u[1] * v[0];
+            if (det == 0) continue;
+            double at = (w[0] * v[1] - w[1] * v[0]) / det, on = (w[0] * u[1] - w[1] * u[0]) / det;
+            if (on >= -1e-9 && on <= 1 + 1e-9 && at > s + 1e-9 && at < next) next = at;
+        }
+        double middle[2];
+        point_at (2, x, y, 0.5 * (s + next), middle);
+        if (pg_polygon_distance (c->nvertex, c->vertex, middle) < -tolerance) return 1;
+        s = next;
+    }
+    return 0;
+}
+
 /* ---- the bond ------------------------------------------------------------------------------------------ */
 /* One function for each kind of crack. */
 static int (*const meets[]) (const pg_crack *, const double *, const double *, double) = {
@@ -258,12 +283,15 @@ int pg_crack_cuts (const pg_crack *crack, int dim, const double *x, const double
         const double *swap = x;
         x = y, y = swap;
     }
+    if (crack->kind == PG_CRACK_OUTLINE) return passes_outline (crack, x, y, tolerance);
     return crack->sided ? crosses_sided (crack, dim, x, y, tolerance) : crosses (crack, dim, x, y, tolerance);
 }
 
 /* A bond of no length: both ends at x. */
 int pg_crack_touches (const pg_crack *crack, int dim, const double *x, double tolerance)
 {
+    if (crack->kind == PG_CRACK_OUTLINE)
+        return fabs (pg_polygon_distance (crack->nvertex, crack->vertex, x)) <= tolerance;
     return crosses (crack, dim, x, x, tolerance);
 }
 

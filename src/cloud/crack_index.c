@@ -35,13 +35,14 @@ static void box_of_disc (const pg_crack *c, double *low, double *high)
     }
 }
 
-static void box_of_polygon (const pg_crack *c, double *low, double *high)
+/* Polygons in space, outlines in the plane. */
+static void box_of_polygon (const pg_crack *c, int dim, double *low, double *high)
 {
-    for (int k = 0; k < 3; k++) {
+    for (int k = 0; k < dim; k++) {
         low[k] = high[k] = c->vertex[k];
         for (size_t i = 1; i < c->nvertex; i++)
-            low[k] = fmin (low[k], c->vertex[3*i + (size_t) k]),
-            high[k] = fmax (high[k], c->vertex[3*i + (size_t) k]);
+            low[k] = fmin (low[k], c->vertex[(size_t) dim * i + (size_t) k]),
+            high[k] = fmax (high[k], c->vertex[(size_t) dim * i + (size_t) k]);
     }
 }
 
@@ -51,7 +52,7 @@ void pg_crack_box (const pg_crack *c, int dim, double *box)
     double *low = box, *high = box + dim;
     if (c->kind == PG_CRACK_SEGMENT) box_of_segment (c, low, high);
     else if (c->kind == PG_CRACK_DISC) box_of_disc (c, low, high);
-    else box_of_polygon (c, low, high);
+    else box_of_polygon (c, dim, low, high);
     for (int k = 0; k < dim; k++) {
         double slack = (c->sided ? c->width : 0) + 1e-12 * (fabs (low[k]) + fabs (high[k]) + c->radius);
         low[k] -= slack, high[k] += slack;

@@ -1,216 +1,300 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Pre-cracks of the scene: segments in 2D, plane polygons and discs in 3D. A crack that certainly does not
- * meet the body is a fault: most likely its coordinates are in other units. */
-#include "perigal/cloud.h"
-#include "polygon.h"
+ * `cracks` of the scene: in the plane segments, polylines, and outlines (polygon, ellipse) of slots; in space
+ * polygons, discs, ellipses; many of them from a file. An entry that certainly does not meet the body is a
+ * fault: most likely its coordinates are in other units. */
+#include "crack.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* Vertices of a drawn disc; depth of the subdivision. */
-enum { DISC_CORNERS = 64, DEEPEST = 8 };
-
-/* |a| */
-static double length (int dim, const double *a)
-{
-    double s = 0;
-    for (int k = 0; k < dim; k++) s += a[k] * a[k];
-    return sqrt (s);
-}
-
-/* ---- does it meet the body? ---------------------------------------------------------------------------- */
-/* Can the triangle a b c meet the body? 0 only if it certainly does not: a ball around a piece misses the
- * body, or around all parts of the piece, by subdivision into four. */
-static int may_meet (const pg_body *body, const double *a, const double *b, const double *c, int depth)
-{
-    double m[3] = {0, 0, 0}, ab[3] = {0, 0, 0}, bc[3] = {0, 0, 0}, ca[3] = {0, 0, 0}, radius = 0;
-    const double *corner[3] = {a, b, c};
-    for (int k = 0; k < body->dim; k++) {
-        m[k] = (a[k] + b[k] + c[k]) / 3;
-        ab[k] = 0.5 * (a[k] + b[k]), bc[k] = 0.5 * (b[k] + c[k]), ca[k] = 0.5 * (c[k] + a[k]);
-    }
-    for (int i = 0; i < 3; i++) {
-        double r[3];
-        for (int k = 0; k < body->dim; k++) r[k] = corner[i][k] - m[k];
-        radius = fmax (radius, length (body->dim, r));
-    }
-    /* The ball about the middle m holds the piece. */
-    if (!pg_body_inside (body, m, radius * (1 + 1e-9))) return 0;
-    if (depth == DEEPEST || pg_body_inside (body, m, 0)) return 1;
-    return may_meet (body, a, ab, ca, depth + 1) || may_meet (body, b, bc, ab, depth + 1)
-        || may_meet (body, c, ca, bc, depth + 1) || may_meet (body, ab, bc, ca, depth + 1);
-}
-
-/* The same for a crack; polygons as fans of triangles. */
-static int crack_may_meet (const pg_body *body, const pg_crack *c)
-{
-    const double *v = c->vertex;
-    if (c->kind == PG_CRACK_SEGMENT) return may_meet (body, v, v + 2, v + 2, 0);
-    for (size_t i = 1; i + 1 < c->nvertex; i++)
-        if (may_meet (body, v, v + 3*i, v + 3*(i + 1), 0)) return 1;
-    return 0;
-}
-
-/* ---- kinds --------------------------------------------------------------------------------------------- */
-/* from and to. */
-static pg_status read_segment (pg_crack *c, const pg_scene *scene, const char *at)
+/* ---- the list -------------------------------------------------------------------------------------------
+ */
+pg_crack *crack_next (crack_list *list)
 {
     pg_status status = PG_OK;
-    PG_ALLOC (c->vertex, 4);
-    c->nvertex = 2;
-    if (!pg_scene_given (scene, "%s.to", at)) {
-        pg_scene_fault (scene, at, "from needs to: the other end of the crack");
-        goto done;
+    pg_crack *c = NULL;
+    PG_GROW (list->all->crack, list->capacity, list->all->n + 1);
+    c = &list->all->crack[list->all->n++];
+    memset (c, 0, sizeof *c);
+    c->entry = list->entry, c->slot = list->width;
+done:
+    return status == PG_OK ? c : NULL;
+}
+
+/* A crack that cannot be is a fault of its entry. */
+static pg_status settle (crack_list *list, pg_status status, const char *what, const char *why)
+{
+    if (status == PG_OK && why) pg_scene_fault (list->scene, list->at, "%s %s", what, why);
+    return status;
+}
+
+/* ---- kinds ----------------------------------------------------------------------------------------------
+ */
+/* from and to. */
+static pg_status read_segment (crack_list *list)
+{
+    double from[3] = { 0 }, to[3] = { 0 };
+    const char *why;
+    if (!pg_scene_given (list->scene, "%s.to", list->at)) {
+        pg_scene_fault (list->scene, list->at, "from needs to: the other end of the crack");
+        return PG_OK;
     }
-    pg_scene_vector (scene, 2, c->vertex, "%s.from", at);
-    pg_scene_vector (scene, 2, c->vertex + 2, "%s.to", at);
-    double t[2] = {c->vertex[2] - c->vertex[0], c->vertex[3] - c->vertex[1]}, size = length (2, t);
-    if (!(size > 0)) pg_scene_fault (scene, at, "the crack has no length");
-    else c->normal[0] = -t[1] / size, c->normal[1] = t[0] / size;
+    pg_scene_vector (list->scene, 2, from, "%s.from", list->at);
+    pg_scene_vector (list->scene, 2, to, "%s.to", list->at);
+    pg_crack *c = crack_next (list);
+    return settle (list, c ? crack_segment (c, from, to, &why) : PG_E_MEMORY, "the crack", c ? why : NULL);
+}
+
+/* A list of vertices [x, y] or [x, y, z]; *n of them. */
+static pg_status read_vertices (double **out, size_t *n, const crack_list *list, const char *key)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) list->all->dim;
+    *n = pg_scene_count (list->scene, "%s.%s", list->at, key);
+    PG_ALLOC (*out, dim * *n);
+    for (size_t i = 0; i < *n; i++)
+        pg_scene_vector (list->scene, (int) dim, *out + dim * i, "%s.%s[%zu]", list->at, key, i);
 done:
     return status;
 }
 
-/* Unit normal by the area vector of the polygon, which no unlucky choice of three vertices can spoil. */
-static void find_normal (pg_crack *c)
+/* A segment from each vertex to the next. */
+static pg_status read_polyline (crack_list *list)
 {
-    const double *o = c->vertex;
-    for (size_t i = 1; i + 1 < c->nvertex; i++) {
-        const double *a = o + 3*i, *b = a + 3;
-        for (int k = 0; k < 3; k++) {
-            int p = (k + 1) % 3, q = (k + 2) % 3;
-            c->normal[k] += (a[p] - o[p]) * (b[q] - o[q]) - (a[q] - o[q]) * (b[p] - o[p]);
+    pg_status status = PG_OK;
+    double *vertex = NULL;
+    size_t n;
+    const char *why;
+    PG_TRY (read_vertices (&vertex, &n, list, "polyline"));
+    if (n < 2) pg_scene_fault (list->scene, list->at, "the polyline needs two vertices or more");
+    for (size_t i = 1; i < n; i++) {
+        pg_crack *c = crack_next (list);
+        if (!c) PG_FAIL (PG_E_MEMORY, "no memory for a crack");
+        PG_TRY (crack_segment (c, vertex + 2*i - 2, vertex + 2*i, &why));
+        c->bend = i > 1;
+        if (why) {
+            pg_scene_fault (list->scene, list->at,
+                            "the polyline has the same vertex twice in a row: %zu and %zu", i, i + 1);
+            break;
         }
     }
-    double size = length (3, c->normal);
-    for (int k = 0; k < 3 && size > 0; k++) c->normal[k] /= size;
-}
-
-/* What is wrong with the polygon, or NULL; flat: room for its projection (nvertex x 2). */
-static const char *polygon_fault (const pg_crack *c, double *flat)
-{
-    double size = 0, off = 0;
-    int k = 0;
-    for (size_t i = 0; i < c->nvertex; i++) {
-        double r[3], d = 0;
-        for (int m = 0; m < 3; m++)
-            r[m] = c->vertex[3 * i + (size_t) m] - c->vertex[m], d += r[m] * c->normal[m];
-        size = fmax (size, length (3, r));
-        off = fmax (off, fabs (d));
-    }
-    if (!(length (3, c->normal) > 0)) return "has no area";
-    /* Vertices are often rounded to five or six digits. */
-    if (!(off <= 1e-5 * size)) return "is not plane";
-    for (int m = 1; m < 3; m++) if (fabs (c->normal[m]) > fabs (c->normal[k])) k = m;
-    for (size_t i = 0; i < c->nvertex; i++)
-        for (size_t m = 0; m < 2; m++) flat[2*i + m] = c->vertex[3*i + ((size_t) k + 1 + m) % 3];
-    return pg_polygon_fault (c->nvertex, flat);
-}
-
-/* A list of vertices. */
-static pg_status read_polygon (pg_crack *c, const pg_scene *scene, const char *at)
-{
-    pg_status status = PG_OK;
-    double *flat = NULL;
-    size_t n = pg_scene_count (scene, "%s.polygon", at);
-    c->kind = PG_CRACK_POLYGON;
-    PG_ALLOC (c->vertex, 3 * n);
-    PG_ALLOC (flat, 2 * n);
-    c->nvertex = n;
-    for (size_t i = 0; i < n; i++) pg_scene_vector (scene, 3, c->vertex + 3*i, "%s.polygon[%zu]", at, i);
-    find_normal (c);
-    const char *why = n < 3 ? "needs three vertices or more" : polygon_fault (c, flat);
-    if (why) pg_scene_fault (scene, at, "the polygon %s", why);
 done:
-    pg_free (flat);
+    pg_free (vertex);
     return status;
 }
 
-/* Centre, normal, radius; e and f are unit vectors in its plane. */
-static pg_status read_disc (pg_crack *c, const pg_scene *scene, const char *at)
+/* In the plane the outline of a slot, in space the crack itself. */
+static pg_status read_polygon (crack_list *list)
 {
     pg_status status = PG_OK;
-    double e[3], f[3];
-    int least = 0;
-    c->kind = PG_CRACK_DISC;
-    PG_ALLOC (c->vertex, 3 * DISC_CORNERS);
-    c->nvertex = DISC_CORNERS;
-    pg_scene_vector (scene, 3, c->centre, "%s.disc.center", at);
-    pg_scene_vector (scene, 3, c->normal, "%s.disc.normal", at);
-    c->radius = pg_scene_number (scene, "%s.disc.radius", at);
-    double *n = c->normal, size = length (3, n);
-    if (!(size > 0)) {
-        pg_scene_fault (scene, at, "the normal has no length");
-        goto done;
-    }
-    /* e: the axis least along the normal, without its part along the normal; f = n x e. */
-    for (int k = 0; k < 3; k++) n[k] /= size;
-    for (int k = 1; k < 3; k++) if (fabs (n[k]) < fabs (n[least])) least = k;
-    for (int k = 0; k < 3; k++) e[k] = (k == least) - n[least] * n[k];
-    size = length (3, e);
-    for (int k = 0; k < 3; k++) e[k] /= size;
-    for (int k = 0; k < 3; k++) f[k] = n[(k + 1) % 3] * e[(k + 2) % 3] - n[(k + 2) % 3] * e[(k + 1) % 3];
-    for (size_t i = 0; i < DISC_CORNERS; i++) {
-        double angle = 2 * acos (-1) * (double) i / DISC_CORNERS;
-        for (size_t k = 0; k < 3; k++)
-            c->vertex[3 * i + k] = c->centre[k] + c->radius * (cos (angle) * e[k] + sin (angle) * f[k]);
-    }
+    double *vertex = NULL;
+    size_t n;
+    const char *why;
+    PG_TRY (read_vertices (&vertex, &n, list, "polygon"));
+    pg_crack *c = crack_next (list);
+    if (!c) PG_FAIL (PG_E_MEMORY, "no memory for a crack");
+    PG_TRY (list->all->dim == 2 ? crack_outline (c, n, vertex, &why) : crack_polygon (c, n, vertex, &why));
+    PG_TRY (settle (list, PG_OK, "the polygon", why));
 done:
+    pg_free (vertex);
     return status;
 }
 
-/* Reads crack i; in 2D segments, in 3D polygons and discs. */
-static pg_status read_crack (pg_crack *c, int dim, const pg_scene *scene, size_t i)
+/* Centre, normal, radius. */
+static pg_status read_disc (crack_list *list)
 {
-    char at[64];
-    snprintf (at, sizeof at, "cracks[%zu]", i);
-    int segment = pg_scene_given (scene, "%s.from", at);
-    c->kind = PG_CRACK_SEGMENT;
-    if (dim == 1) pg_scene_fault (scene, at, "a crack needs dimension 2 or 3");
+    double centre[3] = { 0 }, normal[3] = { 0 };
+    const char *why;
+    pg_scene_vector (list->scene, 3, centre, "%s.disc.center", list->at);
+    pg_scene_vector (list->scene, 3, normal, "%s.disc.normal", list->at);
+    pg_crack *c = crack_next (list);
+    pg_status status = c ? crack_disc (c, centre, normal,
+                                       pg_scene_number (list->scene, "%s.disc.radius", list->at), &why)
+                         : PG_E_MEMORY;
+    return settle (list, status, "the", status == PG_OK ? why : NULL);
+}
+
+/* The key of an ellipse that belongs to the other dimension. */
+static void refuse_key (const crack_list *list, const char *key, const char *instead)
+{
+    char path[96];
+    snprintf (path, sizeof path, "%s.ellipse.%s", list->at, key);
+    if (pg_scene_given (list->scene, "%s", path))
+        pg_scene_fault (list->scene, path, "is for %dD; here %s", 5 - list->all->dim, instead);
+}
+
+static pg_status read_ellipse (crack_list *list)
+{
+    double centre[3] = { 0 }, normal[3] = { 0 }, along[3] = { 0 }, size[2];
+    const char *why = NULL, *at = list->at;
+    const pg_scene *scene = list->scene;
+    pg_status status;
+    pg_scene_vector (scene, 3, centre, "%s.ellipse.center", at);
+    size[0] = pg_scene_number (scene, "%s.ellipse.length", at);
+    size[1] = pg_scene_number (scene, "%s.ellipse.breadth", at);
+    if (size[1] > size[0]) {
+        pg_scene_fault (scene, at, "the ellipse is broader than long: %g m and %g m", size[1], size[0]);
+        return PG_OK;
+    }
+    pg_crack *c = crack_next (list);
+    if (!c) return PG_E_MEMORY;
+    if (list->all->dim == 2) {
+        refuse_key (list, "normal", "angle says how the ellipse lies");
+        refuse_key (list, "along", "angle says how the ellipse lies");
+        status = crack_slot_ellipse (c, centre, size[0], size[1],
+                                     pg_scene_number (scene, "%s.ellipse.angle", at), &why);
+        return settle (list, status, "the ellipse", why);
+    }
+    refuse_key (list, "angle", "normal and along say how the ellipse lies");
+    if (!pg_scene_given (scene, "%s.ellipse.normal", at) || !pg_scene_given (scene, "%s.ellipse.along", at)) {
+        pg_scene_fault (scene, at, "in 3D an ellipse needs normal and along, the direction of its length");
+        return PG_OK;
+    }
+    pg_scene_vector (scene, 3, normal, "%s.ellipse.normal", at);
+    pg_scene_vector (scene, 3, along, "%s.ellipse.along", at);
+    status = crack_ellipse (c, centre, normal, along, size[0], size[1], &why);
+    return settle (list, status, "the ellipse: its", why);
+}
+
+/* ---- an entry -------------------------------------------------------------------------------------------
+ */
+/* The keys that give a crack: in which dimensions, whether it can have a width there (bit 2, bit 3). */
+static const struct { const char *key; int lowest, highest, wide; pg_status (*read) (crack_list *);
+} kinds[] = {
+    { "from", 2, 2, 1 << 2, read_segment },         { "polyline", 2, 2, 1 << 2, read_polyline },
+    { "polygon", 2, 3, 1 << 3, read_polygon },      { "disc", 3, 3, 1 << 3, read_disc },
+    { "ellipse", 2, 3, 1 << 3, read_ellipse },      { "file", 2, 3, 1 << 2 | 1 << 3, crack_read_file },
+    { "random", 2, 3, 1 << 2 | 1 << 3, crack_read_random },
+};
+enum { KINDS = sizeof kinds / sizeof *kinds };
+
+/* The width of an entry, m; 0: none. Materials are removed from shapes only. */
+static double read_width (const crack_list *list, int outline)
+{
+    char path[96];
+    snprintf (path, sizeof path, "%s.width", list->at);
+    if (!pg_scene_given (list->scene, "%s", path)) return 0;
+    double spacing = pg_scene_given (list->scene, "spacing") ? pg_scene_number (list->scene, "spacing") : NAN,
+           width = pg_scene_length (list->scene, spacing, "%s", path);
+    if (outline) pg_scene_fault (list->scene, path, "an outline is the whole slot: leave width out");
+    else if (isnan (width))
+        pg_scene_fault (list->scene, path, "there is no spacing: give a length in m, mm ...");
+    return isnan (width) ? 0 : width;
+}
+
+/* Reads the entry that the list is at. */
+static pg_status read_entry (crack_list *list)
+{
+    int dim = list->all->dim, k = 0;
+    while (k < KINDS && !pg_scene_given (list->scene, "%s.%s", list->at, kinds[k].key)) k++;
+    if (dim == 1) pg_scene_fault (list->scene, list->at, "a crack needs dimension 2 or 3");
     /* The kind of crack must fit the dimension. */
-    else if (segment != (dim == 2))
-        pg_scene_fault (scene, at, dim == 2 ? "in 2D give from and to" : "in 3D give a polygon or a disc");
-    else if (!segment && pg_scene_given (scene, "%s.to", at))
-        pg_scene_fault (scene, at, "to belongs to from, in 2D");
-    else if (segment) return read_segment (c, scene, at);
-    else if (pg_scene_given (scene, "%s.disc", at)) return read_disc (c, scene, at);
-    else return read_polygon (c, scene, at);
+    else if (k == KINDS || dim < kinds[k].lowest || dim > kinds[k].highest)
+        pg_scene_fault (list->scene, list->at,
+                        dim == 2
+                            ? "in 2D give from and to, a polyline, or the outline of a slot: a polygon or "
+                              "an ellipse"
+                            : "in 3D give a polygon or a disc, or an ellipse");
+    else if (k > 0 && pg_scene_given (list->scene, "%s.to", list->at))
+        pg_scene_fault (list->scene, list->at, "to belongs to from, in 2D");
+    else {
+        list->width = read_width (list, !(kinds[k].wide >> dim & 1));
+        return kinds[k].read (list);
+    }
     return PG_OK;
 }
 
 /* The fault says where the body is. */
-static void fault_outside (const pg_scene *scene, const char *at, const pg_body *body, int dim)
+static void fault_outside (const crack_list *list, size_t entry)
 {
-    char text[128];
+    char text[128], at[64];
     int n = 0;
-    for (int k = 0; k < dim; k++)
+    for (int k = 0; k < list->body->dim; k++)
         n += snprintf (text + n, sizeof text - (size_t) n, "%s%c %.5g to %.5g m", k ? ", " : "", "xyz"[k],
-                       body -> low[k], body -> high[k]);
-    pg_scene_fault (scene, at, "lies outside the body, which fills %s", text);
+                       list->body->low[k], list->body->high[k]);
+    snprintf (at, sizeof at, "cracks[%zu]", entry);
+    pg_scene_fault (list->scene, at, "lies outside the body, which fills %s", text);
+}
+
+/* An entry of which no piece meets the body. */
+static void find_outside (const crack_list *list)
+{
+    const pg_cracks *all = list->all;
+    for (size_t i = 0, last; i < all->n; i = last) {
+        int meets = 0;
+        for (last = i; last < all->n && all->crack[last].entry == all->crack[i].entry; last++)
+            meets = meets || crack_may_meet (list->body, &all->crack[last]);
+        if (!meets) fault_outside (list, all->crack[i].entry);
+    }
+}
+
+/* Slots are cut out of shapes. */
+static void refuse_slots (const crack_list *list)
+{
+    const pg_cracks *all = list->all;
+    if (list->body->n > 0) return;
+    for (size_t i = 0; i < all->n; i++) {
+        char at[64];
+        if (!pg_crack_is_slot (&all->crack[i])) continue;
+        snprintf (at, sizeof at, "cracks[%zu]", all->crack[i].entry);
+        pg_scene_fault (
+            list->scene, at,
+            "material is removed from a body of shapes only: leave the slot out of the mesh or of "
+            "the points, or give a sharp crack");
+        return;
+    }
 }
 
 /* The body is read only to see whether cracks meet it. */
-pg_status pg_cracks_read (pg_cracks *out, const pg_scene *scene)
+pg_status crack_read_all (pg_cracks *out, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_body body = {0};
     size_t n = pg_scene_count (scene, "cracks");
+    crack_list list = { .scene = scene, .body = &body, .all = out };
     memset (out, 0, sizeof *out);
     out->dim = (int) pg_scene_integer (scene, "dimension");
-    PG_ALLOC (out->crack, n);
-    out->n = n;
-    for (size_t i = 0; i < n; i++) PG_TRY (read_crack (&out->crack[i], out->dim, scene, i));
-    PG_TRY (pg_scene_verdict (scene));
-    if (n > 0) PG_TRY (pg_body_read (&body, scene));
-    for (size_t i = 0; i < n && body.n > 0; i++) {
-        char at[64];
-        snprintf (at, sizeof at, "cracks[%zu]", i);
-        if (!crack_may_meet (&body, &out->crack[i])) fault_outside (scene, at, &body, out->dim);
+    if (n > 0) PG_TRY (pg_body_read_uncut (&body, scene));
+    for (list.entry = 0; list.entry < n; list.entry++) {
+        snprintf (list.at, sizeof list.at, "cracks[%zu]", list.entry);
+        PG_TRY (read_entry (&list));
     }
     PG_TRY (pg_scene_verdict (scene));
-    PG_TRY (pg_cracks_index (out));
+    if (body.n > 0) find_outside (&list);
+    refuse_slots (&list);
+    PG_TRY (pg_scene_verdict (scene));
 done:
     pg_body_clear (&body);
     if (status != PG_OK) pg_cracks_clear (out);
     return status;
 }
+
+/* Keeps the sharp ones, or the slots. */
+static pg_status read_some (pg_cracks *out, const pg_scene *scene, int slots)
+{
+    pg_status status = PG_OK;
+    size_t kept = 0;
+    PG_TRY (crack_read_all (out, scene));
+    for (size_t i = 0; i < out->n; i++) {
+        if (pg_crack_is_slot (&out->crack[i]) == slots) out->crack[kept++] = out->crack[i];
+        else pg_free (out->crack[i].vertex);
+    }
+    out->n = kept;
+    PG_TRY (pg_cracks_index (out));
+done:
+    if (status != PG_OK) pg_cracks_clear (out);
+    return status;
+}
+
+pg_status pg_network_read (pg_cracks *out, const pg_scene *scene) { return crack_read_all (out, scene); }
+
+pg_status pg_cracks_read (pg_cracks *out, const pg_scene *scene) { return read_some (out, scene, 0); }
+
+pg_status pg_slots_read (pg_cracks *out, const pg_scene *scene)
+{
+    memset (out, 0, sizeof *out);
+    out->dim = (int) pg_scene_integer (scene, "dimension");
+    return crack_slots_given (scene) ? read_some (out, scene, 1) : PG_OK;
+}
+
+int pg_crack_is_slot (const pg_crack *crack) { return crack->slot > 0 || crack->kind == PG_CRACK_OUTLINE; }

@@ -185,8 +185,37 @@ static void box_prism (const pg_shape *s, int dim, double *low, double *high)
     low[2] = s->low[2], high[2] = s->high[2];
 }
 
+/* ---- plate ----------------------------------------------------------------------------------------------
+ */
+/* Distance from the edges, in the plane of the plate, and from its two faces, which meet at right angles. */
+static double distance_plate (const pg_shape *s, int dim, const double *x, double reach)
+{
+    double r[3], flat[2] = { 0, 0 }, off = 0;
+    for (int k = 0; k < 3; k++) {
+        int p = (k + 1) % 3, q = (k + 2) % 3;
+        r[k] = x[k] - s->centre[k], off += r[k] * s->axis[k], flat[0] += r[k] * s->along[k];
+        flat[1] += (x[k] - s->centre[k]) * (s->axis[p] * s->along[q] - s->axis[q] * s->along[p]);
+    }
+    return both (distance_polygon (s, dim, flat, reach), fabs (off) - 0.5 * s->length);
+}
+
+/* Box of the vertices in space, and half the thickness along the axis. */
+static void box_plate (const pg_shape *s, int dim, double *low, double *high)
+{
+    for (int k = 0; k < dim; k++) {
+        int p = (k + 1) % 3, q = (k + 2) % 3;
+        double wide = 0.5 * s->length * fabs (s->axis[k]),
+               other = s->axis[p] * s->along[q] - s->axis[q] * s->along[p];
+        low[k] = INFINITY, high[k] = -INFINITY;
+        for (size_t i = 0; i < s->nvertex; i++) {
+            double x = s->centre[k] + s->vertex[2*i] * s->along[k] + s->vertex[2*i + 1] * other;
+            low[k] = fmin (low[k], x - wide), high[k] = fmax (high[k], x + wide);
+        }
+    }
+}
+
 /* Name, lowest and highest dimension, round, functions. */
-const pg_shape_type pg_shape_types[PG_SHAPES + 1] = {
+const pg_shape_type pg_shape_types[PG_PLATE + 1] = {
     [PG_BOX]      = {"box",      1, 3, 0, read_box,      distance_box,      box_box},
     [PG_DISK]     = {"disk",     2, 2, 1, read_ball,     distance_ball,     box_ball},
     [PG_CYLINDER] = {"cylinder", 3, 3, 1, read_cylinder, distance_cylinder, box_cylinder},
@@ -195,4 +224,5 @@ const pg_shape_type pg_shape_types[PG_SHAPES + 1] = {
     [PG_PRISM]    = {"prism",    3, 3, 0, read_prism,    distance_prism,    box_prism},
     [PG_MESH]     = {"mesh",     2, 3, 0, shape_mesh_read, shape_mesh_distance, shape_mesh_box},
     [PG_STAIRS]   = {"stairs",   2, 3, 0, NULL, shape_stairs_distance, shape_mesh_box},
+    [PG_PLATE]    = {"plate",    3, 3, 0, NULL, distance_plate,        box_plate},
 };

@@ -21,10 +21,10 @@ typedef struct {
     void      (*box)      (const pg_shape *shape, int dim, double *low, double *high);
 } pg_shape_type;
 
-/* Kinds that a scene may use; PG_STAIRS comes behind them. */
+/* Kinds that a scene may use; PG_STAIRS and PG_PLATE come behind them. */
 enum { PG_SHAPES = PG_MESH + 1 };
 /* Indexed by pg_shape.kind. */
-extern const pg_shape_type pg_shape_types[PG_SHAPES + 1];
+extern const pg_shape_type pg_shape_types[PG_PLATE + 1];
 /* Shapes from a mesh (shape_mesh.c). */
 pg_status shape_mesh_read     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);
 double    shape_mesh_distance (const pg_shape *shape, int dim, const double *x, double reach);

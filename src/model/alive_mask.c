@@ -31,7 +31,7 @@ static int far_from_cracks (const pg_problem *p, const pg_rows *rows, size_t q)
         low[k] = rows->x[dim * q + k] - 2 * p->approx.horizon;
         high[k] = rows->x[dim * q + k] + 2 * p->approx.horizon;
     }
-    return !pg_cracks_near (pg_state_cracks (p, NULL), low, high);
+    return !pg_cracks_near (pg_state_cracks (p, NULL), low, high) && !pg_cracks_near (&p->slots, low, high);
 }
 
 /* Can a crack cut any bond of point q? The box about its bonds tells, which spares most points of a body the
@@ -41,7 +41,7 @@ static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
     double low[3], high[3], slack = 1e-8 * p->cloud.h; /* more than the tolerance of a cut */
     const pg_cracks *cracks = pg_state_cracks (p, NULL);
     size_t dim = (size_t) p->dim;
-    if (cracks->n == 0 || far_from_cracks (p, rows, q)) return 0;
+    if (cracks->n + p->slots.n == 0 || far_from_cracks (p, rows, q)) return 0;
     for (size_t k = 0; k < dim; k++) low[k] = high[k] = rows->x[dim * q + k];
     for (size_t e = rows->family.start[q]; e < rows->family.start[q + 1]; e++)
         for (size_t k = 0; k < dim; k++) {
@@ -49,22 +49,28 @@ static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
             low[k] = x < low[k] ? x : low[k], high[k] = x > high[k] ? x : high[k];
         }
     for (size_t k = 0; k < dim; k++) low[k] -= slack, high[k] += slack;
-    return pg_cracks_near (cracks, low, high);
+    return pg_cracks_near (cracks, low, high) || pg_cracks_near (&p->slots, low, high);
+}
+
+int pg_bond_cut_first (const pg_problem *p, const double *x, const double *y)
+{
+    double tolerance = 1e-9 * p->cloud.h;
+    return pg_cracks_cut (pg_state_cracks (p, NULL), x, y, tolerance)
+           || pg_cracks_cut (&p->slots, x, y, tolerance);
 }
 
 /* The mask at the start of a run: 0 where the segment of a bond meets a pre-crack. The bond of a point with
  * itself is never cut. */
 void pg_bonds_cut_at (const pg_problem *p, int set, size_t q, unsigned char *alive)
 {
-    const pg_cracks *cracks = pg_state_cracks (p, NULL);
     const pg_rows *rows = &p->rows[set];
     size_t dim = (size_t) p->dim, first = rows->family.start[q], m = rows->family.start[q + 1] - first;
     memset (alive, 1, m);
     if (!may_be_cut (p, rows, q)) return;
     for (size_t e = 0; e < m; e++) {
         int j = rows->family.node[first + e];
-        alive[e] = j == rows->own[q] || !pg_cracks_cut (cracks, rows->x + q * dim,
-                                                       p->cloud.x + (size_t) j * dim, 1e-9 * p->cloud.h);
+        alive[e] = j == rows->own[q]
+                   || !pg_bond_cut_first (p, rows->x + q * dim, p->cloud.x + (size_t) j * dim);
     }
 }
 

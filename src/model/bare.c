@@ -69,7 +69,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     PG_ALLOC (b, 1);
     *out = b;
     *b = *p;
-    b->cracks = (pg_cracks) { 0 }, b->tip = NULL, b->ntip = 0, b->front = NULL, b->nfront = 0;
+    b->cracks = b->slots = (pg_cracks) { 0 }, b->tip = NULL, b->ntip = 0, b->front = NULL, b->nfront = 0;
     b->criterion = NULL, b->load = NULL, b->nload = 0, b->facet_normal = NULL;
     b->rows[PG_FACETS] = (pg_rows) { 0 };
     for (int s = 0; s < PG_BOND_SETS; s++) b->block[s] = NULL, b->exempt[s] = NULL;

@@ -58,6 +58,8 @@ pg_status pg_remark_parts    (pg_problem *problem);
 pg_status pg_remark_contrast (pg_problem *problem);
 /* alive = 0 where a bond meets a pre-crack. */
 void      pg_bonds_cut   (const pg_problem *problem, unsigned char *alive);
+/* Does the bond x - y meet a crack or a slot of the scene? */
+int       pg_bond_cut_first (const pg_problem *problem, const double *x, const double *y);
 /* Adds to `cut` the live bonds that these n pieces of cracks cut; `cut` stays ascending. */
 pg_status pg_bonds_cut_by (const pg_state *state, const pg_problem *problem, pg_crack *piece, size_t n,
                            pg_changes *cut);

@@ -83,6 +83,7 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     PG_TRY (pg_body_read (&p->body, scene));
     PG_TRY (pass (scene, pg_cracks_read (&p->cracks, scene)));
+    PG_TRY (pass (scene, pg_slots_read (&p->slots, scene)));
     PG_TRY (pg_scene_verdict (scene));
     if (pg_scene_given (scene, "mesh")) {
         PG_TRY (pg_mesh_body_read (&p->part, scene));
@@ -337,7 +338,7 @@ void pg_problem_free (pg_problem **problem)
     pg_cells_clear (&p->cells);
     pg_cloud_clear (&p->cloud);
     pg_lattice_clear (&p->lattice);
-    pg_cracks_clear (&p->cracks);
+    pg_cracks_clear (&p->cracks), pg_cracks_clear (&p->slots);
     for (size_t f = 0; p->front && f < p->nfront; f++) pg_front_clear (&p->front[f]);
     pg_free (p->tip), pg_free (p->front), pg_body_search_free (p);
     pg_mesh_body_clear (&p->part);

@@ -37,8 +37,7 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
 static int is_cut (const pg_problem *p, size_t i, size_t j)
 {
     size_t dim = (size_t) p->dim;
-    return pg_cracks_cut (pg_state_cracks (p, NULL), p->cloud.x + i * dim, p->cloud.x + j * dim,
-                          1e-9 * p->cloud.h) != NULL;
+    return pg_bond_cut_first (p, p->cloud.x + i * dim, p->cloud.x + j * dim);
 }
 
 /* Does a crack of the start pass through a point? */
@@ -101,7 +100,7 @@ pg_status pg_remark_parts (pg_problem *p)
     int *parent = NULL, *size = NULL;
     size_t n = p->cloud.n;
     char place[80];
-    if (!p->cracks.n) return PG_OK;
+    if (p->cracks.n + p->slots.n == 0) return PG_OK;
     PG_ALLOC (parent, n);
     PG_ALLOC (size, n);
     join_points (p, parent, size);

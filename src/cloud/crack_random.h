@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: random networks of cracks, as the scene asks for them (crack_random_read.c) and as they are placed
+ * (crack_random.c). */
+#ifndef PERIGAL_CLOUD_CRACK_RANDOM_H
+#define PERIGAL_CLOUD_CRACK_RANDOM_H
+#include "crack.h"
+#include "random.h"
+
+/* Distributions of a number. */
+enum { CRACK_FIXED, CRACK_UNIFORM, CRACK_NORMAL, CRACK_LOGNORMAL, CRACK_EXPONENTIAL, CRACK_POWER_LAW,
+       CRACK_VON_MISES, CRACK_FISHER };
+/* One of them: mean and standard deviation, or exponent, or concentration; what lies beyond low and high is
+ * drawn again. */
+typedef struct { int kind; double mean, deviation, low, high, exponent, concentration; } crack_distribution;
+
+/* Shapes of cracks in space. */
+enum { CRACK_DISC, CRACK_RECTANGLE, CRACK_ELLIPSE };
+
+/* What the scene asks for. */
+typedef struct {
+    uint32_t seed;
+    /* As many cracks, or until their slots make this part of the body, or until their length (area) per area
+     * (volume) of the body is this, 1/m; 0: not given. */
+    long   count;
+    double fraction, intensity;
+    crack_distribution length, angle;
+    /* In space: the direction about which normals lie, a unit vector. */
+    double normal[3];
+    /* Places: uniform in the body, or in a box; or normal about a mean, by axis, m. */
+    int    gathered;
+    double mean[3], deviation[3], low[3], high[3];
+    /* In space: the shape, and its breadth over its length. */
+    int    shape;
+    double aspect;
+    /* Least distance from other cracks (negative: they may cross), and of whole cracks from the surface,
+     * m. */
+    double distance, margin;
+    /* 1: cracks lie in the body entirely; 0: their middles do. */
+    int    whole;
+    /* Width of the slots, m; 0: sharp. */
+    double width;
+} crack_request;
+pg_status crack_request_read (crack_request *out, const crack_list *list);
+/* A number of the distribution; an angle of von Mises' distribution is drawn by its direction instead. */
+double    crack_draw (const crack_distribution *d, random_source *r);
+#endif
