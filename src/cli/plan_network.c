@@ -79,9 +79,10 @@ static void print_order (const pg_network *n, int dim)
         print_row ("cracks", text);
     }
     if (n->vain) {
-        snprintf (text, sizeof text,
-                  "%zu drawn in vain, too long to fit anywhere: lengths and directions are not quite as asked",
-                  n->vain);
+        snprintf (
+            text, sizeof text,
+            "%zu drawn in vain, too long to fit anywhere: lengths and directions are not quite as asked",
+            n->vain);
         print_row ("random cracks", text);
     }
     if (n->outside) {

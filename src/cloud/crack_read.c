@@ -42,7 +42,9 @@ static pg_status read_segment (crack_list *list)
     pg_scene_vector (list->scene, 2, from, "%s.from", list->at);
     pg_scene_vector (list->scene, 2, to, "%s.to", list->at);
     pg_crack *c = crack_next (list);
-    return settle (list, c ? crack_segment (c, from, to, &why) : PG_E_MEMORY, "the crack", c ? why : NULL);
+    if (!c) return PG_E_MEMORY;
+    pg_status status = crack_segment (c, from, to, &why);
+    return settle (list, status, "the crack", why);
 }
 
 /* A list of vertices [x, y] or [x, y, z]; *n of them. */
@@ -193,8 +195,8 @@ static pg_status read_entry (crack_list *list)
         pg_scene_fault (list->scene, list->at,
                         dim == 2
                             ? "in 2D give from and to, a polyline, or the outline of a slot: a polygon or "
-                              "an ellipse"
-                            : "in 3D give a polygon or a disc, or an ellipse");
+                              "an ellipse; a file, or random"
+                            : "in 3D give a polygon or a disc, an ellipse, a file, or random");
     else if (k > 0 && pg_scene_given (list->scene, "%s.to", list->at))
         pg_scene_fault (list->scene, list->at, "to belongs to from, in 2D");
     else {
