@@ -96,7 +96,8 @@ int main (int argc, char **argv)
             return commands[k].run (argc - 1, argv + 1);
         }
     const char *near =
-        pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|new|list|help|--version|--help");
+        pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|new|list|help|"
+                                 "--version|--help");
     fprintf (stderr, "perigal: unknown %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1],
              near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     usage (stderr);
