@@ -147,6 +147,29 @@ void      pg_cut_points_clear (pg_cut_points *points);
 int       pg_cut_shape  (const struct pg_cut *cut, int surface);
 int       pg_cut_is_end (const struct pg_cut *cut, int surface);
 
+/* ---- cells that cracks divide -------------------------------------------------------------------------- */
+/* In the plane. A part of a cell as a polygon, counterclockwise: vertices, m; of the edge behind each vertex
+ * the side of the cell that it lies on (numbers of Exodus less 1; -1: it runs through the cell), and whether
+ * it lies on a crack. */
+enum { PG_PART_EDGES = 24, PG_PARTS = 4 };
+typedef struct {
+    int n;
+    double x[PG_PART_EDGES][2];
+    int side[PG_PART_EDGES], crack[PG_PART_EDGES];
+} pg_cell_part;
+typedef struct { int n; pg_cell_part part[PG_PARTS]; } pg_cell_parts;
+/* Divides a cell along the cracks (segments; lengths below `nothing`, m, count as none). 1: the parts, one
+ * where no crack runs through it; 0: a crack ends, branches or crosses another one in the cell, covers a part
+ * of a side, the cell has too many parts, or its sides are not straight. */
+int    pg_cell_divide (pg_cell_parts *out, const pg_cells *cells, size_t cell, const pg_cracks *cracks,
+                       double nothing);
+/* Where, in shares of the way from a to b, the segment enters and leaves the cell; 0: it does not meet it. A
+ * segment along a side is in both cells. Sides must be straight, as above. */
+int    pg_cell_clip   (const pg_cells *cells, size_t cell, const double *a, const double *b, double nothing,
+                       double share[2]);
+double pg_cell_part_area  (const pg_cell_part *part);  /* m^2 */
+int    pg_cell_part_holds (const pg_cell_part *part, const double *x);
+
 /* Named sets of a scene: `sets: NAME: {boundary: ..., angle: ..., where: ...}`. For every set NAME there
  * are also NAME.left, .right, .bottom, .top, .back and .front, its halves on that side of the centre of the
  * body's bounding box. */

@@ -105,6 +105,9 @@ typedef struct {
     /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
     void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+    /* Number of background cells near cracks, but not near tips, that cannot end at the cracks. NULL: none
+     * do. */
+    size_t    (*unended) (const void *self);
     /* Gives the values of shape functions that it has evaluated on the bare problem, at a state without
      * broken bonds, to the problem that this was made from (pg_problem.intact), for forces to come; itself it
      * is good for nothing but `free` from then on. NULL: it has none to give. */

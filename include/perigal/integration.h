@@ -115,9 +115,11 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
 void      pg_consistency_free   (pg_consistency **c);
 /* Writes wide->N and wide->dN (in the layout of c->family) for the cells list[0..count), or for all cells
  * where list is NULL, from the direct values in `points`: corrected in cells with whole[cell] set, copied
- * in others. Each cell writes only its own points, so that results do not depend on the number of threads. */
+ * in others. face: N at the points of faces, in the layout of c->face (NULL: those of the intact body). Each
+ * cell writes only its own points, so that results do not depend on the number of threads. */
 pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide,
-                                const unsigned char *whole, size_t count, const size_t *list, int threads);
+                                const unsigned char *whole, const double *face, size_t count,
+                                const size_t *list, int threads);
 
 /* ---- patches of the dilatation ------------------------------------------------------------------------ */
 /* Near Poisson's ratio 1/2 a condition on the dilatation at every evaluation point leaves the displacement

@@ -2,6 +2,7 @@
  * model.h: the problem (constant once built) and the state (all that evolves). */
 #ifndef PERIGAL_MODEL_H
 #define PERIGAL_MODEL_H
+#include <math.h>
 #include "perigal/scene.h"
 #include "perigal/criterion.h"
 #include "perigal/cells.h"
@@ -439,6 +440,18 @@ void      pg_tip_chord    (const pg_state *state, size_t tip, double back, doubl
 double    pg_tip_straight (const pg_state *state, size_t tip, double angle);
 /* Length of the path behind a tip up to its other end, or `limit` if that is less, m. */
 double    pg_tip_behind   (const pg_state *state, size_t tip, double limit);
+/* Points per spacing at which the faces of a crack are sampled, and the parts of equal length of so much of a
+ * crack (m, at a local spacing h) in whose middle they lie. */
+#define PG_CRACK_POINTS 8
+static inline size_t pg_crack_intervals (double length, double h)
+{
+    double n = ceil (PG_CRACK_POINTS * length / h - 1e-9);
+    return n > 1 ? (size_t) n : 1;
+}
+/* Where the straight piece of a crack from a to b crosses the borders of background cells with consistent
+ * integration, in the plane: shares of the way, ascending, 0 and 1 among them (the caller frees). */
+pg_status pg_crack_breaks (const pg_problem *problem, const double *a, const double *b, size_t *n,
+                           double **share);
 /* Is there body at x? Points of a file have no surface: a place is in the body if a point is near. */
 int       pg_problem_has_body (const pg_problem *problem, const double *x);
 /* Local spacing at x: that of the nearest point, m. */

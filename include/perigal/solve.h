@@ -112,7 +112,7 @@ typedef struct { char what[96], why[160]; double seconds_saved; } pg_skip;
 typedef struct {                                       /* of the run so far */
     long   steps, events, iterations, broken, bonds_over_limit, factorizations, updates, solves;
     long   preconditioners;                            /* made (multilevel) */
-    size_t cg_iterations, degenerate_points, isolated_nodes, fragments;
+    size_t cg_iterations, degenerate_points, isolated_nodes, fragments, unended_cells;
     double utilisation_max, residual_max, overlap_max; /* over accepted steps; m */
     /* J; dissipated: by breaking, the rest */
     double energy_strain, energy_kinetic, energy_external, energy_damping, energy_dissipated;

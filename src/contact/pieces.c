@@ -75,6 +75,34 @@ static size_t next_of (const division *d, size_t k, int end, int *begins)
     return fabs (turn) > PG_CONTACT_TURN ? SIZE_MAX : found;
 }
 
+/* With consistent integration: the intervals by which the cells that end at the crack integrate over its
+ * faces, a link each. */
+static pg_status add_intervals (division *d, const double *a, const double *b, size_t path)
+{
+    pg_status status = PG_OK;
+    double *share = NULL, length = hypot (b[0] - a[0], b[1] - a[1]);
+    size_t n = 0;
+    PG_TRY (pg_crack_breaks (d->p, a, b, &n, &share));
+    for (size_t k = 0; k + 1 < n; k++) {
+        double s = share[k], t = share[k + 1], middle[3] = { 0 };
+        for (int m = 0; m < 2; m++) middle[m] = a[m] + 0.5 * (s + t) * (b[m] - a[m]);
+        double h = pg_problem_spacing_at (d->p, middle);
+        size_t parts = pg_crack_intervals ((t - s) * length, h);
+        PG_GROW (d->link, d->cap_link, d->nlink + parts);
+        for (size_t i = 0; i < parts; i++) {
+            link *l = &d->link[d->nlink++];
+            double u = s + (double)i / (double)parts * (t - s),
+                   v = s + (double)(i + 1) / (double)parts * (t - s);
+            for (int m = 0; m < 2; m++)
+                l->from[m] = a[m] + u * (b[m] - a[m]), l->to[m] = a[m] + v * (b[m] - a[m]);
+            l->length = (v - u) * length, l->h = h, l->path = path;
+        }
+    }
+done:
+    pg_free (share);
+    return status;
+}
+
 /* Appends a segment, walked from its end `begins`, in links. */
 static pg_status add_links (division *d, size_t k, int begins, size_t path)
 {
@@ -82,6 +110,7 @@ static pg_status add_links (division *d, size_t k, int begins, size_t path)
     const segment *s = &d->segment[k];
     const double *a = s->end[begins], *b = s->end[1 - begins];
     double length = hypot (b[0] - a[0], b[1] - a[1]), least = INFINITY;
+    if (d->p->consistency) return add_intervals (d, a, b, path);
     for (int i = 0; i <= 8; i++) {
         double x[3] = { a[0] + i / 8.0 * (b[0] - a[0]), a[1] + i / 8.0 * (b[1] - a[1]), 0 };
         least = fmin (least, pg_problem_spacing_at (d->p, x));
@@ -129,7 +158,7 @@ static pg_status add_points (division *d, pg_contact_pieces *out, const link *l,
 {
     pg_status status = PG_OK;
     double t[2], size = (v - u) * l->length;
-    size_t count = (size_t) fmax (1, ceil (PG_CONTACT_POINTS * size / l->h - 1e-9));
+    size_t count = d->p->consistency ? 1 : pg_crack_intervals (size, l->h);
     pg_contact_piece *piece = &out->piece[out->n];
     for (int m = 0; m < 2; m++) t[m] = (l->to[m] - l->from[m]) / l->length;
     PG_GROW (out->x, d->cap_x, 2 * (out->npoint + count));
@@ -179,8 +208,8 @@ static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_
         double size = l->length / l->h, u = 0;
         while (u < 1) {
             double goal = (double) (at + 1) * each, v = (goal - passed) / size;
-            int ends = at + 1 < pieces && v < 1 + 1e-9;
-            if (!ends || v > 1) v = 1;
+            int ends = at + 1 < pieces && v < (d->p->consistency ? 1.5 : 1 + 1e-9);
+            if (!ends || v > 1 || d->p->consistency) v = 1;        /* intervals stay whole */
             PG_TRY (add_points (d, out, l, u, v));
             if (ends) {
                 out->piece[out->n].arc = 0.5 * (begins + arc + v * l->length), begins = arc + v * l->length;

@@ -319,8 +319,12 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
 static pg_status jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                        double radius, pg_jump_rows *out)
 {
+    pg_status status = PG_OK;
     const galerkin *g = self;
-    return jump_rows (g->problem, &g->problem->approx, state, n, x, normal, radius, out);
+    PG_TRY (jump_rows (g->problem, &g->problem->approx, state, n, x, normal, radius, out));
+    PG_TRY (galerkin_ended_jump (g, n, x, normal, out));
+done:
+    return status;
 }
 
 static pg_status trace (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
@@ -364,6 +368,7 @@ const pg_force_type pg_force_galerkin = {
     .field = galerkin_field,
     .overlap = galerkin_overlap,
     .census = galerkin_census,
+    .unended = galerkin_unended,
     .revision = galerkin_revision,
     .assemble = galerkin_assemble,
     .mass_matrix = galerkin_mass_matrix,

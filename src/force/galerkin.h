@@ -6,7 +6,8 @@
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_worst.c (the worst bonds),
  * galerkin_groups.c (bonds outside of a group), galerkin_sight.c (which points see which nodes),
  * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
- * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums), galerkin_change.c
+ * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums),
+ * galerkin_ended.c, galerkin_ended_plan.c (cells that end at cracks), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
  * (preconditioner), galerkin_intact.c (rows of the intact body), galerkin_share.c
  * (rows that are alike), galerkin_sample.c (any place),
@@ -36,6 +37,7 @@ typedef struct galerkin_slices galerkin_slices;         /* galerkin_sum.c */
 typedef struct galerkin_sight galerkin_sight;           /* galerkin_sight.c */
 typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c */
 typedef struct galerkin_change galerkin_change;         /* galerkin_change.c */
+typedef struct galerkin_ended galerkin_ended;           /* galerkin_ended.c */
 
 /* What the scene says of the method (pg_problem.options). */
 typedef struct {
@@ -54,6 +56,7 @@ typedef struct {
     /* 1: the values of a set, and with the bulk those of consistent sums, are pg_problem.intact's */
     int      borrows[PG_BOND_SETS];
     unsigned char *whole;  /* cells whose derivatives are corrected; NULL: not consistent */
+    galerkin_ended *ended;                             /* NULL: no cells that could end at cracks */
     const int *material[PG_BOND_SETS];                 /* per point; the problem's */
     /* of the last measure */
     double  *strain[PG_BOND_SETS], *stress[PG_BOND_SETS], *zz[PG_BOND_SETS], *u[PG_BOND_SETS];
@@ -222,6 +225,21 @@ void galerkin_consistent_free (galerkin *g);
 /* Brings `sums` in line with the rows of the bulk: all, or cells with the touched points of g->list[bulk],
  * whose number grows to all points of the cells that changed. */
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count);
+/* ended: cells that end at cracks; whole cells near them by values of live bonds on their borders */
+pg_status galerkin_ended_create (galerkin *g);
+void galerkin_ended_free (galerkin *g);
+/* How each cell near the cracks of the state is treated, and the values on their borders; g->whole follows.
+ * *moved: the cracks are others than at the last call. */
+pg_status galerkin_ended_plan (galerkin *g, const pg_state *state, int *moved);
+size_t galerkin_unended (const void *self);            /* pg_force_type.unended */
+int galerkin_ended_treats (const galerkin *g, size_t cell); /* 1: the cell ends at cracks, or could */
+size_t galerkin_ended_near (const galerkin *g, size_t *cell); /* cells near cracks (NULL: their number) */
+const double *galerkin_ended_faces (const galerkin *g);                /* for pg_consistency_apply */
+/* Weights of these cells' points, and the derivatives of those in parts, after pg_consistency_apply. */
+pg_status galerkin_ended_apply (galerkin *g, size_t count, const size_t *list);
+/* Puts the values by which the cells integrate in the place of others, where a place is on their border. */
+pg_status galerkin_ended_jump (const galerkin *g, size_t n, const double *x, const double *normal,
+                               pg_jump_rows *rows);
 /* dilatation: only where g->dilatation is there, but for galerkin_plain, _gaps, _traction, _adjoint */
 pg_status galerkin_dilatation_create (galerkin *g);
 void galerkin_dilatation_free (galerkin *g);

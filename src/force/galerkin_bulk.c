@@ -129,7 +129,7 @@ void galerkin_bulk_apply (galerkin *g, const double *x, double *y)
 /* Half the work of stress on strain, and the energy of the stabilisation. */
 double galerkin_bulk_energy (const galerkin *g, const double *d)
 {
-    const pg_rows *r = &g->rows[g->bulk];
+    const pg_rows *r = &g->sums;
     size_t nv = (size_t) g->nv;
     double sum = 0;
     for (size_t p = 0; p < r->n; p++) {

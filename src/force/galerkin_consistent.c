@@ -17,7 +17,11 @@ pg_status galerkin_consistent_create (galerkin *g)
     size_t nnz = c->family.start[c->family.n];
     g->sums.family = c->family;
     g->sums.N = g->sums.dN = g->sums.w = NULL;
+    g->sums.weight = NULL;
+    PG_ALLOC (g->sums.weight, g->sums.n);
+    memcpy (g->sums.weight, g->rows[g->bulk].weight, g->sums.n * sizeof *g->sums.weight);
     PG_ALLOC (g->whole, c->cells->n);
+    PG_TRY (galerkin_ended_create (g));
     if (galerkin_borrow_sums (g)) return PG_OK;
     PG_ALLOC (g->sums.N, nnz);
     PG_ALLOC (g->sums.dN, nnz * (size_t) g->dim);
@@ -29,6 +33,8 @@ done:
 void galerkin_consistent_free (galerkin *g)
 {
     if (g->problem->consistency && !g->borrows[g->bulk]) pg_free (g->sums.N), pg_free (g->sums.dN);
+    if (g->problem->consistency) pg_free (g->sums.weight);
+    galerkin_ended_free (g);
     pg_free (g->whole);
 }
 
@@ -117,6 +123,125 @@ done:
     return status;
 }
 
+/* ---- what a change changes ----------------------------------------------------------------------------- */
+/* Values of the points of some cells, one cell after the other. */
+typedef struct { double *N, *dN, *weight; size_t *place; } kept_rows;
+
+static void free_rows (kept_rows *k)
+{
+    pg_free (k->N), pg_free (k->dN), pg_free (k->weight), pg_free (k->place);
+}
+
+/* Bonds of a cell's points, and the first of them. */
+static size_t bonds_of (const galerkin *g, size_t cell, size_t *from)
+{
+    const pg_consistency *c = g->problem->consistency;
+    *from = c->family.start[c->first[cell]];
+    return c->family.start[c->first[cell + 1]] - *from;
+}
+
+static pg_status keep_rows (const galerkin *g, size_t n, const size_t *cell, kept_rows *out)
+{
+    pg_status status = PG_OK;
+    const pg_consistency *c = g->problem->consistency;
+    size_t dim = (size_t) g->dim, bonds = 0, points = 0, from;
+    PG_ALLOC (out->place, 2 * n);
+    for (size_t k = 0; k < n; k++) {
+        out->place[2*k] = bonds, out->place[2*k + 1] = points;
+        bonds += bonds_of (g, cell[k], &from), points += c->first[cell[k] + 1] - c->first[cell[k]];
+    }
+    PG_ALLOC (out->N, bonds);
+    PG_ALLOC (out->dN, bonds * dim);
+    PG_ALLOC (out->weight, points);
+    for (size_t k = 0; k < n; k++) {
+        size_t m = bonds_of (g, cell[k], &from), first = c->first[cell[k]];
+        memcpy (out->N + out->place[2*k], g->sums.N + from, m * sizeof *out->N);
+        memcpy (out->dN + out->place[2*k] * dim, g->sums.dN + from * dim, m * dim * sizeof *out->dN);
+        memcpy (out->weight + out->place[2*k + 1], g->sums.weight + first,
+                (c->first[cell[k] + 1] - first) * sizeof *out->weight);
+    }
+done:
+    return status;
+}
+
+/* Leaves those cells in the list whose values are others than they were; returns how many. */
+static size_t different (const galerkin *g, size_t n, size_t *cell, kept_rows *old)
+{
+    const pg_consistency *c = g->problem->consistency;
+    size_t dim = (size_t) g->dim, kept = 0, from;
+    for (size_t k = 0; k < n; k++) {
+        size_t m = bonds_of (g, cell[k], &from), first = c->first[cell[k]], at = old->place[2*k];
+        if (memcmp (old->N + at, g->sums.N + from, m * sizeof *old->N) == 0
+            && memcmp (old->dN + at * dim, g->sums.dN + from * dim, m * dim * sizeof *old->dN) == 0
+            && memcmp (old->weight + old->place[2*k + 1], g->sums.weight + first,
+                       (c->first[cell[k] + 1] - first) * sizeof *old->weight) == 0) continue;
+        cell[kept] = cell[k];
+        old->place[2*kept] = at, old->place[2*kept + 1] = old->place[2*k + 1], kept++;
+    }
+    return kept;
+}
+
+static void swap (size_t n, double *a, double *b)
+{
+    for (size_t i = 0; i < n; i++) {
+        double t = a[i];
+        a[i] = b[i], b[i] = t;
+    }
+}
+
+static void swap_rows (galerkin *g, size_t n, const size_t *cell, kept_rows *old)
+{
+    const pg_consistency *c = g->problem->consistency;
+    size_t dim = (size_t) g->dim, from;
+    for (size_t k = 0; k < n && g->change; k++) {
+        size_t m = bonds_of (g, cell[k], &from), first = c->first[cell[k]], at = old->place[2*k];
+        swap (m, old->N + at, g->sums.N + from);
+        swap (m * dim, old->dN + at * dim, g->sums.dN + from * dim);
+        swap (c->first[cell[k] + 1] - first, old->weight + old->place[2*k + 1], g->sums.weight + first);
+    }
+}
+
+/* The list grows by the cells near the cracks as they were, and as they are, where something there may be
+ * another: cracks have moved, or bonds have broken. */
+static pg_status near_cells (galerkin *g, const pg_state *state, size_t **list, size_t *n)
+{
+    pg_status status = PG_OK;
+    int moved;
+    size_t *out = NULL, before = galerkin_ended_near (g, NULL), count = *n, kept = 0;
+    if (!g->ended) return PG_OK;
+    PG_ALLOC (out, before);
+    galerkin_ended_near (g, out);
+    PG_TRY (galerkin_ended_plan (g, state, &moved));
+    if (!moved && *n == 0) goto done;
+    size_t now = galerkin_ended_near (g, NULL), cap = 0;
+    PG_GROW (*list, cap, count + before + now);
+    size_t *grown = *list;
+    memcpy (grown + count, out, before * sizeof *out);
+    galerkin_ended_near (g, grown + count + before);
+    count += before + now;
+    qsort (grown, count, sizeof *grown, compare);
+    for (size_t k = 0; k < count; k++) if (kept == 0 || grown[k] != grown[kept - 1]) grown[kept++] = grown[k];
+    *n = kept;
+    for (size_t k = 0; k < kept; k++)
+        if (!galerkin_ended_treats (g, grown[k]))
+            g->whole[grown[k]] = (unsigned char) complete_around (g, state, grown[k]);
+done:
+    pg_free (out);
+    return status;
+}
+
+/* Values of these cells as they are to be now. */
+static pg_status renew (galerkin *g, size_t n, const size_t *cell)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = &g->rows[g->bulk];
+    PG_TRY (pg_consistency_apply (g->problem->consistency, r, &g->sums, g->whole, galerkin_ended_faces (g), n,
+                                  cell, g->threads));
+    PG_TRY (galerkin_ended_apply (g, n, cell));
+done:
+    return status;
+}
+
 /* all: from scratch; else the cells of the *count points in g->list, which is replaced by all points
  * whose rows have changed. */
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count)
@@ -125,23 +250,36 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
     const pg_consistency *c = g->problem->consistency;
     const pg_rows *r = &g->rows[g->bulk];
     size_t *cells = NULL, n = 0;
+    kept_rows old = { 0 };
+    int moved = 0;
     if (all) {
         memset (g->whole, 1, c->cells->n);
         for (size_t cell = 0; cell < c->cells->n; cell++)
             if (!bonds_complete (g, state, cell)) open_around (g, cell);
         if (g->borrows[g->bulk]) return PG_OK;
-        PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, 0, NULL, g->threads));
-        return PG_OK;
+        PG_TRY (galerkin_ended_plan (g, state, &moved));
+        PG_TRY (
+            pg_consistency_apply (c, r, &g->sums, g->whole, galerkin_ended_faces (g), 0, NULL, g->threads));
+        PG_ALLOC (cells, c->cells->n);
+        for (n = 0; n < c->cells->n; n++) cells[n] = n;
+        PG_TRY (galerkin_ended_apply (g, n, cells));
+        goto done;
     }
-    if (*count == 0) return PG_OK;
     PG_TRY (changed_cells (g, state, *count, &cells, &n));
+    PG_TRY (near_cells (g, state, &cells, &n));
+    if (n == 0) goto done;
+    PG_TRY (keep_rows (g, n, cells, &old));
+    PG_TRY (renew (g, n, cells));
+    n = different (g, n, cells, &old);
+    swap_rows (g, n, cells, &old);
     PG_TRY (galerkin_change_cells (g, n, cells, -1));
-    PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, n, cells, g->threads));
+    swap_rows (g, n, cells, &old);
     PG_TRY (galerkin_change_cells (g, n, cells, 1));
     *count = 0;
     for (size_t k = 0; k < n; k++)
         for (size_t p = c->first[cells[k]]; p < c->first[cells[k] + 1]; p++) g->list[g->bulk][(*count)++] = p;
 done:
+    free_rows (&old);
     pg_free (cells);
     return status;
 }

@@ -202,6 +202,7 @@ typedef struct {
     const pg_rows *points;
     pg_rows *wide;
     const unsigned char *whole;
+    const double *face;  /* N at the points of faces */
     const size_t *list;
     /* Per thread: the residual of the identity (POLYNOMIALS x nodes x dim) and N at one point of a face
      * (nodes). */
@@ -263,7 +264,7 @@ static void add_faces (const job *j, const space *s, size_t cell, size_t m, cons
         for (size_t q = f->start[face]; q < f->start[face + 1]; q++) {
             size_t start = c->face.family.start[q];
             memset (N, 0, m * sizeof *N);
-            spread (c->face.family.start[q + 1] - start, c->face.family.node + start, 1, c->face.N + start,
+            spread (c->face.family.start[q + 1] - start, c->face.family.node + start, 1, j->face + start,
                     node, N);
             polynomials (s, f->x + q * dim, p, slope);
             for (size_t a = 0; a < n; a++) {
@@ -324,11 +325,12 @@ static void work (void *context, size_t first, size_t last, int thread)
 
 /* Workspaces have room for the longest list of nodes. */
 pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, pg_rows *wide,
-                                const unsigned char *whole, size_t count, const size_t *list, int threads)
+                                const unsigned char *whole, const double *face, size_t count,
+                                const size_t *list, int threads)
 {
     pg_status status = PG_OK;
     size_t most = 0, slots = threads < 1 ? 1 : (size_t) threads;
-    job j = { c, points, wide, whole, list, NULL };
+    job j = { c, points, wide, whole, face ? face : c->face.N, list, NULL };
     for (size_t p = 0; p < points->n; p++)
         if (c->family.start[p + 1] - c->family.start[p] > most)
             most = c->family.start[p + 1] - c->family.start[p];

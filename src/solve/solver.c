@@ -328,6 +328,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
         sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
                             &s->report.fragments);
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
+    if (sys->force->unended) s->report.unended_cells = sys->force->unended (sys->self);
     report_skips (s);
     report_sums (s);
     warn_at_end (s, state);

@@ -163,7 +163,7 @@ static void test_identity_holds_in_whole_cells_only (void **unused)
     for (size_t cell = 0; cell < c->cells->n; cell += 2) whole[cell] = 1;
     check_ok (r.problem->approx.type->evaluate (&r.problem->approx, &r.problem->cloud, &direct, NULL,
                                                 direct.n, NULL, 1));
-    check_ok (pg_consistency_apply (c, &direct, &wide, whole, 0, NULL, 1));
+    check_ok (pg_consistency_apply (c, &direct, &wide, whole, NULL, 0, NULL, 1));
     double worst[2] = { 0, 0 };
     for (size_t cell = 0; cell < c->cells->n; cell++) {
         size_t first = c->first[cell], m = c->family.start[first + 1] - c->family.start[first];

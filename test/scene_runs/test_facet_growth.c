@@ -447,9 +447,10 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
         PULL, "  - {name: top, set: top, displacement: {x: 0, y: 2e-5 + 1e-4 * t}, ramp: constant}\n"
               "  - {name: bottom, set: bottom, displacement: {x: 0, y: 0}}\n"
     };
-    for (int k = 0; k < 2; k++) {
-        run a = strip (15, 0.37, 0.21, G0, boundary[k], ", max_events: 9", ""),
-            b = strip (15, 0.37, 0.21, G0, boundary[k], ", max_events: 9", "");
+    for (int k = 0; k < 3; k++) {
+        const char *method = k == 2 ? "integration: consistent" : "";
+        run a = strip (15, 0.37, 0.21, G0, boundary[k % 2], ", max_events: 9", method),
+            b = strip (15, 0.37, 0.21, G0, boundary[k % 2], ", max_events: 9", method);
         tape t = { 0 };
         for (int step = 0; step < 4; step++) advance (&a);
         keep (&a, &t, 0);

@@ -1,0 +1,416 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Which cells end at cracks. Of the cells from which a crack can be seen those are treated that see no tip,
+ * have lost just the bonds that the cracks cut, and whose parts, if a crack runs through them, have an
+ * evaluation point each, or lie beside a part of another cell that has. The others keep what they have
+ * without this: direct derivatives where bonds are broken. */
+#include "galerkin_ended.h"
+#include <math.h>
+#include <string.h>
+
+static double spacing (const galerkin *g, const double *x) { return pg_problem_spacing_at (g->problem, x); }
+
+/* How far the points of a cell see, m. */
+static double reach_of (const galerkin *g)
+{
+    const pg_cloud *c = &g->problem->cloud;
+    double most = 1;
+    for (size_t i = 0; c->size && i < c->n; i++) most = fmax (most, pg_cloud_ratio (c, i));
+    return most * g->problem->approx.horizon;
+}
+
+/* ---- cells near cracks --------------------------------------------------------------------------------- */
+static void box_of (const pg_cells *cells, size_t cell, double *low, double *high)
+{
+    for (int k = 0; k < 2; k++) low[k] = INFINITY, high[k] = -INFINITY;
+    for (size_t i = cells->start[cell]; i < cells->start[cell + 1]; i++)
+        for (int k = 0; k < 2; k++)
+            low[k] = fmin (low[k], cells->x[2 * i + (size_t)k]),
+            high[k] = fmax (high[k], cells->x[2 * i + (size_t)k]);
+}
+
+int ended_moved (const galerkin *g, const pg_state *state)
+{
+    const pg_cracks *cracks = pg_state_cracks (g->problem, state);
+    const struct galerkin_ended *e = g->ended;
+    if (e->nseen != 6 * cracks->n) return 1;
+    for (size_t k = 0; k < cracks->n; k++) {
+        const pg_crack *c = &cracks->crack[k];
+        double now[6] = { c->vertex[0], c->vertex[1], c->vertex[2], c->vertex[3],
+                          c->retreat ? c->retreat[0] : 0, c->retreat ? c->retreat[1] : 0 };
+        if (memcmp (now, e->seen + 6*k, sizeof now) != 0) return 1;
+    }
+    return 0;
+}
+
+/* Cells from which cracks can be seen, and those beside them, which would lose their correction with them. */
+static pg_status find_near (galerkin *g, const pg_cracks *cracks)
+{
+    pg_status status = PG_OK;
+    struct galerkin_ended *e = g->ended;
+    const pg_cells *cells = &g->problem->cells;
+    const pg_faces *f = &g->problem->consistency->faces;
+    unsigned char *listed = NULL;
+    double reach = reach_of (g), low[3], high[3];
+    for (size_t k = 0; k < e->n; k++) e->at[e->near[k].cell] = 0;
+    e->n = 0;
+    PG_GROW (e->seen, e->cap_seen, 6 * cracks->n);
+    for (size_t k = 0; k < cracks->n; k++) {
+        const pg_crack *c = &cracks->crack[k];
+        memcpy (e->seen + 6*k, c->vertex, 4 * sizeof (double));
+        for (size_t m = 0; m < 2; m++) e->seen[6*k + 4 + m] = c->retreat ? c->retreat[m] : 0;
+    }
+    e->nseen = 6 * cracks->n;
+    PG_ALLOC (listed, cells->n);
+    for (size_t c = 0; c < cells->n; c++) {
+        box_of (cells, c, low, high);
+        for (int k = 0; k < 2; k++) low[k] -= reach, high[k] += reach;
+        if (!pg_cracks_near (cracks, low, high)) continue;
+        for (size_t k = f->of[c]; k < f->of[c + 1]; k++)
+            for (int side = 0; side < 2; side++)
+                if (f->cell[2 * f->face[k] + side] >= 0) listed[f->cell[2 * f->face[k] + side]] = 1;
+    }
+    for (size_t c = 0; c < cells->n; c++) {
+        if (!listed[c]) continue;
+        PG_GROW (e->near, e->cap, e->n + 1);
+        memset (&e->near[e->n], 0, sizeof *e->near);
+        e->near[e->n].cell = c, e->at[c] = (int) ++e->n;
+    }
+done:
+    pg_free (listed);
+    return status;
+}
+
+/* ---- conditions ---------------------------------------------------------------------------------------- */
+/* Does an end of a segment lie in the body, where nothing goes on? */
+static int is_tip (const galerkin *g, const pg_cracks *cracks, size_t k, int end)
+{
+    const double *x = cracks->crack[k].vertex + 2 * end, *y = cracks->crack[k].vertex + 2 * (1 - end);
+    double length = hypot (x[0] - y[0], x[1] - y[1]), ahead[3] = { 0 }, h = spacing (g, x);
+    for (int m = 0; m < 2; m++) ahead[m] = x[m] + 2 * PG_NO_LENGTH * h * (x[m] - y[m]) / length;
+    for (size_t j = 0; j < cracks->n; j++)
+        if (j != k && cracks->crack[j].kind == PG_CRACK_SEGMENT
+            && pg_crack_touches (&cracks->crack[j], 2, x, PG_NO_LENGTH * h)) return 0;
+    return pg_problem_has_body (g->problem, ahead);
+}
+
+/* Cells that see a tip fail. */
+static void look_for_tips (galerkin *g, const pg_cracks *cracks)
+{
+    struct galerkin_ended *e = g->ended;
+    double reach = reach_of (g), low[2], high[2];
+    for (size_t k = 0; k < cracks->n; k++)
+        for (int end = 0; end < 2; end++) {
+            const double *x = cracks->crack[k].vertex + 2 * end;
+            if (cracks->crack[k].kind != PG_CRACK_SEGMENT || !is_tip (g, cracks, k, end)) continue;
+            for (size_t c = 0; c < e->n; c++) {
+                box_of (&g->problem->cells, e->near[c].cell, low, high);
+                double a = fmax (fmax (low[0] - x[0], x[0] - high[0]), 0),
+                       b = fmax (fmax (low[1] - x[1], x[1] - high[1]), 0);
+                if (hypot (a, b) <= reach) e->near[c].failed = 1;
+            }
+        }
+}
+
+/* Are just those bonds of the cell's points broken that the cracks cut? */
+static int explained (const galerkin *g, const pg_state *state, const pg_cracks *cracks, size_t cell)
+{
+    const pg_consistency *c = g->problem->consistency;
+    const pg_rows *r = &g->rows[g->bulk];
+    const pg_cloud *cloud = &g->problem->cloud;
+    const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
+    for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++) {
+        if (pg_cracks_touch (cracks, r->x + 2*p, PG_NO_LENGTH * cloud->h)) return 0;
+        for (size_t b = r->family.start[p]; b < r->family.start[p + 1]; b++) {
+            int cut = pg_cracks_cut (cracks, r->x + 2*p, cloud->x + 2 * (size_t) r->family.node[b],
+                                     1e-9 * cloud->h) != NULL;
+            if (cut == alive[b]) return 0;
+        }
+    }
+    return c->first[cell + 1] > c->first[cell];
+}
+
+/* The evaluation points in a part; each must lie clearly in one. */
+static size_t points_in (const galerkin *g, size_t cell, const pg_cell_part *part)
+{
+    const pg_consistency *c = g->problem->consistency;
+    size_t n = 0;
+    for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++)
+        n += (size_t) pg_cell_part_holds (part, g->sums.x + 2*p);
+    return n;
+}
+
+/* The face of the problem on a side of a cell, SIZE_MAX: none; *other: the cell beyond, -1: none. */
+static size_t face_on (const galerkin *g, size_t cell, const double *a, const double *b, int *other)
+{
+    const pg_faces *f = &g->problem->consistency->faces;
+    double length = hypot (b[0] - a[0], b[1] - a[1]);
+    for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++) {
+        size_t face = (size_t) f->face[k], on = 0;
+        for (size_t q = f->start[face]; q < f->start[face + 1]; q++) {
+            const double *x = f->x + 2*q;
+            double away = ((b[0] - a[0]) * (x[1] - a[1]) - (b[1] - a[1]) * (x[0] - a[0])) / length;
+            on += fabs (away) < 1e-6 * length;
+        }
+        if (on == 0 || on < f->start[face + 1] - f->start[face]) continue;
+        *other = f->cell[2*face] == (int) cell ? f->cell[2*face + 1] : f->cell[2*face];
+        return face;
+    }
+    return SIZE_MAX;
+}
+
+/* The face and the cell beyond of edge i of a part: its side of the cell as a whole. whole: the edge is all
+ * of that side. */
+static size_t face_of_edge (const galerkin *g, size_t cell, const pg_cell_part *part, int i, int *other,
+                            int *whole)
+{
+    const pg_cells *cells = &g->problem->cells;
+    const double *x = cells->x + 2 * cells->start[cell];
+    int n = (int) (cells->start[cell + 1] - cells->start[cell]), s = part->side[i];
+    const double *a = x + 2*s, *b = x + 2 * ((s + 1) % n), *u = part->x[i], *v = part->x[(i + 1) % part->n];
+    *whole = hypot (v[0] - u[0], v[1] - u[1]) > (1 - 1e-7) * hypot (b[0] - a[0], b[1] - a[1]);
+    return face_on (g, cell, a, b, other);
+}
+
+/* The part of a cell of the list that lies beyond the middle of an edge. */
+static int part_beyond (const ended_cell *beyond, const double *u, const double *v)
+{
+    double length = hypot (v[0] - u[0], v[1] - u[1]),
+           x[2] = { 0.5 * (u[0] + v[0]) + 1e-7 * (v[1] - u[1]), 0.5 * (u[1] + v[1]) - 1e-7 * (v[0] - u[0]) };
+    if (!(length > 0)) return -1;
+    for (int k = 0; k < beyond->parts.n; k++) if (pg_cell_part_holds (&beyond->parts.part[k], x)) return k;
+    return -1;
+}
+
+/* A part without points leans on the part beyond the longest of its edges. 0: it has none that stands. */
+static int find_host (galerkin *g, size_t at, int part)
+{
+    struct galerkin_ended *e = g->ended;
+    ended_cell *own = &e->near[at];
+    const pg_cell_part *p = &own->parts.part[part];
+    double longest = 0;
+    own->host[part][0] = (int) at, own->host[part][1] = part;
+    if (points_in (g, own->cell, p)) return 1;
+    own->host[part][0] = -1;
+    for (int i = 0; i < p->n; i++) {
+        const double *u = p->x[i], *v = p->x[(i + 1) % p->n];
+        double length = hypot (v[0] - u[0], v[1] - u[1]);
+        int other, whole, to;
+        if (p->side[i] < 0 || p->crack[i] || length <= longest) continue;
+        if (face_of_edge (g, own->cell, p, i, &other, &whole) == SIZE_MAX || other < 0 || !e->at[other])
+            continue;
+        const ended_cell *beyond = &e->near[e->at[other] - 1];
+        if (beyond->failed || (to = part_beyond (beyond, u, v)) < 0) continue;
+        if (!points_in (g, beyond->cell, &beyond->parts.part[to])) continue;
+        longest = length, own->host[part][0] = e->at[other] - 1, own->host[part][1] = to;
+    }
+    return own->host[part][0] >= 0;
+}
+
+/* Parts, and what they lean on, until nothing fails any more. */
+static void find_hosts (galerkin *g)
+{
+    struct galerkin_ended *e = g->ended;
+    for (int again = 1; again;) {
+        again = 0;
+        for (size_t k = 0; k < e->n; k++) e->near[k].guest = 0;
+        for (size_t k = 0; k < e->n; k++)
+            for (int p = 0; p < e->near[k].parts.n && !e->near[k].failed; p++)
+                if (!find_host (g, k, p)) e->near[k].failed = again = 1;
+    }
+    for (size_t k = 0; k < e->n; k++)
+        for (int p = 0; p < e->near[k].parts.n && !e->near[k].failed; p++)
+            if (e->near[k].host[p][0] != (int) k) e->near[e->near[k].host[p][0]].guest = 1;
+}
+
+/* Is any edge of the cell on a crack, a piece of a side, or beside a part that leans on another cell? Or do
+ * its points, or those of its faces, see too little for a linear field? */
+static int in_parts (const galerkin *g, const ended_cell *c)
+{
+    const struct galerkin_ended *e = g->ended;
+    const pg_consistency *all = g->problem->consistency;
+    const pg_cell_part *p = &c->parts.part[0];
+    if (c->parts.n > 1 || c->guest) return 1;
+    for (size_t q = all->first[c->cell]; q < all->first[c->cell + 1]; q++)
+        if (g->rows[g->bulk].grade[q] > PG_GRADE_LOWERED) return 1;
+    for (size_t k = all->faces.of[c->cell]; k < all->faces.of[c->cell + 1]; k++)
+        if (e->weak[all->faces.face[k]]) return 1;
+    for (int i = 0; i < p->n; i++) {
+        int other, whole;
+        if (p->crack[i]) return 1;
+        if (face_of_edge (g, c->cell, p, i, &other, &whole) == SIZE_MAX || other < 0 || !e->at[other])
+            continue;
+        const ended_cell *beyond = &e->near[e->at[other] - 1];
+        int to = part_beyond (beyond, p->x[i], p->x[(i + 1) % p->n]);
+        if (!beyond->failed && to >= 0 && beyond->host[to][0] != e->at[other] - 1) return 1;
+    }
+    return 0;
+}
+
+/* ---- borders ------------------------------------------------------------------------------------------- */
+/* Nodes that both lists, ascending, have (other NULL: those of the first). */
+static pg_status add_family (struct galerkin_ended *e, const pg_family *f, size_t cell, long other)
+{
+    pg_status status = PG_OK;
+    size_t n = e->extra.family.start ? e->extra.family.start[e->nextra] : 0;
+    PG_GROW (e->extra.family.start, e->cap_start, e->nextra + 2);
+    if (e->nextra == 0) e->extra.family.start[0] = 0;
+    for (size_t k = f->start[cell], l = other < 0 ? 0 : f->start[other]; k < f->start[cell + 1]; k++) {
+        while (other >= 0 && l < f->start[other + 1] && f->node[l] < f->node[k]) l++;
+        if (other >= 0 && (l == f->start[other + 1] || f->node[l] != f->node[k])) continue;
+        PG_GROW (e->extra.family.node, e->cap_node, n + 1);
+        e->extra.family.node[n++] = f->node[k];
+    }
+    e->extra.family.start[e->nextra + 1] = n;
+done:
+    return status;
+}
+
+/* A point of the border of part `part` of the cell at place `at`: its place, weight (m), the outward normal,
+ * and the cell beyond on whose points the part there leans, -1: none. */
+static pg_status add_point (galerkin *g, const int *part, const double *x, const double *normal,
+                            double weight, long beyond, int crack)
+{
+    pg_status status = PG_OK;
+    struct galerkin_ended *e = g->ended;
+    size_t q = e->nextra;
+    PG_GROW (e->extra.x, e->cap_x, 2 * (q + 1));
+    PG_GROW (e->eye, e->cap_eye, 2 * (q + 1));
+    PG_GROW (e->flux, e->cap_flux, 2 * (q + 1));
+    PG_GROW (e->part, e->cap_part, q + 1);
+    PG_GROW (e->crack, e->cap_crack, q + 1);
+    PG_TRY (add_family (e, &g->problem->consistency->cell_family, e->near[part[0]].cell, beyond));
+    double away = crack ? ENDED_BESIDE * spacing (g, x) : 0;
+    for (size_t k = 0; k < 2; k++) {
+        e->extra.x[2*q + k] = x[k], e->eye[2*q + k] = x[k] - away * normal[k];
+        e->flux[2*q + k] = weight * g->problem->cells.thickness * normal[k];
+    }
+    e->part[q][0] = part[0], e->part[q][1] = part[1], e->crack[q] = (unsigned char) crack;
+    e->nextra++;
+done:
+    return status;
+}
+
+/* Points on an edge of the border: on cracks those at which contact looks at the gap, elsewhere Gauss
+ * points. */
+static pg_status add_edge (galerkin *g, const int *part, const double *u, const double *v, long beyond,
+                           int crack)
+{
+    pg_status status = PG_OK;
+    double length = hypot (v[0] - u[0], v[1] - u[1]),
+           normal[2] = { (v[1] - u[1]) / length, (u[0] - v[0]) / length };
+    double middle[3] = { 0.5 * (u[0] + v[0]), 0.5 * (u[1] + v[1]), 0 },
+           place[3 * PG_ELEMENT_POINTS], share[PG_ELEMENT_POINTS];
+    size_t n = crack ? pg_crack_intervals (length, spacing (g, middle))
+                     : (size_t) pg_element_rule (PG_BAR2, 2, place, share);
+    for (size_t i = 0; i < n; i++) {
+        double s = crack ? ((double) i + 0.5) / (double) n : 0.5 + 0.5 * place[i],
+               w = crack ? 1 / (double) n : 0.5 * share[i], x[3] = { 0 };
+        for (int k = 0; k < 2; k++) x[k] = u[k] + s * (v[k] - u[k]);
+        PG_TRY (add_point (g, part, x, normal, w * length, beyond, crack));
+    }
+done:
+    return status;
+}
+
+/* A side that is whole, with the points of its face. */
+static pg_status add_side (struct galerkin_ended *e, const int *part, size_t face)
+{
+    pg_status status = PG_OK;
+    PG_GROW (e->side, e->cap_side, e->nside + 1);
+    e->side[e->nside].face = face;
+    e->side[e->nside].part[0] = part[0], e->side[e->nside++].part[1] = part[1];
+done:
+    return status;
+}
+
+/* What the part beyond an edge leans on, in the cell `other`; NULL: that is not treated. */
+static const int *host_beyond (const struct galerkin_ended *e, int other, const double *u, const double *v)
+{
+    const ended_cell *beyond = other >= 0 && e->at[other] ? &e->near[e->at[other] - 1] : NULL;
+    int to = beyond && !beyond->failed ? part_beyond (beyond, u, v) : -1;
+    return to >= 0 ? beyond->host[to] : NULL;
+}
+
+/* The border of one part, as far as it is not inside what leans on the same points. */
+static pg_status add_border (galerkin *g, size_t at, int p)
+{
+    pg_status status = PG_OK;
+    struct galerkin_ended *e = g->ended;
+    const ended_cell *own = &e->near[at];
+    const pg_cell_part *part = &own->parts.part[p];
+    const int *host = own->host[p];
+    for (int i = 0; i < part->n; i++) {
+        const double *u = part->x[i], *v = part->x[(i + 1) % part->n];
+        int other, whole;
+        if (part->crack[i]) {
+            PG_TRY (add_edge (g, host, u, v, -1, 1));
+            continue;
+        }
+        size_t face = face_of_edge (g, own->cell, part, i, &other, &whole);
+        if (face == SIZE_MAX) PG_FAIL (PG_E_USAGE, "a side of a background cell has no face");
+        const int *theirs = host_beyond (e, other, u, v);
+        if (theirs && theirs[0] == host[0] && theirs[1] == host[1]) continue;
+        int plain = whole && !e->weak[face] && host[0] == (int) at;
+        if (plain && (!theirs || theirs[0] == e->at[other] - 1)) PG_TRY (add_side (e, host, face));
+        else PG_TRY (add_edge (g, host, u, v, theirs ? (long) e->near[theirs[0]].cell : -1, 0));
+    }
+done:
+    return status;
+}
+
+/* Points and sides of each part, chained. */
+static pg_status chain (struct galerkin_ended *e)
+{
+    pg_status status = PG_OK;
+    PG_GROW (e->first, e->cap_first, PG_PARTS * e->n);
+    PG_GROW (e->next_point, e->cap_next_point, e->nextra);
+    PG_GROW (e->next_side, e->cap_next_side, e->nside);
+    for (size_t k = 0; k < PG_PARTS * e->n; k++) e->first[k] = 0;
+    for (size_t q = e->nextra; q-- > 0;) {
+        long *first = &e->first[PG_PARTS * e->part[q][0] + e->part[q][1]];
+        e->next_point[q] = *first, *first = (long) q + 1;
+    }
+    for (size_t k = e->nside; k-- > 0;) {
+        long *first = &e->first[PG_PARTS * e->side[k].part[0] + e->side[k].part[1]];
+        e->next_side[k] = *first, *first = -(long) k - 1;
+    }
+done:
+    return status;
+}
+
+pg_status ended_plan (galerkin *g, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    struct galerkin_ended *e = g->ended;
+    const pg_cracks *cracks = pg_state_cracks (g->problem, state);
+    if (ended_moved (g, state)) PG_TRY (find_near (g, cracks));
+    if (!e->weak) PG_ALLOC (e->weak, g->problem->consistency->faces.n);
+    memset (e->weak, 0, g->problem->consistency->faces.n);
+    for (size_t k = 0; k < e->n; k++) e->near[k].failed = e->near[k].blocked = 0;
+    look_for_tips (g, cracks);
+    for (size_t k = 0; k < e->n; k++) {
+        ended_cell *c = &e->near[k];
+        if (c->failed) continue;
+        c->blocked = !explained (g, state, cracks, c->cell)
+                     || !pg_cell_divide (&c->parts, &g->problem->cells, c->cell, cracks,
+                                         ENDED_NOTHING * g->problem->cloud.h);
+        c->failed = c->blocked;
+    }
+    for (int again = 1; again;) {
+        e->nextra = e->nside = 0;
+        find_hosts (g);
+        for (size_t k = 0; k < e->n; k++)
+            e->near[k].kind = e->near[k].failed           ? ENDED_NOT
+                              : in_parts (g, &e->near[k]) ? ENDED_PARTS
+                                                          : ENDED_PLAIN;
+        for (size_t k = 0; k < e->n; k++)
+            for (int p = 0; p < e->near[k].parts.n && e->near[k].kind == ENDED_PARTS; p++)
+                PG_TRY (add_border (g, k, p));
+        PG_TRY (ended_values (g, cracks, &again));
+    }
+    PG_TRY (chain (e));
+    e->blocked = 0;
+    for (size_t k = 0; k < e->n; k++) e->blocked += (size_t) (e->near[k].failed && e->near[k].blocked);
+done:
+    return status;
+}
