@@ -196,6 +196,9 @@ install: all
 	install -m 644 README.md COPYING $(DESTDIR)$(prefix)/share/doc/perigal
 	install -m 644 doc/*.md doc/*.png $(DESTDIR)$(prefix)/share/doc/perigal/doc
 	.ci/man $(PROGRAM) > $(DESTDIR)$(prefix)/share/man/man1/perigal.1
+	install -d $(DESTDIR)$(prefix)/share/bash-completion/completions
+	.ci/completion $(PROGRAM) > $(DESTDIR)$(prefix)/share/bash-completion/completions/perigal
+	$(PROGRAM) help --schema > $(DESTDIR)$(prefix)/share/perigal/scene.schema.json
 	rm -rf $(DESTDIR)$(prefix)/share/perigal/scenes
 	cp -r data $(DESTDIR)$(prefix)/share/perigal/scenes
 	rm -rf $(DESTDIR)$(prefix)/share/perigal/matlab

@@ -151,8 +151,8 @@ pg_status   pg_scene_conclude (const pg_scene *s);
 const char *pg_scene_file    (const pg_scene *s);
 const char *pg_scene_source  (const pg_scene *s);
 /* The tree that the user wrote, overrides applied, as JSON: maps, lists, numbers without a unit as
- * numbers, all other values as text ("2 mm", "on"). Without defaults. The caller frees *json (pg_free).
- * PG_E_MEMORY. */
+ * numbers, true and false, all other values as text ("2 mm", "on"). Without defaults. The caller frees
+ * *json (pg_free). PG_E_MEMORY. */
 pg_status   pg_scene_echo    (char **json, const pg_scene *s);
 /* The k-th override "key=value"; NULL past the end. */
 const char *pg_scene_setting (const pg_scene *s, size_t k);
@@ -216,6 +216,8 @@ const char *pg_scene_tables_fault (void);
 pg_status pg_scene_help     (FILE *to, const char *key);
 /* Writes doc/input.md. */
 pg_status pg_scene_manual   (FILE *to);
+/* Writes the keys as a JSON schema (draft 7), for editors. */
+pg_status pg_scene_json_schema (FILE *to);
 /* The name of "a|b|c" nearest to a word, for messages; NULL: none is near. Valid until the next call on
  * this thread. */
 const char *pg_nearest_name (const char *word, const char *choices);

@@ -96,12 +96,13 @@ static void all_keys (void)
 }
 
 /* A word is first looked for among the commands, then among the keys; without one all keys are
- * listed, and --manual prints doc/input.md. */
+ * listed, --manual prints doc/input.md, and --schema the keys as a JSON schema. */
 int pg_cli_help (int argc, char **argv)
 {
     pg_status status = PG_OK;
     if (argc < 2) all_keys ();
     else if (strcmp (argv[1], "--manual") == 0) status = pg_scene_manual (stdout);
+    else if (strcmp (argv[1], "--schema") == 0) status = pg_scene_json_schema (stdout);
     else if (command_usage (stdout, argv[1])) return PG_EXIT_DONE;
     else status = pg_scene_help (stdout, argv[1]);
     const char *near =

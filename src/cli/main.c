@@ -27,7 +27,7 @@ static const struct { const char *name; int (*run) (int, char **); const char *s
     { "new", pg_cli_new, "new KIND [-o DIR]                          write a commented scene that runs" },
     { "list", pg_cli_list,
       "list                                       methods, kernels, criteria ... of this build" },
-    { "help", pg_cli_help, "help [KEY | COMMAND | --manual]            explain the keys of the scene file" },
+    { "help", pg_cli_help, "help [KEY | COMMAND | --manual | --schema] explain the keys of the scene file" },
 };
 
 /* Commands and exit codes. */

@@ -116,9 +116,9 @@ static const char list[] = "perigal list\n"
                            "  The methods, kernels, criteria and solvers of this build, one line each.\n";
 
 static const char help[] =
-    "perigal help [KEY | COMMAND | --manual]\n"
+    "perigal help [KEY | COMMAND | --manual | --schema]\n"
     "  Explains one key of the scene file or one command; without an argument lists all keys; --manual\n"
-    "  writes all keys as Markdown.\n";
+    "  writes all keys as Markdown, --schema as a JSON schema, by which editors complete and check scenes.\n";
 
 /* The commands in the order of the man page. */
 static const struct { const char *name, *text; } usages[] = {

@@ -42,6 +42,9 @@ done:
     return status;
 }
 
+/* Does JSON write the text without quotes? */
+static int is_truth (const char *s) { return strcmp (s, "true") == 0 || strcmp (s, "false") == 0; }
+
 /* Is the text a number as JSON writes them? -1.5e-3 is; 1., .5, +1, 0x10, 1e400, inf and 2 mm are not. */
 static int is_number (const char *s)
 {
@@ -68,7 +71,7 @@ static pg_status put_node (json_text *t, const pg_node *node)
     if (node->shape == PG_SCALAR) {
         const char *text = node->text ? node->text : "";
         if (pg_node_null (node)) PG_TRY (put (t, "null", 4));
-        else if (node->plain && is_number (text)) PG_TRY (put (t, text, strlen (text)));
+        else if (node->plain && (is_number (text) || is_truth (text))) PG_TRY (put (t, text, strlen (text)));
         else PG_TRY (put_quoted (t, text));
         goto done;
     }

@@ -11,4 +11,6 @@ void      pg_help_meaning (FILE *to, const pg_key *key);
 /* Writes what is known of one key; writes the manual of all keys. */
 pg_status pg_help_write   (FILE *to, const char *key, const pg_schema *s);
 pg_status pg_manual_write (FILE *to, const pg_schema *s);
+/* Writes the keys as a JSON schema. */
+pg_status pg_json_schema_write (FILE *to, const pg_schema *s);
 #endif

@@ -26,6 +26,8 @@ try "the answer is that of the scene" grep -q 'largest displacement 1\.0[0-9]*e-
 try "installed program runs" "$at/bin/perigal" check test/cli/plate.yaml
 try "documents are installed" test -s "$at/share/doc/perigal/README.md" -a -s "$at/share/doc/perigal/doc/input.md" -a -s "$at/share/doc/perigal/COPYING"
 try "installed scenes are checked where they lie" "$at/bin/perigal" check "$at/share/perigal/scenes/kirsch_mesh/scene.yaml"
+try "schema and completion are installed" bash -c 'python3 -m json.tool "$1/perigal/scene.schema.json" > /dev/null && bash -n "$1/bash-completion/completions/perigal"' - "$at/share"
+try "functions for MATLAB and the Python package are installed" test -s "$at/share/perigal/matlab/perigal_run.m" -a -s "$at/share/perigal/python/perigal/__init__.py"
 page=$at/share/man/man1/perigal.1
 try "every command stands in the man page" bash -c '"$1" --help | sed -n "s/^  perigal \([a-z]*\) .*/\1/p" | while read -r c; do grep -q "^.SS perigal $c" "$2" || exit 1; done' - "$at/bin/perigal" "$page"
 try "no line of the man page is taken for a command of its own" bash -c '! grep -n "^\." "$1" | grep -v ":\.\(TH\|SH\|SS\|B\|I\|RI\|nf\|fi\)\b"' - "$page"

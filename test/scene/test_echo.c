@@ -61,6 +61,7 @@ static void words (void **unused)
         { "title=.5", "\"title\": \".5\"" },    { "title=1.", "\"title\": \"1.\"" },
         { "title=+1", "\"title\": \"+1\"" },    { "title=007", "\"title\": \"007\"" },
         { "title=1e999", "\"title\": \"1e999\"" }, { "title=-0.5E+3", "\"title\": -0.5E+3" },
+        { "method.check=true", "\"check\": true" }, { "title='true'", "\"title\": \"true\"" },
         { "title=on", "\"title\": \"on\"" },
         { "title=\"a\\tb\\u0001\"", "\"title\": \"a\\u0009b\\u0001\"" } };
     for (size_t k = 0; k < sizeof word / sizeof *word; k++) {

@@ -1,0 +1,161 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The keys of a scene as a JSON schema (draft 7), by which editors complete keys, show what they mean and
+ * mark what is wrong. It comes from the rows that check a scene. What only the program can judge (units,
+ * ranges of values with units, names of sets) is told in words. */
+#include "help.h"
+#include <string.h>
+
+/* A text in quotes of JSON. */
+static void put_text (FILE *to, const char *text)
+{
+    fputc ('"', to);
+    for (; *text; text++) {
+        if (*text == '"' || *text == '\\') fputc ('\\', to);
+        if ((unsigned char) *text >= 0x20) fputc (*text, to);
+    }
+    fputc ('"', to);
+}
+
+/* "a|b" as an enumeration, of texts or (1|2|3) of numbers; any text where not all choices are known here
+ * (names of sets). */
+static void put_choices (FILE *to, const char *names)
+{
+    if (!names || !*names || strstr (names, "{}")) {
+        fprintf (to, "\"type\": \"string\"");
+        return;
+    }
+    const char *quote = strspn (names, "0123456789|") == strlen (names) ? "" : "\"";
+    fprintf (to, "\"enum\": [");
+    for (const char *at = names; *at;) {
+        size_t n = strcspn (at, "|");
+        fprintf (to, "%s%s%.*s%s", at == names ? "" : ", ", quote, (int) n, at, quote);
+        at += n + (at[n] == '|');
+    }
+    fputc (']', to);
+}
+
+/* What the value of a row may be. A number may always be a text: it then carries a unit, or is a formula. */
+static void put_type (FILE *to, const pg_key *key)
+{
+    static const char value[] = "\"type\": [\"number\", \"string\"]";
+    switch (key->kind) {
+    case PG_MAP: fprintf (to, "\"type\": \"object\""); break;
+    case PG_LIST: fprintf (to, "\"type\": \"array\""); break;
+    case PG_INTEGER: fprintf (to, "\"type\": \"integer\""); break;
+    case PG_BOOL: fprintf (to, "\"enum\": [true, false, \"on\", \"off\", \"yes\", \"no\"]"); break;
+    case PG_NUMBER:
+    case PG_EXPRESSION: fputs (value, to); break;
+    case PG_VECTOR:
+    case PG_NUMBERS:
+        fprintf (to, "\"type\": [\"array\", \"number\", \"string\"], \"items\": {%s}", value);
+        break;
+    case PG_NAMES:
+        fprintf (to, "\"type\": [\"string\", \"array\"], \"items\": {\"type\": \"string\"}");
+        break;
+    case PG_NAME: put_choices (to, pg_key_choices (key)); break;
+    default: fprintf (to, "\"type\": [\"string\", \"number\"]");
+    }
+}
+
+static void put_meaning (FILE *to, const pg_key *key)
+{
+    char first[PG_LEVEL_NAMES];
+    const char *fallback = pg_key_default (key, first);
+    fprintf (to, ", \"description\": ");
+    put_text (to, key->doc);
+    if (key->unit) {
+        fprintf (to, ", \"unit\": ");
+        put_text (to, key->unit);
+    }
+    if (key->range) {
+        fprintf (to, ", \"range\": ");
+        put_text (to, key->range);
+    }
+    if (fallback && *fallback) {
+        fprintf (to, ", \"default\": ");
+        put_text (to, fallback);
+    }
+}
+
+static void put_node (FILE *to, const pg_schema *s, const char *pattern, int depth);
+
+/* The keys below a map: those with names, and what stands for names of the user's choice. */
+static void put_entries (FILE *to, const pg_schema *s, const char *pattern, int depth)
+{
+    char names[PG_LEVEL_NAMES], below[PG_PATTERN];
+    const char *comma = "";
+    pg_schema_names (s, pattern, names);
+    fprintf (to, "\"properties\": {");
+    for (const char *at = names; *at;) {
+        size_t n = strcspn (at, "|");
+        fprintf (to, "%s\n%*s\"%.*s\": ", comma, 2 * depth, "", (int) n, at);
+        comma = ",";
+        snprintf (below, sizeof below, "%s%s%.*s", pattern, *pattern ? "." : "", (int) n, at);
+        put_node (to, s, below, depth + 1);
+        at += n + (at[n] == '|');
+    }
+    fprintf (to, "}, \"additionalProperties\": ");
+    snprintf (below, sizeof below, "%s.{}", pattern);
+    if (*pattern && (pg_schema_any (s, below) || pg_schema_opens (s, below, '.')))
+        put_node (to, s, below, depth + 1);
+    else fprintf (to, "false");
+}
+
+/* What stands at a pattern: all rows of that path, which may take values of several shapes, and what lies
+ * below. */
+static void put_node (FILE *to, const pg_schema *s, const char *pattern, int depth)
+{
+    char below[PG_PATTERN];
+    int map = pg_schema_opens (s, pattern, '.'), list = pg_schema_opens (s, pattern, '['), many = 0;
+    unsigned seen = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        const pg_key *key = s->row[k];
+        if (strcmp (key->path, pattern) != 0 || (seen & 1u << key->kind)) continue;
+        seen |= 1u << key->kind, many++;
+    }
+    fprintf (to, many > 1 ? "{\"anyOf\": [" : "");
+    if (!many) fprintf (to, "{\"type\": \"%s\"", list && !map ? "array" : "object");
+    seen = 0;
+    for (size_t k = 0, n = 0; k < s->n; k++) {
+        const pg_key *key = s->row[k];
+        if (strcmp (key->path, pattern) != 0 || (seen & 1u << key->kind)) continue;
+        seen |= 1u << key->kind;
+        fprintf (to, n++ ? ", {" : "{");
+        put_type (to, key);
+        put_meaning (to, key);
+        if (many > 1) fputc ('}', to);
+    }
+    if (many > 1) fputc (']', to);
+    if (map) {
+        fprintf (to, ", ");
+        put_entries (to, s, pattern, depth);
+    }
+    if (list) {
+        snprintf (below, sizeof below, "%s[]", pattern);
+        fprintf (to, ", \"items\": ");
+        put_node (to, s, below, depth + 1);
+    }
+    fputc ('}', to);
+}
+
+pg_status pg_json_schema_write (FILE *to, const pg_schema *s)
+{
+    fprintf (to, "{\"$schema\": \"http://json-schema.org/draft-07/schema#\",\n"
+                 " \"title\": \"Perigal scene\",\n \"type\": \"object\", ");
+    put_entries (to, s, "", 1);
+    fprintf (to, "}\n");
+    return ferror (to) ? pg_error (PG_E_FILE, PG_HERE, "the JSON schema could not be written") : PG_OK;
+}
+
+pg_status pg_scene_json_schema (FILE *to)
+{
+    pg_status status = PG_OK;
+    pg_schema s = { 0 };
+    size_t n;
+    const pg_key_table *table = pg_scene_tables (&n);
+    PG_TRY (pg_schema_create (&s, table, n));
+    PG_TRY (pg_json_schema_write (to, &s));
+done:
+    pg_schema_clear (&s);
+    return status;
+}
