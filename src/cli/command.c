@@ -127,7 +127,7 @@ static int read_option (command *c, const char *name, int option, const char *wo
 {
     if (!belongs_to (option, name)) return refuse (name, option, word);
     switch (option) {
-    case 'h': return command_usage (stdout, name) ? PG_EXIT_DONE : PG_EXIT_USAGE;
+    case 'h': command_usage (stdout, name); return PG_EXIT_DONE;
     case 'o': c->folder = optarg; return -1;
     case 't': return read_threads (c, optarg);
     case 's': return read_set (c, optarg);

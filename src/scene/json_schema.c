@@ -101,31 +101,36 @@ static void put_entries (FILE *to, const pg_schema *s, const char *pattern, int 
     else fprintf (to, "false");
 }
 
+/* The first row of each kind of this path: number `wanted` of them, NULL: there are no more. */
+static const pg_key *row_of (const pg_schema *s, const char *pattern, int wanted)
+{
+    unsigned seen = 0;
+    for (size_t k = 0; k < s->n; k++) {
+        const pg_key *key = s->row[k];
+        if (strcmp (key->path, pattern) != 0 || (seen & 1u << key->kind)) continue;
+        seen |= 1u << key->kind;
+        if (wanted-- == 0) return key;
+    }
+    return NULL;
+}
+
 /* What stands at a pattern: all rows of that path, which may take values of several shapes, and what lies
  * below. */
 static void put_node (FILE *to, const pg_schema *s, const char *pattern, int depth)
 {
     char below[PG_PATTERN];
-    int map = pg_schema_opens (s, pattern, '.'), list = pg_schema_opens (s, pattern, '['), many = 0;
-    unsigned seen = 0;
-    for (size_t k = 0; k < s->n; k++) {
-        const pg_key *key = s->row[k];
-        if (strcmp (key->path, pattern) != 0 || (seen & 1u << key->kind)) continue;
-        seen |= 1u << key->kind, many++;
-    }
-    fprintf (to, many > 1 ? "{\"anyOf\": [" : "");
-    if (!many) fprintf (to, "{\"type\": \"%s\"", list && !map ? "array" : "object");
-    seen = 0;
-    for (size_t k = 0, n = 0; k < s->n; k++) {
-        const pg_key *key = s->row[k];
-        if (strcmp (key->path, pattern) != 0 || (seen & 1u << key->kind)) continue;
-        seen |= 1u << key->kind;
-        fprintf (to, n++ ? ", {" : "{");
+    int map = pg_schema_opens (s, pattern, '.'), list = pg_schema_opens (s, pattern, '[');
+    int several = row_of (s, pattern, 1) != NULL;
+    const pg_key *key;
+    fputs (several ? "{\"anyOf\": [" : "{", to);
+    for (int k = 0; (key = row_of (s, pattern, k)); k++) {
+        if (several) fputs (k ? ", {" : "{", to);
         put_type (to, key);
         put_meaning (to, key);
-        if (many > 1) fputc ('}', to);
+        if (several) fputc ('}', to);
     }
-    if (many > 1) fputc (']', to);
+    if (several) fputc (']', to);
+    else if (!row_of (s, pattern, 0)) fprintf (to, "\"type\": \"%s\"", list && !map ? "array" : "object");
     if (map) {
         fprintf (to, ", ");
         put_entries (to, s, pattern, depth);
