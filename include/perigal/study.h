@@ -123,6 +123,51 @@ typedef struct {
 /* Leaves convergence.csv and convergence.png in the folder, and the table on `out`. */
 pg_status pg_converge_run (pg_converge_request *q);
 
+/* ---- many runs of one scene --------------------------------------------------------------------------- */
+enum { PG_SERIES_SETS = 8, PG_SERIES_RUNS = 1000 };
+/* One of them: the name of its folder, the values of the scene that are its own, "key=value" (borrowed), and
+ * a number that stands for it in tables. */
+typedef struct { char name[96]; size_t nset; const char *set[PG_SERIES_SETS]; double value; } pg_series_run;
+/* Runs that share a scene and some of its values. */
+typedef struct {
+    const char *scene, *folder;
+    size_t      nset;  const char *set[PG_TRIAL_SETS];
+    size_t      n;     const pg_series_run *run;
+    int         threads;
+    /* A line for each run as it ends; NULL: quiet. */
+    FILE       *out;
+} pg_series_request;
+/* What a run left, NAN where it is not known: peak of the curve of report.json (N) and the displacement there
+ * (m), energy dissipated (J), bonds broken, seconds. code: how it ended; trouble: why, if it failed. again:
+ * 1: it was there already, or went on. */
+typedef struct {
+    double peak, displacement, dissipated, broken, seconds;
+    int    code, again;
+    char   trouble[400];
+} pg_series_result;
+/* Runs them one after the other, in folder/name each, in processes of this same program. What is finished is
+ * not repeated, what was interrupted goes on. PG_E_SCENE: a scene is wrong; PG_E_INTERRUPTED; a run that fails
+ * otherwise ends only itself. */
+pg_status pg_series_run_all (pg_series_result *out /* n */, const pg_series_request *q);
+
+/* Mean, standard deviation (n - 1), least, median and largest of those of n values that are finite, which
+ * are left in rising order; NAN where there are too few. */
+typedef struct { size_t n; double mean, deviation, least, median, most; } pg_spread;
+void pg_spread_of (pg_spread *out, size_t n, double *value);
+
+/* One scene with the seeds first, first + 1 ... for everything random in it: networks of cracks, perturb. */
+typedef struct {
+    const char *scene, *folder;
+    size_t      nset;  const char *set[PG_TRIAL_SETS];
+    size_t      count;
+    long        first;
+    int         threads;
+    FILE       *out;
+} pg_seeds_request;
+/* Leaves folder/seed_1 ..., seeds.csv, and seeds.png, the histogram of the peak loads. PG_E_SCENE: nothing in
+ * the scene has a seed; PG_E_EQUILIBRIUM: some runs failed. */
+pg_status pg_seeds_run (const pg_seeds_request *q, pg_spread *peaks);
+
 /* ---- a result beside a reference ---------------------------------------------------------------------- */
 /* A result to compare with a reference. */
 typedef struct {

@@ -61,6 +61,8 @@ typedef struct {
     int threads, quiet, resume, force, json, solve, spectrum, echo;
     /* Bytes of --memory; 0: not given. */
     double memory;
+    /* Runs of --seeds; 0: not given. */
+    long seeds;
     /* The text of --threads, to repeat it in messages; NULL: not given. */
     const char *given;
 } command;
@@ -69,6 +71,8 @@ int       command_parse (command *c, int argc, char **argv);
 /* 1 if words follow a --set that belong to its value but lost their quotes; `out` gets the
  * message. */
 int       command_unquoted (char *out, size_t size, int argc, char **argv);
+/* The runs of --seeds; returns the exit code (seeds.c). */
+int       command_seeds (const command *c);
 /* Loads the scene with the --set options. A file that cannot be read counts as a wrong scene.
  * The scene may be partial: it then has faults but can be looked at for more. */
 pg_status command_scene (const command *c, pg_scene **scene);

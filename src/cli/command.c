@@ -51,6 +51,16 @@ static int read_memory (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
+/* --seeds N: so many runs. */
+static int read_seeds (command *c, const char *text)
+{
+    char *end;
+    c->seeds = strtol (text, &end, 10);
+    if (end != text && !*end && c->seeds >= 1 && c->seeds <= PG_SERIES_RUNS) return -1;
+    fprintf (stderr, "perigal: --seeds %s: a number of runs from 1 to %d is needed\n", text, PG_SERIES_RUNS);
+    return PG_EXIT_USAGE;
+}
+
 /* --set KEY=VALUE, at most 64 times; the key is checked when the scene is loaded. */
 static int read_set (command *c, const char *text)
 {
@@ -74,7 +84,7 @@ static int refuse (const char *name, int option, const char *argument)
                              strcmp (name, "check") == 0
                                  ? "--json|--solve|--spectrum|--echo|--out|--threads|--memory|--plain|--set|"
                                    "--quiet|--help"
-                                 : "--out|--resume|--force|--threads|--memory|--plain|--set|--quiet|"
+                                 : "--out|--resume|--force|--threads|--memory|--plain|--set|--seeds|--quiet|"
                                    "--help");
         fprintf (stderr, "perigal %s: unknown option %s%s%s%s\n", name, argument,
                  near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
@@ -114,12 +124,12 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
     return 0;
 }
 
-/* run and check share their options but for these: --force is for run; --json, --solve, --spectrum, --echo
- * for check. */
+/* run and check share their options but for these: --force, --seeds are for run; --json, --solve,
+ * --spectrum, --echo for check. */
 static int belongs_to (int option, const char *name)
 {
     int checks = strcmp (name, "check") == 0;
-    return option == 'f' ? !checks : checks || !strchr ("jvwe", option);
+    return option == 'f' || option == 'n' ? !checks : checks || !strchr ("jvwe", option);
 }
 
 /* One option of run or check; -1: go on, else the exit code. */
@@ -139,6 +149,7 @@ static int read_option (command *c, const char *name, int option, const char *wo
     case 'j': c->json = 1; return -1;
     case 'v': c->solve = 1; return -1;
     case 'w': c->spectrum = 1; return -1;
+    case 'n': return read_seeds (c, optarg);
     case 'e': c->echo = 1; return -1;
     default: return refuse (name, option, word);
     }
@@ -154,6 +165,7 @@ int command_parse (command *c, int argc, char **argv)
         { "force", no_argument, NULL, 'f' },     { "memory", required_argument, NULL, 'm' },
         { "json", no_argument, NULL, 'j' },      { "solve", no_argument, NULL, 'v' },
         { "spectrum", no_argument, NULL, 'w' },  { "quiet", no_argument, NULL, 'q' },
+        { "seeds", required_argument, NULL, 'n' },
         { "plain", no_argument, NULL, 'p' },     { "echo", no_argument, NULL, 'e' },
         { "help", no_argument, NULL, 'h' },      { NULL, 0, NULL, 0 }
     };

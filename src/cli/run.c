@@ -331,6 +331,7 @@ int pg_cli_run (int argc, char **argv)
     double start = pg_seconds ();
     int wrong = command_parse (&r.c, argc, argv), complained = 0;
     if (wrong >= 0) return wrong;
+    if (r.c.seeds) return command_seeds (&r.c);
     settle_signals ();
     PG_TRY (prepare (&r));
     if (r.finished) {

@@ -7,7 +7,7 @@
 
 static const char run[] =
     "perigal run SCENE.yaml [-o DIR] [--resume | --force] [--threads N] [--memory SIZE]\n"
-    "            [--plain] [--set KEY=VALUE]... [--quiet]\n"
+    "            [--plain] [--set KEY=VALUE]... [--seeds N] [--quiet]\n"
     "  Solves a scene and writes a result folder.\n"
     "  -o, --out DIR        result folder, created if needed; default: out/NAME, where NAME is that of\n"
     "                       the scene's folder or file\n"
@@ -20,6 +20,9 @@ static const char run[] =
     "                       is refused before it starts\n"
     "      --plain          without the shortcuts that spare work (solver.plain: on): slower, same answer\n"
     "  -s, --set KEY=VALUE  replace or add a value of the scene, such as method.horizon='2.5 spacing'\n"
+    "      --seeds N        N runs with the seeds 1 to N for random cracks and perturb, in DIR/seed_1 ...,\n"
+    "                       one after the other; DIR/seeds.csv and seeds.png (histogram) have the peak\n"
+    "                       loads. Called again it goes on\n"
     "  -q, --quiet          no progress and no summary; warnings are in DIR/report.json\n"
     "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) writes a checkpoint after the current break round and stops; a\n"
     "  second one stops at once.\n";

@@ -1,0 +1,27 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * perigal run SCENE --seeds N: the scene N times, with the seeds 1 to N for everything random in it, and the
+ * spread of the peak loads (study.h). Called again it goes on: what is finished is not repeated. */
+#include "cli.h"
+#include <string.h>
+
+int command_seeds (const command *c)
+{
+    pg_status status = PG_OK;
+    pg_spread peaks;
+    pg_seeds_request q = { .scene = c->scene,
+                           .folder = c->folder ? c->folder : "out/seeds",
+                           .first = 1,
+                           .count = (size_t) c->seeds,
+                           .threads = c->threads,
+                           .out = c->quiet ? NULL : stdout };
+    if (c->force)
+        PG_FAIL (PG_E_USAGE,
+                 "--seeds goes on where it was; --force is for a single run: remove %s to begin anew",
+                 q.folder);
+    for (size_t k = 0; k < c->nset; k++) q.set[q.nset++] = c->set[k];
+    if (q.out) fprintf (q.out, "%s: %ld runs in %s\n", c->scene, c->seeds, q.folder);
+    PG_TRY (pg_seeds_run (&q, &peaks));
+done:
+    if (status != PG_OK) command_complain (status, pg_last_error ());
+    return pg_exit_code (status);
+}

@@ -1,0 +1,201 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * One scene with many seeds: the spread of its peak load. seeds.csv has a row for each run; the picture is a
+ * histogram with the mean. */
+#include "perigal/picture.h"
+#include "perigal/study.h"
+#include <errno.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* Bins of the histogram, most. */
+enum { BINS = 30 };
+
+/* The runs, their values of the scene as text, and their results. */
+typedef struct {
+    size_t n;
+    pg_series_run *run;
+    pg_series_result *result;
+    char (*text)[PG_SERIES_SETS][64];
+} series;
+
+/* ---- what has a seed --------------------------------------------------------------------------------------
+ */
+/* Writes the values of the scene that give every random thing in it the seed s: the k-th of them s + 1000000
+ * k, so that two networks of one scene are not the same. Returns how many. */
+static size_t set_seeds (char text[PG_SERIES_SETS][64], const pg_scene *scene, long s)
+{
+    size_t n = 0;
+    for (size_t i = 0, cracks = pg_scene_count (scene, "cracks"); i < cracks && n < PG_SERIES_SETS; i++)
+        if (pg_scene_given (scene, "cracks[%zu].random", i)) {
+            snprintf (text[n], sizeof *text, "cracks[%zu].random.seed=%ld", i, s + 1000000 * (long) n);
+            n++;
+        }
+    if (pg_scene_given (scene, "perturb") && n < PG_SERIES_SETS) {
+        snprintf (text[n], sizeof *text, "perturb.seed=%ld", s + 1000000 * (long) n);
+        n++;
+    }
+    return n;
+}
+
+static pg_status name_runs (series *s, const pg_seeds_request *q)
+{
+    pg_status status = PG_OK;
+    pg_scene *scene = NULL;
+    PG_TRY (pg_scene_load_with (&scene, q->scene, q->nset, q->set));
+    s->n = q->count;
+    PG_ALLOC (s->run, s->n);
+    PG_ALLOC (s->result, s->n);
+    PG_ALLOC (s->text, s->n);
+    for (size_t k = 0; k < s->n; k++) {
+        pg_series_run *r = &s->run[k];
+        long seed = q->first + (long) k;
+        r->value = (double) seed;
+        r->nset = set_seeds (s->text[k], scene, seed);
+        snprintf (r->name, sizeof r->name, "seed_%ld", seed);
+        for (size_t i = 0; i < r->nset; i++) r->set[i] = s->text[k][i];
+        if (r->nset == 0)
+            PG_FAIL (PG_E_SCENE,
+                     "%s: nothing in this scene has a seed: give random cracks (cracks: [{random: "
+                     "...}]) or perturb",
+                     q->scene);
+    }
+done:
+    pg_scene_free (&scene);
+    return status;
+}
+
+/* ---- results ----------------------------------------------------------------------------------------------
+ */
+/* A number, or nothing where it is not known. */
+static void write_number (FILE *f, double x)
+{
+    if (isnan (x)) fprintf (f, ",");
+    else fprintf (f, ",%.17g", x);
+}
+
+static pg_status write_table (const series *s, const char *folder)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    FILE *f = NULL;
+    snprintf (path, sizeof path, "%s/seeds.csv", folder);
+    f = fopen (path, "w");
+    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
+    fprintf (f,
+             "seed [1],peak [N],displacement [m],energy_dissipated [J],broken [1],seconds [s],failed [1]\n");
+    for (size_t k = 0; k < s->n; k++) {
+        const pg_series_result *r = &s->result[k];
+        fprintf (f, "%.0f", s->run[k].value);
+        write_number (f, r->peak), write_number (f, r->displacement), write_number (f, r->dissipated);
+        write_number (f, r->broken), write_number (f, r->seconds);
+        fprintf (f, ",%d\n", r->code != PG_EXIT_DONE);
+    }
+    int bad = ferror (f);
+    if (fclose (f) != 0 || bad) status = PG_E_FILE;
+    f = NULL;
+    if (status != PG_OK) PG_FAIL (PG_E_FILE, "%s could not be written", path);
+done:
+    if (f) fclose (f);
+    return status;
+}
+
+static int ascending (const void *a, const void *b)
+{
+    double p = *(const double *) a, q = *(const double *) b;
+    return (p > q) - (p < q);
+}
+
+void pg_spread_of (pg_spread *out, size_t n, double *value)
+{
+    double sum = 0, squares = 0;
+    size_t m = 0;
+    for (size_t k = 0; k < n; k++) if (isfinite (value[k])) value[m++] = value[k], sum += value[m - 1];
+    qsort (value, m, sizeof *value, ascending);
+    *out = (pg_spread) { .n = m, .mean = NAN, .deviation = NAN, .least = NAN, .median = NAN, .most = NAN };
+    if (m == 0) return;
+    out->mean = sum / (double) m;
+    for (size_t k = 0; k < m; k++) squares += (value[k] - out->mean) * (value[k] - out->mean);
+    if (m > 1) out->deviation = sqrt (squares / (double) (m - 1));
+    out->least = value[0], out->most = value[m - 1];
+    out->median = 0.5 * (value[(m - 1) / 2] + value[m / 2]);
+}
+
+/* As many equal bins as the root of the number of values, between least and largest; the outline of the bars,
+ * and a line at the mean. value: ascending. */
+static pg_status draw_histogram (const pg_spread *s, const double *value, const char *folder,
+                                 const char *title)
+{
+    pg_status status = PG_OK;
+    double count[BINS] = { 0 }, x[4 * BINS + 2], y[4 * BINS + 2], mean[2], height[2] = { 0, 0 };
+    char path[4096], label[64];
+    size_t bins = (size_t) fmin (BINS, fmax (4, ceil (sqrt ((double) s->n)))), m = 0;
+    double width = (s->most - s->least) / (double) bins;
+    if (s->n < 2 || !(width > 0)) return PG_OK;
+    double unit = fabs (s->most) >= 1e6 ? 1e6 : fabs (s->most) >= 1e3 ? 1e3 : 1;
+    for (size_t k = 0; k < s->n; k++)
+        count[(size_t) fmin ((double) bins - 1, floor ((value[k] - s->least) / width))]++;
+    for (size_t b = 0; b < bins; b++) {
+        double from = (s->least + width * (double) b) / unit, to = from + width / unit;
+        const double px[4] = { from, from, to, to }, py[4] = { 0, count[b], count[b], 0 };
+        for (int k = 0; k < 4; k++) x[m] = px[k], y[m++] = py[k];
+        height[1] = fmax (height[1], count[b]);
+    }
+    mean[0] = mean[1] = s->mean / unit, height[1] *= 1.15;
+    snprintf (label, sizeof label, "peak load (%s)", unit == 1e6 ? "MN" : unit == 1e3 ? "kN" : "N");
+    pg_curve curves[2] = { { .name = "runs", .n = m, .x = x, .y = y, .points = PG_CURVE_LINE },
+                           { .name = "mean", .n = 2, .x = mean, .y = height, .points = PG_CURVE_LINE } };
+    pg_chart_style style = { .title = title, .xlabel = label, .ylabel = "number of runs", .beside = 1 };
+    snprintf (path, sizeof path, "%s/seeds.png", folder);
+    PG_TRY (pg_picture_chart (path, 2, curves, &style));
+done:
+    return status;
+}
+
+static void tell (FILE *out, const pg_spread *s, size_t runs, const char *folder)
+{
+    char mean[64], deviation[64], least[64], median[64], most[64];
+    if (s->n == 0) {
+        fprintf (out, "  no run has a peak load; table %s/seeds.csv\n", folder);
+        return;
+    }
+    pg_picture_quantity (s->mean, "N", mean, sizeof mean);
+    pg_picture_quantity (s->deviation, "N", deviation, sizeof deviation);
+    pg_picture_quantity (s->least, "N", least, sizeof least);
+    pg_picture_quantity (s->median, "N", median, sizeof median);
+    pg_picture_quantity (s->most, "N", most, sizeof most);
+    fprintf (out, "  peak load of %zu of %zu runs: mean %s", s->n, runs, mean);
+    if (s->n > 1)
+        fprintf (out, ", standard deviation %s (%.3g %%)", deviation, 100 * s->deviation / fabs (s->mean));
+    fprintf (out, ", least %s, median %s, largest %s\n  table %s/seeds.csv%s%s%s\n", least, median, most,
+             folder, s->n > 1 && s->most > s->least ? ", histogram " : "",
+             s->n > 1 && s->most > s->least ? folder : "",
+             s->n > 1 && s->most > s->least ? "/seeds.png" : "");
+}
+
+pg_status pg_seeds_run (const pg_seeds_request *q, pg_spread *spread)
+{
+    pg_status status = PG_OK;
+    series s = { 0 };
+    double *peak = NULL;
+    size_t failed = 0;
+    PG_TRY (name_runs (&s, q));
+    pg_series_request all = { .scene = q->scene, .folder = q->folder, .nset = q->nset, .n = s.n, .run = s.run,
+                              .threads = q->threads, .out = q->out };
+    for (size_t k = 0; k < q->nset; k++) all.set[k] = q->set[k];
+    PG_ALLOC (peak, s.n);
+    PG_TRY (pg_series_run_all (s.result, &all));
+    for (size_t k = 0; k < s.n; k++) {
+        failed += s.result[k].code != PG_EXIT_DONE;
+        peak[k] = s.result[k].code == PG_EXIT_DONE ? s.result[k].peak : NAN;
+    }
+    PG_TRY (write_table (&s, q->folder));
+    pg_spread_of (spread, s.n, peak);
+    PG_TRY (draw_histogram (spread, peak, q->folder, q->scene));
+    if (q->out) tell (q->out, spread, s.n, q->folder);
+    if (failed)
+        PG_FAIL (PG_E_EQUILIBRIUM, "%zu of %zu runs failed: see %s/seed_*.log", failed, s.n, q->folder);
+done:
+    pg_free (peak), pg_free (s.run), pg_free (s.result), pg_free (s.text);
+    return status;
+}
