@@ -146,8 +146,8 @@ typedef struct {
     char   trouble[400];
 } pg_series_result;
 /* Runs them one after the other, in folder/name each, in processes of this same program. What is finished is
- * not repeated, what was interrupted goes on. PG_E_SCENE: a scene is wrong; PG_E_INTERRUPTED; a run that fails
- * otherwise ends only itself. */
+ * not repeated, what was interrupted goes on. PG_E_SCENE: a scene is wrong; PG_E_INTERRUPTED; a run that
+ * fails otherwise ends only itself. */
 pg_status pg_series_run_all (pg_series_result *out /* n */, const pg_series_request *q);
 
 /* Mean, standard deviation (n - 1), least, median and largest of those of n values that are finite, which
