@@ -215,6 +215,22 @@ static int split (char *line, char *field[MOST])
     }
 }
 
+/* The values of a line, in SI units, by their roles. */
+static pg_status read_values (reader *r, char *const *field, double *value)
+{
+    char *end;
+    for (int k = 0; k < r->n; k++) {
+        double given = strtod (field[k], &end);
+        if (end == field[k] || *end || !isfinite (given))
+            return wrong (r, "'%.40s' in column %d (%s) is not a finite number", field[k], k + 1,
+                          role[r->role[k]].name);
+        value[r->role[k]] = pg_column_value (given, r->scale[k]);
+        if (r->role[k] == WIDTH && given < 0)
+            return wrong (r, "the width %g is negative; 0 is a sharp crack", given);
+    }
+    return PG_OK;
+}
+
 static pg_status read_line (reader *r, char *line)
 {
     pg_status status = PG_OK;
@@ -228,15 +244,7 @@ static pg_status read_line (reader *r, char *line)
     if (!r->n && (end == field[0] || *end)) return read_header (r, n, field);
     if (!r->n) PG_TRY (settle_columns (r, n));
     if (n != r->n) return wrong (r, "%d columns, but there are %d", n, r->n);
-    for (int k = 0; k < n; k++) {
-        double given = strtod (field[k], &end);
-        if (end == field[k] || *end || !isfinite (given))
-            return wrong (r, "'%.40s' in column %d (%s) is not a finite number", field[k], k + 1,
-                          role[r->role[k]].name);
-        value[r->role[k]] = pg_column_value (given, r->scale[k]);
-        if (r->role[k] == WIDTH && given < 0)
-            return wrong (r, "the width %g is negative; 0 is a sharp crack", given);
-    }
+    PG_TRY (read_values (r, field, value));
     PG_TRY (r->table == SEGMENTS || r->table == DISCS ? add_crack (r, value) : add_vertex (r, value));
 done:
     return status;
@@ -319,34 +327,43 @@ static void name_file (char *out, size_t size, const char *path, int t)
     snprintf (out, size, "%.*s_%s%s", (int) stem, path, word, path + stem);
 }
 
+/* Number of cracks that table t holds; *wide: one of them has a width. */
+static size_t count (const pg_cracks *all, int t, int *wide)
+{
+    size_t n = 0;
+    *wide = 0;
+    for (size_t i = 0; i < all->n; i++)
+        if (belongs (all, i, t)) n++, *wide |= all->crack[i].slot > 0;
+    return n;
+}
+
+static pg_status write_table (const pg_cracks *all, int t, int wide, const char *name)
+{
+    pg_status status = PG_OK;
+    size_t number = 0;
+    FILE *f = fopen (name, "w");
+    if (!f) PG_FAIL (PG_E_FILE, "%s: %s", name, strerror (errno));
+    fprintf (f, "%s%s\n", tables[t].columns, wide ? ", width" : "");
+    for (size_t i = 0; i < all->n; i++)
+        if (belongs (all, i, t)) write_crack (f, &all->crack[i], all->dim, t, wide, &number);
+    int bad = ferror (f);
+    if (fclose (f) != 0 || bad) PG_FAIL (PG_E_FILE, "%s: could not be written", name);
+done:
+    return status;
+}
+
 pg_status pg_cracks_write (const pg_cracks *all, const char *path, void (*said) (void *, const char *),
                            void *context)
 {
     pg_status status = PG_OK;
-    FILE *f = NULL;
     char name[4096];
-    for (int t = 0, files = 0; t < TABLES; t++) {
-        size_t n = 0, number = 0;
-        int wide = 0;
-        for (size_t i = 0; i < all->n; i++)
-            if (belongs (all, i, t)) n++, wide |= all->crack[i].slot > 0;
-        if (n == 0 && !(t == TABLES - 1 && files == 0)) continue;
+    for (int t = 0, files = 0, wide; t < TABLES; t++) {
+        if (count (all, t, &wide) == 0) continue;
         if (files++ == 0) snprintf (name, sizeof name, "%s", path);
         else name_file (name, sizeof name, path, t);
-        f = fopen (name, "w");
-        if (!f) PG_FAIL (PG_E_FILE, "%s: %s", name, strerror (errno));
-        if (n) fprintf (f, "%s%s\n", tables[t].columns, wide ? ", width" : "");
-        for (size_t i = 0; i < all->n; i++)
-            if (belongs (all, i, t)) write_crack (f, &all->crack[i], all->dim, t, wide, &number);
-        int bad = ferror (f);
-        if (fclose (f) != 0 || bad) {
-            f = NULL;
-            PG_FAIL (PG_E_FILE, "%s: could not be written", name);
-        }
-        f = NULL;
+        PG_TRY (write_table (all, t, wide, name));
         if (said) said (context, name);
     }
 done:
-    if (f) fclose (f);
     return status;
 }
