@@ -56,6 +56,26 @@ static void refuse_masses (const pg_problem *problem, const pg_scene *scene)
         }
 }
 
+/* Points of the body inside a platen at the start would be thrown out. */
+static void refuse_inside (const pg_problem *problem, size_t i, const pg_scene *scene)
+{
+    size_t dim = (size_t) problem->dim, at = 0;
+    const double *x = problem->cloud.x;
+    double normal[3], worst = 0;
+    char path[64];
+    for (size_t k = 0; k < problem->cloud.n; k++) {
+        double h = problem->cloud.size ? problem->cloud.size[k] : problem->cloud.h,
+               away = pg_platen_distance (&problem->platen[i], problem->dim, x + k * dim, normal);
+        if (away < -PG_NO_LENGTH * h && away < worst) worst = away, at = k;
+    }
+    if (!(worst < 0)) return;
+    snprintf (path, sizeof path, "platens[%zu].point", i);
+    pg_scene_fault (scene, path,
+                    "the platen holds points of the body at the start, the one at (%.6g, %.6g, %.6g) m lies "
+                    "%.3g m inside it: put it outside the body, its normal towards the body", x[at * dim],
+                    dim > 1 ? x[at * dim + 1] : 0, dim > 2 ? x[at * dim + 2] : 0, -worst);
+}
+
 /* In explicit steps: penalty on displacements of points. */
 static void check_moving (const pg_problem *problem, const pg_scene *scene)
 {
@@ -76,6 +96,7 @@ static void check_moving (const pg_problem *problem, const pg_scene *scene)
         if (pg_scene_given (scene, "%s", path) && !(p->mass > 0))
             pg_scene_fault (scene, path, "is that of a platen with a mass: give the mass, or a displacement "
                             "of velocity times t (ramp: constant)");
+        refuse_inside (problem, i, scene);
     }
 }
 

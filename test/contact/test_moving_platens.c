@@ -226,7 +226,8 @@ static void must_refuse (const char *text, const char *part)
 static void what_it_cannot_do_is_refused (void **state)
 {
     (void) state;
-    must_refuse (BOND "platens: [{name: a, point: [0, 3], normal: [0, 1]}]\n", "inside it at the start");
+    must_refuse (BOND "platens: [{name: a, point: [0, 3], normal: [0, 1]}]\n",
+                 "m inside it: put it outside the body");
     must_refuse (BOND "platens: [{name: a, point: [0, -3], normal: [0, 1], tilt: free}]\n", "do not turn");
     must_refuse (BOND "platens: [{name: a, point: [0, -3], normal: [0, 1], force: {y: 1}}]\n",
                  "platens[0].mass: a platen that a force moves needs it");
