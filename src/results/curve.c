@@ -44,8 +44,29 @@ static double farthest (const pg_problem *p, const pg_load *load, int k)
     return size;
 }
 
-/* The curve follows the prescribed component that moves most, else the first load with a
- * force, along the axis in which that is largest. */
+/* The same of a platen. */
+static double farthest_platen (const pg_problem *p, const pg_load *load, int k)
+{
+    static const double anywhere[3] = { 0 };
+    double size = 0;
+    for (size_t stage = 0; stage == 0 || stage < p->nstage; stage++)
+        size = fmax (size, fabs (pg_load_value (load, k, p->dim, anywhere, (double) (stage + 1))));
+    return size;
+}
+
+/* The stage at whose end a load first acts; 0: it does from the start. */
+static size_t begins (const pg_problem *p, const pg_load *load)
+{
+    size_t stage = 1;
+    if (!pg_load_separates (load)) return stage;
+    if (pg_load_factor (load, 0) != 0) return 0;
+    while (stage < p->nstage && pg_load_factor (load, (double) stage) == 0) stage++;
+    return stage;
+}
+
+/* The curve follows the prescribed component that moves most, else of the loads with a force the one that
+ * comes last, as one presses a body that is confined; of several the first, along the axis in which it is
+ * largest. */
 void pg_result_curve_choose (pg_result *r)
 {
     const pg_problem *p = r->problem;
@@ -54,23 +75,24 @@ void pg_result_curve_choose (pg_result *r)
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; k < p->dim; k++) {
             const pg_load *load = &p->load[l];
-            static const double anywhere[3] = { 0 };
             int platen = load->kind == PG_PLATEN_MOTION;
             if (!platen && (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_rotates (load)))
                 continue;
-            double size = platen ? fabs (pg_load_value (load, k, p->dim, anywhere, 1))
-                                 : farthest (p, load, k);
+            double size = platen ? farthest_platen (p, load, k) : farthest (p, load, k);
             if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
         }
-    for (size_t l = 0; l < p->nload && r->curve_load < 0; l++) {
+    size_t last = 0;
+    for (size_t l = 0, none = r->curve_load < 0; none && l < p->nload; l++) {
         double strongest = 0;
+        size_t first = begins (p, &p->load[l]);
+        if (r->curve_load >= 0 && first <= last) continue;
         for (int k = 0; k < p->dim; k++) {
             double push = push_along (p, &p->load[l], k);
-            if (push > strongest) strongest = push, r->curve_load = (int) l, r->curve_component = k;
+            if (!(push > strongest)) continue;
+            strongest = push, last = first, r->curve_load = (int) l, r->curve_component = k;
         }
     }
 }
-
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
 /* Appends a point with displacement x (m) and force y (N), and what the report will say about

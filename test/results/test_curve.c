@@ -105,6 +105,30 @@ static void the_axis_that_pulls_is_drawn (void **state)
 }
 
 /* A cycle: the curve comes back, and the peak is on its way. */
+/* Of a body that is confined and then pressed the press is drawn, whichever load is named first; of platens
+ * also one that moves in a later stage alone. */
+static void the_load_that_comes_last_is_drawn (void **state)
+{
+    (void) state;
+    static const char *const loads[] = {
+        "{name: side, set: right, pressure: 1 MPa}, {name: press, set: top, pressure: 2 MPa}]\n"
+        "stages: [{name: confine, boundary: {side: 1}}, {name: press, boundary: {press: 1}}]\n",
+        "{name: side, set: right, pressure: 1 MPa, ramp: constant}, {name: press, set: top, pressure: 2 MPa}"
+        "]\n",
+        "{name: side, set: right, pressure: 1 MPa}]\nplatens: [{name: press, point: [0, 1], normal: [0, -1], "
+        "displacement: {y: -1 mm}}]\n"
+        "stages: [{name: confine, boundary: {side: 1}}, {name: press, boundary: {press: 1}}]\n",
+    };
+    for (size_t i = 0; i < sizeof loads / sizeof *loads; i++) {
+        char more[900];
+        snprintf (more, sizeof more, "lattice: cells\nboundary: [{name: foot, set: bottom, displacement: "
+                  "{x: 0, y: 0}}, %ssolver: {kind: static, stepping: fixed, steps: 2}\n", loads[i]);
+        play (PLATE, more);
+        check_contains (words[0], "force of press along y");
+        tidy ();
+    }
+}
+
 static void unloading_is_drawn_and_a_constant_load_has_no_origin (void **state)
 {
     (void) state;
@@ -226,6 +250,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_push_is_negative),
         cmocka_unit_test (the_axis_that_pulls_is_drawn),
+        cmocka_unit_test (the_load_that_comes_last_is_drawn),
         cmocka_unit_test (unloading_is_drawn_and_a_constant_load_has_no_origin),
         cmocka_unit_test (the_peak_of_events_is_that_of_the_history),
         cmocka_unit_test (a_plane_of_broken_bonds_has_its_area),
