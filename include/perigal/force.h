@@ -218,6 +218,11 @@ typedef struct {
      * refresh. NULL: jump, if there is one. */
     pg_status (*faces) (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,
                         double *soft, double *stiffer);
+    /* Of forces whose unknowns are no displacements of points (both entries; NULL: they are): u = N x, what
+     * unknowns make of the displacement, or velocity, at the nodes by the shape functions of the last
+     * refresh, and f += N' F, unknowns taking forces F on the nodes, N. All n x dim. */
+    void      (*at_nodes)   (void *self, const double *x, double *u);
+    void      (*from_nodes) (void *self, const double *F, double *f);
 } pg_force_type;
 /* Stress (xx yy zz xy yz zx, Pa) of the displacement gradient H[c * dim + k] = du_c/dx_k. */
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);

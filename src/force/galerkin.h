@@ -342,6 +342,8 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 /* The force's refresh, for who asks before the first one. */
 pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes);
+void galerkin_at_nodes   (void *self, const double *x, double *u);
+void galerkin_from_nodes (void *self, const double *F, double *f);
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,
                           int *components, const char **unit, double *value);
 pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, double *value);

@@ -53,6 +53,22 @@ static void displacement (const galerkin *g, const double *d, double *u)
                 u[p * dim + c] += r->N[e + pg_rows_offset (r, p)] * d[(size_t) r->family.node[e] * dim + c];
 }
 
+void galerkin_at_nodes (void *self, const double *x, double *u) { displacement (self, x, u); }
+
+void galerkin_from_nodes (void *self, const double *F, double *f)
+{
+    const galerkin *g = self;
+    const pg_rows *r = &g->rows[PG_NODES];
+    size_t dim = (size_t) g->dim;
+    for (size_t p = 0; p < g->n; p++) {
+        int any = 0;
+        for (size_t c = 0; c < dim; c++) any |= F[p * dim + c] != 0;
+        for (size_t e = r->family.start[p]; any && e < r->family.start[p + 1]; e++)
+            for (size_t c = 0; c < dim; c++)
+                f[(size_t) r->family.node[e] * dim + c] += r->N[e + pg_rows_offset (r, p)] * F[p * dim + c];
+    }
+}
+
 /* A field of results by name, value: n x components. Displacement and velocity are those that the shape
  * functions make, not their coefficients, which a field of its own shows; *components = 0: unknown here. */
 pg_status galerkin_field (void *self, const pg_state *state, const double *d, const char *name,

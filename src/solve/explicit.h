@@ -56,6 +56,9 @@ pg_status explicit_keep    (pg_solver *s, const pg_keeper *keeper);
 /* ---- explicit_contact.c: short range, and platens ------------------------------------------------------ */
 struct explicit_contact {
     pg_short_range *pairs;                             /* NULL: platens alone */
+    /* Where unknowns are no displacements (pg_force_type.at_nodes): those of the points, their velocities,
+     * and the forces of pairs on the points, then as the unknowns take them (ndof each); else NULL. */
+    double *moved, *speed, *pressed, *taken;
     pg_moving_platens *platens;  pg_platen_values *shown;              /* NULL: none */
     int     active;                                    /* forces at hand, some are not zero */
     double  way;  /* no unknown has changed more in the last time step, m */

@@ -18,6 +18,12 @@ pg_status explicit_contact_create (pg_solver *s)
     PG_ALLOC (m->contact, 1);
     if (pairs)
         PG_TRY (pg_short_range_create (&m->contact->pairs, s->problem, setting, (size_t) sys->components));
+    if (pairs && sys->force->at_nodes && !s->problem->approx.type->interpolates) {
+        PG_ALLOC (m->contact->moved, sys->ndof);
+        PG_ALLOC (m->contact->speed, sys->ndof);
+        PG_ALLOC (m->contact->pressed, sys->ndof);
+        PG_ALLOC (m->contact->taken, sys->ndof);
+    }
     if (!s->problem->nplaten) goto done;
     PG_ALLOC (m->contact->shown, s->problem->nplaten);
     s->moving = m->contact->shown;
@@ -34,6 +40,7 @@ void explicit_contact_free (pg_solver *s)
     pg_short_range_free (&c->pairs);
     pg_moving_platens_free (&c->platens);
     pg_free (c->shown);
+    pg_free (c->moved), pg_free (c->speed), pg_free (c->pressed), pg_free (c->taken);
     pg_free (c);
     motion_of (s)->contact = NULL, s->moving = NULL;
 }
@@ -66,6 +73,28 @@ static void doubt (pg_solver *s)
                         "with solver.dt: %.3g s", 1.8 / sqrt (c->bare * c->bare + rate));
 }
 
+/* Forces of pairs on the residual f. Contact is one of points: unknowns that are none are turned into
+ * displacements and velocities of points, and their forces back, by the transposed, so that they do the same
+ * work, and as shape functions add up to one momentum stays. */
+static pg_status add_pairs (struct explicit_contact *c, const pg_system *sys, const pg_state *state,
+                            const pg_changes *broken, double dt, double way, double *f)
+{
+    pg_status status = PG_OK;
+    if (!c->moved) return pg_short_range_add (c->pairs, state, broken, !broken, state->v, dt, way, f);
+    pg_state points = *state;
+    points.d = c->moved, points.v = c->speed;
+    sys->force->at_nodes (sys->self, state->d, c->moved);
+    sys->force->at_nodes (sys->self, state->v, c->speed);
+    memset (c->pressed, 0, sys->ndof * sizeof *f);
+    memset (c->taken, 0, sys->ndof * sizeof *f);
+    /* how far shape functions carry is not known beforehand: points are looked at */
+    PG_TRY (pg_short_range_add (c->pairs, &points, broken, !broken, c->speed, dt, INFINITY, c->pressed));
+    sys->force->from_nodes (sys->self, c->pressed, c->taken);
+    for (size_t i = 0; i < sys->ndof; i++) f[i] += c->taken[i];
+done:
+    return status;
+}
+
 /* Velocities of prescribed unknowns are zero inside a step: meanwhile they take those of their motion. */
 pg_status explicit_contact_add (pg_solver *s, pg_state *state, double t, int first)
 {
@@ -81,7 +110,7 @@ pg_status explicit_contact_add (pg_solver *s, pg_state *state, double t, int fir
         state->v[m->prescribed[k]] = (m->next[k] - m->goal[k]) / dt;
     const pg_changes *broken = &s->break_loop.changes;
     int known = c->broken + (long) broken->n == state->broken;
-    if (c->pairs) status = pg_short_range_add (c->pairs, state, broken, !known, state->v, dt, way, f);
+    if (c->pairs) status = add_pairs (c, sys, state, known ? broken : NULL, dt, way, f);
     if (status == PG_OK && c->platens) {
         double before = pg_moving_platens_now (c->platens)->work;
         status = pg_moving_platens_add (c->platens, state->d, state->v, t, dt, s->options.dt, way,
@@ -108,7 +137,7 @@ int explicit_contact_active (const pg_solver *s)
 void explicit_contact_forces (const pg_solver *s, double *out)
 {
     const struct explicit_contact *c = motion_of (s)->contact;
-    const double *pairs = c->pairs ? pg_short_range_forces (c->pairs) : NULL,
+    const double *pairs = c->moved ? c->taken : c->pairs ? pg_short_range_forces (c->pairs) : NULL,
                  *platens = c->platens ? pg_moving_platens_forces (c->platens) : NULL;
     for (size_t i = 0; i < s->break_loop.system.ndof; i++)
         out[i] += (pairs ? pairs[i] : 0) + (platens ? platens[i] : 0);

@@ -300,7 +300,9 @@ static void check_short_range (const pg_solver_options *o, const pg_problem *pro
         pg_scene_fault (scene, "contact.search",
                         "short_range acts in time steps by the force alone: use solver.kind: %s, or search: "
                         "faces", names);
-    if (problem->method->shape_functions && !problem->approx.type->interpolates)
+    const pg_force_type *force = pg_force_of (problem);
+    int points = !problem->method->shape_functions || problem->approx.type->interpolates;
+    if (!points && (problem->nplaten || !force || !force->at_nodes))
         pg_scene_fault (scene, "contact.search",
                         "short_range acts on displacements of points, which the unknowns of "
                         "method.approximation: %s are not: use method.force: %s",
