@@ -49,7 +49,7 @@ static void pieces_remember_their_own (void **state)
     double *before = pg_calloc (n, l.values * sizeof *before), most = 0;
     assert_non_null (before);
     memcpy (before, c->now.value, n * l.values * sizeof *before);
-    check_ok (contact_refresh (s, r.state));
+    check_ok (contact_refresh (s, r.state, NULL));
     assert_int_equal (c->now.n, n);
     for (size_t k = 0; k < n; k++) most = fmax (most, fabs (before[k * l.values + l.slip]));
     assert_true (most > 1e-4);
