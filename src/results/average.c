@@ -76,7 +76,7 @@ static void check_names (const pg_scene *scene)
                 pg_scene_fault (scene, path,
                                 "a column's name has 1 to 31 characters without [ ] \" and comma");
             if (place_in (fixed_columns, name) >= 0 || strncmp (name, "tip.", 4) == 0
-                || strcmp (name, "crack.length") == 0)
+                || strcmp (name, "crack.length") == 0 || strcmp (name, "crack.area") == 0)
                 pg_scene_fault (scene, path, "history.csv has a column of this name anyway");
             for (size_t b = 0; b <= a; b++)
                 for (size_t k = 0; k < (b < a ? pg_scene_count (scene, "%s", list[b]) : i); k++)

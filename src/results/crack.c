@@ -8,9 +8,15 @@
  *
  * and with a normal of any direction |xi . n| is |xi| times its mean: 1, 2/pi, 1/2 in 1, 2, 3
  * dimensions. This is an estimate: it is exact for one plane on average over its directions,
- * and parallel or smeared cracks count as often as they are. */
+ * and parallel or smeared cracks count as often as they are.
+ *
+ * Where points fail, with all their bonds, a crack is a band of them, and the bonds that reach into it from
+ * either side are cut as well: their count is that of several cracks. The band is about a horizon wide, from
+ * which the energy that a point can store is derived too (criterion/node_energy.c), so that a failed point
+ * stands for the area V_i / horizon. */
 #include "results_private.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Area of what has broken at one point of a bond set since `before` (of its own bonds), m2. */
@@ -33,6 +39,16 @@ static double area_of (const pg_problem *p, int set, size_t i, double volume, co
     return sum > 0 ? volume * (double) broken / (mean[dim] * sum) : 0;
 }
 
+/* Area that point i stands for if it has failed: it had bonds at the start and has none now. */
+static double area_of_point (const pg_problem *p, size_t i, const unsigned char *before,
+                             const unsigned char *now)
+{
+    const pg_family *f = &p->rows[PG_NODES].family;
+    size_t first = f->start[i], n = f->start[i + 1] - first;
+    if (!memchr (before, 1, n) || memchr (now + p->first_bond[PG_NODES] + first, 1, n)) return 0;
+    return p->cloud.volume[i] / (p->approx.horizon * pg_cloud_ratio (&p->cloud, i));
+}
+
 /* Uses the bonds of evaluation points where there are some, else those of the points
  * themselves. What pre-cracks cut at the start is found anew for points with dead bonds. A run
  * does not fail for want of memory for this estimate. */
@@ -42,7 +58,8 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
     const pg_problem *p = r->problem;
     unsigned char *start = NULL;
     size_t widest = 0;
-    int set = p->rows[PG_POINTS].n ? PG_POINTS : PG_NODES;
+    int points = p->criterion->type && (p->criterion->type->needs & PG_NEEDS_ENERGY),
+        set = p->rows[PG_POINTS].n && !points ? PG_POINTS : PG_NODES;
     double area = 0;
     r->crack = (result_crack) { .length = NAN, .dissipated = NAN };
     if (pg_problem_removes (p)) return PG_OK;              /* bonds of what was removed are no crack */
@@ -68,7 +85,8 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
     for (size_t i = 0; i < p->rows[set].n; i++) {
         if (!memchr (state->alive + p->first_bond[set] + first[i], 0, first[i + 1] - first[i])) continue;
         pg_bonds_cut_at (p, set, i, start);
-        area += area_of (p, set, i, set == PG_NODES ? p->cloud.volume[i] : p->rows[set].weight[i], start,
+        if (points) area += area_of_point (p, i, start, state->alive);
+        else area += area_of (p, set, i, set == PG_NODES ? p->cloud.volume[i] : p->rows[set].weight[i], start,
                          state->alive);
     }
     r->crack.found = area > 0;
@@ -76,5 +94,25 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
     if (p->dim == 2) r->crack.length = area / p->cloud.thickness;
     if (area > 0) r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / area;
     pg_free (start);
+    return status;
+}
+
+size_t pg_result_crack_columns (const pg_result *r) { return r->counting && !r->grows; }
+
+void pg_result_crack_column (const pg_result *r, char *out, size_t size)
+{
+    snprintf (out, size, r->problem->dim == 3 ? "crack.area [m^2]" : "crack.length [m]");
+}
+
+/* Of the state of the row: 0 while nothing has broken. */
+pg_status pg_result_crack_row (pg_result *r, const pg_state *state, double *row)
+{
+    pg_status status = PG_OK;
+    if (!pg_result_crack_columns (r)) return PG_OK;
+    PG_TRY (pg_result_crack_measure (r, state));
+    if (pg_problem_removes (r->problem)) *row = NAN;
+    else if (!r->crack.found) *row = 0;
+    else *row = r->problem->dim == 3 ? r->crack.area : r->crack.length;
+done:
     return status;
 }

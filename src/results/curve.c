@@ -251,7 +251,9 @@ static void tell_crack (const pg_result *r, char *out, size_t size)
     }
     snprintf (
         out, size,
-        "new crack by the count of broken bonds (an estimate): %s %s; dissipated energy per area of it %s",
+        "new crack by the %s (an estimate): %s %s; dissipated energy per area of it %s",
+        r->problem->criterion->type->needs & PG_NEEDS_ENERGY ? "volume of failed points over the horizon"
+                                                             : "count of broken bonds",
         r->problem->dim == 2 ? "length" : "area", length, spent);
 }
 

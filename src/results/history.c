@@ -6,7 +6,7 @@
  *   per platen   force and moment on the body, displacement and rotation, per component
  *   per gauge    opening, m                     per entry of output.averages   its mean
  *   per entry of output.tips   length of the crack, m
- *   cracks that grow and their tips (grown_cracks.c)
+ *   cracks that grow and their tips (grown_cracks.c); with output.crack_size other cracks (crack.c)
  *   energies (J), broken bonds, iterations, residual, utilisation, event, level
  *   with solver.on_instability: instability, time in motion (s), damped energy (J)
  *   with stages of loading: the number of the stage
@@ -52,7 +52,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     const char **column = NULL;
     size_t n = 0, tips = pg_result_paths_columns (r),
            most = 14 + UNSTABLE_COLUMNS + 6 * p->nload + 12 * p->nplaten + p->ngauge + r->naverage
-                  + r->ntip + tips + 1;
+                  + r->ntip + tips + pg_result_crack_columns (r) + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
@@ -77,6 +77,7 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     for (size_t a = 0; a < r->naverage; a++) pg_result_average_column (r, a, name[n++], sizeof *name);
     for (size_t t = 0; t < r->ntip; t++) snprintf (name[n++], sizeof *name, "%s [m]", r->tip[t].name);
     for (size_t k = 0; k < tips; k++) pg_result_paths_column (r, k, name[n++], sizeof *name);
+    if (pg_result_crack_columns (r)) pg_result_crack_column (r, name[n++], sizeof *name);
     for (size_t k = 0; k < sizeof last_columns / sizeof *last_columns; k++)
         snprintf (name[n++], sizeof *name, "%s", last_columns[k]);
     for (size_t k = 0; goes_unstable (r) && k < UNSTABLE_COLUMNS; k++)
@@ -202,6 +203,8 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     n += r->ntip;
     PG_TRY (pg_result_paths_row (r, state, r->row + n));
     n += pg_result_paths_columns (r);
+    PG_TRY (pg_result_crack_row (r, state, r->row + n));
+    n += pg_result_crack_columns (r);
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic,
     r->row[n++] = report->energy_external;
     r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken,

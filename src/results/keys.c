@@ -53,6 +53,10 @@ static const pg_key keys[] = {
       "Energy release rate J and stress intensity factors of every tip of a crack, as columns tip.N.J ... of "
       "history.csv and in tips.csv; in 3D of every vertex of its front, as columns front.N.J_max and in "
       "fronts.csv. Runs whose cracks grow by facets have them anyway." },
+    { "output.crack_size", PG_BOOL, NULL, NULL, "off", NULL, NULL, NULL,
+      "The new crack so far as a column of history.csv, crack.length in 2D, crack.area in 3D, where bonds or "
+      "points break one by one: an estimate, by the count of broken bonds, or by the volume of failed points "
+      "over the horizon. Runs whose cracks grow by facets have the column anyway." },
     { "output.averages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
       "Means of a field over a set, a column of history.csv each." },
     { "output.averages[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },

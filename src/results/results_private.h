@@ -123,6 +123,8 @@ struct pg_result {
     double   *curve_x, *curve_y, *curve_more;
     result_peak peak;
     result_crack crack;
+    /* output.crack_size: its size is a column of history.csv. */
+    int       counting;
     /* The load and the component that the curve follows; curve_load -1: none. */
     int       curve_load, curve_component;
     /* An estimate of the error is wanted; it was made. */
@@ -231,6 +233,10 @@ pg_status pg_result_curve_read     (pg_result *r);
 void      pg_result_curve_json     (pg_json *j, const pg_result *r);
 /* Measures the new crack. */
 pg_status pg_result_crack_measure  (pg_result *r, const pg_state *state);
+/* output.crack_size: number (0 or 1), name and value of its column: m in 2D, m2 in 3D; NAN: not known. */
+size_t    pg_result_crack_columns  (const pg_result *r);
+void      pg_result_crack_column   (const pg_result *r, char *out, size_t size);
+pg_status pg_result_crack_row      (pg_result *r, const pg_state *state, double *row);
 /* Name of Voigt component k in a dimension: "xx", "yy" ... */
 const char *pg_result_voigt        (int dim, int k);
 /* Draws all pictures of the last state. */

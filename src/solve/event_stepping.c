@@ -189,6 +189,12 @@ int event_ended (pg_solver *s, const pg_state *state, double factor, pg_status n
     return 1;
 }
 
+/* solver.stop.stiffness; 0 ends no run but one whose body bears nothing at all. */
+static double least_share (const pg_solver *s)
+{
+    return fmax (PG_OWN (pg_static_options, &s->options)->stop_stiffness, 1e-12);
+}
+
 /* The two natural ends of a run: the crack arrives at a set of points, or the body bears (almost) nothing
  * any more, seen from the work per squared load factor. Under forces that is a compliance, which grows
  * instead of falling. */
@@ -208,13 +214,22 @@ pg_status event_stops (pg_solver *s, const pg_state *state, double factor, doubl
     double least = PG_OWN (pg_static_options, o)->stop_stiffness;
     double share = e->secant = secant / e->secant0;
     if (s->problem->nload && stage_moves (s)
-        && (share < least || share > 1 / fmax (least, 1e-12))) {
+        && (share < least || share > 1 / least_share (s))) {
         pg_statistics_warn (&s->report, "the body has separated: the run ends at event %ld, load factor %.6g",
                             state->events, factor);
         s->finished = 1;
     }
 done:
     return status;
+}
+
+/* Nothing holds the parts of a body that has come apart: the displacement at load factor 1 is as large as the
+ * rounding of K allows, and so are the energies that belong to it. */
+void event_apart (pg_solver *s, double work, double strain, pg_step *step)
+{
+    if (!s->finished || !(events_of (s)->secant > 1 / least_share (s))) return;
+    s->break_loop.work = work, s->report.energy_strain = 0;
+    step->dissipated = strain;
 }
 
 /* solver.max_events, for runs that would break bond after bond. */
@@ -287,6 +302,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &stiff));
     PG_TRY (event_stops (s, state, factor, stiff));
+    event_apart (s, work, strain, step);
 done:
     return status;
 }

@@ -78,5 +78,8 @@ int       event_no_equilibrium (pg_status solved);     /* this outcome says so *
 int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_status now);
 /* Ends the run when the crack has arrived at stop.set, or the body has separated. */
 pg_status event_stops  (pg_solver *s, const pg_state *state, double factor, double secant);
+/* After event_stops: energies of a body that has come apart under forces, whose equilibria lie anywhere. Work
+ * and stored energy are those of before the event; what was stored is taken as consumed. */
+void      event_apart  (pg_solver *s, double work, double strain, pg_step *step);
 void      event_limit  (pg_solver *s, const pg_state *state, double factor);           /* solver.max_events */
 #endif

@@ -135,6 +135,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     PG_TRY (event_secant (s, &now));
     memcpy (state->d, g->before, bytes);
     PG_TRY (event_stops (s, state, factor, now));
+    event_apart (s, work, strain, step);
 done:
     if (g->before) memcpy (state->d, g->before, bytes);
     return status;
