@@ -29,6 +29,12 @@ static const pg_function functions[] = {
     { "hypot", PG_OP_HYPOT, 2, PG_TAKES_ALIKE, PG_GIVES_SAME, "sqrt (a^2 + b^2)" },
     { "atan2", PG_OP_ATAN2, 2, PG_TAKES_ALIKE, PG_GIVES_PLAIN,
       "angle of the vector (b, a), rad, from -pi to pi" },
+    { "phi", PG_OP_PHI, 1, PG_TAKES_PLAIN, PG_GIVES_PLAIN,
+      "distribution function of the normal distribution: phi (random_field (2 mm, 7)) is uniform in 0 to 1, "
+      "(-log (1 - phi (random_field (2 mm, 7))))^(1/8) has Weibull's distribution of modulus 8" },
+    { "random_field", PG_OP_GAUSSIAN, 2, PG_TAKES_FIELD, PG_GIVES_PLAIN,
+      "Gaussian random field of mean 0, variance 1 with the correlation length a (in m; exp (-r^2 / (2 a^2)) at a "
+      "distance r) and the seed b, a function of place alone" },
 };
 
 /* NULL past the end ends the loops of those who list them. */
@@ -46,6 +52,7 @@ const pg_variable *pg_expression_variable (size_t i)
 static double negate (double a)                 { return -a; }
 static double not (double a)                    { return a == 0; }
 static double step (double a)                   { return a >= 0; }
+static double phi (double a)                    { return 0.5 * erfc (-a * 0.70710678118654752440); }
 static double add (double a, double b)          { return a + b; }
 static double subtract (double a, double b)     { return a - b; }
 static double multiply (double a, double b)     { return a * b; }
@@ -67,6 +74,7 @@ typedef double (*binary) (double a, double b);
 static const unary of_one[] = {
     [PG_OP_NEGATE] = negate, [PG_OP_NOT] = not, [PG_OP_SIN] = sin, [PG_OP_COS] = cos, [PG_OP_TAN] = tan,
     [PG_OP_SQRT] = sqrt, [PG_OP_ABS] = fabs, [PG_OP_EXP] = exp, [PG_OP_LOG] = log, [PG_OP_STEP] = step,
+    [PG_OP_PHI] = phi,
 };
 static const binary of_two[] = {
     [PG_OP_ADD] = add, [PG_OP_SUBTRACT] = subtract, [PG_OP_MULTIPLY] = multiply, [PG_OP_DIVIDE] = divide,
@@ -97,6 +105,7 @@ double pg_expression_value (const pg_expression *e, const pg_place *at)
         /* Constants and variables push, operations of one number replace, those of two replace and drop
          * one. */
         if (op == PG_OP_CONSTANT) stack[n++] = e->code[k].value;
+        else if (op == PG_OP_GAUSSIAN) stack[n++] = pg_field_value (e->field[(size_t) e->code[k].value], at);
         else if (op <= PG_OP_T) stack[n++] = variable[op - PG_OP_X];
         else if (op < PG_OP_ADD) stack[n - 1] = pg_op_apply (op, stack[n - 1], 0);
         else {
@@ -128,6 +137,8 @@ int pg_expression_constant (const pg_expression *e, double *value)
 void pg_expression_free (pg_expression **e)
 {
     if (!e || !*e) return;
+    for (size_t k = 0; k < (*e)->nfield; k++) pg_free ((*e)->field[k]);
+    pg_free ((*e)->field);
     pg_free ((*e)->code);
     pg_free (*e);
     *e = NULL;

@@ -7,9 +7,10 @@
 /* Height of the stack; the compiler refuses more. */
 enum { PG_STACK = 64 };
 
-/* Operations: a constant, variables, operations of one number, operations of two. */
+/* Operations: a constant, a random field, variables, operations of one number, operations of two. */
 typedef enum {
     PG_OP_CONSTANT,
+    PG_OP_GAUSSIAN,
     PG_OP_X,
     PG_OP_Y,
     PG_OP_Z,
@@ -26,6 +27,7 @@ typedef enum {
     PG_OP_EXP,
     PG_OP_LOG,
     PG_OP_STEP,
+    PG_OP_PHI,
     PG_OP_ADD,
     PG_OP_SUBTRACT,
     PG_OP_MULTIPLY,
@@ -54,11 +56,15 @@ struct pg_expression {
     size_t   n, cap;
     /* Bit op is set for each variable that occurs. */
     unsigned uses;
+    /* The random fields that occur: their waves (random_field.c); an instruction has the index. */
+    double **field;
+    size_t   nfield, fieldcap;
 };
 
 /* Dimensions of the arguments of a function: none, any, the same for all; of its result: none, that of the
  * argument, its square root. */
-typedef enum { PG_TAKES_PLAIN, PG_TAKES_ANY, PG_TAKES_ALIKE } pg_takes;
+/* PG_TAKES_FIELD: a length and a seed, both constant. */
+typedef enum { PG_TAKES_PLAIN, PG_TAKES_ANY, PG_TAKES_ALIKE, PG_TAKES_FIELD } pg_takes;
 typedef enum { PG_GIVES_PLAIN, PG_GIVES_SAME, PG_GIVES_ROOT } pg_gives;
 
 /* A function of the language. */
@@ -78,6 +84,9 @@ const pg_function *pg_expression_function (size_t i);
 const pg_variable *pg_expression_variable (size_t i);
 /* The operation on one or two numbers. */
 double pg_op_apply (pg_op op, double a, double b);
+/* The waves of a random field with a correlation length (m), freed by pg_free; its value at a place. */
+pg_status pg_field_create (double **out, double length, double seed);
+double    pg_field_value  (const double *wave, const pg_place *at);
 /* 1 when no variable occurs: *value is its value then. */
 int    pg_expression_constant (const pg_expression *e, double *value);
 #endif

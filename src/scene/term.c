@@ -109,12 +109,43 @@ done:
     return status;
 }
 
+/* random_field (length, seed), behind its name: both are computed now, and their code makes room for one
+ * instruction. */
+static pg_status read_field (pg_reader *p, pg_operand *o)
+{
+    pg_status status = PG_OK;
+    pg_operand seed = { 0 };
+    pg_expression *e = p->e;
+    size_t start = p->at;
+    if (!pg_read_take (p, "(")) PG_BAD (p->at, "random_field needs a length and a seed in ( )");
+    PG_TRY (pg_read_or (p, o));
+    if (!pg_read_take (p, ",")) PG_BAD (p->at, "random_field takes 2 arguments: a length and a seed");
+    PG_TRY (pg_read_or (p, &seed));
+    if (!pg_read_take (p, ")")) PG_BAD (p->at, "')' is missing");
+    pg_measure metre = { .factor = 1, .power = { 1 } };
+    if (!o->fixed || o->condition || !(o->bare || pg_measure_same (&o->m, &metre)) || !(o->value > 0))
+        PG_BAD (start, "the first argument of random_field is its correlation length, such as 2 mm");
+    if (!seed.fixed || seed.condition || !pg_operand_plain (&seed) || seed.value != floor (seed.value)
+        || !(fabs (seed.value) <= 1e15))
+        PG_BAD (start, "the second argument of random_field is its seed, a whole number");
+    e->n = o->first, p->height -= 2;
+    PG_GROW (e->field, e->fieldcap, e->nfield + 1);
+    PG_TRY (pg_field_create (&e->field[e->nfield], o->value, seed.value));
+    e->nfield++;
+    e->uses |= 1u << PG_OP_X | 1u << PG_OP_Y | 1u << PG_OP_Z;
+    PG_TRY (pg_operand_emit (p, PG_OP_GAUSSIAN, (double) (e->nfield - 1)));
+    *o = (pg_operand) { .first = o->first, .m = { .factor = 1 } };
+done:
+    return status;
+}
+
 /* A function behind its name: "( argument, ... )". */
 static pg_status read_call (pg_reader *p, pg_operand *o, const pg_function *f)
 {
     pg_status status = PG_OK;
     size_t start = p->at - strlen (f->name);
     int n = 0;
+    if (f->takes == PG_TAKES_FIELD) return read_field (p, o);
     if (!pg_read_take (p, "(")) PG_BAD (p->at, "%s needs an argument in ( )", f->name);
     /* Arguments from the second on are combined with the first by the operation of the function. */
     do PG_TRY (read_argument (p, o, f, n++)); while (pg_read_take (p, ","));
