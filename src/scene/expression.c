@@ -33,7 +33,8 @@ static const pg_function functions[] = {
       "distribution function of the normal distribution: phi (random_field (2 mm, 7)) is uniform in 0 to 1, "
       "(-log (1 - phi (random_field (2 mm, 7))))^(1/8) has Weibull's distribution of modulus 8" },
     { "random_field", PG_OP_GAUSSIAN, 2, PG_TAKES_FIELD, PG_GIVES_PLAIN,
-      "Gaussian random field of mean 0, variance 1 with the correlation length a (in m; exp (-r^2 / (2 a^2)) at a "
+      "Gaussian random field of mean 0, variance 1 with the correlation length a (in m; exp (-r^2 / (2 a^2)) "
+      "at a "
       "distance r) and the seed b, a function of place alone" },
 };
 

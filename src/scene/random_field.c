@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * random_field (length, seed): a Gaussian random field of mean 0 and variance 1 as a function of place, whatever
- * the points, their order and the threads. It is a sum of plane waves,
+ * random_field (length, seed): a Gaussian random field of mean 0 and variance 1 as a function of place,
+ * whatever the points, their order and the threads. It is a sum of plane waves,
  *
  *     g (x) = sqrt (2 / M) sum_m cos (k_m . x + phi_m),
  *

@@ -77,7 +77,8 @@ static void the_correlation_is_that_of_the_length (void **state)
 static void a_seed_is_one_field (void **state)
 {
     (void) state;
-    pg_expression *a = compiled ("random_field (2 mm, 7)", "1"), *b = compiled ("random_field (0.002, 7)", "1"),
+    pg_expression *a = compiled ("random_field (2 mm, 7)", "1"),
+                  *b = compiled ("random_field (0.002, 7)", "1"),
                   *c = compiled ("random_field (2 mm, 8)", "1"),
                   *d = compiled ("2 + 3 * random_field (4 mm, 7)", "1");
     for (int i = 0; i < 50; i++) {
@@ -89,7 +90,8 @@ static void a_seed_is_one_field (void **state)
     assert_true (pg_expression_uses (a, 'x') && !pg_expression_uses (a, 't'));
     pg_expression_free (&a), pg_expression_free (&b), pg_expression_free (&c), pg_expression_free (&d);
     pg_expression *two = compiled ("random_field (1, 1) - random_field (1, 2) + x / m", "1");
-    pg_expression *one = compiled ("random_field (1, 1)", "1"), *other = compiled ("random_field (1, 2)", "1");
+    pg_expression *one = compiled ("random_field (1, 1)", "1"),
+                  *other = compiled ("random_field (1, 2)", "1");
     check_absolute (at (two, 0.3, 0.4, 0), at (one, 0.3, 0.4, 0) - at (other, 0.3, 0.4, 0) + 0.3, 1e-14);
     pg_expression_free (&two), pg_expression_free (&one), pg_expression_free (&other);
 }
