@@ -46,12 +46,17 @@ static int lattice_points (const pg_marks *m, const cells_sites *s, size_t f, in
     return n;
 }
 
-/* The points of facet f of any kind; sites NULL: a mesh, whose facets know their points. */
-static int points_of (const pg_marks *m, const cells_sites *s, size_t f, int *point)
+/* The points of facet f of any kind: of a lattice by its sites; of a grid over points from a file the nearest
+ * of them; facets of a mesh know theirs. */
+static int points_of (const pg_marks *m, const cells_sites *s, const pg_nearest *near, size_t f, int *point)
 {
     const pg_cells *c = m->cells;
     int n = 0;
     if (s) return lattice_points (m, s, f, point);
+    if (near) {
+        point[0] = (int) pg_nearest_find (near, c->facet_centre + f * (size_t) c->dim, NULL, NULL);
+        return point[0] >= 0;
+    }
     for (size_t k = c->facet_start[f]; k < c->facet_start[f + 1]; k++)
         if (c->facet_point[k] >= 0) point[n++] = c->facet_point[k];
     return n;
@@ -62,19 +67,22 @@ static pg_status link_facets (pg_marks *m)
 {
     pg_status status = PG_OK;
     const pg_cells *c = m->cells;
-    cells_sites sites = {0}, *s = c->facet_point ? NULL : &sites;
+    cells_sites sites = {0}, *s = c->facet_point || !m->lattice->dim ? NULL : &sites;
+    pg_nearest *near = NULL;
     int point[PG_ELEMENT_NODES];
     if (s) PG_TRY (cells_sites_create (s, m->lattice, m->cloud));
+    else if (!c->facet_point) PG_TRY (pg_nearest_create (&near, c->dim, m->cloud->n, m->cloud->x));
     PG_ALLOC (m->facet_first, c->nfacet + 1);
     for (size_t f = 0; f < c->nfacet; f++)
-        m->facet_first[f + 1] = m->facet_first[f] + (size_t) points_of (m, s, f, point);
+        m->facet_first[f + 1] = m->facet_first[f] + (size_t) points_of (m, s, near, f, point);
     PG_ALLOC (m->facet_point, m->facet_first[c->nfacet]);
     for (size_t f = 0; f < c->nfacet; f++) {
-        int n = points_of (m, s, f, point);
+        int n = points_of (m, s, near, f, point);
         memcpy (m->facet_point + m->facet_first[f], point, (size_t) n * sizeof *point);
     }
 done:
     cells_sites_clear (&sites);
+    pg_nearest_free (&near);
     return status;
 }
 
@@ -103,7 +111,7 @@ pg_status pg_marks_create (pg_marks *m, const pg_body *body, const pg_lattice *l
     pg_status status = PG_OK;
     memset (m, 0, sizeof *m);
     m->body = body, m->lattice = lattice, m->cloud = cloud, m->cells = cells;
-    int shaped = lattice->dim > 0;
+    int shaped = lattice->dim > 0 || (cells->n > 0 && !cells->facet_point && body->n > 0);
     for (int k = 0; k < cloud->dim; k++) {
         m->low[k]  = shaped ? body->low[k] : cloud->low[k];
         m->high[k] = shaped ? body->high[k] : cloud->high[k];

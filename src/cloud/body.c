@@ -72,6 +72,9 @@ static pg_status read_shapes (pg_body *out, const pg_scene *scene, size_t more)
     if (n == 0 && !pg_scene_given (scene, "points") && !pg_scene_given (scene, "mesh"))
         pg_scene_fault (scene, "body",
                         "is missing: give body (a list of shapes), points (a file) or mesh (a file)");
+    if (n > 0 && pg_scene_given (scene, "mesh"))
+        pg_scene_fault (scene, "body",
+                        "stands beside mesh, which has a surface of its own: give one of the two");
     PG_ALLOC (out->shape, n + more + pg_scene_count (scene, "layers"));
     out->n = n;
     /* All shapes are read, also behind a wrong one. */

@@ -90,9 +90,8 @@ static const pg_key keys[] = {
     { .path = "body",
       .kind = PG_LIST,
       .fallback = "",
-      .group = "origin:most",
       .doc = "The body as shapes, added and subtracted one after the other; needed unless points or a mesh "
-             "are read from a file." },
+             "are read from a file. With points it is their surface." },
     { .path = "body[].name",
       .kind = PG_TEXT,
       .fallback = "",
@@ -142,10 +141,13 @@ static const pg_key keys[] = {
       .kind = PG_FILE,
       .fallback = "",
       .group = "origin:most",
-      .doc = "CSV file of points in place of a body, next to the scene file; columns x [y [z]] volume "
+      .doc = "CSV file of points, next to the scene file; columns x [y [z]] volume "
              "[block] [spacing] in m and m3. A header may name them in"
              " another order and in other units: x [mm], y [mm], volume [mm3]."
-             " With a spacing (distance to the neighbours) the support of each point follows it." },
+             " With a spacing (distance to the neighbours) the support of each point follows it."
+             " With a body, whose shapes are then the surface, the cells of a regular grid (spacing; unless "
+             "given, that of the points) cut by it serve integration and boundaries; else there are no "
+             "cells, and method.integration is nodal." },
     { .path = "mesh",
       .kind = PG_MAP,
       .fallback = "",

@@ -124,8 +124,24 @@ void pg_place_bounds (pg_cloud *c)
     }
 }
 
+/* Points that lie outside the shapes that are to be their surface. */
+static pg_status check_inside (const pg_cloud *c, const pg_body *body, const pg_scene *scene)
+{
+    size_t out = 0, first = 0, dim = (size_t) c->dim;
+    for (size_t i = c->n; i-- > 0;)
+        if (!pg_body_inside (body, c->x + i * dim, PG_NO_LENGTH * c->h)) out++, first = i;
+    if (out)
+        pg_scene_fault (
+            scene, "points",
+            "%zu of %zu points lie outside the body, the first of them number %zu at (%.6g%s%.6g) m: the "
+            "shapes of body must hold all points",
+            out, c->n, first + 1, c->x[first * dim], dim > 1 ? ", " : "",
+            dim > 1 ? c->x[first * dim + 1] : 0);
+    return pg_scene_verdict (scene);
+}
+
 /* h from the mean volume of the points. */
-static pg_status from_file (pg_cloud *c, const pg_scene *scene)
+static pg_status from_file (pg_cloud *c, const pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     double volume = 0;
@@ -133,6 +149,7 @@ static pg_status from_file (pg_cloud *c, const pg_scene *scene)
     for (size_t i = 0; i < c->n; i++) volume += c->volume[i];
     c->h = pow (volume / (double) c->n / c->thickness, 1.0 / c->dim);
     for (int k = 0; k < c->dim; k++) c->step[k] = c->h;
+    if (pg_scene_count (scene, "body")) PG_TRY (check_inside (c, body, scene));
 done:
     return status;
 }
@@ -192,7 +209,7 @@ pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *bod
     out->dim = body->dim;
     out->thickness = out->dim == 3 ? 1
                                    : pg_scene_number (scene, out->dim == 2 ? "thickness" : "cross_section");
-    if (pg_scene_given (scene, "points")) PG_TRY (from_file (out, scene));
+    if (pg_scene_given (scene, "points")) PG_TRY (from_file (out, body, scene));
     else PG_TRY (from_lattice (out, lattice, body, scene));
     pg_place_bounds (out);
 done:

@@ -47,7 +47,8 @@ pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
     p->approx.extrapolates = p->integration->consistent;
     if (!p->integration->at_nodes && p->cells.n == 0)
         pg_scene_fault (scene, "method.integration",
-                        "a body of explicit points has no background cells: use nodal");
+                        "a body of explicit points has no background cells: use nodal, or give shapes as its "
+                        "surface (body)");
     /* an expansion about the node itself does not resist what changes from node to node (theory D4) */
     int wanted = p->approx.type->interpolates && p->integration->at_nodes;
     int asked = strcmp (stabilization, "silling") == 0;

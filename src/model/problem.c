@@ -37,18 +37,32 @@ static void name_of (char *out, size_t size, const char *file)
 }
 
 /* Cells at the surface keep the part inside the body; rays give the boundaries of sets. */
-static pg_status cut_cells (pg_problem *p, const pg_scene *scene)
+static pg_status cut_cells (pg_problem *p, const pg_scene *scene, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
     pg_ray *ray = NULL;
     size_t n = 0;
     char doubt[200];
     PG_TRY (pg_sets_rays (&ray, &n, scene, &p->body));
-    PG_TRY (pg_cells_cut (&p->cells, &p->body, &p->lattice, p->cloud.thickness, n, ray));
-    PG_TRY (pg_cells_share (&p->cloud, &p->cells, &p->lattice));
+    PG_TRY (pg_cells_cut (&p->cells, &p->body, lattice, p->cloud.thickness, n, ray));
+    if (p->lattice.dim) PG_TRY (pg_cells_share (&p->cloud, &p->cells, &p->lattice));
     if (pg_cells_doubt (&p->cells, doubt, sizeof doubt)) pg_problem_note (p, PG_WARNING "%s", doubt);
 done:
     pg_free (ray);
+    return status;
+}
+
+/* Cells of points from a file whose surface the shapes of the body are: those of a regular grid, which points
+ * need not follow. */
+static pg_status cells_of_points (pg_problem *p, const pg_scene *scene, int cut)
+{
+    pg_status status = PG_OK;
+    pg_lattice grid = { 0 };
+    double spacing = pg_scene_number (scene, "spacing");
+    PG_TRY (pg_lattice_fit (&grid, &p->body, spacing > 0 ? spacing : p->cloud.h, NULL));
+    PG_TRY (cut ? cut_cells (p, scene, &grid) : pg_cells_from_lattice (&p->cells, &grid, p->cloud.thickness));
+done:
+    pg_lattice_clear (&grid);
     return status;
 }
 
@@ -94,7 +108,8 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     p->cells.dim = p->dim;
     int cut = strcmp (pg_scene_text (scene, "cells"), "cut") == 0;
     if (p->part.mesh.n) PG_TRY (pg_cells_from_mesh (&p->cells, &p->part, p->cloud.thickness));
-    else if (p->lattice.dim && cut) PG_TRY (cut_cells (p, scene));
+    else if (p->lattice.dim && cut) PG_TRY (cut_cells (p, scene, &p->lattice));
+    else if (!p->lattice.dim && pg_scene_count (scene, "body")) PG_TRY (cells_of_points (p, scene, cut));
     else if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
     PG_TRY (pass (scene, pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells)));
 done:
