@@ -411,6 +411,30 @@ static void a_network_is_measured (void **state)
     pg_scene_free (&scene);
 }
 
+/* A plate through the middle of another, far from all of its edges, crosses it; one above it does not. */
+static void crossing_in_space_is_seen (void **state)
+{
+    (void) state;
+    static const double low[2] = { -0.4, 0.1 }, nearest[2] = { 0, 0.1 };
+    for (int k = 0; k < 2; k++) {
+        char text[600];
+        pg_cracks c;
+        pg_network n;
+        snprintf (text, sizeof text,
+                  CUBE
+                  "cracks: [{polygon: [[-0.5, -0.5, 0], [0.5, -0.5, 0], [0.5, 0.5, 0], [-0.5, 0.5, 0]]}, "
+                  "{polygon: [[0, -0.1, %g], [0, 0.1, %g], [0, 0.1, 0.4], [0, -0.1, 0.4]]}]\n",
+                  low[k], low[k]);
+        pg_scene *scene = parsed (text);
+        check_ok (pg_network_read (&c, scene));
+        check_ok (pg_network_measure (&n, &c, scene));
+        assert_int_equal (n.crossing, k ? 0 : 2);
+        check_absolute (n.nearest, nearest[k], 1e-14);
+        pg_cracks_clear (&c);
+        pg_scene_free (&scene);
+    }
+}
+
 static void any_allocation_may_fail (void **state)
 {
     (void) state;
@@ -469,6 +493,7 @@ int main (void)
         cmocka_unit_test (a_wrong_table_is_told_with_its_line),
         cmocka_unit_test (what_cannot_be_is_said),
         cmocka_unit_test (a_network_is_measured),
+        cmocka_unit_test (crossing_in_space_is_seen),
         cmocka_unit_test (any_allocation_may_fail),
     };
     return cmocka_run_group_tests (tests, make_folder, remove_folder);
