@@ -75,6 +75,9 @@ typedef struct {
     double shear;                                      /* sliding, J/m^2; NAN: not given */
     /* largest tension a sound place bears, Pa; NAN: not given */
     double strength;
+    /* largest shear stress that it bears without pressure, Pa (NAN: not given), and tangent of its angle of
+     * internal friction (Coulomb 1776) */
+    double cohesion, slope;
 } pg_fracture_limits;
 
 struct pg_criterion_type {
@@ -85,7 +88,7 @@ struct pg_criterion_type {
     /* Its keys: limits (failure.KEY, which a material may have of its own in materials.NAME.failure) and
      * options (of failure alone), each a list of tables that ends with NULL. A limit without a default is
      * needed; of several in one group any one. */
-    const pg_key_table *limits[4], *options[4];
+    const pg_key_table *limits[5], *options[4];
     /* Fills c from the limits of the setting's material; what is wrong becomes a fault of the scene. */
     pg_status (*read) (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting);
     /* utilisation (n); kind (n or NULL): 't' tension, 's' shear */

@@ -424,8 +424,9 @@ const pg_cracks *pg_state_cracks (const pg_problem *problem, const pg_state *sta
  * PG_E_USAGE: no such open tip, or no length. Nothing is changed by a call that fails, except `cut`. */
 pg_status pg_crack_grow  (pg_state *state, const pg_problem *problem, size_t tip, const double *to, int close,
                           pg_changes *cut);
-/* A new crack; bit 0, 1 of open: its end `from`, `to` is a tip. Other ends lie on the surface or on another
- * crack. */
+/* A new crack; bit 0, 1 of open: its end `from`, `to` is a tip; PG_START_SLIDES: its faces touch and slide
+ * (closed_tip_offset). Other ends lie on the surface or on another crack. */
+enum { PG_START_SLIDES = 4 };
 pg_status pg_crack_start (pg_state *state, const pg_problem *problem, const double *from, const double *to,
                           int open, pg_changes *cut);
 /* The tip grows no more, and its path cuts to its end. */

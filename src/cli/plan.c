@@ -411,7 +411,7 @@ static void print_toughness (const pg_problem *p)
     for (int k = 0; k < p->dim; k++) x[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]);
     for (size_t m = 0; m < p->nmaterial; m++) {
         const pg_criterion *c = &p->criterion[m];
-        pg_fracture_limits limits = { NAN, NAN, NAN };
+        pg_fracture_limits limits = { .strength = NAN, .cohesion = NAN };
         if (!c->type || c->never) continue;
         c->type->fracture (c, x, 0, &limits);
         printf ("  fracture %-10s %.4g J/m^2", p->material[m].name, limits.energy);
@@ -419,6 +419,10 @@ static void print_toughness (const pg_problem *p)
         if (zone > 0)
             printf (", strength %.4g Pa: a zone of %.3g m, new cracks need a spacing of at most %.3g m",
                     limits.strength, zone, zone / 8);
+        zone = p->material[m].modulus * limits.shear / (limits.cohesion * limits.cohesion);
+        if (zone > 0)
+            printf (", cohesion %.4g Pa, sliding %.4g J/m^2: a zone of %.3g m, new cracks in shear need a "
+                    "spacing of at most %.3g m", limits.cohesion, limits.shear, zone, zone / 8);
         printf ("\n");
     }
 }

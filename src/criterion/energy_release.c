@@ -3,13 +3,14 @@
  * G0 per area in opening, G_II in sliding, each its own for every material, G0 also an expression of
  * place and direction of growth. This criterion judges tips, not bonds: it holds the limits, and
  * solve/facet_growth.c compares them with J. With a strength cracks also begin where there is none
- * (Leguillon 2002: stress and energy together). */
+ * (Leguillon 2002: stress and energy together): tension and G0, or, with a cohesion,
+ * the shear stress of Coulomb and G_II. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-enum { ENERGY, SHEAR, STRENGTH };                      /* parameter[]; NAN: not given, or not one number */
+enum { ENERGY, SHEAR, STRENGTH, COHESION, ANGLE };     /* parameter[]; NAN: not given, or not one number */
 
 typedef struct {                                       /* what does not fit into numbers */
     pg_expression *energy;                             /* J/m^2, of place and angle; NULL: a constant */
@@ -46,6 +47,28 @@ done:
     return status;
 }
 
+/* Strength in shear: a cohesion, its angle, and the energy that sliding takes go together. */
+static pg_status read_shear (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
+{
+    static const char *const names[3] = { "cohesion", "friction_angle", "shear_fracture_energy" };
+    char map[PG_LIMITS], path[PG_LIMITS + 32];
+    c->parameter[COHESION] = optional (scene, setting, names[0]);
+    c->parameter[ANGLE] = optional (scene, setting, names[1]);
+    for (int k = 1; k < 3 && pg_criterion_holder (map, scene, setting, names[0]); k++) {
+        snprintf (path, sizeof path, "%s.%s", map, names[0]);
+        if (!pg_criterion_holder (map, scene, setting, names[k]))
+            pg_scene_fault (scene, path, "cracks begin in shear by a cohesion with failure.%s: give it, or "
+                            "leave the cohesion out", names[k]);
+    }
+    if (pg_criterion_holder (map, scene, setting, names[1])
+        && !pg_criterion_holder (map, scene, setting, names[0])) {
+        pg_criterion_holder (map, scene, setting, names[1]);
+        snprintf (path, sizeof path, "%s.%s", map, names[1]);
+        pg_scene_fault (scene, path, "has a meaning with failure.cohesion alone: give that, or leave it out");
+    }
+    return PG_OK;
+}
+
 /* The imposed path; every material has a copy, so that each can be freed by itself. */
 static pg_status read_path (energy_release *own, const pg_scene *scene)
 {
@@ -73,6 +96,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     PG_TRY (read_energy (c, scene, setting));
     c->parameter[SHEAR] = optional (scene, setting, "shear_fracture_energy");
     c->parameter[STRENGTH] = optional (scene, setting, "tensile_strength");
+    PG_TRY (read_shear (c, scene, setting));
     PG_TRY (read_path (own, scene));
 done:
     return status;
@@ -96,6 +120,7 @@ static void fracture (const pg_criterion *c, const double *x, double angle, pg_f
     pg_place at = { x[0], x[1], x[2], hypot (x[0], x[1]), angle - turn * floor (angle / turn), 0 };
     out->energy = own->energy ? pg_expression_value (own->energy, &at) : c->parameter[ENERGY];
     out->shear = c->parameter[SHEAR], out->strength = c->parameter[STRENGTH];
+    out->cohesion = c->parameter[COHESION], out->slope = tan (c->parameter[ANGLE]);
 }
 
 static int uneven (const pg_criterion *c)
@@ -122,6 +147,10 @@ static void describe (const pg_criterion *c, char *text, size_t size)
     if (used < size && !isnan (c->parameter[STRENGTH]))
         used += (size_t) snprintf (text + used, size - used, ", new cracks at %.6g Pa and that energy",
                                    c->parameter[STRENGTH]);
+    if (used < size && !isnan (c->parameter[COHESION]))
+        used += (size_t) snprintf (text + used, size - used,
+                                   ", new cracks in shear at cohesion %.6g Pa, friction angle %.6g deg",
+                                   c->parameter[COHESION], c->parameter[ANGLE] * 57.295779513082320877);
     if (used < size && own->npath) snprintf (text + used, size - used, ", along failure.path");
 }
 
@@ -154,7 +183,7 @@ const pg_criterion_type pg_criterion_energy_release = {
     .summary = "energy that a piece of crack sets free reaches the fracture energy; cracks grow by facets",
     .needs = PG_NEEDS_FACETS,
     .needed = 1,
-    .limits = { &criterion_keys_energy, &criterion_keys_tension, &limits },
+    .limits = { &criterion_keys_energy, &criterion_keys_tension, &limits, &criterion_keys_shear },
     .options = { &options, &criterion_keys_calibration },
     .read = read,
     .fracture = fracture,

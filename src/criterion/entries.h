@@ -9,8 +9,9 @@
 
 const pg_criterion_type *pg_criterion_entry (size_t i);                /* NULL past the end */
 
-/* Limits that several criteria share (keys.c): fracture_energy; tensile_strength. */
-extern const pg_key_table criterion_keys_energy, criterion_keys_tension;
+/* Limits that several criteria share (keys.c): fracture_energy; tensile_strength; cohesion
+ * and friction_angle. */
+extern const pg_key_table criterion_keys_energy, criterion_keys_tension, criterion_keys_shear;
 /* An option that criteria of bonds with a fracture energy share (keys.c): calibration. */
 extern const pg_key_table criterion_keys_calibration;
 /* What failure.calibration makes of the setting: c->growth is filled, and the factor of the energy of a

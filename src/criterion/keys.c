@@ -97,3 +97,22 @@ static const pg_key tension[] = {
       .doc = "Largest principal stress that a bond bears." },
 };
 const pg_key_table criterion_keys_tension = { "criterion", tension, sizeof tension / sizeof *tension };
+
+static const pg_key shear[] = {
+    { .path = "failure.cohesion",
+      .kind = PG_NUMBER,
+      .unit = "Pa",
+      .range = "(0, inf)",
+      .fallback = "",
+      .doc = "Shear strength without normal stress. Where tips are judged (with friction_angle, "
+             "shear_fracture_energy and contact.kind): new cracks begin in shear under compression where "
+             "this and shear_fracture_energy are reached." },
+    { .path = "failure.friction_angle",
+      .kind = PG_NUMBER,
+      .unit = "rad",
+      .range = "[0, 1.5707)",
+      .fallback = "",
+      .doc = "Angle of internal friction, below 90 deg; what faces bear that have formed is "
+             "contact.coefficient." },
+};
+const pg_key_table criterion_keys_shear = { "criterion", shear, sizeof shear / sizeof *shear };

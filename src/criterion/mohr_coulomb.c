@@ -62,27 +62,11 @@ static void describe (const pg_criterion *c, char *text, size_t size)
               phi * 57.295779513082320877, strength);
 }
 
-static const pg_key limit_keys[] = {
-    { .path = "failure.cohesion",
-      .kind = PG_NUMBER,
-      .unit = "Pa",
-      .range = "(0, inf)",
-      .fallback = "",
-      .doc = "Shear strength without normal stress." },
-    { .path = "failure.friction_angle",
-      .kind = PG_NUMBER,
-      .unit = "rad",
-      .range = "[0, 1.5707)",
-      .fallback = "",
-      .doc = "Angle of internal friction, below 90 deg." },
-};
-static const pg_key_table limits = { "criterion", limit_keys, 2 };
-
 const pg_criterion_type pg_criterion_mohr_coulomb = {
     .name = "mohr_coulomb",
     .summary = "shear strength of Mohr-Coulomb with a tension cut-off",
     .needs = PG_NEEDS_STRESS,
-    .limits = { &criterion_keys_tension, &limits },
+    .limits = { &criterion_keys_tension, &criterion_keys_shear },
     .read = read,
     .utilisation = utilisation,
     .factor = factor,

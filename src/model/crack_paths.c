@@ -149,10 +149,12 @@ static void split_first (pg_crack_paths *w, const pg_problem *p, pg_tip *t)
     t->segment = k;
 }
 
-/* Of a path at its tip, m: scaled with the local spacing, and no more than a share of the path. */
-static double offset_at (const pg_state *state, const pg_problem *p, size_t tip)
+/* Of a path at its tip, m: scaled with the local spacing, and no more than a share of the path. slides: its
+ * faces touch and slide. */
+static double offset_at (const pg_state *state, const pg_problem *p, size_t tip, int slides)
 {
-    double o = p->tip_offset * pg_problem_spacing_at (p, state->paths->tip[tip].x) / p->cloud.h;
+    double o = (slides ? p->closed_tip_offset : p->tip_offset)
+               * pg_problem_spacing_at (p, state->paths->tip[tip].x) / p->cloud.h;
     return fmin (o, OFFSET_OF_PATH * pg_tip_behind (state, tip, o / OFFSET_OF_PATH));
 }
 
@@ -283,7 +285,7 @@ pg_status pg_crack_grow (pg_state *s, const pg_problem *p, size_t tip, const dou
         close_tip (c.fresh, p, tip, c.changed);
         close_met (c.fresh, p, tip, c.changed);
     } else {
-        t->offset = offset_at (&view, p, tip);
+        t->offset = offset_at (&view, p, tip, 0);
         set_retreats (c.fresh, t, t->offset, length + before + t->offset, c.changed);
     }
     PG_TRY (finish (&c, s, p, cut));
@@ -321,7 +323,7 @@ pg_status pg_crack_start (pg_state *s, const pg_problem *p, const double *from, 
         if (open & 1 << at) {
             add_tip (w, k, at);
             pg_tip *t = &w->tip[w->ntip - 1];
-            *retreat = t->offset = offset_at (&view, p, w->ntip - 1);
+            *retreat = t->offset = offset_at (&view, p, w->ntip - 1, open & PG_START_SLIDES);
         } else {
             for (int m = 0; m < 2; m++) e[m] /= length;
             *retreat = -fmax (w->nothing, beyond (p, vertex_of (w, k, at), e));

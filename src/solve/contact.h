@@ -92,6 +92,7 @@ struct system_contact {
     unsigned char *status;                             /* of each piece (n) */
     double   *nodal;                                   /* G' f, N (ndof) */
     int       active;                                  /* some force is not zero */
+    int       began;  /* pieces have been looked for: cracks that had none are new */
     int       touched;                                 /* the last equilibrium asked for the compliance */
     int       history;                                 /* 1: slip has a memory from step to step */
     /* what stands in the equations of a time step over the mean force of that step; 1 at rest */

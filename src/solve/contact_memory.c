@@ -55,6 +55,7 @@ pg_status contact_remember (struct system_contact *c)
 {
     pg_status status = PG_OK;
     size_t dim = c->pieces.dim;
+    int first = !c->now.n && !(c->began && c->ncrack);
     contact_layout l = contact_layout_of (dim);
     contact_memory fresh = { .friction = c->now.friction, .at = c->now.at, .n = c->pieces.n };
     PG_GROW (fresh.value, fresh.room, fresh.n * l.values);
@@ -66,7 +67,7 @@ pg_status contact_remember (struct system_contact *c)
         memcpy (v + l.normal, p->normal, dim * sizeof *v), v[l.platen] = (double) p->platen;
         for (size_t q = c->pieces.first[k]; q < c->pieces.first[k + 1]; q++) {
             size_t at = piece_at (&c->now, &c->pieces, p->platen, q);
-            sum += c->pieces.weight[q], old += at != SIZE_MAX || !c->now.n ? c->pieces.weight[q] : 0;
+            sum += c->pieces.weight[q], old += at != SIZE_MAX || first ? c->pieces.weight[q] : 0;
             for (size_t i = l.shear; at != SIZE_MAX && i < l.values; i++)
                 v[i] += c->pieces.weight[q] * c->now.value[at * l.values + i];
         }

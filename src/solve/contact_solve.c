@@ -148,6 +148,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
     c->pieces.dim = (size_t) s->problem->dim, c->ncrack = c->pieces.n;
     PG_TRY (platens_refresh (s, state));
     PG_TRY (make_pairs (s));
+    c->began = 1;
     /* in motion their mass holds them */
     if ((s->options->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC)
         PG_TRY (loose_refresh (&c->loose, s, state));

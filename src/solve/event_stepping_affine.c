@@ -351,6 +351,19 @@ done:
     return status;
 }
 
+pg_status affine_stay (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->break_loop.system;
+    events_of (s)->arrested = 0;
+    contact_route_forget (sys);
+    PG_TRY (contact_route_mark (sys));
+    contact_route_return (sys, 0, state->d);
+    contact_route_forget (sys);
+done:
+    return status;
+}
+
 /* From a place where something is over its limit the way is back, if there is one; it ends here else. */
 pg_status affine_next_growth (pg_solver *s, pg_state *state, double *end)
 {

@@ -123,8 +123,9 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     if (!s->finished) PG_TRY (instability_after (s, &e->unstable, state, factor, e->ended, &moves));
     if (moves) step->dissipated = b->work - work - (s->report.energy_strain - strain);
     if (ended || moves) goto done;
-    PG_TRY (way_end (s, state, factor, &end));
     /* a new crack comes into being at once, at the load at which it is possible: no equilibria lead there */
+    if (g->began && e->base && b->system.contact) PG_TRY (affine_stay (s, state));
+    else PG_TRY (way_end (s, state, factor, &end));
     if (g->began) end = factor;
     PG_TRY (account (s, state, factor, end));
     step->dissipated = b->work - work - (s->report.energy_strain - strain);

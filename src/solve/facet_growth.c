@@ -40,6 +40,12 @@ static void doubt_length (const break_loop *b)
                 "cracks begin the strength counts as at most %.3g Pa (zone of 8 facets)",
                 p->material[m].name, zone, zone / h, h,
                 hot_strength_cap (p->material[m].E, limits.energy, h));
+        double cap = hot_strength_cap (p->material[m].E, limits.shear, h);
+        if (limits.cohesion > cap)
+            pg_statistics_warn (b->system.report,
+                                "material %.40s has too large a cohesion for facets of %.3g m: where cracks "
+                                "begin in shear it counts as %.3g Pa (zone E G_II / c^2 of 8 facets)",
+                                p->material[m].name, h, cap);
     }
 }
 
@@ -235,8 +241,8 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
         if (!state->paths->tip[i].open) continue;
         PG_TRY (measure_tip (b, &measured, i, d, times));
     }
-    /* what facets set free is not known where cutting changes which faces touch */
     if (!g->moving && !s->contact) PG_TRY (trial_facets (b, state, d, times));
+    if (!g->moving && s->contact) PG_TRY (trial_new_cracks (b, state, d, times));
     tell (b, state);
     g->fresh = 1;
 done:
@@ -330,7 +336,8 @@ static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate
     /* another tip ran into it at this event */
     if (c->tip >= 0 && !state->paths->tip[c->tip].open) return PG_OK;
     if (c->tip >= 0) PG_TRY (pg_crack_grow (state, p, (size_t) c->tip, c->to, c->close, &b->changes));
-    else PG_TRY (pg_crack_start (state, p, c->from, c->to, c->open, &b->changes));
+    else PG_TRY (pg_crack_start (state, p, c->from, c->to, c->open | (c->slides ? PG_START_SLIDES : 0),
+                                 &b->changes));
     PG_TRY (close_others (b, state, c));
     kill_listed (b, state);
     g->needed += c->energy, g->event_energy += c->energy, g->closed |= c->close, g->began |= c->tip < 0;

@@ -19,7 +19,7 @@ typedef struct {
     /* of a new crack: bit 0: a tip at `from`, bit 1: at `to` */
     int    open;
     int    close;                                      /* of a tip: it ends here, in the surface or a crack */
-    int    slides;                                     /* 1: it takes the energy of sliding */
+    int    slides;  /* 1: it takes the energy of sliding; a new crack: its faces touch */
     double energy;                                     /* what it takes: energy per area times its area, J */
     /* what it sets free: sum_ab l_a l_b release[a][b], J */
     double release[2][2];
@@ -221,6 +221,9 @@ int  facet_way_out (const break_loop *b, const pg_state *state, size_t tip, face
 /* Offers facets that no field around a tip can judge, for the displacement fields at hand (g->nfield of them,
  * ndof each). Called after the tips have been measured: g->field[i].near is NAN where tip i has no room. */
 pg_status trial_facets (break_loop *b, const pg_state *state, const double *const *d, const double *t);
+/* With contact: new cracks alone; what facets of tips set free is not known where cutting changes which faces
+ * touch. */
+pg_status trial_new_cracks (break_loop *b, const pg_state *state, const double *const *d, const double *t);
 /* Where does the displacement d at t reach the strength, away from tips and cracks? x: 3, m. */
 pg_status trial_hot_place (break_loop *b, const pg_state *state, const double *d, double t, double *x,
                            int *any);

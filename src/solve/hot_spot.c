@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Hot spots: places where the largest principal stress, averaged over a disc of one spacing, reaches the
- * strength at the least load factor. No crack through such a place begins below it, so that most places
- * need not be looked at any closer. */
+ * strength at the least load factor, or the shear stress on some plane that of Coulomb. No crack
+ * through such a place begins below it, so that most places need not be looked at any closer. */
 #include "facet_growth.h"
 #include "hot_spot.h"
 #include <math.h>
@@ -16,12 +16,13 @@ double hot_strength_cap (double modulus, double energy, double h)
 }
 
 /* ---- stress -------------------------------------------------------------------------------------------- */
-/* The least lambda >= 0 at which the largest principal stress reaches f: it is m + R with m and R^2 a
- * linear and a quadratic polynomial, so that (f - m)^2 = R^2 with m <= f. */
-static double strength_factor (const affine_stress *s, double f)
+/* The least lambda >= 0 at which w m + R reaches f, m the mean of the principal stresses and R half their
+ * difference, a linear polynomial and the root of a quadratic one, so that (f - w m)^2 = R^2 with w m <= f.
+ * w = 1: the largest principal stress. */
+static double strength_factor (const affine_stress *s, double f, double w)
 {
     const double *c = s->constant, *d = s->slope;
-    double m0 = 0.5 * (c[0] + c[1]), m1 = 0.5 * (d[0] + d[1]), d0 = 0.5 * (c[0] - c[1]),
+    double m0 = 0.5 * w * (c[0] + c[1]), m1 = 0.5 * w * (d[0] + d[1]), d0 = 0.5 * (c[0] - c[1]),
            d1 = 0.5 * (d[0] - d[1]), t0 = c[2], t1 = d[2];
     double C = (f - m0) * (f - m0) - d0 * d0 - t0 * t0, B = -(f - m0) * m1 - d0 * d1 - t0 * t1,
            A = m1 * m1 - d1 * d1 - t1 * t1, least = INFINITY;
@@ -33,6 +34,22 @@ static double strength_factor (const affine_stress *s, double f)
     for (int k = 0; k < 2; k++)
         if (root[k] > 0 && root[k] < least && m0 + root[k] * m1 <= f * (1 + 1e-9)) least = root[k];
     return least;
+}
+
+/* R + m sin phi = c cos phi on the planes at 45 degrees - phi/2 to the largest pressure. */
+double hot_shear_factor (const affine_stress *s, double c, double slope)
+{
+    double cosine = 1 / sqrt (1 + slope * slope);
+    return strength_factor (s, c * cosine, slope * cosine);
+}
+
+/* Tension or shear, whichever is reached first; *slides: shear. */
+static double reached (const affine_stress *s, const pg_fracture_limits *limits, int *slides)
+{
+    double tension = limits->strength > 0 ? strength_factor (s, limits->strength, 1) : INFINITY,
+           shear = limits->cohesion > 0 ? hot_shear_factor (s, limits->cohesion, limits->slope) : INFINITY;
+    *slides = shear < tension;
+    return *slides ? shear : tension;
 }
 
 /* The angle (rad, from x) across which the largest principal stress acts: that of a crack. */
@@ -94,9 +111,10 @@ done:
 int hot_resists (const search *g, const double *x, double angle, double h, double modulus,
                     pg_fracture_limits *out)
 {
-    if (!g->limits (g->context, x, angle, out) || !(out->strength > 0)) return 0;
-    out->strength = fmin (out->strength, hot_strength_cap (modulus, out->energy, h));
-    return out->energy > 0 && out->strength > 0;
+    if (!g->limits (g->context, x, angle, out) || !(out->strength > 0 || out->cohesion > 0)) return 0;
+    if (out->strength > 0) out->strength = fmin (out->strength, hot_strength_cap (modulus, out->energy, h));
+    if (out->cohesion > 0) out->cohesion = fmin (out->cohesion, hot_strength_cap (modulus, out->shear, h));
+    return out->energy > 0;
 }
 
 /* ---- hot spots ----------------------------------------------------------------------------------------- */
@@ -130,12 +148,13 @@ static pg_status node_factors (const search *g, double *factor)
         double x[3] = { p->cloud.x[2*i], p->cloud.x[2*i + 1], 0 }, h = pg_problem_spacing (p, PG_NODES, i);
         const double *first = stress[0] + nv * i, *second = g->f->n == 2 ? stress[1] + nv * i : first;
         pg_fracture_limits limits;
+        int slides;
         factor[i] = INFINITY;
         affine_stress at = affine_of (g->f, first, second);
         if (p->exempt[PG_NODES][i]
             || !hot_resists (g, x, 0, h, p->material[p->block[PG_NODES][i]].modulus, &limits))
             continue;
-        factor[i] = strength_factor (&at, limits.strength);
+        factor[i] = reached (&at, &limits, &slides);
         if (factor[i] < g->best && hot_excluded (g, x, h)) factor[i] = INFINITY;
     }
 done:
@@ -157,9 +176,9 @@ static pg_status average (const search *g, size_t node, hot_spot *out)
     }
     PG_TRY (hot_stress (g, DISC, DISC, x, &out->stress));
     out->factor = INFINITY;
-    out->modulus = p->material[p->block[PG_NODES][node]].modulus;
+    out->material = &p->material[p->block[PG_NODES][node]], out->modulus = out->material->modulus;
     if (!hot_resists (g, out->x, 0, out->h, out->modulus, &limits)) goto done;
-    out->factor = strength_factor (&out->stress, limits.strength);
+    out->factor = reached (&out->stress, &limits, &out->slides), out->slope = limits.slope;
     out->angle = isfinite (out->factor) ? crack_angle (&out->stress, out->factor) : 0;
 done:
     return status;

@@ -12,7 +12,12 @@ typedef struct {
     double x[3];                                       /* m */
     affine_stress stress;                              /* averaged there */
     double factor;                                     /* load factor at which the strength is reached */
-    double angle;                                      /* of a crack across the largest tension, rad from x */
+    /* of a crack across the largest tension, rad from x; of one that slides half way between the two on which
+     * the strength in shear is reached together */
+    double angle;
+    int    slides;                                     /* 1: it is the strength in shear that is reached */
+    double slope;                                      /* then: tangent of the angle of friction there */
+    const pg_material *material;
     double h;                                          /* local spacing, m */
     double modulus;                                    /* Young's modulus, Pa */
     const pg_interface *interface;                     /* that it lies on, its angle along it; NULL: none */
@@ -28,6 +33,9 @@ typedef struct {
     double best;                                       /* least load factor so far */
 } search;
 
+/* Load factor >= 0 at which the largest of tau - slope p over all planes reaches the cohesion c (Coulomb), p
+ * the pressure across the plane. */
+double    hot_shear_factor (const affine_stress *s, double c, double slope);
 /* The largest strength that points h apart can tell, Pa: an eighth of E G0/f^2 is to be h at least. */
 double    hot_strength_cap (double modulus, double energy, double h);
 /* Stress at n places (n x 2), of which each `count` that follow each other and have body are averaged: n /

@@ -15,6 +15,7 @@
 #include "facet_growth.h"
 #include "hot_spot.h"
 #include "interface_facet.h"
+#include "shear_initiation.h"
 #include <math.h>
 #include <string.h>
 
@@ -29,6 +30,8 @@ enum {
     LATERAL = 3                                        /* places beside each, to average its stress over */
 };
 static const double even = 0.02;                       /* share of the load factor */
+/* Spacings: a closed crack that is shorter has no room for two pieces of its faces. */
+static const double CLOSED_LEAST = 4;
 /* What an estimate may be off by before its spot is not looked at any closer. */
 static const double doubt = 1.25;
 
@@ -40,10 +43,14 @@ typedef struct {
     int    edge;
     double h, modulus;                                 /* m, Pa */
     const pg_interface *interface;                     /* that it runs along */
+    shear_start shear;                                 /* sense != 0: it slides under pressure */
+    double least;                                      /* shortest that is tried, m */
     /* places along it, from -reach to +reach; stress across over strength: c + lambda s; strength, Pa;
      * energy needed, J/m */
     size_t n;
-    double at[MOST_PLACES], c[MOST_PLACES], s[MOST_PLACES], strength[MOST_PLACES], needed[MOST_PLACES];
+    double at[MOST_PLACES], c[MOST_PLACES], s[MOST_PLACES], needed[MOST_PLACES];
+    /* what drives it there, Pa: constant + lambda slope; stress of the crack's frame (shear_initiation.h) */
+    double drive[MOST_PLACES][2], face[MOST_PLACES][4];
     double factor, about;                              /* estimates: load factor, and length there, m */
     /* what it sets free over length^power: polynomials of lambda, value and slope over the length; power 2:
      * J/m^2 */
@@ -69,12 +76,16 @@ static void put_inside (const search *g, trial_crack *c)
 }
 
 /* Direction, and how far the body goes to both sides: from the surface if that is within a spacing. */
-static void lay (const search *g, const hot_spot *spot, trial_crack *c)
+static void lay (const search *g, const hot_spot *spot, int side, trial_crack *c)
 {
     const pg_problem *p = g->w->system->problem;
     int what;
     *c = (trial_crack) { .h = spot->h, .modulus = spot->modulus, .angle = spot->angle,
-                         .interface = spot->interface };
+                         .interface = spot->interface, .least = spot->h };
+    if (spot->slides) {
+        c->least = CLOSED_LEAST * spot->h;
+        shear_lay (g, spot, side, &c->angle, &c->shear);
+    }
     memcpy (c->origin, spot->x, sizeof c->origin);
     c->direction[0] = cos (c->angle), c->direction[1] = sin (c->angle);
     put_inside (g, c);
@@ -87,7 +98,7 @@ static void lay (const search *g, const hot_spot *spot, trial_crack *c)
         double swap = c->reach[0];
         c->reach[0] = c->reach[1], c->reach[1] = swap;
         memcpy (c->direction, back, sizeof back);
-        c->angle += acos (-1);
+        c->angle += acos (-1);                         /* the shear stress keeps its sign */
     }
     if (!c->edge) return;
     for (int k = 0; k < 2; k++) c->origin[k] -= c->reach[0] * c->direction[k];
@@ -122,12 +133,32 @@ static int resists (const search *g, const trial_crack *c, const double *x, pg_f
     return 1;
 }
 
-/* Stress across the crack over the strength along it, and the energy that it takes there. */
+/* Place i by its limits and its stress: that on the plane of the crack, that over the strength, what drives
+ * the crack, and the energy that it takes. */
+static void judge_place (trial_crack *c, size_t i, const pg_fracture_limits *limits,
+                         const affine_stress *stress, double thickness)
+{
+    double a = -c->direction[1], b = c->direction[0], across[3] = { a * a, b * b, 2 * a * b },
+           along[3] = { a * b, -a * b, b * b - a * a }, *face = c->face[i];
+    int shear = c->shear.sense != 0;
+    /* tension alone, or shear less what pressure adds to the strength */
+    double strength = shear ? limits->cohesion : limits->strength, weight = shear ? limits->slope : 1;
+    if (!(strength > 0)) return;
+    c->needed[i] = (shear ? limits->shear : limits->energy) * thickness;
+    for (int k = 0; k < 3; k++) {
+        face[0] += across[k] * stress->constant[k], face[1] += across[k] * stress->slope[k];
+        face[2] += along[k] * stress->constant[k], face[3] += along[k] * stress->slope[k];
+    }
+    c->c[i] = (weight * face[0] + c->shear.sense * face[2]) / strength;
+    c->s[i] = (weight * face[1] + c->shear.sense * face[3]) / strength;
+    for (int k = 0; k < 2; k++) c->drive[i][k] = shear_drive (&c->shear, face, k);
+}
+
+/* Stress and limits along the crack. */
 static pg_status look_along (const search *g, trial_crack *c)
 {
     pg_status status = PG_OK;
     double step = c->h / PER_SPACING, *x = NULL;
-    double a = -c->direction[1], b = c->direction[0], across[3] = { a * a, b * b, 2 * a * b };
     affine_stress *stress = NULL;
     c->n = (size_t) (floor (c->reach[1] / step) + (c->edge ? 0 : floor (c->reach[0] / step))) + 1;
     if (c->n > MOST_PLACES) c->n = MOST_PLACES;
@@ -140,14 +171,9 @@ static pg_status look_along (const search *g, trial_crack *c)
                             c->origin[1] + c->at[i] * c->direction[1] };
         pg_fracture_limits limits;
         /* where none can grow no crack goes through */
-        c->needed[i] = INFINITY, c->strength[i] = 1;
-        if (!resists (g, c, place, &limits)) continue;
-        c->needed[i] = limits.energy * g->w->system->problem->cloud.thickness;
-        c->strength[i] = limits.strength;
-        for (int k = 0; k < 3; k++) {
-            c->c[i] += across[k] * stress[i].constant[k] / limits.strength;
-            c->s[i] += across[k] * stress[i].slope[k] / limits.strength;
-        }
+        c->needed[i] = INFINITY;
+        if (resists (g, c, place, &limits))
+            judge_place (c, i, &limits, &stress[i], g->w->system->problem->cloud.thickness);
     }
 done:
     pg_free (x), pg_free (stress);
@@ -171,13 +197,26 @@ static size_t nearest_place (const trial_crack *c, double at)
     return i < 0 ? 0 : i > (double) (c->n - 1) ? c->n - 1 : (size_t) i;
 }
 
-/* Stress across at a place along the crack, linear between those that were looked at; beyond them
- * constant. */
+/* A place along the crack between those that were looked at: from *i on, the share of the way to *j. */
+static double between (const trial_crack *c, double at, size_t *i, size_t *j)
+{
+    *i = nearest_place (c, at), *j = *i + 1 < c->n ? *i + 1 : *i;
+    return *j > *i ? fmin (1, fmax (0, (at - c->at[*i]) / (c->at[*j] - c->at[*i]))) : 0;
+}
+
+/* Stress over strength there, linear; beyond those places constant; and what drives the crack, Pa. */
 static void stress_at (const trial_crack *c, double at, double out[2])
 {
-    size_t i = nearest_place (c, at), j = i + 1 < c->n ? i + 1 : i;
-    double share = j > i ? fmin (1, fmax (0, (at - c->at[i]) / (c->at[j] - c->at[i]))) : 0;
+    size_t i, j;
+    double share = between (c, at, &i, &j);
     out[0] = c->c[i] + share * (c->c[j] - c->c[i]), out[1] = c->s[i] + share * (c->s[j] - c->s[i]);
+}
+
+static void drive_at (const trial_crack *c, double at, double out[2])
+{
+    size_t i, j;
+    double share = between (c, at, &i, &j);
+    for (int k = 0; k < 2; k++) out[k] = c->drive[i][k] + share * (c->drive[j][k] - c->drive[i][k]);
 }
 
 static double stress_factor (const double v[2])
@@ -230,9 +269,8 @@ static void estimate_K (const trial_crack *c, double l, double K[2])
         double s = sin (quarter * ((c->edge ? q : 2*q - PARTS) + (c->edge ? 0.5 : 1)) / PARTS);
         double at = c->edge ? s * a : 0.5 * (end[1] - end[0]) + s * a;
         double weight = c->edge ? 1.3 - 0.3 * pow (s, 1.25) : 1;
-        size_t i = nearest_place (c, at);
-        stress_at (c, at, v);
-        weight *= 2 * sqrt (a / acos (-1)) * quarter / PARTS * c->strength[i];
+        drive_at (c, at, v);
+        weight *= 2 * sqrt (a / acos (-1)) * quarter / PARTS;
         for (int k = 0; k < 2; k++) K[k] += weight * v[k];
     }
 }
@@ -243,7 +281,7 @@ static void estimate (const search *g, trial_crack *c)
     enum { STEPS = 200 };
     const double t = g->w->system->problem->cloud.thickness;
     double all = c->reach[0] + c->reach[1], l = 0, release[3] = { 0 };
-    c->factor = INFINITY, c->about = c->h;
+    c->factor = INFINITY, c->about = c->least;
     for (int k = 0; k < STEPS && l < all; k++) {
         double step = fmax (0.25 * c->h, all / STEPS), K[2], unused[2];
         step = fmin (step, all - l);
@@ -253,7 +291,7 @@ static void estimate (const search *g, trial_crack *c)
         release[2] += K[1] * K[1] / c->modulus * step * t;
         l += step;
         double factor = fmax (trial_energy_factor (release, energy_of (c, l)), lambda_S (c, l, unused));
-        if (factor < c->factor) c->factor = factor, c->about = l;
+        if (factor < c->factor && l >= c->least * (1 - 1e-9)) c->factor = factor, c->about = l;
     }
 }
 
@@ -271,14 +309,14 @@ static double lambda_E (const trial_crack *c, double l)
     return trial_energy_factor (polynomial, energy_of (c, l));
 }
 
-/* Lengths about one, a quarter of a spacing apart at least, from one spacing on. Returns how many. */
+/* Lengths about one, a quarter of a spacing apart at least, from the least on. Returns how many. */
 static size_t choose_lengths (const trial_crack *c, double about, double *length)
 {
     static const double share[LENGTHS] = { 0.6, 0.75, 0.9, 1.05, 1.2, 1.4 };
     double all = c->reach[0] + c->reach[1], last = 0;
     size_t n = 0;
     for (int k = 0; k < LENGTHS; k++) {
-        double l = fmax (share[k] * about, n ? last + 0.25 * c->h : c->h);
+        double l = fmax (share[k] * about, n ? last + 0.25 * c->h : c->least);
         /* less than half a spacing left: through */
         if (all - l < 0.5 * c->h) l = all;
         length[n++] = last = l;
@@ -342,6 +380,21 @@ static int place_ends (const trial_crack *c, double l, double *from, double *to)
     return open;
 }
 
+/* The fields without what the faces of a closed crack of that length bear: means along it. */
+static pg_status free_fields (const search *g, const trial_crack *c, double l, trial_fields *out)
+{
+    double end[2], mean[4] = { 0 };
+    size_t count = 0;
+    ends_of (c, l, end);
+    for (size_t i = 0; i < c->n; i++) {
+        if (c->at[i] < -end[0] || c->at[i] > end[1]) continue;
+        count++;
+        for (int k = 0; k < 4; k++) mean[k] += c->face[i][k];
+    }
+    for (int k = 0; k < 4; k++) mean[k] /= (double) (count ? count : 1);
+    return shear_free_fields (g, &c->shear, c->angle, mean, out);
+}
+
 /* Cuts lengths about one and fits what they set free. */
 static pg_status try_lengths (const search *g, trial_crack *c, double about)
 {
@@ -352,8 +405,11 @@ static pg_status try_lengths (const search *g, trial_crack *c, double about)
     int open[LENGTHS];
     size_t n = choose_lengths (c, about, length);
     for (size_t k = 0; k < n; k++) open[k] = place_ends (c, length[k], from + 3*k, to + 3*k);
+    for (size_t k = 0; k < n && c->shear.sense; k++) open[k] |= PG_START_SLIDES;
     PG_TRY (trial_cuts (g->w, g->state, n, from, to, open, cut));
-    PG_TRY (trial_release (g->w, g->state, g->f, n, cut, form));
+    trial_fields fields = *g->f;
+    if (c->shear.sense) PG_TRY (free_fields (g, c, about, &fields));
+    PG_TRY (trial_release (g->w, g->state, &fields, n, cut, form));
     for (size_t k = 0; k < n; k++) trial_polynomial (g->f, &form[k], energy[k]);
     /* what cuts the body through is no longer one of a series */
     if (n > 1 && length[n - 1] >= c->reach[0] + c->reach[1]) n--;
@@ -402,7 +458,7 @@ static pg_status try_crack (const search *g, trial_crack *c, trial_start *out)
         double about = l;
         both (c, c->longest, &over);
         l = best_length (c, 0.5 * c->shortest, over ? fmin (2 * c->longest, all) : c->longest, &out->factor);
-        int inside = (l >= c->shortest * (1 - 1e-9) || c->shortest <= c->h * (1 + 1e-9))
+        int inside = (l >= c->shortest * (1 - 1e-9) || c->shortest <= c->least * (1 + 1e-9))
                      && l <= c->longest * (1 + 1e-9);
         if (inside || fabs (l - about) < 0.1 * about || out->factor > doubt * g->best) break;
     }
@@ -410,8 +466,8 @@ static pg_status try_crack (const search *g, trial_crack *c, trial_start *out)
     release_of (c, l, out->release);
     out->energy = energy_of (c, l);
     /* a facet of less than a spacing cuts next to nothing */
-    out->length = fmin (fmax (l, c->h), all);
-    out->open = place_ends (c, out->length, out->from, out->to);
+    out->length = fmin (fmax (l, c->least), all);
+    out->open = place_ends (c, out->length, out->from, out->to), out->slides = c->shear.sense != 0;
 done:
     return status;
 }
@@ -439,6 +495,20 @@ static size_t next_crack (const trial_crack *c, size_t n, const unsigned char *d
     return best;
 }
 
+/* The crack of a hot spot (its plane of number `side`), and an estimate. *never 1: there is none. */
+static pg_status prepare (const search *g, const hot_spot *spot, int side, trial_crack *c,
+                          unsigned char *never)
+{
+    pg_status status = PG_OK;
+    lay (g, spot, side, c);
+    *never = !isfinite (spot->factor) || !(c->reach[0] + c->reach[1] >= c->least);
+    if (*never) return PG_OK;
+    PG_TRY (look_along (g, c));
+    estimate (g, c);
+done:
+    return status;
+}
+
 pg_status trial_initiation (trials *w, const pg_state *state, const trial_fields *f, trial_limits limits,
                             void *context, double below, trial_start *out, size_t *n, int *arbitrary)
 {
@@ -447,23 +517,21 @@ pg_status trial_initiation (trials *w, const pg_state *state, const trial_fields
     trial_crack *c = NULL;
     hot_spot spot[MOST_SPOTS + MOST_ON_INTERFACES];
     trial_start tried[MOST_TRIED] = { { .factor = 0 } };
-    unsigned char done_[MOST_SPOTS + MOST_ON_INTERFACES] = { 0 };
-    size_t nspot, more, ntried = 0, about = 0, k;
+    unsigned char done_[2 * (MOST_SPOTS + MOST_ON_INTERFACES)] = { 0 };
+    size_t nspot, more, ntried = 0, about = 0, k, ncrack = 0;
     *n = 0, *arbitrary = 0;
     if (!state->paths || !w->system->force->field) return PG_OK;
     PG_TRY (hot_spots (&g, MOST_SPOTS, spot, &nspot));
     PG_TRY (hot_interfaces (&g, MOST_ON_INTERFACES, spot + nspot, &more));
     nspot += more;
-    PG_ALLOC (c, nspot);
+    PG_ALLOC (c, 2 * nspot);
     for (size_t i = 0; i < nspot; i++) {
         about += !spot[i].interface && spot[i].factor <= spot[0].factor * (1 + even);
-        lay (&g, &spot[i], &c[i]);
-        done_[i] = !isfinite (spot[i].factor) || !(c[i].reach[0] + c[i].reach[1] >= c[i].h);
-        if (done_[i]) continue;
-        PG_TRY (look_along (&g, &c[i]));
-        estimate (&g, &c[i]);
+        /* in shear two planes are as near to failure */
+        for (int side = 0; side <= spot[i].slides; side++, ncrack++)
+            PG_TRY (prepare (&g, &spot[i], side, &c[ncrack], &done_[ncrack]));
     }
-    while (ntried < MOST_TRIED && (k = next_crack (c, nspot, done_, doubt * g.best)) != SIZE_MAX) {
+    while (ntried < MOST_TRIED && (k = next_crack (c, ncrack, done_, doubt * g.best)) != SIZE_MAX) {
         done_[k] = 1;
         PG_TRY (try_crack (&g, &c[k], &tried[ntried]));
         g.best = fmin (g.best, tried[ntried].factor);

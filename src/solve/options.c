@@ -270,6 +270,7 @@ int options_begin_cracks (const pg_problem *problem)
         if (!c->type || c->never || !pg_criterion_of_tips (c)) continue;
         c->type->fracture (c, origin, 0, &limits);
         if (isfinite (limits.strength) && limits.strength > 0) return 1;
+        if (limits.cohesion > 0) return 1;
     }
     return 0;
 }
@@ -331,6 +332,23 @@ static void check_faces (const pg_problem *problem, const pg_scene *scene)
                         "displacements: use method.stretch: linear, or set none");
 }
 
+/* Cracks that begin in shear under pressure do not open. */
+static void need_contact (const pg_problem *problem, const pg_scene *scene)
+{
+    const double origin[3] = { 0, 0, 0 };
+    for (size_t m = 0; m < problem->nmaterial; m++) {
+        const pg_criterion *c = &problem->criterion[m];
+        pg_fracture_limits limits = { .cohesion = NAN };
+        if (!c->type || c->never || !pg_criterion_of_tips (c)) continue;
+        c->type->fracture (c, origin, 0, &limits);
+        if (!(limits.cohesion > 0)) continue;
+        pg_scene_fault (scene, "contact.kind",
+                        "cracks that begin in shear (failure.cohesion) have faces that press on each other: "
+                        "set friction or normal, or leave the cohesion out");
+        return;
+    }
+}
+
 /* Contact of crack faces goes where it is built, and is refused elsewhere. */
 static void check_contact (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene)
 {
@@ -338,7 +356,10 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
     char names[200];
     int by_bonds = force && force->faces, rests = (o->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC,
         moves = (o->flags & PG_SOLVER_IMPLICIT) && (o->flags & PG_SOLVER_NEEDS_DENSITY);
-    if (o->contact.kind == PG_CONTACT_NONE) return;
+    if (o->contact.kind == PG_CONTACT_NONE) {
+        need_contact (problem, scene);
+        return;
+    }
     if (o->contact.search == PG_CONTACT_SHORT_RANGE) {
         check_short_range (o, problem, scene);
         return;
@@ -360,10 +381,10 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
         pg_scene_fault (scene, "contact.kind",
                         "keeps the faces of cracks apart, not single broken bonds: judge tips (break: "
                         "facet), leave failure out, or set none");
-    else if (options_begin_cracks (problem))
+    else if (options_begin_cracks (problem) && (problem->dim == 3 || by_bonds))
         pg_scene_fault (scene, "contact.kind",
-                        "does not go with a strength yet, at which new cracks begin: leave failure.strength "
-                        "out, or set none");
+                        "goes with a strength, at which new cracks begin, in the plane and with shape "
+                        "functions: leave tensile_strength and cohesion out of failure, or set none");
     for (size_t k = 0; k < problem->nstage; k++)
         if (problem->stage[k].remove)
             pg_scene_fault (scene, "contact.kind",

@@ -296,7 +296,7 @@ int trial_has_strength (const pg_problem *p)
         const pg_criterion *c = &p->criterion[m];
         if (c->never) continue;
         c->type->fracture (c, x, 0, &limits);
-        if (limits.strength > 0) return 1;
+        if (limits.strength > 0 || limits.cohesion > 0) return 1;
     }
     for (size_t k = 0; k < p->ninterface; k++) if (p->interface[k].strength > 0) return 1;
     return 0;
@@ -321,7 +321,7 @@ static pg_status offer_starts (break_loop *b, trials *w, const pg_state *state, 
     }
     for (size_t k = 0; k < n; k++) {
         const trial_start *s = &start[k];
-        facet_candidate c = { .tip = -1, .open = s->open, .energy = s->energy };
+        facet_candidate c = { .tip = -1, .open = s->open, .slides = s->slides, .energy = s->energy };
         memcpy (c.from, s->from, sizeof c.from), memcpy (c.to, s->to, sizeof c.to);
         trial_fill_release (f->n, s->release, c.release);
         c.stress[0] = f->n == 1 ? s->stress[1] : s->stress[0], c.stress[1] = f->n == 1 ? 0 : s->stress[1];
@@ -364,6 +364,19 @@ pg_status trial_hot_place (break_loop *b, const pg_state *state, const double *d
     PG_TRY (hot_spots (&all, 1, &spot, &n));
     *any = n > 0 && spot.factor <= 1;
     if (*any) memcpy (x, spot.x, sizeof spot.x);
+done:
+    return status;
+}
+
+pg_status trial_new_cracks (break_loop *b, const pg_state *state, const double *const *d, const double *t)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    trial_fields f;
+    if (!trial_has_strength (b->system.problem)) return PG_OK;
+    if (!g->trials) PG_TRY (trials_create (&g->trials, &b->system));
+    PG_TRY (trial_take_fields (g->trials, g->nfield, d, t, &f));
+    PG_TRY (offer_starts (b, g->trials, state, &f));
 done:
     return status;
 }

@@ -24,6 +24,7 @@ typedef struct trials {
     double    *K;                                      /* values of K before */
     double    *residual[2], *load[2];                  /* of each field before, N (ndof) */
     double    *after, *zero, *whole;                   /* workspaces (ndof) */
+    double    *excess[2];                              /* fields without what closed faces bear (ndof) */
     int        said;                                   /* a warning that was given */
     pg_nearest *points;                                /* evaluation points, with several materials */
     /* how often each way was taken, and columns of K^-1 that were solved for: for reports and tests */
@@ -66,6 +67,7 @@ int       trial_has_strength (const pg_problem *p);
 typedef struct {
     double from[3], to[3];                             /* m */
     int    open;                                       /* pg_crack_start */
+    int    slides;                                     /* 1: in shear, its faces touch */
     double length;                                     /* inside the body, m */
     double factor;                                     /* load factor at which it comes into being */
     double energy;                                     /* that it takes, J */

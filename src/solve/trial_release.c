@@ -53,7 +53,7 @@ void trials_free (trials **trials_)
     pg_state_free (&w->state);
     pg_nearest_free (&w->points);
     pg_free (w->K), pg_free (w->after), pg_free (w->zero), pg_free (w->whole);
-    for (int a = 0; a < 2; a++) pg_free (w->residual[a]), pg_free (w->load[a]);
+    for (int a = 0; a < 2; a++) pg_free (w->residual[a]), pg_free (w->load[a]), pg_free (w->excess[a]);
     pg_free (w);
     *trials_ = NULL;
 }
@@ -454,6 +454,10 @@ pg_status trial_release (trials *w, const pg_state *state, const trial_fields *f
     PG_TRY (ready (w, state));
     if (has_factor (w)) PG_TRY (by_columns (w, state, f, n, cut, release, &too_many));
     if (!too_many) goto done;
+    if (w->system->contact)
+        PG_FAIL (PG_E_USAGE, "with contact.kind new cracks are tried by a factor of K%s: set solver.linear: "
+                             "cholmod and method.essential: nitsche or penalty, or leave the strengths out",
+                 has_factor (w) ? ", which a cut across so many unknowns is too much for" : "");
     PG_TRY (pg_state_copy (w->state, state));
     PG_TRY (by_solves (w, state, f, n, cut, release));
 done:

@@ -1,0 +1,25 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private to initiation.c: new cracks whose faces touch and slide (shear_initiation.c). */
+#ifndef PG_SHEAR_INITIATION_H
+#define PG_SHEAR_INITIATION_H
+#include "hot_spot.h"
+
+/* Stress on the plane of a crack: normal stress (constant, slope over the load factor), shear stress on the
+ * side of the normal along the crack (constant, slope), Pa: face[4]. */
+typedef struct {
+    int    sense;                                      /* sign of the shear stress; 0: it opens in tension */
+    double friction, cohesion;                         /* of its faces: coefficient; Pa */
+    const pg_material *material;
+} shear_start;
+
+/* The crack of a hot spot that slides: one (side 0) or the other of the two planes on which the strength is
+ * reached. */
+void      shear_lay   (const search *g, const hot_spot *spot, int side, double *angle, shear_start *out);
+/* What drives a crack at a place, constant (k = 0) or slope (1): the normal stress, or the shear stress less
+ * what its faces bear by friction, Pa. */
+double    shear_drive (const shear_start *c, const double face[4], int k);
+/* The fields of the search less the uniform stress that the faces of such a crack would bear: what they have
+ * on its plane is what sliding sets free. `out` lives in the trials until the next call. */
+pg_status shear_free_fields (const search *g, const shear_start *c, double angle, const double face[4],
+                             trial_fields *out);
+#endif
