@@ -58,18 +58,25 @@ done:
 }
 
 /* Where the next facet begins, at most at full load; where none does, the load stays. A load that is held
- * does not fall. */
+ * does not fall. A new crack comes into being at once, at the load at which it is possible: no equilibria
+ * lead there. */
 static pg_status way_end (pg_solver *s, pg_state *state, double factor, double *end)
 {
     pg_status status = PG_OK;
     double next;
+    int began = s->break_loop.growth->began, affine = events_of (s)->base != NULL;
+    if (began && affine && s->break_loop.system.contact) {
+        *end = factor;
+        return affine_stay (s, state);
+    }
     PG_TRY (facet_ready (s, state));
-    if (events_of (s)->base) PG_TRY (affine_next_growth (s, state, end));
+    if (affine) PG_TRY (affine_next_growth (s, state, end));
     else {
         PG_TRY (facet_next (s, state, &next));
         *end = isfinite (next) ? fmin (next, fmax (factor, 1)) : factor;
     }
     if (s->options.on_instability != PG_UNSTABLE_FOLLOW) *end = fmax (*end, factor);
+    if (began) *end = factor;
 done:
     return status;
 }
@@ -123,10 +130,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     if (!s->finished) PG_TRY (instability_after (s, &e->unstable, state, factor, e->ended, &moves));
     if (moves) step->dissipated = b->work - work - (s->report.energy_strain - strain);
     if (ended || moves) goto done;
-    /* a new crack comes into being at once, at the load at which it is possible: no equilibria lead there */
-    if (g->began && e->base && b->system.contact) PG_TRY (affine_stay (s, state));
-    else PG_TRY (way_end (s, state, factor, &end));
-    if (g->began) end = factor;
+    PG_TRY (way_end (s, state, factor, &end));
     PG_TRY (account (s, state, factor, end));
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     if ((!g->going || e->arrested) && step->dissipated > g->event_energy) {

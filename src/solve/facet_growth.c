@@ -241,8 +241,7 @@ pg_status facet_measure (break_loop *b, const pg_state *state, const double *bas
         if (!state->paths->tip[i].open) continue;
         PG_TRY (measure_tip (b, &measured, i, d, times));
     }
-    if (!g->moving && !s->contact) PG_TRY (trial_facets (b, state, d, times));
-    if (!g->moving && s->contact) PG_TRY (trial_new_cracks (b, state, d, times));
+    if (!g->moving) PG_TRY (trial_facets (b, state, d, times));
     tell (b, state);
     g->fresh = 1;
 done:

@@ -221,9 +221,6 @@ int  facet_way_out (const break_loop *b, const pg_state *state, size_t tip, face
 /* Offers facets that no field around a tip can judge, for the displacement fields at hand (g->nfield of them,
  * ndof each). Called after the tips have been measured: g->field[i].near is NAN where tip i has no room. */
 pg_status trial_facets (break_loop *b, const pg_state *state, const double *const *d, const double *t);
-/* With contact: new cracks alone; what facets of tips set free is not known where cutting changes which faces
- * touch. */
-pg_status trial_new_cracks (break_loop *b, const pg_state *state, const double *const *d, const double *t);
 /* Where does the displacement d at t reach the strength, away from tips and cracks? x: 3, m. */
 pg_status trial_hot_place (break_loop *b, const pg_state *state, const double *d, double t, double *x,
                            int *any);

@@ -368,30 +368,19 @@ done:
     return status;
 }
 
-pg_status trial_new_cracks (break_loop *b, const pg_state *state, const double *const *d, const double *t)
-{
-    pg_status status = PG_OK;
-    facet_growth *g = b->growth;
-    trial_fields f;
-    if (!trial_has_strength (b->system.problem)) return PG_OK;
-    if (!g->trials) PG_TRY (trials_create (&g->trials, &b->system));
-    PG_TRY (trial_take_fields (g->trials, g->nfield, d, t, &f));
-    PG_TRY (offer_starts (b, g->trials, state, &f));
-done:
-    return status;
-}
-
 pg_status trial_facets (break_loop *b, const pg_state *state, const double *const *d, const double *t)
 {
     pg_status status = PG_OK;
     facet_growth *g = b->growth;
     trial_fields f;
+    if (b->system.contact && !trial_has_strength (b->system.problem)) return PG_OK;
     if (!g->trials) {
         PG_TRY (trials_create (&g->trials, &b->system));
         doubt_interfaces (b);
     }
     PG_TRY (trial_take_fields (g->trials, g->nfield, d, t, &f));
-    for (size_t i = 0; i < g->ntip; i++)
+    /* what facets of tips set free is not known where cutting changes which faces touch */
+    for (size_t i = 0; i < g->ntip && !b->system.contact; i++)
         if (state->paths->tip[i].open && isnan (g->field[i].near))
             PG_TRY (offers_of_tip (b, g->trials, state, &f, i));
     PG_TRY (offer_starts (b, g->trials, state, &f));

@@ -350,7 +350,7 @@ static void the_rest_is_refused (void **state)
           "impulses of contact" },
         { FLAT "]\ncontact: {kind: friction}\n", "kind: friction needs it" },
         { FLAT "]\ncontact: {kind: normal, coefficient: 0.3}\n", "kind: friction alone" },
-        { FLAT "]\ncontact: {kind: normal}\n"
+        { FLAT "]\nmethod: {force: bond}\ncontact: {kind: normal}\n"
           "failure: {criterion: energy_release, fracture_energy: 1, tensile_strength: 1}\n",
           "with a strength" },
         { FLAT "]\ncontact: {kind: normal}\nfailure: {criterion: principal_stress, tensile_strength: 1}\n",

@@ -92,7 +92,8 @@ static void new_cracks_follow_coulomb (void **state)
                theory = 4 * G_II * modulus / (acos (-1) * drive * drive);
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
         print_message ("angle of friction %g, confinement %g: load %.5f of Coulomb's line, %.2f degrees "
-                       "to the load, length %.2f (infinite plate %.2f), dissipated %.4f of G_II, friction %.3g\n",
+                       "to the load, length %.2f (infinite plate %.2f), dissipated %.4f of G_II, "
+                       "friction %.3g\n",
                        p->degrees, p->confinement, load / line, off, length, theory,
                        s->energy_dissipated / s->energy_fracture,
                        s->energy_friction / s->energy_dissipated);
