@@ -381,10 +381,10 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
         pg_scene_fault (scene, "contact.kind",
                         "keeps the faces of cracks apart, not single broken bonds: judge tips (break: "
                         "facet), leave failure out, or set none");
-    else if (options_begin_cracks (problem) && (problem->dim == 3 || by_bonds))
+    else if (options_begin_cracks (problem) && (problem->dim == 3 || by_bonds || !rests))
         pg_scene_fault (scene, "contact.kind",
-                        "goes with a strength, at which new cracks begin, in the plane and with shape "
-                        "functions: leave tensile_strength and cohesion out of failure, or set none");
+                        "goes with a strength, at which new cracks begin, in the plane, at rest and with "
+                        "shape functions: leave tensile_strength and cohesion out of failure, or set none");
     for (size_t k = 0; k < problem->nstage; k++)
         if (problem->stage[k].remove)
             pg_scene_fault (scene, "contact.kind",
