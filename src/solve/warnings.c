@@ -194,6 +194,23 @@ static void doubt_single_bonds (pg_statistics *report, const pg_problem *p, cons
                             instead ? " grows them at a fracture_energy" : "");
 }
 
+/* A crack that begins in shear is tried in the field of the body as it is: what faces bear elsewhere would
+ * change with it, and does not in the trial (shear_initiation.c). */
+static void doubt_shear (pg_statistics *report, const pg_problem *p)
+{
+    static const double origin[3] = { 0 };
+    if (!p->cracks.n || !pg_criterion_of_tips (p->criterion)) return;
+    for (size_t m = 0; m < p->nmaterial; m++) {
+        pg_fracture_limits limits = { .cohesion = NAN };
+        p->criterion[m].type->fracture (&p->criterion[m], origin, 0, &limits);
+        if (isnan (limits.cohesion)) continue;
+        pg_statistics_warn (report,
+                            "where a crack begins in shear, cracks of the scene that are closed count as "
+                            "free of contact: the load of its beginning is only right far from them");
+        return;
+    }
+}
+
 /* All warnings before the first step; notes of the model that are warnings among them. */
 void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)
 {
@@ -202,6 +219,7 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
     doubt_inner (report, p);
     doubt_patch (report, p);
     doubt_single_bonds (report, p, o);
+    doubt_shear (report, p);
     for (size_t k = 0; k < p->nnote; k++)
         if (warns (p->note[k])) pg_statistics_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)

@@ -114,7 +114,9 @@ static void what_is_missing_or_has_no_effect_is_refused (void **state)
     (void) state;
     check_refused ("{criterion: energy_release}", "energy_release needs failure.fracture_energy");
     check_refused ("{criterion: energy_release, tensile_strength: 1 MPa}", "needs failure.fracture_energy");
-    check_refused ("{criterion: energy_release, fracture_energy: 1 J/m2, cohesion: 1 MPa}", "has no effect");
+    check_refused ("{criterion: energy_release, fracture_energy: 1 J/m2, cohesion: 1 MPa}",
+                   "cracks begin in shear by a cohesion with failure.friction_angle");
+    check_refused ("{criterion: energy_release, fracture_energy: 1 J/m2, wc_factor: 1}", "has no effect");
     check_refused ("{criterion: energy_release, fracture_energy: 0 J/m2}", "must lie in (0, inf)");
     check_refused ("{criterion: energy_release, fracture_energy: 1 J}", "J");
 }
