@@ -20,7 +20,7 @@ scene_of() {
     options=("$word")
     while [ $# -gt 0 ]; do
         case $1 in
-            -o|--memory) shift ;;
+            -o|--memory|--seeds) shift ;;
             -q|--quiet|--resume) ;;
             *) options+=("$1") ;;
         esac
@@ -54,6 +54,14 @@ beam=data/textbook_cantilever/scene.yaml
     && "$perigal" run $beam -q -o "$work/beam" && "$perigal" run $beam -q -o "$work/finer" --set method.kernel=conical; } > "$work/out" 2>&1 ||
     { echo "not ok 1 - results to work on"; sed 's/^/# /' "$work/out"; echo "1..1"; exit 1; }
 
+cat > "$work/network.yaml" <<'EOF'
+dimension: 2
+body: [{add: {box: {low: [0, 0], high: [50 mm, 50 mm]}}}]
+spacing: 2 mm
+cracks: [{random: {seed: 3, count: 5, length: 8 mm}}]
+materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}
+boundary: [{name: low, set: bottom, displacement: {x: 0, y: 0}}, {name: high, set: top, displacement: {y: 0.1 mm}}]
+EOF
 good() {   # the command as words
     local words k
     case $1 in
@@ -65,6 +73,8 @@ good() {   # the command as words
     shift
     case $1 in
         run|check) shift; scene_of "$@" ;;
+        cracks) mapfile -t words < <(for k in "$@"; do case $k in SCENE) echo "$work/network.yaml" ;; *.png|*.csv) echo "$work/$(basename "$k")" ;; *) echo "$k" ;; esac; done)
+            "$perigal" "${words[@]}" > "$work/out" 2> "$work/err" ;;
         new) "$perigal" new "$2" -o "$work/${4:-$2}" > "$work/out" 2> "$work/err" ;;
         help|list) "$perigal" "$@" > "$work/out" 2> "$work/err" ;;
         plot|compare)
