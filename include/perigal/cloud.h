@@ -12,7 +12,8 @@ PG_API_BEGIN
 /* ---- shapes -------------------------------------------------------------------------------------------- */
 /* Kinds of shapes. Two are no shapes of a scene: PG_STAIRS is a mesh or an alpha shape as a lattice sees
  * it, PG_PLATE a plane polygon in space with a thickness, which a crack with a width takes from the body. */
-enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_ALPHA_SHAPE, PG_STAIRS, PG_PLATE };
+enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_ALPHA_SHAPE, PG_STAIRS,
+       PG_PLATE };
 
 /* A shape that is added to or subtracted from the body. */
 typedef struct {

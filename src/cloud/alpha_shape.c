@@ -292,8 +292,8 @@ static pg_status select_simplices (work *w, pg_alpha_shape *out, double alpha, s
     }
     measure_spacing (w, out);
     if (!(out->spacing > 0))
-        PG_FAIL (PG_E_USAGE, "no %s is as small as alpha = %g m: the smallest %s through neighbours has a radius "
-                             "of %.3g m",
+        PG_FAIL (PG_E_USAGE, "no %s is as small as alpha = %g m: the smallest %s through neighbours has a "
+                             "radius of %.3g m",
                  w->dim == 2 ? "triangle" : "tetrahedron", alpha, w->dim == 2 ? "circle" : "sphere", least);
     settle_regions (w, out);
     measure_spacing (w, out);

@@ -341,7 +341,7 @@ static void nodes_of_a_bracket_fill_the_bracket (void **state)
     filled part = fill ("dimension: 3\nbody: [{add: {mesh: {file: data/bracket/bracket.inp, unit: mm}}}]\n"
                         "spacing: 2 mm\n", 2e-3),
            cloud = fill ("dimension: 3\nbody: [{add: {alpha_shape: {mesh: {file: data/bracket/bracket.inp, "
-                         "unit: mm}, alpha: 4.2 mm}}}]\nspacing: 2 mm\n", 2e-3);
+                         "unit: mm}}}}]\nspacing: 2 mm\n", 2e-3);
     size_t n = 1, differ = 0, in = 0;
     for (int k = 0; k < 3; k++) {
         assert_int_equal (part.lattice.count[k], cloud.lattice.count[k]), n *= (size_t) part.lattice.count[k];
