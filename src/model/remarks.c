@@ -55,7 +55,8 @@ static void remark_cloud (pg_problem *p, const pg_shape *s, size_t i)
     if (a->loose)
         pg_problem_note (p,
                          PG_WARNING "body[%zu]: %zu of %zu points of the cloud are no part of its alpha "
-                                    "shape, the first being number %ld; a larger alpha than %.4g m takes them "
+                                    "shape, the first being number %ld; a larger alpha than %.4g m takes "
+                                    "them in",
                          i, a->loose, a->mesh.nnode, a->first_loose + 1, a->alpha);
     if (a->uneven > uneven)
         pg_problem_note (p,
