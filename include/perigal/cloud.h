@@ -10,9 +10,10 @@
 PG_API_BEGIN
 
 /* ---- shapes -------------------------------------------------------------------------------------------- */
-/* Kinds of shapes. Two are no shapes of a scene: PG_STAIRS is a mesh as a lattice sees it, PG_PLATE a plane
- * polygon in space with a thickness, which a crack with a width takes from the body. */
-enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_STAIRS, PG_PLATE };
+/* Kinds of shapes. Two are no shapes of a scene: PG_STAIRS is a mesh or an alpha shape as a lattice sees
+ * it, PG_PLATE a plane polygon in space with a thickness, which a crack with a width takes from the body. */
+enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_ALPHA_SHAPE, PG_STAIRS,
+       PG_PLATE };
 
 /* A shape that is added to or subtracted from the body. */
 typedef struct {
@@ -28,7 +29,7 @@ typedef struct {
     double centre[3], axis[3], radius, length;
     /* Polygon, prism: vertices x, y (nvertex x 2), m. */
     double *vertex; size_t nvertex;
-    /* Mesh: its elements and their surface. Stairs: the cells of a lattice. */
+    /* Mesh, alpha shape: elements and their surface. Stairs: the cells of a lattice. */
     struct pg_solid *solid;
     /* Plate: `vertex` in its plane, from `centre` along `along` and axis x along (unit vectors); half of
      * `length` on each side. */
@@ -79,11 +80,52 @@ const char *pg_shape_kind (const pg_shape *shape);
 /* Volume (2D: area) and surface (2D: length) in closed form, without thickness; 0: known for one shape
  * only. */
 int       pg_body_measure (const pg_body *body, double *volume, double *surface);
-/* Number of shapes of kind PG_MESH. The side sets of their files name parts of their surface: does the face
- * nearest to x belong to the side set `side`? Name k of these, NULL: there are no more. */
+/* Number of shapes that consist of elements: PG_MESH and PG_ALPHA_SHAPE; is this one? The side sets of meshes
+ * name parts of their surface: does the face nearest to x belong to the side set `side`? Name k of these,
+ * NULL: there are no more. */
 size_t      pg_body_meshes   (const pg_body *body);
+int         pg_shape_meshed  (const pg_shape *shape);
 int         pg_shape_on_side (const pg_shape *shape, const double *x, const char *side);
 const char *pg_shape_side    (const pg_shape *shape, size_t k);
+
+/* ---- alpha shapes -------------------------------------------------------------------------------------- */
+/* The shape of a set of points: all triangles (2D) or tetrahedra (3D) of their Delaunay triangulation whose
+ * circumscribed circle or sphere has a radius of at most alpha (Edelsbrunner and Muecke 1994, doi
+ * 10.1145/174462.156635). Its surface passes through points. A ball of radius alpha finds room in every hole
+ * and beside every concave corner that the shape has. */
+typedef struct {
+    int     dim;
+    /* The radius in use, m. */
+    double  alpha;
+    /* Volume (2D: area) of the simplices, m^dim, and the size of the space per point, m: the volume over the
+     * number of points, each counted by the part of the full angle about it that lies in the shape. On a
+     * lattice this is its step. */
+    double  volume, spacing;
+    /* Parts that share no face with each other; regions outside that the shape encloses (2D: holes, 3D:
+     * cavities; a hole through a solid encloses none). */
+    size_t  parts, holes;
+    /* Points that repeat an earlier one, and points that belong to no simplex of the shape (they lie
+     * outside, or a line or a lone point of them); the first of these as given, -1: none. */
+    size_t  twins, loose;
+    long    first_loose;
+    /* Automatic alpha: largest over median radius that points need to belong to the shape; 0: alpha was
+     * given. */
+    double  uneven;
+    /* By how much the shape in a scene is grown (key rim): it is all places within this distance, m. */
+    double  rim;
+    /* The simplices, TRI3 or TET4, neighbours sharing faces. Nodes are the points without repetitions;
+     * node_id: their number as given, from 1. */
+    pg_mesh mesh;
+} pg_alpha_shape;
+/* The alpha shape of n points x (n x dim, m) in two or three dimensions. alpha, m; 0: 1.5 times the least
+ * radius for which every point is a corner of the shape. PG_E_USAGE, in words: fewer than dim + 1
+ * different points, all on one line or plane, coordinates that are not finite; alpha given, but smaller
+ * than every radius; alpha automatic, but one point needs more than 30 times the median radius. PG_E_FILE:
+ * Qhull is not installed; PG_E_LIMIT: it could not triangulate the points; PG_E_MEMORY. */
+pg_status pg_alpha_shape_create (pg_alpha_shape *out, int dim, size_t n, const double *x, double alpha);
+void      pg_alpha_shape_clear  (pg_alpha_shape *shape);
+/* That of a shape of this kind, else NULL. */
+const pg_alpha_shape *pg_shape_alpha (const pg_shape *shape);
 
 /* ---- background lattice -------------------------------------------------------------------------------- */
 /* Equal boxes over the bounding box of the body. */
@@ -106,7 +148,8 @@ void      pg_lattice_clear (pg_lattice *lattice);
 double    pg_lattice_at    (const pg_lattice *lattice, int axis, double i);
 /* A centre as near to the surface as this lies on it, m. */
 double    pg_lattice_tolerance (const pg_lattice *lattice);
-/* A mesh as a lattice sees it: every position in a cell is inside or outside as its centre is. */
+/* A mesh or an alpha shape as a lattice sees it: every position in a cell is inside or outside as its
+ * centre is. */
 pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice);
 void      pg_stairs_clear  (pg_shape *stairs);
 /* 1: of cell i and the one beyond its face (-x +x -y +y -z +z) one is inside and the other is not. */

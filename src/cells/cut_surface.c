@@ -286,7 +286,8 @@ done:
     return status;
 }
 
-/* Replaces meshes by their staircases on the lattice; such a body needs a list of shapes of its own. */
+/* Replaces meshes and alpha shapes by their staircases on the lattice; such a body needs a list of shapes
+ * of its own. */
 static pg_status own_shapes (struct pg_cut *cut, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
@@ -294,7 +295,7 @@ static pg_status own_shapes (struct pg_cut *cut, const pg_lattice *lattice)
     PG_ALLOC (cut->own, cut->body.n);
     for (size_t i = 0; i < cut->body.n; i++) {
         const pg_shape *shape = &cut->body.shape[i];
-        if (shape->kind == PG_MESH) PG_TRY (pg_stairs_create (&cut->own[i], shape, lattice));
+        if (pg_shape_meshed (shape)) PG_TRY (pg_stairs_create (&cut->own[i], shape, lattice));
         else cut->own[i] = *shape;
     }
     cut->body.shape = cut->own;

@@ -85,7 +85,7 @@ void cells_parts_list (const pg_body *body, char *out, size_t size)
                    *parts = parts_of (s, body->dim);
         int listed = s->slot;
         for (int k = 0; k < 3; k++)
-            if (!strcmp (name, generic[k]) && !(k == 2 && s->kind != PG_MESH)) name = pg_shape_kind (s);
+            if (!strcmp (name, generic[k]) && !(k == 2 && !pg_shape_meshed (s))) name = pg_shape_kind (s);
         for (size_t j = 0; j < i; j++)
             listed |= body->shape[j].kind == s->kind && !strcmp (body->shape[j].boundary, s->boundary);
         if (parts && !listed)

@@ -226,6 +226,19 @@ static void print_layers (const pg_problem *q)
     }
 }
 
+/* Whose surface is that of whole cells, whatever `cells` says. */
+static void print_stairs (const pg_problem *q)
+{
+    size_t shapes = pg_body_meshes (&q->body), clouds = 0;
+    for (size_t i = 0; i < q->body.n; i++) clouds += pg_shape_alpha (&q->body.shape[i]) != NULL;
+    if (shapes)
+        printf ("  %-18s  the surface of %s is a staircase of cells\n", "",
+                clouds == 0 ? shapes > 1 ? "the meshes" : "the mesh"
+                : clouds < shapes ? "meshes and alpha shapes"
+                : clouds > 1      ? "the alpha shapes"
+                                  : "the alpha shape");
+}
+
 /* Points, cells, bonds, unknowns. The mean family is that of the node-node bonds. */
 static void print_counts (const plan *p)
 {
@@ -245,9 +258,7 @@ static void print_counts (const plan *p)
     if (cut) printf (", of which %zu are cut by the surface", cut);
     printf (", boundary facets %zu\n", q->cells.nfacet);
     if (q->cells.cut) print_cut (q);
-    if (pg_body_meshes (&q->body))
-        printf ("  %-18s  the surface of %s is a staircase of cells\n", "",
-                pg_body_meshes (&q->body) > 1 ? "the meshes" : "the mesh");
+    print_stairs (q);
     printf ("  %-18s  %zu, on the boundary %zu\n", "evaluation points",
             q->rows[PG_POINTS].n ? q->rows[PG_POINTS].n : q->cloud.n, q->rows[PG_FACETS].n);
     printf ("  %-18s  node-node %zu, point-node %zu, facet-node %zu\n", "bonds", first[1],

@@ -79,9 +79,50 @@
           .kind = PG_TEXT, \
           .fallback = "m", \
           .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." }, \
+        { .path = op ".mesh.blocks", \
+          .kind = PG_NAMES, \
+          .fallback = "", \
+          .doc = "Only these blocks of the mesh, by name or number; default all." }, \
+        SHAPE (op ".alpha_shape", \
+               "The shape of a set of points, in two and three dimensions: all triangles (tetrahedra) of " \
+               "their Delaunay triangulation whose circumscribed circle (sphere) is no larger than alpha, " \
+               "and a rim about them; it may have holes and several parts. Its surface is that of the " \
+               "cells it leaves (a staircase, also with cells: cut)."), \
+        { .path = op ".alpha_shape.points", \
+          .kind = PG_FILE, \
+          .fallback = "", \
+          .group = "source:one", \
+          .doc = "CSV file of points, next to the scene file: columns x y [z] in m, or as a header names " \
+                 "them, with units: x [mm], y [mm]; other columns are passed over." }, \
+        { .path = op ".alpha_shape.mesh", \
+          .kind = PG_MAP, \
+          .fallback = "", \
+          .group = "source:one", \
+          .doc = "The nodes of a mesh as the points." }, \
+        { .path = op ".alpha_shape.mesh.file", \
+          .kind = PG_FILE, \
+          .doc = "Mesh file, next to the scene file: formats as under mesh.file." }, \
+        { .path = op ".alpha_shape.mesh.unit", \
+          .kind = PG_TEXT, \
+          .fallback = "m", \
+          .doc = "Unit of length in the file: m, mm, inch, or a length such as 25.4 mm." }, \
+        { .path = op ".alpha_shape.mesh.blocks", \
+          .kind = PG_NAMES, \
+          .fallback = "", \
+          .doc = "Only these blocks of the mesh, by name or number; default all." }, \
+        { .path = op ".alpha_shape.alpha", \
+          .kind = PG_NUMBER, \
+          .unit = "m", \
+          .range = LENGTH, \
+          .fallback = "", \
+          .doc = "Largest radius of a circumscribed circle or sphere: gaps and holes narrower than twice " \
+                 "this are filled. Unless given: 1.5 times the least for which every point is a corner of " \
+                 "the shape (perigal check says it)." }, \
     { \
-        .path = op ".mesh.blocks", .kind = PG_NAMES, .fallback = "", \
-        .doc = "Only these blocks of the mesh, by name or number; default all." \
+        .path = op ".alpha_shape.rim", .kind = PG_NUMBER, .unit = "m", .range = "[0, inf)", .fallback = "", \
+        .doc = "The shape is all places within this distance of the triangles (tetrahedra), which end at " \
+               "the points. Unless given: half the spacing of the points for a file of points, which stand " \
+               "in the middle of their cells; 0 for the nodes of a mesh, which lie on its surface." \
     }
 
 /* Each row is one key of a scene: path, kind, unit, range, default, group and the text of `perigal help`. */

@@ -31,6 +31,7 @@ int pg_body_measure (const pg_body *body, double *volume, double *surface)
         return 1;
     case PG_POLYGON:  of_polygon (s, volume, surface); return 1;
     case PG_MESH:     *volume = shape_mesh_volume (s, surface); return 1;
+    case PG_ALPHA_SHAPE: return shape_alpha_volume (s, volume, surface);
     case PG_PRISM:
         of_polygon (s, &area, &outline);
         height = s->high[2] - s->low[2], *volume = area * height, *surface = 2 * area + outline * height;

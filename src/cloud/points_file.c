@@ -28,8 +28,11 @@ static const struct { const char *name, *unit; } role[ROLES] = {
 /* State of the reader. */
 typedef struct {
     const pg_scene *scene;
-    /* File as the scene names it. */
-    const char *name;
+    /* Key of the scene for faults, and the file as the scene names it. */
+    const char *key, *name;
+    /* 1: only places are asked for: volumes may be missing, other columns are passed over, and points may be
+     * there twice. */
+    int     places;
     char   *text;
     /* Present line, from 1. */
     size_t  line;
@@ -46,17 +49,17 @@ typedef struct {
     size_t *line_of;
 } reader;
 
-#define WRONG(r, ...) wrong_at ((r)->scene, (r)->name, (r)->line, __VA_ARGS__)
-static pg_status __attribute__ ((format (printf, 4, 5)))
-wrong_at (const pg_scene *scene, const char *name, size_t line, const char *format, ...)
+#define WRONG(r, ...) wrong_at ((r)->scene, (r)->key, (r)->name, (r)->line, __VA_ARGS__)
+static pg_status __attribute__ ((format (printf, 5, 6)))
+wrong_at (const pg_scene *scene, const char *key, const char *name, size_t line, const char *format, ...)
 {
     char why[300];
     va_list args;
     va_start (args, format);
     vsnprintf (why, sizeof why, format, args);
     va_end (args);
-    if (line) pg_scene_fault (scene, "points", "%.200s:%zu: %s", name, line, why);
-    else pg_scene_fault (scene, "points", "%.200s: %s", name, why);
+    if (line) pg_scene_fault (scene, key, "%.200s:%zu: %s", name, line, why);
+    else pg_scene_fault (scene, key, "%.200s: %s", name, why);
     return pg_scene_verdict (scene);
 }
 
@@ -162,7 +165,10 @@ static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
     int closed = pg_column_cut (cell, &unit) == PG_OK;
     while (what < ROLES && (strcasecmp (cell, role[what].name) != 0 || (what >= dim && what < VOLUME)))
         what++;
+    if (what == ROLES && r->places && strcasecmp (cell, "z") != 0) return PG_OK;
     if (what == ROLES) {
+        if (r->places)
+            return WRONG (r, "column %zu of the header is called 'z', and dimension is %zu", k + 1, dim);
         near = pg_nearest_name (cell, names_of (dim, "|"));
         return WRONG (r,
                       "column %zu of the header is called '%.40s'%s%s%s: the columns of a %zuD body are %s, "
@@ -189,11 +195,12 @@ static pg_status read_header (reader *r, size_t n, char **field, size_t dim)
                        names_of (dim, ", ")));
     for (size_t k = 0; k < n; k++) PG_TRY (read_name (r, k, field[k], dim));
     for (size_t k = 0; k <= VOLUME; k++)
-        if ((k < dim || k == VOLUME) && !r->column[k])
+        if ((k < dim || (k == VOLUME && !r->places)) && !r->column[k])
             PG_TRY (WRONG (r,
-                           "the header has no column '%s': coordinates and a volume are needed, a block and "
-                           "a spacing may be",
-                           role[k].name));
+                           "the header has no column '%s': coordinates%s",
+                           role[k].name,
+                           r->places ? " are needed"
+                                     : " and a volume are needed, a block and a spacing may be"));
     r->columns = n, r->headed = 1;
 done:
     return status;
@@ -229,7 +236,9 @@ done:
 /* Without a header the order of columns is fixed; block and spacing may be absent. */
 static pg_status settle_columns (reader *r, size_t n, size_t dim)
 {
-    if (n < dim + 1 || n > dim + 3)
+    if (r->places && n < dim)
+        return WRONG (r, "%zu column%s; in %zuD a line has %zu coordinates", n, n == 1 ? "" : "s", dim, dim);
+    if (!r->places && (n < dim + 1 || n > dim + 3))
         return WRONG (
             r,
             "%zu columns; in %zuD a line has %zu (coordinates, volume), %zu (and block) or %zu (and spacing)",
@@ -286,7 +295,7 @@ static pg_status read_line (reader *r, pg_cloud *c, char *line)
         return WRONG (r, "%zu columns, %s %zu", n,
                       r->headed && c->n == 0 ? "the header has" : "the lines before have", r->columns);
     if (!r->columns) PG_TRY (settle_columns (r, n, dim));
-    for (size_t what = 0; what < ROLES; what++) {
+    for (size_t what = 0; what < (r->places ? dim : ROLES); what++) {
         size_t k = r->column[what];
         if (k) PG_TRY (read_value (r, what, field[k - 1], dim, &value[what]));
     }
@@ -354,16 +363,16 @@ static pg_status read_text (reader *r, pg_cloud *cloud)
     }
     r->line = 0;
     if (cloud->n == 0) PG_TRY (WRONG (r, "has no points"));
-    PG_TRY (find_twins (r, cloud));
+    if (!r->places) PG_TRY (find_twins (r, cloud));
 done:
     return status;
 }
 
 /* The file is read as a whole; scenes with millions of points take some hundred MB for a moment. */
-pg_status pg_points_read (pg_cloud *cloud, const pg_scene *scene)
+static pg_status read_file (pg_cloud *cloud, const pg_scene *scene, const char *key, int places)
 {
     pg_status status = PG_OK;
-    reader r = {.scene = scene, .name = pg_scene_text (scene, "points")};
+    reader r = {.scene = scene, .key = key, .name = pg_scene_text (scene, "%s", key), .places = places};
     PG_TRY (load (&r));
     PG_TRY (read_text (&r, cloud));
 done:
@@ -372,10 +381,20 @@ done:
     return status;
 }
 
+pg_status pg_points_read (pg_cloud *cloud, const pg_scene *scene)
+{
+    return read_file (cloud, scene, "points", 0);
+}
+
+pg_status pg_points_places (pg_cloud *cloud, const pg_scene *scene, const char *key)
+{
+    return read_file (cloud, scene, key, 1);
+}
+
 pg_status pg_points_parse (pg_cloud *cloud, const pg_scene *scene, const char *text, size_t size)
 {
     pg_status status = PG_OK;
-    reader r = {.scene = scene, .name = pg_scene_text (scene, "points")};
+    reader r = {.scene = scene, .key = "points", .name = pg_scene_text (scene, "points")};
     if (memchr (text, 0, size)) PG_TRY (WRONG (&r, "is not a text file"));
     PG_ALLOC (r.text, size + 1);
     memcpy (r.text, text, size);

@@ -223,6 +223,7 @@ const pg_shape_type pg_shape_types[PG_PLATE + 1] = {
     [PG_POLYGON]  = {"polygon",  2, 2, 0, read_polygon,  distance_polygon,  box_polygon},
     [PG_PRISM]    = {"prism",    3, 3, 0, read_prism,    distance_prism,    box_prism},
     [PG_MESH]     = {"mesh",     2, 3, 0, shape_mesh_read, shape_mesh_distance, shape_mesh_box},
+    [PG_ALPHA_SHAPE] = {"alpha_shape", 2, 3, 0, shape_alpha_read, shape_alpha_distance, shape_alpha_box},
     [PG_STAIRS]   = {"stairs",   2, 3, 0, NULL, shape_stairs_distance, shape_mesh_box},
     [PG_PLATE]    = {"plate",    3, 3, 0, NULL, distance_plate,        box_plate},
 };

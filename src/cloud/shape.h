@@ -22,7 +22,7 @@ typedef struct {
 } pg_shape_type;
 
 /* Kinds that a scene may use; PG_STAIRS and PG_PLATE come behind them. */
-enum { PG_SHAPES = PG_MESH + 1 };
+enum { PG_SHAPES = PG_ALPHA_SHAPE + 1 };
 /* Indexed by pg_shape.kind. */
 extern const pg_shape_type pg_shape_types[PG_PLATE + 1];
 /* Shapes from a mesh (shape_mesh.c). */
@@ -31,6 +31,11 @@ double    shape_mesh_distance (const pg_shape *shape, int dim, const double *x, 
 void      shape_mesh_box      (const pg_shape *shape, int dim, double *low, double *high);
 double    shape_mesh_volume   (const pg_shape *shape, double *surface);
 void      shape_mesh_clear    (pg_shape *shape);
+/* Alpha shapes of points (shape_alpha.c). */
+pg_status shape_alpha_read     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);
+double    shape_alpha_distance (const pg_shape *shape, int dim, const double *x, double reach);
+void      shape_alpha_box      (const pg_shape *shape, int dim, double *low, double *high);
+int       shape_alpha_volume   (const pg_shape *shape, double *volume, double *surface);
 /* Reads `layers`: each becomes a box behind the shapes, and the bounding box grows. */
 pg_status pg_layers_read      (pg_body *body, const pg_scene *scene);
 /* Is this the name of a side of the body, or all? */

@@ -1,22 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A mesh as a shape: inside where an element holds the position, at the distance from the nearest face of
  * its surface. And as a lattice sees it: stairs, every cell of the lattice as its centre is. */
-#include "mesh_body.h"
 #include "shape.h"
+#include "solid.h"
 #include <math.h>
 #include <string.h>
-
-/* What belongs to such a shape. */
-struct pg_solid {
-    /* The mesh, with the search for elements and for faces. */
-    pg_mesh_body part;
-    pg_mesh_locator *locator;
-    pg_mesh_skin *skin;
-    /* Stairs: the lattice, without `in`. */
-    pg_lattice lattice;
-    /* Sign of the distance at the centre of each cell; 0: on the surface. */
-    signed char *sign;
-};
 
 /* ---- mesh ---------------------------------------------------------------------------------------------- */
 /* Elements for the question inside or outside, faces for the distance. */
@@ -37,7 +25,7 @@ void shape_mesh_clear (pg_shape *s)
 {
     if (!s->solid) return;
     pg_skin_free (&s->solid->skin), pg_mesh_locator_free (&s->solid->locator);
-    pg_mesh_body_clear (&s->solid->part);
+    pg_mesh_body_clear (&s->solid->part), pg_alpha_shape_clear (&s->solid->cloud);
     pg_free (s->solid->sign), pg_free (s->solid);
     s->solid = NULL;
 }
@@ -74,9 +62,11 @@ double shape_mesh_volume (const pg_shape *s, double *surface)
 size_t pg_body_meshes (const pg_body *body)
 {
     size_t n = 0;
-    for (size_t i = 0; i < body->n; i++) n += body->shape[i].kind == PG_MESH;
+    for (size_t i = 0; i < body->n; i++) n += pg_shape_meshed (&body->shape[i]) != 0;
     return n;
 }
+
+int pg_shape_meshed (const pg_shape *s) { return s->kind == PG_MESH || s->kind == PG_ALPHA_SHAPE; }
 
 /* ---- side sets ----------------------------------------------------------------------------------------- */
 /* Side sets in the order of the file. */
@@ -119,7 +109,7 @@ pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattic
             for (int a = 0; a < lattice->count[0]; a++) {
                 double i[3] = {a + 0.5, b + 0.5, c + 0.5}, x[3] = {0, 0, 0};
                 for (int k = 0; k < lattice->dim; k++) x[k] = pg_lattice_at (lattice, k, i[k]);
-                double d = shape_mesh_distance (mesh, lattice->dim, x, tolerance);
+                double d = pg_shape_types[mesh->kind].distance (mesh, lattice->dim, x, tolerance);
                 *sign++ = (signed char) ((d > tolerance) - (d < -tolerance));
             }
 done:

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What a problem amounts to that its user may not have meant: a spacing larger than the body, cracks that cut
+ * What a problem amounts to that its user may not have meant: a spacing larger than the body, what an alpha
+ * shape makes of its points, cracks that cut
  * it into parts, materials whose contrast no discretisation of this spacing can follow. */
 #include "model.h"
 #include <math.h>
@@ -30,6 +31,45 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
                              asked, high[k] - low[k], "xyz"[k]);
             return;
         }
+}
+
+/* ---- alpha shapes -------------------------------------------------------------------------------------- */
+/* From this part of twice alpha on a largest over the median radius is told: what is fine elsewhere is
+ * coarse there. */
+static const double uneven = 5;
+
+/* What the points of an alpha shape amount to, and what of them it leaves out. */
+static void remark_cloud (pg_problem *p, const pg_shape *s, size_t i)
+{
+    const pg_alpha_shape *a = pg_shape_alpha (s);
+    static const char *const empty[2][2] = { { "hole", "holes" }, { "cavity", "cavities" } };
+    pg_problem_note (p,
+                     "body[%zu]: alpha shape of %zu points with spacing %.4g m, alpha %.4g m%s, rim %.4g m; "
+                     "inside the rim %.6g m^%d, %zu part%s, %zu %s",
+                     i, a->mesh.nnode, a->spacing, a->alpha, a->uneven > 0 ? " (automatic)" : "", a->rim,
+                     a->volume, p->dim, a->parts, a->parts == 1 ? "" : "s", a->holes,
+                     empty[p->dim == 3][a->holes != 1]);
+    if (a->twins)
+        pg_problem_note (p, "body[%zu]: %zu point%s of the cloud repeat%s another", i, a->twins,
+                         a->twins == 1 ? "" : "s", a->twins == 1 ? "s" : "");
+    if (a->loose)
+        pg_problem_note (p,
+                         PG_WARNING "body[%zu]: %zu of %zu points of the cloud are no part of its alpha "
+                                    "shape, the first being number %ld; a larger alpha than %.4g m takes "
+                                    "them in",
+                         i, a->loose, a->mesh.nnode, a->first_loose + 1, a->alpha);
+    if (a->uneven > uneven)
+        pg_problem_note (p,
+                         PG_WARNING "body[%zu]: the cloud is %.2g times as coarse at places as elsewhere, "
+                                    "and the automatic alpha fills gaps below %.4g m; give alpha if there "
+                                    "are any",
+                         i, a->uneven, 2 * a->alpha);
+}
+
+void pg_remark_clouds (pg_problem *p)
+{
+    for (size_t i = 0; i < p->body.n; i++)
+        if (pg_shape_alpha (&p->body.shape[i])) remark_cloud (p, &p->body.shape[i], i);
 }
 
 /* ---- parts --------------------------------------------------------------------------------------------- */

@@ -61,7 +61,7 @@ static int off_surface (const counter *c, int x, int y, int z, int f)
     at[f / 2] += f % 2 ? 0.5 : -0.5;
     for (int k = 0; k < l->dim; k++) place[k] = pg_lattice_at (l, k, at[k]);
     size_t shape = pg_body_nearest (c->how->body, place, &away);
-    return c->how->body->shape[shape].kind != PG_MESH && away > 1e-6 * l->step[f / 2];
+    return !pg_shape_meshed (&c->how->body->shape[shape]) && away > 1e-6 * l->step[f / 2];
 }
 
 /* Open faces of a cell, and those that lie off the true surface. */

@@ -338,6 +338,11 @@ static void an_orthotropic_plate_survives_every_failing_allocation (void **state
     "method: {integration: gauss, essential: nitsche}\n" \
     "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {x: 0, y: 20 um}}]\n" \
     "solver: {kind: static, max_events: 3}\noutput: {fields: [displacement, damage], pictures: []}\n"
+static const char cloud_scene[] =
+    "dimension: 2\nbody: [{add: {box: {low: [-1.5, -1.5], high: [1.5, 1.5]}}},\n"
+    "  {subtract: {alpha_shape: {mesh: {file: data/mesh/disk_tri3.msh}, rim: 0.05}}}]\nspacing: 0.25\n"
+    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 1 mm}}]\n";
 static const char growing_scene[] =
     SHEET "cracks: [{from: [-1 mm, 5.03 mm], to: [4.1 mm, 5.03 mm]}]\n"
           "failure: {criterion: energy_release, fracture_energy: 0.1 J/m2}\n";
@@ -361,6 +366,13 @@ static void growing_cracks_survive_every_failing_allocation (void **state)
     sweep (interface_scene, 1, 40);
     sweep (growing_scene, 1, 40);
     sweep (starting_scene, 1, 40);
+}
+
+/* Nodes of a mesh as a shape; Qhull's own memory is not swept. */
+static void a_cloud_survives_every_failing_allocation (void **state)
+{
+    (void) state;
+    sweep (cloud_scene, 1, 60);
 }
 
 static void no_entry_of_a_catalogue_was_left_out (void **state)
@@ -395,6 +407,7 @@ int main (void)
         cmocka_unit_test (every_force_survives_with_every_solver),
         cmocka_unit_test (an_orthotropic_plate_survives_every_failing_allocation),
         cmocka_unit_test (growing_cracks_survive_every_failing_allocation),
+        cmocka_unit_test (a_cloud_survives_every_failing_allocation),
         cmocka_unit_test (no_entry_of_a_catalogue_was_left_out),
     };
     return cmocka_run_group_tests_name ("fuzz/allocation", tests, NULL, NULL);
