@@ -202,13 +202,53 @@ static void doubt_shear (pg_statistics *report, const pg_problem *p)
     if (!p->cracks.n || !pg_criterion_of_tips (p->criterion)) return;
     for (size_t m = 0; m < p->nmaterial; m++) {
         pg_fracture_limits limits = { .cohesion = NAN };
-        p->criterion[m].type->fracture (&p->criterion[m], origin, 0, &limits);
+        if (!p->criterion[m].never) p->criterion[m].type->fracture (&p->criterion[m], origin, 0, &limits);
         if (isnan (limits.cohesion)) continue;
         pg_statistics_warn (report,
                             "where a crack begins in shear, cracks of the scene that are closed count as "
                             "free of contact: the load of its beginning is only right far from them");
         return;
     }
+}
+
+/* Can one leave point i in direction e and come back into the body within two spacings? */
+static int crosses_void (const pg_problem *p, size_t i, const double *e)
+{
+    enum { STEPS = 16 };
+    int left = 0;
+    double h = pg_problem_spacing (p, PG_NODES, i), place[3] = { 0 };
+    for (int k = 1; k <= STEPS; k++) {
+        for (size_t c = 0; c < (size_t) p->dim; c++)
+            place[c] = p->cloud.x[i * (size_t) p->dim + c] + 2 * h * k / STEPS * e[c];
+        int in = pg_problem_has_body (p, place);
+        if (left && in) return 1;
+        left |= !in;
+    }
+    return 0;
+}
+
+/* Points of a file alone have no surface: what lies too far from all of them counts as outside
+ * (model/body_search.c). Voids between irregular points are then taken for it, and a crack that comes to one
+ * ends there. Looks from at most some thousand points, along the axes and the diagonals. */
+static void doubt_voids (pg_statistics *report, const pg_problem *p)
+{
+    enum { SAMPLE = 2000 };
+    static const double direction[][3] = {
+        { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 }, { .71, .71, 0 }, { .71, -.71, 0 }, { .58, .58, .58 } };
+    size_t stride = p->cloud.n / SAMPLE + 1, found = 0, looked = 0;
+    if (!p->search || p->body.n || p->part.mesh.n || !pg_criterion_of_tips (p->criterion)) return;
+    for (size_t i = 0; i < p->cloud.n; i += stride, looked++) {
+        int any = 0;
+        for (size_t k = 0; k < sizeof direction / sizeof *direction && !any; k++)
+            if (p->dim == 3 || direction[k][2] == 0) any = crosses_void (p, i, direction[k]);
+        found += (size_t) any;
+    }
+    if (found)
+        pg_statistics_warn (report,
+                            "%zu of %zu points looked at have voids beside them, %.2g spacings away from "
+                            "every point, which count as the surface of the body: cracks that come there end; "
+                            "give the shapes that are its surface (body: beside points:)",
+                            found, looked, p->dim == 3 ? 0.87 : 0.71);
 }
 
 /* All warnings before the first step; notes of the model that are warnings among them. */
@@ -220,6 +260,7 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
     doubt_patch (report, p);
     doubt_single_bonds (report, p, o);
     doubt_shear (report, p);
+    doubt_voids (report, p);
     for (size_t k = 0; k < p->nnote; k++)
         if (warns (p->note[k])) pg_statistics_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)

@@ -29,6 +29,11 @@ done
 run "mirrored: runs" 0 '*' '*' zero_length_bond.yaml "$mirrored"; near "mirrored: the same break" "$(first)" "$reference" 1e-9
 run "five Gauss points: runs" 0 '*' '*' zero_length_bond.yaml method.gauss_points=5; near "five Gauss points: first break" "$(first)" 0.449 0.01
 
+# ---- voids between irregular points ------------------------------------------------------------------------------------
+run "voids between points: told"   0 'points looked at have voids beside them, 0.71 spacings away .* (body: beside points:)' '*' voids.yaml
+run "shapes as the surface: the crack runs through"   0 'the body has separated' '*' voids.yaml 'body=[{add: {box: {low: [0, 0], high: [40 mm, 12 mm]}}}]'
+! grep -q 'voids beside them' "$work/out"; verdict "shapes as the surface: no word of voids" $?
+
 # ---- points that do not see each other, and what hangs on nothing --------------------------------------------------------
 run "points apart: refused with the point"   65 '' 'method.horizon = 2.2 spacing: point 19 at (0.868337) m sees 1 points, too few .* a column spacing' cloud_apart.yaml
 [ ! -e "$out" ]; verdict "points apart: no results" $?
