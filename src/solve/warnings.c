@@ -246,8 +246,8 @@ static void doubt_voids (pg_statistics *report, const pg_problem *p)
     if (found)
         pg_statistics_warn (report,
                             "%zu of %zu points looked at have voids beside them, %.2g spacings away from "
-                            "every point, which count as the surface of the body: cracks that come there end; "
-                            "give the shapes that are its surface (body: beside points:)",
+                            "every point, which count as the surface of the body: cracks that come there "
+                            "end; give the shapes that are its surface (body: beside points:)",
                             found, looked, p->dim == 3 ? 0.87 : 0.71);
 }
 
