@@ -10,6 +10,7 @@
  * Without a header the first two orders are expected. Numbers are written with 17 digits in m, so that a
  * table that was written is read as the same bits. */
 #include "crack.h"
+#include "csv_line.h"
 #include <errno.h>
 #include <math.h>
 #include <stdarg.h>
@@ -196,25 +197,6 @@ done:
     return status;
 }
 
-/* Divides a line in place; if there is a comma anywhere, only commas separate. */
-static int split (char *line, char *field[MOST])
-{
-    int comma = strchr (line, ',') != NULL, n = 0;
-    for (char *s = line; ; ) {
-        s += strspn (s, " \t");
-        if (!*s && !comma) return n;
-        char *end = s + strcspn (s, comma ? "," : " \t"), *tail = end;
-        int last = !*end;
-        while (tail > s && (tail[-1] == ' ' || tail[-1] == '\t')) tail--;
-        *tail = '\0';
-        if (tail > s + 1 && *s == '"' && tail[-1] == '"') s++, tail[-1] = '\0';
-        if (n < MOST) field[n] = s;
-        n++;
-        if (last) return n;
-        s = end + 1;
-    }
-}
-
 /* The values of a line, in SI units, by their roles. */
 static pg_status read_values (reader *r, char *const *field, double *value)
 {
@@ -238,7 +220,7 @@ static pg_status read_line (reader *r, char *line)
     double value[ROLES] = { [WIDTH] = -1 };
     line[strcspn (line, "#\r\n")] = '\0';
     if (!line[strspn (line, " \t")]) return PG_OK;
-    int n = split (line, field);
+    int n = (int) csv_split (line, field, MOST);
     if (n > MOST) return wrong (r, "%d columns", n);
     (void) strtod (field[0], &end);
     if (!r->n && (end == field[0] || *end)) return read_header (r, n, field);

@@ -7,6 +7,7 @@
  *     0.5, 0.5, 1, 0
  *
  * Two points at one position are a fault, because a bond between them would have no length. */
+#include "csv_line.h"
 #include "points_file.h"
 #include "place.h"
 #include <errno.h>
@@ -90,29 +91,6 @@ done:
 }
 
 /* ---- a line -------------------------------------------------------------------------------------------- */
-/* Divides a line into fields in place; if there is a comma anywhere, only commas separate. Also counts
- * fields for which there is no room. */
-static size_t split (char *line, char *field[MOST_FIELDS])
-{
-    int comma = strchr (line, ',') != NULL;
-    size_t n = 0;
-    for (char *s = line; ; ) {
-        /* Blanks around a field do not belong to it. */
-        s += strspn (s, " \t");
-        if (!*s && !comma) return n;
-        char *end = s + strcspn (s, comma ? "," : " \t"), *tail = end;
-        int last = !*end;
-        while (tail > s && (tail[-1] == ' ' || tail[-1] == '\t')) tail--;
-        *tail = '\0';
-        /* Quotes as spreadsheets write them. */
-        if (tail > s + 1 && *s == '"' && tail[-1] == '"') s++, tail[-1] = '\0';
-        if (n < MOST_FIELDS) field[n] = s;
-        n++;
-        if (last) return n;
-        s = end + 1;
-    }
-}
-
 /* A finite number that fills the field. */
 static int number (const char *text, double *value)
 {
@@ -288,7 +266,7 @@ static pg_status read_line (reader *r, pg_cloud *c, char *line)
     size_t dim = (size_t) c->dim;
     line[strcspn (line, "#\r")] = '\0';
     if (!line[strspn (line, " \t")]) return PG_OK;
-    size_t n = split (line, field);
+    size_t n = csv_split (line, field, MOST_FIELDS);
     /* Only the first line that is no comment can be a header. */
     if (c->n == 0 && r->columns == 0 && is_header (n, field)) return read_header (r, n, field, dim);
     if (r->columns && n != r->columns)

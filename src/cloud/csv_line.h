@@ -1,0 +1,10 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: the fields of a line of a table of points or cracks. */
+#ifndef PG_CLOUD_CSV_LINE_H
+#define PG_CLOUD_CSV_LINE_H
+#include <stddef.h>
+
+/* Divides a line into fields in place; if there is a comma anywhere, only commas separate. Returns how many
+ * there are, those for which there is no room (most) among them. */
+size_t csv_split (char *line, char **field, size_t most);
+#endif
