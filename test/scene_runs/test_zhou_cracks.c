@@ -2,7 +2,9 @@
  * Zhou's examples 3 and 4 at twice their spacing. Example 3: outer tips run level, inner ones turn towards
  * the neighbours at about 20 to 23 degrees, by direct sums and where points fail by their energy; both ends
  * of the plate alike. Example 4: crack 2 has joined cracks 1 and 3, and stopped, before these reach the
- * edges. PERIGAL_LONG: at the scenes' own spacing.
+ * edges. Example 5, four random cracks: which ends grow, which grow together and which hardly grow, by direct
+ * sums with sharp cracks and by energies of points with slots (always at the scene's own spacing: a coarser
+ * lattice does not resolve the slots). PERIGAL_LONG: all at the scenes' own spacing.
  */
 #include "run.h"
 
@@ -102,7 +104,7 @@ static void example_3 (void **unused)
     turns_inwards ("points", 3, points);
 }
 
-/* When the first bond broke in a box, us; INFINITY: none. */
+/* When the first bond broke in a level strip, us; INFINITY: none. */
 static double first_in (const cut *c, double x0, double x1, double y)
 {
     double first = INFINITY;
@@ -132,8 +134,52 @@ static void example_4 (void **unused)
     free (c.at);
 }
 
+/* When the first bond broke in a box, us; INFINITY: none. */
+static double first_in_box (const cut *c, const double low[2], const double high[2])
+{
+    double first = INFINITY;
+    for (size_t i = 0; i < c->n; i++) {
+        const double *p = c->at[i];
+        if (p[0] > low[0] && p[0] < high[0] && p[1] > low[1] && p[1] < high[1]) first = fmin (first, p[2]);
+    }
+    return first;
+}
+
+/* Crack 1 grows down to the left edge and up into crack 2, crack 4 to the right edge and to the left below
+ * all others, and the lower end of crack 2, at (-9.6, 0.89), grows by at most two horizons. Grown together
+ * and cut through at both edges is the plate before crack 4 has passed below crack 2. */
+static void story_of_example_5 (const char *scene, size_t nmore, const char *const *more)
+{
+    cut c = broken_in (scene, nmore, more);
+    double joined = first_in_box (&c, (double[]) { -9.5, 9 }, (double[]) { -7, 12 }),
+           left = first_in_box (&c, (double[]) { -26, -3.5 }, (double[]) { -24, .5 }),
+           right = first_in_box (&c, (double[]) { 24, -6.5 }, (double[]) { 26, -2.5 }),
+           below = first_in_box (&c, (double[]) { -9.5, -5.5 }, (double[]) { -8.5, -1.5 });
+    double idle = 0;
+    for (size_t i = 0; i < c.n; i++) {
+        double dx = c.at[i][0] + 9.6, dy = c.at[i][1] - .89;
+        if (hypot (dx, dy) < 3.5 && fabs (dy) < 1.8) idle = fmax (idle, hypot (dx, dy));
+    }
+    print_message ("%s: 1 joins 2 at %.1f us, edges at %.1f and %.1f us, 4 passes below 2 at %.1f us; the "
+                   "lower end of 2 grows by %.2f mm\n",
+                   scene, joined, left, right, below, idle);
+    assert_true (isfinite (joined) && isfinite (left) && isfinite (right) && isfinite (below));
+    check_below (fmax (joined, fmax (left, right)), below);
+    check_below (idle, 2 * 3.015 * c.spacing);
+    free (c.at);
+}
+
+static void example_5 (void **unused)
+{
+    (void) unused;
+    static const char *const points[] = { "method.evaluation=stencil", "spacing=0.25 mm" };
+    story_of_example_5 ("data/zhou_5/scene.yaml", 0, NULL);
+    story_of_example_5 ("data/zhou_5/scene_fcbm.yaml", 2, points);
+}
+
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (example_3), cmocka_unit_test (example_4) };
+    const struct CMUnitTest tests[] = { cmocka_unit_test (example_3), cmocka_unit_test (example_4),
+                                        cmocka_unit_test (example_5) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }
