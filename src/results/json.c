@@ -98,6 +98,7 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
         explicit_ = (pg_solver_settled (res->solver)->flags & PG_SOLVER_EXPLICIT) != 0,
         points = contact && (setting->search == PG_CONTACT_SHORT_RANGE || (explicit_ && p->nplaten));
     pg_json_count (j, "points", p->cloud.n);
+    pg_json_number (j, "finest_spacing", pg_cloud_finest (&p->cloud));
     pg_json_count (j, "bonds", p->first_bond[PG_BOND_SETS]);
     pg_json_count (j, "dofs", state->ndof);
     pg_json_count (j, "evaluation_points", p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n);
