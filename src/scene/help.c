@@ -185,13 +185,9 @@ pg_status pg_help_write (FILE *to, const char *key, const pg_schema *s)
 /* Help from the tables of all folders. */
 pg_status pg_scene_help (FILE *to, const char *key)
 {
-    pg_status status = PG_OK;
     pg_schema s = { 0 };
-    size_t n;
-    const pg_key_table *table = pg_scene_tables (&n);
-    PG_TRY (pg_schema_create (&s, table, n));
-    PG_TRY (pg_help_write (to, key, &s));
-done:
+    pg_status status = pg_schema_of_all (&s);
+    if (!status) status = pg_help_write (to, key, &s);
     pg_schema_clear (&s);
     return status;
 }

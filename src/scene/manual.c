@@ -153,13 +153,9 @@ pg_status pg_manual_write (FILE *to, const pg_schema *s)
 /* The manual of the tables of all folders. */
 pg_status pg_scene_manual (FILE *to)
 {
-    pg_status status = PG_OK;
     pg_schema s = { 0 };
-    size_t n;
-    const pg_key_table *table = pg_scene_tables (&n);
-    PG_TRY (pg_schema_create (&s, table, n));
-    PG_TRY (pg_manual_write (to, &s));
-done:
+    pg_status status = pg_schema_of_all (&s);
+    if (!status) status = pg_manual_write (to, &s);
     pg_schema_clear (&s);
     return status;
 }

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The key tables of all folders and of the entries of their catalogues, from list.h: gathered once, then
  * constant. */
+#include "schema.h"
 #include "perigal/scene.h"
 #include <pthread.h>
 #include <string.h>
@@ -127,6 +128,13 @@ const pg_key_table *pg_scene_tables (size_t *n)
     pthread_once (&all.once, gather);
     *n = all.ntable;
     return all.table;
+}
+
+pg_status pg_schema_of_all (pg_schema *s)
+{
+    size_t n;
+    const pg_key_table *table = pg_scene_tables (&n);
+    return pg_schema_create (s, table, n);
 }
 
 const char *pg_scene_tables_fault (void)
