@@ -39,5 +39,6 @@
 #include "perigal/picture.h"
 #include "perigal/compare.h"
 #include "perigal/results.h"
+#include "perigal/session.h"
 #include "perigal/study.h"
 #endif

@@ -122,6 +122,13 @@ long      pg_csv_column (const pg_csv *csv, const char *wanted);
 /* Length of the name at the beginning of a header cell, without " [unit]". */
 size_t    pg_csv_name   (const char *column);
 
+/* ---- matrices ------------------------------------------------------------------------------------------ */
+/* A sparse matrix as a Matrix Market file (coordinate real, symmetric where A is), a vector as one of the
+ * array kind; numbers with 17 digits, which give the same double back. comment: lines for its head, NULL:
+ * none. PG_E_FILE. */
+pg_status pg_matrix_market_write  (const pg_sparse *A, const char *path, const char *comment);
+pg_status pg_matrix_market_vector (size_t n, const double *value, const char *path, const char *comment);
+
 /* ---- checkpoint.nc: what a run must remember, in classic netCDF ---------------------------------------- */
 /* A function that visits everything that a checkpoint holds, in a fixed order: it calls the
  * keeper (base.h) with a name, a length and an array for each piece. The same function serves

@@ -246,6 +246,11 @@ pg_status pg_solver_step   (pg_solver *solver, pg_state *state, pg_step *step);
  * as it is. */
 pg_status pg_solver_release (pg_solver *solver, const pg_state *state, int nfield, const double *const *d,
                              const double *t, size_t n, const pg_changes *cut, int anew, double *release);
+/* Cuts live bonds (ascending) between two steps: their alive bits become 0, and forces from now on are those
+ * of the bonds that are left; the energy that they held counts as dissipated in the next step. Bonds cut
+ * before the first step were never there. They are not counted as broken and no criterion has judged them.
+ * PG_E_USAGE: cracks grow by facets; or, after the first step, event stepping and contact. */
+pg_status pg_solver_cut    (pg_solver *solver, pg_state *state, const pg_changes *cut);
 /* Called between the break rounds of a step, with the state and the step so far. A status other than PG_OK
  * ends pg_solver_step with it; the state is then one in the middle of the step, from which pg_solver_step
  * goes on when it is called again. */
