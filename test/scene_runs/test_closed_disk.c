@@ -26,7 +26,8 @@ static void grows_by_sliding (double friction)
         if (r.step.event) {
             const pg_tip_values *v = pg_solver_tip (r.solver, r.state->paths->tip[0].id);
             double hoop = -v->K[1] / (sqrt (3) / 2 * toughness);
-            print_message ("friction %g: grows at %.4g N, K_II / (sqrt (3) / 2 K_c) %.4f\n", friction, P, hoop);
+            print_message ("friction %g: grows at %.4g N, K_II / (sqrt (3) / 2 K_c) %.4f\n", friction, P,
+                           hoop);
             check_relative (hoop, 1, 0.015);
             events++;
         } else
