@@ -12,9 +12,10 @@
 #include "perigal/compare.h"
 #include "perigal/fracture.h"
 #include "perigal/results.h"
+#include <signal.h>
 #include <stdio.h>
 
-/* ---- exit codes of programs --------------------------------------------------------------------------- */
+/* ---- exit codes of programs ------------------------------------------------------------------------- */
 /* What a process ends with, so that the one that started it knows why: numbers of sysexits.h, and 128 +
  * SIGINT. */
 enum { PG_EXIT_DONE = 0, PG_EXIT_USAGE = 64, PG_EXIT_SCENE = 65, PG_EXIT_FAILED = 70,
@@ -22,7 +23,7 @@ enum { PG_EXIT_DONE = 0, PG_EXIT_USAGE = 64, PG_EXIT_SCENE = 65, PG_EXIT_FAILED 
 /* The exit code that belongs to a status. */
 int pg_exit_code (pg_status status);
 
-/* ---- lists of words on a command line ----------------------------------------------------------------- */
+/* ---- lists of words on a command line --------------------------------------------------------------- */
 enum { PG_LIST_WORDS = 32, PG_LIST_TEXT = 128 };
 /* "1 mm,0.5 mm" cut at its commas. given = 0: the user named no list, and defaults may be
  * filled in. */
@@ -30,7 +31,7 @@ typedef struct { int given; size_t n; char word[PG_LIST_WORDS][PG_LIST_TEXT]; } 
 /* Cuts a text; returns 0 for too many words, or for one that is empty or too long. */
 int pg_word_list_split (pg_word_list *out, const char *text);
 
-/* ---- a trial: one run, measured ----------------------------------------------------------------------- */
+/* ---- a trial: one run, measured --------------------------------------------------------------------- */
 /* The numbers of a trial: identifier, name and unit, in the order of the columns of bench.csv. */
 #define PG_TRIAL_LIST(X) \
     X (SPACING, "spacing", "m") X (HORIZON, "horizon", "m")   X (POINTS, "points", "1") \
@@ -80,7 +81,7 @@ pg_status pg_trial_of_mesh (pg_trial *out, const pg_scene *scene, const char *pa
 void      pg_trial_read  (pg_trial *out, const char *text);
 void      pg_trial_write (const pg_trial *t, FILE *to);
 
-/* ---- benchmarks: scenes x methods x sizes ------------------------------------------------------------- */
+/* ---- benchmarks: scenes x methods x sizes ----------------------------------------------------------- */
 /* A benchmark: every combination of scenes, methods and sizes. */
 typedef struct {
     const char  *scene[PG_LIST_WORDS];  size_t nscene;
@@ -103,7 +104,7 @@ typedef struct {
  * minute of the machine does not fall on one of them. */
 pg_status pg_bench_run (const pg_bench_request *q);
 
-/* ---- orders of convergence ---------------------------------------------------------------------------- */
+/* ---- orders of convergence -------------------------------------------------------------------------- */
 enum { PG_CONVERGE_SIZES = 12, PG_CONVERGE_STUDIES = 12 };
 /* A study of convergence: one scene at falling spacings. */
 typedef struct {
@@ -123,10 +124,10 @@ typedef struct {
 /* Leaves convergence.csv and convergence.png in the folder, and the table on `out`. */
 pg_status pg_converge_run (pg_converge_request *q);
 
-/* ---- many runs of one scene --------------------------------------------------------------------------- */
+/* ---- many runs of one scene ------------------------------------------------------------------------- */
 enum { PG_SERIES_SETS = 8, PG_SERIES_RUNS = 1000 };
-/* One of them: the name of its folder, the values of the scene that are its own, "key=value" (borrowed), and
- * a number that stands for it in tables. */
+/* One of them: the name of its folder, the values of the scene that are its own, "key=value" (borrowed),
+ * and a number that stands for it in tables. */
 typedef struct { char name[96]; size_t nset; const char *set[PG_SERIES_SETS]; double value; } pg_series_run;
 /* Runs that share a scene and some of its values. */
 typedef struct {
@@ -134,21 +135,36 @@ typedef struct {
     size_t      nset;  const char *set[PG_TRIAL_SETS];
     size_t      n;     const pg_series_run *run;
     int         threads;
+    /* So many run at a time; 0: one. Limit of memory of each, such as "2GB"; NULL: none. */
+    int         jobs;
+    const char *memory;
+    /* How many signals have asked to stop, as the caller's handler counts them; NULL: none can. The runs
+     * are asked to stop as often, so that the first one lets them write checkpoints. */
+    const volatile sig_atomic_t *stop;
+    /* Called as a run has ended; a status that is not PG_OK ends the series. NULL: nothing is called. */
+    pg_status (*ended) (void *context, size_t k);
+    void       *context;
     /* A line for each run as it ends; NULL: quiet. */
     FILE       *out;
 } pg_series_request;
-/* What a run left, NAN where it is not known: peak of the curve of report.json (N) and the displacement there
- * (m), energy dissipated (J), bonds broken, seconds. code: how it ended; trouble: why, if it failed. again:
- * 1: it was there already, or went on. */
+/* What a run left, NAN where it is not known: peak of the curve of report.json (N) and the displacement
+ * there (m), energy dissipated (J), bonds broken, seconds. code: how it ended, -1: it has not begun;
+ * trouble: why, if it failed. again: 1: it was there already, or went on. */
 typedef struct {
     double peak, displacement, dissipated, broken, seconds;
     int    code, again;
     char   trouble[400];
 } pg_series_result;
-/* Runs them one after the other, in folder/name each, in processes of this same program. What is finished is
- * not repeated, what was interrupted goes on. PG_E_SCENE: a scene is wrong; PG_E_INTERRUPTED; a run that
- * fails otherwise ends only itself. */
+/* Runs them in folder/name each, in processes of this same program. What is finished is not repeated, what
+ * was interrupted goes on from its checkpoint, what failed begins anew. A run that fails ends only itself,
+ * with its exit code; PG_EXIT_USAGE: its folder holds a finished run of another scene. PG_E_INTERRUPTED. */
 pg_status pg_series_run_all (pg_series_result *out /* n */, const pg_series_request *q);
+/* What folder/name holds: 1: a finished run of the scene with these values; 0: none; -1: a finished run of
+ * another scene or of other values. PG_E_SCENE: the scene is wrong. */
+pg_status pg_series_look (int *out, const pg_series_request *q, const pg_series_run *run);
+/* Passes every run that is not finished and has no checkpoint through `perigal check`, as many at a time as
+ * may run. PG_E_SCENE, PG_E_LIMIT ...: what is wrong, and with which of them. */
+pg_status pg_series_check (const pg_series_request *q);
 
 /* Mean, standard deviation (n - 1), least, median and largest of those of n values that are finite, which
  * are left in rising order; NAN where there are too few. */
@@ -162,13 +178,42 @@ typedef struct {
     size_t      count;
     long        first;
     int         threads;
+    /* As in pg_series_request. */
+    const volatile sig_atomic_t *stop;
     FILE       *out;
 } pg_seeds_request;
-/* Leaves folder/seed_1 ..., seeds.csv, and seeds.png, the histogram of the peak loads. PG_E_SCENE: nothing in
- * the scene has a seed; PG_E_EQUILIBRIUM: some runs failed. */
+/* Leaves folder/seed_1 ..., seeds.csv, and seeds.png, the histogram of the peak loads. PG_E_SCENE: nothing
+ * in the scene has a seed; PG_E_EQUILIBRIUM: some runs failed. */
 pg_status pg_seeds_run (const pg_seeds_request *q, pg_spread *peaks);
 
-/* ---- a result beside a reference ---------------------------------------------------------------------- */
+/* ---- sweeps ----------------------------------------------------------------------------------------- */
+enum { PG_SWEEP_QUANTITIES = 32 };
+/* One scene with all combinations of some of its values. */
+typedef struct {
+    const char *scene, *folder;
+    /* "key=a,b,c", or "key=1:20", "key='1:0.5:3 mm'" (from, step, to): commas inside brackets and quotes do
+     * not divide. Keys with one value are the same for every run. */
+    size_t      nset;       const char *set[PG_TRIAL_SETS];
+    /* Columns of the table: numbers of the report (pg_sweep_report_names) or columns of history.csv,
+     * "top.force_y", its last value, or "top.force_y:max", :min, :first, :peak (where the force of the
+     * curve is largest). None: the usual ones. */
+    size_t      nquantity;  const char *quantity[PG_SWEEP_QUANTITIES];
+    /* zip = 1: the first values together, the second ones ... instead of all combinations. resume = 1: the
+     * folder may hold a sweep, which goes on. */
+    int         zip, resume, jobs, threads;
+    const char *memory;
+    const volatile sig_atomic_t *stop;
+    FILE       *out;
+} pg_sweep_request;
+/* "peak|displacement|...". */
+extern const char pg_sweep_report_names[];
+/* Leaves a folder for each run, sweep.csv, and sweep.png: the first quantity over the key with most
+ * values, or a histogram. The table is renewed after every run. PG_E_USAGE: lists that do not fit, an
+ * unknown quantity, a folder with a sweep; PG_E_SCENE and others: a combination does not pass the check;
+ * PG_E_EQUILIBRIUM: some runs failed; PG_E_INTERRUPTED. */
+pg_status pg_sweep_run (const pg_sweep_request *q);
+
+/* ---- a result beside a reference -------------------------------------------------------------------- */
 /* A result to compare with a reference. */
 typedef struct {
     /* The result folder; the reference, NULL for the one that its scene names. */
@@ -208,7 +253,7 @@ pg_status pg_comparison_open  (pg_comparison *c, const pg_comparison_request *q)
 pg_status pg_comparison_write (const pg_comparison *c, const pg_comparison_request *q);
 void      pg_comparison_clear (pg_comparison *c);
 
-/* ---- the first bond to break -------------------------------------------------------------------------- */
+/* ---- the first bond to break ------------------------------------------------------------------------ */
 enum { PG_FIRST_TIPS = 16 };
 /* What a front of a crack in space bears under the full load. */
 typedef struct {

@@ -23,6 +23,8 @@ int pg_cli_list  (int argc, char **argv);
 int pg_cli_help  (int argc, char **argv);
 /* Error and cost of methods and sizes (bench.c). */
 int pg_cli_bench (int argc, char **argv);
+/* SCENE --set KEY=A,B,C ...: all combinations of values (sweep.c). */
+int pg_cli_sweep (int argc, char **argv);
 /* Orders of convergence (converge.c). */
 int pg_cli_converge (int argc, char **argv);
 /* What bench and converge start in a new process (trial.c). */
@@ -50,6 +52,8 @@ void progress_show (progress *p, const pg_progress *at, const pg_step *step, con
 /* Removes the line from the terminal. */
 void progress_end   (progress *p);
 
+/* From now on SIGINT, SIGTERM and SIGHUP are counted, for studies of many runs (stops.c). */
+const volatile sig_atomic_t *command_stops (void);
 /* usage.c: prints what a command says of itself; 0: there is no such command. */
 int       command_usage (FILE *to, const char *name);
 

@@ -107,7 +107,7 @@ int pg_cli_help (int argc, char **argv)
     else status = pg_scene_help (stdout, argv[1]);
     const char *near =
         status == PG_E_USAGE
-            ? pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|new|list|help")
+            ? pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|sweep|new|list|help")
             : NULL;
     if (status != PG_OK)
         fprintf (stderr, "perigal: %s%s%s%s\n", pg_last_error (), near ? "; or the command " : "",

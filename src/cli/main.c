@@ -24,6 +24,8 @@ static const struct { const char *name; int (*run) (int, char **); const char *s
       "bench [SCENE...] [--fem]                   error and cost of methods and sizes, also of CalculiX" },
     { "converge", pg_cli_converge,
       "converge SCENE.yaml [--m]                  orders of convergence of all results of a scene" },
+    { "sweep", pg_cli_sweep,
+      "sweep SCENE.yaml --set KEY=A,B,C [-j N]    all combinations of values, a table of them" },
     { "new", pg_cli_new, "new KIND [-o DIR]                          write a commented scene that runs" },
     { "list", pg_cli_list,
       "list                                       methods, kernels, criteria ... of this build" },
@@ -96,8 +98,8 @@ int main (int argc, char **argv)
             return commands[k].run (argc - 1, argv + 1);
         }
     const char *near =
-        pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|new|list|help|"
-                                 "--version|--help");
+        pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|sweep|new|list|"
+                                 "help|--version|--help");
     fprintf (stderr, "perigal: unknown %s %s%s%s%s\n", argv[1][0] == '-' ? "option" : "command", argv[1],
              near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
     usage (stderr);

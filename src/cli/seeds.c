@@ -13,6 +13,7 @@ int command_seeds (const command *c)
                            .first = 1,
                            .count = (size_t) c->seeds,
                            .threads = c->threads,
+                           .stop = command_stops (),
                            .out = c->quiet ? NULL : stdout };
     if (c->force)
         PG_FAIL (PG_E_USAGE,

@@ -108,6 +108,33 @@ static const char converge[] =
     "  -o, --out DIR        default out/converge\n"
     "  -q, --quiet          print nothing\n";
 
+static const char sweep[] =
+    "perigal sweep SCENE.yaml --set KEY=A,B,C [--set KEY=FROM:STEP:TO]... [--zip] [-j N] [-o DIR]\n"
+    "              [--resume] [--quantity NAME,NAME...] [--threads N] [--memory SIZE] [--quiet]\n"
+    "  Runs a scene with all combinations of the values given, each in a folder of its own with a readable\n"
+    "  name, after all of them have passed `perigal check`. Writes DIR/sweep.csv, a row a run, renewed\n"
+    "  after every run, and DIR/sweep.png: the first quantity over the key with most values, a histogram\n"
+    "  for seeds and words. A run that fails does not end the sweep; its row says why.\n"
+    "  -s, --set KEY=A,B,C  values of a key: a list, or a range FROM:TO, FROM:STEP:TO, with a unit behind:\n"
+    "                       --set spacing='1:0.5:3 mm'; with one value: for every run. Commas inside\n"
+    "                       brackets and quotes do not divide\n"
+    "      --zip            the first values of all keys together, the second ones ...: no combinations\n"
+    "  -j, --jobs N         so many runs at a time, default 1; they share processors and memory\n"
+    "      --resume         go on in a folder with a sweep: finished runs are kept, interrupted ones\n"
+    "                       continued, failed ones begun anew. Values and quantities may be added\n"
+    "      --quantity LIST  columns of the table, the first one for the picture: peak, displacement,\n"
+    "                       load_factor (at the peak), energy_strain, energy_kinetic, energy_external,\n"
+    "                       energy_damping, energy_dissipated, broken, events, steps, crack_length,\n"
+    "                       fragments, points, dofs, memory, seconds; or a column of history.csv:\n"
+    "                       top.force_y (its last value), top.force_y:max, :min, :first, :peak (at the\n"
+    "                       peak). Default: peak to energy_dissipated, broken, events, and gauges\n"
+    "      --threads N      of each run; default: the processors divided by the jobs\n"
+    "      --memory SIZE    limit of each run; default: what is free divided by the jobs\n"
+    "  -o, --out DIR        default out/sweep\n"
+    "  -q, --quiet          print nothing\n"
+    "  Ctrl-C lets the runs write checkpoints and leaves table and pictures of what there is; a second one\n"
+    "  stops at once.\n";
+
 static const char new[] =
     "perigal new KIND [-o DIR]\n"
     "  Writes a commented scene that runs, DIR/scene.yaml, with the files that it names; never over other\n"
@@ -126,8 +153,8 @@ static const char help[] =
 /* The commands in the order of the man page. */
 static const struct { const char *name, *text; } usages[] = {
     { "run", run },         { "check", check }, { "plot", plot },         { "cracks", cracks },
-    { "compare", compare }, { "bench", bench }, { "converge", converge }, { "new", new },
-    { "list", list },       { "help", help },
+    { "compare", compare }, { "bench", bench }, { "converge", converge }, { "sweep", sweep },
+    { "new", new },         { "list", list },   { "help", help },
 };
 
 /* Prints the usage of a command; 0 for other words, so that help can go on with keys of the

@@ -10,6 +10,7 @@
 #include <stdlib.h>
 #include <stdint.h>
 #include <string.h>
+#include <sys/prctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -65,6 +66,9 @@ static size_t drain (int from, char *text, size_t size)
 /* A time of the system in seconds. */
 static double seconds_of (const struct timeval *t) { return (double) t->tv_sec + 1e-6 * (double) t->tv_usec; }
 
+/* The exit code of what wait4 tells. */
+static int code_of (int how) { return WIFEXITED (how) ? WEXITSTATUS (how) : 128 + WTERMSIG (how); }
+
 /* The output of the child is read to its end before its exit is waited for: a full pipe would
  * block both. All streams are flushed before the fork: otherwise their buffers would be
  * written twice. */
@@ -90,13 +94,54 @@ pg_status pg_process_run (pg_process *out, const char *program, const char *cons
     out->wall = pg_seconds () - start;
     out->cpu = seconds_of (&used.ru_utime) + seconds_of (&used.ru_stime);
     out->peak = (size_t) used.ru_maxrss * 1024;
-    out->code = WIFEXITED (how) ? WEXITSTATUS (how) : 128 + WTERMSIG (how);
+    out->code = code_of (how);
     if (out->code == 127) PG_FAIL (PG_E_FILE, "%s cannot be started", argv[0]);
     if (out->code == 128 + SIGINT) PG_FAIL (PG_E_INTERRUPTED, "%s was interrupted", argv[0]);
 done:
     if (ends[0] >= 0) close (ends[0]);
     if (ends[1] >= 0) close (ends[1]);
     return status;
+}
+
+/* The parent may have died between fork and prctl: then nobody would ever tell the child. */
+pg_status pg_child_start (pg_child *out, const char *const argv[], const char *log, int threads)
+{
+    pg_status status = PG_OK;
+    pid_t parent = getpid ();
+    *out = (pg_child) { .start = pg_seconds () };
+    fflush (NULL);
+    pid_t child = fork ();
+    if (child < 0) PG_FAIL (PG_E_MEMORY, "%s: no process: %s", argv[0], strerror (errno));
+    if (child == 0) {
+        setpgid (0, 0);
+        if (prctl (PR_SET_PDEATHSIG, SIGTERM) != 0 || getppid () != parent) _exit (127);
+        become (NULL, argv, NULL, log, open ("/dev/null", O_WRONLY), threads);
+    }
+    out->id = child;
+done:
+    return status;
+}
+
+int pg_child_ended (pg_child *c)
+{
+    struct rusage used;
+    int how = 0;
+    pid_t got = c->id > 0 ? wait4 ((pid_t) c->id, &how, WNOHANG, &used) : 0;
+    if (got <= 0 && !(got < 0 && errno == ECHILD)) return 0;
+    c->wall = pg_seconds () - c->start;
+    c->code = 127;                                     /* somebody else has waited for it */
+    if (got > 0) {
+        c->cpu = seconds_of (&used.ru_utime) + seconds_of (&used.ru_stime);
+        c->peak = (size_t) used.ru_maxrss * 1024;
+        c->code = code_of (how);
+    }
+    c->id = 0;
+    return 1;
+}
+
+void pg_child_signal (const pg_child *child, int number)
+{
+    if (child->id > 0) kill ((pid_t) child->id, number);
 }
 
 /* Looks in each folder of PATH. */

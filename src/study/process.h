@@ -23,6 +23,24 @@ typedef struct {
  * PG_E_INTERRUPTED: it was interrupted (SIGINT). */
 pg_status pg_process_run (pg_process *out, const char *program, const char *const argv[], const char *folder,
                      const char *log, int threads);
+/* This program again, beside this process: to be asked now and then whether it has ended. */
+typedef struct {
+    long   id;
+    double start;
+    /* As in pg_process. */
+    int    code;
+    double wall, cpu;
+    size_t peak;
+} pg_child;
+/* Starts it; arguments as in pg_process_run, what it writes to stdout is dropped. It belongs to a group of
+ * its own, so that an interrupt typed at a terminal reaches this process only, which passes it on
+ * (pg_child_signal); should this process be killed, it is asked to stop (SIGTERM). PG_E_FILE, PG_E_MEMORY:
+ * it cannot be started. */
+pg_status pg_child_start  (pg_child *out, const char *const argv[], const char *log, int threads);
+/* 1 once it has ended, and then code, wall, cpu and peak hold; never waits. */
+int       pg_child_ended  (pg_child *child);
+/* Sends it a signal. */
+void      pg_child_signal (const pg_child *child, int number);
 /* 1 if a program of that name is in PATH. */
 int       pg_process_finds (const char *program);
 /* First line of a log that is not empty, for messages; "" without one. */

@@ -1,15 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * One scene with many seeds: the spread of its peak load. seeds.csv has a row for each run; the picture is a
- * histogram with the mean. */
+ * histogram. */
 #include "perigal/picture.h"
-#include "perigal/study.h"
+#include "series.h"
 #include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-
-/* Bins of the histogram, most. */
-enum { BINS = 30 };
 
 /* The runs, their values of the scene as text, and their results. */
 typedef struct {
@@ -100,58 +97,6 @@ done:
     return status;
 }
 
-static int ascending (const void *a, const void *b)
-{
-    double p = *(const double *) a, q = *(const double *) b;
-    return (p > q) - (p < q);
-}
-
-void pg_spread_of (pg_spread *out, size_t n, double *value)
-{
-    double sum = 0, squares = 0;
-    size_t m = 0;
-    for (size_t k = 0; k < n; k++) if (isfinite (value[k])) value[m++] = value[k], sum += value[m - 1];
-    qsort (value, m, sizeof *value, ascending);
-    *out = (pg_spread) { .n = m, .mean = NAN, .deviation = NAN, .least = NAN, .median = NAN, .most = NAN };
-    if (m == 0) return;
-    out->mean = sum / (double) m;
-    for (size_t k = 0; k < m; k++) squares += (value[k] - out->mean) * (value[k] - out->mean);
-    if (m > 1) out->deviation = sqrt (squares / (double) (m - 1));
-    out->least = value[0], out->most = value[m - 1];
-    out->median = 0.5 * (value[(m - 1) / 2] + value[m / 2]);
-}
-
-/* As many equal bins as the root of the number of values, between least and largest; the outline of the bars,
- * and a line at the mean. value: ascending. */
-static pg_status draw_histogram (const pg_spread *s, const double *value, const char *folder,
-                                 const char *title)
-{
-    pg_status status = PG_OK;
-    double count[BINS] = { 0 }, x[4 * BINS + 2], y[4 * BINS + 2], mean[2], height[2] = { 0, 0 };
-    char path[4096], label[64];
-    size_t bins = (size_t) fmin (BINS, fmax (4, ceil (sqrt ((double) s->n)))), m = 0;
-    double width = (s->most - s->least) / (double) bins;
-    if (s->n < 2 || !(width > 0)) return PG_OK;
-    double unit = fabs (s->most) >= 1e6 ? 1e6 : fabs (s->most) >= 1e3 ? 1e3 : 1;
-    for (size_t k = 0; k < s->n; k++)
-        count[(size_t) fmin ((double) bins - 1, floor ((value[k] - s->least) / width))]++;
-    for (size_t b = 0; b < bins; b++) {
-        double from = (s->least + width * (double) b) / unit, to = from + width / unit;
-        const double px[4] = { from, from, to, to }, py[4] = { 0, count[b], count[b], 0 };
-        for (int k = 0; k < 4; k++) x[m] = px[k], y[m++] = py[k];
-        height[1] = fmax (height[1], count[b]);
-    }
-    mean[0] = mean[1] = s->mean / unit, height[1] *= 1.15;
-    snprintf (label, sizeof label, "peak load (%s)", unit == 1e6 ? "MN" : unit == 1e3 ? "kN" : "N");
-    pg_curve curves[2] = { { .name = "runs", .n = m, .x = x, .y = y, .points = PG_CURVE_LINE },
-                           { .name = "mean", .n = 2, .x = mean, .y = height, .points = PG_CURVE_LINE } };
-    pg_chart_style style = { .title = title, .xlabel = label, .ylabel = "number of runs", .beside = 1 };
-    snprintf (path, sizeof path, "%s/seeds.png", folder);
-    PG_TRY (pg_picture_chart (path, 2, curves, &style));
-done:
-    return status;
-}
-
 static void tell (FILE *out, const pg_spread *s, size_t runs, const char *folder)
 {
     char mean[64], deviation[64], least[64], median[64], most[64];
@@ -173,15 +118,28 @@ static void tell (FILE *out, const pg_spread *s, size_t runs, const char *folder
              s->n > 1 && s->most > s->least ? "/seeds.png" : "");
 }
 
+/* A scene that is wrong is wrong for all seeds. */
+static pg_status look (void *context, size_t k)
+{
+    pg_status status = PG_OK;
+    const pg_series_result *r = &((const series *) context)->result[k];
+    if (r->code == PG_EXIT_SCENE || r->code == PG_EXIT_USAGE) PG_FAIL (PG_E_SCENE, "%s", r->trouble);
+done:
+    return status;
+}
+
 pg_status pg_seeds_run (const pg_seeds_request *q, pg_spread *spread)
 {
     pg_status status = PG_OK;
     series s = { 0 };
     double *peak = NULL;
     size_t failed = 0;
+    char path[4096];
+    int drawn;
     PG_TRY (name_runs (&s, q));
     pg_series_request all = { .scene = q->scene, .folder = q->folder, .nset = q->nset, .n = s.n, .run = s.run,
-                              .threads = q->threads, .out = q->out };
+                              .threads = q->threads, .stop = q->stop, .out = q->out, .ended = look,
+                              .context = &s };
     for (size_t k = 0; k < q->nset; k++) all.set[k] = q->set[k];
     PG_ALLOC (peak, s.n);
     PG_TRY (pg_series_run_all (s.result, &all));
@@ -191,7 +149,8 @@ pg_status pg_seeds_run (const pg_seeds_request *q, pg_spread *spread)
     }
     PG_TRY (write_table (&s, q->folder));
     pg_spread_of (spread, s.n, peak);
-    PG_TRY (draw_histogram (spread, peak, q->folder, q->scene));
+    snprintf (path, sizeof path, "%s/seeds.png", q->folder);
+    PG_TRY (pg_histogram_draw (&drawn, path, spread, peak, "peak load", "N", q->scene));
     if (q->out) tell (q->out, spread, s.n, q->folder);
     if (failed)
         PG_FAIL (PG_E_EQUILIBRIUM, "%zu of %zu runs failed: see %s/seed_*.log", failed, s.n, q->folder);

@@ -84,7 +84,7 @@ good() {   # the command as words
             fi
             mapfile -t words < <(absent "$@")
             if [ "$1" = plot ]; then stops 70 'No such file or ' "${words[@]}"; else stops 64 'is no result folder' "${words[@]}"; fi ;;
-        bench|converge) mapfile -t words < <(absent "$@"); stops 70 "$nowhere" "${words[@]}" -o $nowhere ;;
+        bench|converge|sweep) mapfile -t words < <(absent "$@"); stops 70 "$nowhere" "${words[@]}" -o $nowhere ;;
         *) return 1 ;;
     esac
 }

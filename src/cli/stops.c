@@ -1,0 +1,23 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Signals that ask a command of many runs to stop: they are counted, and the runs are asked as often. The
+ * first one lets them write checkpoints, the second one ends them at once; this process lives on to say
+ * what there is. A single run has a handler of its own (run.c). */
+#include "cli.h"
+#include <string.h>
+
+static volatile sig_atomic_t asked;
+static void on_signal (int number) { (void) number, asked = asked + 1; }
+
+/* Signals that the caller ignores (nohup) stay ignored, SIGINT excepted. */
+const volatile sig_atomic_t *command_stops (void)
+{
+    static const int asking[] = { SIGINT, SIGTERM, SIGHUP };
+    struct sigaction act, before;
+    memset (&act, 0, sizeof act);
+    act.sa_handler = on_signal, act.sa_flags = SA_RESTART;
+    for (size_t k = 0; k < sizeof asking / sizeof *asking; k++)
+        if (sigaction (asking[k], NULL, &before) == 0
+            && (before.sa_handler != SIG_IGN || asking[k] == SIGINT))
+            sigaction (asking[k], &act, NULL);
+    return &asked;
+}
