@@ -15,7 +15,7 @@ ORDER   := base scene kernel material criterion linalg netcdf mesh mesh_files cl
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libqhull-dev libcmocka-dev
 # What the tests of matlab-compat and python need; where these cannot be had, those tests say that they are skipped.
-OPTIONAL := octave octave-netcdf gnuplot-nox ghostscript fonts-freefont-otf python3-numpy python3-netcdf4
+OPTIONAL := octave octave-netcdf octave-dev gnuplot-nox ghostscript fonts-freefont-otf python3-numpy python3-netcdf4
 
 BUILD   := build/$(MODE)
 # the threaded parts are what the thread sanitizer is for
@@ -121,6 +121,23 @@ $(BUILD)/bench/%: bench/%.c $(LIB)
 perigal.pc: perigal.pc.in FORCE
 	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(LIBS)|' $< > $@
 
+# The compiled functions of matlab-compat. The library's threads live as long as the process, so that it must not be unloaded (nodelete).
+# MEX=mex: by MATLAB's compiler, which takes its flags as arguments.
+MEX     ?= mkoctfile --mex
+MEXSRC  := $(wildcard matlab-compat/mex/*.c)
+MEXOUT   = $(BUILD)/matlab/perigal_mex.$(if $(findstring mkoctfile,$(MEX)),mex,mexa64)
+MEXC     = $(filter-out -g,$(OPT_$(MODE))) -std=c17 -D_POSIX_C_SOURCE=200809L -fPIC $(WARN)
+MEXLD    = -Wl,-z,nodelete -Wl,--exclude-libs,ALL
+MEXBY    = $(if $(findstring mkoctfile,$(MEX)),CFLAGS="$(MEXC)" LDFLAGS="$(MEXLD)" $(MEX) -o $@,$(MEX) CFLAGS='$$CFLAGS $(MEXC)' LDFLAGS='$$LDFLAGS $(MEXLD)' -output $@)
+mex: $(MEXOUT)       ## the compiled functions of matlab-compat, for Octave (package octave-dev); MEX=mex: for MATLAB
+	$(Q)ln -sf ../$< matlab-compat/
+
+$(MEXOUT): $(MEXSRC) $(wildcard matlab-compat/mex/*.h) $(LIB)
+	@command -v $(firstword $(MEX)) > /dev/null || { echo "make mex needs $(firstword $(MEX)): install the package octave-dev, or name another compiler by MEX=" >&2; exit 1; }
+	@mkdir -p $(@D)
+	$(if $(V),,@echo "  MEX  $@")
+	$(Q)$(MEXBY) -Iinclude $(MEXSRC) $(LIB) -lfftw3 -lyaml -ludunits2
+
 packages:            ## install the Debian packages that are missing
 	$(Q).ci/packages $(PACKAGES)
 
@@ -132,11 +149,11 @@ demo: packages       ## install, build, run the Brazilian disk, leave pictures
 	$(Q)./perigal run data/disk_crack/scene.yaml -o out/demo --force --threads $(THREADS)
 
 test: test-packages  ## everything; last line: N passed, N failed
-	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB)) test-programs
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
 	$(Q).ci/test $(BUILD) "$(T)" short $(JOBS)
 
 test-long: test-packages
-	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB)) test-programs
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
 	$(Q).ci/test $(BUILD) "$(T)" long $(JOBS)
 
 test-programs: $(PROGRAM) $(CONVERT) $(if $(T),$(filter $(T:%=$(BUILD)/test/%/%),$(TESTBIN)),$(TESTBIN))
@@ -203,19 +220,19 @@ install: all
 	rm -rf $(DESTDIR)$(prefix)/share/perigal/scenes
 	cp -r data $(DESTDIR)$(prefix)/share/perigal/scenes
 	rm -rf $(DESTDIR)$(prefix)/share/perigal/matlab
-	cp -r matlab-compat $(DESTDIR)$(prefix)/share/perigal/matlab
+	cp -rL matlab-compat $(DESTDIR)$(prefix)/share/perigal/matlab
 	install -d $(DESTDIR)$(prefix)/share/perigal/python/perigal
 	install -m 644 python/pyproject.toml python/README.md $(DESTDIR)$(prefix)/share/perigal/python
 	install -m 644 python/perigal/*.py $(DESTDIR)$(prefix)/share/perigal/python/perigal
 
 clean:
-	rm -rf build out perigal perigal.pc
+	rm -rf build out perigal perigal.pc matlab-compat/perigal_mex.*
 
 FORCE:
 
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal packages test-packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
+.PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)

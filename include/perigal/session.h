@@ -90,6 +90,7 @@ pg_status pg_bond_sum_force  (pg_bond_sum *sum, const double *u, double *f, doub
 const pg_family *pg_bond_sum_family (const pg_bond_sum *sum, const unsigned char **alive);
 void      pg_bond_sum_bonds  (const pg_bond_sum *sum, double *xi, double *weight, double *beta,
                               double *modulus);
+int       pg_bond_sum_dim    (const pg_bond_sum *sum);         /* coordinates of a point */
 const char *pg_bond_sum_name (const pg_bond_sum *sum);         /* "fft avx2", "list scalar", ... */
 /* Sets the alive bit of every entry (0, 1). A bond lives where both its entries do: one that is dead in one
  * direction is made dead in the other. */

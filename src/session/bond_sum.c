@@ -94,6 +94,8 @@ void pg_bond_sum_bonds (const pg_bond_sum *s, double *xi, double *weight, double
     if (modulus) *modulus = s->modulus[0];
 }
 
+int pg_bond_sum_dim (const pg_bond_sum *s) { return s->cloud.dim; }
+
 const char *pg_bond_sum_name (const pg_bond_sum *s) { return pg_bond_loop_name (s->loop); }
 
 /* The entry of i in the family of j: neighbours ascend, and who is seen sees. */

@@ -229,32 +229,4 @@ function pictures (r, there)
     end
 end
 
-function refused (name, id, pattern, f)
-    good = false;
-    try
-        f ();
-        got = 'no error';
-    catch fault
-        got = [fault.identifier ': ' fault.message];
-        good = strcmp (fault.identifier, id) && ~isempty (strfind (fault.message, pattern));
-    end
-    verdict (name, good);
-    if ~good
-        printf ('# %s\n', strrep (got, sprintf ('\n'), sprintf ('\n# ')));
-    end
-end
-
-function verdict (name, good)
-    persistent n
-    if nargin == 0
-        n = 0;
-    elseif nargin == 1
-        printf ('1..%d\n', n);
-    else
-        n = n + 1;
-        words = {'not ok', 'ok'};
-        printf ('%s %d - %s\n', words{1 + logical(good)}, n, name);
-    end
-end
-
 % SPDX-License-Identifier: GPL-3.0-or-later
