@@ -15,11 +15,14 @@
 
 PG_API_BEGIN
 
-/* ---- pictures (PNG or SVG by the file's ending) -------------------------------------------------------- */
+/* ---- pictures (PNG or SVG by the file's ending) ----------------------------------------------------- */
 /* Where the body is, which the points alone do not say exactly at its edges. Exactly one of
  * the three is used, in this order: a mesh of plane elements (coordinates in m), the cells of
  * a lattice that belong to the body (if lattice->dim > 0), the shapes of the body. */
 typedef struct { const pg_body *body; const pg_lattice *lattice; const pg_mesh *mesh; } pg_outline;
+/* What the frames of several pictures of one cloud reach across and upwards, m, so that all can have the
+ * same; any = 1: something has been measured. */
+typedef struct { int any; double low[2], high[2]; } pg_reach;
 /* How a picture looks. A structure of zeros is a valid choice: no title, colours over the
  * range of the values, an undeformed body, in 3D the section through the middle of z. */
 typedef struct {
@@ -71,6 +74,10 @@ typedef struct {
      * neighbours of which one has a damage below 0.1 stay together however much the
      * displacement is magnified; others may separate. */
     const double *damage;
+    /* Points in 2D and 3D only, for pictures of one size: the frame, as pg_picture_reach has measured it
+     * (any = 0: that of the picture), and no line about values that the colours leave out. NULL: none of
+     * this. */
+    const pg_reach *reach;
 } pg_picture_style;
 /* Views are named like the sides of a body: left is the side of small x, bottom of small y,
  * back of small z; right, top and front are the opposite ones. The eye looks at that side from
@@ -119,9 +126,9 @@ void      pg_picture_name (char *out, size_t size, const char *text);
 pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value /* n */,
                             const pg_picture_style *style);
 
-/* One state of several in a common picture: its title, the values (n), and, each or NULL,
- * displacement (n x dim, m), the values that select points (n), the damage (n), and the cracks of this state
- * (NULL: those of the style). */
+/* One state of several in a common picture: its title, the values (n), and, each or NULL, displacement (n
+ * x dim, m), the values that select points (n), the damage (n), and the cracks of this state (NULL: those
+ * of the style). */
 typedef struct {
     const char *title;
     const double *value, *u, *select, *damage;
@@ -132,6 +139,23 @@ typedef struct {
  * u, select and damage are not used. */
 pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel,
                              int columns, const pg_picture_style *style);
+
+/* Widens *reach by the frame that a picture of this state would have. Nothing is drawn. */
+pg_status pg_picture_reach  (pg_reach *reach, const pg_cloud *cloud, const pg_panel *panel,
+                             const pg_picture_style *style);
+
+/* A movie: pictures of one size, one after the other, as an animated PNG that begins again at its end (PNG
+ * third edition, W3C 2025), which browsers show; other programs show its first picture. */
+typedef struct pg_movie pg_movie;
+/* path: ends in .png or .apng; so many pictures will follow, `rate` of them in a second (0.01 to 1000).
+ * PG_E_USAGE; PG_E_FILE. */
+pg_status pg_movie_create (pg_movie **out, const char *path, size_t frames, double rate);
+/* Appends a picture, a PNG file written by this folder. PG_E_USAGE: it has not the size of the first one;
+ * PG_E_FILE: it cannot be read, or the movie not written. */
+pg_status pg_movie_add    (pg_movie *movie, const char *picture);
+/* Ends and frees it; unless all of its pictures have come and `so_far` is PG_OK the file is removed.
+ * Returns so_far, or what went wrong at the end. */
+pg_status pg_movie_close  (pg_movie **movie, pg_status so_far);
 
 /* Draws a mesh: values at its nodes (nnode, in the unit of the label), or with value == NULL
  * every block of elements in a colour of its own. The style's u is in units of the mesh (nnode
@@ -159,9 +183,9 @@ void      pg_picture_time (double t, char *out, size_t size);
  * raised as well. */
 void      pg_picture_quantity (double value, const char *unit, char *out, size_t size);
 
-/* Draws the cracks of a scene alone, over a body of shapes (pg_body_read: without its slots): in 2D the body
- * coloured by the distance to the nearest crack, in 3D the places that cracks pass, seen from outside. The
- * cracks must have an index (pg_cracks_index). PG_E_USAGE: no shapes, or a bar. */
+/* Draws the cracks of a scene alone, over a body of shapes (pg_body_read: without its slots): in 2D the
+ * body coloured by the distance to the nearest crack, in 3D the places that cracks pass, seen from
+ * outside. The cracks must have an index (pg_cracks_index). PG_E_USAGE: no shapes, or a bar. */
 pg_status pg_picture_network (const char *path, const pg_body *body, const pg_cracks *cracks,
                               const char *title);
 

@@ -179,6 +179,8 @@ typedef struct {
     long        first;
     int         threads;
     /* As in pg_series_request. */
+    int         jobs;
+    const char *memory;
     const volatile sig_atomic_t *stop;
     FILE       *out;
 } pg_seeds_request;

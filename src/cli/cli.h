@@ -65,8 +65,9 @@ typedef struct {
     int threads, quiet, resume, force, json, solve, spectrum, echo;
     /* Bytes of --memory; 0: not given. */
     double memory;
-    /* Runs of --seeds; 0: not given. */
+    /* Runs of --seeds, and how many at a time; 0: not given. */
     long seeds;
+    int  jobs;
     /* The text of --threads, to repeat it in messages; NULL: not given. */
     const char *given;
 } command;
@@ -75,6 +76,9 @@ int       command_parse (command *c, int argc, char **argv);
 /* 1 if words follow a --set that belong to its value but lost their quotes; `out` gets the
  * message. */
 int       command_unquoted (char *out, size_t size, int argc, char **argv);
+/* Shares processors and memory among so many jobs: threads of each, and its limit of memory as text. threads,
+ * memory: what was asked for, 0: nothing (sweep.c). */
+void      command_share (int jobs, int *threads, double memory, char text[32]);
 /* The runs of --seeds; returns the exit code (seeds.c). */
 int       command_seeds (const command *c);
 /* Loads the scene with the --set options. A file that cannot be read counts as a wrong scene.

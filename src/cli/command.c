@@ -61,6 +61,17 @@ static int read_seeds (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
+/* -j N: so many runs of --seeds at a time. */
+static int read_jobs (command *c, const char *text)
+{
+    char *end;
+    long n = strtol (text, &end, 10);
+    c->jobs = (int) n;
+    if (end != text && !*end && n >= 1 && n <= 64) return -1;
+    fprintf (stderr, "perigal: --jobs %s: a number from 1 to 64 is needed\n", text);
+    return PG_EXIT_USAGE;
+}
+
 /* --set KEY=VALUE, at most 64 times; the key is checked when the scene is loaded. */
 static int read_set (command *c, const char *text)
 {
@@ -84,7 +95,8 @@ static int refuse (const char *name, int option, const char *argument)
                              strcmp (name, "check") == 0
                                  ? "--json|--solve|--spectrum|--echo|--out|--threads|--memory|--plain|--set|"
                                    "--quiet|--help"
-                                 : "--out|--resume|--force|--threads|--memory|--plain|--set|--seeds|--quiet|"
+                                 : "--out|--resume|--force|--threads|--memory|--plain|--set|--seeds|--jobs|"
+                                   "--quiet|"
                                    "--help");
         fprintf (stderr, "perigal %s: unknown option %s%s%s%s\n", name, argument,
                  near ? " (did you mean " : "", near ? near : "", near ? "?)" : "");
@@ -129,7 +141,7 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
 static int belongs_to (int option, const char *name)
 {
     int checks = strcmp (name, "check") == 0;
-    return option == 'f' || option == 'n' ? !checks : checks || !strchr ("jvwe", option);
+    return strchr ("fnj", option) ? !checks : checks || !strchr ("kvwe", option);
 }
 
 /* One option of run or check; -1: go on, else the exit code. */
@@ -146,10 +158,11 @@ static int read_option (command *c, const char *name, int option, const char *wo
     case 'p': return read_set (c, "solver.plain=on");
     case 'r': c->resume = 1; return -1;
     case 'f': c->force = 1; return -1;
-    case 'j': c->json = 1; return -1;
+    case 'k': c->json = 1; return -1;
     case 'v': c->solve = 1; return -1;
     case 'w': c->spectrum = 1; return -1;
     case 'n': return read_seeds (c, optarg);
+    case 'j': return read_jobs (c, optarg);
     case 'e': c->echo = 1; return -1;
     default: return refuse (name, option, word);
     }
@@ -163,9 +176,9 @@ int command_parse (command *c, int argc, char **argv)
         { "out", required_argument, NULL, 'o' }, { "threads", required_argument, NULL, 't' },
         { "set", required_argument, NULL, 's' }, { "resume", no_argument, NULL, 'r' },
         { "force", no_argument, NULL, 'f' },     { "memory", required_argument, NULL, 'm' },
-        { "json", no_argument, NULL, 'j' },      { "solve", no_argument, NULL, 'v' },
+        { "json", no_argument, NULL, 'k' },      { "solve", no_argument, NULL, 'v' },
         { "spectrum", no_argument, NULL, 'w' },  { "quiet", no_argument, NULL, 'q' },
-        { "seeds", required_argument, NULL, 'n' },
+        { "seeds", required_argument, NULL, 'n' }, { "jobs", required_argument, NULL, 'j' },
         { "plain", no_argument, NULL, 'p' },     { "echo", no_argument, NULL, 'e' },
         { "help", no_argument, NULL, 'h' },      { NULL, 0, NULL, 0 }
     };
@@ -173,7 +186,7 @@ int command_parse (command *c, int argc, char **argv)
     int lost = command_unquoted (unquoted, sizeof unquoted, argc, argv);
     memset (c, 0, sizeof *c);
     optind = 1, opterr = 0;
-    for (int k; (k = getopt_long (argc, argv, ":o:qs:h", options, NULL)) != -1;) {
+    for (int k; (k = getopt_long (argc, argv, ":o:qs:hj:", options, NULL)) != -1;) {
         int code = read_option (c, argv[0], k, argv[optind - 1]);
         if (code >= 0) return code;
     }
@@ -189,6 +202,10 @@ int command_parse (command *c, int argc, char **argv)
     if (c->force && c->resume) {
         fprintf (stderr,
                  "perigal: --resume and --force exclude each other: continue the run, or start it anew\n");
+        return PG_EXIT_USAGE;
+    }
+    if (c->jobs && !c->seeds) {
+        fprintf (stderr, "perigal: --jobs is for --seeds: one run is one job; --threads are its threads\n");
         return PG_EXIT_USAGE;
     }
     c->scene = argv[optind];

@@ -19,6 +19,7 @@ static const char usage[] =
     "                        [--view front|back|left|right|top|bottom|iso|crack | --section 'z = 5 mm']\n"
     "                        [--direction X,Y,Z] [--above VALUE] [--range LOW,HIGH] [--magnify FACTOR]\n"
     "                        [--columns N] [--out FILE.png|FILE.svg]\n"
+    "       perigal plot DIR --movie [--rate N] [--steps N,N,...] [options as above]\n"
     "       perigal plot DIR --list\n"
     "       perigal plot FILE [--sets | --field NAME ...] [--unit mm] [options as above]\n"
     "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
@@ -35,6 +36,10 @@ static const char usage[] =
     "                damage 0.35 and more\n"
     "  --section     3D: AXIS = PLACE, or NORMAL = DISTANCE along it: '1, 0, 1 = 5 mm'\n"
     "  --direction   of view iso and crack: from the body to the eye\n"
+    "  --movie       DIR/FIELD_movie.png: all steps, or those of --steps, as an animated PNG: one range of "
+    "colours,\n"
+    "                one frame; browsers show it, ffmpeg makes other movies of it\n"
+    "  --rate        pictures of a movie in a second, default 10\n"
     "  --log         colours by the decades of |value|\n"
     "  --unit        meshes: of the lengths in the file;  --sets: sets of sides and nodes in colours\n"
     "  --above       3D views: only points whose value is at least this, the body grey behind them\n";
@@ -56,7 +61,7 @@ static int place_of (const char *word, const char *names)
     return -1;
 }
 
-/* ---- options ------------------------------------------------------------------------------------------- */
+/* ---- options ---------------------------------------------------------------------------------------- */
 /* A number of at least `low`. */
 static pg_status read_number (const char *name, const char *text, double low, double *out)
 {
@@ -171,6 +176,16 @@ static pg_status read_magnify (plot_request *q, const char *text)
     return read_number ("--magnify", text, -INFINITY, &q->style.magnify);
 }
 
+/* --rate N: pictures of a movie in a second. */
+static pg_status read_rate (plot_request *q, const char *text)
+{
+    pg_status status = PG_OK;
+    PG_TRY (read_number ("--rate", text, 0.02, &q->rate));
+    if (q->rate > 1000) PG_FAIL (PG_E_USAGE, "--rate %s: must be 1000 or less", text);
+done:
+    return status;
+}
+
 /* --columns N: panels in a row, 1 to the largest number of steps. */
 static pg_status read_columns (plot_request *q, const char *text)
 {
@@ -199,6 +214,12 @@ done:
 
 static pg_status read_sets (plot_request *q, const char *text) { (void) text, q->sets = 1; return PG_OK; }
 static pg_status read_list (plot_request *q, const char *text) { (void) text, q->list = 1; return PG_OK; }
+static pg_status read_movie (plot_request *q, const char *text)
+{
+    (void) text, q->movie = 1;
+    return PG_OK;
+}
+
 static pg_status read_log (plot_request *q, const char *text) { (void) text, q->style.log = 1; return PG_OK; }
 /* "stress", or as in output.pictures "stress.yy": the part behind the last dot counts only if
  * it is the name of a component. */
@@ -216,16 +237,18 @@ static pg_status read_field (plot_request *q, const char *text)
 static pg_status read_component (plot_request *q, const char *text) { q->component = text; return PG_OK; }
 static pg_status read_out (plot_request *q, const char *text) { q->out = text; return PG_OK; }
 
-/* The options and their readers. Those of --sets, --log and --list take no value; their
- * readers ignore it. */
-static const struct { const char *name; pg_status (*read) (plot_request *q, const char *text);
-} options[] = {
+/* Reads an option with its text. */
+typedef pg_status (*reader) (plot_request *q, const char *text);
+/* These options take no value; their readers ignore it. */
+static const reader switches[] = { read_sets, read_log, read_list, read_movie };
+/* The options and their readers. */
+static const struct { const char *name; reader read; } options[] = {
     { "--field", read_field },     { "--component", read_component }, { "--step", read_step },
     { "--steps", read_panels },    { "--columns", read_columns },     { "--view", read_view },
     { "--section", read_section }, { "--direction", read_direction }, { "--above", read_above },
     { "--range", read_range },     { "--magnify", read_magnify },     { "--out", read_out },
     { "--unit", read_unit },       { "--sets", read_sets },           { "--log", read_log },
-    { "--list", read_list },
+    { "--list", read_list },       { "--movie", read_movie },         { "--rate", read_rate },
 };
 
 /* Reads one option; *used = 1 if it took the value. The nearest name is looked for among all
@@ -238,7 +261,9 @@ static pg_status read_option (plot_request *q, const char *name, const char *val
         size_t n = strlen (names);
         snprintf (names + n, sizeof names - n, "|%s", options[k].name);
         if (strcmp (name, options[k].name) != 0) continue;
-        *used = options[k].read != read_sets && options[k].read != read_log && options[k].read != read_list;
+        *used = 1;
+        for (size_t i = 0; i < sizeof switches / sizeof *switches; i++)
+            *used &= options[k].read != switches[i];
         if (!value && *used) PG_FAIL (PG_E_USAGE, "%s needs a value", name);
         return options[k].read (q, value);
     }
@@ -253,6 +278,20 @@ static void cut_result (char *path)
 {
     size_t n = strlen (path);
     if (n > 9 && strcmp (path + n - 9, "/result.e") == 0 && pg_plot_is_file (path)) path[n - 9] = 0;
+}
+
+/* What goes with a movie. */
+static pg_status check_movie (const plot_request *q)
+{
+    pg_status status = PG_OK;
+    if (q->movie && q->columns) PG_FAIL (PG_E_USAGE, "--movie and --columns exclude each other");
+    if (q->rate > 0 && !q->movie) PG_FAIL (PG_E_USAGE, "--rate is for movies: --movie --rate %g", q->rate);
+    if (q->movie && !q->all && !q->panels && q->step[0] != -1)
+        PG_FAIL (PG_E_USAGE, "--movie takes all steps, or those of --steps N,N,...");
+    if (q->movie && pg_plot_is_file (q->directory))
+        PG_FAIL (PG_E_USAGE, "--movie is for result folders; %s is a file", q->directory);
+done:
+    return status;
 }
 
 /* Reads the command line: one folder or file, options in any order. Checks what excludes each
@@ -277,6 +316,7 @@ static pg_status read_arguments (plot_request *q, int argc, char **argv)
     if (q->part) q->component = q->part;
     if (q->all && q->panels) PG_FAIL (PG_E_USAGE, "--step all and --steps exclude each other");
     cut_result (q->directory);
+    PG_TRY (check_movie (q));
     if (access (q->directory, F_OK) != 0) PG_FAIL (PG_E_FILE, "%s: No such file or folder", q->directory);
     snprintf (q->result, sizeof q->result, "%s/result.e", q->directory);
 done:

@@ -24,8 +24,10 @@ typedef struct {
     char   result[PLOT_PATH];
     /* Steps to draw; -1 is the last one, until count_steps has resolved it. */
     int    step[PLOT_STEPS], steps;
-    /* 1: every step; 1: several steps in one picture; its columns. */
-    int    all, panels, columns;
+    /* 1: every step; 1: several steps in one picture; its columns; 1: a movie of the steps. */
+    int    all, panels, columns, movie;
+    /* Pictures of the movie in a second. */
+    double rate;
     /* 1: --above, --range were given. */
     int    limited, ranged;
     /* 1: draw sets of a mesh; 1: list the steps. */

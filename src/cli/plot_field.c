@@ -41,7 +41,7 @@ typedef struct {
  * they have grown (n = 0: those of the scene); title. */
 typedef struct { double *value, *u, *select, *damage; pg_cracks cracks; char title[64]; } stage;
 
-/* ---- components ---------------------------------------------------------------------------------------- */
+/* ---- components ------------------------------------------------------------------------------------- */
 int pg_plot_index (const char *word, const char *list)
 {
     int k = 0;
@@ -118,7 +118,7 @@ static double magnitude (const double *v, int dim, int m, double shear)
     return sqrt (sum);
 }
 
-/* ---- reading ------------------------------------------------------------------------------------------- */
+/* ---- reading ---------------------------------------------------------------------------------------- */
 /* Where the body is, from the scene; points that come from files have none. With whole cells
  * (staircase) the lattice is built again. */
 static void read_outline (source *s)
@@ -178,9 +178,10 @@ static pg_status nothing_broke (const plot_request *q, const source *s, int *who
 {
     pg_status status = PG_OK;
     double *damage = NULL;
-    int last = (int) s->nstep - 1, first = q->all ? 0 : q->step[0] < 0 ? last : q->step[0], components;
+    int last = (int) s->nstep - 1, each = q->all || q->movie, components;
+    int first = each ? 0 : q->step[0] < 0 ? last : q->step[0];
     size_t n;
-    for (int k = first; *whole && k <= (q->all ? last : first); k++) {
+    for (int k = first; *whole && k <= (each ? last : first); k++) {
         PG_TRY (pg_exodus_read (q->result, "damage", k, &n, &components, &damage));
         for (size_t i = 0; i < n; i++) *whole &= !(damage[i] > 0);
         pg_free (damage), damage = NULL;
@@ -196,7 +197,8 @@ done:
 static pg_status read_part (const plot_request *q, source *s)
 {
     pg_status status = PG_OK;
-    int same = 0, whole = !q->panels && strcmp (q->field, "damage") != 0;
+    int by_points = q->movie ? q->style.magnify != 0 : q->panels;
+    int same = 0, whole = !by_points && strcmp (q->field, "damage") != 0;
     if (!s->scene || !pg_scene_given (s->scene, "mesh")) return PG_OK;
     same = is_same_mesh (q, s);
     if (same) PG_TRY (nothing_broke (q, s, &whole));
@@ -298,7 +300,7 @@ static void drop_stage (stage *g)
     *g = (stage) { 0 };
 }
 
-/* ---- drawing ------------------------------------------------------------------------------------------- */
+/* ---- drawing ---------------------------------------------------------------------------------------- */
 /* DIR/FIELD.COMPONENT_VIEW_0007.png as in output.pictures, or --out with the number before its
  * ending; number -1: without one. */
 static void name_picture (const plot_request *q, int number, char *path, size_t size)
@@ -314,7 +316,8 @@ static void name_picture (const plot_request *q, int number, char *path, size_t 
     pg_picture_name (name, 60, q->field);
     if (q->component) strcat (name, "."), pg_picture_name (name, 90, q->component);
     if (q->look) strcat (name, "_"), pg_picture_name (name, 130, q->look);
-    if (q->panels) strcat (name, "_steps");
+    if (q->movie) strcat (name, "_movie");
+    else if (q->panels) strcat (name, "_steps");
     snprintf (path, size, "%.2100s/%s%s.png", q->directory, name, count);
 }
 
@@ -373,22 +376,29 @@ static void write_label (const source *s, const pg_picture_style *style, char *l
     snprintf (label, size, "%s%s%s%s%s%s", bar, s->name, bar, unit[0] ? " (" : "", unit, unit[0] ? ")" : "");
 }
 
-/* Draws n steps as one picture, with title and label, and prints its name. Only single steps
- * are drawn on elements. */
-static pg_status draw (const plot_request *q, const source *s, size_t n, const stage *g,
-                       const pg_picture_style *given, int number)
+/* The states of n steps; several have titles of their own, as bars have. */
+static void fill_panels (pg_panel *panel, const plot_request *q, const source *s, size_t n, const stage *g)
 {
-    pg_status status = PG_OK;
-    char title[256], label[160], path[PLOT_PATH];
-    pg_panel *panel = NULL;
-    pg_picture_style style = *given;
-    int crack = style.view == PG_VIEW_CRACK, titled = n > 1 || s->cloud.dim == 1;
-    PG_ALLOC (panel, n);
+    int titled = n > 1 || s->cloud.dim == 1;
     for (size_t k = 0; k < n; k++) {
         const double *select = q->limited ? g[k].value : g[k].select;
         const pg_cracks *grown = g[k].cracks.n ? &g[k].cracks : NULL;
         panel[k] = (pg_panel) { titled ? g[k].title : NULL, g[k].value, g[k].u, select, g[k].damage, grown };
     }
+}
+
+/* Draws n steps as one picture, with title and label; or only measures the frame of one step. Only single
+ * steps are drawn on elements. */
+static pg_status draw_at (const char *path, pg_reach *measured, const plot_request *q, const source *s,
+                          size_t n, const stage *g, const pg_picture_style *given)
+{
+    pg_status status = PG_OK;
+    char title[256], label[160];
+    pg_panel *panel = NULL;
+    pg_picture_style style = *given;
+    int crack = style.view == PG_VIEW_CRACK;
+    PG_ALLOC (panel, n);
+    fill_panels (panel, q, s, n, g);
     if (crack) style.by_depth = strcmp (q->field, "damage") == 0;
     if (crack && !q->limited) style.above = PG_CRACK_DAMAGE;
     int surfaces = crack && n && g[n - 1].cracks.n;
@@ -396,15 +406,73 @@ static pg_status draw (const plot_request *q, const source *s, size_t n, const s
     write_label (s, &style, label, sizeof label);
     style.title = title, style.label = label, style.cracks = s->cracks.n ? &s->cracks : NULL;
     style.outline = s->outline.body || s->outline.mesh ? &s->outline : NULL;
-    name_picture (q, number, path, sizeof path);
     style.u = panel->u, style.select = panel->select;
     int on_mesh = n == 1 && s->whole && s->part.mesh.n;
-    if (on_mesh && pg_picture_on_elements (&s->part, &style))
+    if (measured) PG_TRY (pg_picture_reach (measured, &s->cloud, panel, &style));
+    else if (on_mesh && pg_picture_on_elements (&s->part, &style))
         PG_TRY (pg_picture_body (path, &s->part, &s->cloud, panel->value, &style));
     else PG_TRY (pg_picture_panels (path, &s->cloud, n, panel, q->columns, &style));
-    puts (path);
 done:
     pg_free (panel);
+    return status;
+}
+
+/* Draws n steps as one picture and prints its name. */
+static pg_status draw (const plot_request *q, const source *s, size_t n, const stage *g,
+                       const pg_picture_style *given, int number)
+{
+    pg_status status = PG_OK;
+    char path[PLOT_PATH];
+    name_picture (q, number, path, sizeof path);
+    PG_TRY (draw_at (path, NULL, q, s, n, g, given));
+    puts (path);
+done:
+    return status;
+}
+
+/* The steps of a movie: those that were named, or all. */
+static int movie_steps (const plot_request *q, const source *s)
+{
+    return q->panels ? q->steps : (int) s->nstep;
+}
+static int movie_step (const plot_request *q, int k) { return q->panels ? q->step[k] : k; }
+
+/* One range of colours and, of deformed bodies, one frame for all pictures, so that nothing jumps. Steps
+ * are read twice, which keeps one of them in memory at a time; each picture passes through a file beside
+ * the movie. */
+static pg_status draw_movie (const plot_request *q, const source *s)
+{
+    pg_status status = PG_OK;
+    pg_picture_style style = q->style;
+    stage g = { 0 };
+    pg_movie *movie = NULL;
+    pg_reach reach = { 0 };
+    char path[PLOT_PATH], frame[PLOT_PATH + 16] = "";
+    int found = 0, n = movie_steps (q, s);
+    style.clip = strcmp (q->field, "damage") != 0;
+    if (s->cloud.dim == 1) PG_FAIL (PG_E_USAGE, "--movie is for results in 2D and 3D; %s is 1D", q->result);
+    name_picture (q, -1, path, sizeof path);
+    PG_TRY (pg_movie_create (&movie, path, (size_t) n, q->rate > 0 ? q->rate : 10));
+    snprintf (frame, sizeof frame, "%s.frame.png", path);
+    for (int k = 0; k < n; k++) {
+        PG_TRY (read_stage (q, s, movie_step (q, k), &g));
+        PG_TRY (widen_range (q, s, &g, &style, &found));
+        if (style.magnify != 0) PG_TRY (draw_at (NULL, &reach, q, s, 1, &g, &style));
+        drop_stage (&g);
+    }
+    settle_range (q, &style);
+    style.reach = &reach;
+    for (int k = 0; k < n; k++) {
+        PG_TRY (read_stage (q, s, movie_step (q, k), &g));
+        PG_TRY (draw_at (frame, NULL, q, s, 1, &g, &style));
+        PG_TRY (pg_movie_add (movie, frame));
+        drop_stage (&g);
+    }
+done:
+    if (frame[0]) remove (frame);
+    drop_stage (&g);
+    status = pg_movie_close (&movie, status);
+    if (status == PG_OK) puts (path);
     return status;
 }
 
@@ -484,7 +552,7 @@ pg_status pg_plot_field (plot_request *q)
     PG_TRY (open_source (q, &s));
     PG_TRY (count_steps (q, &s));
     PG_TRY (read_part (q, &s));
-    PG_TRY (q->all ? draw_each (q, &s) : draw_together (q, &s));
+    PG_TRY (q->movie ? draw_movie (q, &s) : q->all ? draw_each (q, &s) : draw_together (q, &s));
 done:
     close_source (&s);
     return status;

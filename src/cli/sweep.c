@@ -12,7 +12,6 @@ enum { MOST_JOBS = 64 };
 typedef struct {
     pg_sweep_request q;
     char quantities[2048], memory[32];
-    const char *threads;
     int quiet;
 } given;
 
@@ -81,7 +80,7 @@ static pg_status read_option (given *g, const char *name, const char *value)
         g->q.set[g->q.nset++] = value;
         break;
     case 1: PG_TRY (read_count (&g->q.jobs, name, value, 1, MOST_JOBS)); break;
-    case 2: PG_TRY (read_count (&g->q.threads, name, value, 0, 64)); g->threads = value; break;
+    case 2: PG_TRY (read_count (&g->q.threads, name, value, 0, 64)); break;
     case 3: g->q.memory = value; break;
     case 4: g->q.folder = value; break;
     default: PG_TRY (read_quantities (g, value));
@@ -126,17 +125,19 @@ done:
 }
 
 /* Without other words the processors and the memory are shared by the runs that go on at one time. */
+void command_share (int jobs, int *threads, double memory, char text[32])
+{
+    long processors = sysconf (_SC_NPROCESSORS_ONLN), each = (processors < 1 ? 1 : processors) / jobs;
+    command machine = { .threads = 1 };
+    if (*threads == 0) *threads = (int) (each < 1 ? 1 : each > 64 ? 64 : each);
+    snprintf (text, 32, "%.0f", floor (memory > 0 ? memory : afford_available (&machine) / jobs));
+}
+
+/* One run at a time needs no limit of its own. */
 static void share (given *g)
 {
-    long processors = sysconf (_SC_NPROCESSORS_ONLN);
-    command machine = { .threads = 1 };
-    if (!g->threads || g->q.threads == 0) {
-        long each = (processors < 1 ? 1 : processors) / g->q.jobs;
-        g->q.threads = (int) (each < 1 ? 1 : each > 64 ? 64 : each);
-    }
-    if (g->q.memory || g->q.jobs == 1) return;
-    snprintf (g->memory, sizeof g->memory, "%.0f", floor (afford_available (&machine) / g->q.jobs));
-    g->q.memory = g->memory;
+    command_share (g->q.jobs, &g->q.threads, 0, g->memory);
+    if (!g->q.memory && g->q.jobs > 1) g->q.memory = g->memory;
 }
 
 /* Exit codes: 0 all runs done, 64 wrong use, 65 a combination is wrong, 70 some runs failed, 130

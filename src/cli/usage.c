@@ -7,7 +7,7 @@
 
 static const char run[] =
     "perigal run SCENE.yaml [-o DIR] [--resume | --force] [--threads N] [--memory SIZE]\n"
-    "            [--plain] [--set KEY=VALUE]... [--seeds N] [--quiet]\n"
+    "            [--plain] [--set KEY=VALUE]... [--seeds N [-j N]] [--quiet]\n"
     "  Solves a scene and writes a result folder.\n"
     "  -o, --out DIR        result folder, created if needed; default: out/NAME, where NAME is that of\n"
     "                       the scene's folder or file\n"
@@ -21,7 +21,7 @@ static const char run[] =
     "      --plain          without the shortcuts that spare work (solver.plain: on): slower, same answer\n"
     "  -s, --set KEY=VALUE  replace or add a value of the scene, such as method.horizon='2.5 spacing'\n"
     "      --seeds N        N runs with the seeds 1 to N for random cracks and perturb, in DIR/seed_1 ...,\n"
-    "                       one after the other; DIR/seeds.csv and seeds.png (histogram) have the peak\n"
+    "                       -j of them at a time; DIR/seeds.csv and seeds.png (histogram) have the peak\n"
     "                       loads. Called again it goes on\n"
     "  -q, --quiet          no progress and no summary; warnings are in DIR/report.json\n"
     "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) writes a checkpoint after the current break round and stops; a\n"
@@ -44,10 +44,11 @@ static const char check[] =
 
 static const char plot[] =
     "perigal plot DIR [--field damage|stress.yy|displacement.x ...] [--step N|all | --steps N,N,...]\n"
-    "             [--view SIDE|iso|crack] [--section CUT] ...\n"
+    "             [--view SIDE|iso|crack] [--section CUT] [--movie [--rate N]] ...\n"
     "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
     "  Draws a field of DIR/result.e (by default damage at the last step), or two columns of\n"
-    "  DIR/history.csv, as PNG or SVG. All options: perigal plot --help.\n";
+    "  DIR/history.csv, as PNG or SVG; with --movie all steps as an animated PNG. All options:\n"
+    "  perigal plot --help.\n";
 
 static const char cracks[] =
     "perigal cracks SCENE.yaml [-o FILE.png] [--csv FILE.csv] [--set KEY=VALUE]... [--quiet]\n"

@@ -59,7 +59,7 @@ static const double *value_of (const drawing *d, size_t panel)
     return d->own ? d->own : d->panel[panel].value;
 }
 
-/* ---- points -------------------------------------------------------------------------------------------- */
+/* ---- points ----------------------------------------------------------------------------------------- */
 /* A section shows the layer of points that it lies in, the lower of two when it lies half-way
  * between them; the tolerance 1e-6 of a step decides that, not rounding. PG_E_USAGE if the
  * plane misses the points. */
@@ -114,7 +114,7 @@ done:
     return status;
 }
 
-/* ---- frame --------------------------------------------------------------------------------------------- */
+/* ---- frame ------------------------------------------------------------------------------------------ */
 /* The coordinate along a direction, displaced, of each point of a panel (out: cloud->n, m);
  * NAN for points that are not seen and for fragments that have flown so far that the frame
  * would show little else. */
@@ -184,9 +184,19 @@ static void extent_of_box (const drawing *d, const double *direction, double *lo
     }
 }
 
+/* Widens what several frames reach by this one. */
+static void widen (pg_reach *reach, const pg_sheet *p)
+{
+    for (int a = 0; a < 2; a++) {
+        reach->low[a] = reach->any ? fmin (reach->low[a], p->low[a]) : p->low[a];
+        reach->high[a] = reach->any ? fmax (reach->high[a], p->high[a]) : p->high[a];
+    }
+    reach->any = 1;
+}
+
 /* Chooses the frame, with a narrow margin, and the length unit: the largest of km, m, mm, µm,
  * nm that is not larger than the body. */
-static pg_status choose_frame (drawing *d)
+static pg_status choose_frame (drawing *d, pg_reach *measured)
 {
     pg_status status = PG_OK;
     static const double unit[] = { 1e3, 1, 1e-3, 1e-6 };
@@ -194,12 +204,17 @@ static pg_status choose_frame (drawing *d)
     double size = 0, margin = p->eye.framed ? 0.025 : 0.015;
     int deformed = 0;
     for (size_t k = 0; k < d->n; k++) deformed |= displaced (d, k) != NULL;
-    for (int a = 0; a < 2; a++) {
+    int given = d->style->reach && d->style->reach->any;
+    for (int a = 0; a < 2 && given; a++)
+        p->low[a] = d->style->reach->low[a], p->high[a] = d->style->reach->high[a];
+    for (int a = 0; a < 2; a++) size = fmax (size, given ? p->high[a] - p->low[a] : 0);
+    for (int a = 0; a < 2 && !given; a++) {
         const double *direction = a ? p->eye.up : p->eye.right;
         if (p->eye.kind == PG_SOLID && !deformed) extent_of_box (d, direction, &p->low[a], &p->high[a]);
         else PG_TRY (extent (d, direction, &p->low[a], &p->high[a]));
         size = fmax (size, p->high[a] - p->low[a]);
     }
+    if (measured) widen (measured, p);
     for (int a = 0; a < 2; a++) p->low[a] -= margin * size, p->high[a] += margin * size;
     p->unit = 1e-9;
     for (int k = 3; k >= 0; k--) if (size >= 0.999 * unit[k]) p->unit = unit[k];
@@ -207,7 +222,7 @@ done:
     return status;
 }
 
-/* ---- colours ------------------------------------------------------------------------------------------- */
+/* ---- colours ---------------------------------------------------------------------------------------- */
 /* Does the choice of points (for instance damage of 0.35 and more) take point i? */
 static int above (const drawing *d, size_t panel, size_t i)
 {
@@ -288,7 +303,7 @@ static pg_status choose_note (drawing *d, const char *label, double low, double 
 {
     pg_status status = PG_OK;
     double *shown = NULL;
-    if (d->own || d->style->log) return PG_OK;
+    if (d->own || d->style->log || d->style->reach) return PG_OK;
     PG_ALLOC (shown, d->n * d->cloud->n);
     for (size_t k = 0; k < d->n; k++)
         for (size_t i = 0; i < d->cloud->n; i++)
@@ -321,7 +336,7 @@ static double half_of_points (const drawing *d, int a)
     return half > 0 ? half : 0.5 * (d->sheet.high[a] - d->sheet.low[a]) / sqrt ((double) d->cloud->n);
 }
 
-/* ---- painting ------------------------------------------------------------------------------------------ */
+/* ---- painting --------------------------------------------------------------------------------------- */
 /* What is handed to tiles.c: coordinates, shifts, damage and local spacings of the points in sight, in the
  * plane. */
 typedef struct { double *place, *shift, *damage, *size; } plane_points;
@@ -524,53 +539,14 @@ done:
     return canvas.path ? pg_canvas_close (&canvas, status) : status;
 }
 
-/* ---- 1D ------------------------------------------------------------------------------------------------ */
-static int by_place (const void *a, const void *b)
-{
-    double p = *(const double *) a, q = *(const double *) b;
-    return (p > q) - (p < q);
-}
-
-/* 1D bodies: a chart of the value over the (displaced) place, one curve per panel, sorted by
- * place. */
-static pg_status draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel,
-                            const pg_picture_style *style)
-{
-    pg_status status = PG_OK;
-    double *pair = NULL, *x = NULL, *y = NULL;
-    pg_curve *curve = NULL;
-    size_t n = cloud->n;
-    PG_ALLOC (pair, 2 * n);
-    PG_ALLOC (x, n * npanel);
-    PG_ALLOC (y, n * npanel);
-    PG_ALLOC (curve, npanel);
-    for (size_t k = 0; k < npanel; k++) {
-        const double *u = panel[k].u;
-        for (size_t i = 0; i < n; i++)
-            pair[2 * i] = cloud->x[i] + (u ? style->magnify * u[i] : 0), pair[2 * i + 1] = panel[k].value[i];
-        qsort (pair, n, 2 * sizeof (double), by_place);
-        for (size_t i = 0; i < n; i++) x[k * n + i] = pair[2*i], y[k * n + i] = pair[2*i + 1];
-        curve[k] = (pg_curve) { panel[k].title, n, x + k * n, y + k * n, n <= 60 };
-    }
-    PG_TRY (pg_picture_chart (path, npanel, curve,
-                              &(pg_chart_style){
-                                  .title = style->title, .xlabel = "x (m)", .ylabel = style->label }));
-done:
-    pg_free (curve);
-    pg_free (y);
-    pg_free (x);
-    pg_free (pair);
-    return status;
-}
-
-/* A 2D cloud needs no lattice: its spacing or that of each point is enough. */
-pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel,
-                             int columns, const pg_picture_style *style)
+/* ---- pictures --------------------------------------------------------------------------------------- */
+/* Draws the panels, or only measures their frame. A 2D cloud needs no lattice: its spacing or that of each
+ * point is enough. */
+static pg_status draw_or_measure (const char *path, pg_reach *measured, const pg_cloud *cloud, size_t n,
+                                  const pg_panel *panel, int columns, const pg_picture_style *style)
 {
     pg_status status = PG_OK;
     drawing *d = NULL;
-    if (cloud->n == 0 || n == 0) PG_FAIL (PG_E_USAGE, "%s: no points to draw", path);
-    if (cloud->dim == 1) return draw_bars (path, cloud, n, panel, style);
     PG_ALLOC (d, 1);
     d->cloud = cloud, d->style = style, d->n = n, d->panel = panel;
     d->sheet.panels = n, d->sheet.columns = columns;
@@ -579,8 +555,8 @@ pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, 
     if (cloud->dim == 3) PG_TRY (pg_grid_build (&d->grid, cloud));
     else PG_TRY (pg_loose_spacing (cloud, &d->spacing));
     PG_TRY (choose_points (d));
-    PG_TRY (choose_frame (d));
-    PG_TRY (draw_sheet (d, path));
+    PG_TRY (choose_frame (d, measured));
+    if (!measured) PG_TRY (draw_sheet (d, path));
 done:
     if (d) {
         pg_grid_clear (&d->grid);
@@ -588,6 +564,28 @@ done:
         pg_free (d->spacing), pg_free (d->face);
     }
     pg_free (d);
+    return status;
+}
+
+pg_status pg_picture_panels (const char *path, const pg_cloud *cloud, size_t n, const pg_panel *panel,
+                             int columns, const pg_picture_style *style)
+{
+    pg_status status = PG_OK;
+    if (cloud->n == 0 || n == 0) PG_FAIL (PG_E_USAGE, "%s: no points to draw", path);
+    if (cloud->dim == 1) return pg_draw_bars (path, cloud, n, panel, style);
+    status = draw_or_measure (path, NULL, cloud, n, panel, columns, style);
+done:
+    return status;
+}
+
+pg_status pg_picture_reach (pg_reach *reach, const pg_cloud *cloud, const pg_panel *panel,
+                            const pg_picture_style *style)
+{
+    pg_status status = PG_OK;
+    if (cloud->n == 0 || cloud->dim == 1)
+        PG_FAIL (PG_E_USAGE, "only points in the plane or in space have a frame");
+    status = draw_or_measure (NULL, reach, cloud, 1, panel, 1, style);
+done:
     return status;
 }
 

@@ -284,4 +284,8 @@ void pg_wire_cracks (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_grid
 void pg_wire_faces  (const pg_sheet *p, cairo_t *cr, size_t panel, size_t n, size_t m, const double *place);
 /* Draws arrows along x, y and z with their names around the pixel (x, y). */
 void pg_wire_triad  (const pg_sheet *p, cairo_t *cr, double x, double y, double length);
+
+/* A bar with one dimension: the value over the (displaced) place, a curve per panel (bars.c). */
+pg_status pg_draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, const pg_panel *panel,
+                        const pg_picture_style *style);
 #endif

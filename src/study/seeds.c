@@ -138,7 +138,8 @@ pg_status pg_seeds_run (const pg_seeds_request *q, pg_spread *spread)
     int drawn;
     PG_TRY (name_runs (&s, q));
     pg_series_request all = { .scene = q->scene, .folder = q->folder, .nset = q->nset, .n = s.n, .run = s.run,
-                              .threads = q->threads, .stop = q->stop, .out = q->out, .ended = look,
+                              .threads = q->threads, .jobs = q->jobs, .memory = q->memory, .stop = q->stop,
+                              .out = q->out, .ended = look,
                               .context = &s };
     for (size_t k = 0; k < q->nset; k++) all.set[k] = q->set[k];
     PG_ALLOC (peak, s.n);

@@ -368,6 +368,40 @@ done:
     return status;
 }
 
+/* Starts the check of the next run, unless the run is finished or goes on. */
+static pg_status check_next (series *s, slot *at)
+{
+    pg_status status = PG_OK;
+    const pg_series_run *run = &s->q->run[s->next];
+    char folder[FOLDER];
+    int held = 0;
+    PG_TRY (name_folder (folder, s->q, run));
+    PG_TRY (pg_series_look (&held, s->q, run));
+    if (!held && !exists (folder, "checkpoint.nc")) {
+        PG_TRY (start (at, s->q, s->next, 1));
+        s->busy++;
+    }
+done:
+    s->next++;
+    return status;
+}
+
+/* Takes what has ended and fills what is free; returns how much was done. */
+static size_t check_more (series *s)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < s->slots; i++) {
+        slot *at = &s->slot[i];
+        pg_status found = PG_OK;
+        if (at->child.id && pg_child_ended (&at->child)) n++, s->busy--, found = verdict (at, s->q);
+        if (found != PG_OK) give_up (s, found);
+        if (at->child.id || s->next >= s->q->n || is_stopping (s)) continue;
+        n++, found = check_next (s, at);
+        if (found != PG_OK) give_up (s, found);
+    }
+    return n;
+}
+
 pg_status pg_series_check (const pg_series_request *q)
 {
     pg_status status = PG_OK;
@@ -375,30 +409,8 @@ pg_status pg_series_check (const pg_series_request *q)
     unsigned turn = 0;
     PG_TRY (pg_folder_make (q->folder));
     PG_ALLOC (s.slot, s.slots);
-    while (s.busy || s.next < q->n) {
-        size_t ended = 0;
-        int stop = is_stopping (&s);
-        if (stop && !s.busy) break;
-        for (size_t i = 0; i < s.slots; i++) {
-            slot *at = &s.slot[i];
-            if (at->child.id && pg_child_ended (&at->child)) {
-                ended++, s.busy--;
-                pg_status found = verdict (at, q);
-                if (found != PG_OK) give_up (&s, found);
-            }
-            if (at->child.id || s.next >= q->n || is_stopping (&s)) continue;
-            char folder[FOLDER];
-            int held = 0;
-            pg_status begun = name_folder (folder, q, &q->run[s.next]);
-            if (begun == PG_OK) begun = pg_series_look (&held, q, &q->run[s.next]);
-            if (begun == PG_OK && !held && !exists (folder, "checkpoint.nc")) {
-                begun = start (at, q, s.next, 1);
-                s.busy += begun == PG_OK;
-            }
-            if (begun != PG_OK) give_up (&s, begun);
-            s.next++, ended++;
-        }
-        if (ended) turn = 0;
+    while (s.busy || (s.next < q->n && !is_stopping (&s))) {
+        if (check_more (&s)) turn = 0;
         else rest (&turn);
     }
     if (s.status != PG_OK) PG_FAIL (s.status, "%s", s.failure);

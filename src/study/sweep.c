@@ -3,7 +3,7 @@
  * their second ones and so on. Every combination is looked at before the first run begins: keys and values
  * by reading the scene, all of them at once, then everything else by `perigal check`. */
 #include "sweep.h"
-#include <errno.h>
+#include <ctype.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -79,8 +79,7 @@ static size_t append_name (char *out, size_t at, size_t size, const char *text)
     int dash = 0;
     for (; *text && at + 1 < size; text++) {
         unsigned char c = (unsigned char) *text;
-        int kept = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c >= 0x80
-                   || strchr (".+-=_", c) != NULL;
+        int kept = isalnum (c) || c >= 0x80 || strchr (".+-=_", c) != NULL;
         if (c == ' ') continue;
         if (!kept) {
             dash = at > 0 && out[at - 1] != '=' && out[at - 1] != '-';

@@ -56,6 +56,9 @@ verdict "mean and deviation are those of the table" $?
 cp "$work/s/seeds.csv" "$work/first.csv"; rm -r "$work/s/seed_2"
 expect "seeds: goes on where it was" 0 'seed_1 .*was there' '' run "$scene" --seeds 3 -o "$work/s" --threads 1
 cmp -s <(cut -d, -f1-5 "$work/first.csv") <(cut -d, -f1-5 "$work/s/seeds.csv"); verdict "to the same table" $?
+expect "seeds: several at a time" 0 'peak load of 3 of 3 runs' '' run "$scene" --seeds 3 -j 3 -o "$work/j"
+cmp -s <(cut -d, -f1-5 "$work/first.csv") <(cut -d, -f1-5 "$work/j/seeds.csv"); verdict "the same table" $?
+expect "one run has no jobs" 64 '' 'is for --seeds' run "$scene" -j 2 -o "$work/t"
 expect "seeds: other values in the same folder" 65 '*' 'choose another folder' run "$scene" --seeds 3 -o "$work/s" --set 'failure.critical_stretch=0.003' --threads 1
 expect "seeds: nothing has a seed" 65 '*' 'nothing in this scene has a seed' run "$work/again.yaml" --seeds 2 -o "$work/t"
 expect "seeds: no number" 64 '' 'a number of runs' run "$scene" --seeds none
