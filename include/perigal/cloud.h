@@ -10,10 +10,11 @@
 PG_API_BEGIN
 
 /* ---- shapes -------------------------------------------------------------------------------------------- */
-/* Kinds of shapes. Two are no shapes of a scene: PG_STAIRS is a mesh or an alpha shape as a lattice sees
- * it, PG_PLATE a plane polygon in space with a thickness, which a crack with a width takes from the body. */
+/* Kinds of shapes. Three are no shapes of a scene: PG_STAIRS and PG_FACETED are a mesh or an alpha shape as
+ * cells see it, as whole boxes of a lattice or by flat pieces of its surface; PG_PLATE is a plane polygon in
+ * space with a thickness, which a crack with a width takes from the body. */
 enum { PG_BOX, PG_DISK, PG_CYLINDER, PG_SPHERE, PG_POLYGON, PG_PRISM, PG_MESH, PG_ALPHA_SHAPE, PG_STAIRS,
-       PG_PLATE };
+       PG_PLATE, PG_FACETED };
 
 /* A shape that is added to or subtracted from the body. */
 typedef struct {
@@ -87,6 +88,8 @@ size_t      pg_body_meshes   (const pg_body *body);
 int         pg_shape_meshed  (const pg_shape *shape);
 int         pg_shape_on_side (const pg_shape *shape, const double *x, const char *side);
 const char *pg_shape_side    (const pg_shape *shape, size_t k);
+/* Does this face of an element, sides numbered from 0, belong to the side set? */
+int         pg_shape_face_on_side (const pg_shape *shape, int element, int at, const char *side);
 
 /* ---- alpha shapes -------------------------------------------------------------------------------------- */
 /* The shape of a set of points: all triangles (2D) or tetrahedra (3D) of their Delaunay triangulation whose
@@ -154,6 +157,44 @@ pg_status pg_stairs_create (pg_shape *out, const pg_shape *mesh, const pg_lattic
 void      pg_stairs_clear  (pg_shape *stairs);
 /* 1: of cell i and the one beyond its face (-x +x -y +y -z +z) one is inside and the other is not. */
 int       pg_stairs_step   (const pg_shape *stairs, const int *i, int face);
+
+/* ---- surfaces of flat pieces --------------------------------------------------------------------------- */
+/* The surface of a mesh or an alpha shape as flat pieces: segments in 2D, triangles in 3D. Straight faces are
+ * taken as they are, curved ones are divided into pieces no longer than 3/4 of a step of the lattice, whose
+ * corners lie on the face. Pieces that touch along an edge, lie in one plane and belong to the same side
+ * sets form a region, so that a plane side of a body is one region however its mesh is divided. */
+typedef struct {
+    int     dim;
+    /* Number of pieces, their corners (n x dim x dim, m), in an order that makes their normals point out of
+     * the shape, and the region of each (n). */
+    size_t  n;
+    double *x;
+    int    *region;
+    /* Number of regions; a place on each and its unit normal (nregion x 2 dim); the coordinate axis that it
+     * is normal to, exactly, else -1; element and side of one of its faces (nregion each). */
+    size_t  nregion;
+    double *plane;
+    int    *axis, *element, *side;
+    /* Pieces of region r: piece[first[r]] .. piece[first[r + 1] - 1]. */
+    size_t *first;  int *piece;
+    /* Where region r ends: edges edge_first[r] .. edge_first[r + 1] - 1, two places each (2D: places). m. */
+    size_t *edge_first;  double *edge;
+    /* For rays along each axis: the pieces that they may meet, in columns as wide as the cells of this
+     * lattice. */
+    pg_lattice lattice;
+    size_t *column_first[3];  int *column[3];
+} pg_facets;
+/* A mesh, or an alpha shape without a rim, by flat pieces of its surface. PG_E_MEMORY, PG_E_LIMIT. */
+pg_status pg_faceted_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice);
+/* 1: cells see this shape as whole boxes, as an alpha shape with a rim has no such pieces. */
+int       pg_shape_stepped (const pg_shape *shape);
+/* The pieces of such a shape; NULL: it is none. */
+const pg_facets *pg_shape_facets (const pg_shape *shape);
+/* Is x enclosed by the pieces? Counted along a ray, with the sense in which it meets them. */
+int       pg_facets_inside (const pg_facets *facets, const double *x);
+/* Does a line through x along this axis, which the plane of the region does not contain, meet a piece of the
+ * region? */
+int       pg_facets_meets  (const pg_facets *facets, int region, const double *x, int axis);
 
 /* ---- points -------------------------------------------------------------------------------------------- */
 /* The points. */

@@ -37,6 +37,9 @@ typedef struct {
     int    shape, flat, end, axis;
     /* Which part of the shape it is, numbered as in parts.c. */
     int    part;
+    /* A plane region of the surface of a mesh or an alpha shape, and of which; NULL: it is none. It ends at
+     * edges of its own, not where other surfaces cross it. */
+    const pg_facets *facets;  int region;
 } cut_surface;
 
 /* Everything that the quadrature of cut cells needs; part of pg_cells. */
@@ -122,6 +125,12 @@ typedef struct {
     int   *number;
     /* Their boxes in local coordinates (n x 3). */
     double *low, *high;
+    /* Of each surface: its facets, NULL: it is no region of any; 1: this walk passes it over (n). */
+    const pg_facets **facets;
+    unsigned char *mute;
+    /* Edges of the regions that come near the cell, local: two ends (2D: one), 6 numbers each, and the
+     * surface of each. */
+    double *edge;  int *edge_of;  size_t nedge, edge_room, edge_of_room;
     cut_level level[3];
     /* The present position, local. */
     double at[3];
@@ -135,6 +144,9 @@ typedef struct {
 void cut_split (cut_slices *s, int k);
 /* Is s->at within the box of surface i, to 1e-7 of the cell? */
 int  cut_within (const cut_slices *s, size_t i);
+
+/* Are both regions of the same facets? Such meet at edges of theirs alone. */
+int  cut_same_facets (const cut_slices *s, size_t i, size_t j);
 
 /* ---- quadrature ---------------------------------------------------------------------------------------- */
 /* Creates and frees the workspace. PG_E_MEMORY. */
@@ -158,6 +170,12 @@ pg_status cut_work_piece  (cut_work *w, int surface, int part, cut_piece *piece)
 /* Of all pieces so far that did not settle: the largest change of a size by the last raise of the order (27
  * to 40 points), over that of a whole cell (of its largest face); 0: all have settled. */
 double    cut_work_unsettled (const cut_work *w);
+/* Does a surface that is a region of facets come near this cell? */
+int       cut_work_faceted (const cut_work *w);
+/* Replaces many points in a cell by fewer with the same moments: sum w p for all polynomials p of degree 3.
+ * The places are the centroids of what lies in the boxes of a grid, the weights positive; what does that to
+ * the points of a mirrored cell gives the mirrored points. Where it fails the points stay. PG_E_MEMORY. */
+pg_status cut_compress    (pg_cut_points *points, size_t first, int dim);
 /* How often the search for places where three surfaces meet was given up (cut_solve). Surfaces that share a
  * curve meet along all of it, and nothing is lost there; lost corners show in cut_work_unsettled. */
 size_t    cut_work_given_up (const cut_work *w);

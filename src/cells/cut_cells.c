@@ -34,6 +34,8 @@ typedef struct {
     double *volume;
     /* Volume of a whole box, thickness included, m^3. */
     double  whole;
+    /* The last surface entered in the list of each box, while regions of facets are entered (n). */
+    int    *last;
     one_facet *facet;  size_t nfacet, capacity;
     /* Totals over the cells: how many, the entries of their lists of near surfaces, how many differ from
      * what the uncut lattice would have. */
@@ -120,15 +122,57 @@ static void visit_near (builder *m, size_t number, int *near)
             }
 }
 
+/* The same for a region of facets, piece by piece: the region may be large and the cell near its plane only,
+ * or near a hole in it. */
+static void visit_region (builder *m, size_t number, int *near)
+{
+    const cut_surface *whole = &m->cut->surface[number];
+    const pg_facets *f = whole->facets;
+    const pg_lattice *l = m->l;
+    size_t dim = (size_t) f->dim;
+    for (size_t e = f->first[whole->region]; e < f->first[whole->region + 1]; e++) {
+        cut_surface s = *whole;
+        int first[3] = { 0, 0, 0 }, last[3] = { 0, 0, 0 }, i[3];
+        for (size_t k = 0; k < dim; k++) {
+            s.low[k] = INFINITY, s.high[k] = -INFINITY;
+            for (size_t c = 0; c < dim; c++) {
+                double v = f->x[((size_t) f->piece[e] * dim + c) * dim + k];
+                s.low[k] = fmin (s.low[k], v), s.high[k] = fmax (s.high[k], v);
+            }
+            first[k] = (int) fmax (0, floor ((s.low[k] - l->origin[k]) / l->step[k] - 1e-3)),
+            last[k] = (int) fmin (l->count[k] - 1, floor ((s.high[k] - l->origin[k]) / l->step[k] + 1e-3));
+        }
+        for (i[2] = first[2]; i[2] <= last[2]; i[2]++)
+            for (i[1] = first[1]; i[1] <= last[1]; i[1]++)
+                for (i[0] = first[0]; i[0] <= last[0]; i[0]++) {
+                    size_t c = number_of (l, i);
+                    if (m->last[c] == (int) number || !is_near (m, &s, i)) continue;
+                    m->last[c] = (int) number;
+                    if (near) near[m->start[c]++] = (int) number;
+                    else m->start[c + 1]++;
+                }
+    }
+}
+
+/* All surfaces in their order. */
+static void visit_all (builder *m, int *near)
+{
+    for (size_t c = 0; c < m->n; c++) m->last[c] = -1;
+    for (size_t s = 0; s < m->cut->n; s++)
+        if (m->cut->surface[s].facets) visit_region (m, s, near);
+        else visit_near (m, s, near);
+}
+
 /* Counts, sums, writes, and moves the starts back by one. */
 static pg_status find_near (builder *m)
 {
     pg_status status = PG_OK;
     PG_ALLOC (m->start, m->n + 1);
-    for (size_t s = 0; s < m->cut->n; s++) visit_near (m, s, NULL);
+    PG_ALLOC (m->last, m->n);
+    visit_all (m, NULL);
     for (size_t c = 0; c < m->n; c++) m->start[c + 1] += m->start[c];
     PG_ALLOC (m->near, m->start[m->n]);
-    for (size_t s = 0; s < m->cut->n; s++) visit_near (m, s, m->near);
+    visit_all (m, m->near);
     for (size_t c = m->n; c > 0; c--) m->start[c] = m->start[c - 1];
     m->start[0] = 0;
 done:
@@ -214,6 +258,15 @@ done:
     return status;
 }
 
+/* Of how many regions of facets a part lies on that face of box c: only one is known to cover all of it. */
+static int regions_on (const builder *m, size_t c, const int *i, int face)
+{
+    int n = 0;
+    for (size_t k = m->start[c]; k < m->start[c + 1]; k++)
+        n += m->cut->surface[m->near[k]].facets && face_of (m, i, m->near[k]) == face;
+    return n;
+}
+
 /* The facets of box c, cell number `cell`. Where box and neighbour are whole or empty, the answer is known:
  * a face between whole and empty is a facet as a whole, a face between two whole boxes is none. The
  * quadrature decides all other cases. */
@@ -224,7 +277,7 @@ static pg_status find_facets (builder *m, size_t c, int cell)
     index_of (m->l, c, i);
     for (size_t k = m->start[c]; k < m->start[c + 1] && !is_half_plane (m, k); k++) {
         one_facet f = {.cell = cell, .surface = m->near[k], .face = face_of (m, i, m->near[k])};
-        if (f.face >= 0 && m->state[c] == WHOLE && m->aligned[c]) {
+        if (f.face >= 0 && m->state[c] == WHOLE && m->aligned[c] && regions_on (m, c, i, f.face) < 2) {
             int behind = beyond (m, i, f.face);
             if (behind == NONE && !parted) PG_TRY (put (m, &f));
             if (behind == WHOLE || (behind == NONE && !parted)) continue;
@@ -369,7 +422,7 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
 done:
     cut_free (m.cut);
     pg_free (m.start), pg_free (m.near), pg_free (m.state), pg_free (m.aligned), pg_free (m.volume),
-        pg_free (m.facet);
+        pg_free (m.facet), pg_free (m.last);
     return status;
 }
 
@@ -378,7 +431,7 @@ void cut_free (struct pg_cut *cut)
     if (!cut) return;
     cut_work_free (&cut->work);
     for (size_t i = 0; cut->own && i < cut->body.n; i++)
-        if (cut->own[i].kind == PG_STAIRS) pg_stairs_clear (&cut->own[i]);
+        if (cut->own[i].kind == PG_STAIRS || cut->own[i].kind == PG_FACETED) pg_stairs_clear (&cut->own[i]);
     pg_free (cut->own);
     pg_free (cut->surface), pg_free (cut->start), pg_free (cut->near), pg_free (cut->part);
     pg_free (cut);
@@ -405,8 +458,13 @@ static int finer (const pg_cells *cells, int order)
 
 pg_status pg_cut_cell (pg_cut_points *out, const pg_cells *cells, size_t cell, int order)
 {
-    pg_status status = enter (cells, cell);
-    return status == PG_OK ? cut_work_points (cells->cut->work, -1, 0, finer (cells, order), out) : status;
+    pg_status status = PG_OK;
+    size_t first = out->n;
+    PG_TRY (enter (cells, cell));
+    PG_TRY (cut_work_points (cells->cut->work, -1, 0, finer (cells, order), out));
+    if (cut_work_faceted (cells->cut->work)) PG_TRY (cut_compress (out, first, cells->dim));
+done:
+    return status;
 }
 
 pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)

@@ -82,6 +82,8 @@ void cut_work_free (cut_work **work)
         pg_free (w->slices.level[k].hard.at), pg_free (w->slices.level[k].soft.at),
             pg_free (w->slices.level[k].q);
     pg_free (w->slices.number), pg_free (w->slices.low), pg_free (w->slices.high);
+    pg_free (w->slices.facets), pg_free (w->slices.mute), pg_free (w->slices.edge);
+    pg_free (w->slices.edge_of);
     pg_free (w->node), pg_free (w->owner), pg_free (w->x), pg_free (w->w);
     pg_free (w);
     *work = NULL;
@@ -92,16 +94,44 @@ static pg_status widen (cut_work *w, size_t n)
 {
     pg_status status = PG_OK;
     cut_slices *s = &w->slices;
-    size_t cap[8];
+    size_t cap[10];
     if (n <= s->capacity) return PG_OK;
-    for (int k = 0; k < 8; k++) cap[k] = 0;
+    for (int k = 0; k < 10; k++) cap[k] = 0;
     for (int k = 0; k < 3; k++) PG_GROW (s->level[k].q, cap[k], n);
     PG_GROW (s->number, cap[3], n);
     PG_GROW (s->low, cap[4], 3 * n);
     PG_GROW (s->high, cap[5], 3 * n);
     PG_GROW (w->node, cap[6], 2 * n + 2);
     PG_GROW (w->owner, cap[7], 2 * n + 2);
+    PG_GROW (s->facets, cap[8], n);
+    PG_GROW (s->mute, cap[9], n);
     s->capacity = n;
+done:
+    return status;
+}
+
+/* Appends the edges of a region that come near the cell, in local coordinates. */
+static pg_status add_edges (cut_work *w, int surface, const pg_facets *f, int region)
+{
+    pg_status status = PG_OK;
+    cut_slices *s = &w->slices;
+    size_t dim = (size_t) s->dim, size = (dim - 1) * dim;
+    for (size_t e = f->edge_first[region]; e < f->edge_first[region + 1]; e++) {
+        double at[6], low[3], high[3];
+        int near = 1;
+        for (size_t c = 0; c < size; c++) {
+            size_t k = c % dim;
+            at[c] = (f->edge[e * size + c] - w->centre[k]) / w->half[k];
+            if (c < dim) low[k] = high[k] = at[c];
+            low[k] = fmin (low[k], at[c]), high[k] = fmax (high[k], at[c]);
+        }
+        for (size_t k = 0; k < dim; k++) near &= low[k] <= 1 + 1e-9 && high[k] >= -1 - 1e-9;
+        if (!near) continue;
+        PG_GROW (s->edge, s->edge_room, 6 * (s->nedge + 1));
+        PG_GROW (s->edge_of, s->edge_of_room, s->nedge + 1);
+        memcpy (s->edge + 6 * s->nedge, at, size * sizeof *at);
+        s->edge_of[s->nedge++] = surface;
+    }
 done:
     return status;
 }
@@ -126,8 +156,12 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
             s->low[3*i + (size_t) k] = (f->low[k] - w->centre[k]) / w->half[k];
             s->high[3*i + (size_t) k] = (f->high[k] - w->centre[k]) / w->half[k];
         }
+        s->facets[i] = f->facets;
     }
-    return PG_OK;
+    s->nedge = 0;
+    for (size_t i = 0; i < n && status == PG_OK; i++)
+        if (s->facets[i]) status = add_edges (w, (int) i, s->facets[i], w->cut->surface[near[i]].region);
+    return status;
 }
 
 /* ---- lines --------------------------------------------------------------------------------------------- */
@@ -187,13 +221,16 @@ done:
  * within cut_snap of an end are moved onto it. node[0] = -1 and node[m + 1] = 1 are the ends. Returns m. */
 static int line_roots (cut_work *w, const cut_quadric *q)
 {
-    const cut_slices *s = &w->slices;
+    cut_slices *s = &w->slices;
     int z = s->axis[s->dim - 1], m = 0;
     for (size_t i = 0; i < s->n; i++) {
+        if (s->mute[i]) continue;
         double c[3] = {q[i].c, q[i].b[z], q[i].A[z][z]}, root[2];
         int n = cut_roots (2, c, -1 - cut_snap, 1 + cut_snap, root);
         for (int r = 0; r < n; r++) {
             double t = fabs (root[r]) >= 1 - cut_snap ? copysign (1, root[r]) : root[r];
+            s->at[z] = t;
+            if (s->facets[i] && !cut_within (s, i)) continue;
             int k = ++m;
             for (; k > 1 && w->node[k - 1] > t; k--)
                 w->node[k] = w->node[k - 1], w->owner[k] = w->owner[k - 1];
@@ -228,6 +265,17 @@ static void line_volume (cut_work *w, const cut_quadric *q, double weight)
     fill_piece (w, from, to, weight);
 }
 
+/* Does surface i reach to the position s->at? By its box; a region of facets by its pieces. */
+static int reaches (const cut_work *w, size_t i)
+{
+    const cut_slices *s = &w->slices;
+    double x[3] = { 0, 0, 0 };
+    if (!cut_within (s, i)) return 0;
+    if (!s->facets[i]) return 1;
+    for (int k = 0; k < s->dim; k++) x[k] = w->centre[k] + w->half[k] * s->at[k];
+    return pg_facets_meets (s->facets[i], w->cut->surface[s->number[i]].region, x, s->axis[s->dim - 1]);
+}
+
 /* Is root k (of m) an intersection with the surface of this walk, within its box, and the first surface
  * that claims this position? Coincident surfaces would count twice otherwise. */
 static int owned (cut_work *w, int k, int m)
@@ -236,11 +284,11 @@ static int owned (cut_work *w, int k, int m)
     int z = s->axis[s->dim - 1];
     if (w->owner[k] != w->surface) return 0;
     s->at[z] = w->node[k];
-    if (!cut_within (s, (size_t) w->surface)) return 0;
+    if (!reaches (w, (size_t) w->surface)) return 0;
     for (int i = k; i-- > 1 && w->node[k] - w->node[i] < 1e-13;)
-        if (w->owner[i] < w->surface && cut_within (s, (size_t) w->owner[i])) return 0;
+        if (w->owner[i] < w->surface && reaches (w, (size_t) w->owner[i])) return 0;
     for (int i = k + 1; i <= m && w->node[i] - w->node[k] < 1e-13; i++)
-        if (w->owner[i] < w->surface && cut_within (s, (size_t) w->owner[i])) return 0;
+        if (w->owner[i] < w->surface && reaches (w, (size_t) w->owner[i])) return 0;
     return 1;
 }
 
@@ -279,8 +327,11 @@ static void line_surface (cut_work *w, const cut_quadric *q, double weight)
         if (!owned (w, k, m)) continue;
         while (a > 0 && t[k] - t[a] < 1e-13) a--;
         while (b < m + 1 && t[b] - t[k] < 1e-13) b++;
-        int under = inside (w, 0.5 * (t[k] + (t[k] - t[a] < 1e-13 ? -1 - beyond : t[a])));
-        int over = inside (w, 0.5 * (t[k] + (t[b] - t[k] < 1e-13 ? 1 + beyond : t[b])));
+        double low = 0.5 * (t[k] + (t[k] - t[a] < 1e-13 ? -1 - beyond : t[a])),
+               high = 0.5 * (t[k] + (t[b] - t[k] < 1e-13 ? 1 + beyond : t[b]));
+        /* Other regions of the same facets are passed over, and may lie near. */
+        if (w->slices.facets[w->surface]) low = t[k] - beyond, high = t[k] + beyond;
+        int under = inside (w, low), over = inside (w, high);
         if (under == over || (t[k] == -1 && under) || (t[k] == 1 && over)) continue;
         emit_surface (w, t[k], under, weight);
     }
@@ -404,6 +455,9 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
     w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
     for (size_t i = 0; i < s->n && surface >= 0; i++) if (s->number[i] == surface) w->surface = (int) i;
     if (surface >= 0 && w->surface < 0) return PG_OK;
+    /* A region of facets ends at edges of its own: the other regions do not matter to it. */
+    for (size_t i = 0; i < s->n; i++)
+        s->mute[i] = w->surface >= 0 && (int) i != w->surface && cut_same_facets (s, i, (size_t) w->surface);
     choose_axes (w);
     walk (w, 0, w->surface < 0 ? w->thickness : 1);
     return s->status;
@@ -416,6 +470,7 @@ pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
     cut_slices *s = &w->slices;
     int axis = face / 2, side = face % 2 ? 1 : -1, k = 0;
     s->n = w->real;
+    for (size_t i = 0; i < s->n; i++) s->mute[i] = 0;
     w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
     choose_axes (w);
     while (s->axis[k] != axis) k++;
@@ -446,10 +501,29 @@ static cut_piece sum_up (const pg_cut_points *p, size_t dim)
     return s;
 }
 
-/* Orders grow by about 1.5 each; convergence is relative to the cell (for a surface: to its largest face). */
+/* Are all surfaces of the cell flat, and some of them regions of facets? */
+static int is_polyhedron (const cut_work *w)
+{
+    int faceted = 0;
+    for (size_t i = 0; i < w->real; i++) {
+        const cut_surface *f = &w->cut->surface[w->slices.number[i]];
+        if (!f->flat) return 0;
+        faceted |= f->facets != NULL;
+    }
+    return faceted;
+}
+
+int cut_work_faceted (const cut_work *w)
+{
+    for (size_t i = 0; i < w->real; i++) if (w->slices.facets[i]) return 1;
+    return 0;
+}
+
+/* Orders grow by about 1.5 each; convergence is relative to the cell (for a surface: to its largest face).
+ * Between planes two Gauss points are exact: three, or five, only show that they are. */
 pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
 {
-    static const int orders[] = {3, 5, 8, 12, 18, 27, 40};
+    static const int orders[] = {2, 3, 5, 8, 12, 18, 27, 40};
     pg_status status = PG_OK;
     pg_cut_points p = {0};
     double whole = w->thickness, before = NAN, change = NAN;
@@ -458,7 +532,8 @@ pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
         whole /= 2
                  * fmin (w->half[0], fmin (w->cut->dim > 1 ? w->half[1] : INFINITY,
                                            w->cut->dim > 2 ? w->half[2] : INFINITY));
-    for (size_t i = 0; i < sizeof orders / sizeof *orders; i++) {
+    int flat = is_polyhedron (w);
+    for (size_t i = !flat; i < (flat ? 3 : sizeof orders / sizeof *orders); i++) {
         p.n = 0;
         PG_TRY (cut_work_points (w, surface, part, orders[i], &p));
         *piece = sum_up (&p, (size_t) w->cut->dim);

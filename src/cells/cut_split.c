@@ -45,6 +45,11 @@ static int overlap (const cut_slices *s, size_t i, size_t j)
     return 1;
 }
 
+int cut_same_facets (const cut_slices *s, size_t i, size_t j)
+{
+    return s->facets[i] && s->facets[i] == s->facets[j];
+}
+
 /* ---- slices: psi = a z^2 + B (y) z + C (y) ------------------------------------------------------------- */
 /* A surface within a plane slice: a z^2 + (B[0] + B[1] y) z + C[0] + C[1] y + C[2] y^2. */
 typedef struct { double a, B[2], C[3]; } conic;
@@ -185,10 +190,12 @@ static void split_box (cut_slices *s, cut_level *out, size_t surface, int x)
 static void split_slice (cut_slices *s, const cut_quadric *surface, cut_level *out, int y, int z)
 {
     for (size_t i = 0; i < s->n; i++) {
+        if (s->mute[i]) continue;
         conic p = conic_of (&surface[i], y, z);
         split_faces (s, out, i, &p, y, z);
         split_turns (s, out, &p);
         for (size_t j = 0; j < i; j++) {
+            if (s->mute[j] || cut_same_facets (s, i, j)) continue;
             conic q = conic_of (&surface[j], y, z);
             if (overlap (s, i, j)) split_pair (s, out, i, j, &p, &q, y, z);
             if (coincide (&surface[i], &surface[j])) split_box (s, out, i, y), split_box (s, out, j, y);
@@ -287,18 +294,90 @@ static void split_solid (cut_slices *s, const cut_quadric *q, cut_level *out)
 {
     int x = s->axis[0], y = s->axis[1], z = s->axis[2];
     for (size_t i = 0; i < s->n; i++) {
+        if (s->mute[i]) continue;
         split_ends (s, out, &q[i], x, y, z);
         for (size_t j = 0; j < i; j++) {
-            if (!overlap (s, i, j)) continue;
+            if (s->mute[j] || !overlap (s, i, j)) continue;
             if (!straight (&q[i]) || !straight (&q[j]))
                 split_points (s, out, (cut_quadric[]){ q[i], q[j], jacobian (&q[i], &q[j], y, z) },
                               (size_t[]){ i, j }, 2, x);
             for (size_t k = 0; k < j; k++)
-                if (overlap (s, i, k) && overlap (s, j, k))
+                if (!s->mute[k] && overlap (s, i, k) && overlap (s, j, k) && !cut_same_facets (s, i, j)
+                    && !cut_same_facets (s, i, k) && !cut_same_facets (s, j, k))
                     split_points (s, out, (cut_quadric[]){ q[i], q[j], q[k] }, (size_t[]){ i, j, k }, 3, x);
         }
     }
     split_box_faces (s, q, out);
+}
+
+/* ---- edges of facets ----------------------------------------------------------------------------------- */
+/* The place on the edge where coordinate k is `at`; 0: it is not on it. */
+static int edge_at (const double *edge, int k, double at, double *x)
+{
+    double way = edge[3 + k] - edge[k], t = (at - edge[k]) / way;
+    if (!(fabs (way) > 1e-12) || !(t >= -1e-12 && t <= 1 + 1e-12)) return 0;
+    for (int a = 0; a < 3; a++) x[a] = edge[a] + t * (edge[3 + a] - edge[a]);
+    return 1;
+}
+
+/* A split along axis `out_of` at x, where that lies in the cell: in the coordinates across it and, unless
+ * free < 0, not asking for coordinate `free`. */
+static void push_place (cut_slices *s, cut_list *hard, const double *x, int along, int free)
+{
+    for (int k = 0; k < s->dim; k++)
+        if (k != along && k != free && fabs (x[k]) > near_box) return;
+    if (fabs (x[along]) < 1) push (s, hard, x[along]);
+}
+
+/* Splits along `along` at the ends of an edge and where it leaves the cell through a face across one of the
+ * other axes; `fixed` is the axis of the present slice, in which the edge lies, or -1. */
+static void split_edge (cut_slices *s, cut_list *hard, const double *edge, int along, int fixed)
+{
+    double x[3];
+    for (int end = 0; end < 2; end++) push_place (s, hard, edge + 3 * end, along, fixed);
+    for (int k = 0; k < 3; k++)
+        for (int side = -1; k != along && k != fixed && side <= 1; side += 2)
+            if (edge_at (edge, k, side, x)) push_place (s, hard, x, along, fixed);
+}
+
+/* Splits where other surfaces cross an edge: on it their quadric is a quadratic polynomial. */
+static void split_edge_crossings (cut_slices *s, cut_list *hard, const double *edge, size_t of, int along)
+{
+    for (size_t i = 0; i < s->n; i++) {
+        double v[3], root[2], x[3];
+        if (s->mute[i] || i == of || cut_same_facets (s, i, of)) continue;
+        for (int e = 0; e < 3; e++) {
+            for (int k = 0; k < 3; k++) x[k] = edge[k] + 0.5 * e * (edge[3 + k] - edge[k]);
+            v[e] = cut_value (&s->level[0].q[i], x);
+        }
+        double poly[3] = { v[0], 4 * v[1] - 3 * v[0] - v[2], 2 * (v[0] + v[2]) - 4 * v[1] };
+        int n = cut_roots (2, poly, -1e-9, 1 + 1e-9, root);
+        for (int r = 0; r < n; r++) {
+            for (int k = 0; k < 3; k++) s->at[k] = x[k] = edge[k] + root[r] * (edge[3 + k] - edge[k]);
+            if (cut_within (s, i)) push_place (s, hard, x, along, -1);
+        }
+    }
+}
+
+/* The regions of facets end at their edges, and nothing else tells where: splits along the outermost axis,
+ * then those of the slice. */
+static void split_edges (cut_slices *s, int level, cut_list *hard)
+{
+    int along = s->axis[level];
+    for (size_t e = 0; e < s->nedge; e++) {
+        const double *edge = s->edge + 6 * e;
+        double x[3];
+        int fixed = s->axis[0];
+        if (s->mute[s->edge_of[e]]) continue;
+        if (s->dim == 2) push_place (s, hard, edge, along, -1);
+        else if (level == 0) {
+            split_edge (s, hard, edge, along, -1);
+            split_edge_crossings (s, hard, edge, (size_t) s->edge_of[e], along);
+        }
+        else if (fabs (edge[fixed] - s->at[fixed]) < 1e-9 && fabs (edge[3 + fixed] - s->at[fixed]) < 1e-9)
+            split_edge (s, hard, edge, along, fixed);
+        else if (edge_at (edge, fixed, s->at[fixed], x)) push_place (s, hard, x, along, fixed);
+    }
 }
 
 void cut_split (cut_slices *s, int k)
@@ -307,4 +386,5 @@ void cut_split (cut_slices *s, int k)
     out->hard.n = out->soft.n = 0;
     if (k == s->dim - 2) split_slice (s, out->q, out, s->axis[k], s->axis[k + 1]);
     else split_solid (s, out->q, out);
+    split_edges (s, k, &out->hard);
 }

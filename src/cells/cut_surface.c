@@ -286,8 +286,33 @@ done:
     return status;
 }
 
-/* Replaces meshes and alpha shapes by their staircases on the lattice; such a body needs a list of shapes
- * of its own. */
+/* The plane regions of a mesh or an alpha shape. */
+static pg_status add_facets (builder *m, cut_surface s, const pg_facets *f)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) f->dim;
+    s.flat = 1, s.facets = f;
+    for (size_t r = 0; r < f->nregion; r++) {
+        const double *plane = f->plane + 2 * dim * r;
+        memset (&s.psi, 0, sizeof s.psi);
+        memcpy (s.origin, plane, dim * sizeof *plane);
+        memcpy (s.psi.b, plane + dim, dim * sizeof *plane);
+        s.axis = f->axis[r], s.region = (int) r;
+        for (size_t k = 0; k < dim; k++) s.low[k] = INFINITY, s.high[k] = -INFINITY;
+        for (size_t i = f->first[r]; i < f->first[r + 1]; i++)
+            for (size_t c = 0; c < dim * dim; c++) {
+                double v = f->x[(size_t) f->piece[i] * dim * dim + c];
+                s.low[c % dim] = fmin (s.low[c % dim], v), s.high[c % dim] = fmax (s.high[c % dim], v);
+            }
+        PG_GROW (m->cut->surface, m->capacity, m->cut->n + 1);
+        m->cut->surface[m->cut->n++] = s;
+    }
+done:
+    return status;
+}
+
+/* Replaces meshes and alpha shapes by flat pieces of their surface, alpha shapes with a rim by their
+ * staircases on the lattice; such a body needs a list of shapes of its own. */
 static pg_status own_shapes (struct pg_cut *cut, const pg_lattice *lattice)
 {
     pg_status status = PG_OK;
@@ -295,8 +320,9 @@ static pg_status own_shapes (struct pg_cut *cut, const pg_lattice *lattice)
     PG_ALLOC (cut->own, cut->body.n);
     for (size_t i = 0; i < cut->body.n; i++) {
         const pg_shape *shape = &cut->body.shape[i];
-        if (pg_shape_meshed (shape)) PG_TRY (pg_stairs_create (&cut->own[i], shape, lattice));
-        else cut->own[i] = *shape;
+        if (!pg_shape_meshed (shape)) cut->own[i] = *shape;
+        else if (pg_shape_stepped (shape)) PG_TRY (pg_stairs_create (&cut->own[i], shape, lattice));
+        else PG_TRY (pg_faceted_create (&cut->own[i], shape, lattice));
     }
     cut->body.shape = cut->own;
 done:
@@ -315,6 +341,7 @@ pg_status cut_surfaces (struct pg_cut *cut, const pg_body *body, const pg_lattic
         cut_surface s = {.shape = (int) i, .axis = -1};
         bound (&s, shape, body->dim);
         if (shape->kind == PG_STAIRS) PG_TRY (add_stairs (&m, s, lattice));
+        else if (shape->kind == PG_FACETED) PG_TRY (add_facets (&m, s, pg_shape_facets (shape)));
         else if (shape->kind == PG_BOX) PG_TRY (add_box (&m, s, shape));
         else if (shape->kind == PG_PLATE) PG_TRY (add_plate (&m, s, shape));
         else if (shape->kind == PG_CYLINDER) PG_TRY (add_cylinder (&m, s, shape));

@@ -184,6 +184,14 @@ int cells_is_end (const pg_marks *m, size_t f)
 static int is_of_shape (const pg_marks *m, size_t f, const char *name)
 {
     const pg_shape *s = &m->body->shape[m->facet_shape[f]];
+    const cut_surface *at = m->cells->cut && m->cells->facet_surface[f] >= 0
+                                ? &m->cells->cut->surface[m->cells->facet_surface[f]]
+                                : NULL;
+    if (at && at->facets && s->kind == PG_MESH) {
+        const pg_facets *of = at->facets;
+        return !strcmp (s->boundary, name)
+               || pg_shape_face_on_side (s, of->element[at->region], of->side[at->region], name);
+    }
     return !strcmp (s->boundary, name)
            || (s->kind == PG_MESH
                && pg_shape_on_side (s, m->cells->facet_centre + f * (size_t) m->cells->dim, name));

@@ -24,7 +24,8 @@ static double slack (const pg_marks *m, double face)
 /* A flat surface whose box lies in the plane. */
 static int surface_lies_in (const pg_marks *m, const cut_surface *s, int side)
 {
-    double face = plane_of (m, side), tolerance = slack (m, face);
+    /* Files of meshes round coordinates to six or seven digits. */
+    double face = plane_of (m, side), tolerance = s->facets ? 1e-6 * m->size : slack (m, face);
     return s->flat && fabs (s->low[side / 2] - face) <= tolerance
            && fabs (s->high[side / 2] - face) <= tolerance;
 }

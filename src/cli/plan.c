@@ -229,14 +229,12 @@ static void print_layers (const pg_problem *q)
 /* Whose surface is that of whole cells, whatever `cells` says. */
 static void print_stairs (const pg_problem *q)
 {
-    size_t shapes = pg_body_meshes (&q->body), clouds = 0;
-    for (size_t i = 0; i < q->body.n; i++) clouds += pg_shape_alpha (&q->body.shape[i]) != NULL;
+    size_t shapes = 0;
+    for (size_t i = 0; i < q->body.n; i++)
+        shapes += pg_shape_meshed (&q->body.shape[i]) && pg_shape_stepped (&q->body.shape[i]);
     if (shapes)
-        printf ("  %-18s  the surface of %s is a staircase of cells\n", "",
-                clouds == 0 ? shapes > 1 ? "the meshes" : "the mesh"
-                : clouds < shapes ? "meshes and alpha shapes"
-                : clouds > 1      ? "the alpha shapes"
-                                  : "the alpha shape");
+        printf ("  %-18s  the surface of %s with a rim is a staircase of cells\n", "",
+                shapes > 1 ? "the alpha shapes" : "the alpha shape");
 }
 
 /* Points, cells, bonds, unknowns. The mean family is that of the node-node bonds. */

@@ -69,8 +69,9 @@
           .doc = "One vertex [x, y] of the base." }, \
         { .path = op ".prism.low", .kind = PG_NUMBER, .unit = "m", .doc = "Smallest z." }, \
         { .path = op ".prism.high", .kind = PG_NUMBER, .unit = "m", .doc = "Largest z." }, \
-        SHAPE (op ".mesh", "What the elements of a mesh fill, in two and three dimensions; its surface is " \
-                           "that of the cells it leaves (a staircase, also with cells: cut)."), \
+        SHAPE (op ".mesh", "What the elements of a mesh fill, in two and three dimensions. Cells are cut " \
+                           "along its straight faces exactly, along curved ones by flat pieces of " \
+                           "3/4 of a spacing."), \
         { .path = op ".mesh.file", \
           .kind = PG_FILE, \
           .doc = "Mesh file, next to the scene file: formats as under mesh.file. Its side sets are names " \
@@ -86,8 +87,9 @@
         SHAPE (op ".alpha_shape", \
                "The shape of a set of points, in two and three dimensions: all triangles (tetrahedra) of " \
                "their Delaunay triangulation whose circumscribed circle (sphere) is no larger than alpha, " \
-               "and a rim about them; it may have holes and several parts. Its surface is that of the " \
-               "cells it leaves (a staircase, also with cells: cut)."), \
+               "and a rim about them; it may have holes and several parts. Without a rim cells are cut " \
+               "along it exactly; with one its surface is that of the cells it leaves (a staircase, also " \
+               "with cells: cut)."), \
         { .path = op ".alpha_shape.points", \
           .kind = PG_FILE, \
           .fallback = "", \

@@ -215,7 +215,7 @@ static void box_plate (const pg_shape *s, int dim, double *low, double *high)
 }
 
 /* Name, lowest and highest dimension, round, functions. */
-const pg_shape_type pg_shape_types[PG_PLATE + 1] = {
+const pg_shape_type pg_shape_types[PG_FACETED + 1] = {
     [PG_BOX]      = {"box",      1, 3, 0, read_box,      distance_box,      box_box},
     [PG_DISK]     = {"disk",     2, 2, 1, read_ball,     distance_ball,     box_ball},
     [PG_CYLINDER] = {"cylinder", 3, 3, 1, read_cylinder, distance_cylinder, box_cylinder},
@@ -226,4 +226,5 @@ const pg_shape_type pg_shape_types[PG_PLATE + 1] = {
     [PG_ALPHA_SHAPE] = {"alpha_shape", 2, 3, 0, shape_alpha_read, shape_alpha_distance, shape_alpha_box},
     [PG_STAIRS]   = {"stairs",   2, 3, 0, NULL, shape_stairs_distance, shape_mesh_box},
     [PG_PLATE]    = {"plate",    3, 3, 0, NULL, distance_plate,        box_plate},
+    [PG_FACETED]  = {"facets",   2, 3, 0, NULL, shape_facets_distance, shape_mesh_box},
 };

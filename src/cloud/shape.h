@@ -21,10 +21,10 @@ typedef struct {
     void      (*box)      (const pg_shape *shape, int dim, double *low, double *high);
 } pg_shape_type;
 
-/* Kinds that a scene may use; PG_STAIRS and PG_PLATE come behind them. */
+/* Kinds that a scene may use; PG_STAIRS, PG_PLATE and PG_FACETED come behind them. */
 enum { PG_SHAPES = PG_ALPHA_SHAPE + 1 };
 /* Indexed by pg_shape.kind. */
-extern const pg_shape_type pg_shape_types[PG_PLATE + 1];
+extern const pg_shape_type pg_shape_types[PG_FACETED + 1];
 /* Shapes from a mesh (shape_mesh.c). */
 pg_status shape_mesh_read     (pg_shape *shape, int dim, const pg_scene *scene, const char *at);
 double    shape_mesh_distance (const pg_shape *shape, int dim, const double *x, double reach);
@@ -41,4 +41,5 @@ pg_status pg_layers_read      (pg_body *body, const pg_scene *scene);
 /* Is this the name of a side of the body, or all? */
 int       pg_layers_taken     (const char *name);
 double    shape_stairs_distance (const pg_shape *shape, int dim, const double *x, double reach);
+double    shape_facets_distance (const pg_shape *shape, int dim, const double *x, double reach);
 #endif

@@ -26,6 +26,7 @@ void shape_mesh_clear (pg_shape *s)
     if (!s->solid) return;
     pg_skin_free (&s->solid->skin), pg_mesh_locator_free (&s->solid->locator);
     pg_mesh_body_clear (&s->solid->part), pg_alpha_shape_clear (&s->solid->cloud);
+    facets_clear (&s->solid->facets);
     pg_free (s->solid->sign), pg_free (s->solid);
     s->solid = NULL;
 }
@@ -79,12 +80,18 @@ const char *pg_shape_side (const pg_shape *s, size_t k)
 /* Does the face nearest to x belong to that side set? */
 int pg_shape_on_side (const pg_shape *s, const double *x, const char *side)
 {
-    const pg_mesh *m = &s->solid->part.mesh;
     long face;
     int element, at;
     pg_skin_distance (s->solid->skin, x, HUGE_VAL, &face);
     if (face < 0) return 0;
     pg_skin_face (s->solid->skin, (size_t) face, &element, &at);
+    return pg_shape_face_on_side (s, element, at, side);
+}
+
+/* Side sets of one name count together. */
+int pg_shape_face_on_side (const pg_shape *s, int element, int at, const char *side)
+{
+    const pg_mesh *m = &s->solid->part.mesh;
     for (size_t k = 0; k < m->nsides; k++)
         for (size_t i = 0; !strcmp (m->sides[k].name, side) && i < m->sides[k].n; i++)
             if (m->sides[k].element[i] == element && m->sides[k].side[i] == at) return 1;

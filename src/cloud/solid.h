@@ -15,5 +15,11 @@ struct pg_solid {
     pg_lattice lattice;
     /* Sign of the distance at the centre of each cell; 0: on the surface. */
     signed char *sign;
+    /* Flat pieces of the surface. */
+    pg_facets facets;
 };
+/* Frees the arrays of facets. */
+void      facets_clear   (pg_facets *facets);
+/* Sorts their pieces into columns along each axis (facet_columns.c). PG_E_MEMORY. */
+pg_status facets_columns (pg_facets *facets);
 #endif
