@@ -16,7 +16,8 @@ static double linear (const pose *p, const char *integration, double spacing)
     run r = scene_of (1,
                       "%sspacing: %g\n" METHOD
                       "sets: {around: {boundary: all}}\nboundary:\n"
-                      "  - {set: around, displacement: {x: '(x + y/2) / 1000', y: '-0.3*y / 1000', z: '(0.2*z + x/4) / 1000'}}\n",
+                      "  - {set: around, displacement: {x: '(x + y/2) / 1000', y: '-0.3*y / 1000', "
+                      "z: '(0.2*z + x/4) / 1000'}}\n",
                       turned_box (p), spacing, integration);
     to_the_end (&r);
     double *u = field_of (&r, NULL, "displacement", NULL), worst = 0;
