@@ -11,11 +11,11 @@ Needs numpy and netCDF4, and the program perigal: the environment variable PERIG
 lies in, or PATH.
 """
 from perigal.program import (Error, SceneError, UsageError, Failed, Interrupted, PerigalWarning,
-                             check, program, read_scene, run)
-from perigal.result import Result, Table
+                             check, program, read_scene, run, sweep)
+from perigal.result import Result, Sweep, Table
 
-__all__ = ['Error', 'SceneError', 'UsageError', 'Failed', 'Interrupted', 'PerigalWarning', 'Result', 'Table',
-           'check', 'open', 'program', 'read_scene', 'run']
+__all__ = ['Error', 'SceneError', 'UsageError', 'Failed', 'Interrupted', 'PerigalWarning', 'Result', 'Sweep',
+           'Table', 'check', 'open', 'program', 'read_scene', 'run', 'sweep']
 
 
 def open(folder):

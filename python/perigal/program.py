@@ -82,6 +82,51 @@ def check(scene, set=None, solve=False, memory=None):
         return json.loads(call(['check', file, *words]))
 
 
+def sweep(scene, set, out=None, zip=False, jobs=1, resume=False, quantity=None, threads=0, memory=None,
+          progress=False):
+    """Runs a scene with all combinations of some of its values; returns a Sweep.
+
+    set: dict of keys and values, {'spacing': ['1 mm', '2 mm'], 'perturb.seed': range(1, 21), 'method.force': 'bond'};
+    lists, tuples, ranges and arrays are lists of values, others one value for every run; a value that is itself a list
+    is a list in a list. zip: the first values of all keys together, the second ones ... jobs: so many runs at a time.
+    resume: go on in a folder with a sweep. quantity: list of columns (`perigal help sweep`). out: default out/sweep.
+    All combinations are checked before the first run (SceneError). Runs that fail give a PerigalWarning, and their rows
+    say why. Raises SceneError, Interrupted (resume=True goes on), Failed, UsageError.
+    """
+    from perigal.result import Sweep
+    out = os.path.join('out', 'sweep') if out is None else os.fspath(out)
+    words = ['-o', out, '--threads', str(threads), '--jobs', str(jobs)]
+    for key, values in set.items():
+        one = isinstance(values, (str, bytes, dict, bool, int, float)) or not hasattr(values, '__iter__')
+        words += ['--set', f'{key}={",".join(value_text(v) for v in ([values] if one else values))}']
+    words += [word for word, given in (('--zip', zip), ('--resume', resume), ('--quiet', not progress)) if given]
+    if quantity:
+        words += ['--quantity', quantity if isinstance(quantity, str) else ','.join(quantity)]
+    if memory is not None:
+        words += ['--memory', str(memory)]
+    with scene_file(scene) as file:
+        try:
+            call(['sweep', file, *words], progress)
+        except Failed as fault:
+            if not os.path.exists(os.path.join(out, 'sweep.csv')):
+                raise
+            result = Sweep(out)
+            if 'waiting' in result.status or 'failed' not in result.status:
+                raise
+            warnings.warn(str(fault), PerigalWarning, stacklevel=2)
+            return result
+    return Sweep(out)
+
+
+def value_text(value):
+    """A value of a list: texts as they are, unless the list would be cut in them; others as JSON, which is YAML."""
+    if isinstance(value, str) and value and not any(c in value for c in '[]{}(),"\':#'):
+        return value
+    if hasattr(value, 'item') and not hasattr(value, '__len__'):      # a number of numpy
+        value = value.item()
+    return json.dumps(value, allow_nan=False)
+
+
 def read_scene(file, set=None):
     """A scene file as dicts and lists: what is written in it, without defaults; values with units are texts."""
     return json.loads(call(['check', os.fspath(file), '--echo', *settings(set)]))

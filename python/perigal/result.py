@@ -39,6 +39,28 @@ class Table:
         return len(self.data)
 
 
+class Sweep(Table):
+    """The table of a sweep: numbers as in Table, and of each run status ('done', 'failed', 'interrupted', 'waiting'),
+    trouble (why it failed), folder; words: {key: values} of keys whose values are no numbers.
+
+    result (k): the Result of run k (from 0).
+    """
+
+    def __init__(self, folder):
+        path = os.path.join(os.fspath(folder), 'sweep.csv')
+        super().__init__(path)
+        with open(path, encoding='utf-8', newline='') as file:
+            rows = list(csv.DictReader(file))
+        self.status = [row['status [name]'] for row in rows]
+        self.trouble = [row['trouble [name]'] for row in rows]
+        self.folder = [os.path.join(os.fspath(folder), row['folder [name]']) for row in rows]
+        own = [head for head in (rows[0] if rows else {}) if head.endswith(' [name]')][:-3]
+        self.words = {head[:-7]: [row[head] for row in rows] for head in own}
+
+    def result(self, k):
+        return Result(self.folder[k])
+
+
 class Result:
     """A result folder.
 

@@ -12,6 +12,7 @@ function checks (root, work)
     tables (there);
     exports (r, there);
     events_of_many_rows (work);
+    sweeps (root, there);
     json ();
     errors (r, demo, there);
     pictures (r, there);
@@ -145,6 +146,33 @@ function events_of_many_rows (work)
     e = perigal_events (folder);
     verdict ('events: 100000 rows, empty places, an unfinished row', isequal (size (e.data), [n 10]) && all (isnan (e.data(:, 7))) ...
              && isequal (e.data(:, 1), (1:n)') && e.data(4, 4) == 2);
+end
+
+function sweeps (root, there)
+    s = perigal_scene (fullfile (root, 'test', 'matlab', 'bar.yaml'));
+    out = fullfile (there, 'swéep');
+    t = perigal_sweep (s, 'set', {'spacing', {'1 mm', '2 mm'}; 'failure.critical_stretch', [0.002 0.003]; 'cracks', {{}}}, ...
+                       'out', out, 'progress', false, 'threads', 1, 'jobs', 2);
+    verdict ('sweep: all combinations', isequal (t.names(1:4), {'number', 'spacing', 'critical_stretch', 'peak'}) && strcmp (t.units{2}, 'mm') ...
+             && isequal (t.data(:, 2:3), [1 0.002; 1 0.003; 2 0.002; 2 0.003]) && all (strcmp (t.status, 'done')));
+    r = perigal_report (t.folder{3});
+    verdict ('sweep: the peak is that of the report', t.data(3, 4) == r.curve.peak.force);
+    t = perigal_sweep (s, 'set', {'spacing', {'1 mm', '2 mm'}; 'cracks[0].to', {{'3 mm', 0}, {'4 mm', 0}}}, 'zip', true, ...
+                       'out', [out '2'], 'progress', false, 'threads', 1, 'quantity', {'broken', 'top.force_y:max'});
+    verdict ('sweep: zip, quantities, words', isequal (t.names(1:4), {'number', 'spacing', 'broken', 'top.force_y:max'}) ...
+             && isequal (t.words.names, {'to'}) && numel (t.words.values) == 2 && ~isempty (strfind (t.words.values{2}, '4 mm')));
+    mkdir ([out '3']);
+    fclose (fopen (fullfile ([out '3'], 'spacing=2mm'), 'w'));
+    t = perigal_sweep (s, 'set', {'spacing=1 mm,2 mm'}, 'out', [out '3'], 'progress', false, 'threads', 1);
+    verdict ('sweep: a run that fails', isequal (t.status, {'done'; 'failed'}) && ~isempty (strfind (t.trouble{2}, 'is a file')) && isnan (t.data(2, 3)));
+    delete (fullfile ([out '3'], 'spacing=2mm'));
+    t = perigal_sweep (s, 'set', {'spacing=1 mm,2 mm'}, 'out', [out '3'], 'progress', false, 'threads', 1, 'resume', true);
+    verdict ('sweep: and is run again', all (strcmp (t.status, 'done')) && all (isfinite (t.data(:, 3))));
+    refused ('sweep: wrong key', 'perigal:scene', 'did you mean spacing', @() perigal_sweep (s, 'set', {'spacng', [1 2]}, 'progress', false));
+    refused ('sweep: it is there', 'perigal:usage', '--resume', @() perigal_sweep (s, 'set', {'spacing=1 mm,2 mm'}, 'out', out, 'progress', false));
+    refused ('sweep: no values', 'perigal:argument', 'no value', @() perigal_sweep (s, 'set', {'spacing', {}}));
+    refused ('sweep: nothing to change', 'perigal:argument', '''set''', @() perigal_sweep (s));
+    refused ('sweep: unknown option', 'perigal:argument', 'quantity', @() perigal_sweep (s, 'job', 2));
 end
 
 function json ()

@@ -80,6 +80,38 @@ with warnings.catch_warnings():
     cloud = perigal.run(scene, out=os.path.join(there, 'cloud'), threads=1)
 verdict('places come back bit by bit', numpy.array_equal(cloud.field('place'), places))
 
+bar = {'dimension': 2, 'plane': 'stress', 'thickness': '1 mm', 'spacing': '1 mm', 'lattice': 'cells',
+       'body': [{'add': {'box': {'low': ['-8 mm', '-8 mm'], 'high': ['8 mm', '8 mm']}}}],
+       'cracks': [{'from': ['-4 mm', 0], 'to': ['4 mm', 0]}],
+       'materials': {'steel': {'youngs_modulus': '192 GPa', 'poissons_ratio': 1 / 3, 'density': '8000 kg/m3'}},
+       'failure': {'criterion': 'stretch', 'critical_stretch': .002, 'exclude': ['top', 'bottom']},
+       'method': {'force': 'bond', 'kernel': 'constant', 'horizon': '3.015 spacing', 'accept_inexact': True},
+       'boundary': [{'name': 'top', 'set': 'top', 'velocity': {'y': 5}},
+                    {'name': 'bottom', 'set': 'bottom', 'velocity': {'y': -5}}],
+       'solver': {'kind': 'verlet', 'dt': 1e-7, 'time_steps': 40}, 'output': {'at': {'levels': 1}, 'pictures': []}}
+swept = os.path.join(there, 'swéep')
+lists = {'spacing': ['1 mm', '2 mm'], 'failure.critical_stretch': numpy.array([.002, .003]), 'cracks': [[]]}
+t = perigal.sweep(bar, lists, out=swept, threads=1, jobs=2)
+verdict('sweep: all combinations', t['spacing'].tolist() == [1, 1, 2, 2] and t.units[t.names.index('spacing')] == 'mm'
+        and t['critical_stretch'].tolist() == [.002, .003] * 2 and t.status == ['done'] * 4 and len(t) == 4)
+verdict('sweep: the peak of each', all(t.result(k).report['curve']['peak']['force'] == t['peak'][k] for k in range(4)))
+t = perigal.sweep(bar, {'spacing': ['1 mm', '2 mm'], 'failure.criterion': ['stretch'],
+                        'cracks[0].to': [['3 mm', 0], ['4 mm', 0]]}, out=swept + '2', zip=True, threads=1,
+                  quantity=['broken', 'top.force_y:max'])
+verdict('sweep: zip, quantities, words', t.names[:4] == ['number', 'spacing', 'broken', 'top.force_y:max']
+        and t.words == {'to': ['["3 mm", 0]', '["4 mm", 0]']})
+open_file = os.path.join(swept + '3', 'spacing=2mm')
+os.makedirs(os.path.dirname(open_file))
+open(open_file, 'w').close()
+with warnings.catch_warnings(record=True) as caught:
+    warnings.simplefilter('always')
+    t = perigal.sweep(bar, {'spacing': ['1 mm', '2 mm']}, out=swept + '3', threads=1)
+verdict('sweep: a run that fails is a warning', t.status == ['done', 'failed'] and 'is a file' in t.trouble[1]
+        and numpy.isnan(t['peak'][1]) and len(caught) == 1)
+refused('sweep: wrong key', perigal.SceneError, 'did you mean spacing', lambda: perigal.sweep(bar, {'spacng': [1, 2]}))
+refused('sweep: it is there', perigal.UsageError, '--resume', lambda: perigal.sweep(bar, lists, out=swept))
+refused('sweep: nothing to sweep', perigal.UsageError, 'several values', lambda: perigal.sweep(bar, {'spacing': 1}))
+
 many = os.path.join(work, 'many.csv')
 with open(many, 'w') as file:
     file.write('step [1],x [m],kind [name]\n' + ''.join(f'{k},,tension\n' for k in range(1000)) + '7,1')
