@@ -363,6 +363,8 @@ pg_status pg_cracks_read  (pg_cracks *out, const pg_scene *scene);
  * horizon parts its sides too. Slots have no tips. */
 pg_status pg_slots_read   (pg_cracks *out, const pg_scene *scene);
 int       pg_crack_is_slot (const pg_crack *crack);
+/* Length (2D) or area (3D) of its middle, m or m^2; an outline has the length of its longest axis. */
+double    pg_crack_size    (const pg_crack *crack, int dim);
 /* Everything of `cracks`, in the order of the scene; no index. */
 pg_status pg_network_read (pg_cracks *out, const pg_scene *scene);
 /* What a network amounts to. */

@@ -496,6 +496,8 @@ typedef struct {
     double points, evaluation, bonds;  /* of evaluation; evaluation-point-to-node bonds */
     double reach;                                      /* horizon over spacing */
     double edge[3];                                    /* nodes along the body */
+    /* Right-hand sides that every matrix is solved with beside the loads: forces between faces of cracks. */
+    double columns;
 } pg_solve_counts;
 pg_solve_counts pg_solve_count (const pg_problem *problem);
 /* Seconds, by stored rates: assembly; the same with analysis and factor; one solve with finite elements. */
@@ -544,6 +546,8 @@ typedef struct {
     /* evaluation: Gauss points, 0 if nodal; facets: their points */
     double points, cells, evaluation, facets;
     double bonds[PG_BOND_SETS], dofs;
+    /* pressed: contact of crack faces, 2: with friction; columns: as in pg_solve_counts */
+    int    pressed;  double columns;
     double slaves, eliminated;  /* essential: transformation: unknowns, entries of its matrices */
     int    shared;  /* 1: points of a lattice, none of whose bonds breaks, share rows that are alike */
     double summed;  /* consistent integration: what its points and faces see; else 0 */

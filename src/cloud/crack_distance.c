@@ -136,7 +136,7 @@ static double area_of (const pg_crack *c)
     return sqrt (dot (sum, sum));
 }
 
-double crack_size (const pg_crack *c, int dim)
+double pg_crack_size (const pg_crack *c, int dim)
 {
     if (dim == 2) return crack_length (c, 2);
     return c->kind == PG_CRACK_DISC ? 3.14159265358979323846 * c->radius * c->radius : area_of (c);
@@ -145,7 +145,7 @@ double crack_size (const pg_crack *c, int dim)
 double crack_removed (const pg_crack *c, int dim)
 {
     if (c->kind == PG_CRACK_OUTLINE) return fabs (pg_polygon_area (c->nvertex, c->vertex));
-    return c->slot > 0 ? c->slot * crack_size (c, dim) : 0;
+    return c->slot > 0 ? c->slot * pg_crack_size (c, dim) : 0;
 }
 
 void crack_axis (const pg_crack *c, int dim, double *axis)

@@ -10,8 +10,6 @@ void   crack_ball     (const pg_crack *c, int dim, double *middle, double *radiu
 /* Least distance of a place on one from a place on the other, m; 0 where they touch or cross. A disc counts
  * as its polygon of 64 corners, which lies inside by at most a part 0.0013 of the radius. */
 double crack_distance (const pg_crack *a, const pg_crack *b, int dim);
-/* Length (2D) or area (3D) of its middle, m or m^2; an outline has the length of its longest axis. */
-double crack_size     (const pg_crack *c, int dim);
 /* Area (2D) or volume (3D) that a slot removes, m^2 or m^3; 0 of a sharp crack. */
 double crack_removed  (const pg_crack *c, int dim);
 /* Largest distance of two corners, m. */

@@ -96,7 +96,7 @@ static void measure_axes (pg_network *out, const pg_cracks *all)
     double mean[9] = { 0 }, lambda[3], V[9], a[3], weight = 0;
     int dim = all->dim;
     for (size_t i = 0; i < all->n; i++) {
-        double w = crack_size (&all->crack[i], dim);
+        double w = pg_crack_size (&all->crack[i], dim);
         crack_axis (&all->crack[i], dim, a);
         for (int k = 0; k < dim; k++) for (int l = 0; l < dim; l++) mean[dim * k + l] += w * a[k] * a[l];
         weight += w;
@@ -149,7 +149,7 @@ pg_status pg_network_measure (pg_network *out, const pg_cracks *all, const pg_sc
     }
     for (size_t i = 0; i < all->n; i++) {
         out->vain += (size_t) all->crack[i].vain;
-        double size = crack_size (&all->crack[i], all->dim),
+        double size = pg_crack_size (&all->crack[i], all->dim),
                part = body.n ? part_inside (&all->crack[i], &body) : 1;
         out->size += size, out->inside += part * size,
             out->removed += crack_removed (&all->crack[i], all->dim);

@@ -314,7 +314,7 @@ pg_status crack_read_random (crack_list *list)
         }
         pg_crack *c = &list->all->crack[list->all->n - 1];
         c->vain = vain;
-        n++, size += crack_size (c, w.body.dim), removed += crack_removed (c, w.body.dim);
+        n++, size += pg_crack_size (c, w.body.dim), removed += crack_removed (c, w.body.dim);
     }
 done:
     pg_free (w.ball);

@@ -71,7 +71,8 @@ static int by_elements (const pg_forecast *f)
                           .points = f->points,
                           .evaluation = f->nodal ? f->points : f->evaluation,
                           .bonds = f->bonds[set],
-                          .reach = f->horizon / f->spacing };
+                          .reach = f->horizon / f->spacing,
+                          .columns = f->columns };
     for (int k = 0; k < 3; k++) c.edge[k] = f->edge[k];
     return pg_solve_by_elements (&c, f->elements, f->events, f->dynamic);
 }
@@ -140,7 +141,8 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
  * preconditioner with its finest level and its first coarse matrix. Products with K by shape functions: runs
  * of points that are alike and sums of slices that overlap, 0.1 kB a point as measured on cubes of 3 000 to
  * 55 000 nodes; their preconditioner at rest: values of shape functions at the nodes and their transpose, 12
- * bytes an entry each, and the matrix of finite elements, whose nodes see 3^dim others. */
+ * bytes an entry each, and the matrix of finite elements, whose nodes see 3^dim others. Contact: three arrays
+ * of columns of the compliance, also of those that stay zero. */
 static double vector_bytes (const pg_forecast *f)
 {
     double d = f->dim, n = f->points, m = d + f->rotations, corners = pow (2, d), bytes;
@@ -152,7 +154,7 @@ static double vector_bytes (const pg_forecast *f)
     if (f->method->shape_functions && !f->linear) bytes += 100 * (f->nodal ? n : f->evaluation);
     if (f->method->shape_functions && !f->linear && f->elements && !small)
         bytes += 24 * f->bonds[PG_NODES] + 8 * m * m * pow (3, d) * n;
-    return bytes;
+    return bytes + 24 * f->dofs * f->columns * (f->dim == 3 && f->pressed == 1 ? 3 : 1);
 }
 
 /* K with its lists of blocks, and its factor, where there is one; slaves: unknowns that elimination takes
@@ -246,6 +248,16 @@ static int summed_by_list (const pg_problem *p)
            || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
 }
 
+/* Forces between faces in contact: of pieces of cracks, two spacings long (2D) or wide and long (3D), across
+ * the faces and, but without friction in space, along them. Growth adds to them. */
+static double contact_columns (const pg_forecast *f, const pg_problem *p)
+{
+    double pieces = 0;
+    for (size_t i = 0; f->pressed && i < p->cracks.n; i++)
+        pieces += pg_crack_size (&p->cracks.crack[i], p->dim) / pow (2 * p->cloud.h, p->dim - 1);
+    return pieces * (p->dim == 3 && f->pressed == 1 ? 1 : p->dim);
+}
+
 /* Counts of the problem itself; pairs of nodes keep their number per point, which only an analysis knows
  * exactly. */
 pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
@@ -268,6 +280,10 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
                                : 0;
     f->patched = p->patches ? (double) p->patches->family.start[p->patches->n] : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
+    f->columns = contact_columns (f, p);
+    f->behind = pg_solve_count (p).behind;
+    /* from event to event by a factor that is kept: bonds one by one without contact (event_stepping.c) */
+    f->events = f->events && !f->pressed && !pg_problem_grows (p);
     f->counted = 1;
     forecast_factor (f);
     pg_forecast_sum (f);

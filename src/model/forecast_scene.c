@@ -76,6 +76,9 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     f->elements = f->method->shape_functions && !pg_scene_bool (scene, "solver.plain")
                   && !is (pg_scene_text (scene, "solver.preconditioner"), "jacobi");
     f->events = f->breaks && !f->dynamic && !pg_scene_bool (scene, "solver.plain") && !is (stepping, "fixed");
+    const char *contact = pg_scene_text (scene, "contact.kind");
+    if (f->method->shape_functions && !f->explicit_ && contact && !is (contact, "none"))
+        f->pressed = is (contact, "friction") ? 2 : 1;
     f->weight = beta * (1 + alpha) * pow (2 * fastest_wave (scene, f->dim) * dt, 2);
 }
 

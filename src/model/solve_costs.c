@@ -47,10 +47,12 @@ static double iterations (const pg_solve_counts *c)
 
 /* Set-up counts as 20 iterations; beside K x an iteration takes 0.9 us for each node: products with the
  * element matrix and its coarse levels, and with the polynomial. */
-double pg_solve_elements_cost (const pg_solve_counts *c)
+static double iterations_cost (const pg_solve_counts *c, double solves)
 {
-    return (iterations (c) + 20) * (pg_solve_apply_rate * c->bonds + 0.9e-6 * c->points);
+    return (solves * iterations (c) + 20) * (pg_solve_apply_rate * c->bonds + 0.9e-6 * c->points);
 }
+
+double pg_solve_elements_cost (const pg_solve_counts *c) { return iterations_cost (c, 1); }
 
 /* A factor that serves many events pays for itself up to here in 3D (unknowns), and its memory can be
  * afforded: some 5 GB in a cube. Iterations take some 70 for every event in a block with a crack, which is
@@ -71,8 +73,19 @@ int pg_solve_by_elements (const pg_solve_counts *c, int available, int events, i
                && (unknowns > EVENTS_FACTOR
                    || MOTION_SERVES * pg_solve_elements_cost (c) < pg_solve_direct_cost (c));
     if (events && unknowns <= EVENTS_FACTOR) return 0;
-    if (available && pg_solve_elements_cost (c) < pg_solve_direct_cost (c)) return 1;
+    double solves = unknowns <= EVENTS_FACTOR ? 1 + c->columns : 1;      /* a factor takes all at once */
+    if (available && iterations_cost (c, solves) < pg_solve_direct_cost (c)) return 1;
     return unknowns > 200000;
+}
+
+/* Do the points stand at the centres of the cells, behind the surface? A body whose surface cuts cells has
+ * more cells than such points; a regular lattice is known by its first point. */
+static int stands_behind (const pg_problem *p)
+{
+    if (!p->lattice.dim || p->cells.n == p->cloud.n) return p->lattice.dim > 0;
+    if (!p->cloud.regular || !p->cloud.n) return 0;
+    double at = (p->cloud.x[0] - p->lattice.origin[0]) / p->lattice.step[0];
+    return fabs (at - floor (at) - 0.5) < 0.25;
 }
 
 /* The evaluation points are those of the bulk; nodes along the edges are those of a box of the body's
@@ -87,7 +100,7 @@ pg_solve_counts pg_solve_count (const pg_problem *p)
                           .order = p->approx.order,
                           .interpolates = p->approx.type->interpolates,
                           .projected = p->patches != NULL,
-                          .behind = p->lattice.dim && p->cells.n == p->cloud.n,
+                          .behind = stands_behind (p),
                           .points = (double) p->cloud.n,
                           .evaluation = (double) p->rows[set].n,
                           .bonds = (double) (p->first_bond[set + 1] - p->first_bond[set]),

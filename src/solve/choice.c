@@ -2,6 +2,7 @@
  * How systems are solved: by a factor of K or by conjugate gradients, chosen once by counted cost. All costs
  * are seconds by stored rates, from numbers of bonds, points and unknowns (model/solve_costs.c); never
  * measured, as a run must not depend on the clock. */
+#include "contact.h"
 #include "solve.h"
 #include <math.h>
 #include <string.h>
@@ -45,6 +46,7 @@ static int by_elements (const pg_system *s, int can)
 {
     if (s->problem->sums) return 0;
     pg_solve_counts c = pg_solve_count (s->problem);
+    c.columns = contact_columns (s);
     return pg_solve_by_elements (&c, can && s->force->elements, s->serves, 0);
 }
 

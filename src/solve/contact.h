@@ -147,6 +147,7 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
  * of now, the factor is made first, as the equilibrium of open cracks then is one solve. */
 pg_status contact_factor   (pg_system *s);
 /* Z and C for the K of now, unless they are. */
+double    contact_columns  (const pg_system *s);
 pg_status contact_condense (pg_system *s, const dynamics *dyn);
 
 /* The same behind each vertex of a front, loads scaled (contact_fronts.c). */

@@ -231,6 +231,15 @@ static int needs_column (const struct system_contact *c, size_t j)
     return dim != 3 || j % dim == 0 || c->coefficient[k] > 0 || c->cohesion[k] > 0;
 }
 
+/* How many columns the compliance has: right-hand sides that every new matrix is solved with. */
+double contact_columns (const pg_system *s)
+{
+    const struct system_contact *c = s->contact;
+    size_t count = 0;
+    for (size_t j = 0; c && j < c->pieces.dim * c->pieces.n; j++) count += needs_column (c, j) != 0;
+    return (double) count;
+}
+
 /* Z = K^-1 G', by the factor at hand all columns at once, else one after the other. What iterations in space
  * leave of a column is found by the rounds that follow, which are fewer than columns. */
 static pg_status solve_columns (pg_system *s, const dynamics *dyn)
