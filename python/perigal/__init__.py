@@ -13,9 +13,11 @@ lies in, or PATH.
 from perigal.program import (Error, SceneError, UsageError, Failed, Interrupted, PerigalWarning,
                              check, program, read_scene, run, sweep)
 from perigal.result import Result, Sweep, Table
+from perigal.library import Equations, Sparse, families, shape_functions, stiffness
 
 __all__ = ['Error', 'SceneError', 'UsageError', 'Failed', 'Interrupted', 'PerigalWarning', 'Result', 'Sweep',
-           'Table', 'check', 'open', 'program', 'read_scene', 'run', 'sweep']
+           'Table', 'check', 'open', 'program', 'read_scene', 'run', 'sweep',
+           'Equations', 'Sparse', 'families', 'shape_functions', 'stiffness']
 
 
 def open(folder):

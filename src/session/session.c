@@ -90,6 +90,7 @@ void pg_session_close (pg_session **session)
 const pg_problem *pg_session_problem (const pg_session *s) { return s->problem; }
 const pg_state   *pg_session_state   (const pg_session *s) { return s->state; }
 pg_solver        *pg_session_solver  (const pg_session *s) { return s->solver; }
+const double     *pg_session_places  (const pg_session *s) { return s->problem->cloud.x; }
 int pg_session_done (const pg_session *s) { return pg_solver_done (s->solver, s->state); }
 
 /* ---- steps and fields ---------------------------------------------------------------------------------- */

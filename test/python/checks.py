@@ -129,6 +129,55 @@ refused('run: no file', perigal.SceneError, 'missing.yaml', lambda: perigal.run(
 refused('run: memory', perigal.Failed, 'memory', lambda: perigal.run(demo, os.path.join(there, 'm'), memory='1 kB'))
 refused('run: memory, not a size', perigal.UsageError, 'size', lambda: perigal.run(demo, there, memory='much'))
 refused('run: not a number', ValueError, '', lambda: perigal.run(dict(scene, spacing=float('nan')), there))
+# the library itself
+rng = numpy.random.default_rng(5)
+x = rng.random((80, 3))
+start, node = perigal.families(x, .4)
+verdict('families: those of brute force', all(
+    numpy.array_equal(node[start[k]:start[k + 1]], numpy.flatnonzero(((x - x[k])**2).sum(1) <= .16)) for k in range(80)))
+start, node = perigal.families(x, .2, centres=x[:5] + .1, tensor=True)
+verdict('families: cubes around other places', len(start) == 6 and all(
+    numpy.array_equal(node[start[k]:start[k + 1]], numpy.flatnonzero((abs(x - x[k] - .1) <= .2).all(1)))
+    for k in range(5)))
+grid = numpy.stack(numpy.meshgrid(numpy.arange(8.), numpy.arange(8.)), -1).reshape(-1, 2)
+at = 2 + 3 * rng.random((20, 2))
+N, dN, grade = perigal.shape_functions(grid, 3, at, spacing=1, order=2)
+u = grid[:, 0] * grid[:, 1]
+verdict('shape functions: a quadratic field to 1e-12', abs(N @ u - at[:, 0] * at[:, 1]).max() < 1e-12
+        and abs(dN[0] @ u - at[:, 1]).max() < 1e-12 and abs(dN[1] @ u - at[:, 0]).max() < 1e-12 and not grade.any())
+start, node = perigal.families(grid, 2.5, closed=False)
+owner = numpy.repeat(numpy.arange(64), numpy.diff(start))
+left = grid[:, 0] < 3.5
+N, dN, grade = perigal.shape_functions(grid, 2.5, spacing=1, alive=left[owner] == left[node])
+verdict('shape functions: a cut', abs(N @ left - left).max() < 1e-12 and abs(N.dense()[left][:, ~left]).max() == 0)
+strip = dict(bar, method={'force': 'bond', 'horizon': '3 spacing'}, solver={'kind': 'static'},
+             boundary=[{'name': 'top', 'set': 'top', 'displacement': {'y': 1e-5}},
+                       {'name': 'bottom', 'set': 'bottom', 'displacement': {'x': 0, 'y': 0}}])
+strip.pop('failure', None)
+strip.pop('cracks', None)
+e = perigal.stiffness(strip)
+T, K = e.T.dense(), e.K.dense()
+d = T @ numpy.linalg.solve(T.T @ K @ T, T.T @ (e.f - e.K @ e.g)) + e.g
+with warnings.catch_warnings():
+    warnings.simplefilter('ignore')
+    r = perigal.run(strip, out=os.path.join(work, 'strip'), threads=1)
+u = r.field('displacement')
+verdict('stiffness: solved, it is the displacement of the run', numpy.array_equal(K, K.T)
+        and abs((e.N @ d).reshape(u.shape) - u).max() <= 1e-10 * abs(u).max()
+        and numpy.array_equal(e.place, r.field('place')) and len(e.free) + e.idle < len(e.f))
+half = perigal.stiffness(strip, t=.5, set={'title': 'x'})
+verdict('stiffness: half the load', abs(2 * half.g - e.g).max() <= 1e-15 * abs(e.g).max())
+refused('families: horizon', perigal.UsageError, 'horizon', lambda: perigal.families(x, -1))
+refused('families: points', perigal.UsageError, 'points', lambda: perigal.families(x[0], 1))
+refused('shape functions: kernel', perigal.UsageError, 'cubic_spline',
+        lambda: perigal.shape_functions(x, .5, spacing=.2, kernel='box'))
+refused('shape functions: mask', perigal.UsageError, 'flags',
+        lambda: perigal.shape_functions(x, .5, spacing=.2, alive=[1]))
+refused('stiffness: wrong key', perigal.SceneError, 'did you mean spacing', lambda: perigal.stiffness(demo, {'spacng': 1}))
+refused('stiffness: no matrix', perigal.UsageError, 'neighbours of neighbours',
+        lambda: perigal.stiffness(strip, {'method.force': 'lps'}))
+refused('stiffness: t', perigal.UsageError, 'number', lambda: perigal.stiffness(strip, t='x'))
+
 os.environ['PERIGAL'] = '/nowhere/perigal'
 refused('no program', FileNotFoundError, 'perigal', lambda: perigal.check(demo))
 print(f'1..{count}')

@@ -6,7 +6,7 @@ root=$(realpath "$(dirname "$0")/../..")
 python=                                         # Debian's own packages belong to /usr/bin/python3, which need not be the first on PATH
 for p in python3 /usr/bin/python3; do "$p" -c 'import numpy, netCDF4' 2> /dev/null && { python=$p; break; }; done
 [ -n "$python" ] || { echo "ok 1 - skipped: Python has no numpy or no netCDF4"; echo "1..1"; exit 0; }
-export OMP_THREAD_LIMIT=1 OPENBLAS_NUM_THREADS=1 PERIGAL="$perigal" PYTHONPATH="$root/python" PYTHONDONTWRITEBYTECODE=1
+export OMP_THREAD_LIMIT=1 OPENBLAS_NUM_THREADS=1 PERIGAL="$perigal" PERIGAL_LIBRARY="$(dirname "$perigal")/libperigal.so.0" PYTHONPATH="$root/python" PYTHONDONTWRITEBYTECODE=1
 cd "$work" && exec_status=0
 "$python" "$root/test/python/checks.py" "$root" "$work" 2> err || exec_status=$?
 [ $exec_status -eq 0 ] || { sed 's/^/# /' err; exit 1; }
