@@ -143,19 +143,21 @@ void      contact_rebound (const pg_system *s, double times);
 pg_status contact_settle_tips (pg_system *s, pg_state *state);
 /* What the faces behind a tip do to each other, in the one field at hand, or in the two of a stretch. */
 void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int nfield, pg_tip_faces *out);
-/* Before an equilibrium: where the last one needed the compliance, whose columns are worth a factor of the K
- * of now, the factor is made first, as the equilibrium of open cracks then is one solve. */
-pg_status contact_factor   (pg_system *s);
-/* Z and C for the K of now, unless they are. */
-double    contact_columns  (const pg_system *s);
-pg_status contact_condense (pg_system *s, const dynamics *dyn);
-
 /* The same behind each vertex of a front, loads scaled (contact_fronts.c). */
 void contact_at_front (const pg_system *s, const pg_front *front, int nfield, double scale,
                        pg_front_faces *out);
 
 /* The pieces of the state at hand for results, loads scaled. */
 pg_status contact_show (pg_system *s, double scale);
+
+/* ---- contact_compliance.c ------------------------------------------------------------------------------ */
+/* How many columns Z has: right-hand sides that every new K is solved with. */
+double    contact_columns  (const pg_system *s);
+/* Before an equilibrium: where the last one needed the compliance, whose columns are worth a factor of the K
+ * of now, the factor is made first, as the equilibrium of open cracks then is one solve. */
+pg_status contact_factor   (pg_system *s);
+/* Z and C for the K of now, unless they are. PG_E_NOT_SPD: a column is not finite. */
+pg_status contact_condense (pg_system *s, const dynamics *dyn);
 
 /* ---- contact_motion.c ---------------------------------------------------------------------------------- */
 /* Adds forces of contact at d to the residual. follow: slips are kept and friction is booked (a time step);

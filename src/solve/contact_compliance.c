@@ -1,0 +1,188 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The compliance of pieces in contact: displacements Z = K^-1 G' under unit forces between their faces, and
+ * the gaps C = G Z that these open. */
+#include "contact.h"
+#include <math.h>
+#include <string.h>
+
+/* Rounds of refinement; so many columns are worth a factor. */
+enum { MOST_ROUNDS = 4, MANY = 4 };
+/* Relative: of columns by iterations, where there is no factor, and by a factor. */
+static const double COLUMN = 1e-10, COLUMN_SPACE = 1e-7, REFINED = 1e-12;
+
+/* Column j of G' in the unknowns that are solved for. */
+static void load_column (const pg_system *s, size_t j, double *full, double *reduced)
+{
+    const pg_sparse *G = &s->contact->G, *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    memset (full, 0, s->ndof * sizeof *full);
+    for (long q = G->start[j]; q < G->start[j + 1]; q++) full[G->row[q]] = G->value[q];
+    if (T) pg_sparse_multiply_transposed (T, full, reduced);
+    else memcpy (reduced, full, s->ndof * sizeof *full);
+}
+
+/* Is the factor at hand that of this K? */
+static int has_factor (const pg_system *s)
+{
+    return s->factor && !s->stale && s->linear->factors
+           && (s->mode == SYSTEM_FACTOR || s->mode == SYSTEM_KEPT_FACTOR || s->mode == SYSTEM_UNDECIDED);
+}
+
+/* What K z leaves of the columns of G', over the larger of both: springs of weak unknowns in the factor show
+ * there. rest: nred x n. NAN: a column is not finite. */
+static double rest_of_columns (pg_system *s, const double *rhs, const double *solved, size_t n, double *rest)
+{
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    double worst = 0;
+    int finite = 1;
+    for (size_t j = 0; j < n; j++) {
+        const double *z = solved + j * s->nred, *b = rhs + j * s->nred;
+        double *r = rest + j * s->nred, left = 0, size = 0;
+        if (T) {
+            pg_sparse_multiply (T, z, s->full);
+            system_multiply (s, s->full, s->scratch);
+            pg_sparse_multiply_transposed (T, s->scratch, r);
+        } else system_multiply (s, z, r);
+        for (size_t k = 0; k < s->nred; k++) {
+            r[k] = b[k] - r[k];
+            left = fmax (left, fabs (r[k])), size = fmax (size, fabs (b[k]));
+            finite &= isfinite (r[k]) != 0;
+        }
+        worst = fmax (worst, left / size);
+    }
+    return finite ? worst : NAN;
+}
+
+/* Refinement of all columns by the factor at hand, as long as it gains: lines of stretches are sums of
+ * them; single states are mended as a whole. */
+static pg_status refine_columns (pg_system *s, const double *rhs, double *solved, size_t n)
+{
+    pg_status status = PG_OK;
+    double *rest = NULL, *step = NULL, before = INFINITY;
+    if (!has_factor (s) || !s->contact->route.open[0]) return PG_OK;
+    PG_ALLOC (rest, s->nred * n);
+    PG_ALLOC (step, s->nred * n);
+    for (int round = 0; round < MOST_ROUNDS; round++) {
+        double left = rest_of_columns (s, rhs, solved, n, rest);
+        if (isnan (left))
+            PG_FAIL (PG_E_NOT_SPD, "the factor gives no finite displacements under forces between faces in "
+                                   "contact: is a part of the body held by next to nothing? Prescribe "
+                                   "displacements of it, or try solver.linear: umfpack");
+        if (!(left < 0.1 * before)) {
+            for (size_t k = 0; round && left > before && k < s->nred * n; k++) solved[k] -= step[k];
+            break;
+        }
+        if (left <= REFINED) break;
+        before = left;
+        PG_TRY (s->linear->solve (s->factor, n, rest, step));
+        for (size_t k = 0; k < s->nred * n; k++) solved[k] += step[k];
+        s->report->contact_columns += (long) n;
+    }
+done:
+    pg_free (rest), pg_free (step);
+    return status;
+}
+
+/* In space slips without friction bear no force: their columns would be multiplied by zero. */
+static int needs_column (const struct system_contact *c, size_t j)
+{
+    size_t dim = c->pieces.dim, k = j / dim;
+    return dim != 3 || j % dim == 0 || c->coefficient[k] > 0 || c->cohesion[k] > 0;
+}
+
+double contact_columns (const pg_system *s)
+{
+    const struct system_contact *c = s->contact;
+    size_t count = 0;
+    for (size_t j = 0; c && j < c->pieces.dim * c->pieces.n; j++) count += needs_column (c, j) != 0;
+    return (double) count;
+}
+
+/* Z = K^-1 G', by the factor at hand all columns at once, else one after the other. What iterations in space
+ * leave of a column is found by the rounds that follow, which are fewer than columns. */
+static pg_status solve_columns (pg_system *s, const dynamics *dyn)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    size_t n = c->pieces.dim * c->pieces.n;
+    double *rhs = NULL, *solved = NULL, *kept = NULL, t0 = pg_seconds ();
+    if (!c->Z) PG_ALLOC (c->Z, s->ndof * n);
+    PG_ALLOC (rhs, s->nred * n);
+    PG_ALLOC (solved, s->nred * n);
+    if (dyn) {                                         /* iterations would carry it along */
+        PG_ALLOC (kept, s->ndof);
+        memcpy (kept, s->residual, s->ndof * sizeof *kept);
+    }
+    for (size_t j = 0; j < n; j++) load_column (s, j, s->full, rhs + j * s->nred);
+    /* so many columns are worth a factor of this K where an older one would only precondition; else the first
+     * solve makes the factor if there is to be one */
+    if (s->mode == SYSTEM_KEPT_FACTOR && s->stale && n > MANY) PG_TRY (system_factorize (s, dyn));
+    /* not counted among the solves, of which every so many are measured: a resumed run has these again */
+    long solves = s->report->solves;
+    size_t first = 0;
+    for (; first < n && !has_factor (s); first++) {
+        if (!needs_column (c, first)) continue;
+        /* iterations over all unknowns begin at the full residual */
+        load_column (s, first, s->residual, s->reduced);
+        s->known = s->carried = 0;
+        memcpy (s->reduced, rhs + first * s->nred, s->nred * sizeof *rhs);
+        memset (s->delta, 0, s->nred * sizeof *s->delta);
+        PG_TRY (system_solve_once (s, dyn, c->pieces.dim == 3 ? COLUMN_SPACE : COLUMN));
+        memcpy (solved + first * s->nred, s->delta, s->nred * sizeof *rhs);
+    }
+    if (first < n)
+        PG_TRY (s->linear->solve (s->factor, n - first, rhs + first * s->nred, solved + first * s->nred));
+    s->report->solves = solves;
+    long columns = s->report->contact_columns;
+    s->report->contact_columns += (long) n;
+    PG_TRY (refine_columns (s, rhs, solved, n));
+    /* nor are these columns among those of the run, when a resumed one has them again */
+    if (c->again == s->revision + 1) s->report->contact_columns = columns;
+    c->again = 0;
+    for (size_t j = 0; j < n; j++)
+        if (T) pg_sparse_multiply (T, solved + j * s->nred, c->Z + j * s->ndof);
+        else memcpy (c->Z + j * s->ndof, solved + j * s->nred, s->ndof * sizeof *rhs);
+done:
+    if (kept) memcpy (s->residual, kept, s->ndof * sizeof *kept);
+    pg_free (rhs), pg_free (solved), pg_free (kept);
+    s->report->seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+    return status;
+}
+
+pg_status contact_factor (pg_system *s)
+{
+    const struct system_contact *c = s->contact;
+    int worth = c->touched && c->pieces.dim * c->pieces.n > MANY;
+    return worth && s->mode == SYSTEM_KEPT_FACTOR && s->stale ? system_factorize (s, NULL) : PG_OK;
+}
+
+/* C = G Z, symmetric but for rounding, which is taken out. */
+pg_status contact_condense (pg_system *s, const dynamics *dyn)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    size_t n = c->pieces.dim * c->pieces.n;
+    if (c->made == s->revision + 1) return PG_OK;
+    double t0 = pg_seconds ();
+    PG_TRY (solve_columns (s, dyn));
+    if (!c->C) PG_ALLOC (c->C, n * n);
+    for (size_t j = 0; j < n; j++)
+        pg_sparse_multiply_transposed (&c->G, c->Z + j * s->ndof, c->C + j * n);
+    for (size_t j = 0; j < n; j++)
+        for (size_t i = 0; i < j; i++) {
+            int one = needs_column (c, i), other = needs_column (c, j);
+            double sum = (other ? c->C[j * n + i] : 0) + (one ? c->C[i * n + j] : 0);
+            c->C[j * n + i] = c->C[i * n + j] = one && other ? 0.5 * sum : sum;
+        }
+    for (size_t j = 0; j < n; j++)                     /* not asked for, but positive */
+        if (!needs_column (c, j)) c->C[j * n + j] = c->C[(j / 3 * 3) * (n + 1)];
+    for (size_t i = 0; i < c->pieces.dim * c->ncrack; i++) c->C[i * n + i] += c->soft[i];
+    /* empty columns bear nothing, whatever their compliance */
+    double most = 0;
+    for (size_t j = 0; j < n; j++) most = fmax (most, c->C[j * n + j]);
+    for (size_t j = 0; j < n; j++) if (!(c->C[j * n + j] > 0)) c->C[j * n + j] = most;
+    c->made = s->revision + 1;
+    s->report->contact_seconds += pg_seconds () - t0;
+done:
+    return status;
+}
