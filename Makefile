@@ -224,6 +224,8 @@ install: all
 	install -d $(DESTDIR)$(prefix)/share/perigal/python/perigal
 	install -m 644 python/pyproject.toml python/README.md $(DESTDIR)$(prefix)/share/perigal/python
 	install -m 644 python/perigal/*.py $(DESTDIR)$(prefix)/share/perigal/python/perigal
+	install -d $(DESTDIR)$(prefix)/share/perigal/python/examples
+	install -m 644 python/examples/* $(DESTDIR)$(prefix)/share/perigal/python/examples
 
 clean:
 	rm -rf build out perigal perigal.pc matlab-compat/perigal_mex.*

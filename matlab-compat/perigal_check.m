@@ -6,6 +6,7 @@ function plan = perigal_check (scene, varargin)
 %   file or a structure of PERIGAL_SCENE. Options:
 %     'set'     values that replace those of the scene, as in PERIGAL_RUN
 %     'solve'   true: solve once at load factor 1: at which load the first bond breaks; stable time step
+%     'matrix'  a folder that gets the linear system at load factor 1 as Matrix Market files (`perigal help check`)
 %     'memory'  limit, such as '8GB'
 %
 %   Errors: perigal:scene (all faults, each with file, line, key, value and what is allowed), perigal:failed,
@@ -20,11 +21,14 @@ function plan = perigal_check (scene, varargin)
     if nargin < 1
         error ('perigal:argument', 'perigal_check: needs a scene');
     end
-    o = options_of ('perigal_check', {'set', 'solve', 'memory'}, varargin);
+    o = options_of ('perigal_check', {'set', 'solve', 'matrix', 'memory'}, varargin);
     [file, clean] = scene_file (scene); %#ok<ASGLU>
     words = [{'check', file, '--json', '--quiet'}, overrides('perigal_check', o)];
     if isfield (o, 'solve') && o.solve
         words{end + 1} = '--solve';
+    end
+    if isfield (o, 'matrix')
+        words = [words, {'--matrix', char(o.matrix)}];
     end
     if isfield (o, 'memory')
         words = [words, {'--memory', char(o.memory)}];

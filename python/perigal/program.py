@@ -73,11 +73,16 @@ def run(scene, out=None, set=None, resume=False, force=False, threads=0, memory=
     return result
 
 
-def check(scene, set=None, solve=False, memory=None):
-    """What a run would do, as a dict: points, bonds, dofs, memory, materials, ... (`perigal check --json`)."""
+def check(scene, set=None, solve=False, memory=None, matrix=None):
+    """What a run would do, as a dict: points, bonds, dofs, memory, materials, ... (`perigal check --json`).
+
+    matrix: a folder that gets the linear system at load factor 1 as Matrix Market files (`perigal help check`).
+    """
     words = ['--json', '--quiet', *settings(set)] + (['--solve'] if solve else [])
     if memory is not None:
         words += ['--memory', str(memory)]
+    if matrix is not None:
+        words += ['--matrix', os.fspath(matrix)]
     with scene_file(scene) as file:
         return json.loads(call(['check', file, *words]))
 

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * perigal check: everything that a run checks before its first step, and what the scene
  * amounts to. The order is that of a run, so that a scene that passes here does not fail
- * there. Nothing is written, except with --spectrum -o DIR. */
+ * there. Nothing is written, except with --spectrum -o DIR
+ * and --matrix DIR. */
 #include "cli.h"
 #include <math.h>
 
@@ -58,6 +59,7 @@ int pg_cli_check (int argc, char **argv)
     if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
     PG_TRY (pg_network_read (&cracks, scene));
     PG_TRY (pg_network_measure (&network, &cracks, scene));
+    if (c.matrix) PG_TRY (matrix_write (p, c.matrix));
     plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from, &network };
     if (c.json) PG_TRY (plan_print_json (&all));
     else printf ("%s: the scene is valid\n", c.scene);

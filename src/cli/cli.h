@@ -59,7 +59,7 @@ int       command_usage (FILE *to, const char *name);
 
 /* What the command line of run and check says (command.c). */
 typedef struct {
-    const char *scene, *folder, *set[64];
+    const char *scene, *folder, *matrix, *set[64];
     size_t nset;
     /* Options as flags; threads is never 0. */
     int threads, quiet, resume, force, json, solve, spectrum, echo;
@@ -115,6 +115,9 @@ void      spectrum_print (const spectrum *spectrum, const pg_problem *p);
 void      spectrum_json  (pg_json *j, const spectrum *spectrum);
 /* Writes spectrum.csv and spectrum.png into a folder. */
 pg_status spectrum_write (const spectrum *spectrum, const pg_problem *p, const char *folder);
+
+/* The linear system of a scene as files of a folder (check_matrix.c). */
+pg_status matrix_write (const pg_problem *p, const char *folder);
 
 /* What a scene amounts to (plan.c): in short, before a run. */
 void plan_print      (const pg_problem *p, const pg_solver_options *o);

@@ -93,8 +93,8 @@ static int refuse (const char *name, int option, const char *argument)
         const char *near =
             pg_nearest_name (argument,
                              strcmp (name, "check") == 0
-                                 ? "--json|--solve|--spectrum|--echo|--out|--threads|--memory|--plain|--set|"
-                                   "--quiet|--help"
+                                 ? "--json|--solve|--spectrum|--echo|--matrix|--out|--threads|--memory|"
+                                   "--plain|--set|--quiet|--help"
                                  : "--out|--resume|--force|--threads|--memory|--plain|--set|--seeds|--jobs|"
                                    "--quiet|"
                                    "--help");
@@ -141,7 +141,7 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
 static int belongs_to (int option, const char *name)
 {
     int checks = strcmp (name, "check") == 0;
-    return strchr ("fnj", option) ? !checks : checks || !strchr ("kvwe", option);
+    return strchr ("fnj", option) ? !checks : checks || !strchr ("kvweM", option);
 }
 
 /* One option of run or check; -1: go on, else the exit code. */
@@ -164,6 +164,7 @@ static int read_option (command *c, const char *name, int option, const char *wo
     case 'n': return read_seeds (c, optarg);
     case 'j': return read_jobs (c, optarg);
     case 'e': c->echo = 1; return -1;
+    case 'M': c->matrix = optarg; return -1;
     default: return refuse (name, option, word);
     }
 }
@@ -179,6 +180,7 @@ int command_parse (command *c, int argc, char **argv)
         { "json", no_argument, NULL, 'k' },      { "solve", no_argument, NULL, 'v' },
         { "spectrum", no_argument, NULL, 'w' },  { "quiet", no_argument, NULL, 'q' },
         { "seeds", required_argument, NULL, 'n' }, { "jobs", required_argument, NULL, 'j' },
+        { "matrix", required_argument, NULL, 'M' },
         { "plain", no_argument, NULL, 'p' },     { "echo", no_argument, NULL, 'e' },
         { "help", no_argument, NULL, 'h' },      { NULL, 0, NULL, 0 }
     };

@@ -29,7 +29,7 @@ static const char run[] =
 
 static const char check[] =
     "perigal check SCENE.yaml [--json] [--solve] [--spectrum [-o DIR]] [--memory SIZE]\n"
-    "              [--echo] [--set KEY=VALUE]... [--quiet]\n"
+    "              [--echo] [--matrix DIR] [--set KEY=VALUE]... [--quiet]\n"
     "  Reports all faults of a scene with line and column; of a valid scene, what a run would do: points,\n"
     "  bonds, unknowns, memory, material constants, time steps, and what it will skip.\n"
     "      --solve          solve once at load factor 1: at which load the first bond breaks, and where;\n"
@@ -39,6 +39,9 @@ static const char check[] =
     "                       spectrum.png, the frequencies along the edges of the Brillouin zone\n"
     "      --json           the same as JSON\n"
     "      --echo           instead of all that: the scene itself as JSON, with --set applied\n"
+    "      --matrix DIR     also the linear system at load factor 1 as Matrix Market files: DIR/K.mtx,\n"
+    "                       f.mtx, T.mtx, g.mtx, N.mtx and points.csv: d = T q + g, (T' K T) q =\n"
+    "                       T' (f - K g), displacement of the points N d\n"
     "      --memory SIZE    limit, such as 8GB; default: what the machine has free. A scene that needs\n"
     "                       more is refused\n";
 

@@ -90,7 +90,7 @@ good() {   # the command as words
 }
 declare -A seen
 count=0
-for page in README.md doc/*.md data/*/README.md matlab-compat/README.md python/README.md; do
+for page in README.md doc/*.md data/*/README.md matlab-compat/README.md matlab-compat/examples/README.md python/README.md python/examples/README.md; do
     [ $page != doc/input.md ] || continue
     : > "$work/bad"
     while IFS= read -r line; do
