@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal check --matrix DIR: the linear system of a scene at load factor 1 as Matrix Market files, which MATLAB,
- * Octave, Python, Julia and others read, for criteria and solvers of one's own. */
+ * perigal check --matrix DIR: the linear system of a scene at load factor 1 as Matrix Market files, which
+ * MATLAB, Octave, Python, Julia and others read, for criteria and solvers of one's own. */
 #include "cli.h"
 #include <errno.h>
 #include <string.h>
@@ -40,6 +40,7 @@ pg_status matrix_write (const pg_problem *p, const char *folder)
     pg_status status = PG_OK;
     pg_equations e = { 0 };
     char path[4096];
+    if (!folder) return PG_OK;
     PG_TRY (pg_equations_create (&e, p, NULL, 1));
     PG_TRY (pg_folder_make (folder));
     PG_TRY (join (path, folder, "K.mtx"));

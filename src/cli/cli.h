@@ -116,7 +116,7 @@ void      spectrum_json  (pg_json *j, const spectrum *spectrum);
 /* Writes spectrum.csv and spectrum.png into a folder. */
 pg_status spectrum_write (const spectrum *spectrum, const pg_problem *p, const char *folder);
 
-/* The linear system of a scene as files of a folder (check_matrix.c). */
+/* The linear system of a scene as files of a folder, NULL: none (check_matrix.c). */
 pg_status matrix_write (const pg_problem *p, const char *folder);
 
 /* What a scene amounts to (plan.c): in short, before a run. */

@@ -67,3 +67,11 @@ done:
     pg_free (v), pg_free (u);
     return status;
 }
+
+/* One state alone. */
+pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value,
+                            const pg_picture_style *style)
+{
+    pg_panel panel = { NULL, value, style->u, style->select, style->damage, NULL };
+    return pg_picture_panels (path, cloud, 1, &panel, 1, style);
+}

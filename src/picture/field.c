@@ -194,6 +194,17 @@ static void widen (pg_reach *reach, const pg_sheet *p)
     reach->any = 1;
 }
 
+/* The frame that was measured for several pictures, if there is one, and its larger side. */
+static int take_given (pg_sheet *p, const pg_reach *reach, double *size)
+{
+    if (!reach || !reach->any) return 0;
+    for (int a = 0; a < 2; a++) {
+        p->low[a] = reach->low[a], p->high[a] = reach->high[a];
+        *size = fmax (*size, p->high[a] - p->low[a]);
+    }
+    return 1;
+}
+
 /* Chooses the frame, with a narrow margin, and the length unit: the largest of km, m, mm, µm,
  * nm that is not larger than the body. */
 static pg_status choose_frame (drawing *d, pg_reach *measured)
@@ -204,10 +215,7 @@ static pg_status choose_frame (drawing *d, pg_reach *measured)
     double size = 0, margin = p->eye.framed ? 0.025 : 0.015;
     int deformed = 0;
     for (size_t k = 0; k < d->n; k++) deformed |= displaced (d, k) != NULL;
-    int given = d->style->reach && d->style->reach->any;
-    for (int a = 0; a < 2 && given; a++)
-        p->low[a] = d->style->reach->low[a], p->high[a] = d->style->reach->high[a];
-    for (int a = 0; a < 2; a++) size = fmax (size, given ? p->high[a] - p->low[a] : 0);
+    int given = take_given (p, d->style->reach, &size);
     for (int a = 0; a < 2 && !given; a++) {
         const double *direction = a ? p->eye.up : p->eye.right;
         if (p->eye.kind == PG_SOLID && !deformed) extent_of_box (d, direction, &p->low[a], &p->high[a]);
@@ -587,11 +595,4 @@ pg_status pg_picture_reach (pg_reach *reach, const pg_cloud *cloud, const pg_pan
     status = draw_or_measure (NULL, reach, cloud, 1, panel, 1, style);
 done:
     return status;
-}
-
-pg_status pg_picture_field (const char *path, const pg_cloud *cloud, const double *value,
-                            const pg_picture_style *style)
-{
-    pg_panel panel = { NULL, value, style->u, style->select, style->damage, NULL };
-    return pg_picture_panels (path, cloud, 1, &panel, 1, style);
 }

@@ -61,7 +61,7 @@ expect "plot: sides are for 3D"               64 '' 'are for 3D results' plot "$
 expect "check writes the matrix"                0 'is valid' '' check plate.yaml --matrix "$work/mat" --quiet
 [ "$(head -n 1 "$work/mat/K.mtx")" = '%%MatrixMarket matrix coordinate real symmetric' ] && [ "$(ls "$work/mat" | tr '\n' ' ')" = 'K.mtx N.mtx T.mtx f.mtx g.mtx points.csv ' ]; verdict "and what belongs to it" $?
 expect "check: a matrix that cannot be written"   70 '' 'nowhere' check plate.yaml --matrix /proc/nowhere --quiet
-expect "run writes no matrix"                    64 '' 'unknown option --matrix' run plate.yaml --matrix "$work/mat"
+expect "run writes no matrix"                    64 '' 'unknown option --matrix' run plate.yaml "--matrix=$work/mat"
 expect "plot names the nearest view"          64 '' 'did you mean back?' plot "$out" --view bak
 expect "plot: what a section is"              64 '' 'expected AXIS=VALUE' plot "$out" --section 5
 expect "plot: what a direction is"            64 '' 'expected X,Y,Z' plot "$out" --direction 1,0
