@@ -22,6 +22,12 @@ enum {
  * bench/single_bonds (doc/method.md A1). mean 0: not measured. */
 typedef struct { double mean, least, most; } pg_growth;
 
+/* What may be an expression of place: Young's modulus (of a material) and limits of failure. */
+enum { PG_OF_STIFFNESS, PG_OF_ENERGY, PG_OF_STRETCH, PG_OF_TENSION, PG_OF_COHESION, PG_OF_COUNT };
+/* The key of a limit (its last word) among these; -1: it must be a number. */
+int pg_limit_of_place (const char *key);
+typedef struct { double of[PG_OF_COUNT]; } pg_limit_ratio;     /* a place over the reference; 1: the same */
+
 typedef struct pg_criterion_type pg_criterion_type;
 typedef struct {
     const pg_criterion_type *type;
@@ -66,6 +72,9 @@ typedef struct {  /* what the criterion may need to derive its constants */
     /* bonds that bear shear: energy of a straight cut (J/m^2) whose bonds all have s = 1, gamma = 1, kappa =
      * 1 */
     double  beam[3];
+    /* Limits that are expressions of place: the value that constants derive from (PG_OF_...); NAN: there is
+     * none, such a limit is a fault. NULL: all are NAN. */
+    const double *reference;
     const char *usual;  /* criterion where the scene has `failure` without one; NULL: it must say */
 } pg_criterion_setting;
 
@@ -96,6 +105,9 @@ struct pg_criterion_type {
     /* Load factor (> 0; INFINITY: never) at which each bond reaches its limit when the measures are those of
      * load factor 1 and all loads are proportional (events, section 4). */
     void (*factor) (const pg_criterion *c, const pg_bond_measures *m, double *factor);
+    /* Limits at a place whose stiffness and limits are so many times those that c was read with, at the same
+     * Poisson's ratio. NULL: limits must be numbers, or the criterion knows of place by itself. */
+    void (*scale)       (pg_criterion *c, const pg_limit_ratio *ratio);
     /* Where utilisation is that of a form linear in what bonds show: of eta: a . eta if that is positive,
      * else 0, a (n x dim); of principal stresses: the largest of [i][0] s1 + [i][1] s3, or 0. Returns the
      * number of forms (at most 2), 0: it is not so. NULL: never. */

@@ -57,6 +57,10 @@ pg_status pg_material_add (const pg_material_type *type);
 /* The material materials.<name> of the scene, for a mode. A key that its model does not read is a fault of
  * the scene. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode);
+/* The same where Young's modulus is an expression of place: constants are those of the reference, Pa (NAN: it
+ * must be a number). */
+pg_status pg_material_read_graded (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode,
+                                   double reference);
 /* Keys youngs_modulus and poissons_ratio, and constants of an isotropic material from E and nu: D,
  * out_of_plane and all that follows from them. The mode is set by the caller. */
 extern const pg_key_table pg_keys_elastic;

@@ -221,6 +221,12 @@ typedef struct {
     size_t *rim, nrim, rim_capacity;
 } pg_front;
 
+/* What of a material is an expression of place, by PG_OF_... of perigal/criterion.h. */
+typedef struct {
+    pg_expression *of[PG_OF_COUNT];                    /* NULL: a number, or not given */
+    double reference[PG_OF_COUNT];                     /* mean over all nodes: what constants derive from */
+    double least[PG_OF_COUNT], mean[PG_OF_COUNT], most[PG_OF_COUNT];   /* over the nodes of the material */
+} pg_variation;
 /* Values of shape functions with all bonds alive, N, dN, w and grades alone: of the sets PG_NODES and
  * PG_POINTS, and with consistent integration those of its wider rows. They were evaluated by the patch test;
  * forces read them as long as no bond of theirs is broken. */
@@ -237,6 +243,12 @@ struct pg_problem {
     pg_material  *material;  size_t nmaterial;
     pg_criterion *criterion;  /* per material, all of one type; type NULL: nothing breaks */
     int          *block[PG_BOND_SETS];                 /* material of every point of a bond set */
+    /* Stiffness and limits that are expressions of place (laws.c). law_of: which of the nlaw elastic laws
+     * holds at each point, limit_of: which of the nlimit criteria. Where nothing varies they are material,
+     * nmaterial and block, criterion, nmaterial and block themselves. */
+    pg_material  *law;    size_t nlaw;    int *law_of[PG_BOND_SETS];
+    pg_criterion *limit;  size_t nlimit;  int *limit_of[PG_BOND_SETS];
+    pg_variation *vary;                                /* per material; NULL: all are numbers */
     pg_interface *interface; size_t ninterface;        /* failure.interfaces */
     pg_approx     approx;
     pg_tip  *tip;  size_t ntip;                        /* 2D: the tips of the pre-cracks */
@@ -299,6 +311,21 @@ int       pg_problem_unknowns  (const pg_problem *problem);            /* of eve
 /* The box of the body, m (dim each); of points of a file or mesh: of the points. */
 void      pg_problem_box (const pg_problem *problem, double *low, double *high);
 double    pg_problem_spacing (const pg_problem *problem, int set, size_t point);   /* local, m */
+/* The elastic law and the criterion of a point of a set. */
+static inline const pg_material *pg_problem_law (const pg_problem *p, int set, size_t point)
+{
+    return &p->law[p->law_of[set][point]];
+}
+static inline const pg_criterion *pg_problem_limit (const pg_problem *p, int set, size_t point)
+{
+    return &p->limit[p->limit_of[set][point]];
+}
+/* 1: the stiffness of a material is an expression of place. */
+int       pg_problem_graded (const pg_problem *problem);
+/* The name of what varies, "youngs_modulus", and its unit. */
+const char *pg_variation_name (int of, const char **unit);
+/* The k-th line about what varies: mean, least and largest value; 0: there are no more. */
+size_t    pg_variation_words (const pg_problem *problem, size_t k, char *text, size_t size);
 /* The entry for two materials, in any order; NULL: there is none. */
 const pg_interface *pg_problem_interface (const pg_problem *problem, int a, int b);
 /* 1: entry `e` of the family of a point of a set has no length: its node is the point itself, or lies within

@@ -119,10 +119,10 @@ plan_times plan_times_of (const plan *p)
     plan_times t = { 0, 0, 0, 0 };
     double speed = 0, stiff = 0;
     double support = q->method->support_stiffness ? q->method->support_stiffness (q) : 0;
-    for (size_t m = 0; m < q->nmaterial; m++) {
-        if (!(q->material[m].density > 0)) return t;
-        speed = fmax (speed, pg_material_waves (&q->material[m]).pressure);
-        stiff = fmax (stiff, q->material[m].modulus / q->material[m].density);
+    for (size_t m = 0; m < q->nlaw; m++) {
+        if (!(q->law[m].density > 0)) return t;
+        speed = fmax (speed, pg_material_waves (&q->law[m]).pressure);
+        stiff = fmax (stiff, q->law[m].modulus / q->law[m].density);
     }
     t.omega = fmax (2 * speed, sqrt (2 * support * stiff)) / pg_cloud_finest (&q->cloud);
     if (isfinite (p->stable)) {
@@ -286,6 +286,9 @@ static void print_materials (const pg_problem *p)
         if (m->density > 0 && p->dim > 1 && isotropic) printf (", c_R %.5g m/s", w.rayleigh);
         printf ("\n");
     }
+    char line[300];
+    for (size_t k = 0; pg_variation_words (p, k, line, sizeof line); k++)
+        printf ("  %-18s  %s\n", k ? "" : "varies", line);
 }
 
 /* Time steps or stages, and what would be stable for explicit ones. Without shape functions

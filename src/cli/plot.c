@@ -1,5 +1,5 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * perigal plot DIR|FILE: a field of DIR/result.e, a mesh or a finite element result, or with
+ * perigal plot DIR|FILE: a field of DIR/result.e, a scene, a mesh or a finite element result, or with
  * --curve columns of DIR/history.csv, as PNG or SVG. Here is the command line; drawing is in
  * the files plot_*.c. Every option is one function and one row of the table `options`.
  *
@@ -22,10 +22,13 @@ static const char usage[] =
     "       perigal plot DIR --movie [--rate N] [--steps N,N,...] [options as above]\n"
     "       perigal plot DIR --list\n"
     "       perigal plot FILE [--sets | --field NAME ...] [--unit mm] [options as above]\n"
+    "       perigal plot SCENE.yaml [--field material|spacing|youngs_modulus|...] [--out FILE]\n"
     "       perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
     "Draws a field of DIR/result.e (damage, last step) or two columns of DIR/history.csv,\n"
     "or a mesh (.msh, .inp) or result of finite elements (.frd, .e): blocks, --sets or a field at its "
     "nodes.\n"
+    "Of a scene that has not run: its body (alpha shapes, holes), cracks, materials, and what is an "
+    "expression of place.\n"
     "  --field       such as damage, stress.yy (or stress --component yy): DIR/stress.yy.png\n"
     "  --list        the steps that DIR/result.e holds: their numbers, loads or times\n"
     "  --step all    one picture a step;  --steps 2,5,8: one picture with a panel a step, --columns of them "
@@ -337,7 +340,8 @@ int pg_cli_plot (int argc, char **argv)
             return 0;
         }
     PG_TRY (read_arguments (&q, argc, argv));
-    if (pg_plot_is_file (q.directory)) PG_TRY (pg_plot_mesh (&q));
+    if (pg_plot_is_scene (q.directory)) PG_TRY (pg_plot_scene (&q));
+    else if (pg_plot_is_file (q.directory)) PG_TRY (pg_plot_mesh (&q));
     else {
         if (q.sets || q.length > 0)
             PG_FAIL (PG_E_USAGE, "--sets and --unit are for mesh files; %s is none", q.directory);

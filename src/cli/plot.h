@@ -46,6 +46,9 @@ int pg_plot_event (const char *folder, double step, long *events, double *factor
 
 /* Draws a mesh file (plot_mesh.c). */
 pg_status pg_plot_mesh (const plot_request *q);
+/* Draws a scene that has not run (plot_scene.c); 1: the file is one, by its name. */
+pg_status pg_plot_scene (const plot_request *q);
+int pg_plot_is_scene (const char *path);
 /* 1 for a regular file. */
 int pg_plot_is_file (const char *path);
 /* Index of a word in "a|b|c", -1 if it is not there (plot_field.c). */

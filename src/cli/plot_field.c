@@ -118,16 +118,17 @@ static double magnitude (const double *v, int dim, int m, double shear)
     return sqrt (sum);
 }
 
-/* ---- reading ---------------------------------------------------------------------------------------- */
-/* Where the body is, from the scene; points that come from files have none. With whole cells
- * (staircase) the lattice is built again. */
+/* ---- reading ------------------------------------------------------------------------------------------- */
+/* Where the body is, from the scene; points that come from files have a surface only by shapes. With whole
+ * cells (staircase) the lattice is built again. */
 static void read_outline (source *s)
 {
     pg_cloud cloud = { 0 };
-    if (pg_scene_given (s->scene, "points") || pg_scene_given (s->scene, "mesh") || s->cloud.dim < 2) return;
+    int points = pg_scene_given (s->scene, "points");
+    if (pg_scene_given (s->scene, "mesh") || s->cloud.dim < 2) return;
     if (pg_body_read (&s->body, s->scene) != PG_OK) s->body = (pg_body) { 0 };
     int stairs = strcmp (pg_scene_text (s->scene, "cells"), "staircase") == 0;
-    if (stairs && s->body.n && pg_cloud_build (&cloud, &s->lattice, &s->body, s->scene) != PG_OK)
+    if (stairs && s->body.n && !points && pg_cloud_build (&cloud, &s->lattice, &s->body, s->scene) != PG_OK)
         s->lattice = (pg_lattice){ 0 };
     pg_cloud_clear (&cloud);
     if (s->body.n) s->outline = (pg_outline) { .body = &s->body, .lattice = &s->lattice };

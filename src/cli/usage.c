@@ -48,10 +48,11 @@ static const char check[] =
 static const char plot[] =
     "perigal plot DIR [--field damage|stress.yy|displacement.x ...] [--step N|all | --steps N,N,...]\n"
     "             [--view SIDE|iso|crack] [--section CUT] [--movie [--rate N]] ...\n"
+    "perigal plot SCENE.yaml [--field material|youngs_modulus|...] [--out FILE]\n"
     "perigal plot DIR [DIR...] --curve X Y [--labels A,B,...] [--negate [x|y|xy]] [--out FILE]\n"
     "  Draws a field of DIR/result.e (by default damage at the last step), or two columns of\n"
-    "  DIR/history.csv, as PNG or SVG; with --movie all steps as an animated PNG. All options:\n"
-    "  perigal plot --help.\n";
+    "  DIR/history.csv, as PNG or SVG; with --movie all steps as an animated PNG; or the body of a scene\n"
+    "  before it runs. All options: perigal plot --help.\n";
 
 static const char cracks[] =
     "perigal cracks SCENE.yaml [-o FILE.png] [--csv FILE.csv] [--set KEY=VALUE]... [--quiet]\n"

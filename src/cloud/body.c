@@ -60,6 +60,25 @@ static void bound (pg_body *body)
     }
 }
 
+/* The alpha shape of the points of the computation as the only shape (key surface). */
+static pg_status read_surface (pg_body *out, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_shape *s = out->shape;
+    if (out->n || !pg_scene_given (scene, "points") || out->dim == 1)
+        pg_scene_fault (scene, "surface", "alpha_shape is the surface of points of a file in two or three "
+                        "dimensions that stand alone: %s",
+                        out->n ? "this scene has a body" : "give points, or leave it out");
+    PG_TRY (pg_scene_verdict (scene));
+    while (strcmp (pg_shape_types[s->kind].name, "alpha_shape") != 0) s->kind++;
+    snprintf (s->boundary, sizeof s->boundary, "side");
+    PG_TRY (shape_alpha_read (s, out->dim, scene, NULL));
+    s->add = 1, out->n = 1;
+    bound (out);
+done:
+    return status;
+}
+
 /* The shapes of the scene; room for `more` behind them. A body so far from the origin that its size is lost
  * in rounding is refused: tolerances would be meaningless. Later checks build on earlier ones, so that the
  * faults are reported in stages. */
@@ -75,8 +94,9 @@ static pg_status read_shapes (pg_body *out, const pg_scene *scene, size_t more)
     if (n > 0 && pg_scene_given (scene, "mesh"))
         pg_scene_fault (scene, "body",
                         "stands beside mesh, which has a surface of its own: give one of the two");
-    PG_ALLOC (out->shape, n + more + pg_scene_count (scene, "layers"));
+    PG_ALLOC (out->shape, n + 1 + more + pg_scene_count (scene, "layers"));
     out->n = n;
+    if (strcmp (pg_scene_text (scene, "surface"), "none") != 0) return read_surface (out, scene);
     /* All shapes are read, also behind a wrong one. */
     for (size_t i = 0; i < n; i++) {
         PG_TRY (read_shape (&out->shape[i], out->dim, scene, i));

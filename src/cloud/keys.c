@@ -188,9 +188,16 @@ static const pg_key keys[] = {
              "[block] [spacing] in m and m3. A header may name them in"
              " another order and in other units: x [mm], y [mm], volume [mm3]."
              " With a spacing (distance to the neighbours) the support of each point follows it."
-             " With a body, whose shapes are then the surface, the cells of a regular grid (spacing; unless "
-             "given, that of the points) cut by it serve integration and boundaries; else there are no "
-             "cells, and method.integration is nodal." },
+             " With a body, whose shapes are then the surface, or with surface: alpha_shape, the cells of a "
+             "regular grid (spacing; unless given, that of the points) cut by it serve integration and "
+             "boundaries; else there are no cells, and method.integration is nodal." },
+    { .path = "surface",
+      .kind = PG_NAME,
+      .choices = "none|alpha_shape",
+      .fallback = "none",
+      .doc = "Surface of the points of a file without a body. none: a place belongs to the body if a point "
+             "is near. alpha_shape: that of their alpha shape, with a rim of half a spacing: as if body had "
+             "add: {alpha_shape: {points: the same file}}, by which alpha and rim can be given." },
     { .path = "mesh",
       .kind = PG_MAP,
       .fallback = "",

@@ -37,13 +37,13 @@ done:
     return status;
 }
 
-/* The points of a CSV file, likewise. */
+/* The points of a CSV file, likewise; at NULL: those of the computation. */
 static pg_status read_points (double **out, size_t *n, int dim, const pg_scene *scene, const char *at)
 {
     pg_status status = PG_OK;
     char key[128];
     pg_cloud cloud = { .dim = dim };
-    snprintf (key, sizeof key, "%.100s.points", at);
+    snprintf (key, sizeof key, "%.100s%spoints", at ? at : "", at ? "." : "");
     PG_TRY (pg_points_places (&cloud, scene, key));
     *out = cloud.x, *n = cloud.n;
     cloud.x = NULL;
@@ -60,19 +60,20 @@ static pg_status read_shape (pg_shape *s, int dim, const pg_scene *scene, const 
     double *x = NULL;
     size_t n = 0;
     pg_alpha_shape *cloud = &s->solid->cloud;
-    int file = pg_scene_given (scene, "%s.points", at);
-    double alpha = pg_scene_given (scene, "%s.alpha", at) ? pg_scene_number (scene, "%s.alpha", at) : 0;
+    int file = !at || pg_scene_given (scene, "%s.points", at);
+    double alpha = at && pg_scene_given (scene, "%s.alpha", at) ? pg_scene_number (scene, "%s.alpha", at) : 0;
     PG_TRY (file ? read_points (&x, &n, dim, scene, at) : read_nodes (&x, &n, dim, scene, at));
     status = pg_alpha_shape_create (cloud, dim, n, x, alpha);
     if (status == PG_E_USAGE || status == PG_E_LIMIT) {
         snprintf (why, sizeof why, "%s", pg_last_error ());
-        snprintf (key, sizeof key, "%.100s%s", at, alpha > 0 ? ".alpha" : file ? ".points" : ".mesh.file");
+        snprintf (key, sizeof key, "%.100s%s", at ? at : "",
+                  !at ? "surface" : alpha > 0 ? ".alpha" : file ? ".points" : ".mesh.file");
         pg_scene_fault (scene, key, "%s", why);
         PG_TRY (pg_scene_verdict (scene));
     }
     if (status != PG_OK) goto done;
     cloud->rim = file ? cloud->spacing / 2 : 0;
-    if (pg_scene_given (scene, "%s.rim", at)) cloud->rim = pg_scene_number (scene, "%s.rim", at);
+    if (at && pg_scene_given (scene, "%s.rim", at)) cloud->rim = pg_scene_number (scene, "%s.rim", at);
     PG_TRY (pg_mesh_locator_create (&s->solid->locator, &cloud->mesh));
     PG_TRY (pg_skin_create (&s->solid->skin, &cloud->mesh));
 done:

@@ -45,9 +45,9 @@ static void free_fem (void *context)
 static const pg_material *law_at (const fem *f, const double *x)
 {
     const pg_problem *p = f->problem;
-    if (!f->material) return &p->material[0];
-    return &p->material[p->block[p->integration->at_nodes ? PG_NODES : PG_POINTS]
-                                [pg_nearest_find (f->material, x, NULL, NULL)]];
+    if (!f->material) return &p->law[0];
+    return pg_problem_law (p, p->integration->at_nodes ? PG_NODES : PG_POINTS,
+                           (size_t) pg_nearest_find (f->material, x, NULL, NULL));
 }
 
 /* Samples one place. Returns 1 if an element holds it, or one lies near enough; such places
@@ -120,7 +120,7 @@ pg_status pg_sampler_mesh (pg_sampler *out, const char *path, int step, double u
     f->problem = problem;
     PG_TRY (read_fields (f, path, step, unit));
     PG_TRY (pg_mesh_locator_create (&f->locator, &f->mesh));
-    if (problem->nmaterial > 1)
+    if (problem->nlaw > 1)
         PG_TRY (pg_nearest_create (&f->material, problem->dim, problem->rows[bulk].n, problem->rows[bulk].x));
     *out = (pg_sampler){ f,
                          problem->dim,

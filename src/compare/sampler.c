@@ -128,7 +128,7 @@ static void fit_one (const points *s, const pg_rows *r, size_t at, double *u, do
     if (r->grade[at] == PG_GRADE_DEAD) for (size_t c = 0; c < dim; c++) u[c] = NAN;
     if (!stress) return;
     size_t q = (size_t) pg_nearest_find (s->material, r->x + at * dim, NULL, NULL);
-    pg_stress_of_gradient (&p->material[p->block[s->bulk][q]], p->dim, H, stress);
+    pg_stress_of_gradient (pg_problem_law (p, s->bulk, q), p->dim, H, stress);
     if (r->grade[at] > PG_GRADE_LOWERED) for (int k = 0; k < 6; k++) stress[k] = NAN;
 }
 

@@ -100,7 +100,7 @@ pg_status pg_moving_platens_create (pg_moving_platens **out, const pg_problem *p
     PG_ALLOC (w->start, n * stride);
     PG_ALLOC (w->now.platen, w->nplaten);
     for (size_t i = 0; i < n; i++) {
-        const pg_material *m = &problem->material[problem->block[PG_NODES][i]];
+        const pg_material *m = pg_problem_law (problem, PG_NODES, i);
         double c = pg_material_waves (m).pressure, M = c > 0 ? m->density * c * c : m->modulus,
                s = size_of (problem, i);
         w->stiff[i] = w->stiffness * M * problem->cloud.volume[i] / (s * s);

@@ -29,13 +29,13 @@ pg_status near_create (near_pairs *s, const pg_problem *problem, const pg_contac
     s->skin = problem->plain ? 0 : skin;
     s->finest = pg_cloud_finest (&problem->cloud);
     s->nblock = (n * stride + BLOCK - 1) / BLOCK;
-    PG_ALLOC (s->modulus, problem->nmaterial);
-    PG_ALLOC (s->shear, problem->nmaterial);
+    PG_ALLOC (s->modulus, problem->nlaw);
+    PG_ALLOC (s->shear, problem->nlaw);
     PG_ALLOC (s->local, n);
     PG_ALLOC (s->start, n * stride);
     PG_ALLOC (s->most, s->nblock);
-    for (size_t m = 0; m < problem->nmaterial; m++) {
-        const pg_material *material = &problem->material[m];
+    for (size_t m = 0; m < problem->nlaw; m++) {
+        const pg_material *material = &problem->law[m];
         double c = pg_material_waves (material).pressure;
         s->modulus[m] = c > 0 ? material->density * c * c : material->modulus;
         s->shear[m] = material->mu;
@@ -58,7 +58,7 @@ static near_pair pair_of (const near_pairs *s, size_t i, size_t j)
 {
     const pg_problem *p = s->problem;
     const double *x = p->cloud.x;
-    int a = p->block[PG_NODES][i], b = p->block[PG_NODES][j];
+    int a = p->law_of[PG_NODES][i], b = p->law_of[PG_NODES][j];
     double rr = 0, M = 2 * s->modulus[a] * s->modulus[b] / (s->modulus[a] + s->modulus[b]),
            G = 2 * s->shear[a] * s->shear[b] / (s->shear[a] + s->shear[b]);
     for (size_t k = 0; k < s->dim; k++) rr += pow (x[j * s->dim + k] - x[i * s->dim + k], 2);

@@ -54,6 +54,14 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     for (size_t b = 0; b < m->n; b++) f[b] = f[b] > 0 ? 1 / f[b] : INFINITY;
 }
 
+/* At one Poisson's ratio all constants of a bond go with Young's modulus. */
+static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
+{
+    c->parameter[ENERGY] *= ratio->of[PG_OF_ENERGY];
+    for (int k = 0; k < 3; k++)
+        c->parameter[k] *= sqrt (ratio->of[PG_OF_ENERGY] / ratio->of[PG_OF_STIFFNESS]);
+}
+
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     char growth[200];
@@ -85,5 +93,6 @@ const pg_criterion_type pg_criterion_beam_limits = {
     .read = read,
     .utilisation = utilisation,
     .factor = factor,
+    .scale = scale,
     .describe = describe
 };

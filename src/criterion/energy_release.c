@@ -1,10 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A crack grows where the energy that a new piece of it sets free reaches what it takes (Griffith 1921):
- * G0 per area in opening, G_II in sliding, each its own for every material, G0 also an expression of
- * place and direction of growth. This criterion judges tips, not bonds: it holds the limits, and
+ * G0 per area in opening, G_II in sliding, each its own for every material or an expression of place
+ * (energies also of the direction of growth). This criterion judges tips, not bonds: it holds the limits, and
  * solve/facet_growth.c compares them with J. With a strength cracks also begin where there is none
- * (Leguillon 2002: stress and energy together): tension and G0, or, with a cohesion,
- * the shear stress of Coulomb and G_II. */
+ * (Leguillon 2002: stress and energy together): tension and G0, or, with a cohesion, the shear stress of
+ * Coulomb and G_II. */
 #include "entries.h"
 #include <math.h>
 #include <stdio.h>
@@ -13,34 +13,32 @@
 enum { ENERGY, SHEAR, STRENGTH, COHESION, ANGLE };     /* parameter[]; NAN: not given, or not one number */
 
 typedef struct {                                       /* what does not fit into numbers */
-    pg_expression *energy;                             /* J/m^2, of place and angle; NULL: a constant */
+    pg_expression *of[ANGLE];                          /* limits of place (G0: and angle); NULL: a number */
     double *path; size_t npath;                        /* imposed path of all cracks, m (npath x 2) */
 } energy_release;
 
 /* ---- reading ------------------------------------------------------------------------------------------- */
-/* A limit that need not be given: NAN then. */
-static double optional (const pg_scene *scene, const pg_criterion_setting *setting, const char *limit)
-{
-    char map[PG_LIMITS];
-    return pg_criterion_holder (map, scene, setting, limit) ? pg_criterion_limit (scene, setting, limit)
-                                                            : NAN;
-}
+static const char *const names[] = { "fracture_energy", "shear_fracture_energy", "tensile_strength",
+                                     "cohesion", "friction_angle" };
 
-/* A constant is kept as a number; an expression is compiled, and must be positive where it is tried. */
-static pg_status read_energy (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
+/* One limit: a number, an expression of place that is compiled, or NAN: not given. */
+static pg_status read_limit (pg_criterion *c, int which, const pg_scene *scene,
+                             const pg_criterion_setting *setting)
 {
     pg_status status = PG_OK;
     char map[PG_LIMITS], path[PG_LIMITS + 32];
     energy_release *own = c->own;
-    if (!pg_criterion_holder (map, scene, setting, "fracture_energy")) return PG_OK;     /* a fault already */
-    c->parameter[ENERGY] = pg_scene_number (scene, "%s.fracture_energy", map);
-    if (!isnan (c->parameter[ENERGY])) return PG_OK;
-    snprintf (path, sizeof path, "%s.fracture_energy", map);
-    PG_TRY (pg_expression_compile (&own->energy, pg_scene_text (scene, "%s", path), "J/m2"));
-    if (pg_expression_uses (own->energy, 't'))
+    c->parameter[which] = NAN;
+    if (!pg_criterion_holder (map, scene, setting, names[which])) return PG_OK;
+    snprintf (path, sizeof path, "%s.%s", map, names[which]);
+    c->parameter[which] = pg_scene_number (scene, "%s", path);
+    if (!isnan (c->parameter[which]) || which == ANGLE) return PG_OK;
+    PG_TRY (pg_expression_compile (&own->of[which], pg_scene_text (scene, "%s", path),
+                                   which < STRENGTH ? "J/m2" : "Pa"));
+    if (pg_expression_uses (own->of[which], 't'))
         pg_scene_fault (scene, path, "may depend on x, y and angle (the direction of growth), not on t");
     /* in space no single angle says how the new surface lies */
-    if (setting->mode == PG_SOLID && pg_expression_uses (own->energy, 'a'))
+    if (setting->mode == PG_SOLID && pg_expression_uses (own->of[which], 'a'))
         pg_scene_fault (scene, path, "may depend on x, y and z; angle, the direction of growth, is for "
                                      "cracks in the plane");
 done:
@@ -48,25 +46,22 @@ done:
 }
 
 /* Strength in shear: a cohesion, its angle, and the energy that sliding takes go together. */
-static pg_status read_shear (pg_criterion *c, const pg_scene *scene, const pg_criterion_setting *setting)
+static void check_shear (const pg_scene *scene, const pg_criterion_setting *setting)
 {
-    static const char *const names[3] = { "cohesion", "friction_angle", "shear_fracture_energy" };
+    static const int with[2] = { ANGLE, SHEAR };
     char map[PG_LIMITS], path[PG_LIMITS + 32];
-    c->parameter[COHESION] = optional (scene, setting, names[0]);
-    c->parameter[ANGLE] = optional (scene, setting, names[1]);
-    for (int k = 1; k < 3 && pg_criterion_holder (map, scene, setting, names[0]); k++) {
-        snprintf (path, sizeof path, "%s.%s", map, names[0]);
-        if (!pg_criterion_holder (map, scene, setting, names[k]))
+    for (int k = 0; k < 2 && pg_criterion_holder (map, scene, setting, names[COHESION]); k++) {
+        snprintf (path, sizeof path, "%s.%s", map, names[COHESION]);
+        if (!pg_criterion_holder (map, scene, setting, names[with[k]]))
             pg_scene_fault (scene, path, "cracks begin in shear by a cohesion with failure.%s: give it, or "
-                            "leave the cohesion out", names[k]);
+                            "leave the cohesion out", names[with[k]]);
     }
-    if (pg_criterion_holder (map, scene, setting, names[1])
-        && !pg_criterion_holder (map, scene, setting, names[0])) {
-        pg_criterion_holder (map, scene, setting, names[1]);
-        snprintf (path, sizeof path, "%s.%s", map, names[1]);
+    if (pg_criterion_holder (map, scene, setting, names[ANGLE])
+        && !pg_criterion_holder (map, scene, setting, names[COHESION])) {
+        pg_criterion_holder (map, scene, setting, names[ANGLE]);
+        snprintf (path, sizeof path, "%s.%s", map, names[ANGLE]);
         pg_scene_fault (scene, path, "has a meaning with failure.cohesion alone: give that, or leave it out");
     }
-    return PG_OK;
 }
 
 /* The imposed path; every material has a copy, so that each can be freed by itself. */
@@ -93,10 +88,8 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     PG_ALLOC (own, 1);
     c->own = own;
     pg_criterion_by_theory (scene);
-    PG_TRY (read_energy (c, scene, setting));
-    c->parameter[SHEAR] = optional (scene, setting, "shear_fracture_energy");
-    c->parameter[STRENGTH] = optional (scene, setting, "tensile_strength");
-    PG_TRY (read_shear (c, scene, setting));
+    for (int k = ENERGY; k <= ANGLE; k++) PG_TRY (read_limit (c, k, scene, setting));
+    check_shear (scene, setting);
     PG_TRY (read_path (own, scene));
 done:
     return status;
@@ -106,7 +99,7 @@ static void clear (pg_criterion *c)
 {
     energy_release *own = c->own;
     if (!own) return;
-    pg_expression_free (&own->energy);
+    for (int k = 0; k < ANGLE; k++) pg_expression_free (&own->of[k]);
     pg_free (own->path), pg_free (own);
     c->own = NULL;
 }
@@ -118,15 +111,17 @@ static void fracture (const pg_criterion *c, const double *x, double angle, pg_f
     static const double turn = 6.28318530717958647692;
     const energy_release *own = c->own;
     pg_place at = { x[0], x[1], x[2], hypot (x[0], x[1]), angle - turn * floor (angle / turn), 0 };
-    out->energy = own->energy ? pg_expression_value (own->energy, &at) : c->parameter[ENERGY];
-    out->shear = c->parameter[SHEAR], out->strength = c->parameter[STRENGTH];
-    out->cohesion = c->parameter[COHESION], out->slope = tan (c->parameter[ANGLE]);
+    double value[ANGLE];
+    for (int k = 0; k < ANGLE; k++)
+        value[k] = own->of[k] ? pg_expression_value (own->of[k], &at) : c->parameter[k];
+    out->energy = value[ENERGY], out->shear = value[SHEAR], out->strength = value[STRENGTH];
+    out->cohesion = value[COHESION], out->slope = tan (c->parameter[ANGLE]);
 }
 
 static int uneven (const pg_criterion *c)
 {
     const energy_release *own = c->own;
-    return own && own->energy != NULL;
+    return own && (own->of[ENERGY] || own->of[SHEAR]);
 }
 
 static const double *path (const pg_criterion *c, size_t *n)
@@ -138,31 +133,36 @@ static const double *path (const pg_criterion *c, size_t *n)
 
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
+    static const char *const what[ANGLE] = { "energy release >= ", ", sliding ", ", new cracks at ",
+                                             ", new cracks in shear at cohesion " },
+                      *const behind[ANGLE] = { "", "", " and that energy", "" };
     const energy_release *own = c->own;
-    size_t used = own->energy
-                      ? (size_t) snprintf (text, size, "energy release >= G0 of place and direction")
-                      : (size_t) snprintf (text, size, "energy release >= %.6g J/m^2", c->parameter[ENERGY]);
-    if (used < size && !isnan (c->parameter[SHEAR]))
-        used += (size_t) snprintf (text + used, size - used, ", sliding %.6g J/m^2", c->parameter[SHEAR]);
-    if (used < size && !isnan (c->parameter[STRENGTH]))
-        used += (size_t) snprintf (text + used, size - used, ", new cracks at %.6g Pa and that energy",
-                                   c->parameter[STRENGTH]);
-    if (used < size && !isnan (c->parameter[COHESION]))
-        used += (size_t) snprintf (text + used, size - used,
-                                   ", new cracks in shear at cohesion %.6g Pa, friction angle %.6g deg",
-                                   c->parameter[COHESION], c->parameter[ANGLE] * 57.295779513082320877);
+    size_t used = 0;
+    for (int k = ENERGY; k < ANGLE && used < size; k++) {
+        const char *unit = k < STRENGTH ? "J/m^2" : "Pa";
+        if (own->of[k])
+            used += (size_t) snprintf (text + used, size - used, "%s%s%s%s", what[k],
+                                       k == ENERGY ? "G0 of place and direction" : "a value of place (",
+                                       k == ENERGY ? "" : unit, k == ENERGY ? "" : ")");
+        else if (k == ENERGY || !isnan (c->parameter[k]))
+            used += (size_t) snprintf (text + used, size - used, "%s%.6g %s%s", what[k], c->parameter[k],
+                                       unit, behind[k]);
+    }
+    if (used < size && !isnan (c->parameter[ANGLE]))
+        used += (size_t) snprintf (text + used, size - used, ", friction angle %.6g deg",
+                                   c->parameter[ANGLE] * 57.295779513082320877);
     if (used < size && own->npath) snprintf (text + used, size - used, ", along failure.path");
 }
 
 /* ---- the entry ----------------------------------------------------------------------------------------- */
 static const pg_key limit_keys[] = {
     { .path = "failure.shear_fracture_energy",
-      .kind = PG_NUMBER,
+      .kind = PG_EXPRESSION,
       .unit = "J/m2",
       .range = "(0, inf)",
       .fallback = "",
       .doc = "Energy per new crack area that slides instead of opening; without it no crack grows by "
-             "sliding." },
+             "sliding. May be an expression of place and `angle`." },
 };
 static const pg_key option_keys[] = {
     { .path = "failure.path",

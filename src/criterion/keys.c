@@ -71,8 +71,8 @@ static const pg_key energy[] = {
       .group = "limit:most",
       .doc = "Energy per new crack area, from which the limits follow: those of bonds with horizon, kernel "
              "and the "
-             "material's Young's modulus, that of points with the horizon alone. Where tips are judged an "
-             "expression of place and of `angle`, the direction of growth from the x axis, will do." },
+             "material's Young's modulus, that of points with the horizon alone. May be an expression of "
+             "place; where tips are judged also of `angle`, the direction of growth from the x axis." },
 };
 const pg_key_table criterion_keys_energy = { "criterion", energy, sizeof energy / sizeof *energy };
 
@@ -90,21 +90,23 @@ const pg_key_table criterion_keys_calibration = { "criterion", calibration, 1 };
 
 static const pg_key tension[] = {
     { .path = "failure.tensile_strength",
-      .kind = PG_NUMBER,
+      .kind = PG_EXPRESSION,
       .unit = "Pa",
       .range = "(0, inf)",
       .fallback = "",
-      .doc = "Largest principal stress that a bond bears." },
+      .doc = "Largest principal stress that a bond bears; where tips are judged, tension at which new cracks "
+             "begin. May be an expression of place." },
 };
 const pg_key_table criterion_keys_tension = { "criterion", tension, sizeof tension / sizeof *tension };
 
 static const pg_key shear[] = {
     { .path = "failure.cohesion",
-      .kind = PG_NUMBER,
+      .kind = PG_EXPRESSION,
       .unit = "Pa",
       .range = "(0, inf)",
       .fallback = "",
-      .doc = "Shear strength without normal stress. Where tips are judged (with friction_angle, "
+      .doc = "Shear strength without normal stress; may be an expression of place. Where tips are judged "
+             "(with friction_angle, "
              "shear_fracture_energy and contact.kind): new cracks begin in shear under compression where "
              "this and shear_fracture_energy are reached." },
     { .path = "failure.friction_angle",

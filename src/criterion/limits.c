@@ -45,11 +45,25 @@ double pg_criterion_limit (const pg_scene *scene, const pg_criterion_setting *se
     if (!pg_criterion_holder (map, scene, setting, limit)) return 0;
     double value = pg_scene_number (scene, "%s.%s", map, limit);
     snprintf (path, sizeof path, "%s.%s", map, limit);
+    if (!isnan (value)) return value;
+    int of = pg_limit_of_place (limit);
+    if (setting->reference && of >= 0) value = setting->reference[of];
     if (isnan (value))
         pg_scene_fault (scene, path,
                         "must be one number here: an expression of place and direction goes with criterion: "
                         "%s", pg_criterion_by_need (PG_NEEDS_FACETS));
     return value;
+}
+
+int pg_limit_of_place (const char *key)
+{
+    static const char *const name[PG_OF_COUNT] = { [PG_OF_STIFFNESS] = "youngs_modulus",
+                                                   [PG_OF_ENERGY] = "fracture_energy",
+                                                   [PG_OF_STRETCH] = "critical_stretch",
+                                                   [PG_OF_TENSION] = "tensile_strength",
+                                                   [PG_OF_COHESION] = "cohesion" };
+    for (int k = 0; k < PG_OF_COUNT; k++) if (strcmp (name[k], key) == 0) return k;
+    return -1;
 }
 
 int pg_criterion_never (const pg_scene *scene, const pg_criterion_setting *setting)

@@ -44,6 +44,12 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     for (size_t b = 0; b < m->n; b++) f[b] = f[b] > 0 ? 1 / f[b] : INFINITY;
 }
 
+static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
+{
+    c->parameter[STRENGTH] *= ratio->of[PG_OF_TENSION];
+    c->parameter[COHESION] *= ratio->of[PG_OF_COHESION];
+}
+
 /* Tension and shear. */
 static int planes (const pg_criterion *c, double form[2][2])
 {
@@ -70,6 +76,7 @@ const pg_criterion_type pg_criterion_mohr_coulomb = {
     .read = read,
     .utilisation = utilisation,
     .factor = factor,
+    .scale = scale,
     .planes = planes,
     .describe = describe
 };

@@ -43,6 +43,11 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     for (size_t i = 0; i < m->n; i++) f[i] = f[i] > 0 ? 1 / f[i] : INFINITY;
 }
 
+static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
+{
+    c->parameter[ENERGY] *= ratio->of[PG_OF_ENERGY], c->parameter[LIMIT] *= ratio->of[PG_OF_ENERGY];
+}
+
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     snprintf (text, size,
@@ -71,5 +76,6 @@ const pg_criterion_type pg_criterion_node_energy = {
     .read = read,
     .utilisation = utilisation,
     .factor = factor,
+    .scale = scale,
     .describe = describe
 };

@@ -28,6 +28,11 @@ static void factor (const pg_criterion *c, const pg_bond_measures *m, double *f)
     for (size_t b = 0; b < m->n; b++) f[b] = m->s1[b] > 0 ? c->parameter[STRENGTH] / m->s1[b] : INFINITY;
 }
 
+static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
+{
+    c->parameter[STRENGTH] *= ratio->of[PG_OF_TENSION];
+}
+
 static int planes (const pg_criterion *c, double form[2][2])
 {
     form[0][0] = 1 / c->parameter[STRENGTH], form[0][1] = 0;
@@ -47,6 +52,7 @@ const pg_criterion_type pg_criterion_principal_stress = {
     .read = read,
     .utilisation = utilisation,
     .factor = factor,
+    .scale = scale,
     .planes = planes,
     .describe = describe
 };

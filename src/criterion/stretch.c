@@ -27,7 +27,7 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
     c->parameter[FROM_ENERGY] = energy;
     c->parameter[GRADED] = setting->graded;
     c->parameter[EXACT] = setting->stretch != NULL;
-    c->parameter[LIMIT] = pg_scene_number (scene, "%s.critical_stretch", map);
+    c->parameter[LIMIT] = energy ? 0 : pg_criterion_limit (scene, setting, "critical_stretch");
     c->parameter[ENERGY] = energy ? pg_criterion_limit (scene, setting, "fracture_energy") : 0;
     pg_criterion_setting grown = *setting;
     grown.toughness = (setting->toughness > 0 ? setting->toughness : 1)
@@ -44,6 +44,16 @@ static pg_status read (pg_criterion *c, const pg_scene *scene, const pg_criterio
         else pg_scene_fault (scene, path, "gives no critical stretch with this horizon and Young's modulus");
     }
     return PG_OK;
+}
+
+/* From an energy s0 ~ sqrt (G0 / E); a critical stretch that is given stands for G0 ~ E s0^2. */
+static void scale (pg_criterion *c, const pg_limit_ratio *ratio)
+{
+    const double *of = ratio->of;
+    int energy = c->parameter[FROM_ENERGY] > 0;
+    c->parameter[LIMIT] *= energy ? sqrt (of[PG_OF_ENERGY] / of[PG_OF_STIFFNESS]) : of[PG_OF_STRETCH];
+    c->parameter[ENERGY] *= energy ? of[PG_OF_ENERGY]
+                                   : of[PG_OF_STIFFNESS] * of[PG_OF_STRETCH] * of[PG_OF_STRETCH];
 }
 
 /* xi . xi, xi . eta, eta . eta of one bond */
@@ -140,12 +150,13 @@ static void describe (const pg_criterion *c, char *text, size_t size)
 
 static const pg_key limit_keys[] = {
     { .path = "failure.critical_stretch",
-      .kind = PG_NUMBER,
+      .kind = PG_EXPRESSION,
       .unit = "1",
       .range = "(0, inf)",
       .fallback = "",
       .group = "limit:most",
-      .doc = "Relative elongation at which a bond breaks; this or fracture_energy." },
+      .doc = "Relative elongation at which a bond breaks; this or fracture_energy. May be an expression of "
+             "place." },
 };
 static const pg_key option_keys[] = {
     { .path = "failure.stretch",
@@ -165,6 +176,7 @@ const pg_criterion_type pg_criterion_stretch = {
     .read = read,
     .utilisation = utilisation,
     .factor = factor,
+    .scale = scale,
     .linear = linear,
     .describe = describe
 };

@@ -145,7 +145,7 @@ static int measure (const search *s, size_t from, size_t to, layer *l)
         for (size_t k = 0; k < d * d; k++)
             A[k] += c->w * q[k / d] * e[k % d], l->Q[k] += c->w * q[k / d] * q[k % d];
         for (int end = 0; end < 2; end++) {
-            const double *D = p->material[p->block[PG_NODES][c->node[end]]].D;
+            const double *D = pg_problem_law (p, PG_NODES, (size_t) c->node[end])->D;
             l->P[0] += c->w * D[0], l->P[1] += c->w * D[d == 2 ? 8 : 35];
         }
         sum += 2 * c->w;

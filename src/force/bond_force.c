@@ -57,7 +57,7 @@ static pg_status make_limits (bond_force *b)
     if (!pg_criterion_of_bonds (p->criterion) || b->critical || b->limit) goto done;
     PG_ALLOC (b->limit, b->n);
     for (size_t i = 0; i < b->n; i++) {
-        const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
+        const pg_criterion *c = pg_problem_limit (p, PG_NODES, i);
         b->limit[i] = c->never ? INFINITY : limit_at (c, pg_cloud_ratio (&p->cloud, i));
     }
 done:

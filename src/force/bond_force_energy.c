@@ -28,7 +28,7 @@ pg_status bond_force_energy_create (bond_force *b)
     if (!b->dying) PG_ALLOC (b->dying, b->n);
     PG_ALLOC (b->critical, b->n);
     for (size_t i = 0; i < b->n; i++) {
-        const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
+        const pg_criterion *c = pg_problem_limit (p, PG_NODES, i);
         b->critical[i] = c->never || p->exempt[PG_NODES][i] ? INFINITY
                                                             : limit_at (c, pg_cloud_ratio (&p->cloud, i));
     }

@@ -57,13 +57,17 @@ static void judge_by (const judging *s, const batch *all, int material)
     pg_bond_measures m = { .n = n, .dim = p->dim, .xi = xi, .eta = eta, .reach = p->cloud.size ? reach : NULL,
                            .shear = s->b->theory->strain ? shear : NULL,
                            .bending = s->b->theory->strain ? bending : NULL };
-    if (n) take_worse (s, &p->criterion[material], &m, some);
+    if (n) take_worse (s, &p->limit[material], &m, some);
 }
 
-/* Judges a full batch, or what is left of it, by the law of every material, and empties it. */
+/* Judges a full batch, or what is left of it, by the laws that it holds, and empties it. */
 static void judge (const judging *s, batch *all)
 {
-    for (int m = 0; m < (int) s->b->problem->nmaterial; m++) judge_by (s, all, m);
+    for (size_t k = 0; k < all->n; k++) {
+        size_t before = 0;
+        while (all->material[before] != all->material[k]) before++;
+        if (before == k) judge_by (s, all, all->material[k]);      /* each law once */
+    }
     all->n = 0;
 }
 
@@ -91,7 +95,7 @@ static void judge_points (void *context, size_t first, size_t last, int thread)
     const judging *s = context;
     const bond_force *b = s->b;
     const unsigned char *exempt = b->problem->exempt[PG_NODES];
-    const int *material = b->problem->block[PG_NODES];
+    const int *material = b->problem->limit_of[PG_NODES];
     point_bonds bonds;
     batch all = { .n = 0 };
     for (size_t i = first; i < last; i++) {

@@ -165,10 +165,33 @@ done:
     return status;
 }
 
+/* What varies from place to place in what the loops over bonds know of: stiffness of pairs and beams, limits
+ * of bonds; those of points and tips, and constants of state-based forces, are looked up point by point. */
+static void refuse_fields (const pg_problem *p, const pg_scene *scene)
+{
+    const pg_criterion *c = p->criterion;
+    int at_points = !pg_criterion_of_bonds (c) || (c->type->needs & PG_NEEDS_ENERGY),
+        state = p->sums->rule.state && !p->sums->rule.beams;
+    pg_evaluation how = p->sums->rule.evaluation;
+    if (how != PG_EVALUATE_STENCIL && how != PG_EVALUATE_FFT) return;
+    for (size_t m = 0; p->vary && m < p->nmaterial; m++)
+        for (int k = 0; k < PG_OF_COUNT; k++) {
+            int stiff = k == PG_OF_STIFFNESS;
+            if (!p->vary[m].of[k] || (stiff ? state && at_points : at_points)) continue;
+            pg_scene_fault (scene, "method.evaluation",
+                            "%s of material %.40s is an expression of place, and bonds must all be alike for "
+                            "this: use list or auto%s",
+                            pg_variation_name (k, NULL), p->material[m].name,
+                            pg_scene_given (scene, "method.evaluation") ? "" : ", which force: bond does");
+            return;
+        }
+}
+
 /* Stencils and transforms sum all bonds of one offset with one constant: materials that differ need lists. */
 void bond_force_check_laws (const pg_problem *p, const pg_scene *scene)
 {
     pg_evaluation asked = p->sums->rule.evaluation;
+    refuse_fields (p, scene);
     for (size_t m = 1; m < p->nmaterial && asked != PG_EVALUATE_AUTO && asked != PG_EVALUATE_LIST; m++) {
         const pg_criterion *a = &p->criterion[0], *b = &p->criterion[m];
         /* points die by themselves, or tips are judged: the loops know of no limit */

@@ -330,7 +330,11 @@ pg_status galerkin_worst (void *self, const pg_state *state, const double *d, do
 pg_status galerkin_find_judged (galerkin *g);
 /* Of graded clouds: support of a bond of an entry of a set over the horizon, by which limits scale. */
 double galerkin_reach (const galerkin *g, int set, size_t point, size_t entry);
-/* The only material that the ends of these bonds are made of, or -1. */
+/* Which criteria (problem.limit) judge the ends of these bonds, each once; returns how many, at most 2
+ * count. */
+size_t galerkin_limits_of (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point,
+                           int *limit);
+/* The only criterion that the ends of these bonds have, or -1. */
 int galerkin_one_material (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point);
 /* groups */
 pg_status galerkin_gather (void *self, pg_bond_group *group, int *can);

@@ -39,11 +39,12 @@ static void judge_material (const galerkin_judging *s, int material, pg_bond_mea
                             const size_t *point, const size_t *to)
 {
     const galerkin *g = s->g;
-    const int *node = g->rows[s->set].family.node;
+    const int *node = g->rows[s->set].family.node, *own = g->problem->limit_of[s->set],
+              *other = g->problem->limit_of[PG_NODES];
     double xi[BATCH * 3], eta[BATCH * 3], reach[BATCH], s1[BATCH], s3[BATCH];
     size_t some[BATCH], count = 0, dim = (size_t) g->dim;
     for (size_t k = 0; k < m.n; k++) {
-        if (g->material[s->set][point[k]] != material && g->material[PG_NODES][node[bond[k]]] != material)
+        if (own[point[k]] != material && other[node[bond[k]]] != material)
             continue;
         if (m.xi)
             memcpy (xi + count * dim, m.xi + k * dim, dim * sizeof *xi),
@@ -59,16 +60,32 @@ static void judge_material (const galerkin_judging *s, int material, pg_bond_mea
                             .reach = m.reach ? reach : NULL,
                             .s1 = m.s1 ? s1 : NULL,
                             .s3 = m.s1 ? s3 : NULL };
-    if (count) judge_by (s, &g->problem->criterion[material], &m, some);
+    if (count) judge_by (s, &g->problem->limit[material], &m, some);
 }
 
 int galerkin_one_material (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point)
 {
-    const int *node = g->rows[set].family.node;
-    int first = g->material[set][point[0]], same = 1;
+    const int *node = g->rows[set].family.node, *own = g->problem->limit_of[set],
+              *other = g->problem->limit_of[PG_NODES];
+    int first = own[point[0]], same = 1;
     for (size_t k = 0; k < count && same; k++)
-        same = g->material[set][point[k]] == first && g->material[PG_NODES][node[bond[k]]] == first;
+        same = own[point[k]] == first && other[node[bond[k]]] == first;
     return same ? first : -1;
+}
+
+size_t galerkin_limits_of (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point,
+                           int *limit)
+{
+    const int *node = g->rows[set].family.node;
+    size_t n = 0;
+    for (size_t k = 0; k < 2 * count; k++) {
+        int one = k < count ? g->problem->limit_of[set][point[k]]
+                            : g->problem->limit_of[PG_NODES][node[bond[k - count]]];
+        size_t seen = 0;
+        while (seen < n && limit[seen] != one) seen++;
+        if (seen == n) limit[n++] = one;
+    }
+    return n;
 }
 
 /* Mean of both ends: the same from either end. */
@@ -113,9 +130,13 @@ void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond
                            .reach = graded ? reach : NULL,
                            .s1 = stress ? s1 : NULL,
                            .s3 = stress ? s3 : NULL };
-    if (material >= 0) judge_by (s, &g->problem->criterion[material], &m, to);
-    else
-        for (size_t k = 0; k < g->problem->nmaterial; k++) judge_material (s, (int) k, m, bond, point, to);
+    if (material >= 0) {
+        judge_by (s, &g->problem->limit[material], &m, to);
+        return;
+    }
+    int limit[2 * BATCH];
+    size_t limits = galerkin_limits_of (g, s->set, count, bond, point, limit);
+    for (size_t k = 0; k < limits; k++) judge_material (s, limit[k], m, bond, point, to);
 }
 
 /* Live bonds of a range of points in batches; bonds that never break have utilisation 0 and an infinite

@@ -7,7 +7,7 @@
 /* Of a point of a bond set. */
 const pg_material *galerkin_material (const galerkin *g, int set, size_t p)
 {
-    return &g->problem->material[g->material[set][p]];
+    return pg_problem_law (g->problem, set, p);
 }
 
 /* strain += B_a d for one node: Voigt xx yy zz xy yz zx, engineering shears */

@@ -277,7 +277,9 @@ void galerkin_dilatation_free (galerkin *g)
 /* The material by which stresses at a point are taken before the pressure of its patch is added. */
 const pg_material *galerkin_plain (const galerkin *g, int set, size_t p)
 {
-    return g->dilatation ? &g->dilatation->plain[g->material[set][p]] : galerkin_material (g, set, p);
+    int block = g->material[set][p];
+    int carried = g->dilatation && g->problem->patches->lambda[block] > 0;
+    return carried ? &g->dilatation->plain[block] : galerkin_material (g, set, p);
 }
 
 /* Patches of points that lost a bond, or that a supported facet leans on, are built anew; their nodes'

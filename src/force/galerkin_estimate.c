@@ -117,7 +117,7 @@ static double complementary (const recovery *r, size_t p, const double *s)
 {
     double e[VOIGT], sum = 0;
     memcpy (e, s, (size_t) r->g->nv * sizeof *s);
-    pg_dense_solve (r->g->nv, r->L + 36 * r->g->material[r->g->bulk][p], e);
+    pg_dense_solve (r->g->nv, r->L + 36 * (size_t) r->g->problem->law_of[r->g->bulk][p], e);
     for (int v = 0; v < r->g->nv; v++) sum += s[v] * e[v];
     return sum;
 }
@@ -210,12 +210,12 @@ pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, doub
     PG_ALLOC (r.known, g->n);
     PG_ALLOC (r.error, points);
     PG_ALLOC (r.size, points);
-    PG_ALLOC (r.L, 36 * p->nmaterial);
+    PG_ALLOC (r.L, 36 * p->nlaw);
     PG_ALLOC (volume, g->n);
-    for (size_t m = 0; m < p->nmaterial; m++) {
-        memcpy (r.L + 36 * m, p->material[m].D, 36 * sizeof *r.L);
+    for (size_t m = 0; m < p->nlaw; m++) {
+        memcpy (r.L + 36 * m, p->law[m].D, 36 * sizeof *r.L);
         if (pg_dense_cholesky (g->nv, r.L + 36 * m, 1e-12) != 0)
-            PG_FAIL (PG_E_NOT_SPD, "material %s: its stiffness has no inverse", p->material[m].name);
+            PG_FAIL (PG_E_NOT_SPD, "material %s: its stiffness has no inverse", p->law[m].name);
     }
     galerkin_measure (g, g->bulk, d);
     r.stress = g->stress[g->bulk];

@@ -238,14 +238,20 @@ static void judge_some (const others *o, size_t p, size_t n, const size_t *entry
     size_t point[CHUNK], some[CHUNK];
     for (size_t i = 0; i < n; i++) point[i] = p;
     int material = galerkin_one_material (g, o->set, n, entry, point);
-    if (material >= 0) judge_by_law (o, &g->problem->criterion[material], p, n, entry, own, top);
-    for (int m = 0; material < 0 && m < (int) g->problem->nmaterial; m++) {
+    if (material >= 0) {
+        judge_by_law (o, &g->problem->limit[material], p, n, entry, own, top);
+        return;
+    }
+    int limit[2 * CHUNK];
+    size_t limits = galerkin_limits_of (g, o->set, n, entry, point, limit);
+    for (size_t k = 0; k < limits; k++) {
+        int m = limit[k];
         size_t count = 0;
         for (size_t i = 0; i < n; i++)
-            if (g->material[o->set][p] == m
-                || g->material[PG_NODES][g->rows[o->set].family.node[entry[i]]] == m)
+            if (g->problem->limit_of[o->set][p] == m
+                || g->problem->limit_of[PG_NODES][g->rows[o->set].family.node[entry[i]]] == m)
                 some[count++] = entry[i];
-        if (count) judge_by_law (o, &g->problem->criterion[m], p, count, some, own, top);
+        if (count) judge_by_law (o, &g->problem->limit[m], p, count, some, own, top);
     }
 }
 
@@ -298,8 +304,8 @@ done:
 /* Is the criterion, of all materials, a linear form of what it judges by? */
 static int is_linear (const pg_problem *p, int stress)
 {
-    for (size_t m = 0; m < p->nmaterial; m++) {
-        const pg_criterion *c = &p->criterion[m];
+    for (size_t m = 0; m < p->nlimit; m++) {
+        const pg_criterion *c = &p->limit[m];
         const pg_bond_measures none = { .dim = p->dim };
         double form[2][2];
         if (stress ? !c->type->planes || !c->type->planes (c, form)

@@ -139,7 +139,7 @@ static void look_over (sampling *s)
         size_t bonds = p->first_bond[set + 1] - p->first_bond[set];
         s->intact = !bonds || !memchr (s->state->alive + p->first_bond[set], 0, bonds);
     }
-    s->uniform = s->intact && p->nmaterial == 1;
+    s->uniform = s->intact && p->nlaw == 1;
     for (size_t q = 0; q < bulk->n && s->uniform; q++) s->uniform = bulk->grade[q] == PG_GRADE_FULL;
 }
 

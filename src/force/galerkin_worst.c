@@ -11,7 +11,41 @@ static const double NEVER = -1e300;
 
 /* ---- bounds of points ---------------------------------------------------------------------------------- */
 /* No bound of the stresses but themselves: a criterion might use more with less tension. */
-typedef struct { galerkin *g; int set, loose; } bounding;
+typedef struct { galerkin *g; int set, loose; const struct envelope *all; } bounding;
+
+/* Of many criteria that are planes in (s1, s3): the least and the largest coefficients of each of the n
+ * planes; n = 0: there are few criteria, or some are no planes. */
+typedef struct envelope { int n; double low[2][2], high[2][2]; } envelope;
+
+enum { FEW = 8 };
+
+static envelope envelope_of (const pg_problem *p)
+{
+    envelope all = { 0 };
+    for (size_t k = 0; p->nlimit > FEW && k < p->nlimit; k++) {
+        const pg_criterion *c = &p->limit[k];
+        double form[2][2];
+        int n = c->type->planes ? c->type->planes (c, form) : 0;
+        if (c->never) continue;
+        if (n == 0 || (all.n && n != all.n)) return (envelope) { 0 };
+        for (int f = 0; f < n; f++)
+            for (int i = 0; i < 2; i++)
+                all.low[f][i] = all.n ? fmin (all.low[f][i], form[f][i]) : form[f][i],
+                all.high[f][i] = all.n ? fmax (all.high[f][i], form[f][i]) : form[f][i];
+        all.n = n;
+    }
+    return all;
+}
+
+/* What any of the criteria would use at most under these stresses. */
+static double at_most (const envelope *all, double s1, double s3)
+{
+    double most = 0;
+    for (int f = 0; f < all->n; f++)
+        most = fmax (most, fmax (all->low[f][0] * s1, all->high[f][0] * s1)
+                               + fmax (all->low[f][1] * s3, all->high[f][1] * s3));
+    return most;
+}
 
 /* What each point would use of the limits if both ends of a bond were like it. The weakest law decides, as in
  * a bond; points whose bonds never break are marked by -1e300. */
@@ -21,8 +55,13 @@ static void judge_alone (const bounding *c, size_t first, size_t last)
     const unsigned char *exempt = g->problem->exempt[c->set];
     double out[GALERKIN_BLOCK], *alone = g->alone[c->set];
     for (size_t p = first; p < last; p++) alone[p] = exempt[p] ? NEVER : 0;
-    for (size_t k = 0; k < g->problem->nmaterial; k++) {
-        const pg_criterion *law = &g->problem->criterion[k];
+    if (c->all->n) {
+        for (size_t p = first; p < last; p++)
+            if (!exempt[p]) alone[p] = at_most (c->all, g->s1[c->set][p], g->s3[c->set][p]);
+        return;
+    }
+    for (size_t k = 0; k < g->problem->nlimit; k++) {
+        const pg_criterion *law = &g->problem->limit[k];
         pg_bond_measures m = { .n = last - first, .dim = g->dim, .s1 = g->s1[c->set] + first,
                                .s3 = g->s3[c->set] + first };
         law->type->utilisation (law, &m, out, NULL);
@@ -55,8 +94,8 @@ static void bound_blocks (void *context, size_t first, size_t last, int thread)
 static int all_grow (const galerkin *g)
 {
     int grow = 1;
-    for (size_t k = 0; k < g->problem->nmaterial && grow; k++) {
-        const pg_criterion *law = &g->problem->criterion[k];
+    for (size_t k = 0; k < g->problem->nlimit && grow; k++) {
+        const pg_criterion *law = &g->problem->limit[k];
         double form[2][2];
         int n = law->type->planes ? law->type->planes (law, form) : 0;
         grow = n > 0;
@@ -70,13 +109,14 @@ static pg_status find_bounds (galerkin *g, const double *d)
 {
     pg_status status = PG_OK;
     int loose = g->dim == 3 && all_grow (g);
+    envelope all = envelope_of (g->problem);
     for (int set = 0; set < PG_BOND_SETS; set++) {
         size_t n = g->rows[set].n, blocks = (n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
         if (!g->alone[set]) PG_ALLOC (g->alone[set], n);
         if (!g->exact[set]) PG_ALLOC (g->exact[set], n);
         if (!g->bounded[set]) PG_ALLOC (g->bounded[set], blocks);
         if (n) galerkin_measure (g, set, d);
-        bounding c = { g, set, loose };
+        bounding c = { g, set, loose, &all };
         pg_parallel (g->threads, blocks, bound_blocks, &c);
     }
 done:

@@ -158,7 +158,7 @@ static pg_status limits (const pg_problem *p, size_t material, pg_criterion_sett
     const pg_kernel *kernel = p->approx.kernel;
     double axial, shear, E, nu, dilation, beside, h = p->approx.horizon, t = p->cloud.thickness;
     PG_TRY (bond_force_limits (p, material, s));
-    micropolar_split (p, material, &E, &nu, &dilation);
+    micropolar_split (p, &p->material[material], &E, &nu, &dilation);
     PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, kernel, h, E, nu, t));
     PG_TRY (measure_beams (s->beam, p, axial, shear));
     beside = pg_beam_cut_dilatation (p->sums, dilation) / s->beam[0];
@@ -173,7 +173,7 @@ done:
 static int bears_shear (const pg_problem *p, int material)
 {
     double E, nu, dilation;
-    micropolar_split (p, (size_t) material, &E, &nu, &dilation);
+    micropolar_split (p, &p->material[material], &E, &nu, &dilation);
     return fabs (nu - pg_beam_poisson (p->mode)) > 1e-9;
 }
 

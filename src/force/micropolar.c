@@ -17,10 +17,9 @@ static double usual_poisson (pg_mode mode) { return mode == PG_PLANE_STRESS ? 0.
 
 /* Beside a dilatation the bonds make the Poisson's ratio that is asked for, and the dilatation bears the
  * rest. */
-void micropolar_split (const pg_problem *p, size_t material, double *E, double *nu, double *dilation)
+void micropolar_split (const pg_problem *p, const pg_material *m, double *E, double *nu, double *dilation)
 {
     const micropolar_options *o = options_of (p);
-    const pg_material *m = &p->material[material];
     *E = m->modulus, *nu = m->nu, *dilation = 0;
     if (!p->sums->rule.state) return;
     *nu = isnan (o->bond_poisson) ? fmin (*nu, usual_poisson (p->mode)) : o->bond_poisson;
@@ -49,7 +48,7 @@ static pg_status make_limits (bond_force *b)
     if (!pg_criterion_of_bonds (p->criterion) || (p->criterion->type->needs & PG_NEEDS_ENERGY)) return PG_OK;
     for (int k = 0; k < 3; k++) PG_ALLOC (*of[k], b->n);
     for (size_t i = 0; i < b->n; i++) {
-        const pg_criterion *c = &p->criterion[p->block[PG_NODES][i]];
+        const pg_criterion *c = pg_problem_limit (p, PG_NODES, i);
         for (int k = 0; k < 3; k++)
             (*of[k])[i] = c->never ? INFINITY : limit_at (c, pg_cloud_ratio (&p->cloud, i), k);
     }
@@ -75,7 +74,7 @@ static pg_status create (bond_force *b)
     PG_ALLOC (b->idle, b->n);
     for (size_t i = 0; i < b->n; i++) {
         double E, nu, dilation;
-        micropolar_split (p, (size_t) p->block[PG_NODES][i], &E, &nu, &dilation);
+        micropolar_split (p, pg_problem_law (p, PG_NODES, i), &E, &nu, &dilation);
         if (b->dilatation) b->dilatation->A[i] = dilation;
         PG_TRY (pg_beam_moduli (&own->modulus[i], &own->shear[i], p->mode, rule->kernel, rule->horizon, E, nu,
                                 p->cloud.thickness));
@@ -173,7 +172,7 @@ char micropolar_kind_of (void *self, const double *d, size_t entry)
     pg_beam_strain (b->dim, xi, b->length, d + i * m, d + j * m, &shear, &bending);
     for (int end = 0; end < 2; end++) {
         size_t point = end ? j : i;
-        const pg_criterion *c = &p->criterion[p->block[PG_NODES][point]];
+        const pg_criterion *c = pg_problem_limit (p, PG_NODES, point);
         double ratio = pg_cloud_ratio (&p->cloud, point), u;
         char own;
         pg_bond_measures one = {
@@ -195,7 +194,7 @@ static void words (const bond_force *b, size_t m, char *text, size_t size)
     double axial, shear, E, nu, dilation;
     pg_beam_sums sums;
     int used = 0;
-    micropolar_split (p, m, &E, &nu, &dilation);
+    micropolar_split (p, a, &E, &nu, &dilation);
     if (p->nmaterial > 1) used = snprintf (text, size, "material %.60s: ", a->name);
     if (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, E, nu,
                         p->cloud.thickness)

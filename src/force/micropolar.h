@@ -13,7 +13,7 @@ typedef struct {
 } micropolar_options;
 /* Young's modulus (Pa) and Poisson's ratio of what the bonds of a material make alone; dilation (Pa): A of
  * the dilatation beside them (pg_beam_split), 0 without volumetric: on. */
-void      micropolar_split  (const pg_problem *problem, size_t material, double *E, double *nu,
+void      micropolar_split  (const pg_problem *problem, const pg_material *material, double *E, double *nu,
                              double *dilation);
 
 typedef struct {

@@ -12,7 +12,7 @@ static pg_status create (bond_force *b)
     const pg_problem *p = b->problem;
     PG_TRY (dilatation_create (b));
     for (size_t i = 0; i < b->n; i++) {
-        const pg_material *m = &p->material[p->block[PG_NODES][i]];
+        const pg_material *m = pg_problem_law (p, PG_NODES, i);
         pg_state_moduli (p->mode, m->modulus, m->nu, &b->dilatation->A[i], &b->dilatation->B[i]);
     }
 done:

@@ -41,8 +41,9 @@ static size_t node_at (const measuring *m, const double *x)
 /* Plane strain across the front. */
 static tip_material material_at (const measuring *m, const double *x)
 {
-    int block = m->p->block[PG_NODES][node_at (m, x)];
-    const pg_material *law = &m->p->material[block];
+    size_t node = (size_t) node_at (m, x);
+    int block = m->p->block[PG_NODES][node];
+    const pg_material *law = pg_problem_law (m->p, PG_NODES, node);
     double kappa = 3 - 4 * law->nu;
     return (tip_material){ .mu = law->mu,
                            .kappa = kappa,

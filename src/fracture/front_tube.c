@@ -132,7 +132,7 @@ static double room_of_loads (const view *v, double room)
 /* Are the fields of two materials alike: same stiffness, so that a front does not feel where they meet? */
 static int alike (const pg_problem *p, size_t i, size_t j)
 {
-    const pg_material *a = &p->material[p->block[PG_NODES][i]], *b = &p->material[p->block[PG_NODES][j]];
+    const pg_material *a = pg_problem_law (p, PG_NODES, i), *b = pg_problem_law (p, PG_NODES, j);
     double lambda[2] = { 0, 0 };
     if (p->patches)
         lambda[0] = p->patches->lambda[p->block[PG_NODES][i]],

@@ -128,7 +128,7 @@ pg_status gradient_sample (const pg_problem *p, const pg_force_type *force, void
         gradient_fit_at (fit, place, 1, &d, u + 3 * k, H);
         if (!stress) continue;
         size_t node = (size_t) pg_nearest_find (fit->near, place, NULL, NULL);
-        pg_stress_of_gradient (&p->material[p->block[PG_NODES][node]], p->dim, H, stress + 6 * k);
+        pg_stress_of_gradient (pg_problem_law (p, PG_NODES, node), p->dim, H, stress + 6 * k);
     }
 done:
     gradient_fit_free (&fit);

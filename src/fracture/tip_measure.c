@@ -19,7 +19,7 @@ const char *pg_tip_refuses (const pg_problem *p, const pg_force_type *force)
 static tip_material material_at (const pg_problem *p, size_t node)
 {
     int block = p->block[PG_NODES][node];
-    const pg_material *m = &p->material[block];
+    const pg_material *m = pg_problem_law (p, PG_NODES, node);
     double kappa = pg_tip_kappa (m->mode, m->nu);
     return (tip_material){ .mu = m->mu,
                            .kappa = kappa,

@@ -104,8 +104,14 @@ static void check_keys (const pg_material *m, const pg_scene *scene)
  * model is a fault. E, nu stay NAN where a model has none. */
 pg_status pg_material_read (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode)
 {
+    return pg_material_read_graded (out, scene, name, mode, NAN);
+}
+
+pg_status pg_material_read_graded (pg_material *out, const pg_scene *scene, const char *name, pg_mode mode,
+                                   double reference)
+{
     pg_status status = PG_OK;
-    *out = (pg_material) { .mode = mode, .E = NAN, .nu = NAN };
+    *out = (pg_material) { .mode = mode, .E = reference, .nu = NAN };
     size_t length = strlen (name);
     if (length >= sizeof out->name || !pg_scene_given (scene, "materials.%s", name)) {
         pg_scene_fault (scene, "materials", "there is no material '%s'", name);

@@ -2,6 +2,8 @@
  * Isotropic linear elasticity: stress = D strain; plane strain: sigma_zz = nu (sigma_xx + sigma_yy). Theory
  * section 0. */
 #include "entries.h"
+#include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Components of stress in the mode. */
@@ -50,8 +52,12 @@ void pg_elastic_set (pg_material *m, double E, double nu)
 /* Ranges of the keys have made sure that D is positive definite. */
 static pg_status read (pg_material *m, const pg_scene *scene)
 {
-    pg_elastic_set (m, pg_scene_number (scene, "materials.%s.youngs_modulus", m->name),
-                    pg_scene_number (scene, "materials.%s.poissons_ratio", m->name));
+    char path[96];
+    double E = pg_scene_number (scene, "materials.%s.youngs_modulus", m->name);
+    snprintf (path, sizeof path, "materials.%s.youngs_modulus", m->name);
+    if (isnan (E)) E = m->E;                           /* an expression: of the reference */
+    if (isnan (E)) pg_scene_fault (scene, path, "must be one number here, no expression of place");
+    pg_elastic_set (m, E, pg_scene_number (scene, "materials.%s.poissons_ratio", m->name));
     return PG_OK;
 }
 
@@ -61,8 +67,10 @@ static void describe (const pg_material *m, char *text, size_t size)
 }
 
 static const pg_key keys[] = {
-    { .path = "materials.{}.youngs_modulus", .kind = PG_NUMBER, .unit = "Pa", .range = "(0, inf)",
-      .doc = "Young's modulus E." },
+    { .path = "materials.{}.youngs_modulus", .kind = PG_EXPRESSION, .unit = "Pa", .range = "(0, inf)",
+      .doc = "Young's modulus E; may be an expression of place, also with random_field. Every point has the "
+             "value of its place; between two points of unlike stiffness a bond without shape functions has "
+             "the harmonic mean." },
     { .path = "materials.{}.poissons_ratio", .kind = PG_NUMBER, .unit = "1", .range = "(-1, 0.5)",
       .doc = "Poisson's ratio nu." },
 };

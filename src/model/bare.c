@@ -72,7 +72,9 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     b->cracks = b->slots = (pg_cracks) { 0 }, b->tip = NULL, b->ntip = 0, b->front = NULL, b->nfront = 0;
     b->criterion = NULL, b->load = NULL, b->nload = 0, b->facet_normal = NULL;
     b->rows[PG_FACETS] = (pg_rows) { 0 };
-    for (int s = 0; s < PG_BOND_SETS; s++) b->block[s] = NULL, b->exempt[s] = NULL;
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        b->block[s] = b->law_of[s] = b->limit_of[s] = NULL, b->exempt[s] = NULL;
+    b->vary = NULL, b->law = NULL, b->limit = NULL, b->nlaw = b->nlimit = 1;
     b->spacing[PG_FACETS] = NULL, b->borne = NULL;
     for (int k = 0; k < 3; k++) b->initial[k] = NULL;
     b->motion = NULL, b->nmotion = 0;
@@ -80,11 +82,13 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     PG_ALLOC (b->material, 1);
     *b->material = *stiffest (p);
     PG_ALLOC (b->criterion, 1);
+    b->law = b->material, b->limit = b->criterion;
     if (p->method->shape_functions) PG_TRY (make_surface (b, p));
     else b->rows[PG_FACETS] = p->rows[PG_FACETS];
     PG_TRY (make_load (b, p));
     for (int s = 0; s < PG_BOND_SETS; s++) {
         PG_ALLOC (b->block[s], b->rows[s].n);
+        b->law_of[s] = b->limit_of[s] = b->block[s];
         PG_ALLOC (b->exempt[s], b->rows[s].n);
         b->first_bond[s + 1] = b->first_bond[s] + (b->rows[s].n ? b->rows[s].family.start[b->rows[s].n] : 0);
     }

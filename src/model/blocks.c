@@ -94,7 +94,7 @@ pg_status pg_blocks_check (const pg_problem *p, const pg_scene *scene)
 /* ---- claims -------------------------------------------------------------------------------------------- */
 /* Where a point is judged by conditions: a point on the boundary is looked at a hair inside its cell, of
  * a cut one inside the surface, as rounding must not take it out of the body. */
-static void inside (const pg_problem *p, int set, size_t point, double *x)
+void pg_blocks_place (const pg_problem *p, int set, size_t point, double *x)
 {
     const pg_cells *c = &p->cells;
     size_t dim = (size_t) p->dim;
@@ -129,7 +129,7 @@ static int claim (entries *e, const pg_problem *p, int set, size_t point)
 {
     double x[3] = { 0 };
     int found = -1;
-    inside (p, set, point, x);
+    pg_blocks_place (p, set, point, x);
     pg_place at = pg_place_of (p->dim, x, 0);
     for (size_t k = 0; k < e->n; k++) {
         entry *one = &e->entry[k];

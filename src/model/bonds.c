@@ -308,6 +308,7 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
         p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
     PG_TRY (measure_spacing (p));
     PG_TRY (pg_blocks_build (p, scene));
+    PG_TRY (pg_laws_build (p, scene));
     PG_TRY (pg_dilatation_build (p, scene));
     PG_TRY (make_exempt (p, scene));
     count_eroded (p, scene);

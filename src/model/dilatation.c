@@ -46,6 +46,15 @@ static const pg_rows *points_of (const pg_problem *p, int *set)
     return &p->rows[*set];
 }
 
+/* A stiffness of place goes with a dilatation at the points alone. */
+static void refuse_graded (const pg_material *m, const pg_scene *scene)
+{
+    char path[128];
+    snprintf (path, sizeof path, "materials.%.63s.youngs_modulus", m->name);
+    pg_scene_fault (scene, path, "must be one number where the dilatation is projected, as at this Poisson's "
+                    "ratio: every patch has one bulk modulus; use method.dilatation: pointwise, or blocks");
+}
+
 /* Patches carry the lambda of the materials that need them; the rest of D stays at the points. */
 pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
 {
@@ -61,7 +70,9 @@ pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
         int wanted = p->material[m].lambda > 0
                      && (strcmp (mode, "projected") == 0 || nearly_incompressible (&p->material[m]));
         if (wanted) lambda[m] = p->material[m].lambda, some++;
+        if (wanted && p->vary[m].of[PG_OF_STIFFNESS]) refuse_graded (&p->material[m], scene);
     }
+    PG_TRY (pg_scene_verdict (scene));
     if (!some) goto done;
     const pg_rows *points = points_of (p, &set);
     pg_patch_source source = { .points = points,

@@ -244,7 +244,7 @@ static void count_slaves (pg_forecast *f, const pg_problem *p, int k, unsigned c
 static int summed_by_list (const pg_problem *p)
 {
     const pg_sum_rule *rule = &p->sums->rule;
-    return p->sums->stencil.n == 0 || (p->nmaterial > 1 && (!rule->state || rule->beams))
+    return p->sums->stencil.n == 0 || ((p->nlaw > 1 || p->nlimit > 1) && (!rule->state || rule->beams))
            || rule->surface == PG_SURFACE_VOLUME || rule->evaluation == PG_EVALUATE_LIST;
 }
 

@@ -47,6 +47,14 @@ int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* What is wrong with the entries of `blocks` by themselves, as faults. */
 pg_status pg_blocks_check (const pg_problem *problem, const pg_scene *scene);
 pg_status pg_blocks_build (pg_problem *problem, const pg_scene *scene);
+/* Where block, number and condition of a point are judged: its place, a hair inside the body (dim). */
+void      pg_blocks_place (const pg_problem *problem, int set, size_t point, double *x);
+/* laws.c: stiffness and limits that are expressions: compiled before materials and criteria are read, checked
+ * after that, and made the laws of all points once these have their blocks. */
+pg_status pg_laws_read  (pg_problem *problem, const pg_scene *scene);
+void      pg_laws_check (pg_problem *problem, const pg_scene *scene);
+pg_status pg_laws_build (pg_problem *problem, const pg_scene *scene);
+void      pg_laws_clear (pg_problem *problem);
 /* method.dilatation: patches for the materials that need them; notes and warnings for those that have
  * none. */
 pg_status pg_dilatation_build (pg_problem *problem, const pg_scene *scene);

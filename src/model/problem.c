@@ -106,10 +106,12 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (side_cracks (p, scene));
     p->cells.dim = p->dim;
-    int cut = strcmp (pg_scene_text (scene, "cells"), "cut") == 0;
+    int cut = strcmp (pg_scene_text (scene, "cells"), "cut") == 0,
+        surface = strcmp (pg_scene_text (scene, "surface"), "none") != 0;
     if (p->part.mesh.n) PG_TRY (pg_cells_from_mesh (&p->cells, &p->part, p->cloud.thickness));
     else if (p->lattice.dim && cut) PG_TRY (cut_cells (p, scene, &p->lattice));
-    else if (!p->lattice.dim && pg_scene_count (scene, "body")) PG_TRY (cells_of_points (p, scene, cut));
+    else if (!p->lattice.dim && (pg_scene_count (scene, "body") || surface))
+        PG_TRY (cells_of_points (p, scene, cut));
     else if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
     PG_TRY (pass (scene, pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells)));
 done:
@@ -170,12 +172,14 @@ static pg_status read_criteria (pg_problem *p, const pg_scene *scene)
                                               .thickness = p->cloud.thickness,
                                               .kernel = p->approx.kernel->name,
                                               .material = m->name,
+                                              .reference = p->vary[i].reference,
                                               .usual = usual_criterion (p, scene) };
         if (p->method->limits) PG_TRY (p->method->limits (p, i, &setting[i]));
     }
     PG_TRY (pg_criterion_read (p->criterion, p->nmaterial, scene, setting));
     note_calibration (p, scene);
     pg_method_check_criterion (p, scene);
+    pg_laws_check (p, scene);
     if (p->method->check_laws) p->method->check_laws (p, scene);
 done:
     pg_free (setting);
@@ -190,8 +194,10 @@ static pg_status build_laws (pg_problem *p, const pg_scene *scene)
     const char *name;
     p->nmaterial = pg_scene_count (scene, "materials");
     PG_ALLOC (p->material, p->nmaterial);
+    PG_TRY (pg_laws_read (p, scene));
     for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++)
-        PG_TRY (pg_material_read (&p->material[i], scene, name, p->mode));
+        PG_TRY (pg_material_read_graded (&p->material[i], scene, name, p->mode,
+                                         p->vary[i].reference[PG_OF_STIFFNESS]));
     if (p->nmaterial == 0) {
         pg_scene_fault (scene, "materials", "at least one material is needed");
         PG_TRY (pg_scene_verdict (scene));
@@ -339,6 +345,7 @@ void pg_problem_free (pg_problem **problem)
 {
     pg_problem *p = *problem;
     if (!p) return;
+    pg_laws_clear (p);
     for (int s = 0; s < PG_BOND_SETS; s++)
         pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
     intact_free (&p->intact);

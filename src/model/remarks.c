@@ -180,7 +180,7 @@ pg_status pg_remark_contrast (pg_problem *p)
         size_t by = soft;
         memset (seen, 0, p->cloud.n);
         for (size_t q = 0; q < r->n; q++) {
-            const pg_material *own = &p->material[p->block[set][q]];
+            const pg_material *own = pg_problem_law (p, set, q);
             if (own->modulus < stark * p->material[soft].modulus) continue;
             for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++)
                 if (p->block[PG_NODES][r->family.node[e]] == (int) soft) {

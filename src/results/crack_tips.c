@@ -219,8 +219,8 @@ done:
 double pg_result_tips_rayleigh (const pg_result *r)
 {
     double speed = 0;
-    for (size_t m = 0; m < r->problem->nmaterial; m++)
-        speed = fmax (speed, pg_material_waves (&r->problem->material[m]).rayleigh);
+    for (size_t m = 0; m < r->problem->nlaw; m++)
+        speed = fmax (speed, pg_material_waves (&r->problem->law[m]).rayleigh);
     return speed;
 }
 

@@ -240,6 +240,29 @@ static void criteria (pg_json *j, const pg_problem *p)
     if (p->nmaterial > 1) pg_json_shut (j);
 }
 
+/* What varies from place to place, under the name of its material. */
+static void variations (pg_json *j, const pg_problem *p)
+{
+    char text[300];
+    const char *unit;
+    if (!pg_variation_words (p, 0, text, sizeof text)) return;
+    pg_json_open (j, "varies", '[');
+    for (size_t m = 0; m < p->nmaterial; m++)
+        for (int k = 0; k < PG_OF_COUNT; k++) {
+            const pg_variation *v = &p->vary[m];
+            if (!v->of[k] || !(v->most[k] > 0)) continue;
+            pg_json_open (j, NULL, '{');
+            pg_json_text (j, "material", p->material[m].name);
+            pg_json_text (j, "key", pg_variation_name (k, &unit));
+            pg_json_text (j, "unit", unit);
+            pg_json_number (j, "mean", v->mean[k]);
+            pg_json_number (j, "least", v->least[k]);
+            pg_json_number (j, "largest", v->most[k]);
+            pg_json_shut (j);
+        }
+    pg_json_shut (j);
+}
+
 /* The file appears whole or not at all (pg_json_close). */
 pg_status pg_result_json (pg_result *res, const pg_state *state, const char *failure, double search,
                        double total)
@@ -274,6 +297,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     pg_json_count (j, "peak_bytes", pg_memory_process_peak ());
     pg_json_count (j, "threads", (size_t) res->problem->threads);
     criteria (j, res->problem);
+    variations (j, res->problem);
     pg_json_open (j, "skipped", '[');
     for (size_t k = 0; k < r->nskipped; k++) {
         pg_json_open (j, NULL, '{');

@@ -32,6 +32,9 @@ pg_status pg_scene_read (pg_scene **out, const char *text, size_t length, const 
                          const char *const *set, const pg_key_table *table, size_t ntable);
 /* Puts "key=value" into the tree; what is wrong with it is a fault. */
 pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin);
+/* override_seed.c: 1 for "random_field.seed=N", which gives all random fields of the scene other seeds. */
+int       pg_scene_is_reseed (const char *set);
+pg_status pg_scene_reseed    (pg_scene *s, const char *set, const char *origin);
 /* Checks tree and defaults against the rows. Faults are collected; it fails only for lack of memory or of
  * the database of units. */
 pg_status pg_scene_check (pg_scene *s);

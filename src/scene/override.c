@@ -98,6 +98,7 @@ pg_status pg_scene_override (pg_scene *s, const char *set, const char *origin)
     pg_node value = { 0 }, *node = NULL, here = { .origin = origin };
     const char *end = strchr (set, '='), *why = NULL;
     int good = 1;
+    if (pg_scene_is_reseed (set)) return pg_scene_reseed (s, set, origin);
     if (!end || end == set) {
         pg_faults_add (s->faults, s->file, &here, NULL, 0, "must have the form key=value");
         goto done;

@@ -162,11 +162,25 @@ static void check_choice (pg_scene *s, const pg_node *node, const pg_key *row, c
     else FAULT (node, "must be one of %s", listed);
 }
 
+/* A number and one word: what is wrong with it is better said as of a number than as of an expression. */
+static int is_quantity (const char *text)
+{
+    char *end;
+    (void) strtod (text, &end);
+    if (end == text) return 0;
+    while (*end == ' ') end++;
+    while ((*end >= 'a' && *end <= 'z') || (*end >= 'A' && *end <= 'Z')) end++;
+    return *end == '\0';
+}
+
 /* Compiles the expression only to find its faults; a constant one is checked as a number. */
 static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row, const char *path)
 {
     pg_expression *e = NULL;
     pg_status status = pg_expression_compile (&e, node->text, row->unit);
+    node->value = NAN;
+    if (status != PG_OK && is_quantity (node->text))
+        status = pg_unit_parse (&node->value, node->text, row->unit);
     node->value = NAN;
     if (status != PG_OK) return as_fault (s, node, path, status);
     /* A number, or a formula without variables. */

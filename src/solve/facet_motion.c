@@ -70,7 +70,7 @@ static double rayleigh_speed (const break_loop *b, const double *x)
 {
     const pg_problem *p = b->system.problem;
     long node = pg_nearest_find (b->growth->near, x, NULL, NULL);
-    return node < 0 ? 0 : pg_material_waves (&p->material[p->block[PG_NODES][node]]).rayleigh;
+    return node < 0 ? 0 : pg_material_waves (pg_problem_law (p, PG_NODES, (size_t) node)).rayleigh;
 }
 
 void facet_forward (break_loop *b, double dt)

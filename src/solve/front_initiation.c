@@ -106,7 +106,7 @@ static int is_excluded (const view *v, const double *x, double h)
 static int resists (const view *v, size_t i, pg_fracture_limits *out, double *modulus)
 {
     const pg_problem *p = v->b->system.problem;
-    const pg_material *m = &p->material[p->block[PG_NODES][i]];
+    const pg_material *m = pg_problem_law (p, PG_NODES, i);
     if (!facet_limits (v->b, p->cloud.x + 3*i, 0, out) || !(out->strength > 0)) return 0;
     *modulus = m->E / (1 - m->nu * m->nu);
     out->strength = fmin (out->strength, hot_strength_cap (m->E, out->energy, pg_problem_spacing (p,

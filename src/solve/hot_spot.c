@@ -152,7 +152,7 @@ static pg_status node_factors (const search *g, double *factor)
         factor[i] = INFINITY;
         affine_stress at = affine_of (g->f, first, second);
         if (p->exempt[PG_NODES][i]
-            || !hot_resists (g, x, 0, h, p->material[p->block[PG_NODES][i]].modulus, &limits))
+            || !hot_resists (g, x, 0, h, pg_problem_law (p, PG_NODES, i)->modulus, &limits))
             continue;
         factor[i] = reached (&at, &limits, &slides);
         if (factor[i] < g->best && hot_excluded (g, x, h)) factor[i] = INFINITY;
@@ -176,7 +176,7 @@ static pg_status average (const search *g, size_t node, hot_spot *out)
     }
     PG_TRY (hot_stress (g, DISC, DISC, x, &out->stress));
     out->factor = INFINITY;
-    out->material = &p->material[p->block[PG_NODES][node]], out->modulus = out->material->modulus;
+    out->material = pg_problem_law (p, PG_NODES, node), out->modulus = out->material->modulus;
     if (!hot_resists (g, out->x, 0, out->h, out->modulus, &limits)) goto done;
     out->factor = reached (&out->stress, &limits, &out->slides), out->slope = limits.slope;
     out->angle = isfinite (out->factor) ? crack_angle (&out->stress, out->factor) : 0;

@@ -19,10 +19,12 @@ typedef struct {
 /* ---- what has a seed --------------------------------------------------------------------------------------
  */
 /* Writes the values of the scene that give every random thing in it the seed s: the k-th of them s + 1000000
- * k, so that two networks of one scene are not the same. Returns how many. */
-static size_t set_seeds (char text[PG_SERIES_SETS][64], const pg_scene *scene, long s)
+ * k, so that two networks of one scene are not the same; fields: random fields in expressions come first,
+ * with s + 1000000 j for the j-th different seed among them (random_field.seed). Returns how many. */
+static size_t set_seeds (char text[PG_SERIES_SETS][64], const pg_scene *scene, int fields, long s)
 {
     size_t n = 0;
+    if (fields) snprintf (text[n++], sizeof *text, "random_field.seed=%ld", s);
     for (size_t i = 0, cracks = pg_scene_count (scene, "cracks"); i < cracks && n < PG_SERIES_SETS; i++)
         if (pg_scene_given (scene, "cracks[%zu].random", i)) {
             snprintf (text[n], sizeof *text, "cracks[%zu].random.seed=%ld", i, s + 1000000 * (long) n);
@@ -39,7 +41,10 @@ static pg_status name_runs (series *s, const pg_seeds_request *q)
 {
     pg_status status = PG_OK;
     pg_scene *scene = NULL;
+    char *text = NULL;
     PG_TRY (pg_scene_load_with (&scene, q->scene, q->nset, q->set));
+    PG_TRY (pg_scene_echo (&text, scene));
+    int fields = strstr (text, "random_field") != NULL;
     s->n = q->count;
     PG_ALLOC (s->run, s->n);
     PG_ALLOC (s->result, s->n);
@@ -48,17 +53,18 @@ static pg_status name_runs (series *s, const pg_seeds_request *q)
         pg_series_run *r = &s->run[k];
         long seed = q->first + (long) k;
         r->value = (double) seed;
-        r->nset = set_seeds (s->text[k], scene, seed);
+        r->nset = set_seeds (s->text[k], scene, fields, seed);
         snprintf (r->name, sizeof r->name, "seed_%ld", seed);
         for (size_t i = 0; i < r->nset; i++) r->set[i] = s->text[k][i];
         if (r->nset == 0)
             PG_FAIL (PG_E_SCENE,
                      "%s: nothing in this scene has a seed: give random cracks (cracks: [{random: "
-                     "...}]) or perturb",
+                     "...}]), perturb, or random_field in an expression",
                      q->scene);
     }
 done:
     pg_scene_free (&scene);
+    pg_free (text);
     return status;
 }
 

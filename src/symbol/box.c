@@ -45,6 +45,9 @@ static pg_status put_key (writing *w, const pg_scene *scene, const pg_key *key, 
     case PG_INTEGER: return put (w, "%s: %ld\n", name, pg_scene_integer (scene, "%s", path));
     case PG_BOOL:    return put (w, "%s: %s\n", name, pg_scene_bool (scene, "%s", path) ? "on" : "off");
     case PG_NAME:    return put (w, "%s: %s\n", name, pg_scene_text (scene, "%s", path));
+    case PG_EXPRESSION:
+        if (isnan (pg_scene_number (scene, "%s", path))) return PG_OK;
+        return put (w, "%s: %.17g\n", name, pg_scene_number (scene, "%s", path));
     default:         return PG_OK;
     }
 }
@@ -117,6 +120,8 @@ pg_status box_scene (pg_scene **out, const pg_scene *scene, const pg_problem *p,
     snprintf (material, sizeof material, "materials.%.63s.", p->material[0].name);
     PG_TRY (put (&w, "materials:\n  m:\n"));
     PG_TRY (put_keys (&w, scene, "materials.{}.", material));
+    if (pg_problem_graded (p) && !isnan (p->vary[0].reference[PG_OF_STIFFNESS]))
+        PG_TRY (put (&w, "    youngs_modulus: %.17g\n", p->vary[0].reference[PG_OF_STIFFNESS]));
     if (!(p->material[0].density > 0)) PG_TRY (put (&w, "    density: 1\n"));
     PG_TRY (put (&w, "failure: {criterion: none}\n"));
     PG_TRY (pg_scene_parse (out, w.text, "the lattice of the scene"));

@@ -1,0 +1,387 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Stiffness and limits as expressions of place: every point of every bond set has the elastic law and the
+ * criterion of its own place. Points of equal values share one, so that a body of two stiffnesses by a
+ * condition is the body of two blocks. Constants that follow from a horizon or a lattice are derived once,
+ * for the mean over the nodes, and scaled to each place (pg_criterion_type.scale): at one Poisson's ratio
+ * they go with powers of the ratios. */
+#include "model.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST = PG_OF_COUNT };
+
+static const struct {
+    const char *key, *unit;
+} what[MOST] = {
+    [PG_OF_STIFFNESS] = { "youngs_modulus", "Pa" },
+    [PG_OF_ENERGY] = { "fracture_energy", "J/m2" },
+    [PG_OF_STRETCH] = { "critical_stretch", "1" },
+    [PG_OF_TENSION] = { "tensile_strength", "Pa" },
+    [PG_OF_COHESION] = { "cohesion", "Pa" },
+};
+
+const char *pg_variation_name (int of, const char **unit)
+{
+    if (unit) *unit = what[of].unit;
+    return what[of].key;
+}
+
+int pg_problem_graded (const pg_problem *p)
+{
+    int graded = 0;
+    for (size_t m = 0; p->vary && m < p->nmaterial; m++) graded |= p->vary[m].of[PG_OF_STIFFNESS] != NULL;
+    return graded;
+}
+
+/* ---- expressions --------------------------------------------------------------------------------------- */
+/* The key that gives a limit to a material: its own before that of `failure`. 0: neither does. */
+static int key_of (char path[128], const pg_scene *scene, const char *material, int k)
+{
+    const char *key = what[k].key;
+    snprintf (path, 128, k == PG_OF_STIFFNESS ? "materials.%.63s.%s" : "materials.%.63s.failure.%s", material,
+              key);
+    if (pg_scene_given (scene, "%s", path) || k == PG_OF_STIFFNESS)
+        return pg_scene_given (scene, "%s", path);
+    snprintf (path, 128, "failure.%s", key);
+    return pg_scene_given (scene, "%s", path);
+}
+
+typedef struct { const pg_problem *p; int set; const pg_expression *e; double *value; } evaluation;
+
+/* A sum of waves is dear: places are shared among threads. */
+static void evaluate (void *context, size_t first, size_t last, int thread)
+{
+    const evaluation *v = context;
+    double x[3];
+    (void) thread;
+    for (size_t q = first; q < last; q++) {
+        if (v->set < 0) memcpy (x, v->p->cloud.x + q * (size_t) v->p->dim, (size_t) v->p->dim * sizeof *x);
+        else pg_blocks_place (v->p, v->set, q, x);
+        pg_place at = pg_place_of (v->p->dim, x, 0);
+        v->value[q] = pg_expression_value (v->e, &at);
+    }
+}
+
+/* The reference is the mean of what is positive over all nodes: which of them are of this material is not
+ * known before blocks are, and the expression need not be positive elsewhere. */
+static pg_status find_reference (const pg_problem *p, pg_variation *v, int k)
+{
+    pg_status status = PG_OK;
+    double *value = NULL, sum = 0;
+    size_t n = 0;
+    PG_ALLOC (value, p->cloud.n);
+    evaluation all = { p, -1, v->of[k], value };
+    pg_parallel (p->threads, p->cloud.n, evaluate, &all);
+    for (size_t i = 0; i < p->cloud.n; i++)
+        if (value[i] > 0 && isfinite (value[i])) sum += value[i], n++;
+    v->reference[k] = n ? sum / (double) n : 1;
+done:
+    pg_free (value);
+    return status;
+}
+
+/* One limit of one material, if it is an expression: compiled, with its reference. Criteria of tips read
+ * their own limits. */
+static pg_status read_one (const pg_problem *p, const pg_scene *scene, size_t m, const char *material, int k)
+{
+    pg_status status = PG_OK;
+    char path[128];
+    pg_variation *v = &p->vary[m];
+    if (!key_of (path, scene, material, k) || !isnan (pg_scene_number (scene, "%s", path))) return PG_OK;
+    PG_TRY (pg_expression_compile (&v->of[k], pg_scene_text (scene, "%s", path), what[k].unit));
+    if (pg_expression_uses (v->of[k], 't')) pg_scene_fault (scene, path, "may depend on place, not on t");
+    PG_TRY (find_reference (p, v, k));
+done:
+    return status;
+}
+
+/* Before materials and criteria are read, whose constants derive from the references. */
+pg_status pg_laws_read (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const char *name;
+    PG_ALLOC (p->vary, p->nmaterial);
+    for (size_t m = 0; (name = pg_scene_name (scene, m, "materials")); m++)
+        for (int k = 0; k < MOST; k++) {
+            p->vary[m].reference[k] = NAN;
+            PG_TRY (read_one (p, scene, m, name, k));
+        }
+done:
+    return status;
+}
+
+/* The law can be scaled only where it is nothing but its tangent. Integrals around tips lack the term of the
+ * gradient of the stiffness. */
+void pg_laws_check (pg_problem *p, const pg_scene *scene)
+{
+    char path[128];
+    const pg_criterion *c = p->criterion;
+    if (pg_problem_graded (p) && pg_criterion_of_tips (c))
+        pg_problem_note (p, PG_WARNING "J and K of crack tips are those of a body that is uniform about the "
+                         "tip: Young's modulus is an expression of place, and they are off by about its "
+                         "relative change over 8 spacings");
+    for (size_t m = 0; m < p->nmaterial; m++)
+        for (int k = 0; k < MOST; k++) {
+            if (!p->vary[m].of[k]) continue;
+            key_of (path, scene, p->material[m].name, k);
+            if (k == PG_OF_STIFFNESS && p->material[m].type->stress != pg_tangent_stress)
+                pg_scene_fault (scene, path, "must be one number with model: %s",
+                                p->material[m].type->name);
+            if (k == PG_OF_STIFFNESS || !pg_criterion_of_bonds (c)) continue;
+            if (!c->type->scale) pg_scene_fault (scene, path, "must be one number with criterion: %s",
+                                                 c->type->name);
+            if (k == PG_OF_ENERGY && pg_expression_uses (p->vary[m].of[k], 'a'))
+                pg_scene_fault (scene, path, "may depend on place; angle, the direction of growth, goes with "
+                                             "criterion: %s", pg_criterion_by_need (PG_NEEDS_FACETS));
+        }
+}
+
+/* Is it an expression that anything is judged by, and whose value is one of place alone? The direction of
+ * growth is known to criteria of tips, which read their limits by themselves. */
+static int counts (const pg_problem *p, size_t m, int k)
+{
+    const pg_expression *e = p->vary[m].of[k];
+    return e && (k == PG_OF_STIFFNESS || pg_criterion_of_bonds (p->criterion)
+                 || (pg_criterion_of_tips (p->criterion) && !pg_expression_uses (e, 'a')));
+}
+
+/* ---- values -------------------------------------------------------------------------------------------- */
+/* A point and what it has: its block, the values of what varies there. */
+typedef struct { double value[MOST]; int block; size_t at; } entry;
+
+static int by_value (const void *a, const void *b)
+{
+    const entry *x = a, *y = b;
+    if (x->block != y->block) return x->block < y->block ? -1 : 1;
+    for (int k = 0; k < MOST; k++) if (x->value[k] != y->value[k]) return x->value[k] < y->value[k] ? -1 : 1;
+    return x->at < y->at ? -1 : x->at > y->at;
+}
+
+/* First points of groups come first: laws are numbered as points are, so that neighbours lie together. */
+static int by_point (const void *a, const void *b)
+{
+    const entry *x = a, *y = b;
+    return x->at < y->at ? -1 : x->at > y->at;
+}
+
+/* Values of all points of all sets. */
+static pg_status find_values (const pg_problem *p, const pg_scene *scene, entry *out)
+{
+    pg_status status = PG_OK;
+    double *value = NULL;
+    size_t most = 0, at = 0;
+    for (int s = 0; s < PG_BOND_SETS; s++) most = p->rows[s].n > most ? p->rows[s].n : most;
+    PG_ALLOC (value, most + 1);
+    for (int s = 0; s < PG_BOND_SETS; at += p->rows[s].n, s++) {
+        for (size_t q = 0; q < p->rows[s].n; q++) out[at + q] = (entry) { { 0 }, p->block[s][q], at + q };
+        for (size_t m = 0; m < p->nmaterial; m++)
+            for (int k = 0; k < MOST; k++) {
+                evaluation all = { p, s, p->vary[m].of[k], value };
+                char path[128];
+                if (!counts (p, m, k)) continue;
+                pg_parallel (p->threads, p->rows[s].n, evaluate, &all);
+                for (size_t q = 0; q < p->rows[s].n; q++) {
+                    if (p->block[s][q] != (int) m) continue;
+                    out[at + q].value[k] = value[q];
+                    if (value[q] > 0 && isfinite (value[q])) continue;
+                    const double *x = p->rows[s].x + q * (size_t) p->dim;
+                    key_of (path, scene, p->material[m].name, k);
+                    pg_scene_fault (scene, path,
+                                    "is %.6g %s at x %.6g m, y %.6g m, z %.6g m: it must be positive all "
+                                    "over its material, such as by exp (...) or max (...)",
+                                    value[q], what[k].unit, x[0], p->dim > 1 ? x[1] : 0,
+                                    p->dim > 2 ? x[2] : 0);
+                    goto done;
+                }
+            }
+    }
+done:
+    pg_free (value);
+    return status;
+}
+
+/* Divides n entries by block and those values that `uses` names: `of` (n) is the number of each one's group,
+ * `first` the first entry of every group. */
+static pg_status group (const entry *all, size_t n, const int uses[MOST], int *of, entry **first,
+                        size_t *count)
+{
+    pg_status status = PG_OK;
+    entry *sorted = NULL;
+    size_t *leader = NULL;
+    PG_ALLOC (sorted, n);
+    PG_ALLOC (leader, n);
+    for (size_t i = 0; i < n; i++) {
+        sorted[i] = all[i];
+        for (int k = 0; k < MOST; k++) if (!uses[k]) sorted[i].value[k] = 0;
+    }
+    qsort (sorted, n, sizeof *sorted, by_value);
+    *count = 0;
+    for (size_t i = 0; i < n; i++) {
+        const entry *a = &sorted[i], *b = *count ? &sorted[*count - 1] : NULL;
+        int same = b && a->block == b->block && memcmp (a->value, b->value, sizeof a->value) == 0;
+        leader[a->at] = same ? b->at : a->at;
+        if (!same) sorted[(*count)++] = *a;
+    }
+    PG_ALLOC (*first, *count + 1);
+    memcpy (*first, sorted, *count * sizeof **first);
+    qsort (*first, *count, sizeof **first, by_point);
+    for (size_t g = 0; g < *count; g++) of[(*first)[g].at] = (int) g;
+    for (size_t i = 0; i < n; i++) of[i] = of[leader[i]];
+done:
+    pg_free (sorted), pg_free (leader);
+    return status;
+}
+
+/* A law that is its tangent, at another Young's modulus and the same Poisson's ratio. */
+static void scale_law (pg_material *m, double ratio)
+{
+    m->E *= ratio, m->modulus *= ratio, m->mu *= ratio, m->lambda *= ratio;
+    for (size_t k = 0; k < sizeof m->D / sizeof *m->D; k++) m->D[k] *= ratio;
+    for (size_t k = 0; k < sizeof m->out_of_plane / sizeof *m->out_of_plane; k++)
+        m->out_of_plane[k] *= ratio;
+}
+
+/* Numbers of groups to the points of every set. */
+static pg_status deal_out (const pg_problem *p, const int *group_of, int *to[PG_BOND_SETS])
+{
+    pg_status status = PG_OK;
+    for (int s = 0; s < PG_BOND_SETS; s++) to[s] = NULL;
+    for (int s = 0; s < PG_BOND_SETS; group_of += p->rows[s].n, s++) {
+        PG_ALLOC (to[s], p->rows[s].n);
+        memcpy (to[s], group_of, p->rows[s].n * sizeof *group_of);
+    }
+done:
+    return status;
+}
+
+/* Elastic laws of all points. */
+static pg_status make_laws (pg_problem *p, const entry *all, size_t n, int *of)
+{
+    static const int stiffness[MOST] = { [PG_OF_STIFFNESS] = 1 };
+    pg_status status = PG_OK;
+    entry *first = NULL;
+    size_t count;
+    PG_TRY (group (all, n, stiffness, of, &first, &count));
+    p->law = NULL, p->nlaw = count;
+    PG_TRY (deal_out (p, of, p->law_of));
+    PG_ALLOC (p->law, count);
+    for (size_t g = 0; g < count; g++) {
+        const pg_variation *v = &p->vary[first[g].block];
+        p->law[g] = p->material[first[g].block];
+        if (v->of[PG_OF_STIFFNESS])
+            scale_law (&p->law[g], first[g].value[PG_OF_STIFFNESS] / v->reference[PG_OF_STIFFNESS]);
+    }
+done:
+    pg_free (first);
+    return status;
+}
+
+/* Criteria of all points. */
+static pg_status make_limits (pg_problem *p, const entry *all, size_t n, int *of)
+{
+    static const int every[MOST] = { 1, 1, 1, 1, 1 };
+    pg_status status = PG_OK;
+    entry *first = NULL;
+    size_t count;
+    PG_TRY (group (all, n, every, of, &first, &count));
+    p->limit = NULL, p->nlimit = count;
+    PG_TRY (deal_out (p, of, p->limit_of));
+    PG_ALLOC (p->limit, count);
+    for (size_t g = 0; g < count; g++) {
+        pg_criterion *c = &p->limit[g];
+        const pg_variation *v = &p->vary[first[g].block];
+        pg_limit_ratio ratio;
+        for (int k = 0; k < MOST; k++) ratio.of[k] = v->of[k] ? first[g].value[k] / v->reference[k] : 1;
+        *c = p->criterion[first[g].block];
+        if (!c->never) c->type->scale (c, &ratio);
+    }
+done:
+    pg_free (first);
+    return status;
+}
+
+/* Least, mean and most of each expression over the nodes of its material. */
+static void summarise (pg_problem *p, const entry *all)
+{
+    for (size_t m = 0; m < p->nmaterial; m++)
+        for (int k = 0; k < MOST; k++) {
+            pg_variation *v = &p->vary[m];
+            double sum = 0, count = 0;
+            v->least[k] = INFINITY, v->most[k] = -INFINITY;
+            for (size_t i = 0; counts (p, m, k) && i < p->cloud.n; i++) {
+                if (all[i].block != (int) m) continue;
+                v->least[k] = fmin (v->least[k], all[i].value[k]);
+                v->most[k] = fmax (v->most[k], all[i].value[k]);
+                sum += all[i].value[k], count++;
+            }
+            v->mean[k] = count > 0 ? sum / count : NAN;
+        }
+}
+
+/* Where nothing varies, materials and blocks serve as they are. */
+static void take_blocks (pg_problem *p)
+{
+    p->law = p->material, p->nlaw = p->nmaterial, p->limit = p->criterion, p->nlimit = p->nmaterial;
+    for (int s = 0; s < PG_BOND_SETS; s++) p->law_of[s] = p->limit_of[s] = p->block[s];
+}
+
+static int any_varies (const pg_problem *p)
+{
+    int any = 0;
+    for (size_t m = 0; m < p->nmaterial; m++) for (int k = 0; k < MOST; k++) any |= counts (p, m, k);
+    return any;
+}
+
+/* Once every point has its block. */
+pg_status pg_laws_build (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    entry *all = NULL;
+    int *of = NULL;
+    size_t n = 0;
+    take_blocks (p);
+    if (!any_varies (p)) return PG_OK;
+    for (int s = 0; s < PG_BOND_SETS; s++) n += p->rows[s].n;
+    PG_ALLOC (all, n);
+    PG_TRY (find_values (p, scene, all));
+    PG_TRY (pg_scene_verdict (scene));
+    summarise (p, all);
+    PG_ALLOC (of, n);
+    if (pg_problem_graded (p)) PG_TRY (make_laws (p, all, n, of));
+    if (pg_criterion_of_bonds (p->criterion) && p->criterion->type->scale)
+        PG_TRY (make_limits (p, all, n, of));
+done:
+    pg_free (all), pg_free (of);
+    return status;
+}
+
+/* Tables that are not those of the materials. */
+void pg_laws_clear (pg_problem *p)
+{
+    for (int s = 0; s < PG_BOND_SETS; s++) {
+        if (p->law_of[s] != p->block[s]) pg_free (p->law_of[s]);
+        if (p->limit_of[s] != p->block[s]) pg_free (p->limit_of[s]);
+    }
+    if (p->law != p->material) pg_free (p->law);
+    if (p->limit != p->criterion) pg_free (p->limit);
+    for (size_t m = 0; p->vary && m < p->nmaterial; m++)
+        for (int k = 0; k < MOST; k++) pg_expression_free (&p->vary[m].of[k]);
+    pg_free (p->vary);
+}
+
+size_t pg_variation_words (const pg_problem *p, size_t k, char *text, size_t size)
+{
+    size_t at = 0;
+    for (size_t m = 0; p->vary && m < p->nmaterial; m++)
+        for (int of = 0; of < MOST; of++) {
+            const pg_variation *v = &p->vary[m];
+            if (!v->of[of] || !counts (p, m, of) || at++ != k) continue;
+            snprintf (text, size, "%s of %.40s: mean %.6g %s, least %.6g, largest %.6g (expression of place, "
+                      "at its points)", what[of].key, p->material[m].name, v->mean[of],
+                      strcmp (what[of].unit, "1") == 0 ? "" : what[of].unit, v->least[of], v->most[of]);
+            return 1;
+        }
+    return 0;
+}
