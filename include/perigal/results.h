@@ -22,6 +22,24 @@ pg_status pg_result_check (const pg_scene *scene, const pg_problem *problem);
  * It serves `perigal check` of a scene with other faults, too. */
 void      pg_result_check_names (const pg_scene *scene);
 
+/* ---- statistics of the cracks of a scene -------------------------------------------------------------- */
+enum { PG_CRACK_SETS = 16 };
+/* Of all cracks, and of each entry of `cracks` (0, 1, ...) where there are several entries and one of them
+ * holds several cracks; at most 16. */
+typedef struct {
+    int        dim;
+    pg_network all;
+    size_t     nset;
+    struct { size_t entry; pg_network of; } set[PG_CRACK_SETS];
+} pg_crack_statistics;
+/* Of the cracks that the scene gives (pg_network_read). */
+pg_status pg_crack_statistics_measure (pg_crack_statistics *out, const pg_cracks *all,
+                                       const pg_scene *scene);
+/* As an object of that name; nothing without cracks. Lengths and places in SI units, angles in degrees. */
+void      pg_crack_statistics_json (pg_json *j, const char *name, const pg_crack_statistics *s);
+/* Mean direction of cracks in the plane, degrees from the x axis, 0 to 180. */
+double    pg_network_direction (const pg_network *n);
+
 /* An open result folder. */
 typedef struct pg_result pg_result;
 /* Makes the folder and locks it (DIR/run.lock) until pg_result_free. Problem and solver are

@@ -38,7 +38,7 @@ int pg_cli_check (int argc, char **argv)
     spectrum waves = { 0 };
     pg_solver *solver = NULL;
     pg_cracks cracks = { 0 };
-    pg_network network = { 0 };
+    pg_crack_statistics network = { 0 };
     const char *from = "";
     double stable = NAN;
     int wrong = command_parse (&c, argc, argv);
@@ -58,7 +58,7 @@ int pg_cli_check (int argc, char **argv)
     if (c.solve) PG_TRY (pg_first_break_find (&first, p, &o));
     if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
     PG_TRY (pg_network_read (&cracks, scene));
-    PG_TRY (pg_network_measure (&network, &cracks, scene));
+    PG_TRY (pg_crack_statistics_measure (&network, &cracks, scene));
     PG_TRY (matrix_write (p, c.matrix));
     plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from, &network };
     if (c.json) PG_TRY (plan_print_json (&all));

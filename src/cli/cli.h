@@ -132,7 +132,7 @@ typedef struct {
     const spectrum *waves;
     double stable;
     const char *from;
-    const pg_network *network;
+    const pg_crack_statistics *network;
 } plan;
 /* Largest frequency (rad/s), stable time step (s), c_p dt / h of Newmark steps. measured: 0:
  * an estimate, 1: by --solve, 2: by the solver itself. */
@@ -149,8 +149,7 @@ pg_status plan_print_json (const plan *p);
 void plan_mesh       (const pg_problem *p);
 void plan_mesh_json  (pg_json *j, const pg_problem *p);
 /* The cracks of the scene (plan_network.c); nothing without any. */
-void plan_network      (const pg_network *network, int dim);
-void plan_network_json (pg_json *j, const pg_network *network, int dim);
+void plan_network      (const pg_crack_statistics *network);
 /* What the solver has settled: time steps, stages. */
 void plan_settled     (const pg_solver *solver);
 /* Warnings and notes of the scene. */

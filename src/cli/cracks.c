@@ -72,7 +72,7 @@ int pg_cli_cracks (int argc, char **argv)
     pg_scene *scene = NULL;
     pg_body body = { 0 };
     pg_cracks all = { 0 };
-    pg_network n;
+    pg_crack_statistics n;
     for (int k = 1; k < argc; k++)
         if (strcmp (argv[k], "--help") == 0 || strcmp (argv[k], "-h") == 0)
             return command_usage (stdout, "cracks") ? PG_EXIT_DONE : PG_EXIT_USAGE;
@@ -81,9 +81,9 @@ int pg_cli_cracks (int argc, char **argv)
     PG_TRY (pg_body_read (&body, scene));
     PG_TRY (pg_network_read (&all, scene));
     if (all.n == 0) PG_FAIL (PG_E_USAGE, "%s has no cracks", q.scene);
-    PG_TRY (pg_network_measure (&n, &all, scene));
+    PG_TRY (pg_crack_statistics_measure (&n, &all, scene));
     PG_TRY (pg_cracks_index (&all));
-    if (!q.quiet) printf ("%s\n", q.scene), plan_network (&n, all.dim);
+    if (!q.quiet) printf ("%s\n", q.scene), plan_network (&n);
     if (q.csv) PG_TRY (pg_cracks_write (&all, q.csv, said, &q));
     if (q.picture) {
         PG_TRY (pg_picture_network (q.picture, &body, &all, pg_scene_text (scene, "title")));

@@ -526,7 +526,7 @@ void plan_print_long (const plan *p)
     size_t nskip = plan_skips (p, skip, 8);
     print_counts (p);
     plan_mesh (q);
-    plan_network (p->network, q->dim);
+    plan_network (p->network);
     print_method (q);
     print_patch (q);
     describe (q, 19);

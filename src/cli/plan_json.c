@@ -38,7 +38,7 @@ static void counts (pg_json *j, const plan *p)
     pg_json_number (j, "horizon_spacings", q->approx.horizon / q->cloud.h);
     pg_json_number (j, "mean_family", (double) q->first_bond[1] / (double) q->cloud.n);
     plan_mesh_json (j, q);
-    plan_network_json (j, p->network, q->dim);
+    pg_crack_statistics_json (j, "cracks", p->network);
 }
 
 /* Each material with its wave speeds and its criterion; other laws than the isotropic one

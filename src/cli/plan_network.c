@@ -38,12 +38,13 @@ static void print_sizes (const pg_network *n, int dim)
     }
     print_row ("cracks", text);
     if (!(n->body > 0)) return;
-    snprintf (text, sizeof text, "%.4g /m: %s of %s in %.4g %s of body", n->inside / n->body,
+    snprintf (text, sizeof text, "%.4g /m (P21): %s of %s in %.4g %s of body",
+              n->inside / n->body,
               dim == 2 ? "length" : "area", dim == 2 ? length_of (n->inside, a) : "cracks", n->body,
               dim == 2 ? "m2" : "m3");
     if (dim == 3)
-        snprintf (text, sizeof text, "%.4g /m: %.4g m2 of cracks in %.4g m3 of body", n->inside / n->body,
-                  n->inside, n->body);
+        snprintf (text, sizeof text, "%.4g /m (P32): %.4g m2 of cracks in %.4g m3 of body",
+                  n->inside / n->body, n->inside, n->body);
     print_row ("crack intensity", text);
     if (!n->slots) return;
     snprintf (text, sizeof text, "%.4g %% of the body (overlaps counted twice)", 100 * n->removed / n->body);
@@ -58,7 +59,7 @@ static void print_order (const pg_network *n, int dim)
         if (dim == 2)
             snprintf (text, sizeof text,
                       "on the mean at %.3g deg, order %.2g (0 all directions, 1 all alike)",
-                      fmod (atan2 (n->axis[1], n->axis[0]) * 180 / acos (-1) + 180, 180), n->order);
+                      pg_network_direction (n), n->order);
         else
             snprintf (text, sizeof text, "normals on the mean along (%.3g, %.3g, %.3g), order %.2g (0 all "
                       "directions, 1 all alike)", n->axis[0], n->axis[1], n->axis[2], n->order);
@@ -92,32 +93,33 @@ static void print_order (const pg_network *n, int dim)
     }
 }
 
-void plan_network (const pg_network *n, int dim)
+/* One line for every entry of the scene that holds cracks. */
+static void print_sets (const pg_crack_statistics *s)
 {
-    if (n->n == 0) return;
-    print_sizes (n, dim);
-    print_order (n, dim);
+    char a[32], b[32], text[200];
+    for (size_t k = 0; k < s->nset; k++) {
+        const pg_network *n = &s->set[k].of;
+        size_t used = (size_t) snprintf (text, sizeof text, "%zu, mean %s +- %s", n->n,
+                                         length_of (n->mean, a), length_of (n->deviation, b));
+        if (s->dim == 2)
+            used += (size_t) snprintf (text + used, sizeof text - used, ", at %.3g deg, order %.2g",
+                                       pg_network_direction (n), n->order);
+        else
+            used += (size_t) snprintf (text + used, sizeof text - used,
+                                       ", normals along (%.3g, %.3g, %.3g), order %.2g", n->axis[0],
+                                       n->axis[1], n->axis[2], n->order);
+        if (n->body > 0)
+            snprintf (text + used, sizeof text - used, ", %s %.4g /m", s->dim == 2 ? "P21" : "P32",
+                      n->inside / n->body);
+        snprintf (a, sizeof a, "  of cracks[%zu]", s->set[k].entry);
+        print_row (a, text);
+    }
 }
 
-void plan_network_json (pg_json *j, const pg_network *n, int dim)
+void plan_network (const pg_crack_statistics *s)
 {
-    if (n->n == 0) return;
-    pg_json_open (j, "cracks", '{');
-    pg_json_count (j, "count", n->n);
-    pg_json_count (j, "slots", n->slots);
-    pg_json_count (j, "crossing", n->crossing);
-    pg_json_count (j, "leaving", n->leaving);
-    pg_json_count (j, "outside", n->outside);
-    pg_json_count (j, "drawn_in_vain", n->vain);
-    pg_json_number (j, dim == 2 ? "length" : "area", n->size);
-    pg_json_number (j, dim == 2 ? "length_inside" : "area_inside", n->inside);
-    pg_json_number (j, "removed", n->removed);
-    pg_json_number (j, "body", n->body);
-    pg_json_number (j, "mean_length", n->mean);
-    pg_json_number (j, "deviation", n->deviation);
-    pg_json_number (j, "least_length", n->least);
-    pg_json_number (j, "largest_length", n->most);
-    pg_json_number (j, "order", n->order);
-    pg_json_number (j, "least_distance", n->nearest);
-    pg_json_shut (j);
+    if (s->all.n == 0) return;
+    print_sizes (&s->all, s->dim);
+    print_order (&s->all, s->dim);
+    print_sets (s);
 }

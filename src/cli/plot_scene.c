@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A scene before it has run: its body as the shapes have it (alpha shapes, meshes, holes), its points, cracks
- * and slots, coloured by material, local spacing, or by what is an expression of place, such as random fields
- * of stiffness and strength. */
+ * and slots, coloured by depth below the surface, material, local spacing, or by what is an expression of
+ * place, such as random fields of stiffness and strength. */
 #include "plot.h"
 #include "perigal/force.h"
 #include <math.h>
@@ -19,20 +19,22 @@ static int variation_of (const pg_problem *p, const char *name)
 
 /* What the points are coloured by: the field that is asked for, else what varies first, else materials where
  * there are several; else the body is grey. */
-enum { GREY = -1, MATERIAL = PG_OF_COUNT, SPACING };
+enum { GREY = -1, MATERIAL = PG_OF_COUNT, SPACING, DEPTH };
 
 static pg_status choose (int *out, const plot_request *q, const pg_problem *p)
 {
     pg_status status = PG_OK;
     int k = variation_of (p, q->field);
-    *out = k >= 0 ? k : p->nmaterial > 1 ? MATERIAL : GREY;
+    *out = k >= 0 ? k : p->nmaterial > 1 ? MATERIAL : p->body.n ? DEPTH : GREY;
     if (!q->field || k >= 0) return PG_OK;
     if (strcmp (q->field, "material") == 0) *out = MATERIAL;
     else if (strcmp (q->field, "spacing") == 0) *out = SPACING;
+    else if (strcmp (q->field, "depth") == 0 && p->body.n) *out = DEPTH;
     else
         PG_FAIL (PG_E_USAGE,
-                 "--field %s: of a scene that has not run: material, spacing, or a stiffness or strength "
-                 "that is an expression of place in it%s", q->field,
+                 "--field %s: of a scene that has not run: material, spacing, depth (below the surface of "
+                 "a body of shapes), or a stiffness or strength that is an expression of place in "
+                 "it%s", q->field,
                  variation_of (p, NULL) < 0 ? " (there is none)" : "");
 done:
     return status;
@@ -40,11 +42,14 @@ done:
 
 static void find_values (const pg_problem *p, int what, double *value)
 {
+    double depth = 0;
     for (size_t i = 0; i < p->cloud.n; i++) {
         size_t m = (size_t) p->block[PG_NODES][i];
         pg_place at = pg_place_of (p->dim, p->cloud.x + i * (size_t) p->dim, 0);
         const pg_expression *e = what >= 0 && what < PG_OF_COUNT ? p->vary[m].of[what] : NULL;
+        if (what == DEPTH) pg_body_nearest (&p->body, p->cloud.x + i * (size_t) p->dim, &depth);
         value[i] = e                  ? pg_expression_value (e, &at)
+                   : what == DEPTH    ? depth
                    : what == SPACING  ? pg_problem_spacing (p, PG_NODES, i)
                    : what == MATERIAL ? (double) m + 1
                                       : NAN;
@@ -53,8 +58,10 @@ static void find_values (const pg_problem *p, int what, double *value)
 
 static void write_label (int what, char label[80])
 {
-    const char *unit = what == SPACING ? "m" : "number",
-               *name = what == SPACING ? "spacing" : what == MATERIAL ? "material" : "the body";
+    static const char *const names[] = { [MATERIAL - MATERIAL] = "material", [SPACING - MATERIAL] = "spacing",
+                                         [DEPTH - MATERIAL] = "depth below the surface" };
+    const char *unit = what == MATERIAL ? "number" : "m", *name = what < MATERIAL ? "the body"
+                                                                                  : names[what - MATERIAL];
     if (what >= 0 && what < PG_OF_COUNT) name = pg_variation_name (what, &unit);
     snprintf (label, 80, what == GREY ? "%s" : "%s (%s)", name, unit);
 }

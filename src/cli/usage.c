@@ -20,9 +20,9 @@ static const char run[] =
     "                       is refused before it starts\n"
     "      --plain          without the shortcuts that spare work (solver.plain: on): slower, same answer\n"
     "  -s, --set KEY=VALUE  replace or add a value of the scene, such as method.horizon='2.5 spacing'\n"
-    "      --seeds N        N runs with the seeds 1 to N for random cracks and perturb, in DIR/seed_1 ...,\n"
-    "                       -j of them at a time; DIR/seeds.csv and seeds.png (histogram) have the peak\n"
-    "                       loads. Called again it goes on\n"
+    "      --seeds N        N runs with the seeds 1 to N for random fields, random cracks and perturb, in\n"
+    "                       DIR/seed_1 ..., -j N of them at a time (--jobs, default 1); DIR/seeds.csv\n"
+    "                       and seeds.png (histogram) have the peak loads. Called again it goes on\n"
     "  -q, --quiet          no progress and no summary; warnings are in DIR/report.json\n"
     "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) writes a checkpoint after the current break round and stops; a\n"
     "  second one stops at once.\n";

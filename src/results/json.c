@@ -283,6 +283,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     instability_block (j, res, r);
     stages_block (j, res);
     pg_result_curve_json (j, res);
+    pg_crack_statistics_json (j, "cracks_at_start", &res->network);
     crack_block (j, res);
     pg_result_paths_json (j, res, state);
     patch_block (j, res->problem);

@@ -125,6 +125,7 @@ struct pg_result {
     result_crack crack;
     /* output.crack_size: its size is a column of history.csv. */
     int       counting;
+    pg_crack_statistics network;  /* of the cracks at the start */
     /* The load and the component that the curve follows; curve_load -1: none. */
     int       curve_load, curve_component;
     /* An estimate of the error is wanted; it was made. */
@@ -251,4 +252,6 @@ pg_status pg_result_measure         (pg_result *r, const pg_state *state);
 /* Writes report.json. */
 pg_status pg_result_json (pg_result *r, const pg_state *state, const char *failure, double search,
                           double total);
+/* crack_statistics.c: the cracks that the run starts with. */
+pg_status pg_result_network_read (pg_result *r, const pg_scene *scene);
 #endif

@@ -179,8 +179,9 @@ static pg_status check_expression (pg_scene *s, pg_node *node, const pg_key *row
     pg_expression *e = NULL;
     pg_status status = pg_expression_compile (&e, node->text, row->unit);
     node->value = NAN;
-    if (status != PG_OK && is_quantity (node->text))
-        status = pg_unit_parse (&node->value, node->text, row->unit);
+    /* the better words replace those of the expression */
+    if (status == PG_E_SCENE && is_quantity (node->text))
+        (void) pg_unit_parse (&node->value, node->text, row->unit);
     node->value = NAN;
     if (status != PG_OK) return as_fault (s, node, path, status);
     /* A number, or a formula without variables. */
