@@ -33,7 +33,7 @@ int failed (const call *c, pg_status status)
 }
 
 /* ---- what a call holds --------------------------------------------------------------------------------- */
-enum { MOST_HELD = 64 };
+enum { MOST_HELD = 4096 };
 static struct { void *object; void (*clear) (void *); } held[MOST_HELD];
 static int nheld;
 

@@ -444,6 +444,9 @@ function lists_of_errors (work)
     perigal_write (bad, strip ());
     refused ('session: a wrong value', 'perigal:scene', 'must lie in', @() perigal_session (bad, 'set', {'materials.glass.poissons_ratio', 0.7}));
     refused ('session: a wrong key', 'perigal:scene', 'did you mean spacing', @() perigal_session (bad, 'set', {'spacng=1'}));
+    h = perigal_session (bad, 'set', repmat ({'title=a hundred times'}, 1, 100));
+    verdict ('session: many values replaced', strcmp (perigal_get (h, 'title'), 'a hundred times'));
+    perigal_close (h)
     s = strip ();
     s.method.force = 'lps';
     h = perigal_session (s);
