@@ -260,6 +260,42 @@ static void test_cut (void **state)
     pg_session_close (&s);
 }
 
+/* Asked before and after a cut, or after it only: shape functions are those of the bonds that live. */
+static void test_fields_after_cuts (void **state)
+{
+    (void) state;
+    pg_session *s[2];
+    const char *const set[] = { "method={approximation: rkpm, integration: nodal, horizon: 2.5 spacing}" };
+    double *kept[2], *d = NULL, apart = 0;
+    size_t n = 0;
+    int components;
+    const char *unit;
+    const double *value;
+    write_scene ("kind: newmark, dt: 0.5 us, end: 8 us");
+    for (int k = 0; k < 2; k++) {
+        check_ok (pg_session_open (&s[k], file, 1, set, 1));
+        const pg_problem *p = pg_session_problem (s[k]);
+        size_t nbond = pg_session_state (s[k])->nbond, *list = pg_calloc (nbond, sizeof *list),
+               cut = list_across (p, list);
+        n = pg_session_state (s[k])->ndof;
+        if (!d) d = pg_calloc (n, sizeof *d);
+        for (size_t i = 0; i < n; i++) d[i] = 1e-6 * sin (5 * (double) i);
+        check_ok (pg_session_set (s[k], "displacement", n, d));
+        if (k == 0) check_ok (pg_session_field (s[k], "displacement", &components, &unit, &value));
+        if (k == 0) memcpy (d, value, n * sizeof *d);
+        check_ok (pg_session_cut (s[k], cut, list));
+        check_ok (pg_session_field (s[k], "displacement", &components, &unit, &value));
+        kept[k] = pg_calloc (n, sizeof *value);
+        memcpy (kept[k], value, n * sizeof *value);
+        for (size_t i = 0; k == 0 && i < n; i++) apart = fmax (apart, fabs (d[i] - value[i]));
+        pg_free (list);
+    }
+    assert_true (apart > 1e-8);
+    assert_memory_equal (kept[0], kept[1], n * sizeof *d);
+    for (int k = 0; k < 2; k++) pg_session_close (&s[k]), pg_free (kept[k]);
+    pg_free (d);
+}
+
 /* Fields at any time, and what cannot be opened. */
 static void test_fields (void **state)
 {
@@ -301,6 +337,7 @@ int main (void)
         cmocka_unit_test (test_set),
         cmocka_unit_test (test_cut),
         cmocka_unit_test (test_fields),
+        cmocka_unit_test (test_fields_after_cuts),
     };
     return cmocka_run_group_tests (tests, start, finish);
 }
