@@ -58,6 +58,9 @@ grep -q 'interrupted: 10 of 12 runs are not finished' "$work/err" && grep -q 'wi
 b=$work/b/sweep.csv
 [ "$(cell "$b" 2 'status [name]')$(cell "$b" 3 'status [name]')$(cell "$b" 4 'status [name]')" = doneinterruptedwaiting ]; verdict "the table says what became of each" $?
 [ -s "$caught/checkpoint.nc" ] && [ "$(rows "$caught/history.csv")" -lt "$(rows "$work/a/${caught##*/}/history.csv")" ]; verdict "the run that was caught left a checkpoint" $?
+cp -r "$work/b" "$work/c"; echo damaged > "$work/c/${caught##*/}/checkpoint.nc"
+expect "a run goes on from its checkpoint, not from a damaged one" 70 '11 of 12 runs are done, 1 failed' 'runs failed' sweep "$scene" "${twelve[@]}" -o "$work/c" --resume -j 2
+grep -q '^3,.*failed,.*checkpoint' "$work/c/sweep.csv"; verdict "and its row says so" $?
 done_at=$(stat -c %Y.%s "$work/b/critical_stretch=0.0015_time_steps=40/result.e")
 expect "a sweep that is there is not touched unasked" 64 '' 'holds a sweep: --resume' sweep "$scene" "${twelve[@]}" -o "$work/b"
 expect "resumed" 0 '12 of 12 runs are done' '' sweep "$scene" "${twelve[@]}" -o "$work/b" --resume -j 3
