@@ -195,6 +195,10 @@ int       pg_facets_inside (const pg_facets *facets, const double *x);
 /* Does a line through x along this axis, which the plane of the region does not contain, meet a piece of the
  * region? */
 int       pg_facets_meets  (const pg_facets *facets, int region, const double *x, int axis);
+/* Where the line through x along the axis meets the pieces, ascending, with the sense of their normals there
+ * (+1 along the axis); room for `most` of them. Returns how many; -1: too many, or too near to an edge. */
+int       pg_facets_line   (const pg_facets *facets, const double *x, int axis, int most, double *at,
+                            int *sense);
 
 /* ---- points -------------------------------------------------------------------------------------------- */
 /* The points. */

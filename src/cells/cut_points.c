@@ -249,10 +249,53 @@ static void fill_piece (cut_work *w, double from, double to, double weight)
               NULL);
 }
 
+/* The facets to which all surfaces near the cell belong; NULL: there are others too, or none. */
+static const pg_facets *only_facets (const cut_work *w)
+{
+    const cut_slices *s = &w->slices;
+    for (size_t i = 1; i < s->n; i++) if (s->facets[i] != s->facets[0]) return NULL;
+    return s->n ? s->facets[0] : NULL;
+}
+
+/* Volume points on the present line where nothing but one shape of facets comes near the cell: the body is
+ * then the same wherever that shape is inside, and wherever it is outside, so that it is asked twice at most.
+ * 0: it does not go like this. */
+static int line_between_facets (cut_work *w, double weight)
+{
+    enum { CROSSINGS = 64 };
+    const cut_slices *s = &w->slices;
+    const pg_facets *f = w->face < 0 ? only_facets (w) : NULL;
+    int z = s->axis[s->dim - 1], sense[CROSSINGS], above = 0, known[2] = { -1, -1 };
+    double x[3] = { 0, 0, 0 }, at[CROSSINGS], from = 0, to = -2, low = -1;
+    if (!f) return 0;
+    for (int k = 0; k < s->dim; k++)
+        x[k] = w->centre[k] + w->half[k] * (k == z ? 0 : s->at[k]), weight *= w->half[k];
+    int n = pg_facets_line (f, x, z, CROSSINGS, at, sense);
+    if (n < 0) return 0;
+    for (int i = 0; i < n; i++) above += sense[i];
+    for (int i = 0; i <= n; i++) {
+        double high = i < n ? fmin (1, fmax (-1, (at[i] - w->centre[z]) / w->half[z])) : 1;
+        int in = above > 0;
+        if (fabs (high) >= 1 - cut_snap) high = copysign (1, high);
+        if (high - low > 1e-14) {
+            if (known[in] < 0) known[in] = inside (w, 0.5 * (low + high));
+            if (known[in]) {
+                if (to != low) fill_piece (w, from, to, weight), from = low;
+                to = high;
+            }
+        }
+        low = fmax (low, high);
+        if (i < n) above -= sense[i];
+    }
+    fill_piece (w, from, to, weight);
+    return 1;
+}
+
 /* Volume points on the present line. Neighbouring pieces that both lie in the body are joined, as no
  * surface of the body separates them, only the continuation of one; fewer points suffice then. */
 static void line_volume (cut_work *w, const cut_quadric *q, double weight)
 {
+    if (line_between_facets (w, weight)) return;
     int m = line_roots (w, q), dim = w->slices.dim;
     double from = 0, to = -2;
     for (int k = 0; k < dim; k++) weight *= w->half[k];

@@ -190,6 +190,22 @@ int pg_facets_meets (const pg_facets *f, int region, const double *x, int axis)
     return 0;
 }
 
+int pg_facets_line (const pg_facets *f, const double *x, int axis, int most, double *at, int *sense)
+{
+    long column = column_of (f, axis, x);
+    int n = 0;
+    if (column < 0) return 0;
+    for (size_t k = f->column_first[axis][column]; k < f->column_first[axis][column + 1]; k++) {
+        double where;
+        int s = meet (f, (size_t) f->column[axis][k], axis, x, &where), i = n;
+        if (s == 2 || (s && n == most)) return -1;
+        if (!s) continue;
+        for (; i > 0 && at[i - 1] > where; i--) at[i] = at[i - 1], sense[i] = sense[i - 1];
+        at[i] = where, sense[i] = s, n++;
+    }
+    return n;
+}
+
 /* Only the sign matters: any distance is infinite. */
 double shape_facets_distance (const pg_shape *s, int dim, const double *x, double reach)
 {

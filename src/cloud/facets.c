@@ -230,7 +230,7 @@ static int steps_of (const builder *b)
                 size = hypot (size, m->x[3 * node[end[0]] + a] - m->x[3 * node[end[1]] + a]);
             longest = fmax (longest, size);
         }
-    return (int) fmin (MOST, fmax (2, ceil (longest / (0.75 * step))));
+    return (int) fmin (MOST, fmax (1, ceil (longest / (0.75 * step))));
 }
 
 /* All faces. */
