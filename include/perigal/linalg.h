@@ -171,9 +171,10 @@ pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditi
                                        double *x, double tolerance, size_t limit, size_t *iterations);
 /* The same, and who watches: `stepped` (NULL: nobody) hears after every iteration that x has gone on by alpha
  * times the vector that A was applied to last. Whoever keeps more of that product than the n rows solved for,
- * such as those of prescribed unknowns, can keep b - A x of all rows that way. */
+ * such as those of prescribed unknowns, can keep b - A x of all rows that way. `residual` is |b - A x| / |b|.
+ * *stop = 1 ends the iterations as if the tolerance were met; an error ends them too, and is returned. */
 typedef struct {
-    void (*stepped) (void *context, double alpha);
+    pg_status (*stepped) (void *context, double alpha, double residual, int *stop);
     void  *context;
     /* 1: what is left of b is local: entries of directions that only what may stay unbalanced would ask for
      * are zero, so that products need not look there. By the diagonal alone. */

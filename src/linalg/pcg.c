@@ -166,6 +166,12 @@ static void local_direction (vectors *v, double goal)
     memcpy (v->p, v->z, v->n * sizeof *v->p);
 }
 
+/* Whoever watches hears of an iteration. */
+static pg_status tell (const pg_cg_watch *watch, double alpha, double residual, int *stop)
+{
+    return watch && watch->stepped ? watch->stepped (watch->context, alpha, residual, stop) : PG_OK;
+}
+
 /* The test `!(pq > 0)` also catches NaN. */
 pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                           double *x, double tolerance, size_t limit, size_t *iterations,
@@ -176,9 +182,10 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
     size_t k = 0;
     PG_TRY (make_vectors (&v, A, P, x));
     first_residual (A, b, &v);
-    double goal = tolerance * sqrt (dot (&v, b, b)), rz = 0, rr = sqrt (dot (&v, v.r, v.r));
+    double size = sqrt (dot (&v, b, b)), goal = tolerance * size, rz = 0, rr = sqrt (dot (&v, v.r, v.r));
+    int stop = 0;
     if (watch && watch->local && !P && rr > goal) find_least (&v, goal);
-    for (k = 0; rr > goal && k < limit; k++) {
+    for (k = 0; rr > goal && k < limit && !stop; k++) {
         PG_TRY (precondition (P, &v));
         double next = dot (&v, v.r, v.z);
         v.turn = k ? next / rz : 0;
@@ -193,9 +200,9 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
                      pq, k);
         v.alpha = next / pq;
         rr = sqrt (total (&v, step_chunks));
-        if (watch && watch->stepped) watch->stepped (watch->context, v.alpha);
+        PG_TRY (tell (watch, v.alpha, rr / size, &stop));
     }
-    if (!(rr <= goal))
+    if (!(rr <= goal) && !stop)
         PG_FAIL (PG_E_EQUILIBRIUM, "conjugate gradients stopped after %zu iterations at residual %g of %g", k,
                  rr, goal);
 done:

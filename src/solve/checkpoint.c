@@ -172,6 +172,31 @@ done:
     return status;
 }
 
+/* Bonds near their limit, as the last look in the step at hand has found them: the next round asks these
+ * first. */
+static pg_status keep_near (break_loop *b, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    long n = b->round > 0 ? (long) b->over.n : 0, *bond = NULL,
+         nbond = (long) b->system.problem->first_bond[PG_BOND_SETS];
+    PG_TRY (k->counts (k->context, "solver.near_count", 1, &n));
+    PG_KEEP_BOUND (k, "the number of bonds near their limit", n, 0, b->round > 0 ? nbond : 0);
+    if (n == 0) goto done;
+    PG_ALLOC (bond, (size_t) n);
+    for (long i = 0; i < n && !k->reading; i++) bond[i] = (long) b->over.bond[i];
+    PG_TRY (k->counts (k->context, "solver.near", (size_t) n, bond));
+    if (!k->reading) goto done;
+    PG_GROW (b->over.bond, b->over.cap, (size_t) n);
+    for (long i = 0; i < n; i++) {
+        PG_KEEP_BOUND (k, "a bond near its limit", bond[i], i ? bond[i - 1] + 1 : 0, nbond - 1);
+        b->over.bond[i] = (size_t) bond[i];
+    }
+    b->over.n = (size_t) n;
+done:
+    pg_free (bond);
+    return status;
+}
+
 /* Forces and displacements of the last accounted states, between which work is summed. pairs: how many a
  * balance of this problem has, -1: none; only that number is accepted. */
 static pg_status keep_work_balance (pg_work_balance *l, const char *name, size_t nload, long pairs,
@@ -332,6 +357,7 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     PG_TRY (keep_report (&s->report, k));
     if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
     PG_TRY (keep_broken (b, s->problem, k));
+    PG_TRY (keep_near (b, k));
     PG_TRY (solver_keep_tips (s, k));
     if (k->reading) PG_TRY (count_pairs (s, &pairs));
     PG_TRY (keep_work_balance (&b->work_balance, "work_balance", nload, pairs, 1, k));

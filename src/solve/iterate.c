@@ -64,12 +64,14 @@ static void keep_earlier (combined *c)
 }
 
 /* R of all rows, those of prescribed unknowns too, goes on with the iterations. */
-static void carry_residual (void *context, double alpha)
+static pg_status carry_residual (void *context, double alpha, double residual, int *stop)
 {
     combined *c = context;
     pg_system *s = c->s;
+    s->fell = residual;
     for (size_t i = 0; i < s->ndof; i++) s->residual[i] -= alpha * c->image[i];
     if (c->keep > 0) keep_earlier (c);
+    return s->rough.look ? s->rough.look (s->rough.looking, residual, stop) : PG_OK;
 }
 
 /* The factor of an earlier K as preconditioner (kept_factor.c). */
@@ -113,6 +115,7 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
+    s->fell = tolerance, s->rough.nview = 0;
     if (carries && s->rough.goal > 0) c.keep = ROUGHER * s->rough.goal * s->unbalanced;
     pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn) };
     pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,

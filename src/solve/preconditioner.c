@@ -186,7 +186,7 @@ static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, s
     pg_status status = s->elements
                            ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, MOST_BY_ELEMENTS, used)
                            : iterate_all (s, tolerance, used);
-    double gain = -log (tolerance);
+    double gain = -log (fmax (s->fell, tolerance));    /* where it stopped early, less than was asked for */
     if (s->pace == 0) s->pace = gain / (double) (*used + 1);
     else s->extra_cost += fmax (0, (double) (*used + 1) - gain / s->pace);
     return status;

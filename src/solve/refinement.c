@@ -199,8 +199,9 @@ done:
 static double aim (const pg_system *s) { return s->begins || s->mode != SYSTEM_DIAGONAL ? 0.03 : 0.06; }
 
 /* to = d + T x */
-static void go_on (pg_system *s, const pg_sparse *T, const double *d, const double *x, double *to)
+void system_go_on (pg_system *s, const double *d, const double *x, double *to)
 {
+    const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     if (T) pg_sparse_multiply (T, x, s->full);
     const double *step = T ? s->full : x;
     for (size_t i = 0; i < s->ndof; i++) to[i] = d[i] + step[i];
@@ -230,14 +231,15 @@ pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamic
     PG_TRY (rough_ready (rough, s->ndof));
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
     PG_TRY (system_residual (s, t, d, dyn, &r));
-    if (!(0.1 * share * r > s->options->tolerance)) return PG_OK;
-    s->carried = s->known = 0, rough->found = 0, rough->goal = share;
+    if (rough->look) share = fmax (share, 10 * s->options->tolerance / r);
+    if (rough->look ? share > 0.01 : !(0.1 * share * r > s->options->tolerance)) return PG_OK;
+    s->carried = s->known = 0, rough->found = 0, rough->goal = rough->look ? 0 : share;
     status = system_solve_once (s, dyn, share);
     rough->goal = 0;
     PG_TRY (status);
-    if (rough->found > 0) go_on (s, T, d, rough->earlier, rough->before);
-    go_on (s, T, d, s->delta, d);
-    *done = rough->found > 0;
+    if (rough->found > 0) system_go_on (s, d, rough->earlier, rough->before);
+    system_go_on (s, d, s->delta, d);
+    *done = rough->look || rough->found > 0;
 done:
     return status;
 }

@@ -34,6 +34,10 @@ typedef struct { double *x, *y; int n, next, fresh; } pg_guess;
 
 /* How much larger than that of the last iterate the residual of the earlier one is, about. */
 enum { ROUGHER = 10 };
+/* An iterate on the way to such a solution: its residual over the first one, its delta (nred), utilisation by
+ * it of the bonds of list number `list` (0: of none yet). */
+typedef struct { double residual, *delta, *u; size_t room; long list; } pg_rough_view;
+enum { ROUGH_VIEWS = 8 };
 /* Solutions that need to show only which bonds break (rough_round.c). */
 typedef struct {
     double  goal;  /* of the solve at hand, over its first residual: the earlier iterate is kept; 0: not */
@@ -43,6 +47,10 @@ typedef struct {
     double *earlier_u; size_t room_u;                  /* utilisation by it of the bonds near their limit */
     double  share;  /* goal of the next rough solve; 0: the first one; below 0: there are none */
     long    rounds, again;                             /* how many sufficed; how many did not */
+    /* with finite elements: asked after each iteration whether it may be the last; NULL: nobody is */
+    pg_status (*look) (void *looking, double residual, int *stop);
+    void   *looking;
+    pg_rough_view view[ROUGH_VIEWS]; long nview;       /* the last iterates kept; how many so far */
 } pg_rough;
 
 /* Factor or finite elements, in motion (factor_or_elements.c): seconds by stored rates. */
@@ -99,6 +107,7 @@ typedef struct {
     unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
     int       precondition;  /* with `fixed`: the constraints allow a preconditioner of several levels */
     int       remake;  /* read back: the preconditioner is to be made from `factored` */
+    double    fell;  /* residual that the last iterations ended at, over the first */
     double    pace;  /* - log of the residual's fall in one iteration, preconditioner new; 0: not known */
     size_t    matrix_iterations;
     pg_guess  guess;
@@ -177,10 +186,13 @@ pg_status system_solve   (pg_system *s, double t, double *d, const dynamics *dyn
 /* The same with the forces of contact that are at hand. */
 pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 /* The same to a residual `share` times that of d only, nothing being judged; rough.before is an earlier, ten
- * times rougher iterate. *done 0: the way to solve is not fit for it, d has almost as small a residual as is
+ * times rougher iterate. With rough.look: to that share or what exact solutions need at least, or less far
+ * where it stops them. *done 0: the way to solve is not fit for it, d has almost as small a residual as is
  * asked of exact solutions, or there was no earlier iterate. */
 pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamics *dyn, double share,
                                 int *done);
+/* to = d + T x, x of nred unknowns */
+void      system_go_on (pg_system *s, const double *d, const double *x, double *to);
 
 /* mass.c: y += factor M x; d += factor diag M; value += factor M */
 /* After the first refresh; consistent: by the force, not lumped. */
