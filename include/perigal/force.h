@@ -16,7 +16,7 @@ typedef struct { const char *name, *unit; int components; } pg_field;
 typedef struct {
     size_t  npair;
     double *force, *displacement;                      /* N, m (npair) */
-    double *reaction;  /* on the body per load and component, N; of rotations, moments: N m (nload x 3) */
+    double *reaction;  /* on the body per load and component, N, N m (PG_REACTIONS a load) */
     double  strain;  /* stored energy: strain, stabilisation, boundary terms, J */
 } pg_work_balance;
 

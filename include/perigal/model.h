@@ -22,9 +22,12 @@ typedef enum {
     PG_BODY_FORCE,
     PG_ROTATION,
     PG_MOMENT,
+    PG_SPRING,                                         /* to a place that stands still or moves */
+    PG_EIGENSTRAIN,                                    /* temperature, shrinkage, pore pressure */
     PG_PLATEN_MOTION,                                  /* of a rigid platen, m; its set is empty */
     PG_PLATEN_FORCE                                    /* on a rigid platen, N; its set is empty */
 } pg_load_kind;
+typedef struct pg_problem pg_problem;
 typedef enum { PG_ESSENTIAL_NITSCHE, PG_ESSENTIAL_TRANSFORMATION, PG_ESSENTIAL_PENALTY } pg_essential;
 typedef struct pg_load {
     char           name[64];
@@ -44,7 +47,26 @@ typedef struct pg_load {
     double         depth;
     pg_essential   essential;                          /* how PG_DISPLACEMENT and PG_VELOCITY are imposed */
     double         penalty;  /* its factor of E / h, h the local spacing, for PG_ESSENTIAL_PENALTY */
+    double         about[3];                           /* moments are about this place, m */
+    /* 1: the set turns about that place as a rigid body, by these angles about x, y, z (rad; NULL: not); by
+     * finite rotations, or by small ones. `value` then tells which components are prescribed. */
+    int            turns, finite;  pg_expression *angle[3];
+    int            symmetry;                           /* 1 + axis across a plane of symmetry; 0: none */
+    int            weighs;                             /* a force per volume times the density */
+    /* A force or spring at a place `at`, m: shares of the points around it, which sum up to 1 and have their
+     * centre there (set->npoint); NULL: all points of the set alike. The set is then the load's own. */
+    double         at[3], *share;  pg_set *own;
+    double         stiffness[3];                       /* of a spring along x, y, z, N/m */
+    /* Of an eigenstrain: what the value is multiplied with in each material to give the free strain, the same
+     * along all axes (pg_problem.nmaterial); unit of the value. */
+    double        *per_material;
 } pg_load;
+/* What a balance or a step says of every load, in one array: forces on the body, N (of rotations and moments
+ * N m), component k of load l being number 3 l + k; behind those of all loads the moments of these forces
+ * about pg_load.about, N m, component k of load l being number 3 (nload + l) + k (the plane: k = 2). */
+enum { PG_REACTIONS = 6 };
+/* moment (3) += that of a force along axis k at place x, N m. */
+void pg_load_add_moment (const pg_load *load, int dim, const double *x, int k, double force, double *moment);
 /* points per direction by PG_ESSENTIAL_TRANSFORMATION: full matrices below 300 MB each */
 #define PG_MOST_ELIMINATED 6000
 /* Component k of the load at place x and time t (s; static: load factor). */
@@ -55,6 +77,18 @@ int    pg_load_separates (const pg_load *load);
 double pg_load_factor  (const pg_load *load, double t);
 double pg_load_pattern (const pg_load *load, int k, int dim, const double *x);
 pg_place pg_place_of (int dim, const double *x, double t);             /* what expressions see at x */
+/* What a force per volume is multiplied with at a point of a bond set: the density of a load that weighs, or
+ * 1. */
+double pg_load_density (const pg_problem *problem, const pg_load *load, int set, size_t point);
+/* The free linear strain at time t at a point of a bond set, or at a node and place x: by temperature,
+ * shrinkage
+ * and pore pressure, the same along all axes. strained: 1: there are loads of this kind. */
+double pg_problem_eigenstrain (const pg_problem *problem, int set, size_t point, double t);
+int    pg_problem_strained    (const pg_problem *problem);
+/* The share of point i of its set in a total force or a spring; the place that its value is taken at: x, the
+ * point's, or that of the load. */
+double pg_load_share (const pg_load *load, size_t i);
+const double *pg_load_site (const pg_load *load, const double *x);
 int    pg_load_prescribes (const pg_load *load);       /* displacement, velocity or rotation */
 int    pg_load_rotates (const pg_load *load);            /* rotation or moment */
 int    pg_load_components (const pg_load *load, int dim);  /* dim; of a rotation or moment 1 in 2D, 3 in 3D */
@@ -142,7 +176,6 @@ typedef struct { const pg_set *set; pg_expression *value[3]; } pg_initial;
 /* What a force tells the model about itself before any of it exists: what it stands on, which keys it reads,
  * what it can carry. Every force has one of these in its own file (src/force/<name>.c). The model asks these
  * flags and calls these functions; it compares no names. */
-typedef struct pg_problem pg_problem;
 typedef struct {
     const char *name, *summary;
     /* Tables of its keys below `method` (beside those that every force reads); forces may share them. Keys of

@@ -171,7 +171,7 @@ typedef struct {  /* of one step: a user level, a time step or an event */
     /* utilisation: largest of a live bond in the accepted state */
     double time, factor, residual, utilisation;
     size_t nbroken;  const pg_broken *broken;          /* borrowed until the next step */
-    const double *reaction;  /* force on the body per load, N (nload x 3), borrowed */
+    const double *reaction;  /* on the body, N, N m (PG_REACTIONS a load), borrowed */
     double dissipated;                                 /* J, in this step */
     /* event stepping: number of the instability that the step is part of, 0: none; s in motion so far */
     long   instability; double motion;

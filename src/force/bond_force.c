@@ -160,10 +160,11 @@ pg_status bond_force_refresh (void *self, const pg_state *state, const pg_change
     return PG_OK;
 }
 
-/* residual = f + P (t); f already there */
-static void finish (bond_force *b, double t, double *residual, double *reference)
+/* residual = f + P (t) and the pull of springs; f already there */
+static void finish (bond_force *b, double t, const double *d, double *residual, double *reference)
 {
     double inside = 0;
+    boundary_pull (&b->boundary, t, d, residual);
     for (size_t i = 0; reference && i < ndof (b); i++) inside += residual[i] * residual[i];
     if (reference) *reference = fmax (sqrt (inside), boundary_size (&b->boundary, t));
     boundary_add (&b->boundary, t, residual);
@@ -175,7 +176,7 @@ pg_status bond_force_balance (void *self, double t, const double *d, double *res
     pg_status status = PG_OK;
     bond_force *b = self;
     PG_TRY (pg_bond_loop_force (b->loop, d, residual, NULL));
-    finish (b, t, residual, reference);
+    finish (b, t, d, residual, reference);
 done:
     return status;
 }
@@ -196,7 +197,7 @@ pg_status bond_force_balance_and_break (void *self, double t, const double *d, d
         if (b->tangent) pg_bond_loop_update (b->tangent, b->alive, &fresh);
         mark_stale (b, &fresh);
     }
-    finish (b, t, residual, reference);
+    finish (b, t, d, residual, reference);
 done:
     return status;
 }
@@ -246,13 +247,14 @@ pg_status bond_force_work_balance (void *self, double t, const double *d, const 
     PG_TRY (bond_force_balance (b, t, d, b->work, NULL));
     for (size_t i = 0; inertia && i < ndof (b); i++) b->work[i] += inertia[i];
     PG_TRY (boundary_work_balance (&b->boundary, t, d, b->work, out));
-    out->strain = pg_bond_loop_energy (b->loop, d);
+    out->strain = pg_bond_loop_energy (b->loop, d) + boundary_spring_energy (&b->boundary, t, d);
 done:
     return status;
 }
 
 /* Strain energy -1/2 f . d of forces that are linear in d, from the residual f + P; the loads P are the pairs
- * of `out` behind those of the supports. Summed in eight lanes, which serve vector instructions. */
+ * of `out` behind those of the supports, springs the last of them. Summed in eight lanes, which serve vector
+ * instructions. */
 static double strain_of (const bond_force *b, const double *d, const double *residual,
                          const pg_work_balance *out)
 {
@@ -260,7 +262,10 @@ static double strain_of (const bond_force *b, const double *d, const double *res
     size_t i = 0;
     for (; i + 8 <= ndof (b); i += 8) for (size_t k = 0; k < 8; k++) lane[k] += residual[i + k] * d[i + k];
     for (; i < ndof (b); i++) lane[0] += residual[i] * d[i];
-    for (size_t k = b->boundary.nsupport; k < out->npair; k++) sum += out->force[k] * out->displacement[k];
+    size_t springs = out->npair - b->boundary.nspring;
+    for (size_t k = b->boundary.nsupport; k < springs; k++) sum += out->force[k] * out->displacement[k];
+    for (size_t k = 0; k < b->boundary.nspring; k++)
+        sum += out->force[springs + k] * d[b->boundary.spring[k].dof];
     for (size_t k = 0; k < 8; k++) sum -= lane[k];
     return fmax (0.5 * sum, 0);
 }
@@ -279,6 +284,7 @@ pg_status bond_force_work_of_residual (void *self, double t, const double *d, co
     PG_TRY (boundary_work_balance (&b->boundary, t, d, b->work, out));
     out->strain = pg_bond_loop_halves (b->loop) ? strain_of (b, d, residual, out)
                                                 : pg_bond_loop_energy (b->loop, d);
+    out->strain += boundary_spring_energy (&b->boundary, t, d);
 done:
     return status;
 }

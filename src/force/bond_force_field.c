@@ -273,6 +273,12 @@ pg_status bond_force_field (void *self, const pg_state *state, const double *d, 
     painting p = { b, state->alive, d, value, NULL, 1 };
     *components = 0, *unit = "";
     if (take_unknowns (b, state, d, name, components, unit, value)) return PG_OK;
+    if (strcmp (name, "nodal_force") == 0) {
+        *components = b->dim, *unit = "N";
+        pg_status status = pg_bond_loop_force (b->loop, d, b->work, NULL);
+        if (status == PG_OK) take_parts (b, b->work, 0, b->dim, -1, value);
+        return status;
+    }
     if (strcmp (name, "damage") == 0) *components = 1, p.at = damage_at;
     else if (strcmp (name, "strain") == 0) *components = pg_voigt_size (b->dim), p.at = strain_at;
     else if (strcmp (name, "stress") == 0)

@@ -31,9 +31,17 @@ void bond_force_apply (void *context, const double *x, double *y)
         || pg_bond_loop_force (loop, x, y, NULL) != PG_OK;
     negation w = { y, failed };
     pg_parallel (b->threads, ndof, negate, &w);
+    boundary_hold (&b->boundary, x, y);
 }
 
 enum { MOST = 36 };                                    /* numbers of a block */
+
+/* Springs of a point belong to its own block. */
+static void add_springs (const bond_force *b, size_t i, double *D)
+{
+    size_t m = (size_t) b->stride;
+    for (size_t k = 0; b->boundary.hold && k < m; k++) D[k * m + k] += b->boundary.hold[i * m + k];
+}
 
 /* Sum of the bonds' own blocks over the live bonds of a point (all: over all that count at the start).
  * exact: of bonds alone, without the pull that stands for a dilatation beside beams. */
@@ -49,6 +57,7 @@ static void own_block (const bond_force *b, size_t i, const point_bonds *s, int 
         else b->theory->blocks (b, i, s, e, own, NULL);
         for (size_t k = 0; k < bb; k++) D[k] += own[k];
     }
+    add_springs (b, i, D);
 }
 
 /* ---- rows of points that have all their bonds ---------------------------------------------------------- */
@@ -66,6 +75,7 @@ static size_t row_of_bonds (const bond_force *b, size_t i, const point_bonds *s,
         if (node) node[m] = s->node[e];
         m++;
     }
+    if (!all) add_springs (b, i, own);
     memcpy (value + m * bb, own, bb * sizeof *own);
     if (node) node[m] = (int) i;
     return m + 1;
@@ -97,6 +107,8 @@ static void find_whole (bond_force *b)
 static int is_whole (const bond_force *b, size_t i)
 {
     size_t first = b->family->start[i], m = family_size (b, i);
+    for (size_t k = 0; b->boundary.hold && k < (size_t) b->stride; k++)
+        if (b->boundary.hold[i * (size_t) b->stride + k] > 0) return 0;
     return b->whole && m == b->problem->sums->stencil.n && !(b->alive && memchr (b->alive + first, 0, m));
 }
 
@@ -114,6 +126,7 @@ static void exact_block (const bond_force *b, size_t i, const point_bonds *s, do
     dilatation_own (b, i, s, state);
     memset (D, 0, m * m * sizeof *D);
     if (b->theory->alone) own_block (b, i, s, 0, 1, D);
+    else add_springs (b, i, D);
     for (size_t a = 0; a < dim; a++)
         for (size_t c = 0; c < dim; c++) D[a * m + c] += state[a * dim + c];
 }
@@ -270,6 +283,10 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
         point_bonds_at (w->b, i, thread, &s);
         int grows = w->b->dilatation && p->sums->rule.follow && (w->b->limit || w->b->critical);
         double state = grows ? dilatation_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0] : 0;
+        double hold = 0;                               /* springs, where no own block has them */
+        for (size_t k = 0; grows && !w->b->theory->alone && w->b->boundary.hold && k < m; k++)
+            hold = fmax (hold, w->b->boundary.hold[i * m + k] / mass[0]);
+        state += 2 * hold;
         w->out[i] = state;
         if (grows && !w->b->theory->alone) continue;
         own_block (w->b, i, &s, 1, grows, P);

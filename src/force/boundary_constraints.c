@@ -8,6 +8,17 @@ static int prescribes (const pg_load *load, int k) { return pg_load_prescribes (
 
 enum { FREE = -1, IDLE = -2 };
 
+/* In a plane of symmetry points turn about its normal alone, unless told otherwise. */
+static void hold_rotations (const point_boundary *s, const pg_load *load, int *by)
+{
+    int dim = s->dim;
+    for (size_t i = 0; i < load->set->npoint; i++)
+        for (int k = dim; k < s->stride; k++) {
+            int *of = &by[load->set->point[i] * s->stride + k];
+            if (*of == FREE && (dim == 2 || k - dim != load->symmetry - 1)) *of = IDLE;
+        }
+}
+
 /* The entry of `boundary` that prescribes each unknown; FREE: none; IDLE: a rotation that nothing
  * resists, held at 0 so that K is regular. */
 static void claim (const point_boundary *s, const unsigned char *idle, int *by)
@@ -22,6 +33,7 @@ static void claim (const point_boundary *s, const unsigned char *idle, int *by)
                 by[(size_t) p->load[l].set->point[i] * stride + (size_t) (boundary_first (s,
                         &p->load[l]) + k)] =
                     (int) l;
+    for (size_t l = 0; l < p->nload; l++) if (p->load[l].symmetry) hold_rotations (s, &p->load[l], by);
 }
 
 /* Supports ascending by unknown, and T, whose columns are the unknowns that remain: a selection, with one
@@ -95,8 +107,9 @@ pg_status boundary_create (point_boundary *s, const pg_problem *problem, int str
     PG_TRY (boundary_make_supports (s, idle));
     PG_ALLOC (s->load, problem->nload);
     for (size_t l = 0; l < problem->nload; l++)
-        if (!pg_load_prescribes (&problem->load[l])) PG_TRY (boundary_make_load (s, &s->load[s->nload++],
-                (int) l));
+        if (!pg_load_prescribes (&problem->load[l]) && problem->load[l].kind != PG_SPRING)
+            PG_TRY (boundary_make_load (s, &s->load[s->nload++], (int) l));
+    PG_TRY (boundary_make_springs (s));
 done:
     return status;
 }
@@ -106,7 +119,7 @@ void boundary_free (point_boundary *s)
 {
     for (size_t k = 0; k < s->nload; k++)
         pg_free (s->load[k].point), pg_free (s->load[k].part), pg_free (s->load[k].pattern);
-    pg_free (s->load), pg_free (s->support), pg_free (s->goal);
+    pg_free (s->load), pg_free (s->support), pg_free (s->goal), pg_free (s->spring), pg_free (s->hold);
     pg_nearest_free (&s->near);
     pg_sparse_clear (&s->T);
     *s = (point_boundary) { 0 };

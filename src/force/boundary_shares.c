@@ -213,9 +213,12 @@ static pg_status point_parts (gathering *g, const point_boundary *s, const pg_lo
     const pg_cloud *c = &s->problem->cloud;
     for (size_t i = 0; i < load->set->npoint; i++) {
         int j = load->set->point[i];
-        boundary_share part = { .weight = load->kind == PG_BODY_FORCE ? c->volume[j]
-                                                                  : 1 / (double) load->set->npoint };
-        memcpy (part.x, c->x + (size_t) j * (size_t) s->dim, (size_t) s->dim * sizeof *part.x);
+        boundary_share part = { .weight = load->kind == PG_BODY_FORCE
+                                              ? c->volume[j]
+                                                    * pg_load_density (s->problem, load, PG_NODES, (size_t) j)
+                                              : pg_load_share (load, i) };
+        memcpy (part.x, pg_load_site (load, c->x + (size_t) j * (size_t) s->dim),
+                (size_t) s->dim * sizeof *part.x);
         PG_TRY (add_part (g, j, part));
     }
 done:

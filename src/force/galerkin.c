@@ -40,6 +40,7 @@ static void galerkin_free (void **self)
     galerkin_slices_free (g);
     galerkin_sight_free (g);
     galerkin_silling_free (g);
+    galerkin_eigen_free (g);
     galerkin_dilatation_free (g);
     galerkin_change_free (g);
     pg_nearest_free (&g->near_point);
@@ -98,6 +99,7 @@ static pg_status galerkin_create (void **self, const pg_problem *problem)
     PG_TRY (galerkin_dilatation_create (g));
     PG_TRY (galerkin_silling_create (g));
     PG_TRY (galerkin_slices_create (g));
+    PG_TRY (galerkin_eigen_create (g));
     PG_TRY (galerkin_operator_create (g));
 done:
     if (status != PG_OK) galerkin_free (self);
@@ -146,6 +148,7 @@ pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes 
         if (known) galerkin_measure_list (g, s, n, g->list[s]);
     }
     if (g->dilatation) PG_TRY (galerkin_dilatation_update (g, state, !changes, count));
+    if (!changes) galerkin_eigen_at (g, state->time);  /* a run that goes on asks for stresses of its state */
     if (!changes) g->all_stale = 1, g->revision++;
     else galerkin_mark_stale (g, count);
     if (g->has_T && (!changes || galerkin_basis_touched (g, count[PG_NODES], g->list[PG_NODES]))) {
@@ -166,6 +169,7 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     galerkin *g = self;
     size_t ndof = g->n * (size_t) g->dim;
     double inside = 0, external = 0, reaction = 0;
+    galerkin_eigen_at (g, t);
     PG_TRY (galerkin_sight_ready (g, 0));
     memset (residual, 0, ndof * sizeof *residual);
     for (int s = 0; s < PG_BOND_SETS; s++)
@@ -173,7 +177,7 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     galerkin_bulk_force (g, d, residual);
     for (size_t i = 0; i < ndof; i++) inside += residual[i] * residual[i], residual[i] = -residual[i];
     galerkin_boundary_force (g, t, d, residual, &external, &reaction);
-    *reference = sqrt (fmax (inside, fmax (external, reaction)));
+    *reference = fmax (g->eigen_force, sqrt (fmax (inside, fmax (external, reaction))));
 done:
     return status;
 }
@@ -187,6 +191,7 @@ static pg_status galerkin_balance_lean (void *self, double t, const double *d, d
     galerkin *g = self;
     size_t ndof = g->n * (size_t) g->dim;
     double inside = 0, external = 0, reaction = 0;
+    if (galerkin_eigen_pairs (g)) return galerkin_balance (self, t, d, residual, reference);
     PG_TRY (galerkin_sight_ready (g, 1));
     memset (residual, 0, ndof * sizeof *residual);
     if (g->nnitsche || g->dilatation) galerkin_measure (g, PG_FACETS, d);
@@ -225,14 +230,16 @@ static pg_status galerkin_work_balance_of (void *self, double t, const double *d
     pg_status status = PG_OK;
     galerkin *g = self;
     if (!out->force) {
-        out->npair = galerkin_boundary_pairs (g) + slaves_of (g);
+        out->npair = galerkin_boundary_pairs (g) + slaves_of (g) + galerkin_eigen_pairs (g);
         PG_ALLOC (out->force, out->npair);
         PG_ALLOC (out->displacement, out->npair);
-        PG_ALLOC (out->reaction, 3 * g->problem->nload);
+        PG_ALLOC (out->reaction, PG_REACTIONS * g->problem->nload);
     }
-    memset (out->reaction, 0, 3 * g->problem->nload * sizeof *out->reaction);
+    memset (out->reaction, 0, PG_REACTIONS * g->problem->nload * sizeof *out->reaction);
+    galerkin_eigen_at (g, t);
     for (int s = 0; s < PG_BOND_SETS; s++) galerkin_measure (g, s, d);
-    galerkin_basis_work_balance (g, t, residual, out, galerkin_boundary_work_balance (g, t, d, out));
+    size_t at = galerkin_boundary_work_balance (g, t, d, out);
+    galerkin_eigen_work (g, t, out, galerkin_basis_work_balance (g, t, residual, out, at));
     out->strain = galerkin_bulk_energy (g, d) + galerkin_boundary_energy (g, t);
 done:
     return status;
@@ -268,8 +275,9 @@ static pg_status galerkin_equilibrium_balance (void *self, double t, const doubl
         points |= kind == PG_BODY_FORCE || g->problem->load[l].cracks;
         nodes |= kind == PG_POINT_FORCE;
     }
-    if (!out->force || points || g->dilatation) return galerkin_work_balance (self, t, d, NULL, out);
-    memset (out->reaction, 0, 3 * g->problem->nload * sizeof *out->reaction);
+    if (!out->force || points || g->dilatation
+        || galerkin_eigen_pairs (g)) return galerkin_work_balance (self, t, d, NULL, out);
+    memset (out->reaction, 0, PG_REACTIONS * g->problem->nload * sizeof *out->reaction);
     galerkin_measure (g, PG_FACETS, d);
     if (nodes) galerkin_measure (g, PG_NODES, d);
     galerkin_boundary_work_balance (g, t, d, out);

@@ -71,6 +71,12 @@ typedef struct {
      * (NULL: none) */
     int      fresh[PG_BOND_SETS];
     unsigned char *disturbed[PG_BOND_SETS];
+    /* galerkin_eigenstrain.c: the free strain of every point at that time, s (NULL: the scene has none);
+     * norm of
+     * the forces that hold the body against it, N; scratch (2 ndof) */
+    double  *eigen[PG_BOND_SETS], eigen_time, eigen_force;
+    /* per load and set: free strain of factor 1 where that is a pattern times a factor of t, else NULL */
+    double **eigen_pattern;
     galerkin_slices *slices;
     double  *kept, *place;  /* galerkin_silling.c; NULL: no stabilisation */
     galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere */
@@ -155,6 +161,19 @@ void galerkin_sum_stress  (galerkin *g, const double *d, double *f);
 void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x */
 /* pg_force_type.spared: what runs have spared */
 int  galerkin_spared (const void *self, size_t k, char *what, char *why, double *seconds);
+/* eigenstrain: of time t for all that follows; the stress of a point by its strain; what the energy of its
+ * strain has too much, J/m^3; pairs of work at the points of the bulk */
+pg_status galerkin_eigen_create (galerkin *g);
+void galerkin_eigen_free (galerkin *g);
+void galerkin_eigen_at (galerkin *g, double t);
+void galerkin_eigen_stress (const galerkin *g, int set, size_t p, const double *e);
+void galerkin_eigen_relieve (const galerkin *g, double t, const double *x, size_t q, double *stress);
+/* eta (relative displacements, m) less the free stretch of bonds xi */
+void galerkin_eigen_bonds (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point,
+                           const double *xi, double *eta);
+double galerkin_eigen_energy (const galerkin *g, size_t p);
+size_t galerkin_eigen_pairs (const galerkin *g);
+void galerkin_eigen_work (const galerkin *g, double t, pg_work_balance *out, size_t at);
 /* silling: stabilisation of nodal integration, together with the stress */
 pg_status galerkin_silling_create (galerkin *g);
 void galerkin_silling_free (galerkin *g);

@@ -302,6 +302,9 @@ size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residua
                     force -= e->inverse[j * e->n + s] * residual[(size_t) e->slave[j] * dim + k];
             out->force[at] = force, out->displacement[at] = goal_of (g, e, s, t);
             out->reaction[e->load[s] * 3 + (int) k] += force;
+            pg_load_add_moment (&g->problem->load[e->load[s]], g->dim,
+                                g->problem->cloud.x + (size_t) e->slave[s] * dim, (int) k, force,
+                                out->reaction + 3 * (g->problem->nload + (size_t) e->load[s]));
         }
     }
     return at;

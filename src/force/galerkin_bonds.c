@@ -117,6 +117,7 @@ void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond
             eta[k * dim + a] = g->u[PG_NODES][j * dim + a] - g->u[s->set][p * dim + a];
         }
     }
+    if (stretch && g->eigen[s->set]) galerkin_eigen_bonds (g, s->set, count, bond, point, xi, eta);
     for (size_t k = 0; graded && k < count; k++) reach[k] = galerkin_reach (g, s->set, point[k], bond[k]);
     for (size_t k = 0; stress && k < count; k++) {
         size_t j = (size_t) r->family.node[bond[k]], p = point[k];

@@ -136,7 +136,7 @@ double galerkin_bulk_energy (const galerkin *g, const double *d)
         double w = 0;
         for (size_t v = 0; v < nv; v++)
             w += 0.5 * g->stress[g->bulk][p * nv + v] * g->strain[g->bulk][p * nv + v];
-        sum += r->weight[p] * w;
+        sum += r->weight[p] * (w - galerkin_eigen_energy (g, p));
         if (g->kept) sum += galerkin_silling_energy (g, p, d);
     }
     return sum;

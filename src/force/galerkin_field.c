@@ -94,11 +94,18 @@ pg_status galerkin_field (void *self, const pg_state *state, const double *d, co
         *components = 1, *unit = "Pa";
         return galerkin_estimate (g, d, &sums, value);
     }
-    if (strcmp (name, "displacement") == 0 || strcmp (name, "velocity") == 0) {
+    if (strcmp (name, "nodal_force") == 0) {
+        *components = g->dim, *unit = "N";
+        galerkin_eigen_at (g, state->time);
+        galerkin_measure (g, g->bulk, d);
+        memset (value, 0, g->n * dim * sizeof *value);
+        galerkin_bulk_force (g, d, value);
+    } else if (strcmp (name, "displacement") == 0 || strcmp (name, "velocity") == 0) {
         *components = g->dim, *unit = *name == 'd' ? "m" : "m/s";
         displacement (g, *name == 'd' ? d : state->v, value);
     } else if (strcmp (name, "strain") == 0 || strcmp (name, "stress") == 0) {
         *components = g->nv, *unit = strcmp (name, "stress") == 0 ? "Pa" : "";
+        galerkin_eigen_at (g, state->time);
         galerkin_measure (g, PG_NODES, d);
         memcpy (value, **unit ? g->stress[PG_NODES] : g->strain[PG_NODES], g->n * nv * sizeof *value);
     }

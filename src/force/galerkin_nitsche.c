@@ -5,6 +5,7 @@
  * penalty on nodes, tractions and pressures on facets, point and body forces. */
 #include "galerkin.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Is value in the ascending list? By bisection: sets are asked for every facet and every node. */
@@ -66,19 +67,22 @@ static pg_status find_penalties (galerkin *g)
     size_t cap = 0, cap_node = 0, cap_start = 0, cap_entry = 0, cap_first = 0, nnz = 0;
     for (size_t i = 0; i < g->n; i++) {
         unsigned taken = 0;
+        int any = 0;                                   /* springs, beside whatever holds the node */
         for (size_t l = 0; l < p->nload; l++) {
             const pg_load *load = &p->load[l];
-            if (load->essential != PG_ESSENTIAL_PENALTY
+            int spring = load->kind == PG_SPRING;
+            if ((load->essential != PG_ESSENTIAL_PENALTY && !spring)
                 || !member (load->set->point, load->set->npoint, (int) i))
                 continue;
             for (int k = 0; k < g->dim; k++) {
-                if (free_by (p, load, k) || (taken >> k & 1)) continue;
+                if (spring ? !load->value[k] : free_by (p, load, k) || (taken >> k & 1)) continue;
                 PG_GROW (g->penalty, cap, g->npenalty + 1);
                 g->penalty[g->npenalty++] = (constraint) { g->npenalty_node, (int) l, k };
-                taken |= 1u << k;
+                if (spring) any = 1;
+                else taken |= 1u << k;
             }
         }
-        if (!taken) continue;
+        if (!taken && !any) continue;
         PG_GROW (g->penalty_node, cap_node, g->npenalty_node + 1);
         PG_GROW (g->penalty_family.start, cap_start, g->npenalty_node + 2);
         PG_GROW (g->penalty_start, cap_first, g->npenalty_node + 2);
@@ -211,13 +215,23 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
     }
 }
 
-/* Stiffness of the penalty of a node, N/m: factor E / h^2 times the node's volume, so that the force on a
+/* For bsearch; numbers of nodes are never negative. */
+static int ascending (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
+
+/* Stiffness at a node, N/m. Of a spring: the node's share of it. Of a penalty: factor E / h^2 times the
+ * node's volume, so that the force on a
  * layer of points one spacing deep is that of springs factor E / h per area. */
 static double penalty (const galerkin *g, const constraint *q)
 {
     const pg_problem *p = g->problem;
     size_t node = (size_t) g->penalty_node[q->point];
     double h = pg_problem_spacing (p, PG_NODES, node);
+    const pg_load *load = &p->load[q->load];
+    if (load->kind == PG_SPRING) {
+        const int own = (int) node, *at = bsearch (&own, load->set->point, load->set->npoint, sizeof own,
+                                                   ascending);
+        return load->stiffness[q->component] * pg_load_share (load, (size_t) (at - load->set->point));
+    }
     return p->load[q->load].penalty * galerkin_material (g, PG_NODES, node)->modulus / (h * h)
            * p->cloud.volume[node];
 }
@@ -321,10 +335,13 @@ static void visit_point_load (const galerkin *g, double t, int l, visitor visit,
     size_t count = everywhere ? r->n : load->set->npoint;
     for (size_t i = 0; i < count; i++) {
         size_t q = everywhere ? i : (size_t) load->set->point[i];
-        double share = load->kind == PG_BODY_FORCE ? r->weight[q] : 1 / (double) load->set->npoint;
+        double share = load->kind == PG_BODY_FORCE
+                           ? r->weight[q] * pg_load_density (g->problem, load, set, q)
+                           : pg_load_share (load, i);
+        const double *x = pg_load_site (load, r->x + q * dim);
         for (size_t k = 0; k < dim; k++)
-            visit (context, set, q, l, (int) k,
-                   share * pg_load_value (load, (int) k, g->dim, r->x + q * dim, t), g->u[set][q * dim + k]);
+            visit (context, set, q, l, (int) k, share * pg_load_value (load, (int) k, g->dim, x, t),
+                   g->u[set][q * dim + k]);
     }
 }
 
@@ -516,14 +533,17 @@ size_t galerkin_boundary_pairs (galerkin *g)
     return n;
 }
 
-typedef struct { pg_work_balance *out; size_t at; } writing;
+typedef struct { const galerkin *g; pg_work_balance *out; size_t at; } writing;
 
-/* A visitor that writes force and displacement, and sums reactions by load and component. */
+/* A visitor that writes force and displacement, and sums reactions and their moments by load and component.
+ * */
 static void write_pair (void *context, int set, size_t point, int load, int k, double force,
                         double displacement)
 {
     writing *w = context;
-    (void) set, (void) point;
+    const pg_problem *p = w->g->problem;
+    pg_load_add_moment (&p->load[load], p->dim, w->g->rows[set].x + point * (size_t) p->dim, k, force,
+                        w->out->reaction + 3 * (p->nload + (size_t) load));
     w->out->force[w->at] = force, w->out->displacement[w->at++] = displacement;
     w->out->reaction[load * 3 + k] += force;
 }
@@ -531,7 +551,7 @@ static void write_pair (void *context, int set, size_t point, int load, int k, d
 /* Returns how many pairs were written. */
 size_t galerkin_boundary_work_balance (galerkin *g, double t, const double *d, pg_work_balance *out)
 {
-    writing w = { out, 0 };
+    writing w = { g, out, 0 };
     visit_supports (g, t, write_pair, &w);
     visit_loads (g, t, write_pair, &w);
     for (size_t l = 0; l < g->problem->nload; l++) {

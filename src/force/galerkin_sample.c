@@ -23,6 +23,7 @@ typedef struct {
     pg_rows rows;                                      /* of the places at hand */
     unsigned char *alive;
     size_t *at;                                        /* nearest evaluation point */
+    double time;                                       /* of the state, s; static: load factor */
     double *u, *stress, *gradient;                     /* n x 3; n x 6, n x 9 or NULL */
     const double *pressure;                            /* of patches, at the nodes (n), Pa; NULL: none */
 } sampling;
@@ -214,6 +215,7 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
         if (s->gradient) memcpy (s->gradient + 9*p, H, sizeof H);
         if (!s->stress) continue;
         pg_stress_of_gradient (galerkin_plain (g, g->bulk, q), g->dim, H, s->stress + 6*p);
+        galerkin_eigen_relieve (g, s->time, s->rows.x + p * dim, q, s->stress + 6*p);
         if (s->pressure) add_pressure (s, whole ? &s->rows : bulk, whole ? p : q, q, s->stress + 6*p);
     }
 }
@@ -307,8 +309,9 @@ static void evaluate_alike (void *context, size_t first, size_t last, int thread
         galerkin_alike_values (g->alike, b->which[p], b->x + p * (size_t) g->dim, s->d, value, &held,
                                s->u + 3*p, H);
         if (s->gradient) memcpy (s->gradient + 9*p, H, sizeof H);
-        if (s->stress)
-            pg_stress_of_gradient (galerkin_plain (g, g->bulk, 0), g->dim, H, s->stress + 6*p);
+        if (!s->stress) continue;
+        pg_stress_of_gradient (galerkin_plain (g, g->bulk, 0), g->dim, H, s->stress + 6*p);
+        galerkin_eigen_relieve (g, s->time, b->x + p * (size_t) g->dim, 0, s->stress + 6*p);
     }
 }
 
@@ -367,7 +370,7 @@ pg_status galerkin_sample (void *self, const pg_state *state, const double *d, s
     pg_status status = PG_OK;
     galerkin *g = self;
     const pg_rows *bulk = &g->rows[g->bulk];
-    sampling s = { .g = g, .state = state, .d = d };
+    sampling s = { .g = g, .state = state, .d = d, .time = state->time };
     int *own = NULL;
     look_over (&s);
     if (!g->search) PG_TRY (pg_rows_search (&g->search, &g->problem->approx, &g->problem->cloud));

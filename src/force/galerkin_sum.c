@@ -190,6 +190,10 @@ static void measure_points (void *context, size_t first, size_t last, int thread
         double *e = g->strain[m->set] + p * nv;
         if (dim == 2) strain_flat (2, m->rows, p, m->x, g->u[m->set] + p * dim, e);
         if (dim == 1) strain_flat (1, m->rows, p, m->x, g->u[m->set] + p * dim, e);
+        if (g->eigen[m->set]) {
+            galerkin_eigen_stress (g, m->set, p, e);
+            continue;
+        }
         const pg_material *mat = galerkin_plain (g, m->set, p);
         mat->type->stress (mat, 1, e, g->stress[m->set] + p * nv, g->zz[m->set] + p);
     }

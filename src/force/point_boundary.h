@@ -24,6 +24,7 @@ typedef struct {
     double *pattern;  /* N, of factor 1; else of `time` (npoint x components) */
     double  time;                                      /* s */
 } boundary_load;
+typedef struct { size_t dof, point; int load, component; double stiffness; } boundary_spring;     /* N/m */
 typedef struct {
     const pg_problem *problem;
     int        dim, stride;
@@ -33,6 +34,8 @@ typedef struct {
     boundary_support *support;  size_t nsupport;
     double    *goal;  /* m, of factor 1 where its load separates (nsupport) */
     boundary_load *load;  size_t nload;
+    boundary_spring *spring;  size_t nspring;
+    double    *hold;  /* stiffness of the springs at every unknown, N/m; NULL: there are none (n x stride) */
     pg_nearest *near;                                  /* points; NULL until facets ask for them */
     pg_sparse  T;                                      /* selects the free unknowns */
 } point_boundary;
@@ -48,6 +51,13 @@ void      boundary_add    (point_boundary *s, double t, double *P);             
 pg_status boundary_surface (point_boundary *s, int load, const double *stress, double *P);
 /* norm of the loads at t, N */
 double    boundary_size   (point_boundary *s, double t);
+/* Springs of `boundary` (boundary_springs.c). residual += their forces at displacement d, N; y += K x; what
+ * they store at d, J. */
+pg_status boundary_make_springs (point_boundary *s);
+void      boundary_pull   (const point_boundary *s, double t, const double *d, double *residual);
+void      boundary_hold   (const point_boundary *s, const double *x, double *y);
+double    boundary_spring_energy (const point_boundary *s, double t, const double *d);
+double    boundary_spring_goal   (const point_boundary *s, const boundary_spring *spring, double t);
 /* NULL: nothing is prescribed */
 const pg_sparse *boundary_basis (const point_boundary *s);
 void      boundary_impose (const point_boundary *s, double t, double *d);

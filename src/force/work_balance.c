@@ -4,26 +4,40 @@
 #include "point_boundary.h"
 #include <string.h>
 
-/* Arrays are sized on the first call; pairs of supports come first, those of loads follow. */
+/* The force on one unknown of a point, and its moment. Rotations have no arm: theirs are moments already. */
+static void add_reaction (const point_boundary *s, double *reaction, int load, int component, size_t point,
+                          double force)
+{
+    const pg_problem *p = s->problem;
+    const pg_load *l = &p->load[load];
+    double unit = boundary_unit (s, l);
+    if (l->kind == PG_MOMENT) unit = 1 / unit;
+    reaction[3 * load + component] += force * unit;
+    if (!pg_load_rotates (l))
+        pg_load_add_moment (l, s->dim, p->cloud.x + point * (size_t) s->dim, component, force,
+                            reaction + 3 * (p->nload + (size_t) load));
+}
+
+/* Arrays are sized on the first call; pairs of supports come first, those of loads follow, those of
+ * springs come last. */
 pg_status boundary_work_balance (point_boundary *s, double t, const double *d, const double *residual,
                               pg_work_balance *out)
 {
     pg_status status = PG_OK;
     size_t at = s->nsupport, count = s->nsupport;
     for (size_t k = 0; k < s->nload; k++) count += s->load[k].npoint * (size_t) s->load[k].components;
+    count += s->nspring;
     if (!out->force) {
         out->npair = count;
         PG_ALLOC (out->force, count);
         PG_ALLOC (out->displacement, count);
-        PG_ALLOC (out->reaction, 3 * s->problem->nload);
+        PG_ALLOC (out->reaction, PG_REACTIONS * s->problem->nload);
     }
-    memset (out->reaction, 0, 3 * s->problem->nload * sizeof *out->reaction);
+    memset (out->reaction, 0, PG_REACTIONS * s->problem->nload * sizeof *out->reaction);
     for (size_t k = 0; k < s->nsupport; k++) {
         const boundary_support *q = &s->support[k];
         out->force[k] = -residual[q->dof], out->displacement[k] = boundary_goal (s, k, t);
-        if (q->load >= 0)
-            out->reaction[q->load * 3 + q->component] -= residual[q->dof]
-                                                         * boundary_unit (s, &s->problem->load[q->load]);
+        if (q->load >= 0) add_reaction (s, out->reaction, q->load, q->component, q->point, -residual[q->dof]);
     }
     for (size_t k = 0; k < s->nload; k++) {
         boundary_load *l = &s->load[k];
@@ -32,9 +46,14 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
             for (size_t c = 0; c < (size_t) l->components; c++, at++) {
                 out->force[at] = factor * l->pattern[i * (size_t) l->components + c];
                 out->displacement[at] = d[(size_t) l->point[i] * (size_t) s->stride + (size_t) l->first + c];
-                out->reaction[(size_t) l->load * 3 + c] += out->force[at]
-                                                           / boundary_unit (s, &s->problem->load[l->load]);
+                add_reaction (s, out->reaction, l->load, (int) c, (size_t) l->point[i], out->force[at]);
             }
+    }
+    for (size_t k = 0; k < s->nspring; k++, at++) {
+        const boundary_spring *q = &s->spring[k];
+        out->displacement[at] = boundary_spring_goal (s, q, t);
+        out->force[at] = -q->stiffness * (d[q->dof] - out->displacement[at]);
+        add_reaction (s, out->reaction, q->load, q->component, q->point, out->force[at]);
     }
 done:
     return status;

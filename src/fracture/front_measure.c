@@ -183,8 +183,9 @@ static void add_body_force (const measuring *m, int a, const double *x, const fr
     for (size_t l = 0; l < m->p->nload; l++) {
         if (!acts (&m->p->load[l], node)) continue;
         for (int c = 0; c < 3; c++) {
-            b[c] += pg_load_value (&m->p->load[l], c, 3, x, m->t[a]);
-            if (a > 0) b[c] -= pg_load_value (&m->p->load[l], c, 3, x, m->t[0]);
+            double density = pg_load_density (m->p, &m->p->load[l], PG_NODES, node);
+            b[c] += density * pg_load_value (&m->p->load[l], c, 3, x, m->t[a]);
+            if (a > 0) b[c] -= density * pg_load_value (&m->p->load[l], c, 3, x, m->t[0]);
         }
     }
     turn_vector (at->frame, b, load);

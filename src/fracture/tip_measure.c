@@ -60,6 +60,7 @@ static pg_status add_body_force (tip_grid *grid, int at, const pg_tip_field *tip
             for (int c = 0; c < 2; c++) {
                 b[c] = pg_load_value (load, c, 2, grid->x + 2*k, t[at]);
                 if (at > 0) b[c] -= pg_load_value (load, c, 2, grid->x + 2*k, t[0]);
+                b[c] *= pg_load_density (p, load, PG_NODES, node);
             }
             tip_turn (tip->e, b, turned);
             f->load[2*k] += turned[0], f->load[2*k + 1] += turned[1];

@@ -8,6 +8,10 @@ static const pg_key keys[] = {
       .doc = "The law that gives stress from strain." },
     { .path = "materials.{}.density", .kind = PG_NUMBER, .unit = "kg/m3", .range = "(0, inf)", .fallback = "",
       .doc = "Mass density; needed by dynamic solvers and body forces such as weight." },
+    { .path = "materials.{}.expansion", .kind = PG_NUMBER, .unit = "1/K", .fallback = "",
+      .doc = "Coefficient of linear thermal expansion, for boundary[].temperature." },
+    { .path = "materials.{}.biot", .kind = PG_NUMBER, .unit = "1", .range = "[0, 1]", .fallback = "1",
+      .doc = "Biot's coefficient, for boundary[].pore_pressure." },
 };
 
 const pg_key_table pg_keys_material = { "material", keys, sizeof keys / sizeof *keys };

@@ -25,12 +25,20 @@ static const pg_key keys[] = {
     { "boundary", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Loads and supports." },
     { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL,
       "Name in history.csv; default: the set's name." },
-    { "boundary[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all|cracks",
+    { "boundary[].set", PG_NAME, NULL, NULL, "", "sets.{}|left|right|bottom|top|back|front|all|cracks",
       NULL, NULL,
       "Where it acts: a set, a part of one (platens.top) or of a shape (disk.rim, polygon.edge 3), or left, "
       "right, bottom, top, back, front, all; cracks: a pressure on the faces of all cracks, also of those "
       "that "
-      "come into being." },
+      "come into being. Body forces and gravity without it act everywhere." },
+    { "boundary[].at", PG_VECTOR, "m", NULL, "", no_choice, NULL, NULL,
+      "Instead of a set: the place of a force or a spring. The points around it bear it in shares that "
+      "have their "
+      "sum and their centre there, so that resultant and moment are exact." },
+    { "boundary[].about", PG_VECTOR, "m", NULL, "", no_choice, NULL, NULL,
+      "Place that the moments of history.csv are about, and the axes of turn go through; the centre of the "
+      "set if "
+      "not given." },
     LOAD ("displacement", "m", "Prescribed displacement."),
     LOAD ("velocity", "m/s", "Prescribed velocity (newmark, verlet, central)."),
     LOAD ("rotation", "rad", "gmpd: prescribed rotation (2D: z)."),
@@ -40,6 +48,41 @@ static const pg_key keys[] = {
     LOAD ("body_force", "N/m3", "Force per volume; set all: everywhere, else on the points of the set."),
     { "boundary[].pressure", PG_EXPRESSION, "Pa", NULL, "", NULL, NULL, "load:one",
       "Pressure against the boundary facets (positive pushes inwards)." },
+    { "boundary[].symmetry", PG_BOOL, NULL, NULL, "", no_choice, NULL, "load:one",
+      "on: the set lies in a plane of symmetry across x, y or z, which its points do not leave (points with "
+      "rotations turn about the normal alone)." },
+    { "boundary[].gravity", PG_VECTOR, "m/s2", NULL, "", no_choice, NULL, "load:one",
+      "Acceleration that gives the body its weight, by the density of its materials: [0, -9.81 m/s2]; "
+      "without a "
+      "set: of all of it." },
+    LOAD ("turn", "rad",
+          "The set turns as a rigid body about axes through `about` (by finite rotations with "
+          "method.stretch: "
+          "finite, else by small ones); displacements along an axis of its own stay free."),
+    { "boundary[].temperature", PG_EXPRESSION, "K", NULL, "", no_choice, NULL, "load:one",
+      "Change of temperature, everywhere: a free strain by materials.{}.expansion (force: galerkin; static "
+      "with "
+      "stepping: fixed, newmark)." },
+    { "boundary[].shrinkage", PG_EXPRESSION, "1", NULL, "", no_choice, NULL, "load:one",
+      "Free contraction, the same along all axes, everywhere (where and how as temperature)." },
+    { "boundary[].pore_pressure", PG_EXPRESSION, "Pa", NULL, "", no_choice, NULL, "load:one",
+      "Change of pore pressure, everywhere: takes materials.{}.biot times it off the mean stress (where "
+      "and how as "
+      "temperature; stresses of results are total ones)." },
+    { "boundary[].spring", PG_MAP, NULL, NULL, "", no_choice, NULL, "load:one",
+      "Springs that hold the set, or the place `at`: total stiffness, shared by its points (by their "
+      "volumes)." },
+    { "boundary[].spring.x", PG_NUMBER, "N/m", "(0, inf)", "", no_choice, NULL, NULL,
+      "Stiffness along x; absent: no spring." },
+    { "boundary[].spring.y", PG_NUMBER, "N/m", "(0, inf)", "", no_choice, NULL, NULL, "Stiffness along y." },
+    { "boundary[].spring.z", PG_NUMBER, "N/m", "(0, inf)", "", no_choice, NULL, NULL, "Stiffness along z." },
+    { "boundary[].spring.all", PG_NUMBER, "N/m", "(0, inf)", "", no_choice, NULL, NULL,
+      "Stiffness along all axes that have none of their own." },
+    { "boundary[].spring_end", PG_MAP, NULL, NULL, "", no_choice, NULL, NULL,
+      "How far the other ends of the springs move (a testing machine that yields); they stand still if not "
+      "given." },
+    LOAD_COMPONENT ("spring_end", "m", "x", "Along x."), LOAD_COMPONENT ("spring_end", "m", "y", "Along y."),
+    LOAD_COMPONENT ("spring_end", "m", "z", "Along z."),
     { "boundary[].depth", PG_NUMBER, "m|spacing", "(0, inf)", "", no_choice, NULL, NULL,
       "Traction, pressure with force: bond: shared, by volume, by the points down to this depth below each "
       "facet, at most all of the body; unless given by the outermost points." },

@@ -9,6 +9,10 @@
  * has one of them (keys.c). */
 static const struct { const char *key, *unit; pg_load_kind kind;
 } kinds[] = {
+    { "symmetry", "m", PG_DISPLACEMENT },     { "turn", "rad", PG_DISPLACEMENT },
+    { "temperature", "K", PG_EIGENSTRAIN },   { "shrinkage", "1", PG_EIGENSTRAIN },
+    { "pore_pressure", "Pa", PG_EIGENSTRAIN },
+    { "gravity", "m/s2", PG_BODY_FORCE },     { "spring", "m", PG_SPRING },
     { "displacement", "m", PG_DISPLACEMENT }, { "velocity", "m/s", PG_VELOCITY },
     { "traction", "Pa", PG_TRACTION },        { "pressure", "Pa", PG_PRESSURE },
     { "force", "N", PG_POINT_FORCE },         { "body_force", "N/m3", PG_BODY_FORCE },
@@ -85,6 +89,10 @@ pg_place pg_place_of (int dim, const double *x, double t)
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
 {
     if (!load->value[k]) return 0;
+    if (load->turns) {
+        pg_place now = { .t = t };
+        return pg_load_turned (load, k, dim, x, &now, factor_at (load, &now));
+    }
     const pg_expression *e = load->value[k], *ramp = load->table ? e : load->ramp;
     int polar = pg_expression_uses (e, 'r') || pg_expression_uses (e, 'a') || pg_expression_uses (ramp, 'r')
                 || pg_expression_uses (ramp, 'a');
@@ -105,7 +113,9 @@ static int depends_on_place (const pg_expression *e)
  * expression mixes x and t does not separate, nor does a ramp that depends on the place. */
 int pg_load_separates (const pg_load *load)
 {
+    if (load->turns && load->finite) return 0;
     for (int k = 0; k < 3; k++) if (load->value[k] && pg_expression_uses (load->value[k], 't')) return 0;
+    for (int k = 0; k < 3; k++) if (load->angle[k] && pg_expression_uses (load->angle[k], 't')) return 0;
     return load->table != NULL || !depends_on_place (load->ramp);
 }
 
@@ -120,6 +130,7 @@ double pg_load_pattern (const pg_load *load, int k, int dim, const double *x)
 {
     if (!load->value[k]) return 0;
     pg_place at = pg_place_of (dim, x, 0);
+    if (load->turns) return pg_load_turned (load, k, dim, x, &at, 1);
     return pg_expression_value (load->value[k], &at);
 }
 
@@ -169,6 +180,20 @@ static pg_status read_table (pg_load *load, const pg_scene *scene, size_t i)
     if (load->ntable == 0) pg_scene_fault (scene, "boundary", "a table needs at least one pair");
 done:
     return status;
+}
+
+/* Those that are no map of components x, y, z. Returns 0 for others. */
+static int read_special (pg_problem *p, pg_load *load, const pg_scene *scene, size_t i, const char *key,
+                         pg_status *status)
+{
+    int symmetry = strcmp (key, "symmetry") == 0, turn = strcmp (key, "turn") == 0,
+        gravity = strcmp (key, "gravity") == 0;
+    if (symmetry) *status = pg_load_read_symmetry (p, load, scene, i);
+    if (turn) *status = pg_load_read_turn (p, load, scene, i);
+    if (gravity) *status = pg_load_read_gravity (p, load, scene, i);
+    if (load->kind == PG_SPRING) *status = pg_load_read_spring (p, load, scene, i);
+    if (load->kind == PG_EIGENSTRAIN) *status = pg_load_read_eigenstrain (p, load, scene, i);
+    return symmetry || turn || gravity || load->kind == PG_SPRING || load->kind == PG_EIGENSTRAIN;
 }
 
 /* The expressions of the components that are given; components beyond those of the body are faults, and
@@ -327,6 +352,12 @@ static void check_cracks (const pg_problem *problem, const pg_load *load, const 
                         "a pressure in cracks is the same at all places: an expression of t alone");
 }
 
+/* What acts on the whole body unless a set says where. */
+static int acts_everywhere (const pg_load *load)
+{
+    return load->kind == PG_BODY_FORCE || load->kind == PG_EIGENSTRAIN;
+}
+
 /* Entry i of `boundary`. duration: end of the run, s (quasi-static: 1), for ramps over it. */
 static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i,
                             int is_static, double duration)
@@ -335,6 +366,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     char path[64], names[160];
     const char *set = pg_scene_text (scene, "boundary[%zu].set", i);
     size_t k = 0;
+    int at = pg_scene_given (scene, "boundary[%zu].at", i);
     while (k + 1 < sizeof kinds / sizeof *kinds
            && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key))
         k++;
@@ -343,16 +375,25 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     if (pg_load_rotates (load) && !pg_problem_rotations (problem))
         pg_scene_fault (scene, path, "points of force: %s have no rotations, only those of force: %s",
                         problem->method->name, pg_methods_with_rotations (problem, names, sizeof names));
+    if (!set || !*set) set = !at && acts_everywhere (load) ? "all" : "at";
     name_load (load, scene, i, set);
     snprintf (path, sizeof path, "boundary[%zu].set", i);
+    if (!at && strcmp (set, "at") == 0 && !pg_scene_given (scene, "%s", path)) {
+        pg_scene_fault (scene, path, "missing: where it acts, a set; a force or a spring also at: [x, y, "
+                                     "z]; a body "
+                        "force and gravity without it act everywhere");
+        goto done;
+    }
     load->cracks = strcmp (set, crack_faces.name) == 0 && !pg_scene_given (scene, "sets.%s", set);
-    load->set = load->cracks ? &crack_faces : pg_sets_named (&problem->sets, scene, path, set);
+    if (at) PG_TRY (pg_load_read_place (problem, load, scene, i));
+    else load->set = load->cracks ? &crack_faces : pg_sets_named (&problem->sets, scene, path, set);
     if (!load->set) goto done;
     if (is_static && load->kind == PG_VELOCITY)
         pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
     load->essential = PG_ESSENTIAL_TRANSFORMATION;
     if (problem->method->support) problem->method->support (problem, load, scene, i);
-    if (!load->cracks) check_place (problem, load, scene, i);
+    if (!load->cracks && !at) check_place (problem, load, scene, i);
+    pg_load_centre (problem, load, scene, i);
     read_depth (problem, load, scene, i);
     size_t nstage = pg_scene_count (scene, "stages");
     const char *ramp = pg_scene_text (scene, "boundary[%zu].ramp", i);
@@ -360,8 +401,14 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
         PG_TRY (pg_load_follows_stages (load, scene, i, nstage));
     else if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
     else PG_TRY (read_ramp (load, scene, i, is_static, duration));
-    PG_TRY (read_values (load, scene, i, kinds[k].key, kinds[k].unit));
+    if (!read_special (problem, load, scene, i, kinds[k].key, &status))
+        PG_TRY (read_values (load, scene, i, kinds[k].key, kinds[k].unit));
+    PG_TRY (status);
     if (load->cracks) check_cracks (problem, load, scene, i);
+    snprintf (path, sizeof path, "boundary[%zu].spring_end", i);
+    if (load->kind != PG_SPRING && pg_scene_given (scene, "%s", path))
+        pg_scene_fault (scene, path,
+                        "is for the ends of springs, and this entry has none: spring: {x: 1 kN/mm}");
 done:
     return status;
 }
@@ -417,8 +464,12 @@ void pg_loads_clear (pg_problem *problem)
 {
     for (size_t i = 0; problem->load && i < problem->nload; i++) {
         for (int k = 0; k < 3; k++) pg_expression_free (&problem->load[i].value[k]);
+        for (int k = 0; k < 3; k++) pg_expression_free (&problem->load[i].angle[k]);
         pg_expression_free (&problem->load[i].ramp);
-        pg_free (problem->load[i].table);
+        pg_free (problem->load[i].table), pg_free (problem->load[i].share);
+        pg_free (problem->load[i].per_material);
+        if (problem->load[i].own) pg_free (problem->load[i].own->point);
+        pg_free (problem->load[i].own);
     }
     pg_free (problem->load), pg_free (problem->platen);
 }

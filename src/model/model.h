@@ -9,6 +9,20 @@ pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_supports_check (pg_problem *problem, const pg_scene *scene, double duration);
 void      pg_supports_check_eliminated (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
+/* load_place.c, load_spring.c: parts of entry i of `boundary`. The centre of its moments; a place instead of
+ * a
+ * set; keys that are no maps of components. */
+void      pg_load_centre (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+pg_status pg_load_read_place    (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+pg_status pg_load_read_turn     (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+pg_status pg_load_read_symmetry (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+pg_status pg_load_read_gravity  (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+pg_status pg_load_read_spring   (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+pg_status pg_load_read_eigenstrain (const pg_problem *problem, pg_load *load, const pg_scene *scene,
+                                    size_t i);
+/* Component k of the displacement of a set that turns by `factor` times its angles. */
+double    pg_load_turned (const pg_load *load, int k, int dim, const double *x, const pg_place *at,
+                          double factor);
 /* platens.c: rigid platens; their loads take the places of problem->load from `first` on. */
 size_t    pg_platens_loads (const pg_scene *scene);    /* how many these are */
 pg_status pg_platens_read  (pg_problem *problem, const pg_scene *scene, size_t first);

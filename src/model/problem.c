@@ -392,14 +392,14 @@ int pg_problem_grows (const pg_problem *p)
  * design. */
 int pg_problem_proportional (const pg_problem *p)
 {
-    if (p->nstage) return 0;
+    if (p->nstage || pg_problem_strained (p)) return 0;
     for (size_t i = 0; i < p->nload; i++) {
         if (p->load[i].proportional) continue;
         /* a displacement held at zero is proportional too */
         static const double places[3][3] = { { 0.37, -0.21, 0.83 },
                                              { -1.3, 2.7, 0.11 },
                                              { 5.1, 0.77, -3.9 } };
-        int held = pg_load_prescribes (&p->load[i]);
+        int held = pg_load_prescribes (&p->load[i]) || p->load[i].kind == PG_SPRING;
         for (int k = 0; k < pg_load_components (&p->load[i], p->dim) && held; k++)
             for (int q = 0; q < 9 && held; q++)
                 held = pg_load_value (&p->load[i], k, p->dim, places[q % 3], 0.1 + 0.4 * (q / 3)) == 0;
@@ -431,6 +431,7 @@ static int is_affine (const pg_load *load, int k, int dim, const double *x)
  * of their set. */
 int pg_problem_affine (const pg_problem *p)
 {
+    if (pg_problem_strained (p)) return 0;             /* equilibria after breaks do not know free strains */
     if (p->nstage) return 1;                           /* each of them is so by itself */
     double middle[3] = { 0 };
     for (int k = 0; k < p->dim; k++) middle[k] = 0.37 * p->cloud.low[k] + 0.63 * p->cloud.high[k];

@@ -64,6 +64,12 @@ static size_t begins (const pg_problem *p, const pg_load *load)
     return stage;
 }
 
+/* Supports that move points along axes, at which the curve looks first. */
+static int moves (const pg_load *load)
+{
+    return pg_load_prescribes (load) && load->set->npoint && !pg_load_rotates (load) && !load->turns;
+}
+
 /* The curve follows the prescribed component that moves most, else of the loads with a force the one that
  * comes last, as one presses a body that is confined; of several the first, along the axis in which it is
  * largest. */
@@ -76,8 +82,7 @@ void pg_result_curve_choose (pg_result *r)
         for (int k = 0; k < p->dim; k++) {
             const pg_load *load = &p->load[l];
             int platen = load->kind == PG_PLATEN_MOTION;
-            if (!platen && (!pg_load_prescribes (load) || load->set->npoint == 0 || pg_load_rotates (load)))
-                continue;
+            if (!platen && !moves (load)) continue;
             double size = platen ? farthest_platen (p, load, k) : farthest (p, load, k);
             if (size > most) most = size, r->curve_load = (int) l, r->curve_component = k;
         }

@@ -2,7 +2,8 @@
  * history.csv has one row per step:
  *
  *   step, time, load_factor
- *   per load     reaction (N; N m for rotations) and mean displacement of its points (m; rad), per component
+ *   per load     reaction (N; N m for rotations) and mean displacement of its points (m; rad), per component,
+ *                then the moment of its reaction (N m), about z in the plane
  *   per platen   force and moment on the body, displacement and rotation, per component
  *   per gauge    opening, m                     per entry of output.averages   its mean
  *   per entry of output.tips   length of the crack, m
@@ -42,6 +43,20 @@ enum { EVENT_NUMBERS = 10, EVENT_COLUMNS = EVENT_NUMBERS + 2 };
  * */
 static int platen_has (const pg_problem *p, int k) { return p->dim == 3 || k < 2 || k == 5; }
 
+/* How many forces and displacements a load has columns of; free strains have none. */
+static int columns_of (const pg_problem *p, size_t l)
+{
+    const pg_load *load = &p->load[l];
+    return load->platen || load->kind == PG_EIGENSTRAIN ? 0 : pg_load_components (load, p->dim);
+}
+
+/* Numbers of the axes about which a load has a moment beside its force: from (z in the plane) to dim. */
+static int first_moment (const pg_problem *p, size_t l)
+{
+    int has = p->dim > 1 && columns_of (p, l) && !p->load[l].cracks && !pg_load_rotates (&p->load[l]);
+    return !has ? 3 : p->dim == 2 ? 2 : 0;
+}
+
 /* The order of the columns here is that of the values in pg_result_history_row. Names are at
  * most 127 bytes. */
 pg_status pg_result_history_create (pg_result *r, const result_marks *from)
@@ -51,13 +66,13 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     char path[4096], (*name)[128] = NULL;
     const char **column = NULL;
     size_t n = 0, tips = pg_result_paths_columns (r),
-           most = 14 + UNSTABLE_COLUMNS + 6 * p->nload + 12 * p->nplaten + p->ngauge + r->naverage
+           most = 14 + UNSTABLE_COLUMNS + 9 * p->nload + 12 * p->nplaten + p->ngauge + r->naverage
                   + r->ntip + tips + pg_result_crack_columns (r) + 1;
     PG_ALLOC (name, most);
     PG_ALLOC (column, most);
     for (size_t k = 0; k < 3; k++) snprintf (name[n++], sizeof *name, "%s", first_columns[k]);
-    for (size_t l = 0; l < p->nload; l++)
-        for (int k = 0; !p->load[l].platen && k < pg_load_components (&p->load[l], p->dim); k++) {
+    for (size_t l = 0; l < p->nload; l++) {
+        for (int k = 0; k < columns_of (p, l); k++) {
             char axis = pg_load_axis (&p->load[l], p->dim, k);
             int turns = pg_load_rotates (&p->load[l]);
             snprintf (name[n++], sizeof *name, turns ? "%s.moment_%c [N m]" : "%s.force_%c [N]",
@@ -65,6 +80,9 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
             snprintf (name[n++], sizeof *name, turns ? "%s.rotation_%c [rad]" : "%s.displacement_%c [m]",
                       p->load[l].name, axis);
         }
+        for (int k = first_moment (p, l); k < 3; k++)
+            snprintf (name[n++], sizeof *name, "%s.moment_%c [N m]", p->load[l].name, "xyz"[k]);
+    }
     for (size_t i = 0; i < p->nplaten; i++)
         for (int k = 0; k < 6; k++) {
             static const char *const what[4] = { "%s.force_%c [N]", "%s.displacement_%c [m]",
@@ -105,11 +123,15 @@ done:
     return status;
 }
 
-/* Mean of component k over the points of a set; 0 for a set without points. */
-static double mean_of (const pg_set *set, const double *u, int dim, int k)
+/* Mean of component k over the points of a load, at a place by their shares; 0 for a set without points. */
+static double mean_of (const pg_load *load, const double *u, int dim, int k)
 {
+    const pg_set *set = load->set;
     double sum = 0;
-    for (size_t i = 0; i < set->npoint; i++) sum += u[(size_t) set->point[i] * (size_t) dim + (size_t) k];
+    for (size_t i = 0; i < set->npoint; i++) {
+        double share = load->share ? load->share[i] * (double) set->npoint : 1;
+        sum += share * u[(size_t) set->point[i] * (size_t) dim + (size_t) k];
+    }
     return set->npoint ? sum / (double) set->npoint : 0;
 }
 
@@ -169,15 +191,18 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
     if (force->field && pg_problem_rotations (p))
         PG_TRY (force->field (self, state, state->d, "rotation", &components, &unit, r->u + 3 * p->cloud.n));
-    for (size_t l = 0; l < p->nload; l++)
-        for (int k = 0; !p->load[l].platen && k < pg_load_components (&p->load[l], p->dim); k++) {
+    for (size_t l = 0; l < p->nload; l++) {
+        for (int k = 0; k < columns_of (p, l); k++) {
             int turns = pg_load_rotates (&p->load[l]);
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
-            double u = mean_of (p->load[l].set, turns ? r->u + 3 * p->cloud.n : r->u,
+            double u = mean_of (&p->load[l], turns ? r->u + 3 * p->cloud.n : r->u,
                                 turns ? pg_problem_rotations (p) : p->dim, k);
             if ((int) l == r->curve_load && k == r->curve_component) x = u, y = f;
             r->row[n++] = f, r->row[n++] = u;
         }
+        for (int k = first_moment (p, l); k < 3; k++)
+            r->row[n++] = step->reaction ? step->reaction[3 * (p->nload + l) + (size_t) k] : 0;
+    }
     const pg_platen_values *platen = pg_solver_platens (r->solver, &platens);
     for (size_t i = 0; i < p->nplaten; i++)
         for (int k = 0; k < 6; k++) {

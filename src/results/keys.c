@@ -7,8 +7,9 @@
 
 static const pg_key keys[] = {
     { "output.fields", PG_NAMES, NULL, NULL, "[displacement, damage, stress]",
-      "displacement|rotation|velocity|damage|stress|strain|error_estimate", NULL, NULL,
-      "Fields of result.e; rotation: of points, gmpd only; error_estimate: of the stress, by recovery." },
+      "displacement|rotation|velocity|damage|stress|strain|error_estimate|nodal_force", NULL, NULL,
+      "Fields of result.e; rotation: of points, gmpd only; error_estimate: of the stress, by recovery; "
+      "nodal_force: internal force of every point, at rest what loads and supports exert on it." },
     { "output.pictures", PG_NAMES, NULL, NULL, "[damage]", NULL, NULL, NULL,
       "Pictures of the last state: a field, or a part of one (displacement.y, stress.xx). Of a mesh: on its "
       "elements, while no bond is broken. []: none, and no charts either." },

@@ -15,7 +15,7 @@ static const struct {
 } known_fields[] = {
     { "displacement", "m", VECTOR }, { "coefficient", "m", VECTOR }, { "velocity", "m/s", VECTOR },
     { "damage", "", ONE },           { "error_estimate", "Pa", ONE }, { "stress", "Pa", TENSOR },
-    { "strain", "", TENSOR },        { "rotation", "rad", TURNS },
+    { "strain", "", TENSOR },        { "rotation", "rad", TURNS },   { "nodal_force", "N", VECTOR },
 };
 
 /* Makes room for the values of a field, one of the list above (as the keys of the scene have checked). */

@@ -27,7 +27,8 @@ typedef struct {
     /* Seconds that the run has taken so far. */
     double     seconds;
     pg_step    pending;
-    /* Broken bonds (pending.nbroken) and reactions, N (nload x 3), of the pending step: own memory, since
+    /* Broken bonds (pending.nbroken) and reactions, N (PG_REACTIONS a load), of the pending step: own
+     * memory, since
      * the same calls that write them also read them, and a step lends its arrays as constant. */
     pg_broken *broken;  double *reaction;
 } memory;
@@ -148,7 +149,7 @@ static pg_status keep_pending (memory *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     pg_step *s = &m->pending;
-    size_t nreaction = s->reaction || k->reading ? 3 * m->r->problem->nload : 0;
+    size_t nreaction = s->reaction || k->reading ? PG_REACTIONS * m->r->problem->nload : 0;
     long count[5] = { s->number, s->iterations, s->level, s->event, (long) s->nbroken };
     double number[6] = { s->stamp, s->time, s->factor, s->residual, s->utilisation, s->dissipated };
     if (!m->is_pending) goto done;

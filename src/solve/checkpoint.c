@@ -215,14 +215,14 @@ static pg_status keep_work_balance (pg_work_balance *l, const char *name, size_t
         l->npair = (size_t) count[0];
         PG_ALLOC (l->force, l->npair);
         PG_ALLOC (l->displacement, l->npair);
-        if (count[1]) PG_ALLOC (l->reaction, 3 * nload);
+        if (count[1]) PG_ALLOC (l->reaction, PG_REACTIONS * nload);
     }
     strcat (strcpy (part, name), ".force");
     if (count[0] > 0) PG_TRY (k->numbers (k->context, part, (size_t) count[0], l->force));
     strcat (strcpy (part, name), ".displacement");
     if (count[0] > 0) PG_TRY (k->numbers (k->context, part, (size_t) count[0], l->displacement));
     strcat (strcpy (part, name), ".reaction");
-    if (count[1] && nload) PG_TRY (k->numbers (k->context, part, 3 * nload, l->reaction));
+    if (count[1] && nload) PG_TRY (k->numbers (k->context, part, PG_REACTIONS * nload, l->reaction));
     strcat (strcpy (part, name), ".strain");
     PG_TRY (k->numbers (k->context, part, 1, &l->strain));
 done:
@@ -355,7 +355,7 @@ static pg_status keep_solver (pg_solver *s, const pg_keeper *k)
     b->work = number[0], b->work0 = number[1], b->stored0 = number[2];
     b->strain0 = number[3], b->kinetic0 = number[4], b->saved = b->round > 0;
     PG_TRY (keep_report (&s->report, k));
-    if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", 3 * nload, s->reaction));
+    if (nload) PG_TRY (k->numbers (k->context, "solver.reaction", PG_REACTIONS * nload, s->reaction));
     PG_TRY (keep_broken (b, s->problem, k));
     PG_TRY (keep_near (b, k));
     PG_TRY (solver_keep_tips (s, k));

@@ -186,7 +186,7 @@ void      platens_react   (pg_system *s);              /* reactions from the for
 void      platens_tell    (pg_system *s);              /* what is doubtful about the state at the end */
 /* Work from the state booked last to the one at hand, loads scaled, J. */
 double    platens_book    (pg_system *s, double scale);
-/* Fills in the reactions of their loads (nload x 3). */
+/* Fills in the reactions of their loads (PG_REACTIONS a load). */
 void      platens_reactions (const pg_system *s, double *reaction);
 double    platens_secant  (const pg_system *s);        /* sum of reactions times motions, J */
 void      platens_show    (pg_system *s, double scale);

@@ -286,11 +286,13 @@ double platens_book (pg_system *s, double scale)
 void platens_reactions (const pg_system *s, double *reaction)
 {
     const contact_platens *w = s->contact ? &s->contact->platens : NULL;
+    int nload = (int) s->problem->nload;
     for (size_t i = 0; w && reaction && i < w->n; i++)
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 6; k++) {
             const pg_platen *p = &s->problem->platen[i];
-            if (p->motion >= 0) reaction[3 * p->motion + k] = w->reaction[i][k];
-            if (p->force >= 0) reaction[3 * p->force + k] = w->reaction[i][k];
+            int at = k < 3 ? k : 3 * nload + k - 3;
+            if (p->motion >= 0) reaction[3 * p->motion + at] = w->reaction[i][k];
+            if (p->force >= 0) reaction[3 * p->force + at] = w->reaction[i][k];
         }
 }
 

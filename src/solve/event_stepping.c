@@ -347,7 +347,7 @@ static void take_reactions (pg_solver *s, double factor)
 {
     const double *of_unit = s->break_loop.work_balance.reaction;
     if (!of_unit) return;
-    for (size_t k = 0; k < 3 * s->problem->nload; k++) {
+    for (size_t k = 0; k < PG_REACTIONS * s->problem->nload; k++) {
         s->reaction[k] = of_unit[k];
         s->reaction[k] *= factor;
     }
@@ -367,7 +367,8 @@ pg_status event_rest (pg_solver *s, pg_state *state, double factor)
         event_move (s, state, factor);
         PG_TRY (break_loop_account (&s->break_loop, factor, state->d, NULL, 1));
         s->report.energy_strain = b->strain;
-        if (b->reaction) memcpy (s->reaction, b->reaction, 3 * s->problem->nload * sizeof *s->reaction);
+        if (b->reaction) memcpy (s->reaction, b->reaction,
+                                 PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
     }
     PG_TRY (event_secant (s, &stiff));
     PG_TRY (event_stops (s, state, factor, stiff));

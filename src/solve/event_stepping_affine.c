@@ -465,7 +465,8 @@ static pg_status go_to (pg_solver *s, pg_state *state, double factor, pg_step *s
     PG_TRY (account_here (s, state, factor));
     contact_accept (&b->system);
     if (b->work_balance.reaction)
-        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+        memcpy (s->reaction, b->work_balance.reaction,
+                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
     if (state->step == 0 || (s->stage.now.number && e->secant0 == 0)) PG_TRY (event_secant (s, &e->secant0));
     step->residual = e->unit_residual;
 done:

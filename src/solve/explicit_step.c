@@ -398,7 +398,8 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     step->dissipated = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0)
                        - (m->damped - m->damped0) - explicit_contact_took (s);
     if (b->work_balance.reaction)
-        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+        memcpy (s->reaction, b->work_balance.reaction,
+                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
     state->time = step->time = t;
     state->factor = step->factor = t / s->options.end;
     step->level = explicit_level (s, s->options.time_steps, n);

@@ -343,7 +343,8 @@ pg_status instability_step (pg_solver *s, instability *u, pg_state *state, pg_st
     balance_energy (s, u, state, step);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     if (b->work_balance.reaction)
-        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+        memcpy (s->reaction, b->work_balance.reaction,
+                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
     if (u->phase == PHASE_RUNNING) u->time += u->scheme.dt, s->report.motion_time += u->scheme.dt;
     s->report.unstable_steps++;
     step->factor = step->time = factor;

@@ -190,7 +190,8 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     s->report.energy_strain = b->work_balance.strain;
     step->dissipated = b->work - b->work0 - (s->report.energy_strain + s->report.energy_kinetic - b->stored0);
     if (b->work_balance.reaction)
-        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+        memcpy (s->reaction, b->work_balance.reaction,
+                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     PG_TRY (contact_show (&b->system, 1));
     contact_accept (&b->system);

@@ -138,7 +138,7 @@ static int stands_still (const pg_problem *p, const pg_load *load)
                                   p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim, 1)
                        != 0)
                 return 0;
-    return pg_load_prescribes (load);
+    return pg_load_prescribes (load) || load->kind == PG_SPRING;
 }
 
 /* A linear ramp has no slope where the end of the run is not known. */

@@ -404,7 +404,8 @@ pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
     state->time = step->time = step->factor = state->factor;
     step->nbroken = b->nbroken, step->broken = b->broken;
     if (b->work_balance.reaction)
-        memcpy (s->reaction, b->work_balance.reaction, 3 * s->problem->nload * sizeof *s->reaction);
+        memcpy (s->reaction, b->work_balance.reaction,
+                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
 done:
     return status;
 }

@@ -52,7 +52,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
         s->own = own;
     }
     PG_TRY (break_loop_create (&s->break_loop));
-    PG_ALLOC (s->reaction, 3 * problem->nload);
+    PG_ALLOC (s->reaction, PG_REACTIONS * problem->nload);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));
     s->options.scene = NULL;                               /* may be gone from here on */

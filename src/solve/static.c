@@ -59,7 +59,7 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
     pg_status status = step_fixed (s, state, step);
     if (status == PG_OK && s->break_loop.work_balance.reaction)
         memcpy (s->reaction, s->break_loop.work_balance.reaction,
-                3 * s->problem->nload * sizeof *s->reaction);
+                PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
     return status;
 }
 
@@ -76,7 +76,11 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
                             int closes)
 {
     int affine = PG_OWN (pg_static_options, o)->affine;
-    if (affine && !pg_problem_affine (problem))
+    if (o->event && pg_problem_strained (problem))
+        pg_scene_fault (scene, "solver.stepping",
+                        "event: the equilibria after each break do not know temperature, shrinkage and pore "
+                        "pressure so far: use fixed");
+    else if (affine && !pg_problem_affine (problem))
         pg_scene_fault (scene, "solver.stepping",
                         "event stepping needs loads that grow with the load factor (ramp: linear), stay "
                         "(ramp: constant), or both: use fixed, or stages");

@@ -22,7 +22,8 @@ static int acts (const pg_problem *p, const pg_load *load, int k, double end)
 {
     enum { LOOKS = 7 };
     if (!load->value[k]) return 0;
-    if (!pg_load_prescribes (load) || load->set->npoint == 0 || acts_at (p, load, k, end)) return 1;
+    int moves = pg_load_prescribes (load) || load->kind == PG_SPRING;
+    if (!moves || load->set->npoint == 0 || acts_at (p, load, k, end)) return 1;
     for (size_t row = 0; row < load->ntable; row++) if (acts_at (p, load, k, load->table[2 * row])) return 1;
     for (int look = 1; look < LOOKS; look++) if (acts_at (p, load, k, end * look / LOOKS)) return 1;
     return 0;
@@ -41,7 +42,7 @@ static int may_turn (const pg_problem *p)
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (pg_load_prescribes (load) && pg_load_rotates (load)) return 0;
-        for (size_t k = 0; pg_load_prescribes (load) && k < dim; k++)
+        for (size_t k = 0; (pg_load_prescribes (load) || load->kind == PG_SPRING) && k < dim; k++)
             for (size_t i = 0; load->value[k] && i < load->set->npoint; i++) {
                 double row[6] = { 0 }, x[3] = { 0 };
                 for (size_t a = 0; a < dim; a++)
@@ -61,7 +62,8 @@ static int may_turn (const pg_problem *p)
 static int held_along (const pg_problem *p, int k)
 {
     for (size_t l = 0; l < p->nload; l++)
-        if (pg_load_prescribes (&p->load[l]) && !pg_load_rotates (&p->load[l]) && p->load[l].value[k])
+        if ((pg_load_prescribes (&p->load[l]) || p->load[l].kind == PG_SPRING)
+            && !pg_load_rotates (&p->load[l]) && p->load[l].value[k])
             return 1;
     return 0;
 }

@@ -78,6 +78,10 @@ static const struct { const char *name, *text; int whole;
       "shape: cylinder, point: [0.5, 1.1], radius: 0.5, friction: 0.2, displacement: {y: -4 mm}}]\n"
       "solver: {stepping: fixed, steps: 6}\n"
       "output: {pictures: [], at: {levels: 3}}\n", 1 },
+    { "drying", BODY
+      "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, spring: "
+      "{all: 1 MN/m}, spring_end: {y: 2 mm}}, {shrinkage: 2e-3 * (1 + y / 1 m)}]\n"
+      "solver: {stepping: fixed, steps: 3}\noutput: {pictures: [], at: {levels: 2, broken: 4 %}}\n", 0 }
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 

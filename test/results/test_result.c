@@ -106,8 +106,9 @@ static void the_history_has_its_columns (void **state)
 {
     static const char header[] =
         "step [1],time [s],load_factor [1],foot.force_x [N],foot.displacement_x [m],foot.force_y "
-        "[N],foot.displacement_y [m],"
-        "head.force_x [N],head.displacement_x [m],head.force_y [N],head.displacement_y [m],mouth [m],"
+        "[N],foot.displacement_y [m],foot.moment_z [N m],"
+        "head.force_x [N],head.displacement_x [m],head.force_y [N],head.displacement_y [m],"
+        "head.moment_z [N m],mouth [m],"
         "energy_strain [J],energy_kinetic [J],energy_external [J],energy_dissipated [J],broken "
         "[1],iterations [1],residual [1],utilisation [1],event [1],level [1]\n";
     (void) state;

@@ -89,6 +89,7 @@ static void from_every_wing (void **state) { (void) state; from_every_moment (9,
 static void from_every_round_of_wings (void **state) { (void) state; from_every_moment (10, 3); }
 static void from_every_stretch_of_confined_wings (void **state) { (void) state; from_every_moment (11, 2); }
 static void from_every_step_between_platens (void **state) { (void) state; from_every_moment (12, 1); }
+static void from_every_round_of_drying (void **state) { (void) state; from_every_moment (13, 7); }
 
 /* ---- stages, full disks -------------------------------------------------------------------------------- */
 static void stages_within_a_step_ascend_in_time (void **state)
@@ -182,6 +183,7 @@ int main (void)
         cmocka_unit_test (from_every_round_of_wings),
         cmocka_unit_test (from_every_stretch_of_confined_wings),
         cmocka_unit_test (from_every_step_between_platens),
+        cmocka_unit_test (from_every_round_of_drying),
         cmocka_unit_test (stages_within_a_step_ascend_in_time),
         cmocka_unit_test (a_disk_that_was_full_costs_nothing),
     };

@@ -1,0 +1,174 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Eigenstrains (temperature, shrinkage, pore pressure): stress is that of the strain less the free one, which
+ * is the same along all axes. What it works is a pair of its own at every evaluation point, so that energies
+ * balance: dU = sigma : d eps - sigma : d eps*. */
+#include "galerkin.h"
+#include <math.h>
+#include <string.h>
+
+/* What the free strain is in the components that the body has: in plane strain the expansion that is held
+ * across the plane adds Poisson's ratio times it. */
+static double held (const pg_material *m) { return m->mode == PG_PLANE_STRAIN ? 1 + m->nu : 1; }
+
+/* Stress across the plane that holding this expansion makes, per free strain, Pa. */
+static double across (const pg_material *m) { return m->mode == PG_PLANE_STRAIN ? m->E : 0; }
+
+pg_status galerkin_eigen_create (galerkin *g)
+{
+    pg_status status = PG_OK;
+    if (!pg_problem_strained (g->problem)) return PG_OK;
+    const pg_problem *p = g->problem;
+    for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (g->eigen[s], g->rows[s].n);
+    PG_ALLOC (g->eigen_pattern, p->nload * PG_BOND_SETS);
+    for (size_t l = 0; l < p->nload; l++)
+        for (int s = 0; s < PG_BOND_SETS && p->load[l].kind == PG_EIGENSTRAIN; s++) {
+            if (!pg_load_separates (&p->load[l])) continue;
+            double *pattern = NULL;
+            PG_ALLOC (pattern, g->rows[s].n);
+            g->eigen_pattern[l * PG_BOND_SETS + (size_t) s] = pattern;
+            for (size_t q = 0; q < g->rows[s].n; q++)
+                pattern[q] = p->load[l].per_material[g->material[s][q]]
+                             * pg_load_pattern (&p->load[l], 0, p->dim, g->rows[s].x + q * (size_t) p->dim);
+        }
+    g->eigen_time = NAN;
+done:
+    return status;
+}
+
+void galerkin_eigen_free (galerkin *g)
+{
+    for (int s = 0; s < PG_BOND_SETS; s++) pg_free (g->eigen[s]);
+    for (size_t k = 0; g->eigen_pattern && k < g->problem->nload * PG_BOND_SETS; k++)
+        pg_free (g->eigen_pattern[k]);
+    pg_free (g->eigen_pattern);
+}
+
+/* Stress at a point by its strain e less the free one. */
+void galerkin_eigen_stress (const galerkin *g, int set, size_t p, const double *e)
+{
+    const pg_material *m = galerkin_material (g, set, p);
+    double elastic[6], free = g->eigen[set][p], part = held (m) * free;
+    memcpy (elastic, e, (size_t) g->nv * sizeof *e);
+    for (int k = 0; k < g->dim; k++) elastic[k] -= part;
+    m->type->stress (m, 1, elastic, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p);
+    g->zz[set][p] -= across (m) * free;
+}
+
+/* The size of the forces that hold the body unstrained, N: with these, where nothing else loads it, residuals
+ * are compared. Of every point the stress that this takes times its volume over its spacing, whatever is
+ * broken, so that a run that goes on from a checkpoint takes the same. */
+static double size_of_forces (const galerkin *g)
+{
+    double sum = 0, none[6] = { 0 }, s[6], zz;
+    for (size_t p = 0; p < g->sums.n; p++) {
+        const pg_material *m = galerkin_material (g, g->bulk, p);
+        none[0] = held (m) * g->eigen[g->bulk][p];
+        m->type->stress (m, 1, none, s, &zz);
+        double f = g->problem->rows[g->bulk].weight[p] * s[0] / pg_problem_spacing (g->problem, g->bulk, p);
+        sum += f * f;
+    }
+    return sqrt (sum);
+}
+
+/* Adds the free strains of a load at time t; of one that is a pattern times a factor of t by its pattern. */
+static void add_load (galerkin *g, size_t l, int s, double t)
+{
+    const pg_load *load = &g->problem->load[l];
+    const double *pattern = g->eigen_pattern[l * PG_BOND_SETS + (size_t) s];
+    size_t dim = (size_t) g->dim;
+    double factor = pattern ? pg_load_factor (load, t) : 0;
+    for (size_t p = 0; p < g->rows[s].n; p++)
+        g->eigen[s][p] += pattern ? factor * pattern[p]
+                                  : load->per_material[g->material[s][p]]
+                                        * pg_load_value (load, 0, g->dim, g->rows[s].x + p * dim, t);
+}
+
+void galerkin_eigen_at (galerkin *g, double t)
+{
+    if (!g->eigen[PG_NODES] || t == g->eigen_time) return;
+    for (int s = 0; s < PG_BOND_SETS; s++) {
+        memset (g->eigen[s], 0, g->rows[s].n * sizeof *g->eigen[s]);
+        for (size_t l = 0; l < g->problem->nload; l++)
+            if (g->problem->load[l].kind == PG_EIGENSTRAIN) add_load (g, l, s, t);
+        g->fresh[s] = 0;
+    }
+    g->eigen_time = t;
+    g->eigen_force = size_of_forces (g);
+}
+
+/* Takes what the free strain at a place makes off its stress (xx yy zz xy yz zx); q: an evaluation point of
+ * the
+ * material there. */
+void galerkin_eigen_relieve (const galerkin *g, double t, const double *x, size_t q, double *stress)
+{
+    if (!g->eigen[PG_NODES]) return;
+    const pg_problem *p = g->problem;
+    const pg_material *m = galerkin_material (g, g->bulk, q);
+    double free = 0, e[6] = { 0 }, s[6] = { 0 }, zz = 0;
+    for (size_t l = 0; l < p->nload; l++)
+        if (p->load[l].kind == PG_EIGENSTRAIN)
+            free += p->load[l].per_material[g->material[g->bulk][q]] * pg_load_value (&p->load[l], 0,
+                    p->dim, x, t);
+    for (int k = 0; k < g->dim; k++) e[k] = held (m) * free;
+    m->type->stress (m, 1, e, s, &zz);
+    for (int k = 0; k < (g->dim == 3 ? 6 : g->dim); k++) stress[k] -= s[k];
+    if (g->dim == 2) stress[2] -= zz + across (m) * free, stress[3] -= s[2];
+}
+
+void galerkin_eigen_bonds (const galerkin *g, int set, size_t count, const size_t *bond, const size_t *point,
+                           const double *xi, double *eta)
+{
+    size_t dim = (size_t) g->dim;
+    for (size_t k = 0; k < count; k++) {
+        double here = g->eigen[set][point[k]], there = g->eigen[PG_NODES][g->rows[set].family.node[bond[k]]];
+        for (size_t a = 0; a < dim; a++) eta[k * dim + a] -= 0.5 * (here + there) * xi[k * dim + a];
+    }
+}
+
+/* sigma : eps* at a point of the bulk over eps*, Pa. */
+static double pressure (const galerkin *g, size_t p)
+{
+    double sum = g->dim == 2 ? g->zz[g->bulk][p] : 0;
+    for (int k = 0; k < g->dim; k++) sum += g->stress[g->bulk][p * (size_t) g->nv + (size_t) k];
+    return sum;
+}
+
+/* What the energy of total strains at a point has too much, J/m^3. */
+double galerkin_eigen_energy (const galerkin *g, size_t p)
+{
+    return g->eigen[PG_NODES] ? 0.5 * pressure (g, p) * g->eigen[g->bulk][p] : 0;
+}
+
+size_t galerkin_eigen_pairs (const galerkin *g) { return g->eigen[PG_NODES] ? g->sums.n + g->nnitsche : 0; }
+
+/* The same of a constraint by Nitsche's terms: what they store has the traction times the gap in it, so that
+ * a
+ * free strain works on the gap by the traction that it would take off, N (n D m, m = 1 along all axes). */
+static double on_gap (const galerkin *g, const constraint *q, double t)
+{
+    size_t dim = (size_t) g->dim;
+    const pg_material *m = galerkin_material (g, PG_FACETS, q->point);
+    const double *normal = g->problem->facet_normal + q->point * dim;
+    double e[6] = { 0 }, s[6], zz, traction = 0,
+           goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
+                                 g->rows[PG_FACETS].x + q->point * dim, t),
+           gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
+    for (size_t k = 0; k < dim; k++) e[k] = held (m);
+    m->type->stress (m, 1, e, s, &zz);
+    for (int c = 0; c < g->dim; c++) traction += s[pg_voigt_at (g->dim, q->component, c)] * normal[c];
+    return g->rows[PG_FACETS].weight[q->point] * gap * traction;
+}
+
+/* Pairs from number `at` on; they are no force on the body. */
+void galerkin_eigen_work (const galerkin *g, double t, pg_work_balance *out, size_t at)
+{
+    if (!g->eigen[PG_NODES]) return;
+    for (size_t p = 0; p < g->sums.n; p++, at++) {
+        out->force[at] = -g->sums.weight[p] * pressure (g, p);
+        out->displacement[at] = g->eigen[g->bulk][p];
+    }
+    for (size_t i = 0; i < g->nnitsche; i++, at++) {
+        out->force[at] = on_gap (g, &g->nitsche[i], t);
+        out->displacement[at] = g->eigen[PG_FACETS][g->nitsche[i].point];
+    }
+}
