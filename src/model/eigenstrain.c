@@ -24,7 +24,7 @@ static double factor_of (const pg_problem *p, const pg_scene *scene, const pg_ma
         return 0;
     }
     if (pg_problem_graded (p)) {
-        pg_scene_fault (scene, path, "does not go with a stiffness by place so far: give materials by blocks");
+        pg_scene_fault (scene, path, "does not go with a stiffness by place so far: give several materials");
         return 0;
     }
     if (!(m->E > 0)) {
