@@ -133,6 +133,9 @@ const pg_problem *pg_session_problem (const pg_session *session);
 const pg_state   *pg_session_state   (const pg_session *session);
 pg_solver        *pg_session_solver  (const pg_session *session);
 const double     *pg_session_places  (const pg_session *session);      /* of the points, m (n x dim) */
+/* pg_equations_create of its problem and state. PG_E_USAGE: besides, the scene has contact, which decides
+ * which faces bear. */
+pg_status pg_session_equations (pg_equations *out, const pg_session *session, double t);
 int       pg_session_done  (const pg_session *session);
 /* One step of the solver, as a row of history.csv. PG_E_USAGE: it is done. A step that fails leaves the last
  * accepted state. *step is borrowed until the next step. */

@@ -258,11 +258,8 @@ int command_equations (const call *c)
     if (take_count (c, 2, 2)) return 1;
     const pg_session *s = take_handle (c, 0, KIND_SESSION);
     if (!s || take_number (c, 1, "the load factor or time", &t)) return 1;
-    if (pg_solver_settled (pg_session_solver (s))->contact.kind != PG_CONTACT_NONE)
-        return fault ("perigal:argument", "a scene with contact has no linear system: contact decides what bears "
-                      "(leave it out: 'set', {'solver.contact', []})");
     pg_equations *e = hold (sizeof *e, clear_equations);
-    if (!e || failed (c, pg_equations_create (e, pg_session_problem (s), pg_session_state (s), t))) return 1;
+    if (!e || failed (c, pg_session_equations (e, s, t))) return 1;
     mxArray *a = mxCreateStructMatrix (1, 1, 0, NULL);
     put (a, "K", sparse_of (&e->K));
     put (a, "f", full_of (e->n, 1, e->f));

@@ -243,20 +243,17 @@ ties several together); idle: how many are held because nothing resists them; un
 def stiffness(scene, set=None, t=1, threads=1):
     """The linear system of a scene (file or dict) at load factor or time t, pre-cracks cut: Equations.
 
-    Raises SceneError, UsageError (forces that reach neighbours of neighbours, platens), Failed.
+    Raises SceneError, UsageError (forces that reach neighbours of neighbours, platens, contact), Failed.
     """
     lib, session, e = library(), c_void_p(), _Equations()
     if not isinstance(t, (int, float)) or isinstance(t, bool):
         raise UsageError('t must be a number')
     words = [w.encode() for w in settings(set)[1::2]]
-    lib.pg_session_problem.restype = c_void_p
-    lib.pg_session_state.restype = c_void_p
     with scene_file(scene) as file:
         _try(lib.pg_session_open(byref(session), os.fsencode(file), c_size_t(len(words)),
                                  (c_char_p * len(words))(*words), c_int(threads)))
     try:
-        _try(lib.pg_equations_create(byref(e), c_void_p(lib.pg_session_problem(session)),
-                                     c_void_p(lib.pg_session_state(session)), c_double(t)))
+        _try(lib.pg_session_equations(byref(e), session, c_double(t)))
         n = e.n // e.unknowns
         lib.pg_session_places.restype = POINTER(c_double)
         places = lib.pg_session_places(session)

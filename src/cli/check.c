@@ -59,7 +59,7 @@ int pg_cli_check (int argc, char **argv)
     if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
     PG_TRY (pg_network_read (&cracks, scene));
     PG_TRY (pg_crack_statistics_measure (&network, &cracks, scene));
-    PG_TRY (matrix_write (p, c.matrix));
+    PG_TRY (matrix_write (p, &o, c.matrix));
     plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from, &network };
     if (c.json) PG_TRY (plan_print_json (&all));
     else printf ("%s: the scene is valid\n", c.scene);

@@ -35,12 +35,15 @@ done:
     return status;
 }
 
-pg_status matrix_write (const pg_problem *p, const char *folder)
+pg_status matrix_write (const pg_problem *p, const pg_solver_options *o, const char *folder)
 {
     pg_status status = PG_OK;
     pg_equations e = { 0 };
     char path[4096];
     if (!folder) return PG_OK;
+    if (o->contact.kind != PG_CONTACT_NONE)
+        PG_FAIL (PG_E_USAGE, "--matrix: a scene with contact has no linear system, as contact decides which "
+                             "faces bear; leave it out: --set 'contact={kind: none}'");
     PG_TRY (pg_equations_create (&e, p, NULL, 1));
     PG_TRY (pg_folder_make (folder));
     PG_TRY (join (path, folder, "K.mtx"));

@@ -117,7 +117,7 @@ void      spectrum_json  (pg_json *j, const spectrum *spectrum);
 pg_status spectrum_write (const spectrum *spectrum, const pg_problem *p, const char *folder);
 
 /* The linear system of a scene as files of a folder, NULL: none (check_matrix.c). */
-pg_status matrix_write (const pg_problem *p, const char *folder);
+pg_status matrix_write (const pg_problem *p, const pg_solver_options *o, const char *folder);
 
 /* What a scene amounts to (plan.c): in short, before a run. */
 void plan_print      (const pg_problem *p, const pg_solver_options *o);

@@ -91,6 +91,16 @@ const pg_problem *pg_session_problem (const pg_session *s) { return s->problem; 
 const pg_state   *pg_session_state   (const pg_session *s) { return s->state; }
 pg_solver        *pg_session_solver  (const pg_session *s) { return s->solver; }
 const double     *pg_session_places  (const pg_session *s) { return s->problem->cloud.x; }
+pg_status pg_session_equations (pg_equations *out, const pg_session *s, double t)
+{
+    *out = (pg_equations) { 0 };
+    if (pg_solver_settled (s->solver)->contact.kind != PG_CONTACT_NONE)
+        return pg_error (PG_E_USAGE, PG_HERE,
+                         "a scene with contact has no linear system, as contact decides which faces bear; "
+                         "leave it out by the override contact={kind: none}");
+    return pg_equations_create (out, s->problem, s->state, t);
+}
+
 int pg_session_done (const pg_session *s) { return pg_solver_done (s->solver, s->state); }
 
 /* ---- steps and fields ---------------------------------------------------------------------------------- */

@@ -78,6 +78,10 @@ good() {   # the command as words
         new) "$perigal" new "$2" -o "$work/${4:-$2}" > "$work/out" 2> "$work/err" ;;
         help|list) "$perigal" "$@" > "$work/out" 2> "$work/err" ;;
         plot|compare)
+            if [ "$1" = plot ] && [[ $2 = *.yaml ]]; then
+                mapfile -t words < <(for k in "$@"; do case $k in *.png|*.svg) echo "$work/$(basename "$k")" ;; *) echo "$k" ;; esac; done)
+                "$perigal" "${words[@]}" > "$work/out" 2> "$work/err"; return
+            fi
             if [ -d "$(ours "$2")" ] && [[ $3 != *.frd ]]; then
                 mapfile -t words < <(for k in "$@"; do ours "$k"; done)
                 "$perigal" "${words[@]}" > "$work/out" 2> "$work/err"; return

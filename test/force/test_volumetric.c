@@ -231,7 +231,7 @@ static pg_bond_loop *sweep_of (const bonded *b, double **room)
     pg_bond_loop *sweep;
     check_ok (pg_beam_measure (&sums, p->sums));
     for (size_t i = 0; i < b->n; i++) {
-        micropolar_split (p, 0, &E, &nu, &A);
+        micropolar_split (p, &p->material[0], &E, &nu, &A);
         check_ok (pg_beam_moduli (&c[i], &c[b->n + i], p->mode, rule->kernel, rule->horizon, E, nu,
                                   p->cloud.thickness));
         c[i] *= p->sums->calibration, c[b->n + i] *= sums.calibration;
@@ -368,7 +368,7 @@ static double cut_energy (const bonded *b, int axis, double s)
     double E, nu, A, axial, shear, sum = 0, weight[400], *all = pg_calloc (400 * 3, sizeof *all),
                                    *q = pg_calloc (b->n, sizeof *q), *room;
     pg_bond_loop *sweep = sweep_of (b, &room);
-    micropolar_split (p, 0, &E, &nu, &A);
+    micropolar_split (p, &p->material[0], &E, &nu, &A);
     check_ok (pg_beam_moduli (&axial, &shear, p->mode, p->sums->rule.kernel, p->sums->rule.horizon, E, nu,
                               p->cloud.thickness));
     check_ok (pg_bond_loop_dilatation (sweep, NULL, NULL, q));

@@ -328,6 +328,25 @@ static void test_fields (void **state)
     assert_null (s);
 }
 
+/* Which faces bear is no linear system. */
+static void test_contact_has_no_equations (void **state)
+{
+    (void) state;
+    static const char *const none[] = { "contact={kind: none}" },
+                      *const normal[] = { "contact={kind: normal}" };
+    pg_session *s = NULL;
+    pg_equations e;
+    check_ok (pg_session_open (&s, "data/slip_surface/scene.yaml", 1, normal, 1));
+    assert_int_equal (pg_session_equations (&e, s, 1), PG_E_USAGE);
+    assert_non_null (strstr (pg_last_error (), "contact={kind: none}"));
+    pg_session_close (&s);
+    check_ok (pg_session_open (&s, "data/slip_surface/scene.yaml", 1, none, 1));
+    check_ok (pg_session_equations (&e, s, 1));
+    assert_true (e.n > 0);
+    pg_equations_clear (&e);
+    pg_session_close (&s);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -338,6 +357,7 @@ int main (void)
         cmocka_unit_test (test_cut),
         cmocka_unit_test (test_fields),
         cmocka_unit_test (test_fields_after_cuts),
+        cmocka_unit_test (test_contact_has_no_equations),
     };
     return cmocka_run_group_tests (tests, start, finish);
 }
