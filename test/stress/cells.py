@@ -136,7 +136,8 @@ def unit_of(name):
 
 
 def difference(first, second, factors=None, signs=None, only=None):
-    """Largest relative difference of two histories, each unit measured by the largest value that carries it in the first one.
+    """Largest relative difference of two histories, each unit measured by the largest value that carries it in the first one;
+    moments, of which symmetric loads have none, at least by the largest force on an arm of the body's length, 1 m.
     `factors`: what a unit of the second is multiplied by; `signs`: columns that change their sign."""
     a, b = first.history(), second.history()
     names = [n for n in a if only is None or only(n)]
@@ -145,6 +146,8 @@ def difference(first, second, factors=None, signs=None, only=None):
     largest, scale = 0.0, {}
     for n in names:
         scale[unit_of(n)] = max([scale.get(unit_of(n), 0.0)] + [abs(v) for v in a[n]])
+    if 'N m' in scale:
+        scale['N m'] = max(scale['N m'], scale.get('N', 0.0))
     for n in names:
         if 'residual' in n or not scale[unit_of(n)]:
             continue
