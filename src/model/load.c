@@ -358,49 +358,74 @@ static int acts_everywhere (const pg_load *load)
     return load->kind == PG_BODY_FORCE || load->kind == PG_EIGENSTRAIN;
 }
 
+/* The first of the kinds whose key entry i of `boundary` gives; the last where it gives none. */
+static size_t kind_of (const pg_scene *scene, size_t i)
+{
+    size_t k = 0;
+    while (k + 1 < sizeof kinds / sizeof *kinds
+           && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key))
+        k++;
+    return k;
+}
+
+/* Where entry i acts: a set, a place (at) or the faces of cracks, and the name that follows from that.
+ * load->set stays NULL where a fault says why. */
+static pg_status read_where (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i)
+{
+    pg_status status = PG_OK;
+    char path[64];
+    const char *set = pg_scene_text (scene, "boundary[%zu].set", i);
+    int at = pg_scene_given (scene, "boundary[%zu].at", i);
+    if (!set || !*set) set = !at && acts_everywhere (load) ? "all" : "at";
+    name_load (load, scene, i, set);
+    snprintf (path, sizeof path, "boundary[%zu].set", i);
+    if (!at && strcmp (set, "at") == 0 && !pg_scene_given (scene, "%s", path)) {
+        pg_scene_fault (scene, path, "missing: where it acts, a set; a force or a spring also at: [x, y, "
+                                     "z]; a body force and gravity without it act everywhere");
+        return PG_OK;
+    }
+    load->cracks = strcmp (set, crack_faces.name) == 0 && !pg_scene_given (scene, "sets.%s", set);
+    if (at) PG_TRY (pg_load_read_place (problem, load, scene, i));
+    else load->set = load->cracks ? &crack_faces : pg_sets_named (&problem->sets, scene, path, set);
+done:
+    return status;
+}
+
+/* How entry i changes with time: by the stages, by its table, by its ramp. */
+static pg_status read_course (pg_load *load, const pg_scene *scene, size_t i, int is_static, double duration)
+{
+    size_t nstage = pg_scene_count (scene, "stages");
+    const char *ramp = pg_scene_text (scene, "boundary[%zu].ramp", i);
+    if (nstage && !(ramp && strcmp (ramp, "constant") == 0))
+        return pg_load_follows_stages (load, scene, i, nstage);
+    if (pg_scene_given (scene, "boundary[%zu].table", i)) return read_table (load, scene, i);
+    return read_ramp (load, scene, i, is_static, duration);
+}
+
 /* Entry i of `boundary`. duration: end of the run, s (quasi-static: 1), for ramps over it. */
 static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i,
                             int is_static, double duration)
 {
     pg_status status = PG_OK;
     char path[64], names[160];
-    const char *set = pg_scene_text (scene, "boundary[%zu].set", i);
-    size_t k = 0;
-    int at = pg_scene_given (scene, "boundary[%zu].at", i);
-    while (k + 1 < sizeof kinds / sizeof *kinds
-           && !pg_scene_given (scene, "boundary[%zu].%s", i, kinds[k].key))
-        k++;
+    size_t k = kind_of (scene, i);
     load->kind = kinds[k].kind;
     snprintf (path, sizeof path, "boundary[%zu].%s", i, kinds[k].key);
     if (pg_load_rotates (load) && !pg_problem_rotations (problem))
         pg_scene_fault (scene, path, "points of force: %s have no rotations, only those of force: %s",
                         problem->method->name, pg_methods_with_rotations (problem, names, sizeof names));
-    if (!set || !*set) set = !at && acts_everywhere (load) ? "all" : "at";
-    name_load (load, scene, i, set);
-    snprintf (path, sizeof path, "boundary[%zu].set", i);
-    if (!at && strcmp (set, "at") == 0 && !pg_scene_given (scene, "%s", path)) {
-        pg_scene_fault (scene, path, "missing: where it acts, a set; a force or a spring also at: [x, y, "
-                                     "z]; a body "
-                        "force and gravity without it act everywhere");
-        goto done;
-    }
-    load->cracks = strcmp (set, crack_faces.name) == 0 && !pg_scene_given (scene, "sets.%s", set);
-    if (at) PG_TRY (pg_load_read_place (problem, load, scene, i));
-    else load->set = load->cracks ? &crack_faces : pg_sets_named (&problem->sets, scene, path, set);
+    PG_TRY (read_where (problem, load, scene, i));
     if (!load->set) goto done;
+    snprintf (path, sizeof path, "boundary[%zu].set", i);
     if (is_static && load->kind == PG_VELOCITY)
         pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");
     load->essential = PG_ESSENTIAL_TRANSFORMATION;
     if (problem->method->support) problem->method->support (problem, load, scene, i);
-    if (!load->cracks && !at) check_place (problem, load, scene, i);
+    if (!load->cracks && !pg_scene_given (scene, "boundary[%zu].at", i))
+        check_place (problem, load, scene, i);
     pg_load_centre (problem, load, scene, i);
     read_depth (problem, load, scene, i);
-    size_t nstage = pg_scene_count (scene, "stages");
-    const char *ramp = pg_scene_text (scene, "boundary[%zu].ramp", i);
-    if (nstage && !(ramp && strcmp (ramp, "constant") == 0))
-        PG_TRY (pg_load_follows_stages (load, scene, i, nstage));
-    else if (pg_scene_given (scene, "boundary[%zu].table", i)) PG_TRY (read_table (load, scene, i));
-    else PG_TRY (read_ramp (load, scene, i, is_static, duration));
+    PG_TRY (read_course (load, scene, i, is_static, duration));
     if (!read_special (problem, load, scene, i, kinds[k].key, &status))
         PG_TRY (read_values (load, scene, i, kinds[k].key, kinds[k].unit));
     PG_TRY (status);
