@@ -19,6 +19,19 @@ static inline void place (const pose *p, const double *x, double *y)
     for (int k = 0; k < 3; k++) y[k] = p->scale * y[k] + p->shift * (k + 1);
 }
 
+/* The files, removed when the test ends. */
+static struct { char folder[20]; int count; } turned_boxes = { "/tmp/turned-XXXXXX", 0 };
+
+static void drop_turned_boxes (void)
+{
+    char path[200];
+    for (int i = 0; i < turned_boxes.count; i++) {
+        snprintf (path, sizeof path, "%s/box%d.msh", turned_boxes.folder, i);
+        unlink (path);
+    }
+    rmdir (turned_boxes.folder);
+}
+
 /* Writes it as n x (n + 1) x n hexahedra, or as six tetrahedra of each; returns the scene's body. */
 static inline const char *turned_box (const pose *p)
 {
@@ -26,11 +39,10 @@ static inline const char *turned_box (const pose *p)
                                     { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
     static const int tet[6][4] = { { 0, 1, 2, 6 }, { 0, 2, 3, 6 }, { 0, 3, 7, 6 },
                                    { 0, 7, 4, 6 }, { 0, 4, 5, 6 }, { 0, 5, 1, 6 } };
-    static char text[600], path[200], folder[] = "/tmp/turned-XXXXXX";
-    static int number;
+    static char text[600], path[200];
     int n[3] = { p->n, p->n + 1, p->n }, at[8], id = 0;
-    if (number == 0) assert_non_null (mkdtemp (folder));
-    snprintf (path, sizeof path, "%s/box%d.msh", folder, number++);
+    if (turned_boxes.count == 0) assert_non_null (mkdtemp (turned_boxes.folder)), atexit (drop_turned_boxes);
+    snprintf (path, sizeof path, "%s/box%d.msh", turned_boxes.folder, turned_boxes.count++);
     FILE *f = fopen (path, "w");
     assert_non_null (f);
     fprintf (f, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n", (n[0] + 1) * (n[1] + 1) * (n[2] + 1));

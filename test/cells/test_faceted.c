@@ -1,38 +1,10 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Cells of a lattice cut by the surface of meshes: volume, area and the divergence identity of every cell,
  * turned, shifted, mirrored, in mm; curved faces; whatever other shapes do to it; slivers; side sets. */
-#include "check.h"
-#include "perigal/cells.h"
+#include "meshed.h"
 #include "turned_box.h"
 
-typedef struct { pg_scene *scene; pg_body body; pg_lattice lattice; pg_cloud cloud; pg_cells cells; } meshed;
-
-static meshed make (const char *body, double spacing)
-{
-    meshed m = { 0 };
-    char all[2000];
-    snprintf (all, sizeof all, "%sspacing: %.17g\n", body, spacing);
-    check_ok (pg_scene_parse (&m.scene, all, "test.yaml"));
-    check_ok (pg_body_read (&m.body, m.scene));
-    check_ok (pg_cloud_build (&m.cloud, &m.lattice, &m.body, m.scene));
-    check_ok (pg_cells_cut (&m.cells, &m.body, &m.lattice, 1, 0, NULL));
-    return m;
-}
-
-static void drop (meshed *m)
-{
-    pg_cells_clear (&m->cells), pg_cloud_clear (&m->cloud), pg_lattice_clear (&m->lattice),
-        pg_body_clear (&m->body), pg_scene_free (&m->scene);
-}
-
 /* ---- what must hold ------------------------------------------------------------------------------------ */
-static double volume_of (const meshed *m)
-{
-    double V = 0;
-    for (size_t c = 0; c < m->cells.n; c++) V += m->cells.volume[c];
-    return V;
-}
-
 static double area_of (const meshed *m)
 {
     double A = 0;
@@ -138,7 +110,7 @@ static void a_turned_box_is_exact (void **state)
     };
     for (size_t i = 0; i < sizeof poses / sizeof *poses; i++) {
         double volume, surface;
-        meshed m = make (turned_box (&poses[i]), 0.17);
+        meshed m = make (turned_box (&poses[i]), 0.17, 1);
         check_ok (pg_body_measure (&m.body, &volume, &surface) ? PG_OK : PG_E_USAGE);
         double e[3] = { volume_of (&m) / 0.48 - 1, area_of (&m) / 3.76 - 1, identity (&m) };
         print_message ("pose %zu: %zu cells, %zu facets, volume %.1e, area %.1e, identity %.1e\n", i,
@@ -166,7 +138,7 @@ static void no_pose_is_special (void **state)
         int nearly = i % 7 == 0;
         if (i % 5 == 0) p.about_z = 45 * (i % 4), p.about_x = 45 * (i / 5 % 4);
         if (nearly) p.about_x = 90 + pow (10, -4 - 8 * random[3]);
-        meshed m = make (turned_box (&p), 0.14 + 0.06 * random[3]);
+        meshed m = make (turned_box (&p), 0.14 + 0.06 * random[3], 1);
         double e[3] = { fabs (volume_of (&m) / 0.48 - 1), fabs (area_of (&m) / 3.76 - 1), identity (&m) };
         for (int k = 0; k < 3; k++) worst[nearly][k] = fmax (worst[nearly][k], e[k]);
         drop (&m);

@@ -1,39 +1,11 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A mesh as a shape that a lattice fills: signed distance, box, volume and surface; stairs under `cells: cut`
  * beside cut surfaces, closed; names of its parts; scenes that cannot be; broken memory. */
-#include "check.h"
-#include "perigal/cells.h"
+#include "meshed.h"
 
 static const double pi = 3.14159265358979323846;
 #define DISK(file, more) "dimension: 2\nbody:\n  - add: {mesh: {file: data/mesh/" file more "}}\n"
 #define BALL(file) "dimension: 3\nbody:\n  - add: {mesh: {file: data/mesh/" file "}}\n"
-typedef struct { pg_scene *scene; pg_body body; pg_lattice lattice; pg_cloud cloud; pg_cells cells; } meshed;
-
-static meshed make (const char *text, double spacing, int cut)
-{
-    meshed m = {0};
-    char all[600];
-    snprintf (all, sizeof all, "%sspacing: %g\n", text, spacing);
-    check_ok (pg_scene_parse (&m.scene, all, "test.yaml"));
-    check_ok (pg_body_read (&m.body, m.scene));
-    check_ok (pg_cloud_build (&m.cloud, &m.lattice, &m.body, m.scene));
-    if (cut) check_ok (pg_cells_cut (&m.cells, &m.body, &m.lattice, 1, 0, NULL));
-    else check_ok (pg_cells_from_lattice (&m.cells, &m.lattice, 1));
-    return m;
-}
-
-static void drop (meshed *m)
-{
-    pg_cells_clear (&m->cells), pg_cloud_clear (&m->cloud), pg_lattice_clear (&m->lattice),
-        pg_body_clear (&m->body), pg_scene_free (&m->scene);
-}
-
-static double volume_of (const meshed *m)
-{
-    double V = 0;
-    for (size_t c = 0; c < m->cells.n; c++) V += m->cells.volume[c];
-    return V;
-}
 
 /* ---- the shape ----------------------------------------------------------------------------------------- */
 /* Radius 1, hole of radius 0.4; edges of 0.4: those of second order miss the circle by 2e-4. */
