@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cells of a lattice cut by the surface of meshes: volume, area and the divergence identity of every cell,
- * turned, shifted, mirrored, in mm; curved faces; whatever other shapes do to it; slivers; side sets. */
+ * Cells of a lattice cut by the surface of meshes: volume, area and the divergence identity of every cell of
+ * boxes that are turned, shifted, mirrored, in mm, at random. Curved faces, parts of other shapes and side
+ * sets: test_mesh_shape.c. */
 #include "meshed.h"
 #include "turned_box.h"
 
