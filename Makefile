@@ -10,7 +10,7 @@ SIZE    ?= full
 # ---- nothing to change below this line -------------------------------------------------------------------------------
 VERSION := 0.1.0
 # One-way order of the folders: a file may include headers of its own folder and of folders to its left only.
-ORDER   := base scene kernel material criterion linalg netcdf mesh mesh_files cloud cells approx integration sums model force fracture contact symbol solve output picture compare results session study cli
+ORDER   := base ranks scene kernel material criterion linalg netcdf mesh mesh_files cloud cells approx integration sums model force fracture contact symbol solve output picture compare results session study cli
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libqhull-dev libcmocka-dev
@@ -47,7 +47,7 @@ SECONDS ?= 60
 FUZZ    ?= scene points expression mesh table result checkpoint
 FUZZ_BUILD ?= build/fuzz
 
-SOURCES := $(filter-out src/cli/% src/convert/%,$(wildcard src/*/*.c))
+SOURCES := $(filter-out src/cli/% src/convert/% src/mpi/%,$(wildcard src/*/*.c))
 CLI     := $(wildcard src/cli/*.c)
 TESTS   := $(wildcard test/*/test_*.c)
 TOOLS   := $(wildcard bench/*.c)
@@ -64,11 +64,16 @@ BEHIND  := $(if $(filter shared,$(LINK)),| $(SOLIB),$(LIB))
 # perigal-mesh: only where Gmsh's library is installed (libgmsh-dev); newer ones start with one argument more
 GMSH    := $(wildcard /usr/include/gmshc.h)
 CONVERT := $(if $(GMSH),$(BUILD)/perigal-mesh)
+# perigal-mpi: only where MPI and PETSc are installed (petsc-dev mpi-default-dev mpi-default-bin)
+PETSC   := $(shell pkg-config --exists PETSc mpi 2>/dev/null && echo PETSc mpi)
+MPI     := $(if $(PETSC),$(BUILD)/perigal-mpi)
+MPISRC  := $(wildcard src/mpi/*.c)
+MPIOBJ  := $(MPISRC:src/%.c=$(BUILD)/src/%.o)
 Q       := $(if $(V),,@)
 # compilations and tests at a time: as many as make was given with -j, else a core each
 PARALLEL = $(if $(filter -j%,$(MAKEFLAGS)),,-j$(JOBS))
 
-all: perigal $(SOLIB) $(CONVERT) perigal.pc
+all: perigal $(SOLIB) $(CONVERT) $(MPI) perigal.pc
 
 perigal: $(PROGRAM)
 	$(Q)ln -sf $(PROGRAM) perigal
@@ -117,6 +122,11 @@ $(BUILD)/test/%: test/%.c $(BEHIND)
 $(BUILD)/bench/%: bench/%.c $(LIB)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) -MMD -MP -MF $@.d $< $(LDFLAGS) $(LIB) $(LIBS) -o $@
+
+$(BUILD)/src/mpi/%.o: CFLAGS += $(shell pkg-config --cflags $(PETSC) | sed 's/-I/-isystem /g')
+$(BUILD)/perigal-mpi: $(MPIOBJ) $(filter-out %/main.o,$(CLIOBJ)) $(LIB)
+	$(if $(V),,@echo "  LD   $@")
+	$(Q)$(CC) $(LDFLAGS) $^ $(shell pkg-config --libs $(PETSC)) $(LIBS) -o $@
 
 perigal.pc: perigal.pc.in FORCE
 	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(LIBS)|' $< > $@

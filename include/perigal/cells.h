@@ -30,7 +30,13 @@ typedef struct {
      * mm`, must constrain these points one by one, beside integrating over its facets. Not filled (0, NULL)
      * where the set was chosen by its faces. */
     size_t  ninner;  int *inner;
+    /* Points and facets of the set that all ranks own together, facets at the borders of subdomains counted
+     * more than once (pg_set_points, pg_set_facets); only where ranks share a run. */
+    size_t  all_points, all_facets;
 } pg_set;
+/* Numbers of points and facets of the set on all ranks. */
+static inline size_t pg_set_points (const pg_set *s) { return pg_ranks_now () ? s->all_points : s->npoint; }
+static inline size_t pg_set_facets (const pg_set *s) { return pg_ranks_now () ? s->all_facets : s->nfacet; }
 
 /* The cells and facets of a body. Arrays of variable length per cell or facet are stored in compressed
  * form: the entries of item c are start[c] .. start[c + 1] - 1. */

@@ -6,6 +6,7 @@
 #include "perigal/scene.h"
 #include "perigal/linalg.h"
 #include "perigal/mesh.h"
+#include "perigal/ranks.h"
 
 PG_API_BEGIN
 
@@ -140,12 +141,23 @@ typedef struct {
     double origin[3], high[3], step[3];
     /* 1 for each cell whose centre lies in the body (count[0] x count[1] x count[2], x fastest). */
     unsigned char *in;
+    /* Where it is the part of a larger lattice that a rank holds (perigal/ranks.h): its first cell there, and
+     * the counts and corners of that lattice. whole[0] = 0: it is none. */
+    int    first[3], whole[3];
+    double whole_origin[3], whole_high[3];
 } pg_lattice;
 /* Lays a lattice over the body. offset: shift in fractions of a step, or NULL. PG_E_LIMIT: more cells than
  * an int can number. */
 pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing,
                           const double *offset /* fraction of a step or NULL */);
+/* Of a lattice that pg_lattice_fit would make, the cells `part` alone, which then are its cells from 0 on, at
+ * the same places to the last bit. part NULL: the counts, corners and steps of all of it, `in` left out. */
+pg_status pg_lattice_fit_part (pg_lattice *out, const pg_body *body, double spacing, const double *offset,
+                               const pg_box *part);
 void      pg_lattice_clear (pg_lattice *lattice);
+/* The cell beyond this side of the lattice at index i (one of them outside 0 .. count - 1) belongs to the
+ * lattice that it is a part of: 1; 0: nothing is there. */
+int       pg_lattice_goes_on (const pg_lattice *lattice, const int *i);
 /* Coordinate (m) of vertex i along an axis; i + 0.5: of a cell's centre. Corners are exact, and the
  * coordinates are symmetric about the middle to the last bit. */
 double    pg_lattice_at    (const pg_lattice *lattice, int axis, double i);
@@ -226,14 +238,23 @@ typedef struct {
     int     regular;
     /* Thickness in 2D (m), cross section in 1D (m^2), 1 in 3D. */
     double  thickness;
-    /* Bounding box of the points, m. */
+    /* Bounding box of the points, m; of the points of all ranks. */
     double  low[3], high[3];
+    /* Which of the points this rank owns, where ranks share the run (perigal/ranks.h); NULL: alone. */
+    pg_subdomain *subdomain;
 } pg_cloud;
 /* Points of the scene. On a lattice (`lattice: nodes` or `cells`): the vertices of the cells whose centre
  * lies in the body, each with an equal share of the volume of its cells, or the centres of these cells;
  * then perturbed reproducibly, but only points with kept cells all around. Or read from `points: FILE`; the
  * lattice is empty then (dim = 0). PG_E_SCENE, PG_E_MEMORY. */
 pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene);
+/* The same of the subdomain of this rank, with a layer of ghosts of `width` (m) around it: only these points
+ * and their part of the lattice are made (out->subdomain). Without ranks it is pg_cloud_build. Points that no
+ * lattice gives cannot be divided so far: PG_E_USAGE in words. */
+pg_status pg_cloud_build_part (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene,
+                               double width);
+/* Nominal spacing of the lattice of a scene, m, before it is built (pg_cloud.h). */
+pg_status pg_cloud_spacing (double *h, const pg_body *body, const pg_scene *scene);
 void      pg_cloud_clear (pg_cloud *cloud);
 /* Local spacing of point i over the nominal one: the support of node i is `horizon` times this. Exactly 1
  * where size is NULL or equals h. */

@@ -211,6 +211,9 @@ typedef struct {
     pg_status (*read) (pg_problem *problem, const pg_scene *scene);
     /* How entry i of `boundary` holds its displacement. NULL: as a constraint on the points of its set. */
     void      (*support) (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+    /* How many horizons of ghosts its points and their bonds need around a subdomain (perigal/ranks.h); 0: the
+     * force cannot be divided among ranks so far. */
+    double    ghosts;
     /* Completes what failure criteria derive their constants from. NULL: nothing to add. */
     pg_status (*limits) (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
     /* Last checks, as faults: once criteria are read; once every point has its material. NULL: none. */
@@ -377,6 +380,7 @@ enum {
     PG_SOLVER_NEEDS_DENSITY = 32,
     PG_SOLVER_CONTACT = 128,                           /* knows contact of crack faces */
     PG_SOLVER_FACETS = 64,                             /* lets cracks grow by facets */
+    PG_SOLVER_RANKS = 256,                             /* ranks may share a run (perigal/ranks.h) */
     PG_SOLVER_STATIC = PG_SOLVER_QUASI_STATIC | PG_SOLVER_IMPLICIT     /* equilibria by linear systems */
 };
 /* The flags of solver.kind (NULL: of the first in the list, the default); 0: unknown. Defined with the

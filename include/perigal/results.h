@@ -42,6 +42,9 @@ double    pg_network_direction (const pg_network *n);
 
 /* An open result folder. */
 typedef struct pg_result pg_result;
+/* The folder in which this process keeps its tables and its checkpoint: `folder`, or where ranks share a run
+ * (perigal/ranks.h) and it is not the first one, ranks/RANK below that. */
+void pg_result_rank_folder (char *out, size_t size, const char *folder);
 /* Makes the folder and locks it (DIR/run.lock) until pg_result_free. Problem and solver are
  * borrowed. PG_E_USAGE: another run uses the folder, and the reasons of pg_result_may_open. */
 pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene,

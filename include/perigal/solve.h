@@ -313,6 +313,9 @@ const pg_front_values *pg_solver_fronts (const pg_solver *solver, size_t *n);
 const pg_stage_record *pg_solver_stages (const pg_solver *solver, size_t *n);
 /* with a fresh census and overlap */
 const pg_statistics *pg_solver_report (pg_solver *solver, const pg_state *state);
+/* Ranks that share a run: energies and counts of the report become those of all of them, once, when no step
+ * follows; nothing alone. */
+pg_status pg_solver_share_report (pg_solver *solver);
 const pg_statistics *pg_solver_report_now (const pg_solver *solver);  /* counts and energies only */
 /* The force behind it, for fields and gauges. */
 const pg_force_type *pg_solver_force (const pg_solver *solver, void **self);

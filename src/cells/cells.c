@@ -16,10 +16,12 @@ static const unsigned char face[3][6][4] = {
     {{0,4,7,3}, {1,2,6,5}, {0,1,5,4}, {3,7,6,2}, {0,3,2,1}, {4,5,6,7}},
 };
 
-/* Is lattice cell i within the lattice and its centre in the body? */
+/* Is lattice cell i within the lattice and its centre in the body? What other ranks hold beyond a part of a
+ * lattice counts as kept: where a subdomain ends the body has no surface. */
 static int kept (const pg_lattice *l, const int *i)
 {
-    for (int k = 0; k < 3; k++) if (i[k] < 0 || i[k] >= l->count[k]) return 0;
+    for (int k = 0; k < 3; k++)
+        if (i[k] < 0 || i[k] >= l->count[k]) return l->whole[0] && pg_lattice_goes_on (l, i);
     return l
         ->in[((size_t) i[2] * (size_t) l->count[1] + (size_t) i[1]) * (size_t) l->count[0] + (size_t) i[0]];
 }

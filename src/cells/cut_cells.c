@@ -222,7 +222,9 @@ static int beyond (const builder *m, const int *i, int face)
 {
     int at[3] = {i[0], i[1], i[2]};
     at[face / 2] += face % 2 ? 1 : -1;
-    if (at[face / 2] < 0 || at[face / 2] >= m->l->count[face / 2]) return NONE;
+    /* where a subdomain ends the body has no surface */
+    if (at[face / 2] < 0 || at[face / 2] >= m->l->count[face / 2])
+        return m->l->whole[0] && pg_lattice_goes_on (m->l, at) ? WHOLE : NONE;
     size_t c = number_of (m->l, at);
     return m->aligned[c] ? m->state[c] : CUT;
 }

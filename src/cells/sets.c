@@ -65,6 +65,10 @@ static pg_status add_one (builder *b, const char *name, int side)
     PG_TRY (gather (&s->point, &s->npoint, m, m->point, m->cloud->n, m->cloud->x, side));
     PG_TRY (gather (&s->facet, &s->nfacet, m, m->facet, m->cells->nfacet, m->cells->facet_centre, side));
     if (!b->faces) PG_TRY (gather_inner (s, m));
+    double all[2] = { 0, (double) s->nfacet };
+    for (size_t i = 0; i < s->npoint; i++) all[0] += pg_owns (m->cloud->subdomain, (size_t) s->point[i]);
+    PG_TRY (pg_ranks_sum (2, all));
+    s->all_points = (size_t) all[0], s->all_facets = (size_t) all[1];
 done:
     return status;
 }
@@ -289,7 +293,7 @@ static int side_of (const pg_sets *sets, const char *name)
 
 int pg_sets_empty_side (const pg_sets *sets, const pg_set *set)
 {
-    return set->npoint == 0 && set->nfacet == 0 && side_of (sets, set->name) >= 0;
+    return pg_set_points (set) == 0 && pg_set_facets (set) == 0 && side_of (sets, set->name) >= 0;
 }
 
 /* The fault of naming a side without a face: says where its plane is and what could be meant. */
@@ -411,8 +415,10 @@ static pg_status add_named (builder *b, const char *name)
     if (boundary) known = mark_boundaries (b, name);
     if (angle) PG_TRY (keep_angles (b, name));
     if (where) PG_TRY (keep_where (b, name));
-    if (known && !marked (b->marks.point, b->marks.cloud->n)
-        && !marked (b->marks.facet, b->marks.cells->nfacet))
+    double any = marked (b->marks.point, b->marks.cloud->n)
+                 || marked (b->marks.facet, b->marks.cells->nfacet);
+    PG_TRY (pg_ranks_most (1, &any));
+    if (known && !(any > 0))
         pg_scene_fault (s, at, "the set is empty: no point and no boundary facet meets its conditions");
     PG_TRY (add_set (b, name));
 done:

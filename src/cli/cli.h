@@ -9,6 +9,9 @@
 
 /* SCENE [-o DIR] [--resume | --force] ...: solves and leaves a folder of results (run.c). */
 int pg_cli_run   (int argc, char **argv);
+/* The same as one of several ranks (perigal/ranks.h). *together 0: this rank has failed in a way that the
+ * others do not know of, and they wait for it. */
+int pg_cli_run_ranks (int argc, char **argv, int *together);
 /* SCENE [--json] [--solve] [--spectrum] ...: what is wrong with a scene, or what it amounts to
  * (check.c). */
 int pg_cli_check (int argc, char **argv);

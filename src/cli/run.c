@@ -5,7 +5,10 @@
  * equilibrium, no memory, a full disk), or killed. In the first two a checkpoint is written,
  * if anything had been done, the results so far are finished with the reason in report.json,
  * and where going on can help the command for it is printed; after the third the last
- * checkpoint and all complete steps are there. */
+ * checkpoint and all complete steps are there.
+ *
+ * Where ranks share the run (perigal-mpi) each passes through here; rank 0 speaks. What one of them meets
+ * between steps is told to all, so that they go on or end together. */
 #include "cli.h"
 #include <signal.h>
 #include <stdlib.h>
@@ -131,6 +134,7 @@ typedef struct {
     const pg_solver *solver;
     progress shown;
     int within;
+    int alone;                                         /* 1: it failed where other ranks do not know of it */
 } watched;
 
 /* Writes a checkpoint; if that fails, the older one is better than no run at all, so only a
@@ -149,6 +153,17 @@ static void show (watched *w, const pg_step *step)
     progress_show (&w->shown, &at, step, pg_solver_report_now (w->solver), w->within);
 }
 
+/* Does any rank want to stop, or is a checkpoint due on one? All of them then do so. Alone as it is. */
+static pg_status ask_all (const watched *w, int *stop, int *due)
+{
+    pg_status status = PG_OK;
+    double any[2] = { asked_to_stop != 0, pg_result_due (w->result) };
+    PG_TRY (pg_ranks_most (2, any));
+    *stop = any[0] > 0, *due = any[1] > 0;
+done:
+    return status;
+}
+
 /* Called between the rounds of breaking in a step: writes a stage if one is due, shows
  * progress, ends the run if a signal asked for that, writes a checkpoint if one is due.
  * w->within tells `advance` afterwards whether it was this function that ended the step. */
@@ -156,13 +171,15 @@ static pg_status look (void *context, const pg_state *state, const pg_step *so_f
 {
     pg_status status = PG_OK;
     watched *w = context;
+    int stop, due;
     w->within = 1;
+    PG_TRY (ask_all (w, &stop, &due));
     PG_TRY (pg_result_stage (w->result, state, so_far));
     show (w, so_far);
-    if (asked_to_stop)
+    if (stop)
         PG_FAIL (PG_E_INTERRUPTED, "interrupted in step %ld after %ld break rounds", so_far->number,
                  so_far->iterations);
-    if (pg_result_due (w->result)) keep_now (w);
+    if (due) keep_now (w);
     w->within = 0;                                     /* set: it was this look that has ended the step */
 done:
     return status;
@@ -175,18 +192,22 @@ static pg_status advance (pg_solver *solver, watched *w, int quiet)
     pg_status status = PG_OK;
     pg_state *state = w->state;
     pg_step step;
+    int stop, due;
     w->solver = solver;
     progress_start (&w->shown, quiet, pg_solver_settled (solver));
     pg_solver_watch (solver, look, w);
     while (!pg_solver_done (solver, state)) {
-        if (asked_to_stop)
+        PG_TRY (ask_all (w, &stop, &due));
+        if (stop)
             PG_FAIL (PG_E_INTERRUPTED, "interrupted after step %ld, load factor %.6g", state->step,
                      state->factor);
         status = pg_solver_step (solver, state, &step);
         if (status != PG_OK && !w->within) pg_result_refused (w->result);
+        w->alone = status != PG_OK && status != PG_E_INTERRUPTED && status != PG_E_EQUILIBRIUM;
         PG_TRY (status);
-        PG_TRY (pg_result_step (w->result, state, &step));
-        if (pg_result_due (w->result)) keep_now (w);
+        PG_TRY (pg_ranks_agree (pg_result_step (w->result, state, &step)));
+        PG_TRY (ask_all (w, &stop, &due));
+        if (due) keep_now (w);
         show (w, &step);
     }
 done:
@@ -244,6 +265,7 @@ static void tell_outcome (const command *c, pg_status outcome, const char *failu
                           const char *fault, int kept)
 {
     int ended_early = outcome == PG_E_INTERRUPTED || outcome == PG_E_FILE || outcome == PG_E_MEMORY;
+    if (pg_rank () > 0) return;
     if (outcome != PG_OK) command_complain (outcome, failure);
     if (written != PG_OK && (outcome == PG_OK || strcmp (failure, fault) != 0))
         command_complain (written, fault);
@@ -260,7 +282,12 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     char failure[4096] = "", fault[4096];
     pg_status outcome = advance (solver, w, c->quiet), status;
     int kept = 0, failed = outcome != PG_OK;
-    if (failed) snprintf (failure, sizeof failure, "%s", pg_last_error ()), kept = keep_for_later (w);
+    if (failed) snprintf (failure, sizeof failure, "%s", pg_last_error ());
+    if (w->alone && pg_ranks_now ()) {                 /* the others wait: nothing can be done together */
+        fprintf (stderr, "perigal: rank %d: %s\n", pg_rank (), failure);
+        return outcome;
+    }
+    if (failed) kept = keep_for_later (w);
     status = pg_result_finish (w->result, w->state, failed ? failure : NULL, search, pg_seconds () - start);
     snprintf (fault, sizeof fault, "%s", pg_last_error ());
     if (status != PG_OK && !failed) kept = keep_for_later (w);
@@ -293,14 +320,16 @@ static pg_status prepare (run *r)
     int fresh = !c->resume && !c->force;
     pg_forecast forecast;
     PG_TRY (command_scene (c, &r->scene));
-    if (c->folder && fresh) PG_TRY (pg_result_may_open (c->folder, r->scene));
-    PG_TRY (afford_scene (c, &forecast));
+    if (c->folder && fresh && pg_rank () == 0) PG_TRY (pg_result_may_open (c->folder, r->scene));
+    if (!pg_ranks_now ()) PG_TRY (afford_scene (c, &forecast));
     PG_TRY (command_problem (c, r->scene, &r->problem, &r->options));
     settle_blas (r->problem);
-    PG_TRY (afford_problem (c, &forecast, r->problem, 0));
-    PG_TRY (pg_patch_probe (r->problem));
-    if (c->folder) snprintf (r->folder, sizeof r->folder, "%s", c->folder);
-    else snprintf (r->folder, sizeof r->folder, "out/%s", r->problem->name);
+    if (!pg_ranks_now ()) PG_TRY (afford_problem (c, &forecast, r->problem, 0));
+    if (!pg_ranks_now ()) PG_TRY (pg_patch_probe (r->problem));
+    char folder[2048];
+    if (c->folder) snprintf (folder, sizeof folder, "%s", c->folder);
+    else snprintf (folder, sizeof folder, "out/%s", r->problem->name);
+    pg_result_rank_folder (r->folder, sizeof r->folder, folder);
     if (!c->folder && fresh) PG_TRY (pg_result_may_open (r->folder, r->scene));
     r->finished = c->resume && pg_result_finished (r->folder, r->scene);
 done:
@@ -326,23 +355,34 @@ done:
  * cli.h. */
 int pg_cli_run (int argc, char **argv)
 {
+    int together;
+    return pg_cli_run_ranks (argc, argv, &together);
+}
+
+/* Ranks begin on a processor each, unless they are told otherwise. */
+int pg_cli_run_ranks (int argc, char **argv, int *together)
+{
     pg_status status = PG_OK;
     run r = { .finished = 0 };
     double start = pg_seconds ();
     int wrong = command_parse (&r.c, argc, argv), complained = 0;
+    *together = 1;
     if (wrong >= 0) return wrong;
+    if (pg_ranks_now () && !r.c.given) r.c.threads = 1;
+    r.c.quiet |= pg_rank () > 0;
     if (r.c.seeds) return command_seeds (&r.c);
     settle_signals ();
-    PG_TRY (prepare (&r));
+    PG_TRY (pg_ranks_agree (prepare (&r)));
     if (r.finished) {
         if (!r.c.quiet) printf ("%s: this run is finished\n", r.folder);
         goto done;
     }
-    PG_TRY (open_run (&r));
+    PG_TRY (pg_ranks_agree (open_run (&r)));
     complained = 1;                                    /* by run_to_the_end, whatever comes */
     status = run_to_the_end (&r.c, r.solver, &r.w, pg_seconds () - start, start);
 done:
-    if (status != PG_OK && !complained) command_complain (status, pg_last_error ());
+    if (status != PG_OK && !complained && pg_rank () == 0) command_complain (status, pg_last_error ());
+    *together = !r.w.alone;
     pg_result_free (&r.w.result);
     pg_state_free (&r.w.state);
     pg_solver_free (&r.solver);

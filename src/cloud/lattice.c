@@ -13,9 +13,11 @@
 double pg_lattice_tolerance (const pg_lattice *l)
 {
     double step = INFINITY, size = 0;
+    const double *origin = l->whole[0] ? l->whole_origin : l->origin,
+                 *high = l->whole[0] ? l->whole_high : l->high;
     for (int k = 0; k < l->dim; k++) {
         step = fmin (step, l->step[k]);
-        size = fmax (size, fmax (fabs (l->origin[k]), fabs (l->high[k])));
+        size = fmax (size, fmax (fabs (origin[k]), fabs (high[k])));
     }
     /* The second term is the rounding of coordinates far from the origin. */
     return 1e-9 * step + 8 * DBL_EPSILON * size;
@@ -57,8 +59,40 @@ done:
     return status;
 }
 
-/* The tolerance follows from the steps, which must be known before any centre is asked for. */
-pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing, const double *offset)
+/* Which cells have their centre in the body. The tolerance follows from the steps, which must be known before
+ * any centre is asked for. */
+static pg_status fill (pg_lattice *l, const pg_body *body)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (l->in, (size_t) l->count[0] * (size_t) l->count[1] * (size_t) l->count[2]);
+    double tolerance = pg_lattice_tolerance (l);
+    unsigned char *in = l->in;
+    for (int c = 0; c < l->count[2]; c++)
+        for (int b = 0; b < l->count[1]; b++)
+            for (int a = 0; a < l->count[0]; a++) {
+                double i[3] = {a + 0.5, b + 0.5, c + 0.5}, x[3] = {0, 0, 0};
+                for (int k = 0; k < l->dim; k++) x[k] = pg_lattice_at (l, k, i[k]);
+                *in++ = (unsigned char) pg_body_inside (body, x, tolerance);
+            }
+done:
+    return status;
+}
+
+/* Corners of the part are those of its cells in the whole. */
+static void take_part (pg_lattice *l, const pg_box *part)
+{
+    memcpy (l->whole, l->count, sizeof l->whole);
+    memcpy (l->whole_origin, l->origin, sizeof l->origin);
+    memcpy (l->whole_high, l->high, sizeof l->high);
+    for (int k = 0; k < l->dim; k++) {
+        double low = pg_lattice_at (l, k, part->low[k]), high = pg_lattice_at (l, k, part->high[k]);
+        l->first[k] = part->low[k], l->count[k] = part->high[k] - part->low[k];
+        l->origin[k] = low, l->high[k] = high;
+    }
+}
+
+pg_status pg_lattice_fit_part (pg_lattice *out, const pg_body *body, double spacing, const double *offset,
+                               const pg_box *part)
 {
     pg_status status = PG_OK;
     memset (out, 0, sizeof *out);
@@ -68,27 +102,40 @@ pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing, 
         if (!(body->high[k] > body->low[k]) || !isfinite (body->high[k] - body->low[k]))
             PG_FAIL (PG_E_USAGE, "the body has no size");
     PG_TRY (fit_axes (out, body, spacing, offset));
-    PG_ALLOC (out->in, (size_t) out->count[0] * (size_t) out->count[1] * (size_t) out->count[2]);
-    double tolerance = pg_lattice_tolerance (out);
-    unsigned char *in = out->in;
-    for (int c = 0; c < out->count[2]; c++)
-        for (int b = 0; b < out->count[1]; b++)
-            for (int a = 0; a < out->count[0]; a++) {
-                double i[3] = {a + 0.5, b + 0.5, c + 0.5}, x[3] = {0, 0, 0};
-                for (int k = 0; k < out->dim; k++) x[k] = pg_lattice_at (out, k, i[k]);
-                *in++ = (unsigned char) pg_body_inside (body, x, tolerance);
-            }
+    if (!part) goto done;
+    take_part (out, part);
+    PG_TRY (fill (out, body));
 done:
     if (status != PG_OK) pg_lattice_clear (out);
     return status;
 }
 
+pg_status pg_lattice_fit (pg_lattice *out, const pg_body *body, double spacing, const double *offset)
+{
+    pg_status status = PG_OK;
+    PG_TRY (pg_lattice_fit_part (out, body, spacing, offset, NULL));
+    PG_TRY (fill (out, body));
+done:
+    if (status != PG_OK) pg_lattice_clear (out);
+    return status;
+}
+
+int pg_lattice_goes_on (const pg_lattice *l, const int *i)
+{
+    for (int k = 0; k < l->dim; k++)
+        if (i[k] + l->first[k] < 0 || i[k] + l->first[k] >= l->whole[k]) return 0;
+    return 1;
+}
+
 /* From the nearer end, so that mirror images have the same bits. */
 double pg_lattice_at (const pg_lattice *l, int axis, double i)
 {
-    double n = l->count[axis];
-    if (2 * i == n) return 0.5 * (l->origin[axis] + l->high[axis]);
-    return 2 * i < n ? l->origin[axis] + i * l->step[axis] : l->high[axis] - (n - i) * l->step[axis];
+    int part = l->whole[0] > 0;
+    double n = part ? l->whole[axis] : l->count[axis], low = part ? l->whole_origin[axis] : l->origin[axis],
+           high = part ? l->whole_high[axis] : l->high[axis];
+    i += l->first[axis];
+    if (2 * i == n) return 0.5 * (low + high);
+    return 2 * i < n ? low + i * l->step[axis] : high - (n - i) * l->step[axis];
 }
 
 void pg_lattice_clear (pg_lattice *lattice)

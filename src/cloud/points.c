@@ -4,24 +4,11 @@
 #include "perigal/cloud.h"
 #include "place.h"
 #include "points_file.h"
+#include "subdomain.h"
 #include <limits.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-
-/* The sites of a lattice: its vertices or cells. */
-typedef struct {
-    /* Sites along each axis. */
-    size_t size[3];
-    /* All of them. */
-    size_t n;
-    /* Coordinate index of site 0: 0 for vertices, 0.5 for centres. */
-    double shift;
-    /* Number of cells around a site inside the body, which may be moved. */
-    int    whole;
-    /* Kept cells around each site; 0: no point there (n). */
-    unsigned char *around;
-} sites;
 
 /* ---- sites --------------------------------------------------------------------------------------------- */
 /* Adds one to all sites around a cell: its vertices (first = 0), or the cell and its neighbours (first =
@@ -84,7 +71,8 @@ double pg_place_shift (uint64_t seed, uint64_t site, int axis)
 }
 
 /* ---- the cloud ----------------------------------------------------------------------------------------- */
-/* Positions and volumes. Only sites with kept cells all around are moved, so that the boundary stays. */
+/* Positions and volumes. Only sites with kept cells all around are moved, so that the boundary stays; by how
+ * much follows from their number in the whole lattice. */
 static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s, double amount, uint64_t seed)
 {
     pg_status status = PG_OK;
@@ -99,12 +87,13 @@ static pg_status place_points (pg_cloud *c, const pg_lattice *l, const sites *s,
     for (size_t i = 0; i < s->n; i++) {
         size_t rest = i;
         if (!s->around[i]) continue;
+        uint64_t number = l->whole[0] ? (uint64_t) cloud_site_number (s, l, i) : i;
         /* Index along each axis from the number of the site. */
         for (size_t k = 0; k < dim; k++, rest /= s->size[k - 1]) {
             double *x = &c->x[p*dim + k];
             *x = pg_lattice_at (l, (int) k, (double) (rest % s->size[k]) + s->shift);
             if (amount > 0 && s->around[i] == s->whole)
-                *x += amount * l->step[k] * pg_place_shift (seed, i, (int) k);
+                *x += amount * l->step[k] * pg_place_shift (seed, number, (int) k);
         }
         c->volume[p++] = s->shift > 0 ? cell : s->around[i] * (cell / s->whole);
     }
@@ -154,54 +143,112 @@ done:
     return status;
 }
 
-/* Fits the lattice; a spacing that is too fine or too coarse is a fault of the scene. */
-static pg_status fit (pg_lattice *l, const pg_body *body, const pg_scene *scene, double spacing)
+/* The spacing and offset that the scene gives. */
+typedef struct { double spacing, offset[3]; int shifted, centred; } grid;
+static pg_status read_grid (grid *g, const pg_scene *scene)
 {
-    double offset[3] = {0, 0, 0};
-    int shifted = pg_scene_vector (scene, 3, offset, "lattice_offset") > 0;
-    pg_status status = pg_lattice_fit (l, body, spacing, shifted ? offset : NULL);
-    if (status == PG_E_LIMIT) {
-        double cells = 1;
-        for (int k = 0; k < body->dim; k++) cells *= (body->high[k] - body->low[k]) / spacing;
-        pg_scene_fault (scene, "spacing",
-                        "too fine for this body: %.3g cells, and %d are possible (%.2g m or more)", cells,
-                        INT_MAX, 1.01 * spacing * pow (cells / INT_MAX, 1.0 / body->dim));
-        return pg_scene_verdict (scene);
-    }
-    if (status != PG_OK) return status;
-    size_t n = (size_t) l->count[0] * (size_t) l->count[1] * (size_t) l->count[2];
-    if (memchr (l->in, 1, n)) return PG_OK;
-    pg_scene_fault (scene, "spacing",
-                    "no point: none of the %d x %d x %d lattice cells has its centre in the body",
-                    l->count[0], l->count[1], l->count[2]);
+    const char *kind = pg_scene_text (scene, "lattice");
+    *g = (grid) { .spacing = pg_scene_number (scene, "spacing"), .centred = kind && !strcmp (kind, "cells") };
+    g->shifted = pg_scene_vector (scene, 3, g->offset, "lattice_offset") > 0;
+    if (!(g->spacing > 0))
+        pg_scene_fault (scene, "spacing", "is missing: the distance of points is needed to fill the body");
     return pg_scene_verdict (scene);
 }
 
-/* `lattice: cells` puts points at centres, else at vertices. */
-static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, const pg_scene *scene)
+/* A spacing that is too fine is a fault of the scene. */
+static pg_status judge_fit (pg_status status, const grid *g, const pg_body *body, const pg_scene *scene)
+{
+    double cells = 1;
+    if (status != PG_E_LIMIT) return status;
+    for (int k = 0; k < body->dim; k++) cells *= (body->high[k] - body->low[k]) / g->spacing;
+    pg_scene_fault (scene, "spacing",
+                    "too fine for this body: %.3g cells, and %d are possible (%.2g m or more)", cells,
+                    INT_MAX, 1.01 * g->spacing * pow (cells / INT_MAX, 1.0 / body->dim));
+    return pg_scene_verdict (scene);
+}
+
+/* So is one that is too coarse. */
+static pg_status check_cells (const pg_lattice *l, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    size_t n = (size_t) l->count[0] * (size_t) l->count[1] * (size_t) l->count[2];
+    const int *count = l->whole[0] ? l->whole : l->count;
+    double any = n > 0 && memchr (l->in, 1, n);
+    PG_TRY (pg_ranks_most (1, &any));
+    if (any > 0) return PG_OK;
+    pg_scene_fault (scene, "spacing",
+                    "no point: none of the %d x %d x %d lattice cells has its centre in the body", count[0],
+                    count[1], count[2]);
+    return pg_scene_verdict (scene);
+done:
+    return status;
+}
+
+static double spacing_of (const pg_lattice *l)
+{
+    double cell = 1;
+    for (int k = 0; k < l->dim; k++) cell *= l->step[k];
+    return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
+}
+
+pg_status pg_cloud_spacing (double *h, const pg_body *body, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_lattice l;
+    grid g;
+    PG_TRY (read_grid (&g, scene));
+    PG_TRY (judge_fit (pg_lattice_fit_part (&l, body, g.spacing, g.shifted ? g.offset : NULL, NULL), &g, body,
+                       scene));
+    *h = spacing_of (&l);
+done:
+    return status;
+}
+
+/* `lattice: cells` puts points at centres, else at vertices. part: of this rank alone. */
+static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, const pg_scene *scene,
+                               int part, double width)
 {
     pg_status status = PG_OK;
     sites s = {0};
-    const char *kind = pg_scene_text (scene, "lattice");
-    double spacing = pg_scene_number (scene, "spacing"), cell = 1;
-    if (!(spacing > 0)) {
-        pg_scene_fault (scene, "spacing", "is missing: the distance of points is needed to fill the body");
-        PG_TRY (pg_scene_verdict (scene));
-    }
-    PG_TRY (fit (l, body, scene, spacing));
-    for (int k = 0; k < c->dim; k++) c->step[k] = l->step[k], cell *= l->step[k];
-    c->h = c->dim == 1 ? cell : c->dim == 2 ? sqrt (cell) : cbrt (cell);
-    PG_TRY (count_around (&s, l, kind && !strcmp (kind, "cells")));
+    grid g;
+    pg_box *boxes = NULL;
+    PG_TRY (read_grid (&g, scene));
+    const double *offset = g.shifted ? g.offset : NULL;
+    if (part) {
+        pg_box held;
+        PG_TRY (judge_fit (pg_lattice_fit_part (l, body, g.spacing, offset, NULL), &g, body, scene));
+        PG_TRY (cloud_divide (&boxes, &held, l, body, width, g.centred));
+        PG_TRY (pg_lattice_fit_part (l, body, g.spacing, offset, &held));
+    } else PG_TRY (judge_fit (pg_lattice_fit (l, body, g.spacing, offset), &g, body, scene));
+    PG_TRY (check_cells (l, scene));
+    for (int k = 0; k < c->dim; k++) c->step[k] = l->step[k];
+    c->h = spacing_of (l);
+    PG_TRY (count_around (&s, l, g.centred));
     PG_TRY (place_points (c, l, &s, pg_scene_number (scene, "perturb.amount"),
                           (uint64_t) pg_scene_integer (scene, "perturb.seed")));
+    if (part) PG_TRY (cloud_subdomain (&c->subdomain, &s, l, boxes, width));
     c->regular = !(pg_scene_number (scene, "perturb.amount") > 0);
 done:
-    pg_free (s.around);
+    pg_free (s.around), pg_free (boxes);
+    return status;
+}
+
+/* The box of all points, of all ranks. */
+static pg_status bound_all (pg_cloud *c)
+{
+    pg_status status = PG_OK;
+    double out[6];
+    pg_place_bounds (c);
+    for (int k = 0; k < 3; k++) out[k] = -c->low[k], out[3 + k] = c->high[k];
+    PG_TRY (pg_ranks_most (6, out));
+    for (int k = 0; k < c->dim; k++) c->low[k] = -out[k], c->high[k] = out[3 + k];
+done:
     return status;
 }
 
 /* Either from a file or from a lattice; on failure nothing remains. */
-pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene)
+static pg_status build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene,
+                        int part, double width)
 {
     pg_status status = PG_OK;
     memset (out, 0, sizeof *out);
@@ -209,15 +256,29 @@ pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *bod
     out->dim = body->dim;
     out->thickness = out->dim == 3 ? 1
                                    : pg_scene_number (scene, out->dim == 2 ? "thickness" : "cross_section");
-    if (pg_scene_given (scene, "points")) PG_TRY (from_file (out, body, scene));
-    else PG_TRY (from_lattice (out, lattice, body, scene));
-    pg_place_bounds (out);
+    if (pg_scene_given (scene, "points")) {
+        if (part) PG_FAIL (PG_E_USAGE, "points of a file cannot be divided among ranks so far");
+        PG_TRY (from_file (out, body, scene));
+    } else PG_TRY (from_lattice (out, lattice, body, scene, part, width));
+    if (part) PG_TRY (bound_all (out));
+    else pg_place_bounds (out);
 done:
     if (status != PG_OK) {
         pg_cloud_clear (out);
         pg_lattice_clear (lattice);
     }
     return status;
+}
+
+pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene)
+{
+    return build (out, lattice, body, scene, 0, 0);
+}
+
+pg_status pg_cloud_build_part (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene,
+                               double width)
+{
+    return build (out, lattice, body, scene, pg_ranks_now () != NULL, width);
 }
 
 double pg_cloud_ratio (const pg_cloud *cloud, size_t i)
@@ -261,5 +322,6 @@ void pg_cloud_clear (pg_cloud *cloud)
     pg_free (cloud->x);
     pg_free (cloud->volume);
     pg_free (cloud->block);
+    pg_subdomain_free (&cloud->subdomain);
     memset (cloud, 0, sizeof *cloud);
 }

@@ -12,6 +12,7 @@ const pg_force_type pg_force_bond = {
                 .rule = bond_force_rule,
                 .read = pairwise_read,
                 .limits = bond_force_limits,
+                .ghosts = 1,
                 BOND_FORCE_METHOD },
     .create = pairwise_create,
     BOND_FORCE_ENTRIES

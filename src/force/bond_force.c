@@ -160,7 +160,8 @@ pg_status bond_force_refresh (void *self, const pg_state *state, const pg_change
     return PG_OK;
 }
 
-/* residual = f + P (t) and the pull of springs; f already there */
+/* residual = f + P (t) and the pull of springs; f already there. Ghosts have none: what acts on them is known
+ * to their owner alone. */
 static void finish (bond_force *b, double t, const double *d, double *residual, double *reference)
 {
     double inside = 0;
@@ -168,6 +169,7 @@ static void finish (bond_force *b, double t, const double *d, double *residual, 
     for (size_t i = 0; reference && i < ndof (b); i++) inside += residual[i] * residual[i];
     if (reference) *reference = fmax (sqrt (inside), boundary_size (&b->boundary, t));
     boundary_add (&b->boundary, t, residual);
+    pg_subdomain_clear_ghosts (b->problem->cloud.subdomain, (size_t) b->stride, residual);
 }
 
 /* One loop over all bonds, then the loads. */
@@ -208,6 +210,7 @@ pg_status bond_force_external (void *self, double t, double *P)
     bond_force *b = self;
     memset (P, 0, ndof (b) * sizeof *P);
     boundary_add (&b->boundary, t, P);
+    pg_subdomain_clear_ghosts (b->problem->cloud.subdomain, (size_t) b->stride, P);
     return PG_OK;
 }
 
@@ -238,6 +241,26 @@ pg_status bond_force_mass (void *self, double *mass)
     return PG_OK;
 }
 
+/* Energy stored by the bonds, J: of a rank by the densities of its own points, so that the ranks together
+ * count all of it once. */
+static pg_status stored_energy (bond_force *b, const double *d, double *energy)
+{
+    pg_status status = PG_OK;
+    double *W = NULL;
+    *energy = 0;
+    if (!b->problem->cloud.subdomain) {
+        *energy = pg_bond_loop_energy (b->loop, d);
+        return PG_OK;
+    }
+    PG_ALLOC (W, b->n);
+    PG_TRY (pg_bond_loop_energies (b->loop, d, W));
+    for (size_t i = 0; i < b->n; i++)
+        if (b->problem->cloud.subdomain->owned[i]) *energy += W[i] * b->problem->cloud.volume[i];
+done:
+    pg_free (W);
+    return status;
+}
+
 /* Reactions are what the residual leaves at prescribed unknowns; inertia is part of it in motion. */
 pg_status bond_force_work_balance (void *self, double t, const double *d, const double *inertia,
                              pg_work_balance *out)
@@ -247,7 +270,8 @@ pg_status bond_force_work_balance (void *self, double t, const double *d, const 
     PG_TRY (bond_force_balance (b, t, d, b->work, NULL));
     for (size_t i = 0; inertia && i < ndof (b); i++) b->work[i] += inertia[i];
     PG_TRY (boundary_work_balance (&b->boundary, t, d, b->work, out));
-    out->strain = pg_bond_loop_energy (b->loop, d) + boundary_spring_energy (&b->boundary, t, d);
+    PG_TRY (stored_energy (b, d, &out->strain));
+    out->strain += boundary_spring_energy (&b->boundary, t, d);
 done:
     return status;
 }
@@ -282,8 +306,8 @@ pg_status bond_force_work_of_residual (void *self, double t, const double *d, co
         b->work[i] = residual[i] + (inertia ? inertia[i] : 0);
     }
     PG_TRY (boundary_work_balance (&b->boundary, t, d, b->work, out));
-    out->strain = pg_bond_loop_halves (b->loop) ? strain_of (b, d, residual, out)
-                                                : pg_bond_loop_energy (b->loop, d);
+    if (pg_bond_loop_halves (b->loop)) out->strain = strain_of (b, d, residual, out);
+    else PG_TRY (stored_energy (b, d, &out->strain));
     out->strain += boundary_spring_energy (&b->boundary, t, d);
 done:
     return status;

@@ -219,6 +219,7 @@ const pg_force_type pg_force_gmpd = {
                 .read = read,
                 .limits = limits,
                 .check_points = check_moments,
+                .ghosts = 2,
                 BOND_FORCE_METHOD },
     .create = micropolar_create,
     .kind_of = micropolar_kind_of,

@@ -62,6 +62,7 @@ const pg_force_type pg_force_lps = {
                 .rule = rule,
                 .read = read,
                 .limits = bond_force_limits,
+                .ghosts = 2,
                 BOND_FORCE_METHOD },
     .create = state_based_create,
     BOND_FORCE_COMMON

@@ -19,12 +19,13 @@ static void add_reaction (const point_boundary *s, double *reaction, int load, i
 }
 
 /* Arrays are sized on the first call; pairs of supports come first, those of loads follow, those of
- * springs come last. */
+ * springs come last. Forces on ghosts count where they are owned. */
 pg_status boundary_work_balance (point_boundary *s, double t, const double *d, const double *residual,
                               pg_work_balance *out)
 {
     pg_status status = PG_OK;
     size_t at = s->nsupport, count = s->nsupport;
+    const pg_subdomain *owners = s->problem->cloud.subdomain;
     for (size_t k = 0; k < s->nload; k++) count += s->load[k].npoint * (size_t) s->load[k].components;
     count += s->nspring;
     if (!out->force) {
@@ -36,15 +37,17 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
     memset (out->reaction, 0, PG_REACTIONS * s->problem->nload * sizeof *out->reaction);
     for (size_t k = 0; k < s->nsupport; k++) {
         const boundary_support *q = &s->support[k];
-        out->force[k] = -residual[q->dof], out->displacement[k] = boundary_goal (s, k, t);
-        if (q->load >= 0) add_reaction (s, out->reaction, q->load, q->component, q->point, -residual[q->dof]);
+        out->force[k] = pg_owns (owners, q->point) ? -residual[q->dof] : 0;
+        out->displacement[k] = boundary_goal (s, k, t);
+        if (q->load >= 0) add_reaction (s, out->reaction, q->load, q->component, q->point, out->force[k]);
     }
     for (size_t k = 0; k < s->nload; k++) {
         boundary_load *l = &s->load[k];
         double factor = boundary_bring_to (s, l, t);
         for (size_t i = 0; i < l->npoint; i++)
             for (size_t c = 0; c < (size_t) l->components; c++, at++) {
-                out->force[at] = factor * l->pattern[i * (size_t) l->components + c];
+                out->force[at] = pg_owns (owners, (size_t) l->point[i])
+                                     ? factor * l->pattern[i * (size_t) l->components + c] : 0;
                 out->displacement[at] = d[(size_t) l->point[i] * (size_t) s->stride + (size_t) l->first + c];
                 add_reaction (s, out->reaction, l->load, (int) c, (size_t) l->point[i], out->force[at]);
             }
@@ -52,7 +55,7 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
     for (size_t k = 0; k < s->nspring; k++, at++) {
         const boundary_spring *q = &s->spring[k];
         out->displacement[at] = boundary_spring_goal (s, q, t);
-        out->force[at] = -q->stiffness * (d[q->dof] - out->displacement[at]);
+        out->force[at] = pg_owns (owners, q->point) ? -q->stiffness * (d[q->dof] - out->displacement[at]) : 0;
         add_reaction (s, out->reaction, q->load, q->component, q->point, out->force[at]);
     }
 done:

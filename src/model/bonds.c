@@ -198,7 +198,7 @@ static pg_status make_exempt (pg_problem *p, const pg_scene *scene)
         char path[64];
         snprintf (path, sizeof path, "failure.exclude[%zu]", k);
         const pg_set *set = pg_sets_named (&p->sets, scene, path, name);
-        if (set && set->npoint == 0 && !pg_sets_empty_side (&p->sets, set))
+        if (set && pg_set_points (set) == 0 && !pg_sets_empty_side (&p->sets, set))
             pg_scene_fault (scene, path, "%s is a set without points", name);
         if (!set) continue;
         for (size_t i = 0; i < set->npoint; i++) p->exempt[PG_NODES][set->point[i]] = 1;

@@ -250,19 +250,19 @@ static void check_place (const pg_problem *problem, const pg_load *load, const p
     char path[64];
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     const pg_set *set = load->set;
-    int empty = set->npoint == 0 && set->nfacet == 0;
+    int empty = pg_set_points (set) == 0 && pg_set_facets (set) == 0;
     /* told there */
     if (empty && (pg_scene_given (scene, "sets.%s", set->name) || pg_sets_empty_side (&problem->sets, set)))
         return;
     int on_facets = acts_on_facets (load);
-    if (on_facets && problem->cells.n == 0)
+    if (on_facets && problem->cells.n == 0 && !pg_ranks_now ())
         pg_scene_fault (scene, path, "%s needs boundary facets, and a body of explicit points has none",
                         load->kind == PG_TRACTION   ? "a traction"
                         : load->kind == PG_PRESSURE ? "a pressure"
                                                     : "essential: nitsche");
-    else if (on_facets && set->nfacet == 0)
+    else if (on_facets && pg_set_facets (set) == 0)
         pg_scene_fault (scene, path, "the set %s holds no boundary facet", set->name);
-    else if (!on_facets && set->npoint == 0)
+    else if (!on_facets && pg_set_points (set) == 0)
         pg_scene_fault (scene, path, "the set %s holds no point", set->name);
 }
 
@@ -298,6 +298,9 @@ static void read_depth (const pg_problem *problem, pg_load *load, const pg_scene
     snprintf (path, sizeof path, "boundary[%zu].depth", i);
     if (!pg_scene_given (scene, "%s", path)) return;
     load->depth = pg_scene_length (scene, problem->cloud.h, "%s", path);
+    if (problem->cloud.subdomain && load->depth > problem->cloud.subdomain->width)
+        pg_scene_fault (scene, path, "%d ranks: a load may act down to %.4g m so far, the width of the layer "
+                        "that ranks have in common", pg_rank_count (), problem->cloud.subdomain->width);
     if (load->kind != PG_TRACTION && load->kind != PG_PRESSURE)
         pg_scene_fault (scene, path,
                         "is for a traction or a pressure: others act on the points of their set");

@@ -7,7 +7,7 @@
 
 double pg_load_share (const pg_load *load, size_t i)
 {
-    return load->share ? load->share[i] : 1 / (double) load->set->npoint;
+    return load->share ? load->share[i] : 1 / (double) pg_set_points (load->set);
 }
 const double *pg_load_site (const pg_load *load, const double *x) { return load->own ? load->at : x; }
 
@@ -19,11 +19,13 @@ static pg_status share_stiffness (const pg_problem *p, pg_load *load)
     pg_status status = PG_OK;
     double sum = 0;
     size_t n = load->set->npoint;
+    const pg_subdomain *subdomain = p->cloud.subdomain;
     if (!load->own) PG_ALLOC (load->share, n);
     for (size_t i = 0; i < n; i++) {
         load->share[i] = load->own ? fmax (load->share[i], 0) : p->cloud.volume[load->set->point[i]];
-        sum += load->share[i];
+        sum += pg_owns (subdomain, (size_t) load->set->point[i]) ? load->share[i] : 0;
     }
+    PG_TRY (pg_ranks_sum (1, &sum));
     for (size_t i = 0; i < n; i++) load->share[i] /= sum;
 done:
     return status;

@@ -90,6 +90,24 @@ static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
     return pg_cracks_index (&p->cracks);
 }
 
+/* The points of this rank, with as many ghosts as the force needs: points that die by their energy look one
+ * horizon further. */
+static pg_status build_subdomain (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_approx approx = { 0 };
+    double h, layers = p->method->ghosts;
+    PG_TRY (pg_subdomain_check (p, scene));
+    PG_TRY (pg_cloud_spacing (&h, &p->body, scene));
+    PG_TRY (pg_method_approx (&approx, p->method, scene, h));
+    if (pg_scene_given (scene, "failure")) layers += 1;
+    PG_TRY (pg_cloud_build_part (&p->cloud, &p->lattice, &p->body, scene, layers * approx.horizon));
+    pg_problem_note (p, "%d ranks share the %.0f points; the patch test and the count of fragments are left out",
+                     pg_rank_count (), (double) p->cloud.subdomain->total);
+done:
+    return status;
+}
+
 /* Body, cracks, points, cells, sets, in this order; a verdict follows where the next step could not do
  * without the former. */
 static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
@@ -102,7 +120,8 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     if (pg_scene_given (scene, "mesh")) {
         PG_TRY (pg_mesh_body_read (&p->part, scene));
         PG_TRY (pg_mesh_body_cloud (&p->cloud, &p->part, scene));
-    } else PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
+    } else if (pg_ranks_now ()) PG_TRY (build_subdomain (p, scene));
+    else PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (side_cracks (p, scene));
     p->cells.dim = p->dim;
@@ -245,7 +264,9 @@ static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
             char path[64];
             snprintf (path, sizeof path, "output.gauges[%zu].%s", i, end ? "to" : "from");
             const double *place = end ? g->to : g->from;
-            if (!sees_points (p, place))
+            double seen = sees_points (p, place);
+            PG_TRY (pg_ranks_most (1, &seen));
+            if (!(seen > 0))
                 pg_scene_fault (scene, path, "lies outside the body: no point within the horizon");
             if (pg_cracks_touch (pg_state_cracks (p, NULL), place, 1e-9 * p->cloud.h))
                 pg_problem_note (p,

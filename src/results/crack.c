@@ -76,23 +76,27 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
             r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / r->crack.area;
         return PG_OK;
     }
-    if (!p->criterion->type || state->broken == 0) return PG_OK;
+    if (!p->criterion->type || (state->broken == 0 && !pg_ranks_now ())) return PG_OK;
     const size_t *first = p->rows[set].family.start;
     for (size_t i = 0; i < p->rows[set].n; i++)
         widest = first[i + 1] - first[i] > widest ? first[i + 1] - first[i] : widest;
     start = pg_calloc (widest + 1, 1);
-    if (!start) return PG_OK;
+    if (!start && !pg_ranks_now ()) return PG_OK;
+    if (!start) PG_FAIL (PG_E_MEMORY, "no memory for %zu bytes", widest + 1);
     for (size_t i = 0; i < p->rows[set].n; i++) {
+        if (set == PG_NODES && !pg_owns (p->cloud.subdomain, i)) continue;
         if (!memchr (state->alive + p->first_bond[set] + first[i], 0, first[i + 1] - first[i])) continue;
         pg_bonds_cut_at (p, set, i, start);
         if (points) area += area_of_point (p, i, start, state->alive);
         else area += area_of (p, set, i, set == PG_NODES ? p->cloud.volume[i] : p->rows[set].weight[i], start,
                          state->alive);
     }
+    PG_TRY (pg_ranks_sum (1, &area));
     r->crack.found = area > 0;
     r->crack.area = area;
     if (p->dim == 2) r->crack.length = area / p->cloud.thickness;
     if (area > 0) r->crack.dissipated = pg_solver_report_now (r->solver)->energy_dissipated / area;
+done:
     pg_free (start);
     return status;
 }

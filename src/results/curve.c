@@ -10,6 +10,9 @@
 /* Columns of curve_more. */
 enum { STEP, TIME, FACTOR, FIRST_GAUGE };
 
+/* A message that is lost shows where the next one fails. */
+static double most_of_ranks (double value) { return pg_ranks_most (1, &value) == PG_OK ? value : NAN; }
+
 /* How strongly a load acts along the axis k: the largest size of its pattern over its points; 1 where place
  * and time do not separate, or for the axis nearest to the first normal of a pressure; 0: not at all. */
 static double push_along (const pg_problem *p, const pg_load *load, int k)
@@ -17,17 +20,18 @@ static double push_along (const pg_problem *p, const pg_load *load, int k)
     double size = 0;
     if (load->kind == PG_TRACTION || load->kind == PG_POINT_FORCE || load->kind == PG_PLATEN_FORCE) {
         if (!load->value[k]) return 0;
-        if (load->set->npoint == 0 || !pg_load_separates (load)) return 1;
+        if (pg_set_points (load->set) == 0 || !pg_load_separates (load)) return 1;
         for (size_t i = 0; i < load->set->npoint; i++) {
             const double *x = p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim;
             size = fmax (size, fabs (pg_load_pattern (load, k, p->dim, x)));
         }
-        return size;
+        return most_of_ranks (size);
     }
     if (load->kind != PG_PRESSURE || load->cracks) return 0;
-    const double *normal = p->cells.normal + (size_t) load->set->facet[0] * (size_t) p->dim;
-    for (int c = 0; c < p->dim; c++) if (fabs (normal[c]) > fabs (normal[k])) return 0;
-    return 1;
+    size = load->set->nfacet > 0;
+    const double *normal = p->cells.normal + (size > 0 ? (size_t) load->set->facet[0] : 0) * (size_t) p->dim;
+    for (int c = 0; size > 0 && c < p->dim; c++) if (fabs (normal[c]) > fabs (normal[k])) size = 0;
+    return most_of_ranks (size);
 }
 
 /* How far a support moves along the axis k at most: at t = 1, with stages of loading at the end of each. A
@@ -41,7 +45,7 @@ static double farthest (const pg_problem *p, const pg_load *load, int k)
             const double *x = p->cloud.x + (size_t) load->set->point[i] * (size_t) p->dim;
             size = fmax (size, fabs (pg_load_value (load, k, p->dim, x, end)));
         }
-    return size;
+    return most_of_ranks (size);
 }
 
 /* The same of a platen. */
@@ -67,7 +71,7 @@ static size_t begins (const pg_problem *p, const pg_load *load)
 /* Supports that move points along axes, at which the curve looks first. */
 static int moves (const pg_load *load)
 {
-    return pg_load_prescribes (load) && load->set->npoint && !pg_load_rotates (load) && !load->turns;
+    return pg_load_prescribes (load) && pg_set_points (load->set) && !pg_load_rotates (load) && !load->turns;
 }
 
 /* The curve follows the prescribed component that moves most, else of the loads with a force the one that
@@ -139,14 +143,15 @@ done:
  * has not moved anything yet. */
 static int from_rest (const pg_problem *p)
 {
+    double moves = 0;
     for (size_t l = 0; l < p->nload; l++)
         for (int k = 0; p->load[l].kind != PG_VELOCITY && k < pg_load_components (&p->load[l], p->dim); k++)
             for (size_t i = 0; i < p->load[l].set->npoint; i++)
                 if (pg_load_value (&p->load[l], k, p->dim,
                                    p->cloud.x + (size_t) p->load[l].set->point[i] * (size_t) p->dim, 0)
                     != 0)
-                    return 0;
-    return 1;
+                    moves = 1;
+    return !(most_of_ranks (moves) > 0);
 }
 
 /* 1 with event stepping. */

@@ -105,6 +105,8 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from)
     r->ncolumn = n;
     PG_ALLOC (r->row, n);
     PG_ALLOC (r->u, p->cloud.n * 6);
+    PG_ALLOC (r->here, 2 * p->ngauge);
+    memset (r->here, -1, 2 * p->ngauge);
     snprintf (path, sizeof path, "%s/history.csv", r->folder);
     PG_TRY (from ? pg_table_open (&r->history, path, n, column, from->history)
                  : pg_table_create (&r->history, path, n, column));
@@ -123,29 +125,38 @@ done:
     return status;
 }
 
-/* Mean of component k over the points of a load, at a place by their shares; 0 for a set without points. */
-static double mean_of (const pg_load *load, const double *u, int dim, int k)
+/* Mean of component k over the points of a load, at a place by their shares; 0 for a set without points. Ranks: the
+ * share of this one. */
+static double mean_of (const pg_problem *p, const pg_load *load, const double *u, int dim, int k)
 {
     const pg_set *set = load->set;
-    double sum = 0;
+    double sum = 0, n = (double) pg_set_points (set);
     for (size_t i = 0; i < set->npoint; i++) {
-        double share = load->share ? load->share[i] * (double) set->npoint : 1;
+        double share = load->share ? load->share[i] * n : 1;
+        if (!pg_owns (p->cloud.subdomain, (size_t) set->point[i])) continue;
         sum += share * u[(size_t) set->point[i] * (size_t) dim + (size_t) k];
     }
-    return set->npoint ? sum / (double) set->npoint : 0;
+    return n > 0 ? sum / n : 0;
 }
 
 /* One row per bond that broke in the step. Numbers come first, so that readers of numbers can
  * read all of a row but its last two names. In static runs with fixed steps the load factor at
  * the break follows from its time within the step. */
-static pg_status event_rows (pg_result *r, const pg_step *step)
+static pg_status event_rows (pg_result *r, const pg_step *step, double dissipated)
 {
     pg_status status = PG_OK;
     static const char *const set_name[] = { "node-node", "point-node", "facet-node" }, *const kind_name[] = {
         "tension", "shear", "bending", "energy", "facet"
     };
-    for (size_t i = 0; i < step->nbroken; i++) {
-        const pg_broken *b = &step->broken[i];
+    size_t n = step->nbroken;
+    const pg_broken *list = step->broken;
+    pg_broken *collected = NULL;
+    if (pg_ranks_now ()) {
+        PG_TRY (pg_result_collect_broken (r, step, &n, &collected));
+        list = collected;
+    }
+    for (size_t i = 0; i < n; i++) {
+        const pg_broken *b = &list[i];
         char text[EVENT_NUMBERS][40];
         int kind = b->kind == 's' ? 1 : b->kind == 'b' ? 2 : b->kind == 'e' ? 3 : b->kind == 'f' ? 4 : 0;
         const char *cell[EVENT_COLUMNS];
@@ -158,7 +169,7 @@ static pg_status event_rows (pg_result *r, const pg_step *step)
                                          b->place[1],
                                          b->place[2],
                                          b->utilisation,
-                                         i == 0 ? step->dissipated : 0,
+                                         i == 0 ? dissipated : 0,
                                          b->set,
                                          kind };
         cell[EVENT_NUMBERS] = set_name[b->set], cell[EVENT_NUMBERS + 1] = kind_name[kind];
@@ -170,12 +181,34 @@ static pg_status event_rows (pg_result *r, const pg_step *step)
         PG_TRY (pg_table_line (r->events, cell));
     }
 done:
+    pg_free (collected);
+    return status;
+}
+
+/* Ends of a gauge, measured by the rank that is nearest to each; *out: how far they have moved apart, the share
+ * of this rank. */
+static pg_status measure_gauge (pg_result *r, const pg_state *state, size_t g, double *out)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    double end[2][3] = { { NAN, NAN, NAN }, { NAN, NAN, NAN } };
+    for (int e = 0; e < 2 && force->sample; e++) {
+        const double *place = e ? p->gauge[g].to : p->gauge[g].from;
+        PG_TRY (pg_result_place_here (r, place, &r->here[2 * g + (size_t) e]));
+        PG_TRY (force->sample (self, state, state->d, 1, place, end[e], NULL, NULL));
+        for (int k = 0; k < 3 && !r->here[2 * g + (size_t) e]; k++) end[e][k] = 0;
+    }
+    *out = pg_gauge_opening (&p->gauge[g], p->dim, end[0], end[1]);
+done:
     return status;
 }
 
 /* Writes the row of a step and the rows of its bonds. Displacements are those of the body, u
  * (x) = sum N_j d_j, not coefficients. Gauges are empty if the force knows no field between
- * the points. r->u holds two fields: displacements and, 3 n values behind, rotations. */
+ * the points. r->u holds two fields: displacements and, 3 n values behind, rotations. Ranks
+ * fill in what their own points contribute; their sum is the row. */
 pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -184,10 +217,12 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     const pg_statistics *report = pg_solver_report_now (r->solver);
     size_t n = 0, platens;
-    double x = 0, y = 0;                               /* of the load-displacement curve */
+    size_t x = 0, y = 0;                               /* columns of the load-displacement curve */
+    double shared = step->dissipated;
     int components;
     const char *unit;
-    r->row[n++] = (double) step->number, r->row[n++] = step->time, r->row[n++] = step->factor;
+    r->row[n++] = pg_result_once ((double) step->number), r->row[n++] = pg_result_once (step->time),
+    r->row[n++] = pg_result_once (step->factor);
     if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
     if (force->field && pg_problem_rotations (p))
         PG_TRY (force->field (self, state, state->d, "rotation", &components, &unit, r->u + 3 * p->cloud.n));
@@ -195,9 +230,9 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
         for (int k = 0; k < columns_of (p, l); k++) {
             int turns = pg_load_rotates (&p->load[l]);
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
-            double u = mean_of (&p->load[l], turns ? r->u + 3 * p->cloud.n : r->u,
+            double u = mean_of (p, &p->load[l], turns ? r->u + 3 * p->cloud.n : r->u,
                                 turns ? pg_problem_rotations (p) : p->dim, k);
-            if ((int) l == r->curve_load && k == r->curve_component) x = u, y = f;
+            if ((int) l == r->curve_load && k == r->curve_component) x = n + 1, y = n;
             r->row[n++] = f, r->row[n++] = u;
         }
         for (int k = first_moment (p, l); k < 3; k++)
@@ -209,19 +244,11 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
             int load = p->platen[i].motion >= 0 ? p->platen[i].motion : p->platen[i].force;
             if (!platen_has (p, k)) continue;
             double f = i < platens ? platen[i].force[k] : 0, u = i < platens ? platen[i].motion[k] : 0;
-            if (load >= 0 && load == r->curve_load && k == r->curve_component) x = u, y = f;
+            if (load >= 0 && load == r->curve_load && k == r->curve_component) x = n + 1, y = n;
             r->row[n++] = f, r->row[n++] = u;
         }
     const double *gauges = r->row + n;
-    for (size_t g = 0; g < p->ngauge; g++) {
-        double a[3] = { NAN, NAN, NAN }, b[3] = { NAN, NAN, NAN };
-        if (force->sample) {
-            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].from, a, NULL, NULL));
-            PG_TRY (force->sample (self, state, state->d, 1, p->gauge[g].to, b, NULL, NULL));
-        }
-        r->row[n++] = pg_gauge_opening (&p->gauge[g], p->dim, a, b);
-    }
-    if (r->curve_load >= 0) PG_TRY (pg_result_curve_row (r, x, y, gauges, step));
+    for (size_t g = 0; g < p->ngauge; g++) PG_TRY (measure_gauge (r, state, g, &r->row[n++]));
     PG_TRY (pg_result_averages_row (r, state, r->row + n, r->u));
     n += r->naverage;
     PG_TRY (pg_result_tips_row (r, state, step, r->row + n, r->u));
@@ -229,20 +256,24 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     PG_TRY (pg_result_paths_row (r, state, r->row + n));
     n += pg_result_paths_columns (r);
     PG_TRY (pg_result_crack_row (r, state, r->row + n));
+    for (size_t k = 0; k < pg_result_crack_columns (r); k++) r->row[n + k] = pg_result_once (r->row[n + k]);
     n += pg_result_crack_columns (r);
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic,
     r->row[n++] = report->energy_external;
     r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken,
-    r->row[n++] = (double) step->iterations;
-    r->row[n++] = step->residual, r->row[n++] = step->utilisation, r->row[n++] = step->event,
-    r->row[n++] = step->level;
+    r->row[n++] = pg_result_once ((double) step->iterations);
+    r->row[n++] = pg_result_once (step->residual), r->row[n++] = pg_result_once (step->utilisation),
+    r->row[n++] = pg_result_once (step->event), r->row[n++] = pg_result_once (step->level);
     if (goes_unstable (r)) {
-        r->row[n++] = (double) step->instability, r->row[n++] = step->motion;
+        r->row[n++] = pg_result_once ((double) step->instability), r->row[n++] = pg_result_once (step->motion);
         r->row[n++] = report->energy_damping;
     }
-    if (p->nstage) r->row[n++] = (double) step->stage;
+    if (p->nstage) r->row[n++] = pg_result_once ((double) step->stage);
+    PG_TRY (pg_ranks_sum (n, r->row));
+    PG_TRY (pg_ranks_sum (1, &shared));
+    if (r->curve_load >= 0) PG_TRY (pg_result_curve_row (r, r->row[x], r->row[y], gauges, step));
     PG_TRY (pg_table_row (r->history, r->row));
-    PG_TRY (event_rows (r, step));
+    PG_TRY (event_rows (r, step, shared));
     PG_TRY (pg_result_paths_write (r, state, step));
     PG_TRY (pg_result_contact_write (r, step));
 done:

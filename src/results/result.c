@@ -118,8 +118,10 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     PG_TRY (pg_result_remove (r, "report.json"));
     PG_TRY (pg_result_copy_scene (folder, scene));
     PG_TRY (pg_result_history_create (r, NULL));
-    snprintf (path, sizeof path, "%s/result.e", folder);
-    PG_TRY (pg_exodus_create (&r->file, path, &problem->cloud, problem->title, r->nfield, r->field));
+    const pg_cloud *own;
+    PG_TRY (pg_result_own_cloud (r, &own));
+    pg_result_fields_path (r, path, sizeof path);
+    PG_TRY (pg_exodus_create (&r->file, path, own, problem->title, r->nfield, r->field));
     r->done = pg_result_marks_now (r);
     r->seconds += pg_seconds () - t0;
     *out = r;
@@ -158,12 +160,13 @@ static pg_status write_fields (pg_result *r, const pg_state *state, double time)
         const char *unit;
         int components;
         PG_TRY (force->field (self, state, state->d, r->field[k].name, &components, &unit, r->value[k]));
+        pg_result_keep_own (r, (size_t) r->field[k].components, r->value[k]);
     }
     if (r->exodus_steps > 0 && !(time > r->time)) time = nextafter (r->time, INFINITY);
     PG_TRY (pg_exodus_write (r->file, time, r->field));
     r->exodus_steps++;
     r->time = time;
-    if (r->stages) PG_TRY (pg_result_draw_stage (r, state));
+    if (r->stages && !pg_ranks_now ()) PG_TRY (pg_result_draw_stage (r, state));
 done:
     return status;
 }
@@ -171,13 +174,21 @@ done:
 /* 1 if another share of the bonds has broken; sets the next one. output.at.broken = 0.1 gives stages at
  * 10 %, 20 % and so on of all bonds; a share that breaks at once with the one before it gives no stage of
  * its own. */
-static int share_has_broken (pg_result *r, const pg_state *state)
+static pg_status share_has_broken (pg_result *r, const pg_state *state, int *has)
 {
-    if (!(r->broken_share > 0)
-        || (double) state->broken < r->broken_share * (double) r->next_broken * (double) state->nbond)
-        return 0;
-    r->next_broken = (long) ((double) state->broken / (r->broken_share * (double) state->nbond)) + 1;
-    return 1;
+    pg_status status = PG_OK;
+    const pg_subdomain *s = r->problem->cloud.subdomain;
+    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    double sum[2] = { (double) state->broken, s ? 0 : (double) state->nbond };
+    *has = 0;
+    if (!(r->broken_share > 0)) return PG_OK;
+    for (size_t i = 0; s && i < s->n; i++) sum[1] += s->owned[i] ? (double) (f->start[i + 1] - f->start[i]) : 0;
+    PG_TRY (pg_ranks_sum (2, sum));
+    if (sum[0] < r->broken_share * (double) r->next_broken * sum[1]) return PG_OK;
+    r->next_broken = (long) (sum[0] / (r->broken_share * sum[1])) + 1;
+    *has = 1;
+done:
+    return status;
 }
 
 /* A time for a stage in the middle of a step, where there is none: rounds of breaking n move it from the
@@ -196,10 +207,11 @@ pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *s
     long next = r->next_broken;
     r->rounds = so_far->iterations;
     r->now = pg_result_marks_now (r);
-    r->last_written = share_has_broken (r, state);
+    PG_TRY (share_has_broken (r, state, &r->last_written));
     if (r->last_written) status = write_fields (r, state, time_within (r));
     if (status == PG_OK) r->now = pg_result_marks_now (r);
     else r->last_written = 0, r->next_broken = next;
+done:
     r->seconds += pg_seconds () - t0;
     return status;
 }
@@ -226,7 +238,9 @@ pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *st
     r->stamp = step->stamp;
     PG_TRY (pg_result_history_row (r, state, step));
     int due = r->every > 0 && step->event && state->events % r->every == 0;
-    due |= share_has_broken (r, state) || step->level;
+    int share;
+    PG_TRY (share_has_broken (r, state, &share));
+    due |= share || step->level;
     if (due) PG_TRY (write_fields (r, state, step->stamp));
     r->last_written = due;
     r->done = pg_result_marks_now (r);
@@ -259,11 +273,12 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     double t0 = pg_seconds ();
     /* ended before anything was done: pictures would only show the body as the scene describes it */
     int nothing = failure && state->step == 0 && r->rounds == 0;
+    PG_TRY (pg_solver_share_report (r->solver));
     if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
     r->last_written = 1;
     PG_TRY (pg_result_curve_read (r));
     PG_TRY (pg_result_crack_measure (r, state));
-    if (!nothing) PG_TRY (pg_result_draw (r, state));
+    if (!nothing && !pg_ranks_now ()) PG_TRY (pg_result_draw (r, state));
     PG_TRY (pg_result_measure (r, state));
     if (!failure) PG_TRY (pg_result_paths_lines (r, state));
     if (!failure) PG_TRY (estimate (r, state));
@@ -290,6 +305,7 @@ void pg_result_free (pg_result **result)
     pg_result_unlock (r->folder, &r->lock);
     pg_scene_files_free (r->nnamed, &r->named);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
+    pg_cloud_clear (&r->own), pg_free (r->here);
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);
     pg_result_tips_free (r);

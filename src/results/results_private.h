@@ -78,6 +78,8 @@ struct pg_result {
     pg_solver *solver;
     char     hash[80], scene[3072];
     pg_exodus *file;
+    pg_cloud  own;                                     /* ranks: the points of this one; n 0: not made yet */
+    signed char *here;                                 /* per end of a gauge: measured here; -1: not known */
     pg_table  *history, *events;
     size_t    nfield, npicture, nwritten, ncolumn;
     pg_field_view field[MOST_FIELDS];
@@ -155,6 +157,13 @@ struct pg_result {
     /* Seconds between checkpoints; when the last one was written; how long that took. */
     double    interval, checkpoint_at, checkpoint_cost;
 };
+/* ---- shared.c: ranks that share a run ------------------------------------------------------------------ */
+void      pg_result_fields_path  (const pg_result *r, char *out, size_t size);
+pg_status pg_result_own_cloud    (pg_result *r, const pg_cloud **out);
+void      pg_result_keep_own     (const pg_result *r, size_t components, double *value);
+double    pg_result_once         (double value);
+pg_status pg_result_place_here   (const pg_result *r, const double *place, signed char *here);
+pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken);
 /* Fills a new result from the scene without touching the folder. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver);

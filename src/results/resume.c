@@ -276,8 +276,10 @@ static pg_status open_files (pg_result *r, const result_marks *at)
     pg_status status = PG_OK;
     char path[4096];
     PG_TRY (pg_result_history_create (r, at));
-    snprintf (path, sizeof path, "%s/result.e", r->folder);
-    PG_TRY (pg_exodus_open (&r->file, path, &r->problem->cloud, r->nfield, r->field, at->steps, at->bytes));
+    const pg_cloud *own;
+    PG_TRY (pg_result_own_cloud (r, &own));
+    pg_result_fields_path (r, path, sizeof path);
+    PG_TRY (pg_exodus_open (&r->file, path, own, r->nfield, r->field, at->steps, at->bytes));
     r->exodus_steps = at->steps;
     r->next_broken = at->next_broken, r->last_written = (int) at->last_written, r->stamp = at->stamp,
     r->time = at->time;

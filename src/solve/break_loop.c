@@ -59,6 +59,16 @@ static void locate (const pg_problem *p, pg_broken *out)
     for (size_t k = 0; k < dim; k++) out->place[k] = 0.5 * (r->x[point * dim + k] + end[k]);
 }
 
+int break_loop_owns (const break_loop *b, size_t bond)
+{
+    const pg_problem *p = b->system.problem;
+    int set;
+    size_t point;
+    if (!p->cloud.subdomain) return 1;
+    pg_problem_locate (p, bond, &set, &point);
+    return set != PG_NODES || p->cloud.subdomain->owned[point];
+}
+
 /* Appends to the bonds that have died in this step; the caller clears the alive bit. */
 pg_status break_loop_log (break_loop *b, size_t bond, char kind, double utilisation, double t)
 {
@@ -270,9 +280,11 @@ pg_status break_loop_arrived (break_loop *b, const pg_state *state, const double
     PG_TRY (s->force->field (s->self, state, d, "damage", &components, &unit, b->damage));
     b->nearest = 0;
     for (size_t i = 0; components == 1 && i < set->npoint; i++)
-        b->nearest = fmax (b->nearest, b->damage[set->point[i]]);
+        if (pg_owns (s->problem->cloud.subdomain, (size_t) set->point[i]))
+            b->nearest = fmax (b->nearest, b->damage[set->point[i]]);
+    PG_TRY (pg_ranks_most (1, &b->nearest));
     if (!b->looked) b->nearest0 = b->nearest, b->looked = 1;
-    *arrived = set->npoint && b->nearest >= s->options->stop_damage;
+    *arrived = pg_set_points (set) && b->nearest >= s->options->stop_damage;
 done:
     return status;
 }

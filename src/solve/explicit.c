@@ -11,9 +11,13 @@ enum { BLOCK = 2048 };
 
 /* ---- supports ------------------------------------------------------------------------------------------ */
 /* The rows of T without an entry; T must select: one entry a column, which is 1. */
-static pg_status find_prescribed (motion *m, const pg_sparse *T, size_t ndof, const char *kind)
+static pg_status find_prescribed (pg_solver *s, const pg_sparse *T, size_t ndof)
 {
     pg_status status = PG_OK;
+    motion *m = motion_of (s);
+    const char *kind = s->type->name;
+    const pg_subdomain *owners = s->problem->cloud.subdomain;
+    size_t components = (size_t) s->break_loop.system.components;
     unsigned char *is_free = NULL;
     PG_ALLOC (is_free, ndof);
     for (size_t j = 0; j < T->ncol; j++) {
@@ -25,6 +29,8 @@ static pg_status find_prescribed (motion *m, const pg_sparse *T, size_t ndof, co
                      kind);
         is_free[T->row[T->start[j]]] = 1;
     }
+    /* ghosts follow their owners, whatever is prescribed there */
+    for (size_t i = 0; i < ndof; i++) is_free[i] |= !pg_owns (owners, i / components);
     for (size_t i = 0; i < ndof; i++) m->nprescribed += !is_free[i];
     PG_ALLOC (m->prescribed, m->nprescribed);
     size_t n = 0;
@@ -59,7 +65,7 @@ pg_status explicit_create (pg_solver *s)
     const pg_force_type *force = sys->force;
     const pg_sparse *T = force->basis ? force->basis (sys->self) : NULL;
     motion *m = motion_of (s);
-    if (T && force->impose) PG_TRY (find_prescribed (m, T, sys->ndof, s->type->name));
+    if (T && force->impose) PG_TRY (find_prescribed (s, T, sys->ndof));
     PG_ALLOC (m->lists, 3 * m->nprescribed);
     m->before = m->lists, m->goal = m->before + m->nprescribed, m->next = m->goal + m->nprescribed;
     PG_ALLOC (m->push, 3 * m->nprescribed);
@@ -71,6 +77,7 @@ pg_status explicit_create (pg_solver *s)
     PG_ALLOC (m->sum, m->nblock * SUMS);
     PG_ALLOC (m->inverse, sys->ndof);
     double bonds = (double) s->problem->first_bond[PG_BOND_SETS];
+    PG_TRY (pg_ranks_most (1, &bonds));
     m->between = (long) fmin (1000, fmax (1, 4e7 / fmax (bonds, 1)));
 done:
     return status;
@@ -83,7 +90,7 @@ void explicit_free (pg_solver *s)
     if (!m) return;
     explicit_contact_free (s);
     pg_free (m->prescribed), pg_free (m->lists), pg_free (m->push), pg_free (m->P), pg_free (m->inverse),
-        pg_free (m->sum);
+        pg_free (m->sum), pg_free (m->broke);
 }
 
 /* Prescribed unknowns do not take part in the loops over all unknowns: without velocity the loops leave
@@ -130,19 +137,21 @@ done:
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
 /* Bonds that died within the evaluation of the force: state and log follow. The kind is that of an
- * energy, of tension, or what the force says. */
-static pg_status remove_broken (pg_solver *s, pg_state *state, double t)
+ * energy, of tension, or what the force says. Those of ghosts are counted where they are owned. */
+static pg_status remove_broken (pg_solver *s, pg_state *state, double t, size_t *own)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
+    *own = 0;
     const pg_force_type *force = b->system.force;
     char kind = s->problem->criterion->type->needs & PG_NEEDS_ENERGY ? 'e' : 't';
     for (size_t k = 0; k < b->changes.n; k++) {
         state->alive[b->changes.bond[k]] = 0;
+        if (!break_loop_owns (b, b->changes.bond[k])) continue;
+        state->broken++, ++*own;
         if (force->kind_of) kind = force->kind_of (b->system.self, state->d, b->changes.bond[k]);
         PG_TRY (break_loop_log (b, b->changes.bond[k], kind, NAN, t));
     }
-    state->broken += (long) b->changes.n;
 done:
     return status;
 }
@@ -170,6 +179,22 @@ static int follows (const pg_solver *s)
     return !(s->options.flags & PG_SOLVER_STAGED) || !PG_OWN (pg_stages_options, &s->options)->hold;
 }
 
+/* Ranks: that a bond broke here in this time step is remembered until the row ends, when all ranks count the
+ * steps in which one broke anywhere (explicit_share). */
+static pg_status note_break (pg_solver *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    motion *m = motion_of (s);
+    long n = state->iterations + s->break_loop.round, step = n - m->row;
+    size_t room = m->nbroke;
+    if (step < 0) return PG_OK;
+    PG_GROW (m->broke, m->nbroke, (size_t) step + 1);
+    for (size_t k = room; k < m->nbroke; k++) m->broke[k] = 0;
+    m->broke[step] = 1;
+done:
+    return status;
+}
+
 /* One evaluation of the force, with breaking. Some forces break bonds within the evaluation; with others
  * utilisation is measured, bonds are broken, and the force is evaluated again where some were. */
 pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking, double *reference)
@@ -188,13 +213,15 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     s->report.seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
     s->evaluations++;
     if (!breaking) goto press;
-    if (force->balance_and_break) PG_TRY (remove_broken (s, state, t));
+    size_t own = 0;
+    if (force->balance_and_break) PG_TRY (remove_broken (s, state, t, &own));
     else {
         PG_TRY (break_by_utilisation (s, state, t));
         if (b->changes.n)
             PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     }
-    if (b->changes.n) state->events++, s->report.events++;
+    if (own && s->problem->cloud.subdomain) PG_TRY (note_break (s, state));
+    else if (b->changes.n && !s->problem->cloud.subdomain) state->events++, s->report.events++;
 press:
     if (sys->contact) contact_push (sys, state->d, sys->residual, follows (s));
 done:

@@ -20,6 +20,9 @@ typedef struct {
     double  most;                                      /* most external work so far, J */
     int     by_work_balance;  /* work comes from the force's work_balance, every time step */
     int     fresh;                                     /* lists and P are those of t_n */
+    /* Ranks: of each time step of the row, 1 where a bond broke here; that of the first; not finite seen here
+     * since the last row. */
+    double *broke;  size_t nbroke;  long row;  double bad;
     long    between;                                   /* time steps, or iterations, from look to look */
     double  omega, stable;  const char *from;  /* bound of the largest frequency, rad/s; 2 / omega, s */
     double  damped, damped0;  /* energy taken by damping, J; at the start of the step */
@@ -111,7 +114,8 @@ double    explicit_progress (const pg_solver *s, const pg_state *state);
 /* What every explicit method shares; its name, summary and step (explicit_step with its own half kicks) make
  * it whole. */
 #define EXPLICIT_ENTRIES \
-    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS | PG_SOLVER_CONTACT, \
+    .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS | PG_SOLVER_CONTACT \
+             | PG_SOLVER_RANKS, \
     .keys = { &solver_keys_facets, &solver_keys_step, &solver_keys_time }, \
     .read = explicit_read, .prepare = explicit_prepare, .start = explicit_start, .done = explicit_done, \
     .refused = explicit_refused, .free = explicit_free, .keep = explicit_keep, .own_size = sizeof (motion), \

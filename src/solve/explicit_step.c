@@ -176,7 +176,10 @@ static pg_status move (pg_solver *s, pg_state *state, kick_range range, int clos
         for (size_t k = 0; k < m->nprescribed; k++) state->d[m->prescribed[k]] = m->next[k];
         total[SUM_BAD] += lane_not_finite (m->next, 0, m->nprescribed);
         if (m->contact) m->contact->way = furthest (s);
-        if (total[SUM_BAD] != 0) PG_FAIL (PG_E_EQUILIBRIUM, "not finite");
+        if (s->problem->cloud.subdomain) {             /* all ranks end together, when the row does */
+            m->bad += total[SUM_BAD] != 0;
+            PG_TRY (pg_subdomain_exchange (s->problem->cloud.subdomain, (size_t) sys->components, state->d));
+        } else if (total[SUM_BAD] != 0) PG_FAIL (PG_E_EQUILIBRIUM, "not finite");
     }
 done:
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
@@ -318,6 +321,8 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
     motion *m = motion_of (s);
     pg_system *sys = &s->break_loop.system;
     double dt = s->options.dt, c = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass, kinetic = 0;
+    const pg_subdomain *subdomain = s->problem->cloud.subdomain;
+    pg_subdomain_clear_ghosts (subdomain, (size_t) sys->components, state->v);
     PG_TRY (explicit_follow (s, 0, 0, dt));
     for (size_t k = 0; k < m->nprescribed; k++) {
         size_t i = m->prescribed[k];
@@ -325,6 +330,7 @@ static pg_status begin (pg_solver *s, pg_state *state, int staggered)
         m->before[k] = m->goal[k] - dt * state->v[i];
         state->v[i] = 0;
     }
+    PG_TRY (pg_subdomain_exchange (subdomain, (size_t) sys->components, state->d));
     PG_TRY (arrive (s, state, 0));
     m->resist = 0;
     for (size_t i = 0; i < sys->ndof; i++) {
@@ -365,9 +371,11 @@ static pg_status check_growth (pg_solver *s, const pg_state *state, double t)
     motion *m = motion_of (s);
     /* An unstable step gives leapfrog's kinetic energy the other sign, so that the sum stays what it was. So
      * does a stable step just below the limit, which the body had before anything broke. */
-    double kinetic = s->report.energy_kinetic,
-           stored = s->report.energy_strain + (state->broken ? fmax (0, kinetic) : kinetic);
-    m->most = fmax (m->most, fabs (s->break_loop.work));
+    double sum[4] = { s->report.energy_kinetic, s->report.energy_strain, s->break_loop.work,
+                      (double) state->broken };
+    PG_TRY (pg_ranks_sum (4, sum));
+    double stored = sum[1] + (sum[3] > 0 ? fmax (0, sum[0]) : sum[0]);
+    m->most = fmax (m->most, fabs (sum[2]));
     if ((s->problem->nload == 0 || s->break_loop.system.force->work_balance) && stored > 10 * m->most)
         PG_FAIL (PG_E_EQUILIBRIUM,
                  "the energy of the body has grown to %.3g J at t = %.6g s, while %.3g J of work were done: "
@@ -376,6 +384,33 @@ static pg_status check_growth (pg_solver *s, const pg_state *state, double t)
                  "a smaller solver.dt, solver.kind: newmark, or "
                  "method.force: bond, whose bonds only ever soften it",
                  stored, t, m->most);
+done:
+    return status;
+}
+
+/* Ranks: the steps of the row in which a bond broke on any of them; a state that is not finite on one ends the
+ * run on all. The energies of the report stay those of this rank; what a row shows is summed when it is
+ * written (results/history.c). */
+static pg_status share_row (pg_solver *s, pg_state *state, long n)
+{
+    pg_status status = PG_OK;
+    motion *m = motion_of (s);
+    size_t steps = (size_t) (n - m->row + 1), room = m->nbroke;
+    double any[2] = { m->bad, 0 };
+    if (!s->problem->cloud.subdomain) return PG_OK;
+    PG_GROW (m->broke, m->nbroke, steps);
+    for (size_t k = room; k < m->nbroke; k++) m->broke[k] = 0;
+    PG_TRY (pg_ranks_most (steps, m->broke));
+    PG_TRY (pg_ranks_most (2, any));
+    for (size_t k = 0; k < steps; k++) state->events += m->broke[k] > 0, s->report.events += m->broke[k] > 0;
+    memset (m->broke, 0, m->nbroke * sizeof *m->broke);
+    m->bad = 0;
+    if (any[0] > 0) {
+        double local = lane_not_finite (state->d, 0, state->ndof);
+        if (local != 0) PG_TRY (explicit_lost (s, state, time_at (s, n)));
+        PG_FAIL (PG_E_EQUILIBRIUM, "a displacement on another rank is no longer finite at t = %.6g s",
+                 time_at (s, n));
+    }
 done:
     return status;
 }
@@ -391,6 +426,7 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
     double t = time_at (s, n);
     int breaks = (b->system.force->balance_and_break || b->system.force->utilisation)
                  && s->problem->criterion->type;
+    PG_TRY (share_row (s, state, n));
     if (!m->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
     s->report.energy_damping = m->damped;
     explicit_contact_show (s);
@@ -424,7 +460,7 @@ pg_status explicit_step (pg_solver *s, pg_state *state, pg_step *step, kick_rang
     int closed = 1;
     if (b->round == 0) {
         b->nbroken = 0;
-        m->damped0 = m->damped, m->resist0 = m->resist;
+        m->damped0 = m->damped, m->resist0 = m->resist, m->row = n;
         PG_TRY (explicit_contact_save (s));
         if (n == 0) PG_TRY (begin (s, state, staggered));
         if (m->nprescribed) memcpy (m->push0, m->push, m->nprescribed * sizeof *m->push);

@@ -230,6 +230,8 @@ void      break_loop_free   (break_loop *b);
 pg_status break_loop_ready  (break_loop *b);
 /* Notes a bond that died at time (or load factor) t. */
 pg_status break_loop_log    (break_loop *b, size_t bond, char kind, double utilisation, double t);
+/* 1: the point that has the bond is owned by this rank, or there are no ranks. */
+int       break_loop_owns   (const break_loop *b, size_t bond);
 /* 1: bonds are judged in this run: there is a criterion of bonds, and a force that knows how they stand. */
 int       break_loop_judges (const break_loop *b);
 /* The largest utilisation of all bonds; above 1, `over` lists those that may break now. */
@@ -318,6 +320,7 @@ struct pg_solver {
     const pg_problem *problem;
     break_loop   break_loop;
     pg_statistics report;
+    int shared;                                        /* the report is that of all ranks */
     int started, finished, warned_overlap, warned_energy, warned_facets;
     long      next_level;                              /* next level to report: next_level / levels */
     pg_state *backup;                                  /* last accepted state, for refused steps */

@@ -338,3 +338,19 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
 const pg_solver_options *pg_solver_settled (const pg_solver *s) { return &s->options; }
 
 const pg_statistics *pg_solver_report_now (const pg_solver *s) { return &s->report; }
+
+/* What only one process can count, parts of the body that have come loose, stays that of this rank. */
+pg_status pg_solver_share_report (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    pg_statistics *r = &s->report;
+    double sum[] = { r->energy_strain, r->energy_kinetic, r->energy_external, r->energy_damping,
+                     r->energy_dissipated, (double) r->broken };
+    if (!s->problem->cloud.subdomain || s->shared) return PG_OK;
+    PG_TRY (pg_ranks_sum (sizeof sum / sizeof *sum, sum));
+    r->energy_strain = sum[0], r->energy_kinetic = sum[1], r->energy_external = sum[2];
+    r->energy_damping = sum[3], r->energy_dissipated = sum[4], r->broken = (long) sum[5];
+    s->shared = 1;
+done:
+    return status;
+}

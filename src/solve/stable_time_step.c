@@ -30,6 +30,7 @@ static pg_status find_bound (pg_solver *s)
     if (!sys->force->bound || sys->contact) PG_TRY (system_refresh (sys, s->backup, NULL));
     PG_TRY (pg_force_bound (sys->force, sys->self, sys->ndof, sys->mass, sys->full, &m->omega, &m->from));
     if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
+    PG_TRY (pg_ranks_most (1, &m->omega));
     /* closed faces stand in for bonds that are among those of the bound */
     if (sys->contact) m->omega *= sqrt (sys->contact->stiffer);
     if (!isfinite (m->omega))
@@ -48,6 +49,10 @@ static pg_status check_dt (pg_solver *s)
     const pg_system *sys = &s->break_loop.system;
     double omega;
     if (s->options.dt <= m->stable) goto done;
+    if (pg_ranks_now ())
+        PG_TRY (solver_fault (s, "solver.dt", "%.6g s is too large: steps up to %.4g s are stable for certain, "
+                              "and ranks do not measure how much longer they may be", s->options.dt,
+                              m->stable));
     PG_TRY (pg_solver_fastest (s, s->backup, &omega));
     omega = with_contact (s, sys->contact ? fmax (omega, m->omega) : omega);
     double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;

@@ -1,0 +1,49 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What several ranks can share so far (perigal/ranks.h), before anything large is made: the rest is refused
+ * with its reason, never run in part. */
+#include "model.h"
+#include <stdio.h>
+#include <string.h>
+
+/* Keys that only one process can follow so far, and why. */
+static const struct {
+    const char *key, *why;
+} alone[] = {
+    { "points", "points of a file are not divided among ranks so far; lattices are" },
+    { "mesh", "meshes are not divided among ranks so far; lattices are" },
+    { "platens", "platens press the body of one process only so far" },
+    { "stages", "stages of loading are for one process only so far" },
+    { "reference", "results are compared with a reference by one process only: perigal compare" },
+    { "output.averages", "means over sets are taken by one process only so far" },
+    { "output.tips", "tips are followed by one process only so far" },
+};
+
+/* Loads that act at a place, rather than on a set, choose the points around it by looking at all. */
+static void check_loads (const pg_scene *scene)
+{
+    char path[64];
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
+        snprintf (path, sizeof path, "boundary[%zu].at", i);
+        if (pg_scene_given (scene, "%s", path))
+            pg_scene_fault (scene, path, "a load at a place is for one process only so far: name a set");
+    }
+}
+
+pg_status pg_subdomain_check (const pg_problem *p, const pg_scene *scene)
+{
+    const char *kind = pg_scene_text (scene, "solver.kind");
+    for (size_t k = 0; k < sizeof alone / sizeof *alone; k++)
+        if (pg_scene_given (scene, "%s", alone[k].key))
+            pg_scene_fault (scene, alone[k].key, "%d ranks: %s", pg_rank_count (), alone[k].why);
+    if (strcmp (pg_scene_text (scene, "contact.kind"), "none") != 0)
+        pg_scene_fault (scene, "contact.kind", "%d ranks: contact is for one process only so far",
+                        pg_rank_count ());
+    if (!(p->method->ghosts > 0))
+        pg_scene_fault (scene, "method.force", "%d ranks: %s is not divided among ranks so far",
+                        pg_rank_count (), p->method->name);
+    if (!pg_solver_is (kind, PG_SOLVER_RANKS))
+        pg_scene_fault (scene, "solver.kind", "%d ranks: %s is for one process only so far",
+                        pg_rank_count (), kind);
+    check_loads (scene);
+    return pg_scene_verdict (scene);
+}

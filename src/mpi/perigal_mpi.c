@@ -1,0 +1,53 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * perigal-mpi: `mpirun -n N perigal-mpi run SCENE.yaml` runs a scene on several processes, with the same
+ * options, messages, exit codes and files as `perigal run`; `check` says what it would do. */
+#include "../cli/cli.h"
+#include "messages.h"
+#include <mpi.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void usage (FILE *to)
+{
+    fprintf (to, "Perigal " PG_VERSION ": a scene on several processes by MPI\n\nusage:\n"
+                 "  mpirun -n N perigal-mpi run SCENE.yaml [-o DIR] [--set KEY=VALUE] [--resume]\n"
+                 "  perigal help run  explains the options\n\n"
+                 "exit codes: 0 done, 64 wrong usage, 65 invalid scene, 70 failed (numerics, memory,\n"
+                 "            files, messages), 130 interrupted\n");
+}
+
+/* A rank that failed alone cannot tell the others, which wait for it: then all end. What ended on all ranks
+ * ends in order. */
+static int end (int code, int together)
+{
+    mpi_leave ();
+    if (code != PG_EXIT_DONE && !together) MPI_Abort (MPI_COMM_WORLD, code);
+    MPI_Finalize ();
+    return code;
+}
+
+int main (int argc, char **argv)
+{
+    if (argc > 1 && strcmp (argv[1], "--version") == 0) {
+        printf ("perigal-mpi " PG_VERSION "\n");
+        return PG_EXIT_DONE;
+    }
+    if (argc < 2 || strcmp (argv[1], "--help") == 0 || strcmp (argv[1], "-h") == 0) {
+        usage (argc < 2 ? stderr : stdout);
+        return argc < 2 ? PG_EXIT_USAGE : PG_EXIT_DONE;
+    }
+    if (strcmp (argv[1], "run") != 0) {
+        fprintf (stderr, "perigal-mpi: there is no command %s for several processes: run\n", argv[1]);
+        return PG_EXIT_USAGE;
+    }
+    setenv ("OMP_THREAD_LIMIT", "1", 0);
+    setenv ("OPENBLAS_NUM_THREADS", "1", 0);
+    if (MPI_Init (&argc, &argv) != MPI_SUCCESS) {
+        fprintf (stderr, "perigal-mpi: MPI does not start\n");
+        return PG_EXIT_FAILED;
+    }
+    mpi_join ();
+    pg_memory_keep ();
+    int together = 0, code = pg_cli_run_ranks (argc - 1, argv + 1, &together);
+    return end (code, together);
+}

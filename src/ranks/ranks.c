@@ -1,0 +1,88 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The ranks that share a run: who they are, and calls that do nothing where a process is alone. */
+#include "perigal/ranks.h"
+#include <string.h>
+
+/* A process is a rank or it is not: nothing else in the library is global. */
+static const pg_ranks *joined;
+
+void pg_ranks_join (const pg_ranks *ranks) { joined = ranks; }
+const pg_ranks *pg_ranks_now (void) { return joined; }
+int pg_rank (void) { return joined ? joined->rank : 0; }
+int pg_rank_count (void) { return joined ? joined->size : 1; }
+
+pg_status pg_ranks_sum (size_t n, double *value)
+{
+    return joined && n ? joined->sum (joined->context, n, value) : PG_OK;
+}
+
+pg_status pg_ranks_most (size_t n, double *value)
+{
+    return joined && n ? joined->most (joined->context, n, value) : PG_OK;
+}
+
+pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, void **all)
+{
+    pg_status status = PG_OK;
+    *bytes_all = 0, *all = NULL;
+    if (joined) return joined->collect (joined->context, bytes, mine, bytes_all, all);
+    char *copy = NULL;
+    PG_ALLOC (copy, bytes);
+    if (bytes) memcpy (copy, mine, bytes);
+    *all = copy, *bytes_all = bytes;
+done:
+    return status;
+}
+
+/* The message travels as bytes: those of the lowest rank that failed, by a sum to which the others add
+ * nothing. */
+enum { WORDS = 512 };
+pg_status pg_ranks_agree (pg_status mine)
+{
+    pg_status status = PG_OK;
+    double first = mine == PG_OK ? -1e9 : -(double) pg_rank (), text[WORDS + 1] = { 0 };
+    if (!joined) return mine;
+    PG_TRY (pg_ranks_most (1, &first));                /* minus the lowest rank that failed */
+    if (first < -1e8) return PG_OK;
+    if ((int) -first == pg_rank ()) {
+        const char *said = pg_last_error ();
+        text[WORDS] = mine;
+        for (size_t k = 0; k + 1 < WORDS && said[k]; k++) text[k] = (unsigned char) said[k];
+    }
+    PG_TRY (pg_ranks_sum (WORDS + 1, text));
+    if ((int) -first == pg_rank ()) return mine;
+    char words[WORDS + 1] = "";
+    for (size_t k = 0; k < WORDS; k++) words[k] = (char) (unsigned char) text[k];
+    return pg_error ((pg_status) text[WORDS], PG_HERE, "%s", words);
+done:
+    return status;
+}
+
+/* ---- subdomains ---------------------------------------------------------------------------------------- */
+void pg_halo_clear (pg_halo *h)
+{
+    pg_free (h->rank), pg_free (h->send_first), pg_free (h->receive_first), pg_free (h->send),
+        pg_free (h->receive);
+    memset (h, 0, sizeof *h);
+}
+
+void pg_subdomain_free (pg_subdomain **subdomain)
+{
+    pg_subdomain *s = *subdomain;
+    if (!s) return;
+    pg_free (s->owned), pg_free (s->number);
+    pg_halo_clear (&s->halo);
+    pg_free (s);
+    *subdomain = NULL;
+}
+
+pg_status pg_subdomain_exchange (const pg_subdomain *s, size_t components, double *value)
+{
+    return s && joined ? joined->exchange (joined->context, &s->halo, components, value) : PG_OK;
+}
+
+void pg_subdomain_clear_ghosts (const pg_subdomain *s, size_t components, double *value)
+{
+    for (size_t i = 0; s && i < s->n; i++)
+        for (size_t k = 0; !s->owned[i] && k < components; k++) value[i * components + k] = 0;
+}

@@ -1,0 +1,138 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Results of a run that ranks share (perigal/ranks.h). Rows of history.csv are sums over the ranks, each of
+ * which gives what its own points contribute; rows of events.csv are collected on rank 0 and put into the
+ * order that one process would write them in; fields are one file a rank, of the points that it owns
+ * (result.e.SIZE.RANK, as nemesis names them). Rank 0 writes into the result folder, the others into
+ * ranks/RANK below it, where each keeps what it needs to go on. */
+#include "results_private.h"
+#include <float.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* The folder in which a rank keeps its tables and checkpoint. */
+void pg_result_rank_folder (char *out, size_t size, const char *folder)
+{
+    if (pg_rank () == 0) snprintf (out, size, "%s", folder);
+    else snprintf (out, size, "%s/ranks/%d", folder, pg_rank ());
+}
+
+/* The file of fields: all of them beside each other in the result folder. Digits of the rank as many as those
+ * of the number of ranks. */
+void pg_result_fields_path (const pg_result *r, char *out, size_t size)
+{
+    char digits[16];
+    int width = snprintf (digits, sizeof digits, "%d", pg_rank_count ());
+    if (!pg_ranks_now ()) snprintf (out, size, "%s/result.e", r->folder);
+    else
+        snprintf (out, size, "%s%s/result.e.%d.%0*d", r->folder, pg_rank () ? "/../.." : "", pg_rank_count (),
+                  width, pg_rank ());
+}
+
+/* The points whose fields this process writes: its own. Borrowed; made once. */
+pg_status pg_result_own_cloud (pg_result *r, const pg_cloud **out)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *all = &r->problem->cloud;
+    const pg_subdomain *s = all->subdomain;
+    size_t dim = (size_t) all->dim, n = 0;
+    pg_cloud *own = &r->own;
+    *out = s ? own : all;
+    if (!s || own->n) return PG_OK;
+    *own = *all;
+    own->x = own->volume = own->size = own->metric = NULL, own->block = NULL, own->subdomain = NULL;
+    own->n = s->nowned;
+    PG_ALLOC (own->x, own->n * dim);
+    PG_ALLOC (own->volume, own->n);
+    PG_ALLOC (own->block, own->n);
+    for (size_t i = 0; i < all->n; i++) {
+        if (!s->owned[i]) continue;
+        memcpy (own->x + n * dim, all->x + i * dim, dim * sizeof *own->x);
+        own->volume[n] = all->volume[i], own->block[n++] = all->block[i];
+    }
+done:
+    return status;
+}
+
+/* Values of all points become those of the points that are owned, one after the other. */
+void pg_result_keep_own (const pg_result *r, size_t components, double *value)
+{
+    const pg_subdomain *s = r->problem->cloud.subdomain;
+    size_t n = 0;
+    for (size_t i = 0; s && i < s->n; i++) {
+        if (!s->owned[i]) continue;
+        memmove (value + n * components, value + i * components, components * sizeof *value);
+        n++;
+    }
+}
+
+/* ---- rows ---------------------------------------------------------------------------------------------- */
+/* What all ranks know alike counts once. */
+double pg_result_once (double value) { return pg_rank () == 0 ? value : 0; }
+
+/* 1 on one rank only: that with the point nearest to the place, of several the lowest. *here: 1, 0; it is
+ * found once. */
+pg_status pg_result_place_here (const pg_result *r, const double *place, signed char *here)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *c = &r->problem->cloud;
+    size_t dim = (size_t) c->dim;
+    double best = INFINITY;
+    if (!c->subdomain) *here = 1;
+    if (*here >= 0) return PG_OK;
+    for (size_t i = 0; i < c->n; i++) {
+        double sum = 0;
+        for (size_t k = 0; k < dim; k++) sum += (c->x[i * dim + k] - place[k]) * (c->x[i * dim + k] - place[k]);
+        if (c->subdomain->owned[i] && sum < best) best = sum;
+    }
+    double least = -best, rank = -DBL_MAX;
+    PG_TRY (pg_ranks_most (1, &least));
+    if (best == -least) rank = -(double) pg_rank ();
+    PG_TRY (pg_ranks_most (1, &rank));
+    *here = (int) -rank == pg_rank ();
+done:
+    return status;
+}
+
+/* ---- events -------------------------------------------------------------------------------------------- */
+typedef struct { pg_broken broken; int64_t point, node; } event;
+
+/* As one process lists them: by time, then by the point that has the bond, then by the one it leads to. */
+static int earlier (const void *a, const void *b)
+{
+    const event *x = a, *y = b;
+    if (x->broken.time != y->broken.time) return x->broken.time < y->broken.time ? -1 : 1;
+    if (x->point != y->point) return x->point < y->point ? -1 : 1;
+    return (x->node > y->node) - (x->node < y->node);
+}
+
+/* The broken bonds of a step on all ranks, on rank 0 (*broken: pg_free), elsewhere none. */
+pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    event *mine = NULL;
+    void *all = NULL;
+    size_t bytes = 0;
+    *n = 0, *broken = NULL;
+    PG_ALLOC (mine, step->nbroken);
+    for (size_t i = 0; i < step->nbroken; i++) {
+        const pg_broken *b = &step->broken[i];
+        int set;
+        size_t point;
+        pg_problem_locate (p, b->bond, &set, &point);
+        size_t node = (size_t) p->rows[set].family.node[b->bond - p->first_bond[set]];
+        mine[i].broken = *b;
+        mine[i].point = p->cloud.subdomain->number[point], mine[i].node = p->cloud.subdomain->number[node];
+    }
+    PG_TRY (pg_ranks_collect (step->nbroken * sizeof *mine, mine, &bytes, &all));
+    *n = bytes / sizeof *mine;
+    event *list = all;
+    if (*n) qsort (list, *n, sizeof *list, earlier);
+    PG_ALLOC (*broken, *n);
+    for (size_t i = 0; i < *n; i++) (*broken)[i] = list[i].broken;
+done:
+    pg_free (mine), pg_free (all);
+    return status;
+}
