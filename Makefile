@@ -14,8 +14,8 @@ ORDER   := base ranks scene kernel material criterion linalg netcdf mesh mesh_fi
 
 PACKAGES := gcc libc6-dev make python3 pkg-config libyaml-dev libudunits2-dev libsuitesparse-dev libopenblas-pthread-dev \
             libgsl-dev libfftw3-dev libnetcdf-dev libcairo2-dev libqhull-dev libcmocka-dev
-# What the tests of matlab-compat and python need; where these cannot be had, those tests say that they are skipped.
-OPTIONAL := octave octave-netcdf octave-dev gnuplot-nox ghostscript fonts-freefont-otf python3-numpy python3-netcdf4
+# What the tests of perigal-mpi, matlab-compat and python need; where these cannot be had, those tests say that they are skipped.
+OPTIONAL := petsc-dev mpi-default-dev mpi-default-bin octave octave-netcdf octave-dev gnuplot-nox ghostscript fonts-freefont-otf python3-numpy python3-netcdf4
 
 BUILD   := build/$(MODE)
 # the threaded parts are what the thread sanitizer is for
@@ -166,7 +166,7 @@ test-long: test-packages
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
 	$(Q).ci/test $(BUILD) "$(T)" long $(JOBS)
 
-test-programs: $(PROGRAM) $(CONVERT) $(if $(T),$(filter $(T:%=$(BUILD)/test/%/%),$(TESTBIN)),$(TESTBIN))
+test-programs: $(PROGRAM) $(CONVERT) $(MPI) $(if $(T),$(filter $(T:%=$(BUILD)/test/%/%),$(TESTBIN)),$(TESTBIN))
 
 fuzz:                ## random inputs for SECONDS each (FUZZ=scene: one of them); findings land in build/fuzz
 	$(Q)command -v clang > /dev/null || { echo "make fuzz needs libFuzzer: install the Debian package clang"; exit 1; }
@@ -247,4 +247,4 @@ print-%:
 
 .PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
 .SECONDARY:
--include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(TESTBIN:=.d) $(BENCHBIN:=.d)
+-include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(MPIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -211,8 +211,8 @@ typedef struct {
     pg_status (*read) (pg_problem *problem, const pg_scene *scene);
     /* How entry i of `boundary` holds its displacement. NULL: as a constraint on the points of its set. */
     void      (*support) (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
-    /* How many horizons of ghosts its points and their bonds need around a subdomain (perigal/ranks.h); 0: the
-     * force cannot be divided among ranks so far. */
+    /* How many horizons of ghosts its points and their bonds need around a subdomain (perigal/ranks.h);
+     * 0: the force cannot be divided among ranks so far. */
     double    ghosts;
     /* Completes what failure criteria derive their constants from. NULL: nothing to add. */
     pg_status (*limits) (const pg_problem *problem, size_t material, pg_criterion_setting *setting);

@@ -1,9 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The subdomain of a rank on a lattice. Cells are divided into one box a rank (pg_boxes_divide); a rank owns
  * the vertices at the low corners of its cells (and those at the end of the lattice), or the centres of its
- * cells, and holds ghosts as wide as the method sees; sites at the rim of what it holds, around which cells are
- * missing, are points too, but beyond all that counts, and nobody brings them up to date. As boxes are known on all ranks, every rank finds by
- * itself what each of the others needs from it: nothing is asked. */
+ * cells, and holds ghosts as wide as the method sees. Sites at the rim of what it holds, around which cells
+ * are missing, are points too, but beyond all that counts, and nobody brings them up to date. As boxes are
+ * known on all ranks, every rank finds by itself what each of the others needs from it: nothing is asked. */
 #include "subdomain.h"
 #include <math.h>
 #include <string.h>

@@ -3,7 +3,7 @@
 #ifndef PG_MODEL_PRIVATE_H
 #define PG_MODEL_PRIVATE_H
 #include "perigal/model.h"
-/* subdomain.c: what ranks cannot share so far is refused: PG_E_SCENE, or PG_E_USAGE where no key is at fault. */
+/* subdomain.c: what ranks cannot share so far is refused: PG_E_SCENE. */
 pg_status pg_subdomain_check (const pg_problem *problem, const pg_scene *scene);
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 /* supports.c: supports that contradict each other (at corners: warnings), or are too many for elimination, as

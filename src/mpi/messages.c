@@ -12,7 +12,7 @@ typedef struct {
     double  *send, *receive;  size_t cap_send, cap_receive;
     MPI_Request *request;     size_t cap_request;
 } messages;
-static messages here;
+static messages *here;
 
 /* PG_OK, or what MPI says. */
 static pg_status said (int code)
@@ -109,7 +109,8 @@ static pg_status collect (void *context, size_t bytes, const void *mine, size_t 
     PG_ALLOC (count, size);
     PG_ALLOC (first, size);
     PG_TRY (said (MPI_Gather (&own, 1, MPI_INT, count, 1, MPI_INT, 0, MPI_COMM_WORLD)));
-    for (size_t r = 0; m->ranks.rank == 0 && r < size; r++) first[r] = (int) total, total += (size_t) count[r];
+    for (size_t r = 0; m->ranks.rank == 0 && r < size; r++)
+        first[r] = (int) total, total += (size_t) count[r];
     PG_TRY (check_count (total));
     PG_ALLOC (out, total);
     PG_TRY (said (MPI_Gatherv (mine, own, MPI_BYTE, out, count, first, MPI_BYTE, 0, MPI_COMM_WORLD)));
@@ -122,7 +123,9 @@ done:
 
 void mpi_join (void)
 {
-    messages *m = &here;
+    messages *m = pg_calloc (1, sizeof *m);
+    if (!m) MPI_Abort (MPI_COMM_WORLD, 70);
+    here = m;
     MPI_Comm_set_errhandler (MPI_COMM_WORLD, MPI_ERRORS_RETURN);
     MPI_Comm_rank (MPI_COMM_WORLD, &m->ranks.rank);
     MPI_Comm_size (MPI_COMM_WORLD, &m->ranks.size);
@@ -134,5 +137,6 @@ void mpi_join (void)
 void mpi_leave (void)
 {
     pg_ranks_join (NULL);
-    pg_free (here.send), pg_free (here.receive), pg_free (here.request);
+    pg_free (here->send), pg_free (here->receive), pg_free (here->request);
+    pg_free (here), here = NULL;
 }

@@ -125,8 +125,8 @@ done:
     return status;
 }
 
-/* Mean of component k over the points of a load, at a place by their shares; 0 for a set without points. Ranks: the
- * share of this one. */
+/* Mean of component k over the points of a load, at a place by their shares;
+ * 0 for a set without points. Ranks: the share of this one. */
 static double mean_of (const pg_problem *p, const pg_load *load, const double *u, int dim, int k)
 {
     const pg_set *set = load->set;
@@ -185,8 +185,8 @@ done:
     return status;
 }
 
-/* Ends of a gauge, measured by the rank that is nearest to each; *out: how far they have moved apart, the share
- * of this rank. */
+/* Ends of a gauge, measured by the rank that is nearest to each; *out: how far they have moved apart, the
+ * share of this rank. */
 static pg_status measure_gauge (pg_result *r, const pg_state *state, size_t g, double *out)
 {
     pg_status status = PG_OK;
@@ -256,7 +256,7 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     PG_TRY (pg_result_paths_row (r, state, r->row + n));
     n += pg_result_paths_columns (r);
     PG_TRY (pg_result_crack_row (r, state, r->row + n));
-    for (size_t k = 0; k < pg_result_crack_columns (r); k++) r->row[n + k] = pg_result_once (r->row[n + k]);
+    for (size_t k = n; k < n + pg_result_crack_columns (r); k++) r->row[k] = pg_result_once (r->row[k]);
     n += pg_result_crack_columns (r);
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic,
     r->row[n++] = report->energy_external;
@@ -265,7 +265,8 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     r->row[n++] = pg_result_once (step->residual), r->row[n++] = pg_result_once (step->utilisation),
     r->row[n++] = pg_result_once (step->event), r->row[n++] = pg_result_once (step->level);
     if (goes_unstable (r)) {
-        r->row[n++] = pg_result_once ((double) step->instability), r->row[n++] = pg_result_once (step->motion);
+        r->row[n++] = pg_result_once ((double) step->instability);
+        r->row[n++] = pg_result_once (step->motion);
         r->row[n++] = report->energy_damping;
     }
     if (p->nstage) r->row[n++] = pg_result_once ((double) step->stage);

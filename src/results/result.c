@@ -182,7 +182,8 @@ static pg_status share_has_broken (pg_result *r, const pg_state *state, int *has
     double sum[2] = { (double) state->broken, s ? 0 : (double) state->nbond };
     *has = 0;
     if (!(r->broken_share > 0)) return PG_OK;
-    for (size_t i = 0; s && i < s->n; i++) sum[1] += s->owned[i] ? (double) (f->start[i + 1] - f->start[i]) : 0;
+    for (size_t i = 0; s && i < s->n; i++)
+        if (s->owned[i]) sum[1] += (double) (f->start[i + 1] - f->start[i]);
     PG_TRY (pg_ranks_sum (2, sum));
     if (sum[0] < r->broken_share * (double) r->next_broken * sum[1]) return PG_OK;
     r->next_broken = (long) (sum[0] / (r->broken_share * sum[1])) + 1;

@@ -83,7 +83,10 @@ pg_status pg_result_place_here (const pg_result *r, const double *place, signed 
     if (*here >= 0) return PG_OK;
     for (size_t i = 0; i < c->n; i++) {
         double sum = 0;
-        for (size_t k = 0; k < dim; k++) sum += (c->x[i * dim + k] - place[k]) * (c->x[i * dim + k] - place[k]);
+        for (size_t k = 0; k < dim; k++) {
+            double way = c->x[i * dim + k] - place[k];
+            sum += way * way;
+        }
         if (c->subdomain->owned[i] && sum < best) best = sum;
     }
     double least = -best, rank = -DBL_MAX;

@@ -388,8 +388,8 @@ done:
     return status;
 }
 
-/* Ranks: the steps of the row in which a bond broke on any of them; a state that is not finite on one ends the
- * run on all. The energies of the report stay those of this rank; what a row shows is summed when it is
+/* Ranks: the steps of the row in which a bond broke on any of them; a state that is not finite on one ends
+ * the run on all. The energies of the report stay those of this rank; what a row shows is summed when it is
  * written (results/history.c). */
 static pg_status share_row (pg_solver *s, pg_state *state, long n)
 {

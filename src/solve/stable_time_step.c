@@ -50,9 +50,10 @@ static pg_status check_dt (pg_solver *s)
     double omega;
     if (s->options.dt <= m->stable) goto done;
     if (pg_ranks_now ())
-        PG_TRY (solver_fault (s, "solver.dt", "%.6g s is too large: steps up to %.4g s are stable for certain, "
-                              "and ranks do not measure how much longer they may be", s->options.dt,
-                              m->stable));
+        PG_TRY (solver_fault (s, "solver.dt",
+                              "%.6g s is too large: steps up to %.4g s are stable for certain, and ranks do "
+                              "not measure how much longer they may be",
+                              s->options.dt, m->stable));
     PG_TRY (pg_solver_fastest (s, s->backup, &omega));
     omega = with_contact (s, sys->contact ? fmax (omega, m->omega) : omega);
     double limit = omega > 0 ? 0.99 * 2 / omega : INFINITY;
