@@ -234,8 +234,11 @@ typedef struct {
     const pg_operator *A;
     /* Rows of the same A; read only during creation. */
     pg_couplings rows;
-    /* Step of the first coarse grid in units of the reach; 0: 4/3. */
+    /* Step of the first coarse grid in units of the reach; 0: 4/3. aligned: 1: where nodes form a lattice,
+     * vertices of coarse grids lie on nodes rather than in the middle of steps: for couplings that reach
+     * one step, which then reach one step on every grid. */
     double  step;
+    int     aligned;
     /* Degree of the smoothing polynomial; 0: 2. */
     int     degree;
 } pg_multilevel_setting;

@@ -340,7 +340,7 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
                                 .fixed = P->fixed,
                                 .A = &P->Q,
                                 .rows = pg_block_couplings (Q, P->elements.reach),
-                                .step = 2.5 * P->elements.spacing / P->elements.reach };
+                                .step = 2.5 * P->elements.spacing / P->elements.reach, .aligned = 1 };
     memcpy (m.rows.lattice, P->elements.lattice, sizeof m.rows.lattice);
     PG_TRY (pg_multilevel_create (&P->multilevel, &m));
     if (P->elements.N.start) {

@@ -154,7 +154,7 @@ pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting
     level *l = &m->at[0];
     l->dim = s->dim, l->block = s->block, l->threads = s->threads > 1 ? s->threads : 1, l->n = s->n,
     l->ndof = s->n * (size_t) s->block;
-    l->x = s->x;
+    l->x = s->x, l->aligned = s->aligned;
     l->A = s->A, l->rows = s->rows;
     for (int k = 0; k < 3; k++) l->reach[k] = s->rows.reach;
     PG_TRY (level_diagonal (l, s->fixed));

@@ -45,8 +45,9 @@ typedef struct {
     /* Grid of the coarse functions: its first vertex and its steps, m. */
     double  low[3], step[3];
     /* cells: cells along each axis. share_of: lattice steps in a cell where the nodes form a lattice, they
-     * are in the middle of their steps then; 0: no lattice. */
+     * are in the middle of their steps then, unless aligned; 0: no lattice. */
     int     cells[3], share_of[3];
+    int     aligned;                                   /* as in pg_multilevel_setting, on all levels */
     /* Numbers of cells, of hat functions, of functions. */
     size_t  ncell, nvertex, nfunction;
     /* Cell of each node (n). */

@@ -114,9 +114,12 @@ static pg_status make_pattern (level *c, const level *f)
     int reach[3] = { 0 }, at[3] = { 0 };
     size_t bb = (size_t) (c->block * c->block);
     /* Hat functions extend one step to each side: couplings of two hat functions end before two steps
-     * plus the reach. */
+     * plus the reach. On a lattice the outermost node under a hat function is known: one lattice step inside
+     * its end, or half a one. */
     for (int k = 0; k < f->dim; k++) {
-        reach[k] = (int) ceil (2 + f->reach[k] / f->step[k] + 1e-6) - 1;
+        double share = f->share_of[k], inside = share > 0 ? (f->aligned ? 1 : 0.5) / share : 0;
+        reach[k] = share > 0 ? (int) floor (2 * (1 - inside) + f->reach[k] / f->step[k] + 1e-6)
+                             : (int) ceil (2 + f->reach[k] / f->step[k] + 1e-6) - 1;
         c->reach[k] = reach[k] * f->step[k];
     }
     /* All functions of one hat function have the same couplings. */
@@ -131,6 +134,8 @@ static pg_status make_pattern (level *c, const level *f)
     PG_ALLOC (c->node, c->start[c->n]);
     PG_ALLOC (c->value, c->start[c->n] * bb);
     PG_ALLOC (c->places, c->n * (size_t) c->dim);
+    c->aligned = f->aligned;
+    for (int k = 0; f->aligned && k < f->dim; k++) c->rows.lattice[k] = f->share_of[k] ? f->step[k] : 0;
     c->x = c->places;
     for (size_t h = 0; h < f->nvertex; h++) {
         level_vertex_place (f, h, at);

@@ -27,8 +27,8 @@ static void make_grid (level *l, double step)
         /* Cells of whole lattice steps hold the same nodes at the same relative positions. */
         if (h > 0) {
             l->share_of[k] = (int) fmax (1, round (step / h));
-            l->low[k] = low - h / 2, l->step[k] = l->share_of[k] * h;
-            count = ceil (round ((high - low) / h + 1) / l->share_of[k]);
+            l->low[k] = l->aligned ? low : low - h / 2, l->step[k] = l->share_of[k] * h;
+            count = fmax (1, ceil (round ((high - low) / h + !l->aligned) / l->share_of[k]));
         }
         l->cells[k] = (int) count;
         l->ncell *= (size_t) l->cells[k], l->nvertex *= (size_t) l->cells[k] + 1;
@@ -66,7 +66,9 @@ static void place_nodes (void *context, size_t first, size_t last, int thread)
         size_t cell = 0, stride = 1;
         for (int k = 0; k < l->dim; k++) {
             double s = (l->x[i * (size_t) l->dim + (size_t) k] - l->low[k]) / l->step[k];
-            if (l->share_of[k]) s = (floor (s * l->share_of[k]) + 0.5) / l->share_of[k];
+            if (l->share_of[k])
+                s = l->aligned ? round (s * l->share_of[k]) / l->share_of[k]
+                               : (floor (s * l->share_of[k]) + 0.5) / l->share_of[k];
             double whole = fmin (fmax (0, floor (s)), l->cells[k] - 1);
             t[k] = fmin (fmax (0, s - whole), 1);
             cell += (size_t) whole * stride, stride *= (size_t) l->cells[k];
