@@ -161,6 +161,8 @@ int       pg_lattice_goes_on (const pg_lattice *lattice, const int *i);
 /* Coordinate (m) of vertex i along an axis; i + 0.5: of a cell's centre. Corners are exact, and the
  * coordinates are symmetric about the middle to the last bit. */
 double    pg_lattice_at    (const pg_lattice *lattice, int axis, double i);
+/* 1 on one rank only, whose subdomain has the cell around x, m, or on all if there are no ranks (NULL). */
+int       pg_lattice_owns (const pg_lattice *lattice, const pg_subdomain *subdomain, const double *x);
 /* A centre as near to the surface as this lies on it, m. */
 double    pg_lattice_tolerance (const pg_lattice *lattice);
 /* A mesh or an alpha shape as a lattice sees it: every position in a cell is inside or outside as its

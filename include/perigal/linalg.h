@@ -138,6 +138,11 @@ typedef struct pg_linear_type {
 } pg_linear_type;
 /* The entry of that name, NULL: there is none. */
 const pg_linear_type *pg_linear_find  (const char *name);
+/* A program adds an entry of its own (perigal-mpi: by PETSc), which then is the usual solver of its kind;
+ * NULL: it is taken away. Borrowed; one at a time. */
+void                  pg_linear_add   (const pg_linear_type *type);
+/* The one that solver.linear: auto takes: what was added, where it is of that kind, else pg_linear_first. */
+const pg_linear_type *pg_linear_usual (int symmetric, int factors);
 /* The first entry of the list with these flags, NULL: there is none. Symmetric with a factor: the usual
  * one, for K; not symmetric: for matrices that are indefinite or not symmetric; without a factor: by
  * products with A only. */

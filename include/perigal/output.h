@@ -77,6 +77,9 @@ pg_status pg_exodus_unit   (const char *path, const char *field, char unit[16]);
 
 /* Makes a folder and the folders above it; one that exists is no error. PG_E_FILE. */
 pg_status pg_folder_make (const char *path);
+/* Removes the plain files of a folder, and the folder if nothing else is in it. What cannot be removed
+ * stays. */
+void      pg_folder_remove (const char *path);
 
 /* Creates a file for writing, to be closed with fclose. A file or a symbolic link in its place
  * is removed first, so that nothing is ever written through a link. PG_E_FILE. */

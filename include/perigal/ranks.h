@@ -37,7 +37,11 @@ typedef struct {
 } pg_ranks;
 /* From now on this process is one of these ranks; NULL: it is alone again. Borrowed. */
 void pg_ranks_join (const pg_ranks *ranks);
-/* NULL: alone. */
+/* What ranks share. divided 1 (as at the start): the body, each holding a subdomain. 0: every rank holds the
+ * whole body and does the same steps with the same bits (lock-step), and only linear solvers that know of
+ * each other share work; then the calls below, but for pg_ranks_ask and pg_ranks_agree, do nothing. */
+void pg_ranks_divide (int divided);
+/* The ranks that share the body; NULL: alone, or in lock-step. */
 const pg_ranks *pg_ranks_now (void);
 int  pg_rank (void);                                   /* 0 where it is alone */
 int  pg_rank_count (void);                             /* 1 where it is alone */
@@ -46,6 +50,8 @@ pg_status pg_ranks_sum  (size_t n, double *value);
 pg_status pg_ranks_most (size_t n, double *value);
 /* Collects on rank 0; alone a copy of `mine`. */
 pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, void **all);
+/* The largest over all ranks, also in lock-step: for what a clock or a signal decides. */
+pg_status pg_ranks_ask  (size_t n, double *value);
 /* What one rank has met all have met: the first failure (of the lowest rank) is returned on every rank, with
  * its message. */
 pg_status pg_ranks_agree (pg_status status);

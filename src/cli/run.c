@@ -13,6 +13,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 /* Number of the signal that asked the run to stop; 0: none. Signal handlers can reach nothing
  * but a global. */
@@ -119,6 +120,9 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
     for (size_t k = 0; k < r->nskipped; k++)
         printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
     print_warnings (r, problem, o);
+    if (pg_rank_count () > 1 && !pg_ranks_now () && !r->factorizations)
+        printf ("  warning: no matrix was factored: all %d ranks did the same work, one would do; "
+                "solver.linear: petsc factors on all of them\n", pg_rank_count ());
     printf ("  results in %s: result.e history.csv events.csv%s report.json\n", pg_result_folder (result),
             !pg_problem_grows (problem) ? "" : problem->dim == 3 ? " cracks.csv fronts.csv"
                                                                  : " cracks.csv tips.csv");
@@ -158,7 +162,7 @@ static pg_status ask_all (const watched *w, int *stop, int *due)
 {
     pg_status status = PG_OK;
     double any[2] = { asked_to_stop != 0, pg_result_due (w->result) };
-    PG_TRY (pg_ranks_most (2, any));
+    PG_TRY (pg_ranks_ask (2, any));
     *stop = any[0] > 0, *due = any[1] > 0;
 done:
     return status;
@@ -283,7 +287,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     pg_status outcome = advance (solver, w, c->quiet), status;
     int kept = 0, failed = outcome != PG_OK;
     if (failed) snprintf (failure, sizeof failure, "%s", pg_last_error ());
-    if (w->alone && pg_ranks_now ()) {                 /* the others wait: nothing can be done together */
+    if (w->alone && pg_rank_count () > 1) {            /* the others wait: nothing can be done together */
         fprintf (stderr, "perigal: rank %d: %s\n", pg_rank (), failure);
         return outcome;
     }
@@ -320,6 +324,8 @@ static pg_status prepare (run *r)
     int fresh = !c->resume && !c->force;
     pg_forecast forecast;
     PG_TRY (command_scene (c, &r->scene));
+    /* equilibria are found in lock-step, whose matrices are shared; time steps by subdomains */
+    pg_ranks_divide (!pg_solver_is (pg_scene_text (r->scene, "solver.kind"), PG_SOLVER_IMPLICIT));
     if (c->folder && fresh && pg_rank () == 0) PG_TRY (pg_result_may_open (c->folder, r->scene));
     if (!pg_ranks_now ()) PG_TRY (afford_scene (c, &forecast));
     PG_TRY (command_problem (c, r->scene, &r->problem, &r->options));
@@ -331,7 +337,9 @@ static pg_status prepare (run *r)
     else snprintf (folder, sizeof folder, "out/%s", r->problem->name);
     pg_result_rank_folder (r->folder, sizeof r->folder, folder);
     if (!c->folder && fresh) PG_TRY (pg_result_may_open (r->folder, r->scene));
-    r->finished = c->resume && pg_result_finished (r->folder, r->scene);
+    double finished = c->resume && pg_rank () == 0 && pg_result_finished (r->folder, r->scene);
+    PG_TRY (pg_ranks_ask (1, &finished));
+    r->finished = finished > 0;
 done:
     return status;
 }
@@ -351,6 +359,20 @@ done:
     return status;
 }
 
+/* Of a run that has come to its end nobody needs the folders of ranks any more: they hold copies of the rows.
+ * Fields are in the result folder. */
+static void drop_rank_folder (const run *r, pg_status status)
+{
+    double failed = status != PG_OK;
+    char path[5000];
+    if (pg_rank_count () == 1 || pg_ranks_ask (1, &failed) != PG_OK || failed > 0) return;
+    if (pg_rank () > 0) pg_folder_remove (r->folder);
+    failed = 0;
+    if (pg_ranks_ask (1, &failed) != PG_OK || pg_rank () > 0) return;
+    snprintf (path, sizeof path, "%s/ranks", r->folder);
+    rmdir (path);
+}
+
 /* Exit codes: 0 done, or finished already; 130 interrupted, with a checkpoint; others as in
  * cli.h. */
 int pg_cli_run (int argc, char **argv)
@@ -368,7 +390,7 @@ int pg_cli_run_ranks (int argc, char **argv, int *together)
     int wrong = command_parse (&r.c, argc, argv), complained = 0;
     *together = 1;
     if (wrong >= 0) return wrong;
-    if (pg_ranks_now () && !r.c.given) r.c.threads = 1;
+    if (pg_rank_count () > 1 && !r.c.given) r.c.threads = 1;
     r.c.quiet |= pg_rank () > 0;
     if (r.c.seeds) return command_seeds (&r.c);
     settle_signals ();
@@ -380,6 +402,7 @@ int pg_cli_run_ranks (int argc, char **argv, int *together)
     PG_TRY (pg_ranks_agree (open_run (&r)));
     complained = 1;                                    /* by run_to_the_end, whatever comes */
     status = run_to_the_end (&r.c, r.solver, &r.w, pg_seconds () - start, start);
+    if (!r.w.alone) pg_result_free (&r.w.result), drop_rank_folder (&r, status);
 done:
     if (status != PG_OK && !complained && pg_rank () == 0) command_complain (status, pg_last_error ());
     *together = !r.w.alone;

@@ -81,6 +81,17 @@ done:
     return status;
 }
 
+/* Places beyond the lattice go to the rank at its end. */
+int pg_lattice_owns (const pg_lattice *l, const pg_subdomain *d, const double *x)
+{
+    for (int k = 0; d && k < l->dim; k++) {
+        double i = floor ((x[k] - l->whole_origin[k]) / l->step[k]);
+        i = fmin (fmax (i, 0), l->whole[k] - 1);
+        if (i < d->own.low[k] || i >= d->own.high[k]) return 0;
+    }
+    return 1;
+}
+
 /* ---- sites --------------------------------------------------------------------------------------------- */
 /* Indices of a site in the whole lattice. */
 static void place_of (const sites *s, const pg_lattice *l, size_t i, int *at)

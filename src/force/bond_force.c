@@ -291,7 +291,8 @@ static double strain_of (const bond_force *b, const double *d, const double *res
     for (size_t k = 0; k < b->boundary.nspring; k++)
         sum += out->force[springs + k] * d[b->boundary.spring[k].dof];
     for (size_t k = 0; k < 8; k++) sum -= lane[k];
-    return fmax (0.5 * sum, 0);
+    /* the share of a rank may be negative, the whole is not */
+    return b->problem->cloud.subdomain ? 0.5 * sum : fmax (0.5 * sum, 0);
 }
 
 /* Supports prescribe single unknowns: theirs are the only entries of residual and inertia that matter to the

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The catalogue of linear solvers: the entries of list.h as a table and as a string of names. */
 #include "perigal/linalg.h"
+#include <stdio.h>
 #include <string.h>
 
 /* Each pass over list.h gives the macro another meaning: declarations, table, names. */
@@ -14,8 +15,19 @@ static const pg_linear_type *const entries[] = {
 #undef PG_LINEAR
 };
 
+/* What a program has added, and the names of all with its own. */
+static const pg_linear_type *added;
+static char all_names[200];
+
+const pg_linear_type *pg_linear_usual (int symmetric, int factors)
+{
+    if (added && added->symmetric == symmetric && added->factors == factors) return added;
+    return pg_linear_first (symmetric, factors);
+}
+
 const pg_linear_type *pg_linear_find (const char *name)
 {
+    if (name && added && strcmp (added->name, name) == 0) return added;
     for (size_t i = 0; i < sizeof entries / sizeof *entries; i++)
         if (name && strcmp (entries[i]->name, name) == 0) return entries[i];
     return NULL;
@@ -29,11 +41,16 @@ const pg_linear_type *pg_linear_first (int symmetric, int factors)
 }
 
 /* "auto" is no entry: the solver of the scene chooses one. */
-const char *pg_linear_names (void)
-{
-    return ""
+static const char names[] = ""
 #define PG_LINEAR(name) #name "|"
 #include "list.h"
 #undef PG_LINEAR
     "auto";
+
+void pg_linear_add (const pg_linear_type *type)
+{
+    added = type;
+    if (added) snprintf (all_names, sizeof all_names, "%s|%s", added->name, names);
 }
+
+const char *pg_linear_names (void) { return added ? all_names : names; }

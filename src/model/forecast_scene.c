@@ -69,7 +69,7 @@ static void read_solver (pg_forecast *f, const pg_scene *scene)
     f->automatic = !linear || is (linear, "auto");
     f->dynamic = !pg_solver_is (kind, PG_SOLVER_STATIC);
     f->explicit_ = !pg_solver_is (kind, PG_SOLVER_IMPLICIT);
-    f->linear = f->automatic ? pg_linear_first (1, 1) : pg_linear_find (linear);
+    f->linear = f->automatic ? pg_linear_usual (1, 1) : pg_linear_find (linear);
     if (f->linear && !f->linear->factors) f->linear = NULL;
     if (!(beta > 0)) beta = (1 - alpha) * (1 - alpha) / 4;
     const char *stepping = pg_scene_text (scene, "solver.stepping");

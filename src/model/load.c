@@ -426,7 +426,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
     if (problem->method->support) problem->method->support (problem, load, scene, i);
     if (!load->cracks && !pg_scene_given (scene, "boundary[%zu].at", i))
         check_place (problem, load, scene, i);
-    pg_load_centre (problem, load, scene, i);
+    PG_TRY (pg_load_centre (problem, load, scene, i));
     read_depth (problem, load, scene, i);
     PG_TRY (read_course (load, scene, i, is_static, duration));
     if (!read_special (problem, load, scene, i, kinds[k].key, &status))

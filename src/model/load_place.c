@@ -17,40 +17,60 @@ void pg_load_add_moment (const pg_load *load, int dim, const double *x, int k, d
     moment[last] -= arm[next] * force;
 }
 
-/* The centre of a set: of its facets by their areas, or of its points by their volumes. */
-static void centre_of (const pg_problem *p, const pg_set *set, int on_facets, double *centre)
+/* Does this rank count a facet that several may hold? The cell half a step behind its centre tells. */
+static int owns_facet (const pg_problem *p, size_t facet)
 {
+    size_t dim = (size_t) p->dim;
+    double behind[3] = { 0 };
+    for (size_t k = 0; k < dim; k++)
+        behind[k] = p->cells.facet_centre[facet * dim + k]
+                    - 0.5 * p->cloud.step[k] * p->cells.normal[facet * dim + k];
+    return pg_lattice_owns (&p->lattice, p->cloud.subdomain, behind);
+}
+
+/* The centre of a set: of its facets by their areas, or of its points by their volumes; on all ranks. */
+static pg_status centre_of (const pg_problem *p, const pg_set *set, int on_facets, double *centre)
+{
+    pg_status status = PG_OK;
     size_t dim = (size_t) p->dim, n = on_facets ? set->nfacet : set->npoint;
-    double whole = 0;
+    double whole = 0, all[4];
     memset (centre, 0, 3 * sizeof *centre);
     for (size_t i = 0; i < n; i++) {
         size_t item = (size_t) (on_facets ? set->facet[i] : set->point[i]);
+        if (!(on_facets ? owns_facet (p, item) : pg_owns (p->cloud.subdomain, item))) continue;
         double weight = on_facets ? p->cells.area[item] : p->cloud.volume[item];
         const double *x = (on_facets ? p->cells.facet_centre : p->cloud.x) + item * dim;
         for (size_t k = 0; k < dim; k++) centre[k] += weight * x[k];
         whole += weight;
     }
-    for (size_t k = 0; k < dim && whole > 0; k++) centre[k] /= whole;
+    memcpy (all, centre, 3 * sizeof *all), all[3] = whole;
+    PG_TRY (pg_ranks_sum (4, all));
+    for (size_t k = 0; k < dim; k++) centre[k] = all[3] > 0 ? all[k] / all[3] : 0;
+done:
+    return status;
 }
 
 /* boundary[].about, or the centre of the set. */
-void pg_load_centre (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
+pg_status pg_load_centre (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {
+    pg_status status = PG_OK;
     char path[64];
     snprintf (path, sizeof path, "boundary[%zu].about", i);
     if (load->own) memcpy (load->about, load->at, sizeof load->about);
-    else centre_of (p, load->set, load->set->nfacet > 0, load->about);
-    if (!pg_scene_given (scene, "%s", path)) return;
+    else PG_TRY (centre_of (p, load->set, pg_set_facets (load->set) > 0, load->about));
+    if (!pg_scene_given (scene, "%s", path)) goto done;
     if (p->dim < 2 || pg_load_rotates (load) || load->cracks || load->kind == PG_EIGENSTRAIN) {
         pg_scene_fault (scene, path, "is the place that moments of forces are about, which %s has none of",
                         p->dim < 2              ? "a bar"
                         : pg_load_rotates (load) ? "a rotation or moment of points"
                         : load->cracks           ? "a pressure in cracks"
                                                  : "a free strain");
-        return;
+        goto done;
     }
     memset (load->about, 0, sizeof load->about);
     pg_scene_vector (scene, 3, load->about, "%s", path);
+done:
+    return status;
 }
 
 /* ---- a rigid turn -------------------------------------------------------------------------------------- */

@@ -14,7 +14,7 @@ void      pg_loads_clear (pg_problem *problem);
 /* load_place.c, load_spring.c: parts of entry i of `boundary`. The centre of its moments; a place instead of
  * a
  * set; keys that are no maps of components. */
-void      pg_load_centre (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+pg_status pg_load_centre (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
 pg_status pg_load_read_place    (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
 pg_status pg_load_read_turn     (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
 pg_status pg_load_read_symmetry (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);

@@ -26,6 +26,10 @@ static void check_loads (const pg_scene *scene)
         snprintf (path, sizeof path, "boundary[%zu].at", i);
         if (pg_scene_given (scene, "%s", path))
             pg_scene_fault (scene, path, "a load at a place is for one process only so far: name a set");
+        snprintf (path, sizeof path, "boundary[%zu].symmetry", i);
+        if (pg_scene_given (scene, "%s", path))
+            pg_scene_fault (scene, path, "planes of symmetry are for one process only so far: prescribe "
+                            "the displacement across it");
     }
 }
 
@@ -44,6 +48,9 @@ pg_status pg_subdomain_check (const pg_problem *p, const pg_scene *scene)
     if (!pg_solver_is (kind, PG_SOLVER_RANKS))
         pg_scene_fault (scene, "solver.kind", "%d ranks: %s is for one process only so far",
                         pg_rank_count (), kind);
+    if (pg_scene_number (scene, "perturb.amount") > 0)
+        pg_scene_fault (scene, "perturb.amount", "%d ranks: points that are no lattice are calibrated by one "
+                        "process only so far", pg_rank_count ());
     check_loads (scene);
     return pg_scene_verdict (scene);
 }

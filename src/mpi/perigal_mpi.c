@@ -3,6 +3,7 @@
  * options, messages, exit codes and files as `perigal run`; `check` says what it would do. */
 #include "../cli/cli.h"
 #include "messages.h"
+#include "petsc_factor.h"
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
@@ -20,8 +21,9 @@ static void usage (FILE *to)
  * ends in order. */
 static int end (int code, int together)
 {
-    mpi_leave ();
     if (code != PG_EXIT_DONE && !together) MPI_Abort (MPI_COMM_WORLD, code);
+    petsc_end ();
+    mpi_leave ();
     MPI_Finalize ();
     return code;
 }
@@ -48,6 +50,10 @@ int main (int argc, char **argv)
     }
     mpi_join ();
     pg_memory_keep ();
+    if (petsc_start () != PG_OK) {
+        fprintf (stderr, "perigal-mpi: %s\n", pg_last_error ());
+        MPI_Abort (MPI_COMM_WORLD, PG_EXIT_FAILED);
+    }
     int together = 0, code = pg_cli_run_ranks (argc - 1, argv + 1, &together);
     return end (code, together);
 }

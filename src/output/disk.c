@@ -3,6 +3,7 @@
  * with the reason that the system gives. The buffered functions of C would report a full disk
  * only later, at fclose. */
 #include "disk.h"
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -103,6 +104,22 @@ pg_status pg_disk_sync (const char *path)
     int bad = fsync (file) != 0 && errno != EINVAL && errno != ENOTSUP, reason = errno;
     close (file);
     return bad ? pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (reason)) : PG_OK;
+}
+
+/* Folders in it are left alone, and links are removed as links. */
+void pg_folder_remove (const char *path)
+{
+    char name[4300];
+    const struct dirent *entry;
+    DIR *folder = opendir (path);
+    if (!folder) return;
+    while ((entry = readdir (folder)))
+        if (strcmp (entry->d_name, ".") != 0 && strcmp (entry->d_name, "..") != 0) {
+            snprintf (name, sizeof name, "%.4000s/%s", path, entry->d_name);
+            unlink (name);
+        }
+    closedir (folder);
+    rmdir (path);
 }
 
 /* Goes through the path and makes every folder on the way. Files are put into it under names of up to

@@ -4,19 +4,25 @@
 #include <string.h>
 
 /* A process is a rank or it is not: nothing else in the library is global. */
-static const pg_ranks *joined;
+static const pg_ranks *joined, *sharing;
 
-void pg_ranks_join (const pg_ranks *ranks) { joined = ranks; }
-const pg_ranks *pg_ranks_now (void) { return joined; }
+void pg_ranks_join (const pg_ranks *ranks) { joined = sharing = ranks; }
+void pg_ranks_divide (int divided) { sharing = divided ? joined : NULL; }
+const pg_ranks *pg_ranks_now (void) { return sharing; }
 int pg_rank (void) { return joined ? joined->rank : 0; }
 int pg_rank_count (void) { return joined ? joined->size : 1; }
 
 pg_status pg_ranks_sum (size_t n, double *value)
 {
-    return joined && n ? joined->sum (joined->context, n, value) : PG_OK;
+    return sharing && n ? sharing->sum (sharing->context, n, value) : PG_OK;
 }
 
 pg_status pg_ranks_most (size_t n, double *value)
+{
+    return sharing && n ? sharing->most (sharing->context, n, value) : PG_OK;
+}
+
+pg_status pg_ranks_ask (size_t n, double *value)
 {
     return joined && n ? joined->most (joined->context, n, value) : PG_OK;
 }
@@ -25,7 +31,7 @@ pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, v
 {
     pg_status status = PG_OK;
     *bytes_all = 0, *all = NULL;
-    if (joined) return joined->collect (joined->context, bytes, mine, bytes_all, all);
+    if (sharing) return sharing->collect (joined->context, bytes, mine, bytes_all, all);
     char *copy = NULL;
     PG_ALLOC (copy, bytes);
     if (bytes) memcpy (copy, mine, bytes);
@@ -42,14 +48,14 @@ pg_status pg_ranks_agree (pg_status mine)
     pg_status status = PG_OK;
     double first = mine == PG_OK ? -1e9 : -(double) pg_rank (), text[WORDS + 1] = { 0 };
     if (!joined) return mine;
-    PG_TRY (pg_ranks_most (1, &first));                /* minus the lowest rank that failed */
+    PG_TRY (pg_ranks_ask (1, &first));                /* minus the lowest rank that failed */
     if (first < -1e8) return PG_OK;
     if ((int) -first == pg_rank ()) {
         const char *said = pg_last_error ();
         text[WORDS] = mine;
         for (size_t k = 0; k + 1 < WORDS && said[k]; k++) text[k] = (unsigned char) said[k];
     }
-    PG_TRY (pg_ranks_sum (WORDS + 1, text));
+    PG_TRY (joined->sum (joined->context, WORDS + 1, text));
     if ((int) -first == pg_rank ()) return mine;
     char words[WORDS + 1] = "";
     for (size_t k = 0; k < WORDS; k++) words[k] = (char) (unsigned char) text[k];
@@ -78,7 +84,7 @@ void pg_subdomain_free (pg_subdomain **subdomain)
 
 pg_status pg_subdomain_exchange (const pg_subdomain *s, size_t components, double *value)
 {
-    return s && joined ? joined->exchange (joined->context, &s->halo, components, value) : PG_OK;
+    return s && sharing ? sharing->exchange (sharing->context, &s->halo, components, value) : PG_OK;
 }
 
 void pg_subdomain_clear_ghosts (const pg_subdomain *s, size_t components, double *value)

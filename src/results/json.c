@@ -279,6 +279,10 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     pg_json_text (j, "scene_sha256", res->hash);
     files_block (j, res);
     pg_json_text (j, "outcome", failure ? failure : "done");
+    if (pg_rank_count () > 1) {
+        pg_json_count (j, "ranks", (size_t) pg_rank_count ());
+        pg_json_text (j, "division", pg_ranks_now () ? "subdomains" : "matrices");
+    }
     run_block (j, res, r, state);
     instability_block (j, res, r);
     stages_block (j, res);

@@ -69,7 +69,7 @@ void pg_result_keep_own (const pg_result *r, size_t components, double *value)
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
 /* What all ranks know alike counts once. */
-double pg_result_once (double value) { return pg_rank () == 0 ? value : 0; }
+double pg_result_once (double value) { return pg_ranks_now () && pg_rank () ? 0 : value; }
 
 /* 1 on one rank only: that with the point nearest to the place, of several the lowest. *here: 1, 0; it is
  * found once. */

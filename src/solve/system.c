@@ -80,7 +80,7 @@ pg_status system_create (pg_system *s)
     PG_ALLOC (s->touched, s->problem->cloud.n);
     if (s->force->mass) PG_TRY (s->force->mass (s->self, s->mass));
     int automatic = strcmp (s->options->linear, "auto") == 0;
-    s->linear = automatic ? pg_linear_first (1, 1) : pg_linear_find (s->options->linear);
+    s->linear = automatic ? pg_linear_usual (1, 1) : pg_linear_find (s->options->linear);
     if (!s->linear) PG_FAIL (PG_E_USAGE, "there is no linear solver %s", s->options->linear);
 done:
     return status;

@@ -1,0 +1,12 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private to perigal-mpi: the linear solver that ranks share (petsc_factor.c). */
+#ifndef PG_MPI_PETSC_FACTOR_H
+#define PG_MPI_PETSC_FACTOR_H
+#include "perigal/linalg.h"
+
+extern const pg_linear_type petsc_factor;
+/* Starts PETSc (after MPI) and makes its solver the usual one; ends it. Nothing of the command line is read;
+ * the variable PETSC_OPTIONS is. */
+pg_status petsc_start (void);
+void      petsc_end   (void);
+#endif

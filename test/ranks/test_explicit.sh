@@ -1,0 +1,27 @@
+#!/bin/bash
+# test_explicit.sh BUILD: explicit runs that ranks share by subdomains: the same bonds break in the same order on any number of ranks.
+. "$(dirname "$0")/ranks.sh"
+
+# equal NAME SCENE ARGUMENTS...: events byte by byte, rows to rounding, on 1 to 4 ranks
+equal() {
+    local name=$1 scene=$2 r; shift 2
+    alone "$scene" -o "$work/one" --force "$@"; verdict "$name: one process" $?
+    [ "$(wc -l < "$work/one/events.csv")" -gt 20 ]; verdict "$name: something breaks" $?
+    for r in 1 2 3 4; do
+        rm -rf "$work/some"
+        ranks "$r" "$scene" -o "$work/some" "$@" && cmp "$work/one/events.csv" "$work/some/events.csv" > "$work/why" 2>&1
+        verdict "$name: the same bonds on $r ranks" $?
+        alike 1e-9 "$work/one" "$work/some" history.csv; verdict "$name: the same rows on $r ranks" $?
+    done
+}
+small=(--set spacing='1.25 mm' --set solver.dt='1.5e-7 s' --set solver.time_steps=120)
+equal "bond, verlet" plate.yaml
+equal "bond, central, centres of cells" plate.yaml "${small[@]}" --set solver.kind=central --set lattice=cells
+equal "lps" plate.yaml "${small[@]}" --set method.force=lps --set materials.steel.poissons_ratio=0.2
+equal "gmpd" plate.yaml "${small[@]}" --set method.force=gmpd --set materials.steel.poissons_ratio=0.2 \
+      --set 'failure={criterion: beam_limits, fracture_energy: 20 kJ/m2}'
+equal "plane strain, volumes of surfaces corrected" plate.yaml "${small[@]}" --set plane=strain --set method.surface_correction=volume
+
+ranks 2 plate.yaml -o "$work/no" --set solver.kind=adr; [ $? -eq 65 ] && grep -q "2 ranks: adr is for one process only" "$work/err"
+verdict "what cannot be shared so far is refused, with the key" $?
+finish

@@ -1,0 +1,28 @@
+#!/bin/bash
+# test_lockstep.sh BUILD: equilibria on several ranks that share the factor of the matrix (PETSc, MUMPS): the same facets in the same order, at
+# the same loads, on any number of ranks.
+. "$(dirname "$0")/ranks.sh"
+
+# grows NAME SCENE TABLE NUMBERS-OF-RANKS: cracks, what was measured at their ends, broken bonds, rows
+grows() {
+    local name=$1 scene=$2 table=$3 r; shift 3
+    alone "$scene" -o "$work/one" --force --set solver.linear=cholmod; verdict "$name: one process" $?
+    for r in "$@"; do
+        rm -rf "$work/some"
+        ranks "$r" "$scene" -o "$work/some" --set solver.linear=petsc; verdict "$name: $r ranks" $?
+        grep -q '"linear_solver": "petsc"' "$work/some/report.json" && grep -q "\"ranks\": $r" "$work/some/report.json"
+        verdict "$name: by the factor of $r ranks" $?
+        alike 1e-7 "$work/one" "$work/some" cracks.csv; verdict "$name: the same facets in the same order on $r ranks" $?
+        alike 1e-7 "$work/one" "$work/some" "$table"; verdict "$name: the same energy release rates on $r ranks" $?
+        alike 1e-8 "$work/one" "$work/some" history.csv residual displacement_x displacement_y; verdict "$name: the same loads on $r ranks" $?
+        alike 1e-8 "$work/one" "$work/some" events.csv; verdict "$name: the same bonds on $r ranks" $?
+    done
+}
+grows "several cracks" facets.yaml tips.csv 2 3 8
+grows "a closed crack with friction" contact.yaml tips.csv 2 3
+grows "in space" space.yaml fronts.csv 2 3
+
+# fields too, and what is left behind
+ranks 3 facets.yaml -o "$work/some" --force && [ ! -e "$work/some/ranks" ] && [ ! -e "$work/some/checkpoint.nc" ] && [ -s "$work/some/result.e" ]
+verdict "the folder is that of one process" $?
+finish
