@@ -283,6 +283,7 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     PG_TRY (pg_result_measure (r, state));
     if (!failure) PG_TRY (pg_result_paths_lines (r, state));
     if (!failure) PG_TRY (estimate (r, state));
+    if (!failure) PG_TRY (pg_result_join_fields (r));
 done:
     r->seconds += pg_seconds () - t0;
     /* the report comes also without pictures */

@@ -164,6 +164,8 @@ void      pg_result_keep_own     (const pg_result *r, size_t components, double 
 double    pg_result_once         (double value);
 pg_status pg_result_place_here   (const pg_result *r, const double *place, signed char *here);
 pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken);
+/* joined_fields.c: the parts of all ranks become result.e; nothing alone. */
+pg_status pg_result_join_fields (pg_result *r);
 /* Fills a new result from the scene without touching the folder. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver);

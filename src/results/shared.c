@@ -2,8 +2,8 @@
  * Results of a run that ranks share (perigal/ranks.h). Rows of history.csv are sums over the ranks, each of
  * which gives what its own points contribute; rows of events.csv are collected on rank 0 and put into the
  * order that one process would write them in; fields are one file a rank, of the points that it owns
- * (result.e.SIZE.RANK, as nemesis names them). Rank 0 writes into the result folder, the others into
- * ranks/RANK below it, where each keeps what it needs to go on. */
+ * (result.e.SIZE.RANK), until the run has ended (joined_fields.c). Rank 0 writes into the result folder, the
+ * others into ranks/RANK below it, where each keeps what it needs to go on. */
 #include "results_private.h"
 #include <float.h>
 #include <math.h>

@@ -12,6 +12,8 @@ equal() {
         ranks "$r" "$scene" -o "$work/some" "$@" && cmp "$work/one/events.csv" "$work/some/events.csv" > "$work/why" 2>&1
         verdict "$name: the same bonds on $r ranks" $?
         alike 1e-9 "$work/one" "$work/some" history.csv; verdict "$name: the same rows on $r ranks" $?
+        [ "$digits" = last ] && continue
+        cmp "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
     done
 }
 small=(--set spacing='1.25 mm' --set solver.dt='1.5e-7 s' --set solver.time_steps=120)
@@ -20,6 +22,8 @@ equal "bond, central, centres of cells" plate.yaml "${small[@]}" --set solver.ki
 equal "lps" plate.yaml "${small[@]}" --set method.force=lps --set materials.steel.poissons_ratio=0.2
 equal "gmpd" plate.yaml "${small[@]}" --set method.force=gmpd --set materials.steel.poissons_ratio=0.2 \
       --set 'failure={criterion: beam_limits, fracture_energy: 20 kJ/m2}'
+# sums by lists go through the points in blocks that differ from part to part: the last digits of displacements do so too
+digits=last
 equal "plane strain, volumes of surfaces corrected" plate.yaml "${small[@]}" --set plane=strain --set method.surface_correction=volume
 
 ranks 2 plate.yaml -o "$work/no" --set solver.kind=adr; [ $? -eq 65 ] && grep -q "2 ranks: adr is for one process only" "$work/err"
