@@ -180,7 +180,8 @@ static void bars_are_integrated_exactly (void **state)
 static pg_cells lattice_cells (int dim, double thickness, unsigned char *in)
 {
     pg_lattice l = {
-        dim, { 3, dim > 1 ? 2 : 1, dim > 2 ? 2 : 1 }, { 0, 1, 2 }, { 0.6, 1.6, 2.2 }, { 0.2, 0.3, 0.1 }, in
+        .dim = dim, .count = { 3, dim > 1 ? 2 : 1, dim > 2 ? 2 : 1 }, .origin = { 0, 1, 2 },
+        .high = { 0.6, 1.6, 2.2 }, .step = { 0.2, 0.3, 0.1 }, .in = in
     };
     pg_cells cells;
     for (int i = 0; i < 12; i++) in[i] = dim == 1 || i % 6 != 5;
