@@ -332,10 +332,9 @@ static pg_status prepare (run *r)
     settle_blas (r->problem);
     if (!pg_ranks_now ()) PG_TRY (afford_problem (c, &forecast, r->problem, 0));
     if (!pg_ranks_now ()) PG_TRY (pg_patch_probe (r->problem));
-    char folder[2048];
-    if (c->folder) snprintf (folder, sizeof folder, "%s", c->folder);
-    else snprintf (folder, sizeof folder, "out/%s", r->problem->name);
-    pg_result_rank_folder (r->folder, sizeof r->folder, folder);
+    char own[2048];
+    snprintf (own, sizeof own, "out/%s", r->problem->name);
+    pg_result_rank_folder (r->folder, sizeof r->folder, c->folder ? c->folder : own);
     if (!c->folder && fresh) PG_TRY (pg_result_may_open (r->folder, r->scene));
     double finished = c->resume && pg_rank () == 0 && pg_result_finished (r->folder, r->scene);
     PG_TRY (pg_ranks_ask (1, &finished));

@@ -72,10 +72,10 @@ static void kinds_tell_what_they_do (void **state)
                              | PG_SOLVER_CONTACT));
     o = options_of (MOVED "solver: {kind: verlet, end: 10}\n");
     assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS
-                             | PG_SOLVER_CONTACT));
+                             | PG_SOLVER_CONTACT | PG_SOLVER_RANKS));
     o = options_of (MOVED "solver: {kind: central, end: 10}\n");
     assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS
-                             | PG_SOLVER_CONTACT));
+                             | PG_SOLVER_CONTACT | PG_SOLVER_RANKS));
     o = options_of (BONDS "solver: {kind: adr}\n");
     assert_true ((o.flags & ~PG_SOLVER_NEEDS_DENSITY)
                      == (PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_CONTACT)
