@@ -4,6 +4,7 @@
 #ifndef PERIGAL_LINALG_H
 #define PERIGAL_LINALG_H
 #include "perigal/base.h"
+#include "perigal/ranks.h"
 
 PG_API_BEGIN
 
@@ -184,6 +185,10 @@ typedef struct {
     /* 1: what is left of b is local: entries of directions that only what may stay unbalanced would ask for
      * are zero, so that products need not look there. By the diagonal alone. */
     int    local;
+    /* 1: ranks share A (perigal/ranks.h). Vectors are this rank's part of longer ones, in which unknowns of
+     * other ranks have the entry 0 wherever sums are taken (b, A x): sums go over all ranks, and all ranks
+     * make the same calls. */
+    int    shared;
 } pg_cg_watch;
 pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                           double *x, double tolerance, size_t limit, size_t *iterations,
@@ -274,6 +279,33 @@ void      pg_multilevel_free   (pg_multilevel **multilevel);
 pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *multilevel);
 /* Fills in the report. */
 void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel_info *info);
+/* ---- a preconditioner that ranks share ----------------------------------------------------------------- */
+/* What it is built from: rows of the nodes that this rank owns, whose couplings are with nodes held here. */
+typedef struct {
+    /* Dimension of space; unknowns of a node, 1 to 6. */
+    int     dim, block;
+    /* Of the nodes held here: positions, m (n x dim); 1 for each prescribed unknown, NULL: none is
+     * (n x block); which are owned, and the halo (subdomain.n nodes). Borrowed, `fixed` as long as the
+     * preconditioner is used. */
+    const double *x;
+    const unsigned char *fixed;
+    const pg_subdomain *subdomain;
+    /* Read only during creation, of nodes that are owned. */
+    pg_couplings rows;
+} pg_shared_rows;
+/* One that all ranks make and use together, given from outside, as the library has none. solve: z = M r, of
+ * vectors with an entry for each unknown held here (subdomain.n x block): those of ghosts are neither read
+ * nor written; z = 0 at prescribed unknowns. M is symmetric positive definite. describe: in words. */
+typedef struct {
+    pg_status (*create)   (void **self, const pg_shared_rows *setting);
+    pg_status (*solve)    (void *self, const double *r, double *z);
+    void      (*describe) (const void *self, char *text, size_t size);
+    void      (*free)     (void **self);
+} pg_shared_preconditioner;
+/* NULL: none from now on. Borrowed. */
+void pg_shared_preconditioner_give (const pg_shared_preconditioner *type);
+const pg_shared_preconditioner *pg_shared_preconditioner_now (void);
+
 /* ---- finite elements as a preconditioner --------------------------------------------------------------- */
 /* A symmetric matrix of node blocks as a sum of element matrices, by rows with both triangles: row of node i
  * start[i] .. start[i + 1] - 1, nodes ascending, blocks row-major. Float: it serves preconditioners. */

@@ -388,6 +388,9 @@ enum {
 unsigned  pg_solver_flags (const char *kind);
 /* 1: it has all of these flags. */
 int       pg_solver_is (const char *kind, unsigned flags);
+/* 1: ranks are to divide the points of the body (perigal/ranks.h); 0: each holds all, and they share
+ * matrices. By solver.kind and solver.division. */
+int       pg_subdomain_wanted (const pg_scene *scene);
 /* 1: its cracks grow by facets: the criterion judges their tips (2D). */
 int       pg_problem_grows (const pg_problem *problem);
 int       pg_problem_proportional (const pg_problem *problem);  /* every load is a constant pattern times t */

@@ -94,8 +94,8 @@ void      pg_patch_words  (const pg_problem *problem, char *out, size_t size);
 void      pg_patch_remedy (const pg_problem *problem, char *out, size_t size);
 
 /* ---- what happened ------------------------------------------------------------------------------------- */
-/* time: s; quasi-static: load factor; utilisation NAN: not known */
-typedef struct { size_t bond; int set; char kind; double utilisation, place[3], time; } pg_broken;
+/* time: s; quasi-static: load factor; utilisation NAN: not known; round: of breaking within the step */
+typedef struct { size_t bond; int set; char kind; double utilisation, place[3], time; long round; } pg_broken;
 
 enum {
     PG_SECONDS_SHAPE,

@@ -324,8 +324,7 @@ static pg_status prepare (run *r)
     int fresh = !c->resume && !c->force;
     pg_forecast forecast;
     PG_TRY (command_scene (c, &r->scene));
-    /* equilibria are found in lock-step, whose matrices are shared; time steps by subdomains */
-    pg_ranks_divide (!pg_solver_is (pg_scene_text (r->scene, "solver.kind"), PG_SOLVER_IMPLICIT));
+    pg_ranks_divide (pg_subdomain_wanted (r->scene));
     if (c->folder && fresh && pg_rank () == 0) PG_TRY (pg_result_may_open (c->folder, r->scene));
     if (!pg_ranks_now ()) PG_TRY (afford_scene (c, &forecast));
     PG_TRY (command_problem (c, r->scene, &r->problem, &r->options));

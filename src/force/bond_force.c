@@ -166,8 +166,9 @@ static void finish (bond_force *b, double t, const double *d, double *residual, 
 {
     double inside = 0;
     boundary_pull (&b->boundary, t, d, residual);
+    if (reference) pg_subdomain_clear_ghosts (b->problem->cloud.subdomain, (size_t) b->stride, residual);
     for (size_t i = 0; reference && i < ndof (b); i++) inside += residual[i] * residual[i];
-    if (reference) *reference = fmax (sqrt (inside), boundary_size (&b->boundary, t));
+    if (reference) *reference = boundary_reference (&b->boundary, t, inside);
     boundary_add (&b->boundary, t, residual);
     pg_subdomain_clear_ghosts (b->problem->cloud.subdomain, (size_t) b->stride, residual);
 }

@@ -86,16 +86,21 @@ done:
     return status;
 }
 
-/* Root of the sum of squares of all forces, N, a size to judge residuals by; a point under several loads
- * counts once for each. */
-double boundary_size (point_boundary *s, double t)
+/* The size that residuals are judged by, N: the root of the sum of squares of all loads, or of the forces
+ * inside the body (their squares here: `inside`) if that is larger. A point under several loads counts once
+ * for each. Over all ranks that share the body. */
+double boundary_reference (point_boundary *s, double t, double inside)
 {
-    double sum = 0;
+    const pg_subdomain *owners = s->problem->cloud.subdomain;
+    double sum[2] = { inside, 0 };
     for (size_t k = 0; k < s->nload; k++) {
         double factor = boundary_bring_to (s, &s->load[k], t), square = 0;
-        for (size_t i = 0; i < s->load[k].npoint * (size_t) s->load[k].components; i++)
-            square += s->load[k].pattern[i] * s->load[k].pattern[i];
-        sum += factor * factor * square;
+        size_t m = (size_t) s->load[k].components;
+        for (size_t i = 0; i < s->load[k].npoint * m; i++)
+            if (pg_owns (owners, (size_t) s->load[k].point[i / m]))
+                square += s->load[k].pattern[i] * s->load[k].pattern[i];
+        sum[1] += factor * factor * square;
     }
-    return sqrt (sum);
+    if (owners && pg_ranks_sum (2, sum) != PG_OK) return NAN;
+    return fmax (sqrt (sum[0]), sqrt (sum[1]));
 }

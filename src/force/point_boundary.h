@@ -50,7 +50,7 @@ void      boundary_add    (point_boundary *s, double t, double *P);             
 /* P += tractions of a uniform stress (as pg_force_type.surface) on the facets of load number `load`, N. */
 pg_status boundary_surface (point_boundary *s, int load, const double *stress, double *P);
 /* norm of the loads at t, N */
-double    boundary_size   (point_boundary *s, double t);
+double    boundary_reference (point_boundary *s, double t, double inside);
 /* Springs of `boundary` (boundary_springs.c). residual += their forces at displacement d, N; y += K x; what
  * they store at d, J. */
 pg_status boundary_make_springs (point_boundary *s);

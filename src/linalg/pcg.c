@@ -12,8 +12,9 @@
  *
  * Every sum over the unknowns is taken in chunks of fixed length, each chunk in four partial sums, and the
  * chunks are added in their order: the result has the same bits for any number of threads and any width of
- * the vector registers. */
+ * the vector registers. Where ranks share the operator, their sums are added in turn. */
 #include "perigal/linalg.h"
+#include "perigal/ranks.h"
 #include <math.h>
 #include <string.h>
 
@@ -26,7 +27,8 @@ enum { CHUNK = 4096 };
  * product. */
 typedef struct {
     size_t n, nchunk;
-    int threads;
+    int threads, shared;
+    pg_status lost;                                    /* ranks lost each other in a sum */
     double *r, *z, *p, *q, *d, *x, *sum, alpha, turn, least;
     const double *a, *b;
 } vectors;
@@ -43,6 +45,7 @@ static double total (vectors *v, pg_work work)
     double s = 0;
     pg_parallel_heavy (v->n > 16 * CHUNK ? v->threads : 1, v->nchunk, work, v);
     for (size_t k = 0; k < v->nchunk; k++) s += v->sum[k];
+    if (v->shared && v->lost == PG_OK) v->lost = pg_ranks_sum (1, &s);
     return s;
 }
 
@@ -107,11 +110,14 @@ static pg_status precondition (const pg_preconditioner *P, const vectors *v)
     return PG_OK;
 }
 
-/* r = b - A x; a zero first guess saves the product. */
-static void first_residual (const pg_operator *A, const double *b, const vectors *v)
+/* r = b - A x; a zero first guess, of all ranks that share it, saves the product. */
+static void first_residual (const pg_operator *A, const double *b, vectors *v)
 {
     size_t n = A->n, zero = 1;
     for (size_t i = 0; i < n && zero; i++) zero = v->x[i] == 0;
+    double any = !zero;
+    if (v->shared) v->lost = pg_ranks_most (1, &any);
+    zero = any == 0;
     if (zero) memcpy (v->r, b, n * sizeof *b);
     else A->apply (A->context, v->x, v->q);
     for (size_t i = 0; i < n && !zero; i++) v->r[i] = b[i] - v->q[i];
@@ -180,11 +186,12 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
     pg_status status = PG_OK;
     vectors v = { 0 };
     size_t k = 0;
+    v.shared = watch && watch->shared;
     PG_TRY (make_vectors (&v, A, P, x));
     first_residual (A, b, &v);
     double size = sqrt (dot (&v, b, b)), goal = tolerance * size, rz = 0, rr = sqrt (dot (&v, v.r, v.r));
     int stop = 0;
-    if (watch && watch->local && !P && rr > goal) find_least (&v, goal);
+    if (watch && watch->local && !P && !v.shared && rr > goal) find_least (&v, goal);
     for (k = 0; rr > goal && k < limit && !stop; k++) {
         PG_TRY (precondition (P, &v));
         double next = dot (&v, v.r, v.z);
@@ -194,6 +201,7 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
         if (v.least > 0) local_direction (&v, goal), next = dot (&v, v.r, v.p);
         A->apply (A->context, v.p, v.q);
         double pq = dot (&v, v.p, v.q);
+        PG_TRY (v.lost);
         /* Written so that NaN ends the iteration as well. */
         if (!(pq > 0))
             PG_FAIL (PG_E_NOT_SPD, "conjugate gradients met a direction of energy %g after %zu iterations",

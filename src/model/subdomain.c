@@ -33,6 +33,12 @@ static void check_loads (const pg_scene *scene)
     }
 }
 
+int pg_subdomain_wanted (const pg_scene *scene)
+{
+    if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT)) return 1;
+    return strcmp (pg_scene_text (scene, "solver.division"), "subdomains") == 0;
+}
+
 pg_status pg_subdomain_check (const pg_problem *p, const pg_scene *scene)
 {
     const char *kind = pg_scene_text (scene, "solver.kind");
@@ -45,6 +51,9 @@ pg_status pg_subdomain_check (const pg_problem *p, const pg_scene *scene)
     if (!(p->method->ghosts > 0))
         pg_scene_fault (scene, "method.force", "%d ranks: %s is not divided among ranks so far",
                         pg_rank_count (), p->method->name);
+    if (strcmp (pg_scene_text (scene, "solver.linear"), "auto") != 0)
+        pg_scene_fault (scene, "solver.linear", "division: subdomains goes with conjugate gradients alone "
+                        "(linear: auto)");
     if (!pg_solver_is (kind, PG_SOLVER_RANKS))
         pg_scene_fault (scene, "solver.kind", "%d ranks: %s is for one process only so far",
                         pg_rank_count (), kind);

@@ -25,8 +25,7 @@ typedef struct {
 
 enum { FIRST_ROOM = 40, MOST_ROOM = 1000 };
 
-/* What PETSc or MUMPS says becomes a status. */
-static pg_status said (PetscErrorCode code, const char *what)
+pg_status petsc_said (int code, const char *what)
 {
     const char *text = NULL;
     if (code == 0) return PG_OK;
@@ -34,6 +33,7 @@ static pg_status said (PetscErrorCode code, const char *what)
     return pg_error (code == PETSC_ERR_MEM ? PG_E_MEMORY : PG_E_SINGULAR, PG_HERE,
                      "PETSC: %s failed: %s", what, text ? text : "no reason is given");
 }
+static pg_status said (PetscErrorCode code, const char *what) { return petsc_said (code, what); }
 
 static void shared_free (void **self)
 {
@@ -254,12 +254,12 @@ pg_status petsc_start (void)
     PetscErrorCode code = PetscInitialize (NULL, NULL, NULL, NULL);
     /* failures come back as codes, without words on the screen */
     if (code == 0) code = PetscPushErrorHandler (PetscReturnErrorHandler, NULL);
-    if (code == 0) pg_linear_add (&petsc_factor);
+    if (code == 0) pg_linear_add (&petsc_factor), pg_shared_preconditioner_give (&petsc_multigrid);
     return said (code, "its start");
 }
 
 void petsc_end (void)
 {
-    pg_linear_add (NULL);
+    pg_linear_add (NULL), pg_shared_preconditioner_give (NULL);
     PetscFinalize ();
 }

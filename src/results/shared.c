@@ -101,11 +101,13 @@ done:
 /* ---- events -------------------------------------------------------------------------------------------- */
 typedef struct { pg_broken broken; int64_t point, node; } event;
 
-/* As one process lists them: by time, then by the point that has the bond, then by the one it leads to. */
+/* As one process lists them: by time and round, then by the point that has the bond, then by the one it
+ * leads to. */
 static int earlier (const void *a, const void *b)
 {
     const event *x = a, *y = b;
     if (x->broken.time != y->broken.time) return x->broken.time < y->broken.time ? -1 : 1;
+    if (x->broken.round != y->broken.round) return x->broken.round < y->broken.round ? -1 : 1;
     if (x->point != y->point) return x->point < y->point ? -1 : 1;
     return (x->node > y->node) - (x->node < y->node);
 }

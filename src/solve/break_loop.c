@@ -75,7 +75,7 @@ pg_status break_loop_log (break_loop *b, size_t bond, char kind, double utilisat
     pg_status status = PG_OK;
     PG_GROW (b->broken, b->cap_broken, b->nbroken + 1);
     pg_broken *k = &b->broken[b->nbroken++];
-    *k = (pg_broken) { bond, 0, kind, utilisation, { 0 }, t };
+    *k = (pg_broken) { bond, 0, kind, utilisation, { 0 }, t, b->round };
     locate (b->system.problem, k);
 done:
     return status;
@@ -91,20 +91,33 @@ pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure
     for (size_t i = 0; i < state->nbond; i++) {
         if (!(measure[i] >= cut) || !state->alive[i]) continue;
         PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
-        PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
+        if (break_loop_owns (b, i)) {
+            PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
+            state->broken++;
+        }
         state->alive[i] = 0;
         b->changes.bond[b->changes.n++] = i;
     }
-    state->broken += (long) b->changes.n;
 done:
     return status;
 }
 
-static double largest (const double *a, size_t n)
+/* Of bonds. Those of ghosts are judged by their owners, who know all that they depend on. */
+static double largest (const break_loop *b, const double *a, size_t n)
 {
+    const pg_problem *p = b->system.problem;
+    const pg_subdomain *part = p->cloud.subdomain;
     double top = 0;
-    for (size_t i = 0; i < n; i++) if (a[i] > top) top = a[i];
-    return top;
+    for (size_t i = 0; !part && i < n; i++) if (a[i] > top) top = a[i];
+    for (int set = 0; part && set < PG_BOND_SETS; set++) {
+        const pg_family *f = &p->rows[set].family;
+        const double *of = a + p->first_bond[set];
+        for (size_t k = 0; k < f->n; k++) {
+            if (set == PG_NODES && !part->owned[k]) continue;
+            for (size_t e = f->start[k]; e < f->start[k + 1]; e++) if (of[e] > top) top = of[e];
+        }
+    }
+    return system_most (&b->system, top);
 }
 
 /* The force finds the worst bonds without judging all. */
@@ -138,11 +151,12 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
     long over = 0;
     *top = 0;
     for (size_t i = 0; i < state->nbond; i++) {
-        if (!state->alive[i]) continue;
+        if (!state->alive[i] || !break_loop_owns (b, i)) continue;
         double u = scale * b->utilisation[i];
         if (u > *top) *top = u;
         over += u > 1 + b->system.options->tie;
     }
+    *top = system_most (&b->system, *top);
     return over;
 }
 
@@ -158,7 +172,7 @@ pg_status break_loop_look (break_loop *b, const pg_state *state, const double *d
         goto done;
     }
     PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
-    *top = largest (b->utilisation, state->nbond);
+    *top = largest (b, b->utilisation, state->nbond);
 done:
     s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     return status;

@@ -63,7 +63,7 @@ typedef struct { const pg_problem *p; pg_broken *broken; } broken_list;
 static void give_bond (void *context, size_t i, long *count, double *number)
 {
     const pg_broken *b = &((broken_list *) context)->broken[i];
-    count[0] = (long) b->bond, count[1] = b->set, count[2] = b->kind;
+    count[0] = (long) b->bond, count[1] = b->set, count[2] = b->kind, count[3] = b->round;
     number[0] = b->utilisation, number[1] = b->time;
     memcpy (number + 2, b->place, 3 * sizeof *number);
 }
@@ -76,9 +76,10 @@ static pg_status take_bond (void *context, size_t i, const long *count, const do
     PG_KEEP_BOUND (k, "the set of a broken bond", count[1], 0, PG_BOND_SETS - 1);
     PG_KEEP_BOUND (k, "a broken bond", count[0], 0, (long) list->p->first_bond[PG_BOND_SETS] - 1);
     PG_KEEP_BOUND (k, "the kind of a broken bond", count[2], 0, 127);
+    PG_KEEP_BOUND (k, "the round of a broken bond", count[3], 0, most);
     list->broken[i] = (pg_broken){
         (size_t) count[0], (int) count[1], (char) count[2], number[0], { number[2], number[3], number[4] },
-        number[1]
+        number[1], count[3]
     };
 done:
     return status;
@@ -90,7 +91,7 @@ pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_br
     broken_list list = { p, broken };
     char bonds[64], values[64];
     snprintf (bonds, sizeof bonds, "%s.bonds", name), snprintf (values, sizeof values, "%s.values", name);
-    const pg_records records = { .count_name = bonds, .number_name = values, .n = n, .counts = 3,
+    const pg_records records = { .count_name = bonds, .number_name = values, .n = n, .counts = 4,
                                  .numbers = 5, .give = give_bond, .take = take_bond, .context = &list };
     return pg_keep_records (k, &records);
 }

@@ -96,6 +96,12 @@ done:
     return status;
 }
 
+/* What ranks that share the body have made together. */
+static pg_status by_ranks (void *context, const double *r, double *z)
+{
+    return system_apply_shared (context, r, z);
+}
+
 /* In the rounds of breaking within a small time step, for which the diagonal does, a break is felt no further
  * than a wave gets in a few steps. */
 static int is_local (const pg_system *s, const dynamics *dyn)
@@ -111,13 +117,15 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
     combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL, NULL, 0 };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
     int carries = dyn && !s->options->plain;
-    pg_preconditioner P = { s, by == BY_FACTOR ? by_factor_of_before : by_elements, s->problem->threads };
+    pg_preconditioner P = { s, by == BY_FACTOR ? by_factor_of_before : s->amg ? by_ranks : by_elements,
+                            s->problem->threads };
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);
     memset (s->delta, 0, s->ndof * sizeof *s->delta);
     s->fell = tolerance, s->rough.nview = 0;
     if (carries && s->rough.goal > 0) c.keep = ROUGHER * s->rough.goal * s->unbalanced;
-    pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn) };
+    pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn),
+                          system_is_shared (s) };
     pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,
                                                        s->delta, tolerance, limit, used, &watch);
     s->carried = carries && status == PG_OK;

@@ -62,6 +62,10 @@ static const pg_key linear[] = {
          "Of conjugate gradients without a matrix: the diagonal (jacobi), or grids of partition-of-unity "
          "functions over the points, split by cracks (multilevel: forces that provide the rows of K, static; "
          "galerkin: by finite elements on the points); auto: multilevel where possible."),
+    ROW ("solver.division", PG_NAME, NULL, NULL, "auto", "auto|subdomains|matrices",
+         "What the ranks of perigal-mpi share: points (subdomains: each rank holds its part of the body; "
+         "lattices, conjugate gradients), or the factor of the matrix (matrices: each rank holds all "
+         "points). auto: matrices. One process ignores it."),
 };
 const pg_key_table solver_keys_linear = { "solve", linear, sizeof linear / sizeof *linear };
 

@@ -13,12 +13,13 @@ enum { RENEWAL = 20, MOST_ITERATIONS = 200 };  /* a new preconditioner costs abo
 /* Finite elements fit worse near Poisson's ratio 1/2 and on smooth kernels with a wide support. */
 enum { MOST_BY_ELEMENTS = 300 };
 
-int system_has_preconditioner (const pg_system *s) { return s->multilevel || s->elements; }
+int system_has_preconditioner (const pg_system *s) { return s->multilevel || s->elements || s->amg; }
 
 void system_forget_preconditioner (pg_system *s)
 {
     pg_multilevel_free (&s->multilevel);
     pg_element_preconditioner_free (&s->elements);
+    system_free_shared (s);
 }
 
 /* ---- unknowns that constraints leave ------------------------------------------------------------------- */
@@ -71,13 +72,15 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
         || (dyn && !s->force->elements) || strcmp (s->options->preconditioner, "jacobi") == 0
         || (s->force->elements && s->options->plain))
         return PG_OK;
+    if (system_is_shared (s) && (!s->force->couplings || !pg_shared_preconditioner_now ())) return PG_OK;
     if (s->fixed) {
         *can = s->precondition;
         return PG_OK;
     }
     PG_ALLOC (s->fixed, s->ndof);
-    if (s->force->elements) PG_TRY (find_own_rows (s, T, can));
+    if (s->force->elements || system_is_shared (s)) PG_TRY (find_own_rows (s, T, can));
     else *can = selects (s, T);
+    if (system_is_shared (s)) *can = system_most (s, !*can) == 0;  /* on all ranks */
     s->precondition = *can;
 done:
     return status;
@@ -144,11 +147,12 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m)
     system_forget_preconditioner (s);
     /* finds what constraints leave, also in a resumed run */
     PG_TRY (system_can_precondition (s, NULL, &can));
-    PG_TRY (s->force->elements ? make_by_elements (s, k, m) : make_by_rows (s));
+    PG_TRY (system_is_shared (s) ? system_make_shared (s)
+            : s->force->elements ? make_by_elements (s, k, m) : make_by_rows (s));
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;
     s->made[0] = k, s->made[1] = m;
-    tell (s);
+    if (!s->amg) tell (s);
     PG_TRY (system_remember_alive (s));
 done:
     s->report->seconds[PG_SECONDS_FACTOR] += pg_seconds () - t0;
@@ -183,7 +187,7 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
  * logarithm, when it was new. */
 static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, size_t *used)
 {
-    pg_status status = s->elements
+    pg_status status = s->elements || s->amg
                            ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, MOST_BY_ELEMENTS, used)
                            : iterate_all (s, tolerance, used);
     double gain = -log (fmax (s->fell, tolerance));    /* where it stopped early, less than was asked for */

@@ -10,24 +10,14 @@
 enum { MOST_REFINEMENTS = 12 };
 static const double goal = 1e-12;                      /* refinement stops here or where it no longer gains */
 
-/* Euclidean norm. */
-static double norm (const double *a, size_t n)
-{
-    double sum = 0;
-    for (size_t i = 0; i < n; i++) sum += a[i] * a[i];
-    return sqrt (sum);
-}
-
 /* Where nothing resists (parts moved as rigid bodies) all forces are rounding, and their own size is no
  * measure. This makes the tolerance a backward error of 1e-14 there; with resistance it is far below the
  * forces. It grows with d, and with it what a body that nothing holds may leave unbalanced: who passes by it
  * alone has to be `settled`. */
 static double force_of_rounding (const pg_system *s, const double *d)
 {
-    double sum = 0;
     if (!(s->mean_diagonal > 0)) return 0;
-    for (size_t i = 0; i < s->ndof; i++) sum += s->diagonal0[i] * d[i] * s->diagonal0[i] * d[i];
-    return 1e-14 / s->options->tolerance * sqrt (sum);
+    return 1e-14 / s->options->tolerance * system_norm_owned (s, s->diagonal0, d);
 }
 
 /* The out-of-balance force of the state, from the force itself, and what it is measured against. */
@@ -45,13 +35,15 @@ pg_status system_residual (pg_system *s, double t, const double *d, const dynami
     for (size_t i = 0; contact && i < s->ndof; i++) s->residual[i] += contact[i];
     if (!dyn) loose_forces (s, d, s->residual);
     for (size_t i = 0; s->excavated && !dyn && i < s->ndof; i++) s->residual[i] += s->excavated[i];
+    system_clear_ghosts (s, s->residual);
     if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
     else memcpy (s->reduced, s->residual, s->ndof * sizeof *s->reduced);
-    if (T) reference = fmax (reference, norm (s->residual, s->ndof));
+    /* a rank may have no supports where others have */
+    if (T || system_is_shared (s)) reference = fmax (reference, system_norm (s, s->residual, s->ndof));
     s->reference = reference;
     reference = fmax (reference, force_of_rounding (s, d));
     s->scale = reference;
-    double size = s->unbalanced = norm (s->reduced, s->nred);
+    double size = s->unbalanced = system_norm (s, s->reduced, s->nred);
     if (!isfinite (size)) PG_FAIL (PG_E_EQUILIBRIUM, "the out-of-balance force is not finite");
     *relative = reference > 0 ? size / reference : size > 0 ? 1 : 0;
 done:
@@ -71,7 +63,7 @@ static int accept_carried (pg_system *s, double *relative)
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     if (!s->carried || *relative > 0.1 || s->report->solves % MEASURED_AGAIN == 0) return 0;
     if (T) pg_sparse_multiply_transposed (T, s->residual, s->reduced);
-    double size = norm (T ? s->reduced : s->residual, s->nred);
+    double size = system_norm (s, T ? s->reduced : s->residual, s->nred);
     if (!(size <= 0.1 * s->options->tolerance * s->reference)) return 0;
     s->unbalanced = size, *relative = s->scale > 0 ? size / s->scale : 0;
     s->unmeasured++;
@@ -82,8 +74,8 @@ static int accept_carried (pg_system *s, double *relative)
  * where nothing holds the body. */
 static double restlessness (const pg_system *s, const double *step, const double *d)
 {
-    double size = norm (d, s->ndof);
-    return size > 0 ? norm (step, s->ndof) / size : 0;
+    double size = system_norm_owned (s, NULL, d), by = system_norm_owned (s, NULL, step);
+    return size > 0 ? by / size : 0;
 }
 
 static const double settled = 1e-3;
@@ -255,6 +247,7 @@ pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics
     double last = INFINITY, r = 0, restless = -1;
     struct { double unbalanced, reference; } before = { 0, 0 };
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
+    PG_TRY (system_exchange (s, d));
     for (int k = 0; k <= MOST_REFINEMENTS; k++) {
         PG_TRY (system_residual (s, t, d, dyn, &r));
         if (k == 0 && guesses (s, dyn)) PG_TRY (improve (s, t, d, dyn, &r));
@@ -277,6 +270,7 @@ pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics
         if (T) pg_sparse_multiply (T, s->delta, s->full);
         const double *step = T ? s->full : s->delta;
         for (size_t i = 0; i < s->ndof; i++) d[i] += step[i];
+        PG_TRY (system_exchange (s, d));
         if (guesses (s, dyn)) system_guess_add (s, step);
         if (k > 0) restless = restlessness (s, step, d);
         s->known = accept_carried (s, &r);

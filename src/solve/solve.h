@@ -102,6 +102,8 @@ typedef struct {
     double    extra_cost;
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
     pg_element_preconditioner *elements;               /* the same */
+    void     *amg;                                     /* the same, of ranks that share the body */
+    double   *whole;  /* ranks that share the body: x of K x with its ghosts (ndof); else NULL */
     double    made[2];                                 /* k and m of the preconditioner */
     int      *own_row;  /* unknown that each reduced one is (nred); with elements only */
     unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
@@ -121,6 +123,18 @@ typedef struct {
     const unsigned char *alive;                        /* of the last refresh, borrowed */
     unsigned char *factored;  /* what lived when the factor or preconditioner was made */
 } pg_system;
+/* shared_system.c: where ranks share the body; sums over ranks, which leave alone what one process has */
+int       system_is_shared (const pg_system *s);
+pg_status system_exchange  (const pg_system *s, double *d);
+void      system_clear_ghosts (const pg_system *s, double *force);
+double    system_sum       (const pg_system *s, double mine);
+double    system_most      (const pg_system *s, double mine);
+double    system_norm      (const pg_system *s, const double *force, size_t n);
+double    system_norm_owned (const pg_system *s, const double *weight, const double *d);
+void      system_multiply_shared (const pg_system *s, const pg_operator *op, const double *x, double *y);
+pg_status system_make_shared  (pg_system *s);
+pg_status system_apply_shared (pg_system *s, const double *r, double *z);
+void      system_free_shared  (pg_system *s);
 int       system_has_matrix (const pg_system *s);       /* the force offers K itself */
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller */
 void      system_free    (pg_system *s);

@@ -89,6 +89,9 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
         pg_scene_fault (scene, "solver.stepping",
                         "event goes with friction in space where all loads grow with the load factor: with a "
                         "constant part, cohesion, or stages, use fixed, or contact.kind: normal");
+    if (o->event && pg_ranks_now ())
+        pg_scene_fault (scene, "solver.stepping", "%d ranks: with division: subdomains fixed load steps "
+                        "only so far: use stepping: fixed, or division: matrices", pg_rank_count ());
     if (closes && pg_problem_removes (problem))
         pg_scene_fault (scene, "stages", "remove does not go with contact.kind so far");
     if (o->event && o->break_mode == PG_BREAK_ALL)
@@ -160,7 +163,7 @@ static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 const pg_solver_type pg_solver_static_ = {
     .name = "static",
     .summary = "quasi-static equilibrium, event by event or in fixed load steps",
-    .flags = PG_SOLVER_STATIC | PG_SOLVER_EVENTS | PG_SOLVER_FACETS | PG_SOLVER_CONTACT,
+    .flags = PG_SOLVER_STATIC | PG_SOLVER_EVENTS | PG_SOLVER_FACETS | PG_SOLVER_CONTACT | PG_SOLVER_RANKS,
     .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear,
               &instability_keys },
     .read = static_read,

@@ -21,7 +21,7 @@ void system_free (pg_system *s)
     if (s->force && s->self) s->force->free (&s->self);
     if (s->copy) pg_sparse_clear (&s->A);
     else pg_free (s->A.value);
-    pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass);
+    pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass), pg_free (s->whole);
     pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best),
         pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
     pg_free (s->rough.earlier), pg_free (s->rough.before), pg_free (s->rough.earlier_u);
@@ -33,6 +33,7 @@ void system_free (pg_system *s)
  * neighbours of neighbours, and only their product with K is known. */
 int system_has_matrix (const pg_system *s)
 {
+    if (system_is_shared (s)) return 0;                /* each rank has its rows, and products with them */
     if (!s->force->matrix || (s->force->matrix_free && s->force->matrix_free (s->self))) return 0;
     return s->force->assemble || s->force->matrix (s->self);
 }
@@ -46,7 +47,8 @@ static const pg_operator *operator_of (const pg_system *s)
 void system_multiply (const pg_system *s, const double *x, double *y)
 {
     const pg_operator *op = operator_of (s);
-    if (op) op->apply (op->context, x, y);
+    if (op && s->whole) system_multiply_shared (s, op, x, y);
+    else if (op) op->apply (op->context, x, y);
     else pg_sparse_multiply (s->force->matrix (s->self), x, y);
 }
 
@@ -76,6 +78,7 @@ pg_status system_create (pg_system *s)
         PG_ALLOC (s->delta, s->ndof);
         PG_ALLOC (s->best, s->ndof);
         PG_ALLOC (s->diagonal0, s->ndof);
+        if (system_is_shared (s)) PG_ALLOC (s->whole, s->ndof);
     }
     PG_ALLOC (s->touched, s->problem->cloud.n);
     if (s->force->mass) PG_TRY (s->force->mass (s->self, s->mass));
@@ -148,13 +151,16 @@ done:
  * of rounding are. */
 void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 {
-    double sum = 0;
+    double sum = 0, number = (double) s->ndof;
     const pg_operator *op = operator_of (s);
     if (s->mean_diagonal > 0) return;
     for (size_t j = 0; K && j < s->ndof; j++) s->diagonal0[j] = K->value[K->start[j + 1] - 1];
     if (!K) op->diagonal (op->context, s->diagonal0);
-    for (size_t j = 0; j < s->ndof; j++) sum += s->diagonal0[j];
-    s->mean_diagonal = sum / (double) s->ndof;
+    const pg_subdomain *part = s->problem->cloud.subdomain;
+    for (size_t j = 0; j < s->ndof; j++)
+        if (pg_owns (part, j / (size_t) s->components)) sum += s->diagonal0[j];
+    if (part) number = (double) part->total * s->components;
+    s->mean_diagonal = system_sum (s, sum) / number;
 }
 
 /* value = k K + m M, and a shift on weak unknowns: those of touched nodes, those without stiffness from

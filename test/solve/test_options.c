@@ -66,7 +66,7 @@ static void kinds_tell_what_they_do (void **state)
     (void) state;
     pg_solver_options o = options_of (PULLED);
     assert_true (o.flags == (PG_SOLVER_STATIC | PG_SOLVER_EVENTS | PG_SOLVER_FACETS
-                                 | PG_SOLVER_CONTACT));
+                                 | PG_SOLVER_CONTACT | PG_SOLVER_RANKS));
     o = options_of (HELD "solver: {kind: newmark, dt: 1, end: 10}\n");
     assert_true (o.flags == (PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS
                              | PG_SOLVER_CONTACT));

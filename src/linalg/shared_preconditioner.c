@@ -1,0 +1,8 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The preconditioner that ranks make together is given from outside (src/mpi). */
+#include "perigal/linalg.h"
+
+static const pg_shared_preconditioner *given;
+
+void pg_shared_preconditioner_give (const pg_shared_preconditioner *type) { given = type; }
+const pg_shared_preconditioner *pg_shared_preconditioner_now (void) { return given; }

@@ -1,0 +1,105 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The linear system where ranks share the body (perigal/ranks.h). Each has the equations of the points that
+ * it owns; its vectors have entries of ghosts too, which products with K need: those of displacements are
+ * what their owners say, those of forces are 0, so that sums over all ranks count every equation once. Alone
+ * everything here is what a plain loop does. */
+#include "solve.h"
+#include "perigal/ranks.h"
+#include <math.h>
+#include <string.h>
+
+static const pg_subdomain *part_of (const pg_system *s) { return s->problem->cloud.subdomain; }
+
+int system_is_shared (const pg_system *s) { return part_of (s) != NULL; }
+
+/* Ghosts take the displacements of their owners. */
+pg_status system_exchange (const pg_system *s, double *d)
+{
+    return pg_subdomain_exchange (part_of (s), (size_t) s->components, d);
+}
+
+void system_clear_ghosts (const pg_system *s, double *force)
+{
+    pg_subdomain_clear_ghosts (part_of (s), (size_t) s->components, force);
+}
+
+/* What ranks add up; a sum that they lose each other in is not finite, which the next residual tells. */
+double system_sum (const pg_system *s, double mine)
+{
+    if (part_of (s) && pg_ranks_sum (1, &mine) != PG_OK) return NAN;
+    return mine;
+}
+
+double system_most (const pg_system *s, double mine)
+{
+    if (part_of (s) && pg_ranks_most (1, &mine) != PG_OK) return NAN;
+    return mine;
+}
+
+/* Euclidean norm of forces: n entries, ghosts being 0. */
+double system_norm (const pg_system *s, const double *force, size_t n)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += force[i] * force[i];
+    return sqrt (system_sum (s, sum));
+}
+
+/* The same of displacements (ndof), each times `weight` (NULL: 1), ghosts left out. */
+double system_norm_owned (const pg_system *s, const double *weight, const double *d)
+{
+    const pg_subdomain *part = part_of (s);
+    double sum = 0;
+    for (size_t i = 0; i < s->ndof; i++) {
+        double one = weight ? weight[i] * d[i] : d[i];
+        if (!part || part->owned[i / (size_t) s->components]) sum += one * one;
+    }
+    return sqrt (system_sum (s, sum));
+}
+
+/* y = K x with ghosts of x as their owners have them. */
+void system_multiply_shared (const pg_system *s, const pg_operator *op, const double *x, double *y)
+{
+    memcpy (s->whole, x, s->ndof * sizeof *x);
+    if (system_exchange (s, s->whole) != PG_OK) s->whole[0] = NAN;
+    op->apply (op->context, s->whole, y);
+    system_clear_ghosts (s, y);
+}
+
+/* ---- the preconditioner -------------------------------------------------------------------------------- */
+/* Of the rows of points that are owned here, by what perigal-mpi brings along. */
+pg_status system_make_shared (pg_system *s)
+{
+    pg_status status = PG_OK;
+    const pg_shared_preconditioner *type = pg_shared_preconditioner_now ();
+    pg_shared_rows setting = { .dim = s->problem->dim, .block = s->components, .x = s->problem->cloud.x,
+                               .fixed = s->fixed, .subdomain = part_of (s) };
+    PG_TRY (s->force->couplings (s->self, &setting.rows));
+    PG_TRY (type->create (&s->amg, &setting));
+    type->describe (s->amg, s->report->preconditioner, sizeof s->report->preconditioner);
+done:
+    return status;
+}
+
+/* With elimination the residual of q is put at the unknowns that q are. */
+pg_status system_apply_shared (pg_system *s, const double *r, double *z)
+{
+    pg_status status = PG_OK;
+    const pg_shared_preconditioner *type = pg_shared_preconditioner_now ();
+    if (!s->own_row) {
+        PG_TRY (type->solve (s->amg, r, z));
+        system_clear_ghosts (s, z);
+        goto done;
+    }
+    memset (s->full, 0, s->ndof * sizeof *s->full);
+    for (size_t j = 0; j < s->nred; j++) s->full[s->own_row[j]] = r[j];
+    PG_TRY (type->solve (s->amg, s->full, s->scratch));
+    system_clear_ghosts (s, s->scratch);
+    for (size_t j = 0; j < s->nred; j++) z[j] = s->scratch[s->own_row[j]];
+done:
+    return status;
+}
+
+void system_free_shared (pg_system *s)
+{
+    if (s->amg) pg_shared_preconditioner_now ()->free (&s->amg);
+}
