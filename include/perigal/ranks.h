@@ -80,6 +80,11 @@ pg_status pg_subdomain_exchange (const pg_subdomain *subdomain, size_t component
 /* Values of ghosts become zero: sums over all points then count each point of the body once. */
 void      pg_subdomain_clear_ghosts (const pg_subdomain *subdomain, size_t components, double *value);
 
+/* Parts of the body that hang together. parent: sets of the n points that this rank holds (pg_disjoint),
+ * joined by whatever joins an owned point to another one. label (n): the least number (pg_subdomain.number;
+ * alone: index) of all points of the part, over all ranks; of ghosts that of their owner. All ranks call. */
+pg_status pg_subdomain_label (const pg_subdomain *subdomain, size_t n, int *parent, double *label);
+
 /* How many cells that count (those in the body) plane `plane` along `axis` has within a box. */
 typedef double (*pg_plane_count) (const void *context, const pg_box *box, int axis, int plane);
 /* Recursive bisection of a box of cells into one box a rank: each box is cut across its longest axis (steps:

@@ -261,17 +261,25 @@ done:
 
 /* Counts the points on a pre-crack, which lose their bonds to both sides. Of the first crack that has
  * some the warning says how the rows of points would leave it: by half a step across it. */
-static void count_eroded (pg_problem *p, const pg_scene *scene)
+static pg_status count_eroded (pg_problem *p, const pg_scene *scene)
 {
+    pg_status status = PG_OK;
     const pg_crack *first = NULL;
+    double eroded = 0;
     char way[96] = "move them off it";
     for (size_t i = 0; i < p->cloud.n; i++) {
         const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, NULL),
                                               p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h);
-        p->eroded += on != NULL;
+        eroded += on && pg_owns (p->cloud.subdomain, i);
         if (!first) first = on;
     }
-    if (!first) return;
+    const pg_crack *list = pg_state_cracks (p, NULL)->crack;
+    double which = first ? -(double) (first - list) : -INFINITY;
+    PG_TRY (pg_ranks_sum (1, &eroded));
+    PG_TRY (pg_ranks_most (1, &which));
+    p->eroded = (size_t) eroded;
+    if (!p->eroded) return PG_OK;
+    first = list - (long) which;
     if (p->lattice.dim) {
         int across = 0, n = 0;
         for (int k = 1; k < p->dim; k++)
@@ -288,6 +296,8 @@ static void count_eroded (pg_problem *p, const pg_scene *scene)
                      PG_WARNING "%zu point%s on a pre-crack and lose%s all bonds to both sides, as if the "
                                 "crack were a spacing wide; %s",
                      p->eroded, p->eroded == 1 ? " lies" : "s lie", p->eroded == 1 ? "s" : "", way);
+done:
+    return status;
 }
 
 /* Rows of all bond sets, then what needs them: spacings, blocks, dilatation, exempt points. */
@@ -311,7 +321,7 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_laws_build (p, scene));
     PG_TRY (pg_dilatation_build (p, scene));
     PG_TRY (make_exempt (p, scene));
-    count_eroded (p, scene);
+    PG_TRY (count_eroded (p, scene));
 done:
     pg_family_search_free (&search);
     return status;

@@ -69,14 +69,15 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
 static pg_status find_reference (const pg_problem *p, pg_variation *v, int k)
 {
     pg_status status = PG_OK;
-    double *value = NULL, sum = 0;
-    size_t n = 0;
+    double *value = NULL, sum[2] = { 0, 0 };
     PG_ALLOC (value, p->cloud.n);
     evaluation all = { p, -1, v->of[k], value };
     pg_parallel (p->threads, p->cloud.n, evaluate, &all);
     for (size_t i = 0; i < p->cloud.n; i++)
-        if (value[i] > 0 && isfinite (value[i])) sum += value[i], n++;
-    v->reference[k] = n ? sum / (double) n : 1;
+        if (value[i] > 0 && isfinite (value[i]) && pg_owns (p->cloud.subdomain, i))
+            sum[0] += value[i], sum[1]++;
+    PG_TRY (pg_ranks_sum (2, sum));
+    v->reference[k] = sum[1] > 0 ? sum[0] / sum[1] : 1;
 done:
     pg_free (value);
     return status;
@@ -303,21 +304,26 @@ done:
 }
 
 /* Least, mean and most of each expression over the nodes of its material. */
-static void summarise (pg_problem *p, const entry *all)
+static pg_status summarise (pg_problem *p, const entry *all)
 {
+    pg_status status = PG_OK;
     for (size_t m = 0; m < p->nmaterial; m++)
         for (int k = 0; k < MOST; k++) {
             pg_variation *v = &p->vary[m];
-            double sum = 0, count = 0;
-            v->least[k] = INFINITY, v->most[k] = -INFINITY;
+            double sum[2] = { 0, 0 }, ends[2] = { -INFINITY, -INFINITY };
             for (size_t i = 0; counts (p, m, k) && i < p->cloud.n; i++) {
-                if (all[i].block != (int) m) continue;
-                v->least[k] = fmin (v->least[k], all[i].value[k]);
-                v->most[k] = fmax (v->most[k], all[i].value[k]);
-                sum += all[i].value[k], count++;
+                if (all[i].block != (int) m || !pg_owns (p->cloud.subdomain, i)) continue;
+                ends[0] = fmax (ends[0], -all[i].value[k]);
+                ends[1] = fmax (ends[1], all[i].value[k]);
+                sum[0] += all[i].value[k], sum[1]++;
             }
-            v->mean[k] = count > 0 ? sum / count : NAN;
+            PG_TRY (pg_ranks_sum (2, sum));
+            PG_TRY (pg_ranks_most (2, ends));
+            v->least[k] = -ends[0], v->most[k] = ends[1];
+            v->mean[k] = sum[1] > 0 ? sum[0] / sum[1] : NAN;
         }
+done:
+    return status;
 }
 
 /* Where nothing varies, materials and blocks serve as they are. */
@@ -347,7 +353,7 @@ pg_status pg_laws_build (pg_problem *p, const pg_scene *scene)
     PG_ALLOC (all, n);
     PG_TRY (find_values (p, scene, all));
     PG_TRY (pg_scene_verdict (scene));
-    summarise (p, all);
+    PG_TRY (summarise (p, all));
     PG_ALLOC (of, n);
     if (pg_problem_graded (p)) PG_TRY (make_laws (p, all, n, of));
     if (pg_criterion_of_bonds (p->criterion) && p->criterion->type->scale)

@@ -103,8 +103,7 @@ static pg_status build_subdomain (pg_problem *p, const pg_scene *scene)
     if (pg_scene_given (scene, "failure")) layers += 1;
     PG_TRY (pg_cloud_build_part (&p->cloud, &p->lattice, &p->body, scene, layers * approx.horizon));
     pg_problem_note (p,
-                     "%d ranks share the %.0f points; the patch test and the count of fragments are left "
-                     "out",
+                     "%d ranks share the %.0f points; the patch test is left out: perigal check makes it",
                      pg_rank_count (), (double) p->cloud.subdomain->total);
 done:
     return status;

@@ -5,6 +5,7 @@
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* On a lattice the box is that of the body, whose surface lies beyond the outermost points; else that of
@@ -87,48 +88,105 @@ static int on_a_crack (const pg_problem *p, size_t i)
                             1e-9 * p->cloud.h) != NULL;
 }
 
-/* "x, y, z" for messages. */
-static void write_place (const pg_problem *p, size_t i, char *out, size_t size)
-{
-    size_t dim = (size_t) p->dim;
-    for (size_t k = 0, used = 0; k < dim; k++)
-        used += (size_t) snprintf (out + used, size - used, "%s%.4g", k ? ", " : "", p->cloud.x[i * dim + k]);
-}
-
-/* Which points hang together by bonds that no crack cuts: their sets (parent, a union) and the size of
- * each at its root. */
-static void join_points (const pg_problem *p, int *parent, int *size)
+/* Which points hang together by bonds that no crack cuts: their sets (parent, a union); of a rank what its
+ * own points are joined with. */
+static void join_points (const pg_problem *p, int *parent)
 {
     const pg_family *f = &p->rows[PG_NODES].family;
+    const pg_subdomain *s = p->cloud.subdomain;
     size_t n = p->cloud.n;
     pg_disjoint_start (parent, n);
     for (size_t i = 0; i < n; i++)
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
             if (j >= i || pg_disjoint_root (parent, (int) i) == pg_disjoint_root (parent, (int) j)) continue;
+            if (!pg_owns (s, i) && !pg_owns (s, j)) continue;
             if (!is_cut (p, i, j)) pg_disjoint_join (parent, (int) i, (int) j);
         }
-    for (size_t i = 0; i < n; i++) size[pg_disjoint_root (parent, (int) i)]++;
+}
+
+/* A part of the body: its label, how many points it has, the first of them and its place, m; on: it lies on a
+ * crack. */
+typedef struct { double label, count, number, x[3]; int on; } part;
+
+static int by_label (const void *a, const void *b)
+{
+    const part *x = a, *y = b;
+    if (x->label != y->label) return x->label < y->label ? -1 : 1;
+    return (x->number > y->number) - (x->number < y->number);
+}
+
+/* The parts that this rank has points of; room for one a point. */
+static size_t list_parts (const pg_problem *p, int *parent, const double *label, part *out)
+{
+    const pg_subdomain *s = p->cloud.subdomain;
+    size_t dim = (size_t) p->dim, n = 0;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        part *mine = &out[pg_disjoint_root (parent, (int) i)];
+        if (!pg_owns (s, i)) continue;
+        if (mine->count++ > 0) continue;
+        mine->label = label[i], mine->number = s ? (double) s->number[i] : (double) i;
+        memcpy (mine->x, p->cloud.x + i * dim, dim * sizeof *mine->x);
+        mine->on = on_a_crack (p, i);
+    }
+    for (size_t i = 0; i < p->cloud.n; i++) if (out[i].count > 0) out[n++] = out[i];
+    return n;
+}
+
+/* What ranks have of a part becomes one. Returns how many are left. */
+static size_t merge_parts (part *all, size_t n)
+{
+    size_t last = 0;
+    qsort (all, n, sizeof *all, by_label);
+    for (size_t k = 1; k < n; k++)
+        if (all[k].label == all[last].label) all[last].count += all[k].count;
+        else all[++last] = all[k];
+    return n ? last + 1 : 0;
 }
 
 /* Parts beside the largest one, their points, and points without any bond; a point of each kind. */
-typedef struct { size_t parts, beside, at, alone, lonely; } loose;
+typedef struct { size_t parts, beside, alone, points; const part *at, *lonely; } loose;
 
-/* One pass over the sets of joined points: which are not the largest, how many points they have. */
-static loose find_loose (const pg_problem *p, int *parent, const int *size)
+static loose find_loose (const part *all, size_t n)
 {
     loose l = { 0 };
-    size_t n = p->cloud.n;
-    int largest = 0;
-    for (size_t i = 0; i < n; i++) if (size[i] > size[largest]) largest = (int) i;
-    for (size_t i = 0; i < n; i++) {
-        int r = pg_disjoint_root (parent, (int) i);
-        if (size[r] == 1 && n > 1 && !on_a_crack (p, i) && !l.alone++) l.lonely = i;
-        if (r == largest || size[r] < 2) continue;
-        if (r == (int) i) l.parts++;
-        if (!l.beside++) l.at = i;
+    size_t largest = 0;
+    for (size_t k = 0; k < n; k++) {
+        l.points += (size_t) all[k].count;
+        if (all[k].count > all[largest].count) largest = k;
+    }
+    for (size_t k = 0; k < n; k++) {
+        if (all[k].count < 2 && l.points > 1 && !all[k].on && !l.alone++) l.lonely = &all[k];
+        if (k == largest || all[k].count < 2) continue;
+        l.beside += (size_t) all[k].count;
+        if (!l.parts++) l.at = &all[k];
     }
     return l;
+}
+
+/* "x, y, z" for messages. */
+static void write_place (const pg_problem *p, const double *x, char *out, size_t size)
+{
+    for (size_t k = 0, used = 0; k < (size_t) p->dim; k++)
+        used += (size_t) snprintf (out + used, size - used, "%s%.4g", k ? ", " : "", x[k]);
+}
+
+/* The remarks; of ranks the first one makes them. */
+static void remark_loose (pg_problem *p, const loose *l)
+{
+    char place[80];
+    if (l->parts) {
+        write_place (p, l->at->x, place, sizeof place);
+        pg_problem_note (p,
+                         PG_WARNING "the cracks cut the body into %zu parts: %zu of its %zu points hang on "
+                                    "the largest part by no bond, such as that at (%s) m",
+                         l->parts + 1, l->beside, l->points, place);
+    }
+    if (l->alone) {
+        write_place (p, l->lonely->x, place, sizeof place);
+        pg_problem_note (p, PG_WARNING "the cracks leave %zu point%s without a bond, such as that at (%s) m",
+                         l->alone, l->alone == 1 ? "" : "s", place);
+    }
 }
 
 /* Warns of parts of several points that no bond joins to the rest once the cracks are cut, and of points
@@ -137,28 +195,22 @@ static loose find_loose (const pg_problem *p, int *parent, const int *size)
 pg_status pg_remark_parts (pg_problem *p)
 {
     pg_status status = PG_OK;
-    int *parent = NULL, *size = NULL;
-    size_t n = p->cloud.n;
-    char place[80];
+    int *parent = NULL;
+    double *label = NULL;
+    part *mine = NULL;
+    void *all = NULL;
+    size_t bytes = 0;
     if (p->cracks.n + p->slots.n == 0) return PG_OK;
-    PG_ALLOC (parent, n);
-    PG_ALLOC (size, n);
-    join_points (p, parent, size);
-    loose l = find_loose (p, parent, size);
-    if (l.parts) {
-        write_place (p, l.at, place, sizeof place);
-        pg_problem_note (p,
-                         PG_WARNING "the cracks cut the body into %zu parts: %zu of its %zu points hang on "
-                                    "the largest part by no bond, such as that at (%s) m",
-                         l.parts + 1, l.beside, n, place);
-    }
-    if (l.alone) {
-        write_place (p, l.lonely, place, sizeof place);
-        pg_problem_note (p, PG_WARNING "the cracks leave %zu point%s without a bond, such as that at (%s) m",
-                         l.alone, l.alone == 1 ? "" : "s", place);
-    }
+    PG_ALLOC (parent, p->cloud.n);
+    PG_ALLOC (label, p->cloud.n);
+    PG_ALLOC (mine, p->cloud.n);
+    join_points (p, parent);
+    PG_TRY (pg_subdomain_label (p->cloud.subdomain, p->cloud.n, parent, label));
+    PG_TRY (pg_ranks_collect (list_parts (p, parent, label, mine) * sizeof *mine, mine, &bytes, &all));
+    loose l = find_loose (all, merge_parts (all, bytes / sizeof *mine));
+    remark_loose (p, &l);
 done:
-    pg_free (parent), pg_free (size);
+    pg_free (parent), pg_free (label), pg_free (mine), pg_free (all);
     return status;
 }
 

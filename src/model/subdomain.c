@@ -14,8 +14,6 @@ static const struct {
     { "platens", "platens press the body of one process only so far" },
     { "stages", "stages of loading are for one process only so far" },
     { "reference", "results are compared with a reference by one process only: perigal compare" },
-    { "output.averages", "means over sets are taken by one process only so far" },
-    { "output.tips", "tips are followed by one process only so far" },
 };
 
 /* Loads that act at a place, rather than on a set, choose the points around it by looking at all. */

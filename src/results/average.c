@@ -96,7 +96,8 @@ void pg_result_averages_check (const pg_scene *scene, const pg_problem *problem)
                      pg_problem_rotations (problem));
         snprintf (path, sizeof path, "output.averages[%zu].set", i);
         const pg_set *set = pg_sets_named (&problem->sets, scene, path, pg_scene_text (scene, "%s", path));
-        if (set && set->npoint == 0) pg_scene_fault (scene, path, "the set %s holds no point", set->name);
+        if (set && pg_set_points (set) == 0)
+            pg_scene_fault (scene, path, "the set %s holds no point", set->name);
     }
 }
 
@@ -134,13 +135,14 @@ void pg_result_average_column (const pg_result *r, size_t i, char *out, size_t s
     snprintf (out, size, "%s [%s]", r->average[i].name, r->average[i].unit);
 }
 
-/* Mean of the component over the points of the set. */
-static double mean_of (const result_average *a, const double *value, int components)
+/* Mean of the component over the points of the set. Ranks: the share of this one. */
+static double mean_of (const result_average *a, const pg_problem *p, const double *value, int components)
 {
     double sum = 0;
     for (size_t i = 0; i < a->set->npoint; i++)
-        sum += value[(size_t) a->set->point[i] * (size_t) components + (size_t) a->component];
-    return sum / (double) a->set->npoint;
+        if (pg_owns (p->cloud.subdomain, (size_t) a->set->point[i]))
+            sum += value[(size_t) a->set->point[i] * (size_t) components + (size_t) a->component];
+    return sum / (double) pg_set_points (a->set);
 }
 
 /* Each field is computed once, whatever the number of averages that ask for it. Forces without
@@ -160,7 +162,7 @@ pg_status pg_result_averages_row (pg_result *r, const pg_state *state, double *r
         PG_TRY (force->field (self, state, state->d, r->average[i].field, &components, &unit, work));
         for (size_t k = i; k < r->naverage && components > 0; k++)
             if (strcmp (r->average[k].field, r->average[i].field) == 0)
-                row[k] = mean_of (&r->average[k], work, components);
+                row[k] = mean_of (&r->average[k], r->problem, work, components);
     }
 done:
     return status;

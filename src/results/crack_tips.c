@@ -57,7 +57,8 @@ static pg_status check_tip (const pg_scene *scene, size_t i, const pg_problem *p
     pg_status status = PG_OK;
     result_tip tip = { .along = NULL };
     char path[64];
-    int turns, timeless = 1, any = 0;
+    int turns, timeless = 1;
+    double any = 0;
     pg_expression *e = NULL;
     const char *where = pg_scene_text (scene, "output.tips[%zu].where", i);
     snprintf (path, sizeof path, "output.tips[%zu].where", i);
@@ -72,8 +73,9 @@ static pg_status check_tip (const pg_scene *scene, size_t i, const pg_problem *p
     if (!turns) pg_scene_fault (scene, path, "must not be zero");
     if (turns && timeless) {
         PG_TRY (read_tip (&tip, scene, i, p));
-        for (size_t k = 0; k < p->cloud.n; k++) any |= tip.along[k] > 0;
-        if (!any)
+        for (size_t k = 0; k < p->cloud.n; k++) if (tip.along[k] > 0) any = 1;
+        PG_TRY (pg_ranks_most (1, &any));
+        if (!(any > 0))
             pg_scene_fault (scene, path, "no point of the body lies that way%s",
                             where && *where ? " where the condition holds" : "");
     }
@@ -103,6 +105,9 @@ pg_status pg_result_tips_read (pg_result *r, const pg_scene *scene)
     r->tip_broken = -1;
     PG_ALLOC (r->tip, r->ntip);
     for (size_t i = 0; i < r->ntip; i++) PG_TRY (read_tip (&r->tip[i], scene, i, r->problem));
+    for (size_t m = 0; r->ntip && m < r->problem->nlaw; m++)
+        r->rayleigh = fmax (r->rayleigh, pg_material_waves (&r->problem->law[m]).rayleigh);
+    PG_TRY (pg_ranks_most (1, &r->rayleigh));
 done:
     return status;
 }
@@ -123,35 +128,66 @@ static double distance (const pg_problem *p, size_t i, const double *x)
     return s;
 }
 
-/* Collects the damaged points of the crack: those nearest to `from` (all within one spacing of
- * the nearest), and all that are connected with them by steps of at most REACH spacings, which
- * leaves no undamaged point between. Breadth first; queue: their numbers (n), seen: n, zero on
- * entry. Returns how many there are. */
-static size_t follow (const result_tip *tip, const pg_problem *p, const double *damage, int *queue,
-                      unsigned char *seen)
+/* Damage of the points of this rank and of its ghosts, which only their owners know; beyond them NAN, so that
+ * nothing there counts as damaged. */
+static pg_status share_damage (const pg_subdomain *s, double *damage)
+{
+    for (size_t i = 0; s && i < s->n; i++) if (!s->owned[i]) damage[i] = NAN;
+    return pg_subdomain_exchange (s, 1, damage);
+}
+
+/* Goes from the points of the queue from *at on to all damaged ones that are connected with them by steps of
+ * at most REACH spacings, which leaves no undamaged point between. Breadth first. */
+static void spread (const result_tip *tip, const pg_problem *p, const double *damage, int *queue, size_t *n,
+                    size_t *at, double *seen)
 {
     const double REACH = 1.9;
     const pg_family *f = &p->rows[PG_NODES].family;
-    double nearest = INFINITY;
-    size_t n = 0;
-    for (size_t i = 0; i < p->cloud.n; i++)
-        if (damage[i] >= tip->damage) nearest = fmin (nearest, distance (p, i, tip->from));
-    for (size_t i = 0; i < p->cloud.n; i++)
-        if (damage[i] >= tip->damage
-            && distance (p, i, tip->from) <= nearest + pg_problem_spacing (p, PG_NODES, i))
-            seen[i] = 1, queue[n++] = (int) i;
-    for (size_t at = 0; at < n; at++) {
-        size_t i = (size_t) queue[at];
+    for (; *at < *n; (*at)++) {
+        size_t i = (size_t) queue[*at];
         double reach = REACH * pg_problem_spacing (p, PG_NODES, i);
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
-            if (seen[j] || !(damage[j] >= tip->damage)
+            if (seen[j] > 0 || !(damage[j] >= tip->damage)
                 || distance (p, j, p->cloud.x + i * (size_t) p->dim) > reach)
                 continue;
-            seen[j] = 1, queue[n++] = (int) j;
+            seen[j] = 1, queue[(*n)++] = (int) j;
         }
     }
-    return n;
+}
+
+/* Collects the damaged points of the crack: those nearest to `from` (all within one spacing of
+ * the nearest), and all that are connected with them; queue: their numbers (n), seen: twice n, zero on
+ * entry. *found: how many there are. Ranks tell each other which of their points have been reached, until
+ * none of them finds another one: the neighbours of a point are among the ghosts of its owner. */
+static pg_status follow (const result_tip *tip, const pg_problem *p, const double *damage, int *queue,
+                         double *seen, size_t *found)
+{
+    pg_status status = PG_OK;
+    const pg_subdomain *s = p->cloud.subdomain;
+    double nearest = -INFINITY, more = 1, *known = seen + p->cloud.n;
+    size_t n = 0, at = 0, before;
+    for (size_t i = 0; i < p->cloud.n; i++)
+        if (damage[i] >= tip->damage) nearest = fmax (nearest, -distance (p, i, tip->from));
+    PG_TRY (pg_ranks_most (1, &nearest));
+    for (size_t i = 0; i < p->cloud.n; i++)
+        if (damage[i] >= tip->damage
+            && distance (p, i, tip->from) <= pg_problem_spacing (p, PG_NODES, i) - nearest)
+            seen[i] = 1, queue[n++] = (int) i;
+    spread (tip, p, damage, queue, &n, &at, seen);
+    while (s && more > 0) {
+        before = n;
+        memcpy (known, seen, p->cloud.n * sizeof *known);
+        PG_TRY (pg_subdomain_exchange (s, 1, known));
+        for (size_t i = 0; i < p->cloud.n; i++)
+            if (known[i] > 0 && !(seen[i] > 0)) seen[i] = 1, queue[n++] = (int) i;
+        spread (tip, p, damage, queue, &n, &at, seen);
+        more = n > before;
+        PG_TRY (pg_ranks_most (1, &more));
+    }
+    *found = n;
+done:
+    return status;
 }
 
 /* The length of the crack, m; 0 without damaged points. */
@@ -159,12 +195,14 @@ static pg_status farthest (const result_tip *tip, const pg_problem *p, const dou
 {
     pg_status status = PG_OK;
     int *queue = NULL;
-    unsigned char *seen = NULL;
+    double *seen = NULL;
+    size_t n = 0;
     PG_ALLOC (queue, p->cloud.n);
-    PG_ALLOC (seen, p->cloud.n);
-    size_t n = follow (tip, p, damage, queue, seen);
+    PG_ALLOC (seen, 2 * p->cloud.n);
+    PG_TRY (follow (tip, p, damage, queue, seen, &n));
     *length = 0;
     for (size_t k = 0; k < n; k++) *length = fmax (*length, tip->along[queue[k]]);
+    PG_TRY (pg_ranks_most (1, length));
 done:
     pg_free (queue), pg_free (seen);
     return status;
@@ -178,17 +216,20 @@ pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     const char *unit;
-    int components = 0, fresh = r->ntip > 0 && force->field && state->broken != r->tip_broken;
+    int components = 0;
+    double fresh = r->ntip > 0 && force->field && state->broken != r->tip_broken;
     size_t n = r->tips;
-    if (fresh) PG_TRY (force->field (self, state, state->d, "damage", &components, &unit, work));
+    if (r->ntip == 0) return PG_OK;
+    PG_TRY (pg_ranks_most (1, &fresh));
+    if (fresh > 0) PG_TRY (force->field (self, state, state->d, "damage", &components, &unit, work));
+    if (components == 1) PG_TRY (share_damage (r->problem->cloud.subdomain, work));
     for (size_t i = 0; i < r->ntip; i++) {
         result_tip *tip = &r->tip[i];
         PG_GROW (tip->length, tip->capacity, n + 1);
         tip->length[n] = n > 0 ? tip->length[n - 1] : 0;
         if (components == 1) PG_TRY (farthest (tip, r->problem, work, &tip->length[n]));
-        row[i] = tip->length[n];
+        row[i] = pg_result_once (tip->length[n]);
     }
-    if (r->ntip == 0) goto done;
     PG_GROW (r->tip_time, r->tip_capacity, n + 1);
     r->tip_time[n] = r->dynamic ? step->time : step->factor;
     r->tips = n + 1;
@@ -216,13 +257,7 @@ done:
 }
 
 /* ---- speeds -------------------------------------------------------------------------------------------- */
-double pg_result_tips_rayleigh (const pg_result *r)
-{
-    double speed = 0;
-    for (size_t m = 0; m < r->problem->nlaw; m++)
-        speed = fmax (speed, pg_material_waves (&r->problem->law[m]).rayleigh);
-    return speed;
-}
+double pg_result_tips_rayleigh (const pg_result *r) { return r->rayleigh; }
 
 /* Speed of the tip at row i, m/s. The length grows by whole spacings, so differences of
  * neighbouring rows mean nothing: the slope of the straight line of best fit within `half` s

@@ -97,19 +97,21 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     int contact = setting->kind != PG_CONTACT_NONE || p->nplaten,
         explicit_ = (pg_solver_settled (res->solver)->flags & PG_SOLVER_EXPLICIT) != 0,
         points = contact && (setting->search == PG_CONTACT_SHORT_RANGE || (explicit_ && p->nplaten));
-    double total[3] = { (double) p->cloud.n, (double) p->first_bond[PG_BOND_SETS], (double) state->ndof };
+    double total[3] = { (double) p->cloud.n, (double) p->first_bond[PG_BOND_SETS], (double) state->ndof },
+           evaluated = p->rows[PG_POINTS].n ? (double) p->rows[PG_POINTS].n : total[0];
     const pg_subdomain *s = p->cloud.subdomain;
     if (s) {                                           /* each point, and its bonds, where it is owned */
         const size_t *first = p->rows[PG_NODES].family.start;
         total[0] = (double) s->nowned, total[1] = 0, total[2] *= (double) s->nowned / (double) s->n;
         for (size_t i = 0; i < s->n; i++) if (s->owned[i]) total[1] += (double) (first[i + 1] - first[i]);
         if (pg_ranks_sum (3, total) != PG_OK) total[0] = total[1] = total[2] = 0;
+        evaluated = total[0];
     }
     pg_json_count (j, "points", (size_t) total[0]);
     pg_json_number (j, "finest_spacing", pg_cloud_finest (&p->cloud));
     pg_json_count (j, "bonds", (size_t) total[1]);
     pg_json_count (j, "dofs", (size_t) (total[2] + 0.5));
-    pg_json_count (j, "evaluation_points", p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n);
+    pg_json_count (j, "evaluation_points", (size_t) evaluated);
     pg_json_count (j, "eroded_points", p->eroded);
     pg_json_count (j, "steps", (size_t) r->steps);
     pg_json_count (j, "events", (size_t) r->events);
@@ -124,8 +126,8 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_count (j, "cg_iterations", r->cg_iterations);
     pg_json_count (j, "degenerate_points", r->degenerate_points);
     pg_json_count (j, "unended_cells", r->unended_cells);
-    if (!s) pg_json_count (j, "isolated_nodes", r->isolated_nodes);
-    if (!s) pg_json_count (j, "fragments", r->fragments);
+    pg_json_count (j, "isolated_nodes", r->isolated_nodes);
+    pg_json_count (j, "fragments", r->fragments);
     pg_json_number (j, "overlap_max", r->overlap_max);
     pg_json_text (j, "linear_solver", r->solver);
     pg_json_text (j, "ordering", r->ordering);
@@ -235,6 +237,13 @@ static void crack_block (pg_json *j, const pg_result *res)
     pg_json_shut (j);
 }
 
+/* Of ranks that which has taken most. */
+static size_t peak_of_ranks (void)
+{
+    double peak = (double) pg_memory_process_peak ();
+    return pg_ranks_ask (1, &peak) == PG_OK ? (size_t) peak : 0;
+}
+
 /* The criterion in words; with several materials one text for each. */
 static void criteria (pg_json *j, const pg_problem *p)
 {
@@ -307,7 +316,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
         pg_json_shut (j);
     }
     pg_result_tips_json (j, res);
-    pg_json_count (j, "peak_bytes", pg_memory_process_peak ());
+    pg_json_count (j, "peak_bytes", peak_of_ranks ());
     pg_json_count (j, "threads", (size_t) res->problem->threads);
     criteria (j, res->problem);
     variations (j, res->problem);

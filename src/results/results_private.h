@@ -100,6 +100,7 @@ struct pg_result {
     result_average *average;  size_t naverage;
     /* Cracks that are followed; tips is the number of rows with their lengths. */
     result_tip *tip;  size_t ntip, tips, tip_capacity;
+    double    rayleigh;                                /* of the fastest material, m/s; 0: no density */
     /* 1: cracks grow by facets; 1: tips are measured here (output.stress_intensity). */
     int       grows, measuring;
     /* cracks.csv and tips.csv (in space fronts.csv), or NULL; the next piece to write. */

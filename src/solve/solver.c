@@ -218,6 +218,7 @@ static double largest_displacement (const pg_solver *s, const pg_state *state)
 {
     double top = 0;
     for (size_t i = 0; i < s->break_loop.system.ndof; i++) top = fmax (top, fabs (state->d[i]));
+    if (pg_ranks_most (1, &top) != PG_OK) top = INFINITY;              /* then nothing is compared with it */
     return top;
 }
 
@@ -328,6 +329,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
         sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
                             &s->report.fragments);
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
+    if (pg_ranks_most (1, &s->report.overlap_max) != PG_OK) s->report.overlap_max = NAN;
     if (sys->force->unended) s->report.unended_cells = sys->force->unended (sys->self);
     report_skips (s);
     report_sums (s);
@@ -339,7 +341,7 @@ const pg_solver_options *pg_solver_settled (const pg_solver *s) { return &s->opt
 
 const pg_statistics *pg_solver_report_now (const pg_solver *s) { return &s->report; }
 
-/* What only one process can count, parts of the body that have come loose, stays that of this rank. */
+/* Sums over the ranks, once, at the end of a run. */
 pg_status pg_solver_share_report (pg_solver *s)
 {
     pg_status status = PG_OK;

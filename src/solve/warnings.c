@@ -114,10 +114,12 @@ static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg
 static void doubt_all (pg_statistics *report, const pg_problem *p)
 {
     unsigned held = 0;
+    const pg_subdomain *s = p->cloud.subdomain;
+    size_t all = s ? (size_t) s->total : p->cloud.n;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (!pg_load_prescribes (load) || pg_load_rotates (load) || load->essential == PG_ESSENTIAL_NITSCHE
-            || load->set->npoint < p->cloud.n)
+            || pg_set_points (load->set) < all)
             continue;
         for (int k = 0; k < p->dim; k++) held |= (unsigned) (load->value[k] != NULL) << k;
     }

@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 """compare.py SHARE TABLE TABLE [COLUMN...]: are two tables the same? Numbers may differ by this share of the largest of their column, texts and
-blanks not at all; columns named behind are left out (parts of their names). Says the largest difference."""
+blanks not at all; columns named behind are left out (parts of their names). Energies, forces, displacements and moments are measured by the
+largest of all columns of their kind: what is a difference of others, or zero but for rounding, has no size of its own. Says the largest difference."""
 import csv
+import re
 import sys
 
 
@@ -12,6 +14,15 @@ def number(text):
         return None
 
 
+def most(rows, k):
+    return max((abs(number(row[k])) for row in rows if number(row[k]) is not None), default=0)
+
+
+def kind(name):
+    found = re.search(r'(energy|force|displacement|moment|rotation)_', name)
+    return found and found.group(1)
+
+
 share, out = float(sys.argv[1]), sys.argv[4:]
 one, other = [list(csv.reader(open(path))) for path in sys.argv[2:4]]
 if len(one) != len(other) or one[0] != other[0]:
@@ -20,13 +31,14 @@ worst, where, faults = 0.0, '', []
 for k, name in enumerate(one[0]):
     if any(word in name for word in out):
         continue
-    most = max((abs(number(row[k])) for row in one[1:] if number(row[k]) is not None), default=0) or 1
+    like = [c for c, other_name in enumerate(one[0]) if c == k or (kind(name) and kind(other_name) == kind(name))]
+    size = max(most(one[1:], c) for c in like) or 1
     for i, (a, b) in enumerate(zip(one[1:], other[1:])):
         x, y = number(a[k]), number(b[k])
         if x is None or y is None:
             if a[k] != b[k]:
                 faults.append(f'row {i + 1}, {name}: {a[k]!r}, {b[k]!r}')
-        elif not abs(x - y) <= worst * most:
-            worst, where = abs(x - y) / most, f'row {i + 1}, {name}: {a[k]}, {b[k]}'
+        elif not abs(x - y) <= worst * size:
+            worst, where = abs(x - y) / size, f'row {i + 1}, {name}: {a[k]}, {b[k]}'
 if faults or not worst <= share:
     sys.exit('\n'.join(faults[:5]) or f'{worst:.1e} of the largest: {where}')

@@ -1,0 +1,46 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Parts of a body that ranks share: each has joined the points that it holds, as far as it sees; what hangs
+ * together across their boundaries is found by passing on the least number of each part, until it stays. */
+#include "perigal/ranks.h"
+#include <string.h>
+
+/* The least label of each part that this rank sees goes to all points of it. */
+static void level_out (size_t n, int *parent, double *label)
+{
+    for (size_t i = 0; i < n; i++) {
+        int root = pg_disjoint_root (parent, (int) i);
+        if (label[i] < label[root]) label[root] = label[i];
+    }
+    for (size_t i = 0; i < n; i++) label[i] = label[pg_disjoint_root (parent, (int) i)];
+}
+
+/* How many of the owned points have another label than before. */
+static double changed (const pg_subdomain *s, const double *label, double *before)
+{
+    double n = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        n += s->owned[i] && label[i] != before[i];
+        before[i] = label[i];
+    }
+    return n;
+}
+
+pg_status pg_subdomain_label (const pg_subdomain *s, size_t n, int *parent, double *label)
+{
+    pg_status status = PG_OK;
+    double *before = NULL, more = 1;
+    for (size_t i = 0; i < n; i++) label[i] = s ? (double) s->number[i] : (double) i;
+    level_out (n, parent, label);
+    if (!s) return PG_OK;
+    PG_ALLOC (before, n);
+    memcpy (before, label, n * sizeof *label);
+    while (more > 0) {
+        PG_TRY (pg_subdomain_exchange (s, 1, label));
+        level_out (n, parent, label);
+        more = changed (s, label, before);
+        PG_TRY (pg_ranks_most (1, &more));
+    }
+done:
+    pg_free (before);
+    return status;
+}

@@ -1,0 +1,29 @@
+#!/bin/bash
+# test_scenes.sh BUILD: scenes of data/, coarse, on 1 to 4 ranks against the plain program: the same fields to 1e-9, the same bonds broken at the
+# same loads.
+. "$(dirname "$0")/ranks.sh"
+data=../../data
+
+# same SCENE LEAST EVENTS-COLUMNS-LEFT-OUT ARGUMENTS...: with at least so many broken bonds
+same() {
+    local scene=$1 least=$2 out=$3 r name; shift 3
+    name=${scene%/scene.yaml}
+    alone "$data/$scene" -o "$work/one" --force "$@"; verdict "$name: one process" $?
+    [ "$(wc -l < "$work/one/events.csv")" -gt "$least" ]; verdict "$name: at least $least bonds break" $?
+    for r in $numbers; do
+        rm -rf "$work/some"
+        ranks "$r" "$data/$scene" -o "$work/some" "$@"; verdict "$name: $r ranks" $?
+        alike 1e-9 "$work/one" "$work/some" events.csv; verdict "$name: the same bonds at the same loads on $r ranks" $?
+        alike 1e-9 "$work/one" "$work/some" history.csv residual $out; verdict "$name: the same rows on $r ranks" $?
+        python3 fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1
+        verdict "$name: the same fields on $r ranks" $?
+    done
+}
+numbers='1 2 3 4'
+# moments about the centre of what is pulled there are zero but for rounding
+same cui_disk_plane/scene.yaml 20 moment --set spacing='5 mm' --set solver.max_events=10
+same cui_disk_10/scene.yaml 20 moment --set spacing='5 mm' --set solver.end='320 us' --set solver.dt='8 us'
+same l_panel/scene.yaml 20 moment --set spacing='25 mm' --set solver.max_events=12
+same zhou_2/scene.yaml 1000 moment --set spacing='1 mm' --set solver.dt='1e-7 s' --set solver.time_steps=400
+same chen_cube/scene.yaml 0 moment --set spacing='4 mm' --set solver.end='0.45 ms'
+finish
