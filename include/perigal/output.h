@@ -36,6 +36,25 @@ typedef struct pg_exodus pg_exodus;
  * one of that name. */
 pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
                             size_t nfield, const pg_field_view *fields /* values ignored */);
+/* What one of several parts of a result says of the whole (Nemesis, the parallel use of Exodus): which part
+ * it is and of how many, the number of each of its points in the whole, from 0 and not without gaps (n);
+ * points of the whole, and of them those of each block, 0 .. nblock - 1. Programs that read all parts,
+ * result.e.SIZE.RANK, show them as one. */
+typedef struct {
+    int     part, size;
+    const int64_t *number;
+    int64_t total;
+    size_t  nblock;
+    const int64_t *in_block;
+} pg_exodus_share;
+pg_status pg_exodus_create_part (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
+                                 size_t nfield, const pg_field_view *fields, const pg_exodus_share *share);
+/* FOLDER/result.e.SIZE.RANK, with as many digits of the rank as the size has. */
+void      pg_exodus_part_path (char *out, size_t size, const char *folder, int count, int part);
+/* Makes FOLDER/result.e of its parts, the file that one process would have written, of the steps that all
+ * parts have; the parts stay. Where there are no parts, or unless `again` a result.e that is newer than they
+ * are, nothing is done. PG_E_FILE: a part is missing or is none of them, or none holds a step. */
+pg_status pg_exodus_join (const char *folder, int again);
 /* Opens a file in order to append to it: keeps the first `steps` steps, which end at byte
  * `bytes` as pg_exodus_size reported it, and cuts off what was written later. PG_E_FILE if
  * points or components differ or bytes are missing. */

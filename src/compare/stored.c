@@ -244,6 +244,7 @@ pg_status pg_stored_open (pg_stored **out, const char *folder, int step, int thr
     PG_ALLOC (s, 1);
     if ((size_t) snprintf (path, sizeof path, "%s/result.e", folder) >= sizeof path - 16)
         PG_FAIL (PG_E_USAGE, "the path is too long");
+    PG_TRY (pg_exodus_join (folder, 0));               /* of ranks whose run has not ended */
     PG_TRY (pg_stored_scene (&s->scene, folder));
     PG_TRY (pg_problem_build (&s->problem, s->scene, threads));
     s->force = pg_force_of (s->problem);

@@ -152,10 +152,11 @@ static void fault_of_place (const pg_problem *p, const pg_scene *scene, int set,
                     p->rows[set].n, kind_of_points[set], place);
 }
 
-/* Materials of all points: the last entry that claims a point decides. Entries that claim nothing are
- * faults, as they are written in vain. */
-static void claim_all (entries *e, pg_problem *p, const pg_scene *scene)
+/* Materials of all points: the last entry that claims a point decides. Entries that claim nothing, on any
+ * rank, are faults, as they are written in vain. */
+static pg_status claim_all (entries *e, pg_problem *p, const pg_scene *scene)
 {
+    pg_status status = PG_OK;
     size_t first = 0;
     for (int s = 0; s < PG_BOND_SETS; s++) {
         size_t nobody = 0;
@@ -168,9 +169,13 @@ static void claim_all (entries *e, pg_problem *p, const pg_scene *scene)
     }
     for (size_t k = 0; k < e->n; k++) {
         char path[64];
+        double claimed = (double) e->entry[k].claimed;
+        PG_TRY (pg_ranks_most (1, &claimed));
         snprintf (path, sizeof path, "blocks[%zu].%s", k, e->entry[k].where ? "where" : "block");
-        if (e->entry[k].claimed == 0) pg_scene_fault (scene, path, "claims no point");
+        if (!(claimed > 0)) pg_scene_fault (scene, path, "claims no point");
     }
+done:
+    return status;
 }
 
 /* Without a list the blocks of a mesh have the names of their materials. */
@@ -216,16 +221,20 @@ static void by_number (pg_problem *p, const pg_scene *scene)
 }
 
 /* A material that no point has is a fault: it was meant for something. */
-static void check_used (const pg_problem *p, const pg_scene *scene)
+static pg_status check_used (const pg_problem *p, const pg_scene *scene)
 {
+    pg_status status = PG_OK;
     for (size_t m = 0; m < p->nmaterial; m++) {
         char path[96];
-        size_t used = 0;
+        double used = 0;
         for (int s = 0; s < PG_BOND_SETS; s++)
-            for (size_t q = 0; q < p->rows[s].n && !used; q++) used += p->block[s][q] == (int) m;
+            for (size_t q = 0; q < p->rows[s].n && !(used > 0); q++) used += p->block[s][q] == (int) m;
+        PG_TRY (pg_ranks_most (1, &used));
         snprintf (path, sizeof path, "materials.%.63s", p->material[m].name);
-        if (!used) pg_scene_fault (scene, path, "is used by no block");
+        if (!(used > 0)) pg_scene_fault (scene, path, "is used by no block");
     }
+done:
+    return status;
 }
 
 /* Materials of nodes, points of evaluation and boundary points alike. With one material and no list there
@@ -237,7 +246,7 @@ pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
     for (int s = 0; s < PG_BOND_SETS; s++) PG_ALLOC (p->block[s], p->rows[s].n);
     if (pg_scene_given (scene, "blocks")) {
         PG_TRY (read_entries (&e, p, scene));
-        claim_all (&e, p, scene);
+        PG_TRY (claim_all (&e, p, scene));
     } else if (p->nmaterial == 1) goto done;
     else if (p->lattice.dim)
         pg_scene_fault (scene, "materials",
@@ -245,7 +254,7 @@ pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
                         p->nmaterial);
     else by_number (p, scene);
     PG_TRY (pg_scene_verdict (scene));
-    check_used (p, scene);
+    PG_TRY (check_used (p, scene));
     PG_TRY (pg_scene_verdict (scene));
 done:
     clear (&e);

@@ -108,7 +108,8 @@ done:
 
 /* Writes the header under PATH.new and renames it, so that PATH appears whole or not at all.
  * The steps begin at the end of this file, whose length is therefore kept (f->begin). */
-static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *title)
+static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *title,
+                              const pg_exodus_share *share)
 {
     pg_status status = PG_OK;
     char *fresh = NULL;
@@ -116,7 +117,7 @@ static pg_status create_file (pg_exodus *f, const pg_cloud *cloud, const char *t
     PG_ALLOC (fresh, size);
     snprintf (fresh, size, "%s.new", f->path);
     exodus_layout layout = {
-        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, 0, NULL
+        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, 0, NULL, share
     };
     PG_TRY (pg_exodus_layout_write (&layout));
     if (rename (fresh, f->path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
@@ -127,9 +128,15 @@ done:
     return status;
 }
 
-/* The request is checked before the file is touched. */
 pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
                             size_t nfield, const pg_field_view *fields)
+{
+    return pg_exodus_create_part (out, path, cloud, title, nfield, fields, NULL);
+}
+
+/* The request is checked before the file is touched. */
+pg_status pg_exodus_create_part (pg_exodus **out, const char *path, const pg_cloud *cloud, const char *title,
+                                 size_t nfield, const pg_field_view *fields, const pg_exodus_share *share)
 {
     pg_status status = PG_OK;
     pg_exodus *f = NULL;
@@ -137,7 +144,7 @@ pg_status pg_exodus_create (pg_exodus **out, const char *path, const pg_cloud *c
     PG_TRY (check_request (path, cloud, nfield, fields));
     PG_ALLOC (f, 1);
     PG_TRY (copy_request (f, path, cloud, nfield, fields));
-    PG_TRY (create_file (f, cloud, title));
+    PG_TRY (create_file (f, cloud, title, share));
     *out = f;
     f = NULL;
 done:
@@ -340,7 +347,7 @@ pg_status pg_exodus_add_pieces (pg_exodus **file, const pg_cloud *cloud, const c
     snprintf (fresh, size, "%s.new", f->path);
     wide.path = fresh;
     exodus_layout layout = {
-        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, n, piece
+        fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, n, piece, NULL
     };
     PG_TRY (pg_exodus_layout_write (&layout));
     PG_TRY (copy_records (f, &wide, n, piece));

@@ -23,6 +23,8 @@ typedef struct {
      * end with one number for each piece, 1 if it exists. */
     size_t          npiece;
     const pg_exodus_piece *piece;
+    /* Of a part of a whole; NULL: it is one. */
+    const pg_exodus_share *share;
 } exodus_layout;
 /* Writes the file to its path, including all that does not change during a run. */
 pg_status pg_exodus_layout_write (const exodus_layout *layout);

@@ -32,7 +32,13 @@ typedef struct {
     double *work;
     /* Scratch space (n). */
     int    *node;
+    /* A part of a whole whose numbers of points need more than 32 bits. */
+    int     large;
 } writer;
+
+/* Statistics of a part: whether it has inner nodes and elements, such at its border, and nodes beyond. */
+static const char *const node_status[] = { "int_n_stat", "int_e_stat", "bor_n_stat", "ext_n_stat",
+                                           "bor_e_stat" };
 
 /* The suffix of component k: "_x", "_xy", "_7". Exodus readers group names with these suffixes
  * into vectors and into symmetric tensors in Voigt order. */
@@ -95,6 +101,14 @@ static int belongs (const writer *w, size_t i, size_t k)
     return !w->l->cloud->block || w->l->cloud->block[i] == w->block[k];
 }
 
+/* Points of block k. */
+static size_t count (const writer *w, size_t k)
+{
+    size_t m = 0;
+    for (size_t i = 0; i < w->n; i++) m += (size_t) belongs (w, i, k);
+    return m;
+}
+
 /* One block of elements with `each` nodes: connect<k> (elements x each) lists them, counted from 1. Readers
  * of Exodus draw one glyph per sphere, which is why every point is an element, too. */
 static void define_block (writer *w, size_t k, size_t m, size_t each, const char *type)
@@ -110,14 +124,41 @@ static void define_block (writer *w, size_t k, size_t m, size_t each, const char
                         type);
 }
 
-/* The blocks with their numbers and names. */
+/* What the Nemesis interface reads of a part: how many parts there are, what the whole has, numbers in the
+ * whole of nodes and elements (those of one point are the same). No node is on two parts. */
+static void define_share (writer *w, int nodes)
+{
+    const pg_exodus_share *s = w->l->share;
+    const float version = 2.6f;
+    int elements = netcdf_dimension_of (w->file, "num_elem"), file;
+    netcdf_define_numbers (w->file, -1, "nemesis_file_version", PG_NC_FLOAT, 1, &version);
+    netcdf_define_numbers (w->file, -1, "nemesis_api_version", PG_NC_FLOAT, 1, &version);
+    netcdf_define_dimension (w->file, "num_processors", (size_t) s->size);
+    file = netcdf_define_dimension (w->file, "num_procs_file", 1);
+    netcdf_define_dimension (w->file, "num_nodes_global", (size_t) s->total);
+    netcdf_define_dimension (w->file, "num_elems_global", (size_t) s->total);
+    int blocks = netcdf_define_dimension (w->file, "num_el_blk_global", w->nblock),
+        inner[2] = { netcdf_define_dimension (w->file, "num_int_node", w->n),
+                     netcdf_define_dimension (w->file, "num_int_elem", w->n) };
+    netcdf_define_variable (w->file, "nem_ftype", PG_NC_INT, 0, NULL);                     /* 0: a part */
+    for (int k = 0; k < 5; k++) netcdf_define_variable (w->file, node_status[k], PG_NC_INT, 1, &file);
+    netcdf_define_variable (w->file, "node_mapi", PG_NC_INT, 1, &inner[0]);
+    netcdf_define_variable (w->file, "elem_mapi", PG_NC_INT, 1, &inner[1]);
+    netcdf_define_variable (w->file, "el_blk_ids_global", PG_NC_INT, 1, &blocks);
+    netcdf_define_variable (w->file, "el_blk_cnt_global", PG_NC_INT, 1, &blocks);
+    if (!w->large) {
+        netcdf_define_variable (w->file, "node_num_map", PG_NC_INT, 1, &nodes);
+        netcdf_define_variable (w->file, "elem_num_map", PG_NC_INT, 1, &elements);
+    } else netcdf_define_variable (w->file, "point_number", PG_NC_DOUBLE, 1, &nodes);
+}
+
+/* The blocks with their numbers and names. A part may have none of the points of a block. */
 static void define_blocks (writer *w, int name_dim)
 {
     int dim = netcdf_define_dimension (w->file, "num_el_blk", w->nblock + (w->l->npiece > 0));
     for (size_t k = 0; k < w->nblock; k++) {
-        size_t m = 0;
-        for (size_t i = 0; i < w->n; i++) m += (size_t) belongs (w, i, k);
-        define_block (w, k, m, 1, "SPHERE");
+        size_t m = count (w, k);
+        if (m || !w->l->share) define_block (w, k, m, 1, "SPHERE");
     }
     if (w->l->npiece)
         define_block (w, w->nblock, w->l->npiece, (size_t) w->dim, w->dim == 3 ? "TRI3" : "BAR2");
@@ -174,6 +215,7 @@ static pg_status define_all (writer *w)
     define_blocks (w, name_dim);
     define_fields (w, steps, nodes, name_dim);
     if (w->l->npiece) define_existence (w, steps, name_dim);
+    if (w->l->share) define_share (w, nodes);
     return netcdf_end_header (w->file);
 }
 
@@ -238,17 +280,54 @@ static pg_status put_blocks (writer *w)
         size_t m = 0;
         for (size_t i = 0; i < w->n; i++) if (belongs (w, i, k)) w->node[m++] = (int) i + 1;
         snprintf (name, sizeof name, "connect%zu", k + 1);
-        PG_TRY (put (w, name, m, w->node));
+        if (m || !w->l->share) PG_TRY (put (w, name, m, w->node));
         snprintf (name, sizeof name, "block_%d", w->block[k]);
         PG_TRY (put_name (w, "eb_names", k, name));
     }
     size_t blocks = w->nblock + (w->l->npiece > 0);
     if (w->l->npiece) PG_TRY (put_pieces (w));
-    for (size_t k = 0; k < blocks; k++) w->node[k] = 1;
+    for (size_t k = 0; k < blocks; k++) w->node[k] = k >= w->nblock || !w->l->share || count (w, k) > 0;
     PG_TRY (put (w, "eb_status", blocks, w->node));
     for (size_t k = 0; k < w->nblock; k++) w->node[k] = w->block[k] + 1;
     if (w->l->npiece) w->node[w->nblock] = w->block[w->nblock - 1] + 2;
     PG_TRY (put (w, "eb_prop1", blocks, w->node));
+done:
+    return status;
+}
+
+/* Numbers in the whole: of the nodes, then of the elements, which are listed block by block. */
+static pg_status put_maps (writer *w)
+{
+    pg_status status = PG_OK;
+    const pg_exodus_share *s = w->l->share;
+    size_t at = 0;
+    for (size_t i = 0; i < w->n; i++) w->node[i] = w->large ? 0 : (int) s->number[i] + 1;
+    if (!w->large) PG_TRY (put (w, "node_num_map", w->n, w->node));
+    for (size_t k = 0; k < w->nblock; k++)
+        for (size_t i = 0; i < w->n; i++)
+            if (belongs (w, i, k)) w->node[at++] = w->large ? 0 : (int) s->number[i] + 1;
+    if (!w->large) PG_TRY (put (w, "elem_num_map", w->n, w->node));
+    for (size_t i = 0; w->large && i < w->n; i++) w->work[i] = (double) s->number[i] + 1;
+    if (w->large) PG_TRY (put (w, "point_number", w->n, w->work));
+done:
+    return status;
+}
+
+static pg_status put_share (writer *w)
+{
+    pg_status status = PG_OK;
+    const pg_exodus_share *s = w->l->share;
+    int zero = 0;
+    PG_TRY (put_maps (w));
+    PG_TRY (put (w, "nem_ftype", 1, &zero));
+    for (int k = 0; k < 5; k++) PG_TRY (put (w, node_status[k], 1, &(int) { k < 2 }));
+    for (size_t i = 0; i < w->n; i++) w->node[i] = (int) i + 1;
+    PG_TRY (put (w, "node_mapi", w->n, w->node));
+    PG_TRY (put (w, "elem_mapi", w->n, w->node));
+    for (size_t k = 0; k < w->nblock; k++) w->node[k] = w->block[k] + 1;
+    PG_TRY (put (w, "el_blk_ids_global", w->nblock, w->node));
+    for (size_t k = 0; k < w->nblock; k++) w->node[k] = (int) s->in_block[w->block[k]];
+    PG_TRY (put (w, "el_blk_cnt_global", w->nblock, w->node));
 done:
     return status;
 }
@@ -277,6 +356,22 @@ static int ascending (const void *a, const void *b)
     return (p > q) - (p < q);
 }
 
+/* Every part has all blocks of the whole, in the same order. */
+static pg_status find_blocks_of_whole (writer *w)
+{
+    pg_status status = PG_OK;
+    const pg_exodus_share *s = w->l->share;
+    size_t room = w->n + 1;
+    PG_GROW (w->node, room, s->nblock + 1);
+    room = w->n;
+    PG_GROW (w->block, room, s->nblock + 1);
+    w->nblock = 0;
+    for (size_t k = 0; k < s->nblock; k++) if (s->in_block[k] > 0) w->block[w->nblock++] = (int) k;
+    for (size_t i = 0; i < w->n; i++) w->large |= s->number[i] >= 0x7fffffff;
+done:
+    return status;
+}
+
 /* Finds the different block numbers of the points, ascending; one block if the cloud has none. */
 static pg_status find_blocks (writer *w)
 {
@@ -285,6 +380,7 @@ static pg_status find_blocks (writer *w)
     PG_ALLOC (w->node, w->nodes + 1);
     PG_ALLOC (w->work, w->nodes);
     w->nblock = 1;
+    if (w->l->share) return find_blocks_of_whole (w);
     if (!w->l->cloud->block) goto done;
     memcpy (w->block, w->l->cloud->block, w->n * sizeof *w->block);
     qsort (w->block, w->n, sizeof *w->block, ascending);
@@ -301,11 +397,14 @@ pg_status pg_exodus_layout_write (const exodus_layout *layout)
     writer w = { .l = layout, .dim = layout->cloud->dim, .n = layout->cloud->n,
                  .nodes = layout->cloud->n + (size_t) layout->cloud->dim * layout->npiece };
     PG_TRY (find_blocks (&w));
-    PG_TRY (netcdf_create (&w.file, layout->path, w.nodes > 0xfffffffcu / 8 ? 5 : 2));
+    PG_TRY (netcdf_create (&w.file, layout->path, 
+                           w.nodes > 0xfffffffcu / 8 || (layout->share && layout->share->total >= 0x7fffffff)
+                               ? 5 : 2));
     PG_TRY (define_all (&w));
     PG_TRY (put_points (&w));
     PG_TRY (put_blocks (&w));
     PG_TRY (put_field_names (&w));
+    if (layout->share) PG_TRY (put_share (&w));
     PG_TRY (netcdf_finish (&w.file));
 done:
     netcdf_abandon (&w.file);

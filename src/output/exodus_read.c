@@ -248,6 +248,7 @@ static pg_status read_blocks (const reader *r, pg_cloud *cloud)
         if (has_cracks && var >= 0 && pg_netcdf_text (r->file, var, "elem_type", type, sizeof type)
             && (strcmp (type, "BAR2") == 0 || strcmp (type, "TRI3") == 0))
             continue;
+        if (var < 0 && pg_netcdf_find (r->file, "el_blk_cnt_global") >= 0) continue; /* on other parts */
         snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
         size_t count = pg_netcdf_length (r->file, name);
         snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);

@@ -96,6 +96,7 @@ pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *s
     PG_TRY (pg_reference_read (&r->reference, scene, problem));
     pg_result_curve_choose (r);
     r->next_broken = r->broken_share > 0 ? 1 : 0;
+    PG_TRY (pg_result_count_blocks (r));
 done:
     return status;
 }
@@ -107,7 +108,6 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
 {
     pg_status status = PG_OK;
     pg_result *r = NULL;
-    char path[4096];
     double t0 = pg_seconds ();
     PG_TRY (pg_result_check (scene, problem));
     PG_ALLOC (r, 1);
@@ -118,10 +118,7 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     PG_TRY (pg_result_remove (r, "report.json"));
     PG_TRY (pg_result_copy_scene (folder, scene));
     PG_TRY (pg_result_history_create (r, NULL));
-    const pg_cloud *own;
-    PG_TRY (pg_result_own_cloud (r, &own));
-    pg_result_fields_path (r, path, sizeof path);
-    PG_TRY (pg_exodus_create (&r->file, path, own, problem->title, r->nfield, r->field));
+    PG_TRY (pg_result_create_fields (r));
     r->done = pg_result_marks_now (r);
     r->seconds += pg_seconds () - t0;
     *out = r;
@@ -307,7 +304,7 @@ void pg_result_free (pg_result **result)
     pg_result_unlock (r->folder, &r->lock);
     pg_scene_files_free (r->nnamed, &r->named);
     for (size_t k = 0; k < MOST_FIELDS; k++) pg_free (r->value[k]);
-    pg_cloud_clear (&r->own), pg_free (r->here);
+    pg_cloud_clear (&r->own), pg_free (r->here), pg_free (r->in_block);
     pg_reference_free (&r->reference);
     pg_errors_clear (&r->errors);
     pg_result_tips_free (r);

@@ -79,6 +79,7 @@ struct pg_result {
     char     hash[80], scene[3072];
     pg_exodus *file;
     pg_cloud  own;                                     /* ranks: the points of this one; n 0: not made yet */
+    int64_t  *in_block;  size_t nblock;                /* ranks: points of each block, on all of them */
     signed char *here;                                 /* per end of a gauge: measured here; -1: not known */
     pg_table  *history, *events;
     size_t    nfield, npicture, nwritten, ncolumn;
@@ -167,6 +168,8 @@ pg_status pg_result_place_here   (const pg_result *r, const double *place, signe
 pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken);
 /* joined_fields.c: the parts of all ranks become result.e; nothing alone. */
 pg_status pg_result_join_fields (pg_result *r);
+pg_status pg_result_count_blocks  (pg_result *r);
+pg_status pg_result_create_fields (pg_result *r);
 /* Fills a new result from the scene without touching the folder. */
 pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *scene,
                              const pg_problem *problem, pg_solver *solver);

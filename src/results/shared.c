@@ -22,12 +22,11 @@ void pg_result_rank_folder (char *out, size_t size, const char *folder)
  * of the number of ranks. */
 void pg_result_fields_path (const pg_result *r, char *out, size_t size)
 {
-    char digits[16];
-    int width = snprintf (digits, sizeof digits, "%d", pg_rank_count ());
-    if (!pg_ranks_now ()) snprintf (out, size, "%s/result.e", r->folder);
-    else
-        snprintf (out, size, "%s%s/result.e.%d.%0*d", r->folder, pg_rank () ? "/../.." : "", pg_rank_count (),
-                  width, pg_rank ());
+    if (pg_ranks_now ()) {
+        char folder[3200];
+        snprintf (folder, sizeof folder, "%s%s", r->folder, pg_rank () ? "/../.." : "");
+        pg_exodus_part_path (out, size, folder, pg_rank_count (), pg_rank ());
+    } else snprintf (out, size, "%s/result.e", r->folder);
 }
 
 /* The points whose fields this process writes: its own. Borrowed; made once. */

@@ -32,7 +32,9 @@ static int is_result (const char *reference, char *folder)
 {
     const char *slash = strrchr (reference, '/');
     snprintf (folder, 4096, "%.3000s", reference);
-    if (exists (reference, "scene.yaml") && exists (reference, "result.e")) return 1;
+    /* ranks whose run has not ended have left parts of result.e, which become one when it is read */
+    if (exists (reference, "scene.yaml") && (exists (reference, "result.e") || exists (reference, "ranks")))
+        return 1;
     snprintf (folder, 4096, "%.*s", slash ? (int) (slash - reference) : 1, slash ? reference : ".");
     return strcmp (slash ? slash + 1 : reference, "result.e") == 0 && exists (folder, "scene.yaml");
 }

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """compare.py SHARE TABLE TABLE [COLUMN...]: are two tables the same? Numbers may differ by this share of the largest of their column, texts and
-blanks not at all; columns named behind are left out (parts of their names). Energies, forces, displacements and moments are measured by the
-largest of all columns of their kind: what is a difference of others, or zero but for rounding, has no size of its own. Says the largest difference."""
+blanks not at all; columns named behind are left out (parts of their names). Energies, forces, displacements, moments, stress intensities and
+places are measured by the largest of all columns of their kind: what is a difference of others, or zero but for rounding, has no size of its own. Says the largest difference."""
 import csv
 import re
 import sys
@@ -19,8 +19,8 @@ def most(rows, k):
 
 
 def kind(name):
-    found = re.search(r'(energy|force|displacement|moment|rotation)_', name)
-    return found and found.group(1)
+    found = re.search(r'(energy|force|displacement|moment|rotation|K)_|(?:^|\.)([xyz][012]?)( \[m\])', name)
+    return found and (found.group(1) or found.group(3))
 
 
 share, out = float(sys.argv[1]), sys.argv[4:]
