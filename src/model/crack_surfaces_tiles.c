@@ -55,6 +55,10 @@ static void put (pg_crack_surfaces *w, const pg_problem *p, size_t a, size_t b, 
 /* Vertex i of a line, which begins anew behind the last one of a loop. */
 static size_t at (const surface_line *l, size_t i) { return l->vertex[l->closed ? i % l->n : i]; }
 
+/* Ways whose lengths differ by no more than this share are as long: of a symmetric body they are, but for
+ * the rounding of the solver, which would then choose. */
+static const double same_length = 1e-6;
+
 /* Where two loops begin: with the shortest way between them. Else at their first vertices. */
 static void beginning (const pg_crack_surfaces *w, const surface_line *from, const surface_line *to,
                        size_t *first, size_t *start)
@@ -64,7 +68,8 @@ static void beginning (const pg_crack_surfaces *w, const surface_line *from, con
     for (size_t i = 0; from->closed && to->closed && i < from->n; i++)
         for (size_t j = 0; j < to->n; j++) {
             double d = apart3 (w->vertex + 3 * from->vertex[i], w->vertex + 3 * to->vertex[j]);
-            if (d < least) least = d, *first = i, *start = j;
+            if (!(d < least * (1 - same_length))) continue;
+            least = d, *first = i, *start = j;
         }
 }
 
@@ -83,7 +88,8 @@ static pg_status shortest_ways (const pg_crack_surfaces *w, const surface_line *
     for (size_t i = 0; i <= last; i++)
         for (size_t j = 0; j <= end; j++) {
             double d = apart3 (w->vertex + 3 * at (from, first + i), w->vertex + 3 * at (to, start + j));
-            along[i * wide + j] = (unsigned char) (i > 0 && (j == 0 || sum[j] <= sum[j - 1]));
+            along[i * wide + j] = (unsigned char) 
+                (i > 0 && (j == 0 || sum[j] <= sum[j - 1] * (1 + same_length)));
             sum[j] = d + (along[i * wide + j] ? sum[j] : j > 0 ? sum[j - 1] : 0);
         }
     for (size_t i = last, j = end, k = last + end; k-- > 0;) {

@@ -19,8 +19,10 @@ grows() {
     done
 }
 grows "several cracks" facets.yaml tips.csv 2 3 8
-grows "a closed crack with friction" contact.yaml tips.csv 2 3
-grows "in space" space.yaml fronts.csv 2 3
+more=
+[ "$PERIGAL_TEST_SIZE" = long ] && more=8
+grows "a closed crack with friction" contact.yaml tips.csv 2 3 $more
+grows "in space" space.yaml fronts.csv 2 3 $more
 
 # fields too, and what is left behind
 ranks 3 facets.yaml -o "$work/some" --force && [ ! -e "$work/some/ranks" ] && [ ! -e "$work/some/checkpoint.nc" ] && [ -s "$work/some/result.e" ]
