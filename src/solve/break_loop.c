@@ -102,28 +102,32 @@ done:
     return status;
 }
 
-/* Of bonds. Those of ghosts are judged by their owners, who know all that they depend on. */
-static double largest (const break_loop *b, const double *a, size_t n)
+/* The largest of a number of every bond, times `sign`, and at least `least`. Those of ghosts are judged by
+ * their owners, who know all that they depend on. */
+static double most_of (const break_loop *b, const double *a, double sign, double least)
 {
     const pg_problem *p = b->system.problem;
     const pg_subdomain *part = p->cloud.subdomain;
-    double top = 0;
-    for (size_t i = 0; !part && i < n; i++) if (a[i] > top) top = a[i];
-    for (int set = 0; part && set < PG_BOND_SETS; set++) {
+    double top = least;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_family *f = &p->rows[set].family;
         const double *of = a + p->first_bond[set];
         for (size_t k = 0; k < f->n; k++) {
-            if (set == PG_NODES && !part->owned[k]) continue;
-            for (size_t e = f->start[k]; e < f->start[k + 1]; e++) if (of[e] > top) top = of[e];
+            if (part && set == PG_NODES && !part->owned[k]) continue;
+            for (size_t e = f->start[k]; e < f->start[k + 1]; e++)
+                if (sign * of[e] > top) top = sign * of[e];
         }
     }
     return system_most (&b->system, top);
 }
 
-/* The force finds the worst bonds without judging all. */
+double break_loop_largest (const break_loop *b, const double *a) { return most_of (b, a, 1, 0); }
+double break_loop_smallest (const break_loop *b, const double *a) { return -most_of (b, a, -1, -INFINITY); }
+
+/* The force finds the worst bonds without judging all; it knows of no other ranks. */
 static int judges_few (const break_loop *b)
 {
-    return b->system.force->worst && !b->system.options->plain;
+    return b->system.force->worst && !b->system.options->plain && !system_is_shared (&b->system);
 }
 
 /* One round of breaking among the bonds listed. */
@@ -151,10 +155,11 @@ long break_loop_over (const break_loop *b, const pg_state *state, double scale, 
     long over = 0;
     *top = 0;
     for (size_t i = 0; i < state->nbond; i++) {
-        if (!state->alive[i] || !break_loop_owns (b, i)) continue;
         double u = scale * b->utilisation[i];
+        int is_over = u > 1 + b->system.options->tie;
+        if (!state->alive[i] || (!is_over && !(u > *top)) || !break_loop_owns (b, i)) continue;
         if (u > *top) *top = u;
-        over += u > 1 + b->system.options->tie;
+        over += is_over;
     }
     *top = system_most (&b->system, *top);
     return over;
@@ -172,7 +177,7 @@ pg_status break_loop_look (break_loop *b, const pg_state *state, const double *d
         goto done;
     }
     PG_TRY (s->force->utilisation (s->self, state, d, b->utilisation, b->kind, NULL));
-    *top = largest (b, b->utilisation, state->nbond);
+    *top = break_loop_largest (b, b->utilisation);
 done:
     s->report->seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     return status;

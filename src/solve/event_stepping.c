@@ -128,13 +128,6 @@ void event_equilibrium_lost (pg_solver *s, const pg_state *state)
     e->balance_fresh = 0;
 }
 
-static double smallest (const double *a, size_t n)
-{
-    double low = INFINITY;
-    for (size_t i = 0; i < n; i++) if (a[i] < low) low = a[i];
-    return low;
-}
-
 /* d = factor * unit; energies are quadratic in the factor. */
 static pg_status go_to (pg_solver *s, pg_state *state, double factor)
 {
@@ -162,11 +155,13 @@ pg_status event_secant (pg_solver *s, double *out)
     *out = 0;
     for (size_t k = 0; !e->base && k < b->npair; k++) *out += b->force[k] * b->displacement[k];
     if (!e->base) *out += platens_secant (sys);
-    if (!e->base || !sys->force->work_balance) return PG_OK;
-    PG_TRY (sys->force->work_balance (sys->self, stage_start (s), e->base, NULL, &zero));
-    PG_TRY (sys->force->work_balance (sys->self, stage_end (s), e->unit, NULL, &one));
+    if (e->base && sys->force->work_balance) {
+        PG_TRY (sys->force->work_balance (sys->self, stage_start (s), e->base, NULL, &zero));
+        PG_TRY (sys->force->work_balance (sys->self, stage_end (s), e->unit, NULL, &one));
+    }
     for (size_t k = 0; k < one.npair; k++)
         *out += (one.force[k] - zero.force[k]) * (one.displacement[k] - zero.displacement[k]);
+    *out = system_sum (sys, *out);                     /* each rank has the pairs of its own points */
 done:
     pg_work_balance_clear (&zero), pg_work_balance_clear (&one);
     return status;
@@ -248,8 +243,7 @@ static pg_status worst_here (pg_solver *s, const pg_state *state, double *top, d
     break_loop *b = &s->break_loop;
     PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
     memcpy (b->factor, b->utilisation, state->nbond * sizeof *b->factor);
-    *top = 0, *scale = 1;
-    for (size_t i = 0; i < state->nbond; i++) *top = fmax (*top, b->factor[i]);
+    *top = break_loop_largest (b, b->factor), *scale = 1;
 done:
     return status;
 }
@@ -311,9 +305,11 @@ done:
  * of the finite stretch does so nearly. */
 static int grows_in_proportion (const break_loop *b, const pg_state *state)
 {
+    double top = break_loop_largest (b, b->utilisation), off = 0;
     size_t worst = 0;
-    for (size_t i = 1; i < state->nbond; i++) if (b->utilisation[i] > b->utilisation[worst]) worst = i;
-    return !(fabs (b->utilisation[worst] * b->factor[worst] - 1) > 1e-9);
+    while (worst < state->nbond && !(b->utilisation[worst] == top && break_loop_owns (b, worst))) worst++;
+    if (worst < state->nbond) off = fabs (b->utilisation[worst] * b->factor[worst] - 1);
+    return !(system_most (&b->system, off) > 1e-9);
 }
 
 /* Utilisation of the accepted state, from that of the unit displacement: independent of the closed form
@@ -331,7 +327,8 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
     }
     if (!break_loop_judges (b)) return PG_OK;
     long over = break_loop_over (b, state, *scale, &step->utilisation);
-    if (over || !grows_in_proportion (b, state)) {
+    int some = system_most (&b->system, (double) over) > 0, grows = grows_in_proportion (b, state);
+    if (some || !grows) {
         *scale = 1;
         PG_TRY (
             b->system.force->utilisation (b->system.self, state, state->d, b->utilisation, b->kind, NULL));
@@ -395,7 +392,7 @@ static pg_status proportional_step (pg_solver *s, pg_state *state, pg_step *step
         PG_TRY (break_loop_ready (b));
         PG_TRY (b->system.force->utilisation (b->system.self, state, e->unit, b->utilisation, b->kind,
                                               b->factor));
-        next = smallest (b->factor, state->nbond);
+        next = break_loop_smallest (b, b->factor);
     }
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     int over = next < state->factor * (1 - rounding);

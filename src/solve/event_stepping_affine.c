@@ -33,8 +33,7 @@ static pg_status look (pg_solver *s, pg_state *state, double factor, double *uti
         goto done;
     }
     PG_TRY (b->system.force->utilisation (b->system.self, state, state->d, utilisation, b->kind, NULL));
-    *top = 0;
-    for (size_t i = 0; i < state->nbond; i++) if (utilisation[i] > *top) *top = utilisation[i];
+    *top = break_loop_largest (b, utilisation);
 done:
     s->report.seconds[PG_SECONDS_BREAK] += pg_seconds () - t0;
     return status;
@@ -47,9 +46,9 @@ static double first_chord (const pg_solver *s, const pg_state *state, double in,
     const break_loop *b = &s->break_loop;
     double share = 1;
     for (size_t i = 0; i < state->nbond; i++)
-        if (b->utilisation[i] > 1)
+        if (b->utilisation[i] > 1 && break_loop_owns (b, i))
             share = fmin (share, (1 - fmin (b->factor[i], 1)) / (b->utilisation[i] - fmin (b->factor[i], 1)));
-    return in + share * (out - in);
+    return in - system_most (&b->system, -share) * (out - in);
 }
 
 /* The way out between a factor that all bonds admit and one that some do not; b->utilisation is that of
@@ -388,9 +387,8 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
     const pg_solver_options *o = &s->options;
-    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie, top = 0,
-           now;
-    for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
+    double width = o->break_mode == PG_BREAK_FRACTION ? fmax (o->break_fraction, o->tie) : o->tie,
+           top = break_loop_largest (b, b->utilisation), now;
     instability_before (s, &events_of (s)->unstable, state);
     PG_TRY (break_loop_kill (b, state, b->utilisation, (1 - width) * top, 1, factor));
     step->nbroken = b->nbroken, step->broken = b->broken, step->event = 1;

@@ -174,7 +174,7 @@ static pg_status look_at_rest (pg_solver *s, instability *u, pg_state *state, do
     }
     event_displacement (s, factor, u->rest);
     PG_TRY (b->system.force->utilisation (b->system.self, state, u->rest, b->utilisation, b->kind, NULL));
-    for (size_t i = 0; i < state->nbond; i++) *top = fmax (*top, b->utilisation[i]);
+    *top = break_loop_largest (b, b->utilisation);
 done:
     return status;
 }
@@ -461,6 +461,10 @@ void instability_read (pg_solver_options *o, const pg_problem *problem, const pg
         if (!dynamic && pg_scene_given (scene, "%s", keys[k].path))
             pg_scene_fault (scene, keys[k].path, "goes with on_instability: dynamic");
     if (!dynamic) return;
+    if (pg_ranks_now ())
+        pg_scene_fault (scene, "solver.on_instability",
+                        "%d ranks: dynamic is for one process only so far: with division: subdomains use "
+                        "follow or hold", pg_rank_count ());
     if (pg_problem_removes (problem))
         pg_scene_fault (scene, "solver.on_instability",
                         "what stages remove goes slowly, through states at rest: use follow or hold");

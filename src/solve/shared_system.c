@@ -80,6 +80,27 @@ done:
     return status;
 }
 
+/* Unknowns of points without a bond that lives: no stiffness holds them, and they stay where they are, which
+ * coarse grids would not let them do. */
+pg_status system_find_bare (pg_system *s, const dynamics *dyn)
+{
+    pg_status status = PG_OK;
+    const pg_operator *op = s->force->operator_ (s->self);
+    if (!s->bare) PG_ALLOC (s->bare, s->ndof);
+    op->diagonal (op->context, s->scratch);
+    for (size_t i = 0; i < s->ndof; i++)
+        s->bare[i] = !dyn && !(s->scratch[i] > 1e-12 * fmax (s->diagonal0[i], 1e-9 * s->mean_diagonal));
+done:
+    return status;
+}
+
+/* What is left of a preconditioned residual. */
+static void clear_rest (const pg_system *s, double *z)
+{
+    system_clear_ghosts (s, z);
+    for (size_t i = 0; s->bare && i < s->ndof; i++) if (s->bare[i]) z[i] = 0;
+}
+
 /* With elimination the residual of q is put at the unknowns that q are. */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z)
 {
@@ -87,13 +108,13 @@ pg_status system_apply_shared (pg_system *s, const double *r, double *z)
     const pg_shared_preconditioner *type = pg_shared_preconditioner_now ();
     if (!s->own_row) {
         PG_TRY (type->solve (s->amg, r, z));
-        system_clear_ghosts (s, z);
+        clear_rest (s, z);
         goto done;
     }
     memset (s->full, 0, s->ndof * sizeof *s->full);
     for (size_t j = 0; j < s->nred; j++) s->full[s->own_row[j]] = r[j];
     PG_TRY (type->solve (s->amg, s->full, s->scratch));
-    system_clear_ghosts (s, s->scratch);
+    clear_rest (s, s->scratch);
     for (size_t j = 0; j < s->nred; j++) z[j] = s->scratch[s->own_row[j]];
 done:
     return status;

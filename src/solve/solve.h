@@ -103,6 +103,7 @@ typedef struct {
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
     pg_element_preconditioner *elements;               /* the same */
     void     *amg;                                     /* the same, of ranks that share the body */
+    unsigned char *bare;  /* the same: unknowns that nothing holds any more (ndof); NULL: not asked for */
     double   *whole;  /* ranks that share the body: x of K x with its ghosts (ndof); else NULL */
     double    made[2];                                 /* k and m of the preconditioner */
     int      *own_row;  /* unknown that each reduced one is (nred); with elements only */
@@ -133,6 +134,7 @@ double    system_norm      (const pg_system *s, const double *force, size_t n);
 double    system_norm_owned (const pg_system *s, const double *weight, const double *d);
 void      system_multiply_shared (const pg_system *s, const pg_operator *op, const double *x, double *y);
 pg_status system_make_shared  (pg_system *s);
+pg_status system_find_bare    (pg_system *s, const dynamics *dyn);     /* after breaking */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z);
 void      system_free_shared  (pg_system *s);
 int       system_has_matrix (const pg_system *s);       /* the force offers K itself */
@@ -246,6 +248,9 @@ pg_status break_loop_ready  (break_loop *b);
 pg_status break_loop_log    (break_loop *b, size_t bond, char kind, double utilisation, double t);
 /* 1: the point that has the bond is owned by this rank, or there are no ranks. */
 int       break_loop_owns   (const break_loop *b, size_t bond);
+/* The largest of a number of every bond (at least 0), and the smallest; of all ranks. */
+double    break_loop_largest  (const break_loop *b, const double *value);
+double    break_loop_smallest (const break_loop *b, const double *value);
 /* 1: bonds are judged in this run: there is a criterion of bonds, and a force that knows how they stand. */
 int       break_loop_judges (const break_loop *b);
 /* The largest utilisation of all bonds; above 1, `over` lists those that may break now. */

@@ -21,7 +21,8 @@ void system_free (pg_system *s)
     if (s->force && s->self) s->force->free (&s->self);
     if (s->copy) pg_sparse_clear (&s->A);
     else pg_free (s->A.value);
-    pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass), pg_free (s->whole);
+    pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass), pg_free (s->whole),
+        pg_free (s->bare);
     pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best),
         pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
     pg_free (s->rough.earlier), pg_free (s->rough.before), pg_free (s->rough.earlier_u);

@@ -274,12 +274,18 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
                             p->part.mesh.element_id[p->part.worst], p->part.quality);
 }
 
-/* Notes of the model first, then keys of other solvers. */
+/* Notes of the model first, then what ranks do in another way, then keys of other solvers. */
 int pg_solver_note (const pg_problem *p, const pg_solver_options *o, size_t k, char *out, size_t size)
 {
     for (size_t i = 0; i < p->nnote; i++) {
         if (warns (p->note[i]) || k-- > 0) continue;
         snprintf (out, size, "%s", p->note[i]);
+        return 1;
+    }
+    if (o->event && p->cloud.subdomain && k-- == 0) {
+        snprintf (out, size,
+                  "ranks that divide the body have no factor that serves many events, and look for no events "
+                  "ahead: each is solved for by conjugate gradients from the one before");
         return 1;
     }
     if (!*o->unused || k > 0) return 0;
