@@ -159,6 +159,7 @@ typedef struct {
     double coefficient, cohesion;                      /* mu; c, Pa */
     pg_contact_search search;
     double distance, stiffness;                        /* of short-range forces: in spacings; a factor */
+    int    impulses;                                   /* 1: points are held apart by impulses, not springs */
 } pg_contact_setting;
 /* Reads the section `contact`. */
 pg_contact_setting pg_contact_read (const pg_scene *scene);
@@ -184,6 +185,7 @@ typedef struct {
     double friction;                                   /* work of friction so far, J */
     double overlap, overlap_max;                       /* largest l - r: now; so far, m */
     double rate;  /* largest sum of 2 k / m over the contacts of a point so far, 1/s^2 */
+    long   sweeps, unsettled;  /* impulses: sweeps over pairs so far; time steps in which these did not settle */
 } pg_short_range_report;
 /* Unknowns of a point: `stride`, of which the first dim are its displacement. The setting is copied. */
 pg_status pg_short_range_create (pg_short_range **out, const pg_problem *problem,
@@ -199,6 +201,20 @@ double    pg_short_range_rate   (const pg_short_range *contact);
  * points have moved so far that one may be missing. The same bits for any number of threads. */
 pg_status pg_short_range_add    (pg_short_range *contact, const pg_state *state, const pg_changes *broken,
                                  int changed, const double *v, double dt, double way, double *f);
+/* The same by impulses (setting.impulses): the forces with which no pair ends the time step to come nearer than
+ * its contact distance (or than it is, where a bond broke under pressure). Contact takes no energy: pairs
+ * part as fast as they met (Moreau 1988, impact without loss), in the ways of leapfrog's two steps; friction
+ * holds them across their line with at most coefficient F_n. Momentum, and moment of momentum, are kept to
+ * rounding. now->energy: what pairs have taken of the motion and give back in the step to come. */
+typedef struct {
+    const double *back, *ahead;  /* ways of the unknowns in the last step, and in the next one without contact,
+                                  * m (n x stride) */
+    const double *inverse;                             /* 1 / mass, 1/kg; 0: prescribed (n x stride) */
+    double gain;                                       /* way ahead of a mass of 1 by a force of 1, s^2 */
+    int    start;                                      /* 1: no step has led here: nothing is booked */
+} pg_point_ways;
+pg_status pg_short_range_hold   (pg_short_range *contact, const pg_state *state, const pg_changes *broken,
+                                 int changed, const pg_point_ways *ways, double way, double *f);
 /* The forces of the last call alone, N (n x stride). */
 const double *pg_short_range_forces (const pg_short_range *contact);
 const pg_short_range_report *pg_short_range_now (const pg_short_range *contact);

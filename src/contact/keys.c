@@ -23,8 +23,12 @@ static const pg_key keys[] = {
     { "contact.distance", PG_NUMBER, "1", "(0, 2]", "1", NULL, NULL, NULL,
       "search: short_range: points repel each other when they are nearer than this, in local spacings, and "
       "nearer than at the start." },
+    { "contact.enforcement", PG_NAME, NULL, NULL, "springs", "springs|impulses", NULL, NULL,
+      "search: short_range: springs push points apart that have come too near; impulses: in each time step "
+      "the forces are computed with which none comes too near, and part as fast as they met, without loss "
+      "(forces by bonds)." },
     { "contact.stiffness", PG_NUMBER, "1", "(0, 1000]", "1", NULL, NULL, NULL,
-      "search: short_range: stiffness of a pair in contact over that of a column of the material as wide and "
+      "enforcement: springs: stiffness of a pair in contact over that of a column of the material as wide and "
       "as long as a spacing; larger: less overlap and smaller time steps." },
 };
 const pg_key_table pg_keys_contact = { "contact", keys, sizeof keys / sizeof *keys };
@@ -32,15 +36,19 @@ const pg_key_table pg_keys_contact = { "contact", keys, sizeof keys / sizeof *ke
 /* What short-range forces alone know. */
 static void read_search (pg_contact_setting *out, const pg_scene *scene)
 {
-    static const char *const own[2] = { "contact.distance", "contact.stiffness" };
-    const char *search = pg_scene_text (scene, "contact.search");
+    static const char *const own[3] = { "contact.distance", "contact.stiffness", "contact.enforcement" };
+    const char *search = pg_scene_text (scene, "contact.search"),
+               *enforcement = pg_scene_text (scene, own[2]);
     if (search && strcmp (search, "short_range") == 0) out->search = PG_CONTACT_SHORT_RANGE;
     out->distance = pg_scene_number (scene, own[0]), out->stiffness = pg_scene_number (scene, own[1]);
-    for (int k = 0; k < 2 && out->search != PG_CONTACT_SHORT_RANGE; k++)
+    out->impulses = enforcement && strcmp (enforcement, "impulses") == 0;
+    for (int k = 0; k < 3 && out->search != PG_CONTACT_SHORT_RANGE; k++)
         if (pg_scene_given (scene, "%s", own[k]))
             pg_scene_fault (scene, own[k],
                             "has a meaning with contact.search: short_range alone: leave it out, or set the "
                             "search");
+    if (out->impulses && pg_scene_given (scene, own[1]))
+        pg_scene_fault (scene, own[1], "is that of springs: leave it out, or set contact.enforcement: springs");
     if (out->search == PG_CONTACT_SHORT_RANGE && pg_scene_given (scene, "contact.cohesion"))
         pg_scene_fault (scene, "contact.cohesion",
                         "is a stress on faces, which short-range forces between points do not know: leave it "

@@ -26,7 +26,7 @@ pg_status near_create (near_pairs *s, const pg_problem *problem, const pg_contac
     *s = (near_pairs) { .problem = problem, .stride = stride, .dim = (size_t) problem->dim,
                         .distance = setting->distance, .stiffness = setting->stiffness,
                         .slips = setting->kind == PG_CONTACT_FRICTION && problem->dim > 1 };
-    s->skin = problem->plain ? 0 : skin;
+    s->impulses = setting->impulses, s->skin = problem->plain && !s->impulses ? 0 : skin;
     s->finest = pg_cloud_finest (&problem->cloud);
     s->nblock = (n * stride + BLOCK - 1) / BLOCK;
     PG_ALLOC (s->modulus, problem->nlaw);
@@ -301,8 +301,9 @@ pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *b
                        double way)
 {
     pg_status status = PG_OK;
-    double limit = 0.5 * s->skin * s->finest;
-    int keeps = s->valid && !changed && limit > 0;
+    /* impulses look ahead: half of that is for the way of the step to come */
+    double limit = (s->impulses ? 0.25 : 0.5) * s->skin * s->finest;
+    int keeps = s->valid && !changed && limit > 0 && !s->problem->plain;
     s->way += way;
     if (keeps && !(s->way <= limit)) s->way = moved (s, state->d);
     if (keeps && s->way <= limit) {

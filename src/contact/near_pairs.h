@@ -20,7 +20,8 @@ typedef struct {
     size_t  stride, dim;
     double  distance, skin;                            /* in spacings */
     double  stiffness;                                 /* factor */
-    int     slips;                                     /* 1: pairs have slips */
+    int     slips;                                     /* 1: pairs have friction */
+    int     impulses;                                  /* 1: pairs must be known a time step before they touch */
     double *modulus, *shear, *local;                   /* M, mu_s of materials, Pa; V / s^2 of points, m */
     double  finest;                                    /* smallest spacing, m */
     double *start;                                     /* displacements at the last search, m (n x stride) */
@@ -41,4 +42,21 @@ pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *b
                        double way);
 /* The slips that are not zero, into `memory`. */
 pg_status near_collect (near_pairs *s);
+
+/* Short-range contact of a run: what springs (short_range.c) and impulses (point_impulses.c) know. */
+typedef struct held_pair held_pair;
+struct pg_short_range {
+    near_pairs near;
+    pg_contact_setting setting;
+    double *force;                                     /* of the last evaluation, N (n x stride) */
+    double *sum;  size_t cap;                          /* of each row */
+    double taken, taken0;                              /* J; at the start of the step */
+    pg_short_range_report now;
+    near_memory *start;  size_t nstart, cap_start;     /* slips at the start of the step */
+    /* impulses: the pairs that are held; 0 .. 2 of every pair: apart, would overlap, listed; work of friction
+     * in the half step to come, J; at the start of the step */
+    held_pair *held;  size_t nheld, cap_held;
+    unsigned char *mark;  size_t cap_mark;
+    double pending, pending0;
+};
 #endif

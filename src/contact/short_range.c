@@ -17,16 +17,6 @@
 /* of a point, summed over its pairs */
 enum { SUM_ENERGY, SUM_HELD, SUM_TAKEN, SUM_OVERLAP, SUM_RATE, SUM_TOUCHING, SUMS };
 
-struct pg_short_range {
-    near_pairs near;
-    pg_contact_setting setting;
-    double *force;                                     /* of the last evaluation, N (n x stride) */
-    double *sum;  size_t cap;                          /* of each row (nrow x SUMS) */
-    double taken, taken0;                              /* J; at the start of the step */
-    pg_short_range_report now;
-    near_memory *start;  size_t nstart, cap_start;     /* slips at the start of the step */
-};
-
 pg_status pg_short_range_create (pg_short_range **out, const pg_problem *problem,
                                  const pg_contact_setting *setting, size_t stride)
 {
@@ -49,7 +39,7 @@ void pg_short_range_free (pg_short_range **contact)
     pg_short_range *c = *contact;
     if (!c) return;
     near_free (&c->near);
-    pg_free (c->sum), pg_free (c->start), pg_free (c->force);
+    pg_free (c->sum), pg_free (c->start), pg_free (c->force), pg_free (c->held), pg_free (c->mark);
     pg_free (c);
     *contact = NULL;
 }
@@ -62,6 +52,7 @@ double pg_short_range_rate (const pg_short_range *c)
     const pg_problem *p = c->near.problem;
     int several = p->nmaterial > 1, contacts = p->dim == 1 ? 1 : p->dim == 2 ? 2 : 4;
     double most = 0;
+    if (c->setting.impulses) return 0;
     for (size_t i = 0; i < p->cloud.n; i++) {
         int m = p->block[PG_NODES][i];
         double mass = p->material[m].density * p->cloud.volume[i];
@@ -171,7 +162,7 @@ pg_status pg_short_range_save (pg_short_range *c)
     PG_TRY (near_collect (&c->near));
     PG_GROW (c->start, c->cap_start, c->near.nmemory);
     if (c->near.nmemory) memcpy (c->start, c->near.memory, c->near.nmemory * sizeof *c->start);
-    c->nstart = c->near.nmemory, c->taken0 = c->taken;
+    c->nstart = c->near.nmemory, c->taken0 = c->taken, c->pending0 = c->pending;
 done:
     return status;
 }
@@ -183,7 +174,7 @@ pg_status pg_short_range_return (pg_short_range *c)
     c->near.valid = 0, c->near.nmemory = 0;
     PG_GROW (c->near.memory, c->near.cap_memory, c->nstart);
     if (c->nstart) memcpy (c->near.memory, c->start, c->nstart * sizeof *c->start);
-    c->near.nmemory = c->nstart, c->taken = c->taken0;
+    c->near.nmemory = c->nstart, c->taken = c->taken0, c->pending = c->pending0;
 done:
     return status;
 }
@@ -233,14 +224,15 @@ pg_status pg_short_range_keep (pg_short_range *c, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long npoint = (long) c->near.problem->cloud.n;
-    double number[6] = { c->taken,        c->taken0,      c->now.energy,
-                         c->now.friction, c->now.overlap_max, c->now.rate };
+    double number[8] = { c->taken,           c->taken0,   c->now.energy, c->now.friction,
+                         c->now.overlap_max, c->now.rate, c->pending,    c->pending0 };
     if (!k->reading) PG_TRY (near_collect (&c->near));
     PG_TRY (keep_slips (&c->near.memory, &c->near.nmemory, &c->near.cap_memory, "contact.slips", npoint, k));
     PG_TRY (keep_slips (&c->start, &c->nstart, &c->cap_start, "contact.slips0", npoint, k));
-    PG_TRY (k->numbers (k->context, "contact.numbers", 6, number));
+    PG_TRY (k->numbers (k->context, "contact.numbers", 8, number));
     c->taken = number[0], c->taken0 = number[1], c->now.energy = number[2], c->now.friction = number[3],
-    c->now.overlap_max = number[4], c->now.rate = number[5];
+    c->now.overlap_max = number[4], c->now.rate = number[5], c->pending = number[6],
+    c->pending0 = number[7];
     if (k->reading) c->near.valid = 0;
 done:
     return status;

@@ -24,6 +24,8 @@ static const double BALANCED = 1e-13, ACCEPTED = 1e-9;
 enum { MOST_ROUNDS = 80 };
 /* Motions count as free where closed pairs resist them by less than this share of the stiffest one. */
 static const double RESISTED = 1e-12;
+/* Sums of terms that cancel to this share are rounding. */
+static const double ROUNDED = 1e-12;
 
 /* A free motion: of a platen along an axis (3..5: about it), or of a part. */
 typedef struct { size_t platen; int axis; size_t mode; } motion;
@@ -81,6 +83,19 @@ static void column_of_platen (problem_of_motions *w, size_t j)
     }
 }
 
+/* What a motion of a part does to the gaps. A part that moves as a whole, crack and all, does nothing to them:
+ * rounding is no resistance. */
+static void row_of_part (const problem_of_motions *w, const double *mode, double *row)
+{
+    const pg_sparse *G = &w->c->G;
+    for (size_t i = 0; i < G->ncol; i++) {
+        double sum = 0, size = 0;
+        for (long e = G->start[i]; e < G->start[i + 1]; e++)
+            sum += G->value[e] * mode[G->row[e]], size += fabs (G->value[e] * mode[G->row[e]]);
+        row[i] = fabs (sum) > ROUNDED * size ? sum : 0;
+    }
+}
+
 static pg_status find_motions (problem_of_motions *w)
 {
     pg_status status = PG_OK;
@@ -101,7 +116,7 @@ static pg_status find_motions (problem_of_motions *w)
         }
     for (size_t i = 0; i < l->n; i++, j++) {
         w->motion[j] = (motion) { SIZE_MAX, 0, i };
-        pg_sparse_multiply_transposed (&w->c->G, l->mode + i * w->s->ndof, w->B + j * w->rows);
+        row_of_part (w, l->mode + i * w->s->ndof, w->B + j * w->rows);
     }
 done:
     return status;
@@ -122,7 +137,10 @@ static pg_status find_loads (problem_of_motions *w, double t, double *Q)
                : q->axis < 3       ? platens_press (s->problem, q->platen, q->axis, t)
                                    : 0;
         const double *mode = q->mode != SIZE_MAX ? w->c->loose.mode + q->mode * s->ndof : NULL;
-        for (size_t i = 0; mode && i < s->ndof; i++) Q[j] += mode[i] * residual[i];
+        double all = 0;
+        for (size_t i = 0; mode && i < s->ndof; i++)
+            Q[j] += mode[i] * residual[i], all += fabs (mode[i] * residual[i]);
+        if (mode && fabs (Q[j]) <= ROUNDED * all) Q[j] = 0;
     }
 done:
     pg_free (zero), pg_free (residual);

@@ -246,10 +246,10 @@ static pg_status arrive (pg_solver *s, pg_state *state, long n)
     break_loop *b = &s->break_loop;
     if (b->growth && n > 0) facet_forward (b, s->options.dt);
     PG_TRY (explicit_force (s, state, t, 1, NULL));
-    PG_TRY (explicit_contact_add (s, state, t, n == 0));
-    system_add_held (&b->system, b->system.residual);
-    if (b->growth && n > 0) PG_TRY (run_tips (s, state, t));
     if (n > 0) PG_TRY (explicit_follow (s, time_at (s, n - 1), t, (double) (n + 1) * s->options.dt));
+    system_add_held (&b->system, b->system.residual);
+    PG_TRY (explicit_contact_add (s, state, t, n == 0));
+    if (b->growth && n > 0) PG_TRY (run_tips (s, state, t));
     take_reactions (s);
 done:
     return status;

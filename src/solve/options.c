@@ -303,6 +303,11 @@ static void check_short_range (const pg_solver_options *o, const pg_problem *pro
                         "faces", names);
     const pg_force_type *force = pg_force_of (problem);
     int points = !problem->method->shape_functions || problem->approx.type->interpolates;
+    if (o->contact.impulses && !points)
+        pg_scene_fault (scene, "contact.enforcement",
+                        "impulses act on points with a mass of their own, which the unknowns of "
+                        "method.approximation: %s are not: use springs, or method.force: %s",
+                        problem->approx.type->name, forces_of_points (names, sizeof names));
     if (!points && (problem->nplaten || !force || !force->at_nodes))
         pg_scene_fault (scene, "contact.search",
                         "short_range acts on displacements of points, which the unknowns of "

@@ -4,7 +4,7 @@
  * from below within 1 %. Left to the solver the step is 0.9 of the stable one, which leaves room for what
  * breaking may stiffen. Where facets cut shape functions it is 0.45: points between two branches keep few
  * neighbours, and what was measured to be stable there is 0.52 to 0.68 of the step of the body without
- * them; and with short-range contact, where leapfrog's energy is out by what a pair moves in the step in
+ * them; and with springs of short-range contact, where leapfrog's energy is out by what a pair moves in the step in
  * which it closes or opens: at 0.9 that is some 5 in a thousand of the energy of small bodies that collide,
  * at 0.45 less than 1. */
 #include "contact.h"
@@ -74,6 +74,12 @@ done:
     return status;
 }
 
+/* Contact by springs, of pairs or of platens. */
+static int springs_close (const motion *m)
+{
+    return m->contact && (!m->contact->back || m->contact->platens);
+}
+
 /* ---- the stable time step ------------------------------------------------------------------------------ */
 pg_status explicit_stable (pg_solver *s)
 {
@@ -91,8 +97,9 @@ pg_status explicit_stable (pg_solver *s)
     PG_TRY (find_bound (s));
     if (s->options.dt > 0) PG_TRY (check_dt (s));
     else if (isfinite (m->stable))
-        s->options.dt = (m->contact || (s->break_loop.growth && s->problem->method->shape_functions) ? 0.45
-                                                                                                     : 0.9)
+        s->options.dt = (springs_close (m)
+                                 || (s->break_loop.growth && s->problem->method->shape_functions) ? 0.45
+                                                                                                  : 0.9)
                         * m->stable;
     else
         PG_TRY (solver_fault (s, "solver.dt",

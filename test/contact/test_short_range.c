@@ -2,6 +2,7 @@
  * Short-range contact in explicit steps: the search finds what looking at all pairs finds; forces, slips and
  * energies against sums written anew; bars that collide; momentum, energy; threads, checkpoints, refused
  * steps; units and directions; what is refused. */
+#include "collisions.h"
 #include "refused.h"
 #include "scene_runs/run.h"
 #include "solve/tape.h"
@@ -182,39 +183,6 @@ static void the_skin_spares_searches (void **state)
 }
 
 /* ---- bodies that collide ------------------------------------------------------------------------------- */
-/* Momentum along each axis and moment of momentum about the origin; sizes of what is summed. */
-static void momentum_of (const run *r, double *p, double *turn, double *size, double *size_turn)
-{
-    size_t dim = (size_t) r->problem->dim;
-    p[0] = p[1] = *turn = *size = *size_turn = 0;
-    for (size_t i = 0; i < r->problem->cloud.n; i++) {
-        const double *x = r->problem->cloud.x + i * dim, *d = r->state->d + i * dim,
-                     *v = r->state->v + i * dim;
-        double m = r->problem->material[r->problem->block[PG_NODES][i]].density * r->problem->cloud.volume[i];
-        for (size_t k = 0; k < dim; k++) p[k] += m * v[k], *size += fabs (m * v[k]);
-        if (dim < 2) continue;
-        *turn += m * ((x[0] + d[0]) * v[1] - (x[1] + d[1]) * v[0]);
-        *size_turn += m * (fabs ((x[0] + d[0]) * v[1]) + fabs ((x[1] + d[1]) * v[0]));
-    }
-}
-
-/* Two bars of n points in a line, the first at velocity v; half a spacing's way apart. */
-static run bars (int n, const char *kind, double unit)
-{
-    double L = n * unit;
-    return scene_of (1,
-                     "dimension: 1\nbody: [{add: {box: {low: [0], high: [%.17g]}}}, {add: {box: {low: "
-                     "[%.17g], "
-                     "high: [%.17g]}}}]\nspacing: %.17g\nlattice: cells\nmaterials: {m: {youngs_modulus: "
-                     "200, "
-                     "poissons_ratio: 0, density: 2}}\nsets: {one: {where: \"x < %.17g\"}}\n"
-                     "method: {force: bond, horizon: 2 spacing, accept_inexact: yes}\ncontact: {kind: "
-                     "normal, "
-                     "search: short_range}\ninitial: {sets: [{set: one, velocity: {x: 0.01}}]}\n"
-                     "solver: {kind: %s, end: %.17g}\noutput: {at: {levels: 1, rows: 20000}}\n",
-                     L, L + 3 * unit, 2 * L + 3 * unit, unit, L + unit, kind, 320 * unit + 0.26 * L);
-}
-
 /* Equal bars exchange their velocities: contact lasts 2 L / c (d'Alembert), afterwards the first one
  * rests. */
 static void bars_exchange_velocities (void **state)
@@ -224,7 +192,7 @@ static void bars_exchange_velocities (void **state)
         int n = 200;
         double unit = k == 2 ? 1e-3 : 1, c = 10, first = NAN, last = NAN, rest = 0, mean[2] = { 0 }, p, turn,
                size, size_turn;
-        run r = bars (n, k == 1 ? "central" : "verlet", unit);
+        run r = bars (n, k == 1 ? "central" : "verlet", unit, "");
         double impulse = 0.01 * 2 * n * unit;          /* density times length times velocity */
         while (!pg_solver_done (r.solver, r.state)) {
             advance (&r);
@@ -250,30 +218,6 @@ static void bars_exchange_velocities (void **state)
         check_absolute (mean[1] / 0.01, 1, 0.01);
         clear (&r);
     }
-}
-
-/* Two disks that meet askew, in the plane (mm or m, turned), with friction or without. */
-typedef struct { double unit, turn, friction; int threads, plain; const char *more, *force; } disks;
-static run disks_run (const disks *l)
-{
-    double u = l->unit, c = cos (l->turn), s = sin (l->turn), x = 15 * u, y = 5 * u;
-    char contact[120] = "{kind: normal, search: short_range}";
-    if (l->friction > 0)
-        snprintf (contact, sizeof contact, "{kind: friction, coefficient: %.17g, search: short_range}",
-                  l->friction);
-    return scene_of (
-        l->threads,
-        "dimension: 2\nplane: stress\nthickness: %.17g\nbody: [{add: {disk: {center: [0, 0], radius: "
-        "%.17g}}}, "
-        "{add: {disk: {center: [%.17g, %.17g], radius: %.17g}}}]\nspacing: %.17g\nlattice: cells\n"
-        "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.333333333333333, density: 1}}\n"
-        "sets: {one: {where: \"x*%.17g+y*%.17g < %.17g\"}}\nmethod: {force: %s, accept_inexact: yes}\n"
-        "contact: %s\n"
-        "initial: {sets: [{set: one, velocity: {x: %.17g, y: %.17g}}]}\n"
-        "solver: {kind: verlet, end: %.17g%s}\noutput: {at: {levels: 2, rows: 200}}\n%s",
-        u, 6.2 * u, x * c - y * s, x * s + y * c, 6.2 * u, u, c, s, 7.5 * u, l->force ? l->force : "bond",
-            contact,
-        c, s, 8 * u, l->plain ? ", plain: yes" : "", l->more ? l->more : "");
 }
 
 static void disks_keep_momentum_and_energy (void **state)
@@ -471,7 +415,7 @@ static void closed_cracks_bear_pressure (void **state)
 static void the_time_step_counts_contact (void **state)
 {
     (void) state;
-    run r = bars (20, "verlet", 1);
+    run r = bars (20, "verlet", 1, "");
     pg_solver_options o = r.options;
     pg_solver *without;
     o.contact.kind = PG_CONTACT_NONE;
@@ -487,7 +431,7 @@ static void the_time_step_counts_contact (void **state)
 static void nothing_near_is_skipped (void **state)
 {
     (void) state;
-    run r = bars (20, "verlet", 1);
+    run r = bars (20, "verlet", 1, "");
     for (int k = 0; k < 3; k++) advance (&r);
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
     int found = 0;

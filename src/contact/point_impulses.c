@@ -1,0 +1,260 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Points that no live bond joins, held apart by impulses (perigal/contact.h): each time step the forces are
+ * sought with which no pair ends it nearer than its contact distance.
+ *
+ * Leapfrog goes from x_n-1 over x_n to x_n+1, the ways of a pair being D- and D+. The force F_n e of a pair,
+ * along its line at x_n, does the work F_n e . (D- + D+) / 2. Pairs that would come too near get
+ *
+ *     F_n >= 0,   e . (D- + D+) >= 0,   F_n e . (D- + D+) = 0:
+ *
+ * Moreau's law of impact without loss, written for the ways of two steps. The line between the points is at
+ * x_n+1 what it was at x_n-1, where it was long enough; contact takes no energy and gives none, and forces on
+ * the two are opposite, along their line. Friction holds the two together across the line, D+ = 0, with at
+ * most coefficient F_n. Pairs share points, so that all of them are gone through until nothing changes; always
+ * in the same order, by one thread. */
+#include "near_pairs.h"
+#include <math.h>
+#include <string.h>
+
+enum { SWEEPS = 400 };
+static const double settled = 1e-9;                    /* of a spacing: what a last sweep changes at most */
+
+/* A pair that is looked at in this step: its line and the largest of ways by a unit force. */
+struct held_pair {
+    size_t i, j;
+    double y[3], e[3];                                 /* from i to j, m; the same as a unit vector */
+    double least;                                      /* no end of the step is nearer, m */
+    double lift;                                       /* by which the last one was nearer than that, m */
+    double along, across;                              /* way by a unit force, m/N */
+    double press, shear[3];                            /* forces on j, N */
+    int    spread;                                     /* 1: all pairs of its points are listed */
+};
+
+/* ---- which pairs ---------------------------------------------------------------------------------------- */
+static void way_of (const pg_short_range *c, const pg_point_ways *w, size_t i, size_t j, double *back,
+                    double *ahead)
+{
+    size_t dim = c->near.dim, a = i * c->near.stride, b = j * c->near.stride;
+    for (size_t k = 0; k < dim; k++) {
+        back[k] = w->back[b + k] - w->back[a + k];
+        ahead[k] = (w->ahead[b + k] + w->gain * w->inverse[b + k] * c->force[b + k])
+                   - (w->ahead[a + k] + w->gain * w->inverse[a + k] * c->force[a + k]);
+    }
+}
+
+/* The pair is no nearer at the end of the step than its contact distance; bonds that break under pressure leave
+ * points that are too near, which is not mended at once: then no nearer than at the beginning of this step and
+ * of the last one. *lift: a bond that swings, and breaks as it is stretched, may have been nearer than its
+ * points may come now. */
+static double least_of (const pg_short_range *c, const double *d, size_t q, const double *back, double *y,
+                        double *lift)
+{
+    const near_pairs *s = &c->near;
+    const near_pair *p = &s->pair[q];
+    const double *x = s->problem->cloud.x;
+    size_t i = (size_t) p->i, j = (size_t) p->j;
+    double now = 0, before = 0;
+    for (size_t k = 0; k < s->dim; k++) {
+        y[k] = (x[j * s->dim + k] - x[i * s->dim + k]) + (d[j * s->stride + k] - d[i * s->stride + k]);
+        now += y[k] * y[k], before += (y[k] - back[k]) * (y[k] - back[k]);
+    }
+    double least = now >= p->reach * p->reach ? p->reach : fmin (p->reach, sqrt (fmin (now, before)));
+    *lift = fmax (0, least - sqrt (before));
+    return least;
+}
+
+static int too_near (size_t dim, const double *y, const double *ahead, double least)
+{
+    double rr = 0;
+    for (size_t k = 0; k < dim; k++) rr += (y[k] + ahead[k]) * (y[k] + ahead[k]);
+    return rr < least * least;
+}
+
+typedef struct { pg_short_range *c; const double *d; const pg_point_ways *w; } looking;
+
+/* Pairs that would end the step too near if nothing held them; overlaps as they are. */
+static void look_at_rows (void *context, size_t first, size_t last, int thread)
+{
+    const looking *l = context;
+    const near_pairs *s = &l->c->near;
+    (void) thread;
+    for (size_t r = first; r < last; r++) {
+        double most = 0;
+        for (size_t q = s->row[r]; q < s->row[r + 1]; q++) {
+            double back[3], ahead[3], y[3], rr = 0, lift;
+            l->c->mark[q] = 0;
+            if (s->pair[q].i > s->pair[q].j) continue;
+            way_of (l->c, l->w, (size_t) s->pair[q].i, (size_t) s->pair[q].j, back, ahead);
+            double least = least_of (l->c, l->d, q, back, y, &lift);
+            for (size_t k = 0; k < s->dim; k++) rr += y[k] * y[k];
+            most = fmax (most, s->pair[q].reach - sqrt (rr));
+            l->c->mark[q] = rr > 0 && too_near (s->dim, y, ahead, least);
+        }
+        l->c->sum[r] = most;
+    }
+}
+
+/* Puts pair q, of ascending points, on the list. */
+static pg_status take_pair (pg_short_range *c, const double *d, const pg_point_ways *w, size_t q)
+{
+    pg_status status = PG_OK;
+    const near_pairs *s = &c->near;
+    double back[3], ahead[3], rr = 0;
+    PG_GROW (c->held, c->cap_held, c->nheld + 1);
+    held_pair *h = &c->held[c->nheld];
+    *h = (held_pair) { .i = (size_t) s->pair[q].i, .j = (size_t) s->pair[q].j };
+    way_of (c, w, h->i, h->j, back, ahead);
+    h->least = least_of (c, d, q, back, h->y, &h->lift);
+    for (size_t k = 0; k < s->dim; k++) rr += h->y[k] * h->y[k];
+    c->mark[q] = 2;
+    if (!(rr > 0)) goto done;
+    for (size_t k = 0; k < s->dim; k++) {
+        double gives = w->gain * (w->inverse[h->i * s->stride + k] + w->inverse[h->j * s->stride + k]);
+        h->e[k] = h->y[k] / sqrt (rr);
+        h->along += h->e[k] * h->e[k] * gives, h->across = fmax (h->across, gives);
+    }
+    if (h->along > 0) c->nheld++;                      /* else both are prescribed */
+done:
+    return status;
+}
+
+/* The row of a point among those of the list; SIZE_MAX: it has none. */
+static size_t row_of (const near_pairs *s, size_t i)
+{
+    size_t low = 0, high = s->nrow;
+    while (low < high) {
+        size_t middle = low + (high - low) / 2;
+        if ((size_t) s->pair[s->row[middle]].i < i) low = middle + 1;
+        else high = middle;
+    }
+    return low < s->nrow && (size_t) s->pair[s->row[low]].i == i ? low : SIZE_MAX;
+}
+
+/* All pairs of a point that a force moves: any of them may come too near by that. */
+static pg_status take_neighbours (pg_short_range *c, const double *d, const pg_point_ways *w, size_t i)
+{
+    pg_status status = PG_OK;
+    const near_pairs *s = &c->near;
+    size_t r = row_of (s, i);
+    if (r == SIZE_MAX) return PG_OK;
+    for (size_t q = s->row[r]; q < s->row[r + 1]; q++) {
+        size_t at = q;
+        if (s->pair[q].i > s->pair[q].j) {             /* the same pair in the row of the other point */
+            size_t other = row_of (s, (size_t) s->pair[q].j);
+            at = s->row[other];
+            while (s->pair[at].j != s->pair[q].i) at++;
+        }
+        if (c->mark[at] != 2) PG_TRY (take_pair (c, d, w, at));
+    }
+done:
+    return status;
+}
+
+/* ---- forces --------------------------------------------------------------------------------------------- */
+static void push (pg_short_range *c, const held_pair *h, const double *f)
+{
+    for (size_t k = 0; k < c->near.dim; k++)
+        c->force[h->j * c->near.stride + k] += f[k], c->force[h->i * c->near.stride + k] -= f[k];
+}
+
+/* Sets the forces of one pair as those of all others are; returns how far that moves its points, m. */
+static double hold (pg_short_range *c, const pg_point_ways *w, held_pair *h)
+{
+    size_t dim = c->near.dim;
+    double back[3], ahead[3], f[3] = { 0 }, rate = -h->lift, moved, along = 0, size = 0, change = 0;
+    way_of (c, w, h->i, h->j, back, ahead);
+    if (!(h->press > 0) && !too_near (dim, h->y, ahead, h->least)) return 0;
+    for (size_t k = 0; k < dim; k++) rate += h->e[k] * (back[k] + ahead[k]);
+    double more = fmax (-h->press, -rate / h->along), limit;
+    h->press += more, limit = c->setting.coefficient * h->press;
+    for (size_t k = 0; k < dim; k++) f[k] = more * h->e[k];
+    push (c, h, f);
+    moved = fabs (more) * h->along;
+    if (!c->near.slips) return moved;
+    way_of (c, w, h->i, h->j, back, ahead);
+    for (size_t k = 0; k < dim; k++) along += h->e[k] * ahead[k];
+    for (size_t k = 0; k < dim; k++) {
+        f[k] = h->shear[k] - (ahead[k] - along * h->e[k]) / h->across;
+        size += f[k] * f[k];
+    }
+    double shorten = size > limit * limit ? limit / sqrt (size) : 1;
+    for (size_t k = 0; k < dim; k++) {
+        f[k] = shorten * f[k] - h->shear[k], h->shear[k] += f[k];
+        change = fmax (change, fabs (f[k]));
+    }
+    push (c, h, f);
+    return moved + change * h->across;
+}
+
+/* Work of the forces at hand: what friction takes in the half step before and after; what the pairs have
+ * taken of the motion and give back in the half step after. */
+static void book (pg_short_range *c, const pg_point_ways *w)
+{
+    size_t dim = c->near.dim;
+    pg_short_range_report *now = &c->now;
+    c->taken += c->pending;
+    c->pending = 0, now->energy = 0, now->touching = 0;
+    for (size_t q = 0; q < c->nheld && !w->start; q++) {
+        const held_pair *h = &c->held[q];
+        double back[3], ahead[3];
+        if (!(h->press > 0)) continue;
+        way_of (c, w, h->i, h->j, back, ahead);
+        now->touching++;
+        for (size_t k = 0; k < dim; k++) {
+            now->energy -= 0.5 * h->press * h->e[k] * back[k];
+            c->taken -= 0.5 * h->shear[k] * back[k], c->pending -= 0.5 * h->shear[k] * ahead[k];
+        }
+    }
+    now->friction = c->taken;
+}
+
+/* Goes through the pairs until nothing changes; a pair whose points others move is taken up with them. */
+static pg_status hold_all (pg_short_range *c, const double *d, const pg_point_ways *w)
+{
+    pg_status status = PG_OK;
+    double small = settled * c->near.finest, moved = INFINITY;
+    int sweep = 0;
+    for (; sweep < SWEEPS && moved > small; sweep++) {
+        moved = 0;
+        for (size_t q = 0; q < c->nheld; q++) {
+            size_t i = c->held[q].i, j = c->held[q].j;
+            double by = hold (c, w, &c->held[q]);
+            moved = fmax (moved, by);
+            if (!(by > 0) || c->held[q].spread) continue;
+            c->held[q].spread = 1;
+            PG_TRY (take_neighbours (c, d, w, i));
+            PG_TRY (take_neighbours (c, d, w, j));
+        }
+    }
+    c->now.sweeps += sweep, c->now.unsettled += moved > small;
+done:
+    return status;
+}
+
+pg_status pg_short_range_hold (pg_short_range *c, const pg_state *state, const pg_changes *broken, int changed,
+                               const pg_point_ways *ways, double way, double *f)
+{
+    pg_status status = PG_OK;
+    near_pairs *s = &c->near;
+    pg_short_range_report *now = &c->now;
+    for (size_t r = 0; r < s->nrow; r++)
+        memset (c->force + (size_t) s->pair[s->row[r]].i * s->stride, 0, s->dim * sizeof *c->force);
+    PG_TRY (near_update (s, state, broken, changed, way));
+    PG_GROW (c->mark, c->cap_mark, s->n);
+    PG_GROW (c->sum, c->cap, s->nrow);
+    looking l = { c, state->d, ways };
+    pg_parallel (s->problem->threads, s->nrow, look_at_rows, &l);
+    c->nheld = 0, now->overlap = 0;
+    for (size_t r = 0; r < s->nrow; r++) now->overlap = fmax (now->overlap, c->sum[r]);
+    for (size_t q = 0; q < s->n; q++) if (c->mark[q] == 1) PG_TRY (take_pair (c, state->d, ways, q));
+    if (c->nheld) PG_TRY (hold_all (c, state->d, ways));
+    book (c, ways);
+    for (size_t r = 0; r < s->nrow; r++) {
+        size_t i = (size_t) s->pair[s->row[r]].i * s->stride;
+        for (size_t k = 0; k < s->dim; k++) f[i + k] += c->force[i + k];
+    }
+    now->listed = s->n / 2, now->searches = s->searches, now->evaluations++, now->free += s->n == 0;
+    now->overlap_max = fmax (now->overlap_max, now->overlap);
+done:
+    return status;
+}
