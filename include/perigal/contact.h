@@ -96,6 +96,7 @@ void      pg_contact_go (pg_contact_track *track, const pg_contact_path *path, d
  * without pressures that swing from piece to piece (the pairs then satisfy the condition of Ladyzhenskaya,
  * Babuska and Brezzi; one pair per spacing does not). All lengths in local spacings. */
 #define PG_CONTACT_PIECE  2.0                          /* length of a piece */
+#define PG_CONTACT_HALVED 1.0                          /* paths longer than that are halved where cracks meet */
 #define PG_CONTACT_POINTS PG_CRACK_POINTS              /* points per spacing that sample the gap */
 #define PG_CONTACT_POINTS_SPACE 4                      /* the same in space, each way */
 #define PG_CONTACT_RADIUS 2.5                          /* how far they see (pg_force_type.jump) */

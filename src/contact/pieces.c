@@ -14,10 +14,16 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A straight part of a path, at most a spacing long, and its spacing, m. */
-typedef struct { double from[2], to[2], length, h; size_t path; } link;
-/* A segment of a crack, as far as it cuts; ends that reach their vertex may be joined to others. */
-typedef struct { double end[2][2]; int whole[2], used; } segment;
+/* A crack meets another one where it ends this near to it, in spacings; those that lie nearly along each other
+ * (sine of their angle) do not. */
+static const double MEETS = 1e-3, ALONG = 1e-3;
+
+/* A straight part of a path, at most a spacing long, and its spacing, m; of the first one of a path also whether
+ * the path begins (1) and ends (2) where cracks meet. */
+typedef struct { double from[2], to[2], length, h; size_t path; int met; } link;
+/* A segment of a crack, as far as it cuts; ends that reach their vertex may be joined to others. met: another
+ * crack meets it there, or it ends on another one. */
+typedef struct { double end[2][2]; int whole[2], met[2], used; } segment;
 typedef struct {
     const pg_problem *p;
     double nothing;                                    /* places no further apart are one, m */
@@ -47,6 +53,81 @@ static pg_status take_segments (division *d, const pg_cracks *cracks)
         d->nsegment++;
     }
 done:
+    return status;
+}
+
+/* Where segment k is met by segment j between its ends, as a share of its length; NAN: nowhere. A crack that runs
+ * into another one ends on it but for rounding. */
+static double met_at (const division *d, size_t k, size_t j)
+{
+    const segment *s = &d->segment[k], *o = &d->segment[j];
+    double u[2], v[2], w[2];
+    for (int m = 0; m < 2; m++)
+        u[m] = s->end[1][m] - s->end[0][m], v[m] = o->end[1][m] - o->end[0][m],
+        w[m] = o->end[0][m] - s->end[0][m];
+    double length = hypot (u[0], u[1]), across = u[0] * v[1] - u[1] * v[0],
+           other = hypot (v[0], v[1]), near = MEETS * d->p->cloud.h / other;
+    if (!(fabs (across) > ALONG * length * other)) return NAN;
+    double share = (w[0] * v[1] - w[1] * v[0]) / across, by = (w[0] * u[1] - w[1] * u[0]) / across;
+    return share > 0 && share < 1 && by >= -near && by <= 1 + near ? share : NAN;
+}
+
+/* Does a segment end on another one, between the ends of that? */
+static int ends_on_another (const division *d, const segment *s, int end)
+{
+    for (size_t k = 0; k < d->nsegment; k++) {
+        const segment *o = &d->segment[k];
+        double u[2], w[2];
+        for (int m = 0; m < 2; m++) u[m] = o->end[1][m] - o->end[0][m], w[m] = s->end[end][m] - o->end[0][m];
+        double length = hypot (u[0], u[1]), near = MEETS * d->p->cloud.h,
+               along = (u[0] * w[0] + u[1] * w[1]) / length, off = fabs (u[0] * w[1] - u[1] * w[0]) / length;
+        if (off <= near && along > near && along < length - near) return 1;
+    }
+    return 0;
+}
+
+static int ascending (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+/* Cuts segments where others meet them: the face that is met falls into two, which move each by itself, so that
+ * no piece may reach across. Parts of less than half a spacing are left with their neighbours. */
+static pg_status split_segments (division *d)
+{
+    pg_status status = PG_OK;
+    segment *all = NULL;
+    double *share = NULL;
+    size_t n = 0, cap = 0;
+    PG_ALLOC (share, d->nsegment + 1);
+    for (size_t k = 0; k < d->nsegment; k++) {
+        segment rest = d->segment[k];
+        size_t met = 0;
+        double from[2], u[2], x[3] = { 0 };
+        for (size_t j = 0; j < d->nsegment; j++) {
+            share[met] = j == k ? NAN : met_at (d, k, j);
+            met += isfinite (share[met]) != 0;
+        }
+        qsort (share, met, sizeof *share, ascending);
+        for (int m = 0; m < 2; m++) from[m] = rest.end[0][m], u[m] = rest.end[1][m] - from[m];
+        PG_GROW (all, cap, n + met + 1);
+        for (size_t i = 0; i < met; i++) {
+            for (int m = 0; m < 2; m++) x[m] = from[m] + share[i] * u[m];
+            double least = 0.5 * pg_problem_spacing_at (d->p, x);
+            if (hypot (x[0] - rest.end[0][0], x[1] - rest.end[0][1]) < least
+                || hypot (rest.end[1][0] - x[0], rest.end[1][1] - x[1]) < least) continue;
+            all[n] = rest, all[n].whole[1] = rest.whole[0] = 0, all[n].met[1] = rest.met[0] = 1;
+            for (int m = 0; m < 2; m++) all[n].end[1][m] = rest.end[0][m] = x[m];
+            n++;
+        }
+        all[n++] = rest;
+    }
+    for (size_t k = 0; k < n; k++) for (int e = 0; e < 2; e++) all[k].met[e] |= ends_on_another (d, &all[k], e);
+    pg_free (d->segment);
+    d->segment = all, d->nsegment = n, all = NULL;
+done:
+    pg_free (all), pg_free (share);
     return status;
 }
 
@@ -95,7 +176,7 @@ static pg_status add_intervals (division *d, const double *a, const double *b, s
                    v = s + (double)(i + 1) / (double)parts * (t - s);
             for (int m = 0; m < 2; m++)
                 l->from[m] = a[m] + u * (b[m] - a[m]), l->to[m] = a[m] + v * (b[m] - a[m]);
-            l->length = (v - u) * length, l->h = h, l->path = path;
+            l->length = (v - u) * length, l->h = h, l->path = path, l->met = 0;
         }
     }
 done:
@@ -126,6 +207,7 @@ static pg_status add_links (division *d, size_t k, int begins, size_t path)
             middle[m] = 0.5 * (l->from[m] + l->to[m]);
         }
         l->length = length / (double) parts, l->h = pg_problem_spacing_at (d->p, middle), l->path = path;
+        l->met = 0;
     }
 done:
     return status;
@@ -141,11 +223,15 @@ static pg_status find_paths (division *d)
             for (int e = 0; e < 2; e++) {
                 int begins = e, unused;
                 if (d->segment[k].used || (!closed && next_of (d, k, e, &unused) != SIZE_MAX)) continue;
+                size_t first = d->nlink;
+                int met = d->segment[k].met[e];
                 for (size_t at = k; at != SIZE_MAX && !d->segment[at].used;) {
                     d->segment[at].used = 1;
                     PG_TRY (add_links (d, at, begins, paths));
+                    met = (met & 1) | 2 * d->segment[at].met[1 - begins];
                     at = next_of (d, at, 1 - begins, &begins);
                 }
+                if (d->nlink > first) d->link[first].met = met;
                 paths++;
             }
 done:
@@ -192,14 +278,27 @@ static void end_piece (pg_contact_pieces *out)
     out->first[++out->n] = out->npoint;
 }
 
-/* The links of one path, number `from` to before `to`, in pieces of equal length in local spacings. */
+/* Where piece `at` of a path ends, in pieces of equal length; with `met` the outermost ones are two halves each. */
+static double end_of (size_t at, size_t pieces, int met)
+{
+    size_t first = met & 1, last = met >> 1 && (pieces > 1 || !first);
+    if (first && at == 0) return 0.5;
+    if (last && at == pieces + first - 1) return (double) pieces - 0.5;
+    return fmin ((double) (at + 1 - first), (double) pieces);
+}
+
+/* The links of one path, number `from` to before `to`, in pieces of equal length in local spacings. Where cracks
+ * meet the body between them turns by itself, so that mean gaps do not keep the ends of pieces apart: there they
+ * are half as long. */
 static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_t to)
 {
     pg_status status = PG_OK;
     double whole = 0, passed = 0, arc = 0;
     for (size_t i = from; i < to; i++) whole += d->link[i].length / d->link[i].h;
-    size_t pieces = (size_t) fmax (1, round (whole / PG_CONTACT_PIECE)), at = 0;
-    double each = whole / (double) pieces, begins = 0;
+    size_t even = (size_t) fmax (1, round (whole / PG_CONTACT_PIECE)), at = 0;
+    int met = whole > PG_CONTACT_HALVED ? d->link[from].met : 0;
+    size_t pieces = even + (size_t) (met & 1) + (size_t) (met >> 1 && (even > 1 || !(met & 1)));
+    double each = whole / (double) even, begins = 0;
     PG_GROW (out->piece, d->cap_piece, out->n + pieces + 1);
     PG_GROW (out->first, d->cap_first, out->n + pieces + 2);
     memset (&out->piece[out->n], 0, sizeof *out->piece), out->piece[out->n].path = d->link[from].path;
@@ -207,7 +306,7 @@ static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_
         const link *l = &d->link[i];
         double size = l->length / l->h, u = 0;
         while (u < 1) {
-            double goal = (double) (at + 1) * each, v = (goal - passed) / size;
+            double goal = end_of (at, even, met) * each, v = (goal - passed) / size;
             int ends = at + 1 < pieces && v < (d->p->consistency ? 1.5 : 1 + 1e-9);
             if (!ends || v > 1 || d->p->consistency) v = 1;        /* intervals stay whole */
             PG_TRY (add_points (d, out, l, u, v));
@@ -238,6 +337,7 @@ pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *p,
         goto done;
     }
     PG_TRY (take_segments (&d, pg_state_cracks (p, state)));
+    PG_TRY (split_segments (&d));
     PG_TRY (find_paths (&d));
     for (size_t from = 0, to; from < d.nlink; from = to) {
         for (to = from; to < d.nlink && d.link[to].path == d.link[from].path; to++) continue;
