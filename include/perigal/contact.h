@@ -96,7 +96,8 @@ void      pg_contact_go (pg_contact_track *track, const pg_contact_path *path, d
  * without pressures that swing from piece to piece (the pairs then satisfy the condition of Ladyzhenskaya,
  * Babuska and Brezzi; one pair per spacing does not). All lengths in local spacings. */
 #define PG_CONTACT_PIECE  2.0                          /* length of a piece */
-#define PG_CONTACT_HALVED 1.0                          /* paths longer than that are halved where cracks meet */
+/* paths longer than that are halved where cracks meet */
+#define PG_CONTACT_HALVED 1.0
 #define PG_CONTACT_POINTS PG_CRACK_POINTS              /* points per spacing that sample the gap */
 #define PG_CONTACT_POINTS_SPACE 4                      /* the same in space, each way */
 #define PG_CONTACT_RADIUS 2.5                          /* how far they see (pg_force_type.jump) */
@@ -186,7 +187,8 @@ typedef struct {
     double friction;                                   /* work of friction so far, J */
     double overlap, overlap_max;                       /* largest l - r: now; so far, m */
     double rate;  /* largest sum of 2 k / m over the contacts of a point so far, 1/s^2 */
-    long   sweeps, unsettled;  /* impulses: sweeps over pairs so far; time steps in which these did not settle */
+    /* impulses: sweeps over pairs so far; time steps in which these did not settle */
+    long   sweeps, unsettled;
 } pg_short_range_report;
 /* Unknowns of a point: `stride`, of which the first dim are its displacement. The setting is copied. */
 pg_status pg_short_range_create (pg_short_range **out, const pg_problem *problem,
@@ -202,14 +204,14 @@ double    pg_short_range_rate   (const pg_short_range *contact);
  * points have moved so far that one may be missing. The same bits for any number of threads. */
 pg_status pg_short_range_add    (pg_short_range *contact, const pg_state *state, const pg_changes *broken,
                                  int changed, const double *v, double dt, double way, double *f);
-/* The same by impulses (setting.impulses): the forces with which no pair ends the time step to come nearer than
- * its contact distance (or than it is, where a bond broke under pressure). Contact takes no energy: pairs
- * part as fast as they met (Moreau 1988, impact without loss), in the ways of leapfrog's two steps; friction
- * holds them across their line with at most coefficient F_n. Momentum, and moment of momentum, are kept to
- * rounding. now->energy: what pairs have taken of the motion and give back in the step to come. */
+/* The same by impulses (setting.impulses): the forces with which no pair ends the time step to come nearer
+ * than its contact distance (or than it is, where a bond broke under pressure). Contact takes no energy:
+ * pairs part as fast as they met (Moreau 1988, impact without loss), in the ways of leapfrog's two steps;
+ * friction holds them across their line with at most coefficient F_n. Momentum, and moment of momentum, are
+ * kept to rounding. now->energy: what pairs have taken of the motion and give back in the step to come. */
 typedef struct {
-    const double *back, *ahead;  /* ways of the unknowns in the last step, and in the next one without contact,
-                                  * m (n x stride) */
+    /* ways of the unknowns in the last step, and in the next one without contact, m (n x stride) */
+    const double *back, *ahead;
     const double *inverse;                             /* 1 / mass, 1/kg; 0: prescribed (n x stride) */
     double gain;                                       /* way ahead of a mass of 1 by a force of 1, s^2 */
     int    start;                                      /* 1: no step has led here: nothing is booked */

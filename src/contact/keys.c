@@ -28,8 +28,8 @@ static const pg_key keys[] = {
       "the forces are computed with which none comes too near, and part as fast as they met, without loss "
       "(forces by bonds)." },
     { "contact.stiffness", PG_NUMBER, "1", "(0, 1000]", "1", NULL, NULL, NULL,
-      "enforcement: springs: stiffness of a pair in contact over that of a column of the material as wide and "
-      "as long as a spacing; larger: less overlap and smaller time steps." },
+      "enforcement: springs: stiffness of a pair in contact over that of a column of the material as wide "
+      "and as long as a spacing; larger: less overlap and smaller time steps." },
 };
 const pg_key_table pg_keys_contact = { "contact", keys, sizeof keys / sizeof *keys };
 
@@ -48,7 +48,8 @@ static void read_search (pg_contact_setting *out, const pg_scene *scene)
                             "has a meaning with contact.search: short_range alone: leave it out, or set the "
                             "search");
     if (out->impulses && pg_scene_given (scene, own[1]))
-        pg_scene_fault (scene, own[1], "is that of springs: leave it out, or set contact.enforcement: springs");
+        pg_scene_fault (scene, own[1], "is that of springs: leave it out, or set contact.enforcement: "
+                                       "springs");
     if (out->search == PG_CONTACT_SHORT_RANGE && pg_scene_given (scene, "contact.cohesion"))
         pg_scene_fault (scene, "contact.cohesion",
                         "is a stress on faces, which short-range forces between points do not know: leave it "

@@ -21,7 +21,8 @@ typedef struct {
     double  distance, skin;                            /* in spacings */
     double  stiffness;                                 /* factor */
     int     slips;                                     /* 1: pairs have friction */
-    int     impulses;                                  /* 1: pairs must be known a time step before they touch */
+    /* 1: pairs must be known a time step before they touch */
+    int     impulses;
     double *modulus, *shear, *local;                   /* M, mu_s of materials, Pa; V / s^2 of points, m */
     double  finest;                                    /* smallest spacing, m */
     double *start;                                     /* displacements at the last search, m (n x stride) */

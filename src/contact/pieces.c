@@ -14,12 +14,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-/* A crack meets another one where it ends this near to it, in spacings; those that lie nearly along each other
- * (sine of their angle) do not. */
+/* A crack meets another one where it ends this near to it, in spacings; those that lie nearly along each
+ * other (sine of their angle) do not. */
 static const double MEETS = 1e-3, ALONG = 1e-3;
 
-/* A straight part of a path, at most a spacing long, and its spacing, m; of the first one of a path also whether
- * the path begins (1) and ends (2) where cracks meet. */
+/* A straight part of a path, at most a spacing long, and its spacing, m; of the first one of a path also
+ * whether the path begins (1) and ends (2) where cracks meet. */
 typedef struct { double from[2], to[2], length, h; size_t path; int met; } link;
 /* A segment of a crack, as far as it cuts; ends that reach their vertex may be joined to others. met: another
  * crack meets it there, or it ends on another one. */
@@ -56,8 +56,8 @@ done:
     return status;
 }
 
-/* Where segment k is met by segment j between its ends, as a share of its length; NAN: nowhere. A crack that runs
- * into another one ends on it but for rounding. */
+/* Where segment k is met by segment j between its ends, as a share of its length; NAN: nowhere. A crack that
+ * runs into another one ends on it but for rounding. */
 static double met_at (const division *d, size_t k, size_t j)
 {
     const segment *s = &d->segment[k], *o = &d->segment[j];
@@ -92,8 +92,8 @@ static int ascending (const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Cuts segments where others meet them: the face that is met falls into two, which move each by itself, so that
- * no piece may reach across. Parts of less than half a spacing are left with their neighbours. */
+/* Cuts segments where others meet them: the face that is met falls into two, which move each by itself, so
+ * that no piece may reach across. Parts of less than half a spacing are left with their neighbours. */
 static pg_status split_segments (division *d)
 {
     pg_status status = PG_OK;
@@ -123,7 +123,8 @@ static pg_status split_segments (division *d)
         }
         all[n++] = rest;
     }
-    for (size_t k = 0; k < n; k++) for (int e = 0; e < 2; e++) all[k].met[e] |= ends_on_another (d, &all[k], e);
+    for (size_t k = 0; k < n; k++)
+        for (int e = 0; e < 2; e++) all[k].met[e] |= ends_on_another (d, &all[k], e);
     pg_free (d->segment);
     d->segment = all, d->nsegment = n, all = NULL;
 done:
@@ -278,7 +279,8 @@ static void end_piece (pg_contact_pieces *out)
     out->first[++out->n] = out->npoint;
 }
 
-/* Where piece `at` of a path ends, in pieces of equal length; with `met` the outermost ones are two halves each. */
+/* Where piece `at` of a path ends, in pieces of equal length; with `met` the outermost ones are two halves
+ * each. */
 static double end_of (size_t at, size_t pieces, int met)
 {
     size_t first = met & 1, last = met >> 1 && (pieces > 1 || !first);
@@ -287,9 +289,9 @@ static double end_of (size_t at, size_t pieces, int met)
     return fmin ((double) (at + 1 - first), (double) pieces);
 }
 
-/* The links of one path, number `from` to before `to`, in pieces of equal length in local spacings. Where cracks
- * meet the body between them turns by itself, so that mean gaps do not keep the ends of pieces apart: there they
- * are half as long. */
+/* The links of one path, number `from` to before `to`, in pieces of equal length in local spacings. Where
+ * cracks meet the body between them turns by itself, so that mean gaps do not keep the ends of pieces apart:
+ * there they are half as long. */
 static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_t to)
 {
     pg_status status = PG_OK;

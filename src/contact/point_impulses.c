@@ -10,8 +10,8 @@
  * Moreau's law of impact without loss, written for the ways of two steps. The line between the points is at
  * x_n+1 what it was at x_n-1, where it was long enough; contact takes no energy and gives none, and forces on
  * the two are opposite, along their line. Friction holds the two together across the line, D+ = 0, with at
- * most coefficient F_n. Pairs share points, so that all of them are gone through until nothing changes; always
- * in the same order, by one thread. */
+ * most coefficient F_n. Pairs share points, so that all of them are gone through until nothing changes;
+ * always in the same order, by one thread. */
 #include "near_pairs.h"
 #include <math.h>
 #include <string.h>
@@ -30,7 +30,7 @@ struct held_pair {
     int    spread;                                     /* 1: all pairs of its points are listed */
 };
 
-/* ---- which pairs ---------------------------------------------------------------------------------------- */
+/* ---- which pairs --------------------------------------------------------------------------------------- */
 static void way_of (const pg_short_range *c, const pg_point_ways *w, size_t i, size_t j, double *back,
                     double *ahead)
 {
@@ -42,10 +42,10 @@ static void way_of (const pg_short_range *c, const pg_point_ways *w, size_t i, s
     }
 }
 
-/* The pair is no nearer at the end of the step than its contact distance; bonds that break under pressure leave
- * points that are too near, which is not mended at once: then no nearer than at the beginning of this step and
- * of the last one. *lift: a bond that swings, and breaks as it is stretched, may have been nearer than its
- * points may come now. */
+/* The pair is no nearer at the end of the step than its contact distance; bonds that break under pressure
+ * leave points that are too near, which is not mended at once: then no nearer than at the beginning of this
+ * step and of the last one. *lift: a bond that swings, and breaks as it is stretched, may have been nearer
+ * than its points may come now. */
 static double least_of (const pg_short_range *c, const double *d, size_t q, const double *back, double *y,
                         double *lift)
 {
@@ -150,7 +150,7 @@ done:
     return status;
 }
 
-/* ---- forces --------------------------------------------------------------------------------------------- */
+/* ---- forces -------------------------------------------------------------------------------------------- */
 static void push (pg_short_range *c, const held_pair *h, const double *f)
 {
     for (size_t k = 0; k < c->near.dim; k++)
@@ -231,7 +231,8 @@ done:
     return status;
 }
 
-pg_status pg_short_range_hold (pg_short_range *c, const pg_state *state, const pg_changes *broken, int changed,
+pg_status pg_short_range_hold (pg_short_range *c, const pg_state *state, const pg_changes *broken,
+                               int changed,
                                const pg_point_ways *ways, double way, double *f)
 {
     pg_status status = PG_OK;

@@ -83,8 +83,8 @@ static void column_of_platen (problem_of_motions *w, size_t j)
     }
 }
 
-/* What a motion of a part does to the gaps. A part that moves as a whole, crack and all, does nothing to them:
- * rounding is no resistance. */
+/* What a motion of a part does to the gaps. A part that moves as a whole, crack and all, does nothing to
+ * them: rounding is no resistance. */
 static void row_of_part (const problem_of_motions *w, const double *mode, double *row)
 {
     const pg_sparse *G = &w->c->G;

@@ -77,8 +77,8 @@ pg_status explicit_contact_create (pg_solver *s);      /* where the options ask 
 void      explicit_contact_free   (pg_solver *s);
 /* Square of the frequency that contact adds at most, 1/s^2. */
 double    explicit_contact_rate   (const pg_solver *s);
-/* Adds its forces to the residual at hand, in which those of all else are, supports being followed to the next
- * instant; first: no step has led there. */
+/* Adds its forces to the residual at hand, in which those of all else are, supports being followed to the
+ * next instant; first: no step has led there. */
 pg_status explicit_contact_add    (pg_solver *s, pg_state *state, double t, int first);
 double    explicit_contact_kinetic (const pg_solver *s);               /* of platens, J */
 int       explicit_contact_active (const pg_solver *s);                /* 1: some force at hand is not zero */

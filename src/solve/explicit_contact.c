@@ -106,7 +106,7 @@ done:
     return status;
 }
 
-/* ---- impulses ------------------------------------------------------------------------------------------- */
+/* ---- impulses ------------------------------------------------------------------------------------------ */
 /* The ways of a range of unknowns: leapfrog's, as both writings of it have them (verlet.c, central.c). */
 typedef struct { const pg_solver *s; const pg_state *state; double dt, keep, push; } going;
 static void see_ways (void *context, size_t first, size_t last, int thread)
@@ -130,7 +130,8 @@ static pg_status hold_pairs (pg_solver *s, pg_state *state, const pg_changes *br
     motion *m = motion_of (s);
     struct explicit_contact *c = m->contact;
     pg_system *sys = &s->break_loop.system;
-    double dt = s->options.dt, h = 0.5 * dt, damping = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass,
+    double damping = PG_OWN (pg_explicit_options, &s->options)->rayleigh_mass, dt = s->options.dt,
+        h = 0.5 * dt,
            less = 1 / (1 + h * damping);
     going g = { s, state, dt, first ? 1 - h * damping : (1 - h * damping) * less, first ? h : dt * less };
     pg_point_ways ways = { c->back, c->ahead, c->inverse, dt * (first ? dt : g.push), first };

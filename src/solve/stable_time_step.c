@@ -4,9 +4,9 @@
  * from below within 1 %. Left to the solver the step is 0.9 of the stable one, which leaves room for what
  * breaking may stiffen. Where facets cut shape functions it is 0.45: points between two branches keep few
  * neighbours, and what was measured to be stable there is 0.52 to 0.68 of the step of the body without
- * them; and with springs of short-range contact, where leapfrog's energy is out by what a pair moves in the step in
- * which it closes or opens: at 0.9 that is some 5 in a thousand of the energy of small bodies that collide,
- * at 0.45 less than 1. */
+ * them; and with springs of short-range contact, where leapfrog's energy is out by what a pair moves in the
+ * step in which it closes or opens: at 0.9 that is some 5 in a thousand of the energy of small bodies that
+ * collide, at 0.45 less than 1. */
 #include "contact.h"
 #include "explicit.h"
 #include <math.h>

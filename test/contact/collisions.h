@@ -20,7 +20,8 @@ static inline void momentum_of (const run *r, double *p, double *turn, double *s
     }
 }
 
-/* Two bars of n points in a line, the first at velocity v; three spacings apart; how: more keys of contact. */
+/* Two bars of n points in a line, the first at velocity v; three spacings apart; how: more keys of
+ * contact. */
 static inline run bars (int n, const char *kind, double unit, const char *how)
 {
     double L = n * unit;

@@ -254,17 +254,20 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
     pg_free (t.byte);
 }
 
-/* A body that nothing holds along one direction, and no load pulls that way, runs as without contact: the answer
- * is that of a body held at one point. */
+/* A body that nothing holds along one direction, and no load pulls that way, runs as without contact: the
+ * answer is that of a body held at one point. */
 static void a_body_may_be_free_along_an_axis (void **state)
 {
     (void) state;
     double force[2], most[2];
     for (int held = 0; held < 2; held++) {
-        run r = scene_of (1, "dimension: 3\nbody: [{add: {box: {low: [-10, -10, -10], high: [10, 10, 10]}}}]\nspacing: 2.5\n"
-                          "lattice: cells\ncracks: [{disc: {center: [0.3, 0.2, 0.4], radius: 6, normal: [0, 1, 1]}}]\n"
+        run r = scene_of (1, "dimension: 3\nbody: [{add: {box: {low: [-10, -10, -10], high: [10, 10, "
+                             "10]}}}]\nspacing: 2.5\n"
+                          "lattice: cells\ncracks: [{disc: {center: [0.3, 0.2, 0.4], radius: 6, normal: [0, "
+                          "1, 1]}}]\n"
                           "contact: {kind: friction, coefficient: 0.3}\nmaterials: {m: {youngs_modulus: 100, "
-                          "poissons_ratio: 0.25}}\nsets: {pin: {where: \"x < -8 and y < -8 and z < -8\"}}\nboundary:\n"
+                          "poissons_ratio: 0.25}}\nsets: {pin: {where: \"x < -8 and y < -8 and z < "
+                          "-8\"}}\nboundary:\n"
                           "  - {set: bottom, displacement: {y: 0}}\n  - {set: top, displacement: {y: -0.1}}\n"
                           "  - {set: left, displacement: {x: 0}}\n%s"
                           "solver: {kind: static, stepping: fixed, steps: 1}\n",

@@ -1,21 +1,25 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Cracks that meet: pieces of contact end there, on both faces that are met, and are half as long beside it, so
- * that what lies between the cracks, and turns by itself, does not overlap. */
+ * Cracks that meet: pieces of contact end there, on both faces that are met, and are half as long beside it,
+ * so that what lies between the cracks, and turns by itself, does not overlap. */
 #include "scene_runs/run.h"
 
 /* A plate under pressure with a crack at 45 degrees, and what else there is. */
 static run plate (const char *others)
 {
     return scene_of (1,
-                     "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [-12, -12], high: [12, 12]}}}]\nspacing: 1\n"
-                     "lattice: cells\nlattice_offset: [0.13, 0.29]\nmaterials: {m: {youngs_modulus: 100, poissons_ratio: "
+                     "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [-12, -12], high: [12, "
+                     "12]}}}]\nspacing: 1\n"
+                     "lattice: cells\nlattice_offset: [0.13, 0.29]\nmaterials: {m: {youngs_modulus: 100, "
+                     "poissons_ratio: "
                      "0.25}}\ncracks: [{from: [-6, -6], to: [6, 6]}%s]\ncontact: {kind: normal}\n"
-                     "boundary:\n  - {set: bottom, displacement: {y: 0}}\n  - {set: top, displacement: {y: -0.1}}\n"
-                     "  - {set: left, displacement: {x: 0}}\nsolver: {kind: static, stepping: fixed, steps: 1}\n", others);
+                     "boundary:\n  - {set: bottom, displacement: {y: 0}}\n  - {set: top, displacement: {y: "
+                     "-0.1}}\n"
+                     "  - {set: left, displacement: {x: 0}}\nsolver: {kind: static, stepping: fixed, steps: "
+                     "1}\n", others);
 }
 
-/* The pieces whose points lie on both sides of a place along the line x = y; *least: the length of the shortest
- * piece there. */
+/* The pieces whose points lie on both sides of a place along the line x = y; *least: the length of the
+ * shortest piece there. */
 static size_t across (const pg_contact_pieces *k, double at, double *shortest)
 {
     size_t found = 0;

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Contact by search, points held apart by impulses: the law in single steps; bodies that collide keep momentum,
- * moment of momentum and energy, and do not overlap; friction; supports; bodies that touch at the start;
- * threads, checkpoints, refused steps; units and directions; what is refused. */
+ * Contact by search, points held apart by impulses: the law in single steps; bodies that collide keep
+ * momentum, moment of momentum and energy, and do not overlap; friction; supports; bodies that touch at the
+ * start; threads, checkpoints, refused steps; units and directions; what is refused. */
 #include "collisions.h"
 #include "refused.h"
 #include "solve/tape.h"
@@ -21,12 +21,16 @@ static run boxes (int dim, double friction, int threads)
     char contact[120];
     snprintf (contact, sizeof contact, friction > 0 ? "friction, coefficient: %g" : "normal", friction);
     return scene_of (threads,
-                     "%sspacing: 1\nlattice: cells\nperturb: {amount: 0.2}\nmaterials:\n  a: {youngs_modulus: "
-                     "100, poissons_ratio: 0.25, density: 1}\n  b: {youngs_modulus: 300, poissons_ratio: 0.25, "
-                     "density: 2}\nblocks: [{where: \"x >= 6\", material: b}, {where: \"x < 6\", material: a}]\n"
+                     "%sspacing: 1\nlattice: cells\nperturb: {amount: 0.2}\nmaterials:\n  a: "
+                     "{youngs_modulus: "
+                     "100, poissons_ratio: 0.25, density: 1}\n  b: {youngs_modulus: 300, poissons_ratio: "
+                     "0.25, "
+                     "density: 2}\nblocks: [{where: \"x >= 6\", material: b}, {where: \"x < 6\", material: "
+                     "a}]\n"
                      "method: {force: bond, horizon: 2.5 spacing, accept_inexact: yes}\n"
                      "contact: {kind: %s, search: short_range" HOW "}\nsolver: {kind: verlet, end: 1}\n",
-                     dim == 2 ? "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [6, 9]}}}, "
+                     dim == 2 ? "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [6, "
+                                "9]}}}, "
                                 "{add: {box: {low: [6, 0], high: [12, 9]}}}]\n"
                                 "cracks: [{from: [6, -1], to: [6, 10]}]\n"
                               : "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [12, 4, 4]}}}]\n"
@@ -34,8 +38,8 @@ static run boxes (int dim, double friction, int threads)
                      contact);
 }
 
-/* What a step makes of the pairs at hand: no pair ends it too near, the forces of all points are in balance, and
- * without friction do no work. */
+/* What a step makes of the pairs at hand: no pair ends it too near, the forces of all points are in balance,
+ * and without friction do no work. */
 typedef struct { long held; double worst, momentum, work; } law;
 static void check_law (const run *r, pg_short_range *c, const pg_point_ways *w, double friction, law *out)
 {
@@ -49,7 +53,8 @@ static void check_law (const run *r, pg_short_range *c, const pg_point_ways *w, 
                      * (w->back[i * dim + k] + w->ahead[i * dim + k]
                         + w->gain * w->inverse[i * dim + k] * F[i * dim + k]);
         }
-    for (size_t k = 0; k < dim; k++) out->momentum = fmax (out->momentum, fabs (sum[k]) / fmax (size, 1e-300));
+    for (size_t k = 0; k < dim; k++)
+        out->momentum = fmax (out->momentum, fabs (sum[k]) / fmax (size, 1e-300));
     /* all that forces take is what friction takes */
     double most = 0;
     for (size_t i = 0; i < n * dim; i++) most += fabs (F[i] * w->back[i]);
@@ -63,7 +68,8 @@ static void check_law (const run *r, pg_short_range *c, const pg_point_ways *w, 
                        back = w->back[j * dim + k] - w->back[i * dim + k],
                        ahead = w->ahead[j * dim + k] + w->gain * w->inverse[j * dim + k] * F[j * dim + k]
                                - w->ahead[i * dim + k] - w->gain * w->inverse[i * dim + k] * F[i * dim + k];
-                start += X * X, now += y * y, end += (y + ahead) * (y + ahead), before += (y - back) * (y - back);
+                start += X * X, now += y * y, end += (y + ahead) * (y + ahead),
+                    before += (y - back) * (y - back);
             }
             int joined = 0;
             const pg_family *f = &r->problem->rows[PG_NODES].family;
@@ -90,13 +96,15 @@ static void no_pair_ends_a_step_too_near (void **state)
         unsigned long long seed = 11;
         law seen = { 0 };
         check_ok (pg_short_range_create (&c, r.problem, &r.options.contact, (size_t) dim));
-        for (size_t i = 0; i < nd; i++) inverse[i] = 1 / pg_problem_law (r.problem, PG_NODES, i / (size_t) dim)->density;
+        for (size_t i = 0; i < nd; i++)
+            inverse[i] = 1 / pg_problem_law (r.problem, PG_NODES, i / (size_t) dim)->density;
         for (int step = 0; step < 40; step++) {
             /* bodies press on each other, points swing */
             pg_point_ways ways = { back, ahead, inverse, dt * dt, 0 };
             for (size_t i = 0; i < nd; i++) {
                 double x = r.problem->cloud.x[i / (size_t) dim * (size_t) dim];
-                ahead[i] = 0.7 * back[i] + 2e-3 * noise (&seed) + (i % (size_t) dim == 0 ? (x < 6 ? 3e-3 : -3e-3) : 0);
+                double press = i % (size_t) dim ? 0 : x < 6 ? 3e-3 : -3e-3;
+                ahead[i] = 0.7 * back[i] + 2e-3 * noise (&seed) + press;
                 f[i] = 0;
             }
             check_ok (pg_short_range_hold (c, r.state, NULL, 1, &ways, INFINITY, f));
@@ -108,11 +116,14 @@ static void no_pair_ends_a_step_too_near (void **state)
             }
         }
         const pg_short_range_report *now = pg_short_range_now (c);
-        print_message ("%d dimensions, friction %g: %ld near, nearer by %.1e, momentum %.1e, work %.1e, %ld sweeps, "
-                       "%ld unsettled\n", dim, friction, seen.held, seen.worst, seen.momentum, seen.work, now->sweeps,
+        print_message ("%d dimensions, friction %g: %ld near, nearer by %.1e, momentum %.1e, work %.1e, %ld "
+                       "sweeps, "
+                       "%ld unsettled\n", dim, friction, seen.held, seen.worst, seen.momentum, seen.work,
+                           now->sweeps,
                        now->unsettled);
         assert_true (seen.held > 100 && now->sweeps > 40 && now->unsettled == 0);
-        /* points that pass each other along an arc come nearer by half the square of what they slip in a step */
+        /* points that pass each other along an arc come nearer by half the square of what they slip in a
+         * step */
         check_below (seen.worst, 1e-4);
         check_below (seen.momentum, 1e-14);
         check_below (seen.work, 1e-3);
@@ -145,10 +156,13 @@ static void bars_exchange_velocities (void **state)
                 off = fmax (off, fabs (s->energy_dissipated / s->energy_external));
             }
             momentum_of (&r, &p, &turn, &size, &size_turn);
-            for (size_t i = 0; i < r.problem->cloud.n; i++) mean[r.problem->cloud.x[i] > n] += r.state->v[i] / n;
+            for (size_t i = 0; i < r.problem->cloud.n; i++)
+                mean[r.problem->cloud.x[i] > n] += r.state->v[i] / n;
             const pg_statistics *s = pg_solver_report (r.solver, r.state);
-            print_message ("%d points: contact %.4f of 2 L / c, velocities %.4f %.4f, energy %.1e, overlap %.1e\n", n,
-                           (last - first) / (2 * n / 10.0), mean[0] / 0.01, mean[1] / 0.01, off, s->overlap_max);
+            print_message ("%d points: contact %.4f of 2 L / c, velocities %.4f %.4f, energy %.1e, overlap "
+                           "%.1e\n", n,
+                           (last - first) / (2 * n / 10.0), mean[0] / 0.01, mean[1] / 0.01, off,
+                               s->overlap_max);
             check_relative (p, 0.01 * 2 * n, 1e-12);
             check_below (off, 1e-8);
             check_below (s->overlap_max, 1e-6);
@@ -162,7 +176,8 @@ static void disks_keep_momentum_and_energy (void **state)
 {
     (void) state;
     for (int k = 0; k < 5; k++) {
-        const char *const force[5] = { "bond, stretch: finite", "bond", "lps", "fcbm", "bond, stretch: finite" };
+        const char *const force[5] = { "bond, stretch: finite", "bond", "lps", "fcbm",
+                                       "bond, stretch: finite" };
         disks l = { .unit = k == 4 ? 1e-3 : 1, .friction = k == 1 || k == 4 ? 0.5 : 0, .threads = 1,
                     .force = force[k], .how = HOW };
         run r = disks_run (&l);
@@ -175,7 +190,8 @@ static void disks_keep_momentum_and_energy (void **state)
         }
         momentum_of (&r, p, &turn, &size, &size_turn);
         const pg_statistics *s = pg_solver_report (r.solver, r.state);
-        print_message ("%s, friction %g: energy %.2e, friction %.3g of the energy, overlap %.1e spacings\n", force[k],
+        print_message ("%s, friction %g: energy %.2e, friction %.3g of the energy, overlap %.1e spacings\n",
+                       force[k],
                        l.friction, off, s->energy_friction / s->energy_external, s->overlap_max / l.unit);
         for (int a = 0; a < 2; a++) check_scaled (p[a], p0[a], 1e-12, size);
         if (k == 0) check_scaled (turn, turn0, 1e-11, size_turn);
@@ -192,9 +208,12 @@ static void disks_keep_momentum_and_energy (void **state)
 static void bodies_may_touch_at_the_start (void **state)
 {
     (void) state;
-    run r = scene_of (1, "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [20, 4]}}}]\nspacing: 1\n"
-                      "lattice: cells\ncracks: [{from: [10, -1], to: [10, 5]}]\nmaterials: {m: {youngs_modulus: 1000, "
-                      "poissons_ratio: 0.333333333333333, density: 1}}\nmethod: {force: bond, accept_inexact: yes}\n"
+    run r = scene_of (1, "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [20, "
+                         "4]}}}]\nspacing: 1\n"
+                      "lattice: cells\ncracks: [{from: [10, -1], to: [10, 5]}]\nmaterials: {m: "
+                      "{youngs_modulus: 1000, "
+                      "poissons_ratio: 0.333333333333333, density: 1}}\nmethod: {force: bond, "
+                      "accept_inexact: yes}\n"
                       "sets: {one: {where: \"x < 10\"}}\ninitial: {sets: [{set: one, velocity: {x: 0.1}}]}\n"
                       "contact: {kind: normal, search: short_range" HOW "}\nsolver: {kind: verlet, end: 2}\n"
                       "output: {at: {levels: 1, rows: 50}}\n");
@@ -205,8 +224,10 @@ static void bodies_may_touch_at_the_start (void **state)
         off = fmax (off, fabs (s->energy_dissipated / (0.5 * 40 * 0.01)));
     }
     momentum_of (&r, p, &turn, &size, &size_turn);
-    for (size_t i = 0; i < r.problem->cloud.n; i++) right += r.problem->cloud.x[2 * i] > 10 ? r.state->v[2 * i] / 40 : 0;
-    print_message ("touching bars: energy %.1e, second bar at %.4f of the velocity, overlap %.1e\n", off, right / 0.1,
+    for (size_t i = 0; i < r.problem->cloud.n; i++)
+        right += r.problem->cloud.x[2 * i] > 10 ? r.state->v[2 * i] / 40 : 0;
+    print_message ("touching bars: energy %.1e, second bar at %.4f of the velocity, overlap %.1e\n", off,
+                   right / 0.1,
                    pg_solver_report (r.solver, r.state)->overlap_max);
     check_relative (p[0], 0.1 * 40, 1e-12);
     check_below (off, 1e-8);
@@ -215,15 +236,16 @@ static void bodies_may_touch_at_the_start (void **state)
     clear (&r);
 }
 
-/* A block thrown on one that is held slides over it: friction gives and takes momentum along, as the coefficient
- * says, and what it takes of the energy is what is missing. */
+/* A block thrown on one that is held slides over it: friction gives and takes momentum along, as the
+ * coefficient says, and what it takes of the energy is what is missing. */
 static void blocks_slide_with_friction (void **state)
 {
     (void) state;
     run r = scene_of (1, "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [40, 4]}}}, "
                       "{add: {box: {low: [10, 4], high: [18, 10]}}}]\nspacing: 1\nlattice: cells\n"
                       "cracks: [{from: [9, 4], to: [19, 4]}]\nmaterials: {m: {youngs_modulus: 1000, "
-                      "poissons_ratio: 0.333333333333333, density: 1}}\nmethod: {force: bond, accept_inexact: yes}\n"
+                      "poissons_ratio: 0.333333333333333, density: 1}}\nmethod: {force: bond, "
+                      "accept_inexact: yes}\n"
                       "sets: {one: {where: \"y > 4\"}}\n"
                       "initial: {sets: [{set: one, velocity: {x: 0.005, y: -0.01}}]}\n"
                       "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0}}]\n"
@@ -236,10 +258,12 @@ static void blocks_slide_with_friction (void **state)
         off = fmax (off, fabs (s->energy_dissipated / (0.5 * m * 1.25e-4)));
     }
     for (size_t i = 0; i < r.problem->cloud.n; i++)
-        for (int k = 0; k < 2; k++) p[k] += r.problem->cloud.x[2 * i + 1] > 4 ? r.state->v[2 * (int) i + k] : 0;
+        for (size_t k = 0; k < 2; k++)
+            p[k] += r.problem->cloud.x[2 * i + 1] > 4 ? r.state->v[2 * i + k] : 0;
     double press = p[1] + 0.01 * m, shear = 0.005 * m - p[0];
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
-    print_message ("impulses along over across %.5f of the coefficient; energy %.1e, friction %.3f of it, overlap %.1e\n",
+    print_message ("impulses along over across %.5f of the coefficient; energy %.1e, friction %.3f of it, "
+                   "overlap %.1e\n",
                    shear / press / 0.2, off, s->energy_friction / (0.5 * m * 1.25e-4), s->overlap_max);
     assert_true (press > 0.01 * m && s->energy_friction > 0);
     check_relative (shear / press, 0.2, 0.02);
@@ -272,8 +296,10 @@ static void threads_shortcuts_and_stops_change_nothing (void **state)
             assert_true (one.step.dissipated == back.step.dissipated);
         }
     }
-    const pg_statistics *a = pg_solver_report (one.solver, one.state), *b = pg_solver_report (back.solver, back.state);
-    assert_true (row > 150 && a->energy_friction == b->energy_friction && a->energy_contact == b->energy_contact
+    const pg_statistics *a = pg_solver_report (one.solver, one.state),
+                        *b = pg_solver_report (back.solver, back.state);
+    assert_true (row > 150 && a->energy_friction == b->energy_friction
+                 && a->energy_contact == b->energy_contact
                  && a->overlap_max == b->overlap_max);
     print_message ("with %ld broken bonds: overlap %.1e spacings\n", one.state->broken, a->overlap_max);
     check_below (a->overlap_max, 1e-4);
@@ -344,7 +370,8 @@ static void what_it_cannot_do_is_refused (void **state)
                  "accept_inexact: yes}\nsolver: {kind: verlet, end: 1}\n", "is that of springs");
     must_refuse ("contact: {kind: normal" HOW "}\nsolver: {kind: static}\n",
                  "has a meaning with contact.search: short_range alone");
-    must_refuse ("contact: {kind: normal, search: short_range" HOW "}\nmethod: {force: galerkin}\nsolver: {kind: "
+    must_refuse ("contact: {kind: normal, search: short_range" HOW "}\nmethod: {force: galerkin}\nsolver: "
+                                                                   "{kind: "
                  "verlet, end: 1}\n", "impulses act on points with a mass of their own");
 }
 
