@@ -55,6 +55,7 @@ OBJECTS := $(SOURCES:src/%.c=$(BUILD)/src/%.o)
 CLIOBJ  := $(CLI:src/%.c=$(BUILD)/src/%.o)
 TESTBIN := $(TESTS:test/%.c=$(BUILD)/test/%)
 BENCHBIN:= $(TOOLS:bench/%.c=$(BUILD)/bench/%)
+RANKSBIN = $(if $(PETSC),$(patsubst bench/%.c,$(BUILD)/bench/%,$(wildcard bench/ranks/*.c)))
 LIB     := $(BUILD)/libperigal.a
 SOLIB   := $(BUILD)/libperigal.so.0
 PROGRAM := $(BUILD)/perigal
@@ -122,6 +123,11 @@ $(BUILD)/test/%: test/%.c $(BEHIND)
 $(BUILD)/bench/%: bench/%.c $(LIB)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) -MMD -MP -MF $@.d $< $(LDFLAGS) $(LIB) $(LIBS) -o $@
+
+# beside perigal-mpi, by MPI, PETSc and FFTW-MPI alone
+$(BUILD)/bench/ranks/%: bench/ranks/%.c
+	@mkdir -p $(@D)
+	$(Q)$(CC) $(CFLAGS) $(shell pkg-config --cflags $(PETSC) | sed 's/-I/-isystem /g') -MMD -MP -MF $@.d $< $(LDFLAGS) -lfftw3_mpi $(shell pkg-config --libs $(PETSC)) $(LIBS) -o $@
 
 $(BUILD)/src/mpi/%.o: CFLAGS += $(shell pkg-config --cflags $(PETSC) | sed 's/-I/-isystem /g')
 $(BUILD)/perigal-mpi: $(MPIOBJ) $(filter-out %/main.o,$(CLIOBJ)) $(LIB)
@@ -208,7 +214,7 @@ accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites the
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal bench-programs $(ACCURACY:%=$(BUILD)/test/%)
 	$(Q)bench/accuracy $(BUILD) -j $(JOBS) $(T)
 
-bench-programs: $(BENCHBIN)
+bench-programs: $(BENCHBIN) $(MPI) $(RANKSBIN)
 # tests that print what doc/accuracy_tables.md shows
 ACCURACY := cells/test_cut force/test_estimate $(addprefix scene_runs/test_,disk incompressible mesh notch uncracked_disk)
 

@@ -45,6 +45,8 @@ void pg_ranks_divide (int divided);
 const pg_ranks *pg_ranks_now (void);
 int  pg_rank (void);                                   /* 0 where it is alone */
 int  pg_rank_count (void);                             /* 1 where it is alone */
+/* Wall time that this process has spent in the calls below, waiting for other ranks included, s. */
+double pg_ranks_seconds (void);
 /* As above; alone they leave the values as they are. */
 pg_status pg_ranks_sum  (size_t n, double *value);
 pg_status pg_ranks_most (size_t n, double *value);

@@ -19,6 +19,7 @@ const pg_force_type pg_force_fcbm = {
                 .shows = PG_NEEDS_STRETCH | PG_NEEDS_ENERGY | PG_NEEDS_FACETS,
                 .tip_offset = bond_force_tip_offset,
                 .judged_by = PG_NEEDS_ENERGY,
+                .ghosts = 1,
                 .rule = rule,
                 .read = pairwise_read,
                 .limits = bond_force_limits,

@@ -90,18 +90,34 @@ static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
     return pg_cracks_index (&p->cracks);
 }
 
-/* The points of this rank, with as many ghosts as the force needs: points that die by their energy look one
- * horizon further. */
+/* How many horizons of ghosts: what the force needs; one more where bonds break by something else than what
+ * their two ends show, as points that die by their energy look at all their bonds; one more where bonds weigh
+ * by how full the families of both ends are. */
+static double ghost_layers (const pg_problem *p, const pg_scene *scene)
+{
+    const int of_ends = PG_NEEDS_STRETCH | PG_NEEDS_BEAMS;
+    int judged = 0;
+    if (pg_scene_given (scene, "failure")) {
+        const pg_criterion_type *c = NULL;
+        if (pg_scene_given (scene, "failure.criterion"))
+            c = pg_criterion_find (pg_scene_text (scene, "failure.criterion"));
+        judged = !c || (c->needs & ~of_ends);
+    }
+    return p->method->ghosts + judged
+           + (strcmp (pg_scene_text (scene, "method.surface_correction"), "none") != 0);
+}
+
+/* The points of this rank, with as many ghosts as the method sees. */
 static pg_status build_subdomain (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_approx approx = { 0 };
-    double h, layers = p->method->ghosts;
+    double h;
     PG_TRY (pg_subdomain_check (p, scene));
     PG_TRY (pg_cloud_spacing (&h, &p->body, scene));
     PG_TRY (pg_method_approx (&approx, p->method, scene, h));
-    if (pg_scene_given (scene, "failure")) layers += 1;
-    PG_TRY (pg_cloud_build_part (&p->cloud, &p->lattice, &p->body, scene, layers * approx.horizon));
+    PG_TRY (pg_cloud_build_part (&p->cloud, &p->lattice, &p->body, scene,
+                                 ghost_layers (p, scene) * approx.horizon));
     pg_problem_note (p,
                      "%d ranks share the %.0f points; the patch test is left out: perigal check makes it",
                      pg_rank_count (), (double) p->cloud.subdomain->total);

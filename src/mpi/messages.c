@@ -29,18 +29,23 @@ static pg_status check_count (size_t n)
     return n <= INT_MAX ? PG_OK : pg_error (PG_E_LIMIT, PG_HERE, "a message of %zu numbers is too long", n);
 }
 
+/* So many numbers at a time, that what rank 0 takes from all ranks needs no more than 8 MiB. */
+enum { AT_ONCE = 1 << 20 };
+
 static pg_status sum (void *context, size_t n, double *value)
 {
     pg_status status = PG_OK;
     messages *m = context;
-    size_t size = (size_t) m->ranks.size;
-    PG_TRY (check_count (n * size));
-    if (m->ranks.rank == 0) PG_GROW (m->receive, m->cap_receive, n * size);
-    PG_TRY (said (MPI_Gather (value, (int) n, MPI_DOUBLE, m->receive, (int) n, MPI_DOUBLE, 0,
-                              MPI_COMM_WORLD)));
-    for (size_t r = 1; m->ranks.rank == 0 && r < size; r++)
-        for (size_t i = 0; i < n; i++) value[i] += m->receive[r * n + i];
-    PG_TRY (said (MPI_Bcast (value, (int) n, MPI_DOUBLE, 0, MPI_COMM_WORLD)));
+    size_t size = (size_t) m->ranks.size, most = AT_ONCE / size + 1, room = n < most ? n : most;
+    if (m->ranks.rank == 0) PG_GROW (m->receive, m->cap_receive, room * size);
+    for (size_t at = 0, part; at < n; at += part, value += part) {
+        part = n - at < most ? n - at : most;
+        PG_TRY (said (MPI_Gather (value, (int) part, MPI_DOUBLE, m->receive, (int) part, MPI_DOUBLE, 0,
+                                  MPI_COMM_WORLD)));
+        for (size_t r = 1; m->ranks.rank == 0 && r < size; r++)
+            for (size_t i = 0; i < part; i++) value[i] += m->receive[r * part + i];
+        PG_TRY (said (MPI_Bcast (value, (int) part, MPI_DOUBLE, 0, MPI_COMM_WORLD)));
+    }
 done:
     return status;
 }

@@ -5,33 +5,43 @@
 
 /* A process is a rank or it is not: nothing else in the library is global. */
 static const pg_ranks *joined, *sharing;
+/* Wall time spent in messages, waiting included, s. */
+static double spent;
+
+/* Time since t0 was that of a message; the status is passed on. */
+static pg_status took (double t0, pg_status status)
+{
+    spent += pg_seconds () - t0;
+    return status;
+}
 
 void pg_ranks_join (const pg_ranks *ranks) { joined = sharing = ranks; }
 void pg_ranks_divide (int divided) { sharing = divided ? joined : NULL; }
 const pg_ranks *pg_ranks_now (void) { return sharing; }
 int pg_rank (void) { return joined ? joined->rank : 0; }
 int pg_rank_count (void) { return joined ? joined->size : 1; }
+double pg_ranks_seconds (void) { return spent; }
 
 pg_status pg_ranks_sum (size_t n, double *value)
 {
-    return sharing && n ? sharing->sum (sharing->context, n, value) : PG_OK;
+    return sharing && n ? took (pg_seconds (), sharing->sum (sharing->context, n, value)) : PG_OK;
 }
 
 pg_status pg_ranks_most (size_t n, double *value)
 {
-    return sharing && n ? sharing->most (sharing->context, n, value) : PG_OK;
+    return sharing && n ? took (pg_seconds (), sharing->most (sharing->context, n, value)) : PG_OK;
 }
 
 pg_status pg_ranks_ask (size_t n, double *value)
 {
-    return joined && n ? joined->most (joined->context, n, value) : PG_OK;
+    return joined && n ? took (pg_seconds (), joined->most (joined->context, n, value)) : PG_OK;
 }
 
 pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, void **all)
 {
     pg_status status = PG_OK;
     *bytes_all = 0, *all = NULL;
-    if (sharing) return sharing->collect (joined->context, bytes, mine, bytes_all, all);
+    if (sharing) return took (pg_seconds (), sharing->collect (joined->context, bytes, mine, bytes_all, all));
     char *copy = NULL;
     PG_ALLOC (copy, bytes);
     if (bytes) memcpy (copy, mine, bytes);
@@ -84,7 +94,9 @@ void pg_subdomain_free (pg_subdomain **subdomain)
 
 pg_status pg_subdomain_exchange (const pg_subdomain *s, size_t components, double *value)
 {
-    return s && sharing ? sharing->exchange (sharing->context, &s->halo, components, value) : PG_OK;
+    double t0 = pg_seconds ();
+    if (!s || !sharing) return PG_OK;
+    return took (t0, sharing->exchange (sharing->context, &s->halo, components, value));
 }
 
 void pg_subdomain_clear_ghosts (const pg_subdomain *s, size_t components, double *value)

@@ -5,6 +5,7 @@
  * the run goes on, and after one that was interrupted, the parts are what there is. */
 #include "results_private.h"
 #include <stdio.h>
+#include <string.h>
 
 /* How many points each block has on all ranks together; before files are opened, where one rank alone may
  * fail. */
@@ -49,12 +50,22 @@ done:
     return status;
 }
 
+/* Points of the body above which one rank should not hold the values of all. */
+static const int64_t most_joined = 20000000;
+
+/* As the scene asks (output.join). */
+int pg_result_in_parts (const pg_result *r, const char *join)
+{
+    const pg_subdomain *s = r->problem->cloud.subdomain;
+    return s && (strcmp (join, "no") == 0 || (strcmp (join, "yes") != 0 && s->total > most_joined));
+}
+
 /* All ranks call; where one fails, the parts stay. */
 pg_status pg_result_join_fields (pg_result *r)
 {
     pg_status status = PG_OK;
     char path[4096];
-    if (!r->problem->cloud.subdomain) return PG_OK;
+    if (!r->problem->cloud.subdomain || r->in_parts) return PG_OK;
     pg_exodus_close (&r->file);
     PG_TRY (pg_ranks_agree (PG_OK));                   /* all parts are complete */
     if (pg_rank () == 0) status = pg_exodus_join (r->folder, 1);

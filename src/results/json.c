@@ -41,6 +41,7 @@ static void seconds_block (pg_json *j, const pg_result *res, const pg_statistics
     if (res->problem->patch.measured) pg_json_number (j, "patch", res->problem->patch.seconds);
     if (e) pg_json_number (j, "estimate", e->seconds);
     if (res->measured) pg_json_number (j, "error", res->errors.seconds);
+    if (pg_ranks_now ()) pg_json_number (j, "messages", pg_ranks_seconds ());
     pg_json_number (j, "total", total);
     pg_json_shut (j);
 }

@@ -50,6 +50,9 @@ static const pg_key keys[] = {
     { "output.checkpoint", PG_NUMBER, "s", "[0, inf)", "5 min", NULL, NULL, NULL,
       "Wall time between checkpoints, from which run --resume continues; 0: only when the run is "
       "interrupted or fails." },
+    { "output.join", PG_NAME, NULL, NULL, "auto", "auto|yes|no", NULL, NULL,
+      "Ranks that divide the body: whether rank 0 makes result.e of the parts when the run has ended, for "
+      "which it has to hold the values of all points. auto: up to 2e7 points. One process ignores it." },
     { "output.stress_intensity", PG_BOOL, NULL, NULL, "off", NULL, NULL, NULL,
       "Energy release rate J and stress intensity factors of every tip of a crack, as columns tip.N.J ... of "
       "history.csv and in tips.csv; in 3D of every vertex of its front, as columns front.N.J_max and in "

@@ -92,6 +92,7 @@ pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *s
     PG_TRY (pg_result_tips_read (r, scene));
     pg_result_paths_read (r, scene);
     r->counting = pg_scene_bool (scene, "output.crack_size");
+    r->in_parts = pg_result_in_parts (r, pg_scene_text (scene, "output.join"));
     PG_TRY (pg_result_network_read (r, scene));
     PG_TRY (pg_reference_read (&r->reference, scene, problem));
     pg_result_curve_choose (r);

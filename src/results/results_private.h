@@ -80,6 +80,7 @@ struct pg_result {
     pg_exodus *file;
     pg_cloud  own;                                     /* ranks: the points of this one; n 0: not made yet */
     int64_t  *in_block;  size_t nblock;                /* ranks: points of each block, on all of them */
+    int       in_parts;                                /* 1: result.e stays in the parts of the ranks */
     signed char *here;                                 /* per end of a gauge: measured here; -1: not known */
     pg_table  *history, *events;
     size_t    nfield, npicture, nwritten, ncolumn;
@@ -168,6 +169,7 @@ pg_status pg_result_place_here   (const pg_result *r, const double *place, signe
 pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken);
 /* joined_fields.c: the parts of all ranks become result.e; nothing alone. */
 pg_status pg_result_join_fields (pg_result *r);
+int       pg_result_in_parts    (const pg_result *r, const char *join);
 pg_status pg_result_count_blocks  (pg_result *r);
 pg_status pg_result_create_fields (pg_result *r);
 /* Fills a new result from the scene without touching the folder. */
