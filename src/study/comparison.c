@@ -5,6 +5,7 @@
  * folder with scene.yaml and result.e is a result, .csv and .txt are tables, anything else is
  * tried as a mesh file. */
 #include "perigal/study.h"
+#include <dirent.h>
 #include <stdio.h>
 #include <string.h>
 #include <strings.h>
@@ -26,15 +27,25 @@ static int ends (const char *text, const char *tail)
     return n > m && strcasecmp (text + n - m, tail) == 0;
 }
 
+/* 1 if the folder has the fields of a run: result.e, or parts of it by ranks, which become one when they are
+ * read. */
+static int has_fields (const char *folder)
+{
+    int found = exists (folder, "result.e");
+    DIR *list = found ? NULL : opendir (folder);
+    for (struct dirent *entry; list && !found && (entry = readdir (list));)
+        found = strncmp (entry->d_name, "result.e.", 9) == 0;
+    if (list) closedir (list);
+    return found;
+}
+
 /* 1 for a result folder, or for its result.e, the copied scene being there; folder (4096
  * bytes) gets the path of the folder. */
 static int is_result (const char *reference, char *folder)
 {
     const char *slash = strrchr (reference, '/');
     snprintf (folder, 4096, "%.3000s", reference);
-    /* ranks whose run has not ended have left parts of result.e, which become one when it is read */
-    if (exists (reference, "scene.yaml") && (exists (reference, "result.e") || exists (reference, "ranks")))
-        return 1;
+    if (exists (reference, "scene.yaml") && has_fields (reference)) return 1;
     snprintf (folder, 4096, "%.*s", slash ? (int) (slash - reference) : 1, slash ? reference : ".");
     return strcmp (slash ? slash + 1 : reference, "result.e") == 0 && exists (folder, "scene.yaml");
 }
@@ -143,7 +154,7 @@ pg_status pg_comparison_open (pg_comparison *c, const pg_comparison_request *q)
 {
     pg_status status = PG_OK;
     char folder[4096];
-    if (!exists (q->folder, "result.e") || !exists (q->folder, "scene.yaml"))
+    if (!has_fields (q->folder) || !exists (q->folder, "scene.yaml"))
         PG_FAIL (PG_E_USAGE, "%s is no result folder: it needs scene.yaml and result.e of a run", q->folder);
     PG_TRY (pg_stored_open (&c->own, q->folder, q->step, q->threads));
     if (!q->reference) PG_TRY (against_scene (c, q));
