@@ -30,13 +30,16 @@ typedef struct {
      * mm`, must constrain these points one by one, beside integrating over its facets. Not filled (0, NULL)
      * where the set was chosen by its faces. */
     size_t  ninner;  int *inner;
-    /* Points and facets of the set that all ranks own together, facets at the borders of subdomains counted
-     * more than once (pg_set_points, pg_set_facets); only where ranks share a run. */
-    size_t  all_points, all_facets;
+    /* Points and facets of the set that all ranks own together, and those of its inside, facets at the
+     * borders of subdomains counted more than once (pg_set_points, pg_set_facets, pg_set_inner); only where ranks
+     * share a run. */
+    size_t  all_points, all_facets, all_inner;
 } pg_set;
 /* Numbers of points and facets of the set on all ranks. */
 static inline size_t pg_set_points (const pg_set *s) { return pg_ranks_now () ? s->all_points : s->npoint; }
 static inline size_t pg_set_facets (const pg_set *s) { return pg_ranks_now () ? s->all_facets : s->nfacet; }
+
+static inline size_t pg_set_inner  (const pg_set *s) { return pg_ranks_now () ? s->all_inner : s->ninner; }
 
 /* The cells and facets of a body. Arrays of variable length per cell or facet are stored in compressed
  * form: the entries of item c are start[c] .. start[c + 1] - 1. */
@@ -103,6 +106,10 @@ pg_status pg_cells_reserve (pg_cells *out, int dim, double thickness, size_t n, 
  * facets from their faces that border on none (a staircase). An empty lattice (points from a file) gives no
  * cells. */
 pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness);
+/* Those alone that lie in a box of the lattice (of which this may be a part: indices in the whole); the
+ * others count as kept, so that the body has no surface where the box ends. */
+pg_status pg_cells_from_part (pg_cells *out, const pg_lattice *lattice, double thickness,
+                              const pg_box *within);
 /* A ray in the xy plane (in 3D a half-plane parallel to z) from `centre` (m) in the unit vector
  * `direction`. */
 typedef struct { double centre[2], direction[2]; } pg_ray;  /* in the xy plane; direction of unit length */

@@ -163,6 +163,10 @@ int       pg_lattice_goes_on (const pg_lattice *lattice, const int *i);
 double    pg_lattice_at    (const pg_lattice *lattice, int axis, double i);
 /* 1 on one rank only, whose subdomain has the cell around x, m, or on all if there are no ranks (NULL). */
 int       pg_lattice_owns (const pg_lattice *lattice, const pg_subdomain *subdomain, const double *x);
+/* The number of the cell around x, m, in the whole lattice (x fastest), also where this is a part of it. */
+int64_t   pg_lattice_cell (const pg_lattice *lattice, const double *x);
+/* The cells of the whole lattice around the points that a rank owns, with so wide a layer beyond them, m. */
+pg_box    pg_subdomain_cells (const pg_subdomain *subdomain, const pg_lattice *lattice, double width);
 /* A centre as near to the surface as this lies on it, m. */
 double    pg_lattice_tolerance (const pg_lattice *lattice);
 /* A mesh or an alpha shape as a lattice sees it: every position in a cell is inside or outside as its

@@ -290,6 +290,10 @@ typedef struct {
     const double *x;
     const unsigned char *fixed;
     const pg_subdomain *subdomain;
+    /* 1: a node of the matrix (n); NULL: all are. Unknowns of others are neither read nor written. */
+    const unsigned char *part;
+    /* 1: M is the inverse, by a factor that ranks share. */
+    int     exact;
     /* Read only during creation, of nodes that are owned. */
     pg_couplings rows;
 } pg_shared_rows;
@@ -362,6 +366,10 @@ typedef struct {
     const double *x;
     /* 1: the displacement of this unknown is prescribed (n x block); NULL: none is. Borrowed. */
     const unsigned char *fixed;
+    /* Of ranks that share the body: which of the nodes are owned; V is what they have in common
+     * (pg_shared_preconditioner_now). Vectors are read and written at owned nodes, z = 0 at ghosts. NULL: the
+     * process is alone. Borrowed. */
+    const pg_subdomain *subdomain;
 } pg_element_setting;
 typedef struct pg_element_preconditioner pg_element_preconditioner;
 /* z = p (N) V p (N)' r, V one cycle of pg_multilevel on Q, p a polynomial for 1 / x. Symmetric positive
@@ -373,6 +381,9 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
 void      pg_element_preconditioner_free   (pg_element_preconditioner **preconditioner);
 /* In the form that conjugate gradients take; borrows it. */
 pg_preconditioner pg_element_preconditioner_of (pg_element_preconditioner *preconditioner);
+/* V in words, where ranks share it. */
+void pg_element_preconditioner_describe (const pg_element_preconditioner *preconditioner, char *text,
+                                         size_t size);
 /* The levels of V, for reports. */
 const pg_multilevel *pg_element_preconditioner_levels (const pg_element_preconditioner *preconditioner);
 PG_API_END

@@ -214,6 +214,9 @@ typedef struct {
     /* How many horizons of ghosts its points and their bonds need around a subdomain (perigal/ranks.h);
      * 0: the force cannot be divided among ranks so far. */
     double    ghosts;
+    /* The same of forces that are evaluated in cells, in spacings more than that, and how many of these lie
+     * around what is owned: how wide the layer of cells is beyond one horizon. NULL: no such force. */
+    double  (*ghost_cells) (const pg_scene *scene, double *beyond);
     /* Completes what failure criteria derive their constants from. NULL: nothing to add. */
     pg_status (*limits) (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
     /* Last checks, as faults: once criteria are read; once every point has its material. NULL: none. */
@@ -263,6 +266,9 @@ typedef struct {
     double reference[PG_OF_COUNT];                     /* mean over all nodes: what constants derive from */
     double least[PG_OF_COUNT], mean[PG_OF_COUNT], most[PG_OF_COUNT];   /* over the nodes of the material */
 } pg_variation;
+/* Points of a bond set that a rank holds: which it owns, and their numbers in the whole body, ascending and
+ * the same on all ranks that hold them (n). */
+typedef struct { unsigned char *owned; int64_t *number; } pg_held_points;
 /* Values of shape functions with all bonds alive, N, dN, w and grades alone: of the sets PG_NODES and
  * PG_POINTS, and with consistent integration those of its wider rows. They were evaluated by the patch test;
  * forces read them as long as no bond of theirs is broken. */
@@ -307,6 +313,7 @@ struct pg_problem {
     pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */
     pg_initial *motion;  size_t nmotion;               /* velocities of sets in its place; later ones count */
     pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL */
+    pg_held_points held[PG_BOND_SETS];                 /* of ranks that share the body; else NULL */
     double  *facet_normal;  /* outward unit normal at the points of PG_FACETS (n x dim) */
     size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b] */
     double  *spacing[PG_BOND_SETS];  /* local spacing of every point (its nearest node's), m; NULL: h */
@@ -322,6 +329,11 @@ struct pg_problem {
     /* what the plan says: keys without meaning, constants taken otherwise */
     char     note[16][224];  size_t nnote;
 };
+/* 1: the point of the bond set is owned by this rank, or there are no ranks. */
+static inline int pg_problem_owns (const pg_problem *p, int set, size_t point)
+{
+    return !p->held[set].owned || p->held[set].owned[point];
+}
 /* A remark on the scene, as printf. One that begins with PG_WARNING counts among the warnings of the run
  * (pg_solver_doubts), others among its notes (pg_solver_note). At most 16 are kept. */
 #define PG_WARNING "warning: "

@@ -52,6 +52,8 @@ pg_status pg_ranks_sum  (size_t n, double *value);
 pg_status pg_ranks_most (size_t n, double *value);
 /* Collects on rank 0; alone a copy of `mine`. */
 pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, void **all);
+/* The numbers of all ranks, in the order of the ranks, on every rank: *n_all, *all (pg_free). For few. */
+pg_status pg_ranks_share (size_t n, const double *mine, size_t *n_all, double **all);
 /* The largest over all ranks, also in lock-step: for what a clock or a signal decides. */
 pg_status pg_ranks_ask  (size_t n, double *value);
 /* What one rank has met all have met: the first failure (of the lowest rank) is returned on every rank, with
@@ -86,6 +88,10 @@ void      pg_subdomain_clear_ghosts (const pg_subdomain *subdomain, size_t compo
  * joined by whatever joins an owned point to another one. label (n): the least number (pg_subdomain.number;
  * alone: index) of all points of the part, over all ranks; of ghosts that of their owner. All ranks call. */
 pg_status pg_subdomain_label (const pg_subdomain *subdomain, size_t n, int *parent, double *label);
+
+/* The same sets: out[0]: points that are joined to none, out[1]: parts of several points; on all ranks, each
+ * counted where the point is owned that its part is labelled by. All ranks call. */
+pg_status pg_subdomain_count (const pg_subdomain *subdomain, size_t n, int *parent, double *out /* (2) */);
 
 /* How many cells that count (those in the body) plane `plane` along `axis` has within a box. */
 typedef double (*pg_plane_count) (const void *context, const pg_box *box, int axis, int plane);

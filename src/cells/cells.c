@@ -40,14 +40,22 @@ static void corner_at (const pg_lattice *l, const int *i, int c, double *x)
     for (int k = 0; k < l->dim; k++) x[k] = pg_lattice_at (l, k, i[k] + corner[c][k]);
 }
 
+/* Is it kept, and one of those wanted (indices in the whole lattice; NULL: all are)? */
+static int wanted (const pg_lattice *l, const int *i, const pg_box *within)
+{
+    for (int k = 0; within && k < l->dim; k++)
+        if (i[k] + l->first[k] < within->low[k] || i[k] + l->first[k] >= within->high[k]) return 0;
+    return kept (l, i);
+}
+
 /* Counts cells and facets, so that arrays can be allocated before they are filled. */
-static void count (size_t *n, size_t *nfacet, const pg_lattice *l)
+static void count (size_t *n, size_t *nfacet, const pg_lattice *l, const pg_box *within)
 {
     int i[3];
     for (i[2] = 0; i[2] < l->count[2]; i[2]++)
         for (i[1] = 0; i[1] < l->count[1]; i[1]++)
             for (i[0] = 0; i[0] < l->count[0]; i[0]++) {
-                if (!kept (l, i)) continue;
+                if (!wanted (l, i, within)) continue;
                 ++*n;
                 for (int f = 0; f < 2 * l->dim; f++) *nfacet += (size_t) open_face (l, i, f);
             }
@@ -93,14 +101,14 @@ static void put_facet (pg_cells *out, size_t at, const pg_lattice *l, int f, siz
 }
 
 /* The same walk as in `count`, now writing. */
-static void fill (pg_cells *out, const pg_lattice *l)
+static void fill (pg_cells *out, const pg_lattice *l, const pg_box *within)
 {
     size_t cell = 0, facet = 0;
     int i[3];
     for (i[2] = 0; i[2] < l->count[2]; i[2]++)
         for (i[1] = 0; i[1] < l->count[1]; i[1]++)
             for (i[0] = 0; i[0] < l->count[0]; i[0]++) {
-                if (!kept (l, i)) continue;
+                if (!wanted (l, i, within)) continue;
                 put_cell (out, cell, l, i);
                 for (int f = 0; f < 2 * l->dim; f++)
                     if (open_face (l, i, f)) put_facet (out, facet++, l, f, cell);
@@ -137,17 +145,23 @@ done:
 }
 
 /* A box has 2^dim corners, a face half as many. */
-pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness)
+pg_status pg_cells_from_part (pg_cells *out, const pg_lattice *lattice, double thickness,
+                              const pg_box *within)
 {
     size_t n = 0, nfacet = 0, corners = (size_t) 1 << lattice->dim;
     memset (out, 0, sizeof *out);
     /* Points from a file have no lattice. */
     if (lattice->dim == 0) return PG_OK;
-    count (&n, &nfacet, lattice);
+    count (&n, &nfacet, lattice, within);
     pg_status status = pg_cells_reserve (out, lattice->dim, thickness, n, n * corners, nfacet,
                                          nfacet * corners / 2);
-    if (status == PG_OK) fill (out, lattice);
+    if (status == PG_OK) fill (out, lattice, within);
     return status;
+}
+
+pg_status pg_cells_from_lattice (pg_cells *out, const pg_lattice *lattice, double thickness)
+{
+    return pg_cells_from_part (out, lattice, thickness, NULL);
 }
 
 void pg_cells_clear (pg_cells *c)

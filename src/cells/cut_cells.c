@@ -414,7 +414,9 @@ pg_status pg_cells_cut (pg_cells *out, const pg_body *body, const pg_lattice *la
     for (size_t c = 0; c < m.n; c++) other |= (m.state[c] != NONE) != (m.l->in[c] != 0);
     for (size_t c = 0; c < m.n; c++) if (m.state[c] != NONE) PG_TRY (find_facets (&m, c, cell++));
     for (size_t f = 0; f < m.nfacet; f++) other |= m.facet[f].face < 0;
-    if (m.ncut == 0 && !other) status = pg_cells_from_lattice (out, lattice, thickness);
+    double cuts = m.ncut > 0 || other;
+    if (lattice->whole[0]) PG_TRY (pg_ranks_most (1, &cuts));          /* ranks list cells and facets alike */
+    if (!(cuts > 0)) status = pg_cells_from_lattice (out, lattice, thickness);
     else {
         double unsettled = cut_work_unsettled (m.cut->work);
         size_t given_up = cut_work_given_up (m.cut->work);

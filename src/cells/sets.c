@@ -65,10 +65,11 @@ static pg_status add_one (builder *b, const char *name, int side)
     PG_TRY (gather (&s->point, &s->npoint, m, m->point, m->cloud->n, m->cloud->x, side));
     PG_TRY (gather (&s->facet, &s->nfacet, m, m->facet, m->cells->nfacet, m->cells->facet_centre, side));
     if (!b->faces) PG_TRY (gather_inner (s, m));
-    double all[2] = { 0, (double) s->nfacet };
+    double all[3] = { 0, (double) s->nfacet, 0 };
     for (size_t i = 0; i < s->npoint; i++) all[0] += pg_owns (m->cloud->subdomain, (size_t) s->point[i]);
-    PG_TRY (pg_ranks_sum (2, all));
-    s->all_points = (size_t) all[0], s->all_facets = (size_t) all[1];
+    for (size_t i = 0; i < s->ninner; i++) all[2] += pg_owns (m->cloud->subdomain, (size_t) s->inner[i]);
+    PG_TRY (pg_ranks_sum (3, all));
+    s->all_points = (size_t) all[0], s->all_facets = (size_t) all[1], s->all_inner = (size_t) all[2];
 done:
     return status;
 }

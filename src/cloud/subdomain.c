@@ -81,15 +81,40 @@ done:
     return status;
 }
 
-/* Places beyond the lattice go to the rank at its end. */
+/* Index of the cell around x along an axis; places beyond the lattice go to that at its end. */
+static int cell_at (const pg_lattice *l, int k, double x)
+{
+    int part = l->whole[0] > 0;
+    double i = floor ((x - (part ? l->whole_origin : l->origin)[k]) / l->step[k]);
+    return (int) fmin (fmax (i, 0), (part ? l->whole : l->count)[k] - 1);
+}
+
 int pg_lattice_owns (const pg_lattice *l, const pg_subdomain *d, const double *x)
 {
     for (int k = 0; d && k < l->dim; k++) {
-        double i = floor ((x[k] - l->whole_origin[k]) / l->step[k]);
-        i = fmin (fmax (i, 0), l->whole[k] - 1);
+        int i = cell_at (l, k, x[k]);
         if (i < d->own.low[k] || i >= d->own.high[k]) return 0;
     }
     return 1;
+}
+
+int64_t pg_lattice_cell (const pg_lattice *l, const double *x)
+{
+    int64_t number = 0;
+    for (int k = l->dim - 1; k >= 0; k--)
+        number = number * (l->whole[0] > 0 ? l->whole : l->count)[k] + cell_at (l, k, x[k]);
+    return number;
+}
+
+/* Cell i has the sites i and i + 1 at its ends, or site i in its middle. */
+pg_box pg_subdomain_cells (const pg_subdomain *d, const pg_lattice *l, double width)
+{
+    pg_box out = d->own;
+    for (int k = 0; k < l->dim; k++) {
+        int more = 1 + (int) fmin (ceil (width / l->step[k] + 1e-6), 1e9);
+        out.low[k] -= more, out.high[k] += more;
+    }
+    return out;
 }
 
 /* ---- sites --------------------------------------------------------------------------------------------- */

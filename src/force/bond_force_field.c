@@ -402,45 +402,25 @@ double bond_force_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
-/* Points alone and parts of several points, each counted where the point is owned that its part is labelled
- * by. */
-static pg_status count_parts (const pg_subdomain *s, size_t n, int *parent, const int *size, double *out)
-{
-    pg_status status = PG_OK;
-    double *label = NULL;
-    out[0] = out[1] = 0;
-    PG_ALLOC (label, n);
-    PG_TRY (pg_subdomain_label (s, n, parent, label));
-    for (size_t i = 0; i < n; i++) {
-        if (!pg_owns (s, i) || label[i] != (s ? (double) s->number[i] : (double) i)) continue;
-        out[size[pg_disjoint_root (parent, (int) i)] > 1]++;
-    }
-    PG_TRY (pg_ranks_sum (2, out));
-done:
-    pg_free (label);
-    return status;
-}
-
 /* Parts of the body that live bonds hold together, by union of their ends: points alone, and parts of
  * several points beside the largest one. Without memory all are 0: a census is worth no failure. */
 void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
     bond_force *b = self;
-    int *parent = pg_calloc (b->n, sizeof *parent), *size = pg_calloc (b->n, sizeof *size);
+    int *parent = pg_calloc (b->n, sizeof *parent);
     const pg_subdomain *s = b->problem->cloud.subdomain;
     double parts[2];
     *degenerate = *isolated = *fragments = 0;
-    if (parent && size) {
+    if (parent) {
         pg_disjoint_start (parent, b->n);
         for (size_t i = 0; i < b->n; i++)
             for (size_t e = b->family->start[i];
                  e < b->family->start[i + 1] && (size_t) b->family->node[e] < i; e++)
                 if (bond_force_lives (b, e) && (pg_owns (s, i) || pg_owns (s, (size_t) b->family->node[e])))
                     pg_disjoint_join (parent, b->family->node[e], (int) i);
-        for (size_t i = 0; i < b->n; i++) size[pg_disjoint_root (parent, (int) i)]++;
-        if (count_parts (s, b->n, parent, size, parts) != PG_OK) parts[0] = parts[1] = 0;
+        if (pg_subdomain_count (s, b->n, parent, parts) != PG_OK) parts[0] = parts[1] = 0;
         *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
         if (*fragments) --*fragments;                  /* the body itself is none */
     }
-    pg_free (parent), pg_free (size);
+    pg_free (parent);
 }

@@ -161,6 +161,14 @@ done:
 }
 
 /* ---- balance ------------------------------------------------------------------------------------------- */
+/* The largest of three forces, N, of which this rank knows its share of the squares. */
+static double largest_of (const galerkin *g, double inside, double external, double reaction)
+{
+    double square[3] = { inside, external, reaction };
+    if (g->problem->cloud.subdomain && pg_ranks_sum (3, square) != PG_OK) return NAN;
+    return sqrt (fmax (square[0], fmax (square[1], square[2])));
+}
+
 /* residual = loads - internal force + boundary terms, N, at displacement d and time t; reference: the
  * largest of the internal forces, the loads and the reactions, by which the residual is judged. */
 static pg_status galerkin_balance (void *self, double t, const double *d, double *residual, double *reference)
@@ -175,9 +183,10 @@ static pg_status galerkin_balance (void *self, double t, const double *d, double
     for (int s = 0; s < PG_BOND_SETS; s++)
         if (s == g->bulk || s == PG_FACETS || g->npenalty || g->problem->nload) galerkin_measure (g, s, d);
     galerkin_bulk_force (g, d, residual);
-    for (size_t i = 0; i < ndof; i++) inside += residual[i] * residual[i], residual[i] = -residual[i];
+    inside = galerkin_squared (g, residual);
+    for (size_t i = 0; i < ndof; i++) residual[i] = -residual[i];
     galerkin_boundary_force (g, t, d, residual, &external, &reaction);
-    *reference = fmax (g->eigen_force, sqrt (fmax (inside, fmax (external, reaction))));
+    *reference = fmax (g->eigen_force, largest_of (g, inside, external, reaction));
 done:
     return status;
 }
@@ -197,9 +206,10 @@ static pg_status galerkin_balance_lean (void *self, double t, const double *d, d
     if (g->nnitsche || g->dilatation) galerkin_measure (g, PG_FACETS, d);
     if (g->npenalty) galerkin_measure (g, PG_NODES, d);
     galerkin_bulk_apply (g, d, residual);
-    for (size_t i = 0; i < ndof; i++) inside += residual[i] * residual[i], residual[i] = -residual[i];
+    inside = galerkin_squared (g, residual);
+    for (size_t i = 0; i < ndof; i++) residual[i] = -residual[i];
     galerkin_boundary_force (g, t, d, residual, &external, &reaction);
-    *reference = sqrt (fmax (inside, fmax (external, reaction)));
+    *reference = largest_of (g, inside, external, reaction);
 done:
     return status;
 }
@@ -348,6 +358,8 @@ const pg_force_type pg_force_galerkin = {
                 .keys = { &pg_keys_shape_functions, &galerkin_keys },
                 .shape_functions = 1,
                 .anisotropic = 1,
+                .ghosts = 2,
+                .ghost_cells = galerkin_ghost_cells,
                 .shows = PG_NEEDS_STRETCH | PG_NEEDS_STRESS | PG_NEEDS_FACETS,
                 .read = galerkin_read,
                 .support = galerkin_support,

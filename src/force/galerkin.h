@@ -118,6 +118,7 @@ pg_status galerkin_read (pg_problem *problem, const pg_scene *scene);
 void      galerkin_support (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
 double    galerkin_support_stiffness (const pg_problem *problem);
 pg_status galerkin_limits (const pg_problem *problem, size_t material, pg_criterion_setting *setting);
+double    galerkin_ghost_cells (const pg_scene *scene, double *beyond);
 void      galerkin_words (const pg_problem *problem, char *text, size_t size);
 
 /* intact: rows that the problem keeps, as long as no bond is broken. Gives the rows of a force on the bare
@@ -302,6 +303,8 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y);
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external,
                               double *reaction);
 double galerkin_boundary_energy (galerkin *g, double t);
+/* Sum of squares of forces on the nodes of this rank, N^2; all where it is alone. */
+double galerkin_squared (const galerkin *g, const double *force);
 /* 1: forces that do not depend on d lean on the shape functions of one of these points */
 int    galerkin_boundary_loaded (const galerkin *g, int set, size_t count, const size_t *list);
 long   galerkin_penalty_of (const galerkin *g, size_t node);   /* the place under a penalty, or -1 */

@@ -300,6 +300,7 @@ size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residua
             else
                 for (size_t j = 0; j < e->n; j++)
                     force -= e->inverse[j * e->n + s] * residual[(size_t) e->slave[j] * dim + k];
+            if (!pg_problem_owns (g->problem, PG_NODES, (size_t) e->slave[s])) force = 0;
             out->force[at] = force, out->displacement[at] = goal_of (g, e, s, t);
             out->reaction[e->load[s] * 3 + (int) k] += force;
             pg_load_add_moment (&g->problem->load[e->load[s]], g->dim,

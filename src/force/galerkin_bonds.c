@@ -303,10 +303,12 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
     int both = g->problem->cloud.size != NULL;             /* a bond of unlike ends may exist one way only */
     galerkin_measure (g, PG_NODES, d);
     for (size_t p = 0; p < r->n; p++) {
+        if (!pg_owns (g->problem->cloud.subdomain, p)) continue;
         double limit = 1.5 * pg_problem_spacing (g->problem, PG_NODES, p);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             size_t j = (size_t) r->family.node[e];
-            if (state->alive[e] || j == p || (j < p && !both)) continue;
+            int counted = j < p && !both && pg_owns (g->problem->cloud.subdomain, j);
+            if (state->alive[e] || j == p || counted) continue;
             if (r->grade[p] >= PG_GRADE_SHEPARD || r->grade[j] >= PG_GRADE_SHEPARD) continue;
             double xi[3], rr = 0;
             for (size_t a = 0; a < dim; a++)
@@ -318,6 +320,26 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
+/* Joins the nodes that evaluation points see together; of a rank by the points that see nodes of its own. */
+static void join_nodes (const galerkin *g, int *parent)
+{
+    const pg_rows *r = &g->rows[g->bulk];
+    const pg_subdomain *s = g->problem->cloud.subdomain;
+    pg_disjoint_start (parent, g->n);
+    for (size_t p = 0; p < r->n; p++) {
+        int first = -1, own = 0;
+        size_t offset = pg_rows_offset (r, p);
+        if (r->grade[p] >= PG_GRADE_SHEPARD) continue;
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && !own; e++)
+            own = pg_owns (s, (size_t) r->family.node[e]);
+        for (size_t e = r->family.start[p]; e < r->family.start[p + 1] && own; e++) {
+            if (r->w[e + offset] == 0 && r->family.node[e] != r->own[p]) continue;
+            if (first < 0) first = r->family.node[e];
+            else pg_disjoint_join (parent, r->family.node[e], first);
+        }
+    }
+}
+
 /* Points of evaluation without a gradient; nodes that no evaluation point sees together with another one;
  * parts of the body that evaluation points no longer join, the largest not counted. A census is worth no
  * failure: without memory all are 0. */
@@ -325,24 +347,19 @@ void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *
 {
     galerkin *g = self;
     const pg_rows *r = &g->rows[g->bulk];
-    int *parent = pg_calloc (g->n, sizeof *parent), *size = pg_calloc (g->n, sizeof *size);
+    int *parent = pg_calloc (g->n, sizeof *parent);
+    double parts[2], flat = 0;
     *degenerate = *isolated = *fragments = 0;
-    for (size_t p = 0; p < r->n; p++) *degenerate += r->grade[p] >= PG_GRADE_SHEPARD;
-    if (parent && size) {
-        pg_disjoint_start (parent, g->n);
-        for (size_t p = 0; p < r->n; p++) {
-            int first = -1;
-            size_t offset = pg_rows_offset (r, p);
-            if (r->grade[p] >= PG_GRADE_SHEPARD) continue;
-            for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
-                if (r->w[e + offset] == 0 && r->family.node[e] != r->own[p]) continue;
-                if (first < 0) first = r->family.node[e];
-                else pg_disjoint_join (parent, r->family.node[e], first);
-            }
-        }
-        for (size_t i = 0; i < g->n; i++) size[pg_disjoint_root (parent, (int) i)]++;
-        for (size_t i = 0; i < g->n; i++) *isolated += size[i] == 1, *fragments += size[i] > 1;
+    for (size_t p = 0; p < r->n; p++)
+        flat += r->grade[p] >= PG_GRADE_SHEPARD && pg_problem_owns (g->problem, g->bulk, p);
+    if (g->problem->cloud.subdomain && pg_ranks_sum (1, &flat) != PG_OK) flat = 0;
+    *degenerate = (size_t) flat;
+    if (parent) {
+        join_nodes (g, parent);
+        if (pg_subdomain_count (g->problem->cloud.subdomain, g->n, parent, parts) != PG_OK)
+            parts[0] = parts[1] = 0;
+        *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
         if (*fragments) --*fragments;                  /* the body itself is none */
     }
-    pg_free (parent), pg_free (size);
+    pg_free (parent);
 }

@@ -62,11 +62,13 @@ static double size_of_forces (const galerkin *g)
     double sum = 0, none[6] = { 0 }, s[6], zz;
     for (size_t p = 0; p < g->sums.n; p++) {
         const pg_material *m = galerkin_material (g, g->bulk, p);
+        if (!pg_problem_owns (g->problem, g->bulk, p)) continue;
         none[0] = held (m) * g->eigen[g->bulk][p];
         m->type->stress (m, 1, none, s, &zz);
         double f = g->problem->rows[g->bulk].weight[p] * s[0] / pg_problem_spacing (g->problem, g->bulk, p);
         sum += f * f;
     }
+    if (g->problem->cloud.subdomain && pg_ranks_sum (1, &sum) != PG_OK) return NAN;
     return sqrt (sum);
 }
 
@@ -164,11 +166,12 @@ void galerkin_eigen_work (const galerkin *g, double t, pg_work_balance *out, siz
 {
     if (!g->eigen[PG_NODES]) return;
     for (size_t p = 0; p < g->sums.n; p++, at++) {
-        out->force[at] = -g->sums.weight[p] * pressure (g, p);
+        out->force[at] = pg_problem_owns (g->problem, g->bulk, p) ? -g->sums.weight[p] * pressure (g, p) : 0;
         out->displacement[at] = g->eigen[g->bulk][p];
     }
     for (size_t i = 0; i < g->nnitsche; i++, at++) {
-        out->force[at] = on_gap (g, &g->nitsche[i], t);
+        out->force[at] = pg_problem_owns (g->problem, PG_FACETS, g->nitsche[i].point)
+                             ? on_gap (g, &g->nitsche[i], t) : 0;
         out->displacement[at] = g->eigen[PG_FACETS][g->nitsche[i].point];
     }
 }

@@ -131,11 +131,11 @@ pg_status elements_values (const galerkin *g, const pg_block_matrix *Q, pg_node_
             nnz += r->N[e + pg_rows_offset (r, i)] != 0;
     PG_ALLOC (N->node, nnz + g->n);
     PG_ALLOC (N->value, nnz + g->n);
-    for (size_t i = 0; i < g->n; i++) {
+    for (size_t i = 0; i < g->n; i++)
         if (r->grade[i] >= PG_GRADE_SHEPARD) share[i] = 0;
         else if (has_lost (g, r, i)) share[i] = fmin (share[i], most_share);
-        write_row (r, i, share[i], N, &at);
-    }
+    PG_TRY (pg_subdomain_exchange (g->problem->cloud.subdomain, 1, share));
+    for (size_t i = 0; i < g->n; i++) write_row (r, i, share[i], N, &at);
 done:
     pg_free (share);
     return status;

@@ -124,6 +124,13 @@ long galerkin_penalty_of (const galerkin *g, size_t node)
     return lo < g->npenalty_node && (size_t) g->penalty_node[lo] == node ? (long) lo : -1;
 }
 
+/* Does the load act on all points of the body? */
+static int is_everywhere (const galerkin *g, const pg_load *load)
+{
+    const pg_subdomain *s = g->problem->cloud.subdomain;
+    return load->kind == PG_BODY_FORCE && pg_set_points (load->set) == (s ? (size_t) s->total : g->n);
+}
+
 /* Does a load or a prescribed value act at a point of a set, so that its share of each node follows the shape
  * functions there? */
 static int loaded (const galerkin *g, int set, size_t point)
@@ -133,7 +140,7 @@ static int loaded (const galerkin *g, int set, size_t point)
     if (set == PG_NODES && g->npenalty && galerkin_penalty_of (g, point) >= 0) return 1;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        int everywhere = load->kind == PG_BODY_FORCE && load->set->npoint == g->n;
+        int everywhere = is_everywhere (g, load);
         if (load->cracks || (everywhere && set == g->bulk)) return 1;
         if ((load->kind == PG_TRACTION || load->kind == PG_PRESSURE) && set == PG_FACETS
             && member (load->set->facet, load->set->nfacet, g->rows[PG_FACETS].cell[point]))
@@ -329,7 +336,7 @@ static void visit_point_load (const galerkin *g, double t, int l, visitor visit,
 {
     const pg_load *load = &g->problem->load[l];
     size_t dim = (size_t) g->dim;
-    int everywhere = load->kind == PG_BODY_FORCE && load->set->npoint == g->n,
+    int everywhere = is_everywhere (g, load),
         set = everywhere ? g->bulk : PG_NODES;
     const pg_rows *r = &g->rows[set];
     size_t count = everywhere ? r->n : load->set->npoint;
@@ -438,11 +445,12 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
     }
 }
 
-/* Sum of squares. */
-static double squared (const double *a, size_t n)
+double galerkin_squared (const galerkin *g, const double *force)
 {
+    const pg_subdomain *owners = g->problem->cloud.subdomain;
+    size_t dim = (size_t) g->dim;
     double s = 0;
-    for (size_t i = 0; i < n; i++) s += a[i] * a[i];
+    for (size_t i = 0; i < g->n * dim; i++) if (pg_owns (owners, i / dim)) s += force[i] * force[i];
     return s;
 }
 
@@ -478,11 +486,11 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
     visit_loads (g, t, spread, &s);
     for (size_t l = 0; l < g->problem->nload; l++)
         if (g->problem->load[l].cracks) galerkin_crack_pressure (g, pressure_at (g, l, t), g->work);
-    *external = squared (g->work, ndof);
+    *external = galerkin_squared (g, g->work);
     for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
     memset (g->work, 0, ndof * sizeof *g->work);
     visit_supports (g, t, spread, &s);
-    *reaction = squared (g->work, ndof);
+    *reaction = galerkin_squared (g, g->work);
     add_adjoint (g, t, g->work);
     for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
 }
@@ -496,6 +504,7 @@ double galerkin_boundary_energy (galerkin *g, double t)
     galerkin_dilatation_gaps (g, t);
     for (size_t i = 0; i < g->nnitsche; i++) {
         const constraint *q = &g->nitsche[i];
+        if (!pg_problem_owns (g->problem, PG_FACETS, q->point)) continue;
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
                                      g->rows[PG_FACETS].x + q->point * dim, t);
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
@@ -506,6 +515,7 @@ double galerkin_boundary_energy (galerkin *g, double t)
     for (size_t i = 0; i < g->npenalty; i++) {
         const constraint *q = &g->penalty[i];
         size_t node = (size_t) g->penalty_node[q->point];
+        if (!pg_problem_owns (g->problem, PG_NODES, node)) continue;
         double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
                                      g->rows[PG_NODES].x + node * dim, t);
         double gap = g->u[PG_NODES][node * dim + (size_t) q->component] - goal;
@@ -536,12 +546,13 @@ size_t galerkin_boundary_pairs (galerkin *g)
 typedef struct { const galerkin *g; pg_work_balance *out; size_t at; } writing;
 
 /* A visitor that writes force and displacement, and sums reactions and their moments by load and component.
- * */
+ * Forces at points of other ranks count there. */
 static void write_pair (void *context, int set, size_t point, int load, int k, double force,
                         double displacement)
 {
     writing *w = context;
     const pg_problem *p = w->g->problem;
+    if (!pg_problem_owns (p, set, point)) force = 0;
     pg_load_add_moment (&p->load[load], p->dim, w->g->rows[set].x + point * (size_t) p->dim, k, force,
                         w->out->reaction + 3 * (p->nload + (size_t) load));
     w->out->force[w->at] = force, w->out->displacement[w->at++] = displacement;

@@ -70,6 +70,18 @@ static pg_essential essential_of (const char *how, int facets)
     return strcmp (how, "nitsche") == 0 || facets ? PG_ESSENTIAL_NITSCHE : PG_ESSENTIAL_TRANSFORMATION;
 }
 
+/* Shape functions that do not interpolate couple all points of a set that are eliminated, on all ranks. */
+static void check_elimination (const pg_problem *p, const pg_load *load, const pg_scene *scene, size_t i)
+{
+    char path[64];
+    if (load->essential != PG_ESSENTIAL_TRANSFORMATION || p->approx.type->interpolates || !p->cloud.subdomain)
+        return;
+    snprintf (path, sizeof path, "boundary[%zu]", i);
+    pg_scene_fault (scene, path, "%d ranks: essential: transformation couples all points of the set, which "
+                    "one process alone can hold: use essential: nitsche or penalty, or division: matrices",
+                    pg_rank_count ());
+}
+
 /* Unless the scene says how: Nitsche's terms on facets; a penalty on the points of a set with an inside,
  * which its facets would leave free, and of a set too large to eliminate; else elimination, always where
  * the shape functions are 1 at their own nodes. */
@@ -81,10 +93,14 @@ void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene
                           ? pg_scene_text (scene, "boundary[%zu].essential", i)
                           : pg_scene_text (scene, "method.essential");
     int eliminate = p->approx.type->interpolates;
-    int large = set->ninner || (set->nfacet == 0 && set->npoint > PG_MOST_ELIMINATED);
-    load->essential = essential_of (how, set->nfacet > 0 && !eliminate);
+    int large = pg_set_inner (set)
+                || (pg_set_facets (set) == 0 && pg_set_points (set) > PG_MOST_ELIMINATED);
+    load->essential = essential_of (how, pg_set_facets (set) > 0 && !eliminate);
     load->penalty = o->penalty;
-    if (strcmp (how, "auto") != 0 || eliminate || !large) return;
+    if (strcmp (how, "auto") != 0 || eliminate || !large) {
+        check_elimination (p, load, scene, i);
+        return;
+    }
     load->essential = PG_ESSENTIAL_PENALTY;
     /* no shorter time step than with Nitsche's terms */
     if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT))
@@ -106,6 +122,31 @@ pg_status galerkin_limits (const pg_problem *p, size_t material, pg_criterion_se
     (void) material;
     setting->graded = p->cloud.size != NULL;
     return PG_OK;
+}
+
+/* Could the dilatation be projected? By the keys of the scene, before materials are read. */
+static int projects (const pg_scene *scene)
+{
+    const char *mode = pg_scene_text (scene, "method.dilatation"), *name;
+    int yes = strcmp (mode, "projected") == 0;
+    if (strcmp (mode, "auto") != 0) return yes;
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++)
+        yes |= pg_scene_given (scene, "materials.%s.poissons_ratio", name)
+               && pg_scene_number (scene, "materials.%s.poissons_ratio", name) > 0.449;
+    return yes;
+}
+
+/* Of ranks that share the body. The row of an owned node is made of the points within one horizon of it,
+ * whose shape functions lean on nodes within one horizon of theirs. With consistent integration all points of a
+ * cell belong together, with the cells beside it. Cells around owned nodes are elements of the
+ * preconditioner. Patches of the dilatation are two cells wide, or three points, or twice as much where one
+ * has joined another, and those at the end of what is held are no whole ones, with those that they have
+ * joined. */
+double galerkin_ghost_cells (const pg_scene *scene, double *beyond)
+{
+    int patches = projects (scene);
+    *beyond = patches ? 8 : 2;
+    return patches ? 9 : 3;
 }
 
 /* One line for the plan. */

@@ -124,18 +124,35 @@ done:
 }
 
 /* ---- the worst bonds ----------------------------------------------------------------------------------- */
-/* The largest utilisation, and if it is above 1 the bonds from `from` on, by looking at all. */
-static pg_status utilisation_over (const pg_state *state, const double *utilisation, double from, double *top,
-                               pg_changes *over)
+/* Of all ranks that share the body. */
+static double largest (const galerkin *g, double mine)
+{
+    if (g->problem->cloud.subdomain && pg_ranks_most (1, &mine) != PG_OK) return NAN;
+    return mine;
+}
+
+/* The largest utilisation, and if it is above 1 the bonds from `from` on, by looking at all that this rank
+ * owns. */
+static pg_status utilisation_over (const galerkin *g, const pg_state *state, const double *utilisation,
+                                   double from, double *top, pg_changes *over)
 {
     pg_status status = PG_OK;
-    *top = 0, over->n = 0;
-    for (size_t i = 0; i < state->nbond; i++) if (utilisation[i] > *top) *top = utilisation[i];
-    for (size_t i = 0; *top > 1 && i < state->nbond; i++) {
-        if (!state->alive[i] || !(utilisation[i] >= from)) continue;
-        PG_GROW (over->bond, over->cap, over->n + 1);
-        over->bond[over->n++] = i;
+    double most = 0;
+    over->n = 0;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        const pg_family *f = &g->rows[set].family;
+        size_t base = g->problem->first_bond[set];
+        for (size_t p = 0; p < f->n; p++)
+            for (size_t i = base + f->start[p]; i < base + f->start[p + 1]; i++) {
+                if (!(utilisation[i] > 0) || !pg_problem_owns (g->problem, set, p)) continue;
+                most = fmax (most, utilisation[i]);
+                if (!state->alive[i] || !(utilisation[i] >= from)) continue;
+                PG_GROW (over->bond, over->cap, over->n + 1);
+                over->bond[over->n++] = i;
+            }
     }
+    *top = largest (g, most);
+    if (!(*top > 1)) over->n = 0;
 done:
     return status;
 }
@@ -220,7 +237,8 @@ static pg_status search_all (search *s)
     for (s->judge.set = 0; s->judge.set < PG_BOND_SETS; s->judge.set++) {
         const double *alone = g->alone[s->judge.set];
         for (size_t p = 0; p < g->rows[s->judge.set].n; p++)
-            if (may (s, alone[p], s->top_node)) PG_TRY (search_point (s, p));
+            if (may (s, alone[p], s->top_node) && pg_problem_owns (g->problem, s->judge.set, p))
+                PG_TRY (search_point (s, p));
         PG_TRY (judge_collected (s));
     }
 done:
@@ -234,9 +252,11 @@ static pg_status search_first (search *s)
     galerkin *g = s->judge.g;
     for (s->judge.set = 0; s->judge.set < PG_BOND_SETS; s->judge.set++) {
         const double *alone = g->alone[s->judge.set];
-        size_t worst = 0, n = g->rows[s->judge.set].n;
-        for (size_t p = 1; p < n; p++) if (alone[p] > alone[worst]) worst = p;
-        if (n) PG_TRY (search_point (s, worst));
+        size_t n = g->rows[s->judge.set].n, worst = n;
+        for (size_t p = 0; p < n; p++)
+            if (pg_problem_owns (g->problem, s->judge.set, p) && (worst == n || alone[p] > alone[worst]))
+                worst = p;
+        if (worst < n) PG_TRY (search_point (s, worst));
         PG_TRY (judge_collected (s));
     }
 done:
@@ -255,13 +275,14 @@ pg_status galerkin_worst (void *self, const pg_state *state, const double *d, do
     over->n = 0;
     if (g->problem->criterion->type->needs != PG_NEEDS_STRESS) {
         PG_TRY (galerkin_utilisation (g, state, d, utilisation, kind, NULL));
-        return utilisation_over (state, utilisation, from, top, over);
+        return utilisation_over (g, state, utilisation, from, top, over);
     }
     PG_TRY (find_bounds (g, d));
     for (size_t i = 0; i < g->n; i++) s.top_node = fmax (s.top_node, g->alone[PG_NODES][i]);
     PG_TRY (search_first (&s));
+    s.least = s.top = largest (g, s.top);
     PG_TRY (search_all (&s));
-    *top = s.top;
+    *top = largest (g, s.top);
     if (!(s.top > 1)) goto done;
     s.list = over, s.least = from;
     PG_TRY (search_all (&s));

@@ -74,11 +74,13 @@ static pg_status measure_units (builder *b)
                 b->centre[u * dim + k] += x[v * dim + k] / (double) (last - first);
     }
     for (size_t k = 0; k < dim; k++) {
-        double low = INFINITY, high = -INFINITY;
+        double end[2] = { -INFINITY, -INFINITY };          /* minus the lowest, the highest, of all ranks */
         for (size_t u = 0; u < b->units; u++)
             if (b->size[u] > 0)
-                low = fmin (low, b->centre[u * dim + k]), high = fmax (high, b->centre[u * dim + k]);
-        b->extent[k] = high - low + b->s->cloud->h, b->body[k] = (low + high) / 2;
+                end[0] = fmax (end[0], -b->centre[u * dim + k]),
+                end[1] = fmax (end[1], b->centre[u * dim + k]);
+        if (b->s->cloud->subdomain) PG_TRY (pg_ranks_most (2, end));
+        b->extent[k] = end[1] + end[0] + b->s->cloud->h, b->body[k] = (end[1] - end[0]) / 2;
     }
 done:
     return status;
@@ -97,32 +99,34 @@ static long group_of (long i, long n, long across)
     return i <= mirrored ? at : groups - 1 - at;
 }
 
-/* Indices of unit u on the lattice: of its cell, or of the nearest vertex. */
+/* Indices of unit u on the whole lattice: of its cell, or of the nearest vertex. */
 static void index_of (const builder *b, size_t u, long *at)
 {
     const pg_lattice *l = b->s->lattice;
     double shift = b->s->cells || b->s->centred ? 0 : 0.5;
     for (int k = 0; k < b->dim; k++)
-        at[k] = (long) floor ((b->centre[u * (size_t) b->dim + (size_t) k] - l->origin[k]) / l->step[k]
-                              + shift + 1e-9);
+        at[k] = l->first[k]
+                + (long) floor ((b->centre[u * (size_t) b->dim + (size_t) k] - l->origin[k]) / l->step[k]
+                                + shift + 1e-9);
 }
 
-/* Groups on a lattice, numbered with x fastest. The range of indices is that of units with a volume. */
-static void bin_units (builder *b)
+/* Groups on a lattice, numbered with x fastest. The range of indices is that of units with a volume, on all
+ * ranks. */
+static pg_status bin_units (builder *b)
 {
+    pg_status status = PG_OK;
     long low[3] = { 0 }, high[3] = { 0 }, at[3], groups[3] = { 1, 1, 1 };
-    int first = 1;
+    double end[6] = { -1e18, -1e18, -1e18, -1e18, -1e18, -1e18 };
     for (size_t u = 0; u < b->units; u++) {
         if (!(b->size[u] > 0)) continue;
         index_of (b, u, at);
-        for (int k = 0; k < b->dim; k++) {
-            low[k] = first || at[k] < low[k] ? at[k] : low[k];
-            high[k] = first || at[k] > high[k] ? at[k] : high[k];
-        }
-        first = 0;
+        for (int k = 0; k < b->dim; k++)
+            end[k] = fmax (end[k], -(double) at[k]), end[3 + k] = fmax (end[3 + k], (double) at[k]);
     }
+    if (b->s->cloud->subdomain) PG_TRY (pg_ranks_most (6, end));
     b->groups = 1;
     for (int k = 0; k < b->dim; k++) {
+        low[k] = -(long) end[k], high[k] = (long) end[3 + k];
         long n = high[k] - low[k] + 1;
         groups[k] = group_of (n - 1, n, b->s->across) + 1;
         b->groups *= (size_t) groups[k];
@@ -135,6 +139,8 @@ static void bin_units (builder *b)
             b->group[u] = b->group[u] * groups[k]
                           + group_of (at[k] - low[k], high[k] - low[k] + 1, b->s->across);
     }
+done:
+    return status;
 }
 
 /* ---- clouds and meshes --------------------------------------------------------------------------------- */
@@ -392,7 +398,7 @@ pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source)
     PG_ALLOC (b.material, b.n);
     PG_ALLOC (group, b.n);
     PG_TRY (measure_units (&b));
-    if (source->lattice) bin_units (&b);
+    if (source->lattice) PG_TRY (bin_units (&b));
     else PG_TRY (group_by_roots (&b));
     for (size_t p = 0; p < b.n; p++) {
         b.material[p] = source->block[p];

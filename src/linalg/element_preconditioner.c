@@ -20,6 +20,7 @@
 #include "perigal/linalg.h"
 #include "wide.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846;
@@ -39,6 +40,9 @@ struct pg_element_preconditioner {
     /* N', by rows. */
     pg_node_matrix transposed;
     pg_multilevel *multilevel;
+    /* of ranks that share the body, in its place */
+    void          *shared;
+    const pg_subdomain *subdomain;
     pg_operator    Q;
     int     terms;
     double  middle, half, c[MOST_TERMS];
@@ -233,21 +237,25 @@ static void recur (void *context, size_t first, size_t last, int thread)
     recur_rows (w, first, last);
 }
 
-/* y = p (A) r */
-static void polynomial (const pg_element_preconditioner *P, const pg_node_matrix *A, const runs *alike,
-                        const double *r, double *y)
+/* y = p (A) r; of ranks at owned nodes, as products need what ghosts have. */
+static pg_status polynomial (const pg_element_preconditioner *P, const pg_node_matrix *A, const runs *alike,
+                             const double *r, double *y)
 {
+    pg_status status = PG_OK;
     const pg_block_matrix *Q = &P->elements.Q;
     size_t ndof = Q->n * (size_t) Q->block;
     double *now = P->t[0], *last = P->t[1];
     for (size_t i = 0; i < ndof; i++) now[i] = r[i], last[i] = 0, y[i] = P->c[0] * r[i];
     for (int k = 1; k < P->terms; k++) {
+        PG_TRY (pg_subdomain_exchange (P->subdomain, (size_t) Q->block, now));
         step w = { A, alike, (size_t) Q->block, P->middle, (k > 1 ? 2 : 1) / P->half, k > 1, P->c[k],
                    now, last, y };
         pg_parallel (Q->threads, Q->n, recur, &w);
         double *swap = now;
         now = last, last = swap;
     }
+done:
+    return status;
 }
 
 /* ---- the preconditioner -------------------------------------------------------------------------------- */
@@ -267,6 +275,7 @@ void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
     pg_elements_clear (&P->elements);
     pg_node_matrix_clear (&P->transposed);
     pg_multilevel_free (&P->multilevel);
+    if (P->shared) pg_shared_preconditioner_now ()->free (&P->shared);
     pg_free (P->alike.run), pg_free (P->alike_transposed.run);
     if (P->factor) P->direct->free (&P->factor);
     pg_free (P->t[0]), pg_free (P->t[1]), pg_free (P->left), pg_free (P->right);
@@ -317,6 +326,31 @@ done:
     return status;
 }
 
+/* V: a multilevel cycle of the elements, or what ranks make of their rows, who then have Q themselves. */
+static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_setting *s)
+{
+    pg_status status = PG_OK;
+    pg_block_matrix *Q = &P->elements.Q;
+    pg_multilevel_setting m = { .dim = s->dim,
+                                .block = Q->block,
+                                .threads = Q->threads,
+                                .n = Q->n,
+                                .x = s->x,
+                                .fixed = P->fixed,
+                                .A = &P->Q,
+                                .rows = pg_block_couplings (Q, P->elements.reach),
+                                .step = 2.5 * P->elements.spacing / P->elements.reach, .aligned = 1 };
+    memcpy (m.rows.lattice, P->elements.lattice, sizeof m.rows.lattice);
+    if (!s->subdomain) return pg_multilevel_create (&P->multilevel, &m);
+    pg_shared_rows rows = { .dim = s->dim, .block = Q->block, .x = s->x, .fixed = P->fixed,
+                            .subdomain = s->subdomain, .rows = m.rows };
+    PG_TRY (pg_shared_preconditioner_now ()->create (&P->shared, &rows));
+    pg_free (Q->start), pg_free (Q->node), pg_free (Q->value);
+    Q->start = NULL, Q->node = NULL, Q->value = NULL;
+done:
+    return status;
+}
+
 /* Takes over the elements, also where it fails. */
 pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_elements *elements,
                                             const pg_element_setting *s)
@@ -332,17 +366,8 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
     P->Q = pg_block_operator (Q);
     PG_TRY (find_fixed (P, s->fixed, ndof));
     PG_TRY (factor_springs (P, ndof, Q->threads));
-    pg_multilevel_setting m = { .dim = s->dim,
-                                .block = Q->block,
-                                .threads = Q->threads,
-                                .n = Q->n,
-                                .x = s->x,
-                                .fixed = P->fixed,
-                                .A = &P->Q,
-                                .rows = pg_block_couplings (Q, P->elements.reach),
-                                .step = 2.5 * P->elements.spacing / P->elements.reach, .aligned = 1 };
-    memcpy (m.rows.lattice, P->elements.lattice, sizeof m.rows.lattice);
-    PG_TRY (pg_multilevel_create (&P->multilevel, &m));
+    P->subdomain = s->subdomain;
+    PG_TRY (make_cycle (P, s));
     if (P->elements.N.start) {
         P->terms = P->elements.terms < MOST_TERMS ? P->elements.terms : MOST_TERMS;
         interpolate (P, P->elements.low, P->elements.high, inverse, P->elements.floor);
@@ -361,15 +386,22 @@ done:
     return status;
 }
 
+/* z = V r */
+static pg_status cycle (pg_element_preconditioner *P, const double *r, double *z)
+{
+    if (P->shared) return pg_shared_preconditioner_now ()->solve (P->shared, r, z);
+    pg_preconditioner V = pg_multilevel_preconditioner (P->multilevel);
+    return V.solve (V.context, r, z);
+}
+
 /* z = p (N) V (Q) p (N') r */
 static pg_status solve_elements (pg_element_preconditioner *P, const double *r, double *z)
 {
     pg_status status = PG_OK;
-    pg_preconditioner V = pg_multilevel_preconditioner (P->multilevel);
-    if (!P->elements.N.start) return V.solve (V.context, r, z);
-    polynomial (P, &P->transposed, &P->alike_transposed, r, P->left);
-    PG_TRY (V.solve (V.context, P->left, P->right));
-    polynomial (P, &P->elements.N, &P->alike, P->right, z);
+    if (!P->elements.N.start) return cycle (P, r, z);
+    PG_TRY (polynomial (P, &P->transposed, &P->alike_transposed, r, P->left));
+    PG_TRY (cycle (P, P->left, P->right));
+    PG_TRY (polynomial (P, &P->elements.N, &P->alike, P->right, z));
 done:
     return status;
 }
@@ -395,7 +427,11 @@ static pg_status solve (void *context, const double *r, double *z)
 {
     pg_status status = PG_OK;
     pg_element_preconditioner *P = context;
-    if (!P->factor) return solve_elements (P, r, z);
+    if (!P->factor) {
+        PG_TRY (solve_elements (P, r, z));
+        pg_subdomain_clear_ghosts (P->subdomain, (size_t) P->elements.Q.block, z);
+        goto done;
+    }
     PG_TRY (take_along (P, r, P->force));
     take_off (P, r, P->force, P->rest);
     PG_TRY (solve_elements (P, P->rest, z));
@@ -412,6 +448,12 @@ done:
 pg_preconditioner pg_element_preconditioner_of (pg_element_preconditioner *P)
 {
     return (pg_preconditioner) { P, solve, P->elements.Q.threads };
+}
+
+void pg_element_preconditioner_describe (const pg_element_preconditioner *P, char *text, size_t size)
+{
+    size_t at = (size_t) snprintf (text, size, "finite elements, ");
+    if (P->shared && at < size) pg_shared_preconditioner_now ()->describe (P->shared, text + at, size - at);
 }
 
 const pg_multilevel *pg_element_preconditioner_levels (const pg_element_preconditioner *P)

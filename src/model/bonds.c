@@ -300,6 +300,54 @@ done:
     return status;
 }
 
+/* Of ranks that share the body: points between the nodes belong to the rank that has their cell, of facets
+ * the cell behind them. Their number: that of the cell in the whole lattice, then their place among the
+ * points of the cell, or of its facets, which all ranks list alike. */
+enum { PLACES = 4096 };
+static pg_status number_points (pg_problem *p, int set)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = &p->rows[set];
+    const pg_cells *c = &p->cells;
+    size_t dim = (size_t) p->dim, last = SIZE_MAX;
+    int64_t place = 0, number = 0;
+    int own = 0;
+    PG_ALLOC (p->held[set].owned, r->n);
+    PG_ALLOC (p->held[set].number, r->n);
+    for (size_t q = 0; q < r->n; q++, place++) {
+        size_t cell = set == PG_POINTS ? (size_t) r->cell[q] : (size_t) c->facet_cell[r->cell[q]];
+        if (cell != last) {
+            double middle[3] = { 0 };
+            for (size_t k = c->start[cell]; k < c->start[cell + 1]; k++)
+                for (size_t a = 0; a < dim; a++)
+                    middle[a] += c->x[k * dim + a] / (double) (c->start[cell + 1] - c->start[cell]);
+            number = pg_lattice_cell (&p->lattice, middle);
+            own = pg_lattice_owns (&p->lattice, p->cloud.subdomain, middle);
+            last = cell, place = 0;
+        }
+        if (place == PLACES) PG_FAIL (PG_E_LIMIT, "more than %d points of a cell are too many", PLACES);
+        p->held[set].owned[q] = (unsigned char) own;
+        p->held[set].number[q] = number * PLACES + place;
+    }
+done:
+    return status;
+}
+
+static pg_status number_held (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    const pg_subdomain *s = p->cloud.subdomain;
+    if (!s) return PG_OK;
+    PG_ALLOC (p->held[PG_NODES].owned, s->n);
+    PG_ALLOC (p->held[PG_NODES].number, s->n);
+    memcpy (p->held[PG_NODES].owned, s->owned, s->n);
+    memcpy (p->held[PG_NODES].number, s->number, s->n * sizeof *s->number);
+    PG_TRY (number_points (p, PG_POINTS));
+    PG_TRY (number_points (p, PG_FACETS));
+done:
+    return status;
+}
+
 /* Rows of all bond sets, then what needs them: spacings, blocks, dilatation, exempt points. */
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
@@ -314,6 +362,7 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
         PG_TRY (make_points (p, search, scene));
         PG_TRY (make_facets (p, search, scene));
     }
+    PG_TRY (number_held (p));
     for (int s = 0; s < PG_BOND_SETS; s++)
         p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
     PG_TRY (measure_spacing (p));

@@ -36,6 +36,24 @@ static void name_of (char *out, size_t size, const char *file)
     snprintf (out, size, "%.*s", (int) n, n ? base : "scene");
 }
 
+/* Cells of a lattice; of a rank those around what it owns that its forces are evaluated in, where the force
+ * says so. */
+static pg_status cells_of_lattice (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const pg_subdomain *s = p->cloud.subdomain;
+    pg_approx approx = { 0 };
+    double beyond;
+    if (!s || !p->method->ghost_cells)
+        return pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness);
+    PG_TRY (pg_method_approx (&approx, p->method, scene, p->cloud.h));
+    p->method->ghost_cells (scene, &beyond);
+    pg_box within = pg_subdomain_cells (s, &p->lattice, approx.horizon + beyond * p->cloud.h);
+    PG_TRY (pg_cells_from_part (&p->cells, &p->lattice, p->cloud.thickness, &within));
+done:
+    return status;
+}
+
 /* Cells at the surface keep the part inside the body; rays give the boundaries of sets. */
 static pg_status cut_cells (pg_problem *p, const pg_scene *scene, const pg_lattice *lattice)
 {
@@ -45,6 +63,10 @@ static pg_status cut_cells (pg_problem *p, const pg_scene *scene, const pg_latti
     char doubt[200];
     PG_TRY (pg_sets_rays (&ray, &n, scene, &p->body));
     PG_TRY (pg_cells_cut (&p->cells, &p->body, lattice, p->cloud.thickness, n, ray));
+    if (!p->cells.cut && p->cloud.subdomain) {             /* fewer */
+        pg_cells_clear (&p->cells);
+        PG_TRY (cells_of_lattice (p, scene));
+    }
     if (p->lattice.dim) PG_TRY (pg_cells_share (&p->cloud, &p->cells, &p->lattice));
     if (pg_cells_doubt (&p->cells, doubt, sizeof doubt)) pg_problem_note (p, PG_WARNING "%s", doubt);
 done:
@@ -112,12 +134,14 @@ static pg_status build_subdomain (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_approx approx = { 0 };
-    double h;
+    double h, width, beyond;
     PG_TRY (pg_subdomain_check (p, scene));
     PG_TRY (pg_cloud_spacing (&h, &p->body, scene));
     PG_TRY (pg_method_approx (&approx, p->method, scene, h));
-    PG_TRY (pg_cloud_build_part (&p->cloud, &p->lattice, &p->body, scene,
-                                 ghost_layers (p, scene) * approx.horizon));
+    width = ghost_layers (p, scene) * approx.horizon;
+    if (p->method->ghost_cells) width = p->method->ghosts * approx.horizon
+                                        + p->method->ghost_cells (scene, &beyond) * h;
+    PG_TRY (pg_cloud_build_part (&p->cloud, &p->lattice, &p->body, scene, width));
     pg_problem_note (p,
                      "%d ranks share the %.0f points; the patch test is left out: perigal check makes it",
                      pg_rank_count (), (double) p->cloud.subdomain->total);
@@ -148,7 +172,7 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     else if (p->lattice.dim && cut) PG_TRY (cut_cells (p, scene, &p->lattice));
     else if (!p->lattice.dim && (pg_scene_count (scene, "body") || surface))
         PG_TRY (cells_of_points (p, scene, cut));
-    else if (p->lattice.dim) PG_TRY (pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness));
+    else if (p->lattice.dim) PG_TRY (cells_of_lattice (p, scene));
     PG_TRY (pass (scene, pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells)));
 done:
     return status;
@@ -385,7 +409,8 @@ void pg_problem_free (pg_problem **problem)
     if (!p) return;
     pg_laws_clear (p);
     for (int s = 0; s < PG_BOND_SETS; s++)
-        pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]);
+        pg_rows_clear (&p->rows[s]), pg_free (p->exempt[s]), pg_free (p->block[s]), pg_free (p->spacing[s]),
+            pg_free (p->held[s].owned), pg_free (p->held[s].number);
     intact_free (&p->intact);
     pg_consistency_free (&p->consistency);
     pg_patches_free (&p->patches);

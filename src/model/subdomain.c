@@ -31,6 +31,23 @@ static void check_loads (const pg_scene *scene)
     }
 }
 
+/* Of forces with shape functions, which are evaluated in cells. */
+static void check_cells (const pg_scene *scene, const char *kind)
+{
+    char path[64];
+    if (!pg_solver_is (kind, PG_SOLVER_STATIC))
+        pg_scene_fault (scene, "solver.kind", "%d ranks: galerkin in motion is for one process only so far, "
+                        "or for division: matrices", pg_rank_count ());
+    if (pg_scene_bool (scene, "solver.plain"))
+        pg_scene_fault (scene, "solver.plain", "goes with one process only for force: galerkin");
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
+        snprintf (path, sizeof path, "boundary[%zu].set", i);
+        if (pg_scene_given (scene, "%s", path) && strcmp (pg_scene_text (scene, "%s", path), "cracks") == 0)
+            pg_scene_fault (scene, path, "%d ranks: a pressure in cracks is for one process only so far",
+                            pg_rank_count ());
+    }
+}
+
 int pg_subdomain_wanted (const pg_scene *scene)
 {
     if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT)) return 1;
@@ -46,6 +63,7 @@ pg_status pg_subdomain_check (const pg_problem *p, const pg_scene *scene)
     if (strcmp (pg_scene_text (scene, "contact.kind"), "none") != 0)
         pg_scene_fault (scene, "contact.kind", "%d ranks: contact is for one process only so far",
                         pg_rank_count ());
+    if (p->method->ghost_cells) check_cells (scene, kind);
     if (!(p->method->ghosts > 0))
         pg_scene_fault (scene, "method.force", "%d ranks: %s is not divided among ranks so far",
                         pg_rank_count (), p->method->name);

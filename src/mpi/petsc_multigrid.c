@@ -19,6 +19,7 @@ typedef struct {
     size_t n, block, held;
     int   *node;
     const unsigned char *fixed;
+    int    grids;                                      /* on a lattice; 0: GAMG */
 } multigrid;
 
 static pg_status said (PetscErrorCode code, const char *what) { return petsc_said (code, what); }
@@ -80,11 +81,18 @@ static pg_status count_couplings (multigrid *m, reading *r, PetscInt *own, Petsc
         size_t count = s->rows.row (s->rows.context, (size_t) m->node[k], 0, r->node, NULL);
         PetscInt here = 0;
         for (size_t c = 0; c < count; c++) here += s->subdomain->owned[r->node[c]];
+        if (count == 0) count = 1, here = 1;               /* its diagonal */
         for (size_t a = 0; a < m->block; a++)
             own[k * m->block + a] = here * (PetscInt) m->block,
             other[k * m->block + a] = ((PetscInt) count - here) * (PetscInt) m->block;
     }
     return status;
+}
+
+/* The diagonal of a node that nothing is coupled with. */
+static pg_status put_unit (multigrid *m, PetscInt row, double value)
+{
+    return said (MatSetValues (m->A, 1, &row, 1, &row, &value, ADD_VALUES), "rows of the preconditioner");
 }
 
 /* The rows of one node, prescribed unknowns taken out. mean: what their diagonal becomes. */
@@ -96,6 +104,7 @@ static pg_status put_rows (multigrid *m, reading *r, size_t k, double *mean)
     size_t count = s->rows.row (s->rows.context, i, 0, r->node, r->value);
     for (size_t a = 0; a < b; a++) {
         PetscInt row = (PetscInt) r->number[i] * (PetscInt) b + (PetscInt) a;
+        if (count == 0) PG_TRY (put_unit (m, row, *mean > 0 ? *mean : 1));
         for (size_t c = 0; c < count; c++) {
             size_t j = (size_t) r->node[c];
             for (size_t e = 0; e < b; e++) {
@@ -177,6 +186,66 @@ done:
     return status;
 }
 
+/* ---- coarse grids on a lattice ------------------------------------------------------------------------- */
+/* Then coarse functions are known. */
+static int on_a_lattice (const pg_shared_rows *s)
+{
+    int yes = 1;
+    for (int k = 0; k < s->dim; k++) yes = yes && s->rows.lattice[k] > 0;
+    return yes;
+}
+
+enum { ENOUGH = 2000, MOST_GRIDS = 12 };
+
+/* Smoothing by Chebyshev polynomials of degree 2 before and after, as one process does. */
+static pg_status smooth_level (PC pc, PetscInt level)
+{
+    pg_status status = PG_OK;
+    KSP ksp;
+    PC by;
+    PG_TRY (said (PCMGGetSmoother (pc, level, &ksp), "coarse grids"));
+    PG_TRY (said (KSPSetType (ksp, KSPCHEBYSHEV), "coarse grids"));
+    PG_TRY (said (KSPChebyshevEstEigSet (ksp, 0, 0.1, 0, 1.1), "coarse grids"));
+    PG_TRY (said (KSPSetTolerances (ksp, PETSC_DEFAULT, PETSC_DEFAULT, PETSC_DEFAULT, 2), "coarse grids"));
+    PG_TRY (said (KSPSetNormType (ksp, KSP_NORM_NONE), "coarse grids"));
+    PG_TRY (said (KSPGetPC (ksp, &by), "coarse grids"));
+    PG_TRY (said (PCSetType (by, PCJACOBI), "coarse grids"));
+done:
+    return status;
+}
+
+static pg_status make_grids (multigrid *m, const pg_shared_rows *setting, const double *number)
+{
+    pg_status status = PG_OK;
+    Mat P[MOST_GRIDS] = { 0 };
+    int count = 0;
+    unsigned char *masked = NULL;
+    PG_ALLOC (masked, m->n * m->block);
+    for (size_t k = 0; k < m->n; k++)
+        for (size_t c = 0; c < m->block; c++)
+            masked[k * m->block + c] = m->fixed && m->fixed[(size_t) m->node[k] * m->block + c];
+    PG_TRY (petsc_grids (setting, m->n, m->node, masked, m->n ? (long long) number[m->node[0]] : 0, ENOUGH,
+                         MOST_GRIDS, P, &count));
+    PG_TRY (said (PCCreate (PETSC_COMM_WORLD, &m->pc), "coarse grids"));
+    PG_TRY (said (PCSetOperators (m->pc, m->A, m->A), "coarse grids"));
+    PG_TRY (said (PCSetType (m->pc, count ? PCMG : PCREDUNDANT), "coarse grids"));
+    if (count) PG_TRY (said (PCMGSetLevels (m->pc, count + 1, NULL), "coarse grids"));
+    if (count) PG_TRY (said (PCMGSetGalerkin (m->pc, PC_MG_GALERKIN_BOTH), "coarse grids"));
+    for (int k = 0; k < count; k++) {
+        PG_TRY (said (PCMGSetInterpolation (m->pc, count - k, P[k]), "coarse grids"));
+        PG_TRY (smooth_level (m->pc, count - k));
+    }
+    PG_TRY (said (PCSetOptionsPrefix (m->pc, "perigal_"), "coarse grids"));
+    PG_TRY (said (PCSetFromOptions (m->pc), "coarse grids"));
+    PG_TRY (said (PCSetUp (m->pc), "coarse grids"));
+    PG_TRY (said (MatCreateVecs (m->A, &m->x, &m->b), "coarse grids"));
+    m->grids = 1;
+done:
+    pg_free (masked);
+    for (int k = 0; k < MOST_GRIDS; k++) if (P[k]) MatDestroy (&P[k]);
+    return status;
+}
+
 static pg_status multigrid_create (void **self, const pg_shared_rows *setting)
 {
     pg_status status = PG_OK;
@@ -193,6 +262,10 @@ static pg_status multigrid_create (void **self, const pg_shared_rows *setting)
     PG_ALLOC (r.line, setting->rows.widest * m->block);
     PG_ALLOC (r.column, setting->rows.widest * m->block);
     PG_TRY (make_matrix (m, &r));
+    if (on_a_lattice (setting)) {
+        PG_TRY (make_grids (m, setting, number));
+        goto done;
+    }
     PG_TRY (tell_motions (m, setting));
     PG_TRY (make_cycle (m));
 done:
@@ -230,7 +303,7 @@ static void multigrid_describe (const void *self, char *text, size_t size)
 {
     const multigrid *m = self;
     PetscInt levels = 0;
-    size_t at = (size_t) snprintf (text, size, "GAMG (PETSc)");
+    size_t at = (size_t) snprintf (text, size, m->grids ? "multigrid (PETSc)" : "GAMG (PETSc)");
     if (PCMGGetLevels (m->pc, &levels) != 0) return;
     at += (size_t) snprintf (text + at, size > at ? size - at : 0, ", %ld levels of", (long) levels);
     for (PetscInt k = levels; k-- > 0 && at < size;) {

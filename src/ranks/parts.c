@@ -44,3 +44,23 @@ done:
     pg_free (before);
     return status;
 }
+
+pg_status pg_subdomain_count (const pg_subdomain *s, size_t n, int *parent, double *out)
+{
+    pg_status status = PG_OK;
+    double *label = NULL;
+    int *size = NULL;
+    out[0] = out[1] = 0;
+    PG_ALLOC (label, n);
+    PG_ALLOC (size, n);
+    for (size_t i = 0; i < n; i++) size[pg_disjoint_root (parent, (int) i)]++;
+    PG_TRY (pg_subdomain_label (s, n, parent, label));
+    for (size_t i = 0; i < n; i++) {
+        if (!pg_owns (s, i) || label[i] != (s ? (double) s->number[i] : (double) i)) continue;
+        out[size[pg_disjoint_root (parent, (int) i)] > 1]++;
+    }
+    PG_TRY (pg_ranks_sum (2, out));
+done:
+    pg_free (label), pg_free (size);
+    return status;
+}

@@ -50,6 +50,24 @@ done:
     return status;
 }
 
+/* The first rank collects them and spreads them by a sum to which the others add nothing. */
+pg_status pg_ranks_share (size_t n, const double *mine, size_t *n_all, double **all)
+{
+    pg_status status = PG_OK;
+    void *collected = NULL;
+    size_t bytes = 0;
+    PG_TRY (pg_ranks_collect (n * sizeof *mine, mine, &bytes, &collected));
+    double count = (double) (bytes / sizeof *mine);
+    PG_TRY (pg_ranks_sum (1, &count));
+    *n_all = (size_t) count;
+    PG_ALLOC (*all, *n_all);
+    if (bytes) memcpy (*all, collected, bytes);
+    PG_TRY (pg_ranks_sum (*n_all, *all));
+done:
+    pg_free (collected);
+    return status;
+}
+
 /* The message travels as bytes: those of the lowest rank that failed, by a sum to which the others add
  * nothing. */
 enum { WORDS = 512 };

@@ -89,6 +89,16 @@ static void contact_block (pg_json *j, const pg_statistics *r, int points)
     pg_json_shut (j);
 }
 
+/* Points of a set that this rank owns, where they are no nodes, and the bonds of all that it owns. */
+static void count_owned (const pg_problem *p, int set, double *points, double *bonds)
+{
+    const size_t *first = p->rows[set].family.start;
+    for (size_t i = 0; i < p->rows[set].n; i++) {
+        if (!pg_problem_owns (p, set, i)) continue;
+        *points += set == PG_POINTS, *bonds += (double) (first[i + 1] - first[i]);
+    }
+}
+
 /* Sizes of the problem, steps and events, the work of the solver and of the linear solver, and
  * the energies of the last state (J). */
 static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r, const pg_state *state)
@@ -98,15 +108,14 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     int contact = setting->kind != PG_CONTACT_NONE || p->nplaten,
         explicit_ = (pg_solver_settled (res->solver)->flags & PG_SOLVER_EXPLICIT) != 0,
         points = contact && (setting->search == PG_CONTACT_SHORT_RANGE || (explicit_ && p->nplaten));
-    double total[3] = { (double) p->cloud.n, (double) p->first_bond[PG_BOND_SETS], (double) state->ndof },
+    double total[4] = { (double) p->cloud.n, (double) p->first_bond[PG_BOND_SETS], (double) state->ndof },
            evaluated = p->rows[PG_POINTS].n ? (double) p->rows[PG_POINTS].n : total[0];
     const pg_subdomain *s = p->cloud.subdomain;
     if (s) {                                           /* each point, and its bonds, where it is owned */
-        const size_t *first = p->rows[PG_NODES].family.start;
         total[0] = (double) s->nowned, total[1] = 0, total[2] *= (double) s->nowned / (double) s->n;
-        for (size_t i = 0; i < s->n; i++) if (s->owned[i]) total[1] += (double) (first[i + 1] - first[i]);
-        if (pg_ranks_sum (3, total) != PG_OK) total[0] = total[1] = total[2] = 0;
-        evaluated = total[0];
+        for (int set = 0; set < PG_BOND_SETS; set++) count_owned (p, set, &total[3], &total[1]);
+        if (pg_ranks_sum (4, total) != PG_OK) total[0] = total[1] = total[2] = total[3] = 0;
+        evaluated = p->integration && !p->integration->at_nodes ? total[3] : total[0];
     }
     pg_json_count (j, "points", (size_t) total[0]);
     pg_json_number (j, "finest_spacing", pg_cloud_finest (&p->cloud));

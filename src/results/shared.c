@@ -100,13 +100,14 @@ done:
 /* ---- events -------------------------------------------------------------------------------------------- */
 typedef struct { pg_broken broken; int64_t point, node; } event;
 
-/* As one process lists them: by time and round, then by the point that has the bond, then by the one it
- * leads to. */
+/* As one process lists them: by time and round, then by the set of the bond, the point that has it and the
+ * one it leads to. */
 static int earlier (const void *a, const void *b)
 {
     const event *x = a, *y = b;
     if (x->broken.time != y->broken.time) return x->broken.time < y->broken.time ? -1 : 1;
     if (x->broken.round != y->broken.round) return x->broken.round < y->broken.round ? -1 : 1;
+    if (x->broken.set != y->broken.set) return x->broken.set < y->broken.set ? -1 : 1;
     if (x->point != y->point) return x->point < y->point ? -1 : 1;
     return (x->node > y->node) - (x->node < y->node);
 }
@@ -128,7 +129,7 @@ pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, siz
         pg_problem_locate (p, b->bond, &set, &point);
         size_t node = (size_t) p->rows[set].family.node[b->bond - p->first_bond[set]];
         mine[i].broken = *b;
-        mine[i].point = p->cloud.subdomain->number[point], mine[i].node = p->cloud.subdomain->number[node];
+        mine[i].point = p->held[set].number[point], mine[i].node = p->cloud.subdomain->number[node];
     }
     PG_TRY (pg_ranks_collect (step->nbroken * sizeof *mine, mine, &bytes, &all));
     *n = bytes / sizeof *mine;

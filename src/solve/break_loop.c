@@ -4,6 +4,7 @@
  * static and newmark. */
 #include "facet_growth.h"
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* Makes the linear system behind the loop. The arrays of a look at all bonds come with break_loop_ready,
@@ -66,7 +67,7 @@ int break_loop_owns (const break_loop *b, size_t bond)
     size_t point;
     if (!p->cloud.subdomain) return 1;
     pg_problem_locate (p, bond, &set, &point);
-    return set != PG_NODES || p->cloud.subdomain->owned[point];
+    return pg_problem_owns (p, set, point);
 }
 
 /* Appends to the bonds that have died in this step; the caller clears the alive bit. */
@@ -81,6 +82,71 @@ done:
     return status;
 }
 
+/* ---- bonds that ranks hold in common ------------------------------------------------------------------- */
+/* Where a number stands in an ascending list; n: nowhere. */
+static size_t place_of (size_t n, const int64_t *list, int64_t number)
+{
+    size_t low = 0, high = n;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (list[middle] < number) low = middle + 1;
+        else high = middle;
+    }
+    return low < n && list[low] == number ? low : n;
+}
+
+/* The bond of these numbers of a set, its point and its node; SIZE_MAX: this rank does not hold it. */
+static size_t bond_of (const pg_problem *p, const double *key)
+{
+    const pg_subdomain *s = p->cloud.subdomain;
+    int set = (int) key[0];
+    const pg_family *f = &p->rows[set].family;
+    size_t point = place_of (f->n, p->held[set].number, (int64_t) key[1]),
+           node = place_of (s->n, s->number, (int64_t) key[2]);
+    if (point == f->n || node == s->n) return SIZE_MAX;
+    for (size_t e = f->start[point]; e < f->start[point + 1]; e++)
+        if ((size_t) f->node[e] == node) return p->first_bond[set] + e;
+    return SIZE_MAX;
+}
+
+static int ascending (const void *a, const void *b)
+{
+    size_t i = *(const size_t *) a, j = *(const size_t *) b;
+    return (i > j) - (i < j);
+}
+
+/* Bonds that their owners have broken in this round die on all ranks that hold them: `changes`, of owned ones
+ * so far, gets the others. Every rank asks its own, so that none judges what it does not know to the last
+ * bit. */
+static pg_status share_changes (break_loop *b, pg_state *state)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = b->system.problem;
+    const pg_subdomain *s = p->cloud.subdomain;
+    double *mine = NULL, *all = NULL;
+    size_t n = 0, own = b->changes.n;
+    if (!s) return PG_OK;
+    PG_ALLOC (mine, 3 * own);
+    for (size_t k = 0; k < own; k++) {
+        int set;
+        size_t point, bond = b->changes.bond[k];
+        pg_problem_locate (p, bond, &set, &point);
+        mine[3 * k] = set, mine[3 * k + 1] = (double) p->held[set].number[point];
+        mine[3 * k + 2] = (double) s->number[p->rows[set].family.node[bond - p->first_bond[set]]];
+    }
+    PG_TRY (pg_ranks_share (3 * own, mine, &n, &all));
+    for (size_t k = 0; k < n; k += 3) {
+        size_t bond = bond_of (p, all + k);
+        if (bond == SIZE_MAX || !state->alive[bond]) continue;
+        PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
+        state->alive[bond] = 0, b->changes.bond[b->changes.n++] = bond;
+    }
+    if (b->changes.n > own) qsort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, ascending);
+done:
+    pg_free (mine), pg_free (all);
+    return status;
+}
+
 /* One round of breaking. The bonds that die are listed twice: in `changes` for the force, which updates
  * what they touched, and in `broken` for the results. */
 pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure, double cut, double scale,
@@ -89,15 +155,13 @@ pg_status break_loop_kill (break_loop *b, pg_state *state, const double *measure
     pg_status status = PG_OK;
     b->changes.n = 0;
     for (size_t i = 0; i < state->nbond; i++) {
-        if (!(measure[i] >= cut) || !state->alive[i]) continue;
+        if (!(measure[i] >= cut) || !state->alive[i] || !break_loop_owns (b, i)) continue;
         PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
-        if (break_loop_owns (b, i)) {
-            PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
-            state->broken++;
-        }
-        state->alive[i] = 0;
+        PG_TRY (break_loop_log (b, i, b->kind[i], b->utilisation[i] * scale, t));
+        state->broken++, state->alive[i] = 0;
         b->changes.bond[b->changes.n++] = i;
     }
+    PG_TRY (share_changes (b, state));
 done:
     return status;
 }
@@ -107,13 +171,12 @@ done:
 static double most_of (const break_loop *b, const double *a, double sign, double least)
 {
     const pg_problem *p = b->system.problem;
-    const pg_subdomain *part = p->cloud.subdomain;
     double top = least;
     for (int set = 0; set < PG_BOND_SETS; set++) {
         const pg_family *f = &p->rows[set].family;
         const double *of = a + p->first_bond[set];
         for (size_t k = 0; k < f->n; k++) {
-            if (part && set == PG_NODES && !part->owned[k]) continue;
+            if (!pg_problem_owns (p, set, k)) continue;
             for (size_t e = f->start[k]; e < f->start[k + 1]; e++)
                 if (sign * of[e] > top) top = sign * of[e];
         }
@@ -124,10 +187,10 @@ static double most_of (const break_loop *b, const double *a, double sign, double
 double break_loop_largest (const break_loop *b, const double *a) { return most_of (b, a, 1, 0); }
 double break_loop_smallest (const break_loop *b, const double *a) { return -most_of (b, a, -1, -INFINITY); }
 
-/* The force finds the worst bonds without judging all; it knows of no other ranks. */
+/* The force finds the worst bonds without judging all. */
 static int judges_few (const break_loop *b)
 {
-    return b->system.force->worst && !b->system.options->plain && !system_is_shared (&b->system);
+    return b->system.force->worst && !b->system.options->plain;
 }
 
 /* One round of breaking among the bonds listed. */
@@ -144,6 +207,7 @@ static pg_status kill_listed (break_loop *b, pg_state *state, double cut, double
         b->changes.bond[b->changes.n++] = i;
     }
     state->broken += (long) b->changes.n;
+    PG_TRY (share_changes (b, state));
 done:
     return status;
 }

@@ -72,7 +72,7 @@ pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
         || (dyn && !s->force->elements) || strcmp (s->options->preconditioner, "jacobi") == 0
         || (s->force->elements && s->options->plain))
         return PG_OK;
-    if (system_is_shared (s) && (!s->force->couplings || !pg_shared_preconditioner_now ())) return PG_OK;
+    if (system_is_shared (s) && !pg_shared_preconditioner_now ()) return PG_OK;
     if (s->fixed) {
         *can = s->precondition;
         return PG_OK;
@@ -93,6 +93,10 @@ static void tell (pg_system *s)
     pg_multilevel_info info;
     char *text = s->report->preconditioner;
     size_t workspace = sizeof s->report->preconditioner, at = 0;
+    if (s->elements && system_is_shared (s)) {
+        pg_element_preconditioner_describe (s->elements, text, workspace);
+        return;
+    }
     pg_multilevel_describe (s->elements ? pg_element_preconditioner_levels (s->elements) : s->multilevel,
                             &info);
     at = (size_t) snprintf (text, workspace, "%smultilevel, %d levels of",
@@ -126,7 +130,8 @@ static pg_status make_by_elements (pg_system *s, double k, double m)
     pg_status status = PG_OK;
     pg_elements elements = { 0 };
     pg_element_setting setting = { .dim = s->problem->dim, .x = s->problem->cloud.x,
-                                   .fixed = s->own_row ? s->fixed : NULL };
+                                   .fixed = s->own_row ? s->fixed : NULL,
+                                   .subdomain = s->problem->cloud.subdomain };
     PG_TRY (s->force->elements (s->self, &elements));
     pg_block_matrix *Q = &elements.Q;
     size_t entries = Q->start[Q->n] * (size_t) (Q->block * Q->block);
@@ -147,8 +152,8 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m)
     system_forget_preconditioner (s);
     /* finds what constraints leave, also in a resumed run */
     PG_TRY (system_can_precondition (s, NULL, &can));
-    PG_TRY (system_is_shared (s) ? system_make_shared (s)
-            : s->force->elements ? make_by_elements (s, k, m) : make_by_rows (s));
+    PG_TRY (s->force->elements ? make_by_elements (s, k, m)
+            : system_is_shared (s) ? system_make_shared (s) : make_by_rows (s));
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;
     s->made[0] = k, s->made[1] = m;

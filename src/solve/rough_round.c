@@ -98,7 +98,8 @@ done:
 /* Also the first share of a run. */
 static int may_be_rough (pg_system *s)
 {
-    if (!s->force->worst || !s->force->judge_group || s->options->plain || s->rough.share < 0 || s->contact)
+    if (system_is_shared (s) || !s->force->worst || !s->force->judge_group || s->options->plain
+        || s->rough.share < 0 || s->contact)
         return 0;
     if (s->rough.share == 0) s->rough.share = fmin (first_share, largest_share (s));
     return 1;

@@ -74,6 +74,8 @@ pg_status system_make_shared (pg_system *s)
     pg_shared_rows setting = { .dim = s->problem->dim, .block = s->components, .x = s->problem->cloud.x,
                                .fixed = s->fixed, .subdomain = part_of (s) };
     PG_TRY (s->force->couplings (s->self, &setting.rows));
+    /* too wide for coarse grids of twice the step */
+    memset (setting.rows.lattice, 0, sizeof setting.rows.lattice);
     PG_TRY (type->create (&s->amg, &setting));
     type->describe (s->amg, s->report->preconditioner, sizeof s->report->preconditioner);
 done:

@@ -132,15 +132,17 @@ static void doubt_all (pg_statistics *report, const pg_problem *p)
 /* Nitsche's method integrates over facets; of the whole body that is meant: its surface. */
 static void doubt_inner (pg_statistics *report, const pg_problem *p)
 {
+    const pg_subdomain *s = p->cloud.subdomain;
+    size_t all = s ? (size_t) s->total : p->cloud.n;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_NITSCHE || !load->set->ninner
-            || load->set->npoint == p->cloud.n)
+        if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_NITSCHE || !pg_set_inner (load->set)
+            || pg_set_points (load->set) == all)
             continue;
         pg_statistics_warn (report,
                             "%.40s: essential: nitsche holds the %zu facets of %.40s and leaves free %zu of "
                             "its points, which lie behind them; use essential: penalty",
-                            load->name, load->set->nfacet, load->set->name, load->set->ninner);
+                            load->name, pg_set_facets (load->set), load->set->name, pg_set_inner (load->set));
     }
 }
 
