@@ -31,8 +31,8 @@ typedef struct {
      * where the set was chosen by its faces. */
     size_t  ninner;  int *inner;
     /* Points and facets of the set that all ranks own together, and those of its inside, facets at the
-     * borders of subdomains counted more than once (pg_set_points, pg_set_facets, pg_set_inner); only where ranks
-     * share a run. */
+     * borders of subdomains counted more than once (pg_set_points, pg_set_facets, pg_set_inner); only where
+     * ranks share a run. */
     size_t  all_points, all_facets, all_inner;
 } pg_set;
 /* Numbers of points and facets of the set on all ranks. */

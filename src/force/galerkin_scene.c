@@ -137,8 +137,8 @@ static int projects (const pg_scene *scene)
 }
 
 /* Of ranks that share the body. The row of an owned node is made of the points within one horizon of it,
- * whose shape functions lean on nodes within one horizon of theirs. With consistent integration all points of a
- * cell belong together, with the cells beside it. Cells around owned nodes are elements of the
+ * whose shape functions lean on nodes within one horizon of theirs. With consistent integration all points
+ * of a cell belong together, with the cells beside it. Cells around owned nodes are elements of the
  * preconditioner. Patches of the dilatation are two cells wide, or three points, or twice as much where one
  * has joined another, and those at the end of what is held are no whole ones, with those that they have
  * joined. */

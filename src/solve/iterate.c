@@ -87,10 +87,15 @@ static pg_status by_elements (void *context, const double *r, double *z)
     pg_status status = PG_OK;
     pg_system *s = context;
     pg_preconditioner P = pg_element_preconditioner_of (s->elements);
-    if (!s->own_row) return P.solve (P.context, r, z);
+    if (!s->own_row) {
+        PG_TRY (P.solve (P.context, r, z));
+        system_clear_rest (s, z);
+        goto done;
+    }
     memset (s->full, 0, s->ndof * sizeof *s->full);
     for (size_t j = 0; j < s->nred; j++) s->full[s->own_row[j]] = r[j];
     PG_TRY (P.solve (P.context, s->full, s->scratch));
+    system_clear_rest (s, s->scratch);
     for (size_t j = 0; j < s->nred; j++) z[j] = s->scratch[s->own_row[j]];
 done:
     return status;

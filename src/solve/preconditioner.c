@@ -214,7 +214,7 @@ pg_status system_iterate_preconditioned (pg_system *s, const dynamics *dyn, doub
     if (!system_has_preconditioner (s) || s->extra_cost > RENEWAL || other)
         PG_TRY (system_make_preconditioner (s, k, m));
     else s->spared += s->stale;
-    if (s->amg && s->stale) PG_TRY (system_find_bare (s, dyn));
+    if (system_is_shared (s) && s->stale) PG_TRY (system_find_bare (s, dyn));
     strcpy (s->report->solver, "cg");
     pg_status now = iterate (s, dyn, tolerance, &used);
     /* made before the last break: once more */

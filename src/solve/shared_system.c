@@ -97,7 +97,7 @@ done:
 }
 
 /* What is left of a preconditioned residual. */
-static void clear_rest (const pg_system *s, double *z)
+void system_clear_rest (const pg_system *s, double *z)
 {
     system_clear_ghosts (s, z);
     for (size_t i = 0; s->bare && i < s->ndof; i++) if (s->bare[i]) z[i] = 0;
@@ -110,13 +110,13 @@ pg_status system_apply_shared (pg_system *s, const double *r, double *z)
     const pg_shared_preconditioner *type = pg_shared_preconditioner_now ();
     if (!s->own_row) {
         PG_TRY (type->solve (s->amg, r, z));
-        clear_rest (s, z);
+        system_clear_rest (s, z);
         goto done;
     }
     memset (s->full, 0, s->ndof * sizeof *s->full);
     for (size_t j = 0; j < s->nred; j++) s->full[s->own_row[j]] = r[j];
     PG_TRY (type->solve (s->amg, s->full, s->scratch));
-    clear_rest (s, s->scratch);
+    system_clear_rest (s, s->scratch);
     for (size_t j = 0; j < s->nred; j++) z[j] = s->scratch[s->own_row[j]];
 done:
     return status;

@@ -135,6 +135,7 @@ double    system_norm_owned (const pg_system *s, const double *weight, const dou
 void      system_multiply_shared (const pg_system *s, const pg_operator *op, const double *x, double *y);
 pg_status system_make_shared  (pg_system *s);
 pg_status system_find_bare    (pg_system *s, const dynamics *dyn);     /* after breaking */
+void      system_clear_rest   (const pg_system *s, double *z);         /* ghosts, and what nothing holds */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z);
 void      system_free_shared  (pg_system *s);
 int       system_has_matrix (const pg_system *s);       /* the force offers K itself */
