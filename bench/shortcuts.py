@@ -3,6 +3,7 @@ explicit motion, each beside the same run with solver.plain, which takes none of
 doc/performance.md, beside an older build where PERIGAL_BENCH_BEFORE names the folder of its program.
 """
 import os
+import random
 import shutil
 import subprocess
 
@@ -172,6 +173,60 @@ def tetrahedra(bench):
     return command("make bench T=tetrahedra") + table(["cube", "unknowns", "solved by", "iterations", "CPU s of the run", "peak MB"], lines)
 
 
+CLOUD = """title: Cube of points without cells, held at the bottom, pulled and sheared at the top
+dimension: 3
+points: %s
+materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.2}}
+method: {approximation: rkpm, integration: nodal, kernel: cubic_spline, horizon: 2.0 spacing}
+sets:
+  up: {where: "y > %.9g"}
+  down: {where: "y < %.9g"}
+boundary:
+  - {name: bottom, set: down, displacement: {x: 0, y: 0, z: 0}}
+  - {name: top, set: up, force: {y: 1 MN, x: 0.3 MN}}
+solver: {kind: static, stepping: fixed, steps: 1, linear: pcg}
+output: {at: {levels: 1}, pictures: []}
+"""
+
+
+def moved_points(side, draw):
+    """Centres of the cells of a lattice, moved by up to 0.3 spacings along each axis."""
+    return [tuple((i + 0.5 + draw.uniform(-0.3, 0.3)) / side for i in (x, y, z)) for x in range(side) for y in range(side) for z in range(side)]
+
+
+def random_points(side, draw):
+    """Points one after the other at random places, none nearer to another than 0.86 spacings."""
+    apart, out, near = 0.86 / side, [], {}
+    around = [(a, b, c) for a in (-1, 0, 1) for b in (-1, 0, 1) for c in (-1, 0, 1)]
+    while len(out) < side**3:
+        p = (draw.random(), draw.random(), draw.random())
+        cell = tuple(int(v / apart) for v in p)
+        others = [q for a in around for q in near.get(tuple(map(sum, zip(cell, a))), ())]
+        if all(sum((s - t)**2 for s, t in zip(p, q)) >= apart**2 for q in others):
+            near.setdefault(cell, []).append(p)
+            out.append(p)
+    return out
+
+
+def clouds(bench):
+    """Points of a file without cells: iterations and seconds by elements on a coarse grid, and by the diagonal."""
+    lines = []
+    os.makedirs("out/bench", exist_ok=True)
+    for title, make in (("lattice, moved by 0.3", moved_points), ("random", random_points)):
+        for side in (12, 17, 25):
+            name = "cloud_%s_%d" % (title.split(",")[0], side)
+            points = make(side, random.Random(1))
+            with open("out/bench/%s.csv" % name, "w") as out:
+                out.write("x,y,z,volume\n" + "".join("%.9g,%.9g,%.9g,%.9g\n" % (*p, 1 / len(points)) for p in points))
+            with open("out/bench/%s.yaml" % name, "w") as out:
+                out.write(CLOUD % (name + ".csv", 1 - 1 / side, 1 / side))
+            for way, settings in (("coarse grid", []), ("diagonal", ["solver.preconditioner=jacobi"])):
+                reports = [bench.run("clouds", "out/bench/%s.yaml" % name, settings) for _ in range(bench.times(2))]
+                r = min(reports, key=lambda report: report["cpu"])
+                lines.append([title, "%d" % r["dofs"], way, "%d" % r["cg_iterations"], short(r["cpu"]), megabytes(r)])
+    return command("make bench T=clouds") + table(["points", "unknowns", "preconditioner", "iterations", "CPU s of the run", "peak MB"], lines)
+
+
 EDGE = """title: Edge crack, from intact to cut in two, bond by bond
 dimension: 2
 plane: stress
@@ -301,6 +356,7 @@ GROUPS = {
     "solve_3d": (solve_3d, 0, "solves in space up to 107 000 unknowns, plain ones beside"),
     "engines": (engines, 0, "events of single bonds, plain ones beside"),
     "iterations": (iterations, 0, "iterations with finite elements as preconditioner, over what makes them more"),
+    "clouds": (clouds, 0, "points without cells: iterations and seconds with a coarse grid as preconditioner and without"),
     "tetrahedra": (tetrahedra, 0, "meshes of tetrahedra: iterations with finite elements as preconditioner (needs Gmsh)"),
     "cuts": (cuts, 0, "events of single bonds up to the cut, plain ones beside"),
     "newmark": (newmark, 0, "implicit motion with breaking bonds, plain beside"),

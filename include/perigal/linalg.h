@@ -333,14 +333,51 @@ void      pg_block_add_diagonal (pg_block_matrix *A, size_t unknown, double valu
 pg_operator  pg_block_operator  (pg_block_matrix *A);
 pg_couplings pg_block_couplings (pg_block_matrix *A, double reach);
 
+/* Multilinear functions ("hats") on a grid over the nodes of a cloud; where the couplings leave the nodes
+ * under one in several parts, each part has a function of its own. Together they reproduce every linear
+ * field. */
+typedef struct {
+    /* Dimension; threads. */
+    int     dim, threads;
+    /* Number of nodes and their positions, m (n x dim). */
+    size_t  n;
+    const double *x;
+    /* Which nodes are coupled; asked for nodes only. */
+    pg_couplings rows;
+    /* Step of the grid, m. */
+    double  step;
+} pg_hats_setting;
+typedef struct {
+    /* Numbers of nodes, functions, cells of the grid; functions at a node (2^dim); threads of transfers. */
+    size_t  n, count, ncell;
+    int     corners, threads;
+    /* Functions at each node, -1: none, and their values there (n x corners). */
+    int    *function;  float *value;
+    /* Where each function stands, m (count x dim). */
+    double *place;
+    /* The same by functions: nodes and values from first[f] to first[f + 1] - 1 (count + 1). */
+    size_t *first;  int *member;  float *share;
+    /* Nodes of each cell of the grid, ascending, in the same way (ncell + 1). */
+    size_t *cell_first;  int *cell_node;
+} pg_hats;
+pg_status pg_hats_create (pg_hats *out, const pg_hats_setting *setting);
+void      pg_hats_clear  (pg_hats *hats);
+/* y = H' x and y += H x: x and y have block numbers a node, or a function. */
+void      pg_hats_restrict (const pg_hats *hats, int block, const double *x, double *y);
+void      pg_hats_add      (const pg_hats *hats, int block, const double *x, double *y);
+
 /* A sparse matrix with one number for each pair of nodes, by rows (n + 1, start[n]). */
 typedef struct { size_t n; size_t *start; int *node; float *value; } pg_node_matrix;
 void pg_node_matrix_clear (pg_node_matrix *A);
 
-/* Finite elements on the nodes of a smooth approximation. */
+/* Finite elements on the nodes of a smooth approximation, or on a coarse grid over them. */
 typedef struct {
     /* Their stiffness, N/m, supports included. */
     pg_block_matrix Q;
+    /* Elements on a coarse grid: the functions whose coefficients are the unknowns of Q, and the diagonal of
+     * K without stiff springs, N/m (unknowns of the nodes). Without: count 0, NULL. */
+    pg_hats hats;
+    double *diagonal;
     /* Row i: values of the shape functions at node i; start NULL: the unit matrix. */
     pg_node_matrix  N;
     /* Spacing of the nodes; no two nodes of an element are further apart than `reach`; steps of the
@@ -372,10 +409,11 @@ typedef struct {
     const pg_subdomain *subdomain;
 } pg_element_setting;
 typedef struct pg_element_preconditioner pg_element_preconditioner;
-/* z = p (N) V p (N)' r, V one cycle of pg_multilevel on Q, p a polynomial for 1 / x. Symmetric positive
- * definite where no unknown is fixed. Stiff springs beside K, K + W h W' with h >> K, are taken on their
- * own: S p V p' S + W (W'W)^-1 h^-1 (W'W)^-1 W' with S = I - W (W'W)^-1 W' and elements that are held there.
- * Takes over the elements, which are empty afterwards, also where it fails. */
+/* z = p (N) V p (N)' r, V one cycle of pg_multilevel on Q, p a polynomial for 1 / x; with elements on a
+ * coarse grid z = D^-1 r + H V H' r. Symmetric positive definite where no unknown is fixed. Stiff springs
+ * beside K, K + W h W' with h >> K, are taken on their own: S p V p' S + W (W'W)^-1 h^-1 (W'W)^-1 W' with
+ * S = I - W (W'W)^-1 W' and elements that are held there. Takes over the elements, which are empty
+ * afterwards, also where it fails. */
 pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_elements *elements,
                                             const pg_element_setting *setting);
 void      pg_element_preconditioner_free   (pg_element_preconditioner **preconditioner);
@@ -384,6 +422,8 @@ pg_preconditioner pg_element_preconditioner_of (pg_element_preconditioner *preco
 /* V in words, where ranks share it. */
 void pg_element_preconditioner_describe (const pg_element_preconditioner *preconditioner, char *text,
                                          size_t size);
+/* 1: elements on a coarse grid. */
+int pg_element_preconditioner_on_grid (const pg_element_preconditioner *preconditioner);
 /* The levels of V, for reports. */
 const pg_multilevel *pg_element_preconditioner_levels (const pg_element_preconditioner *preconditioner);
 PG_API_END

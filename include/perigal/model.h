@@ -572,6 +572,7 @@ typedef struct {
     int    projected;                                  /* 1: the dilatation is projected (near nu = 1/2) */
     /* 1: points at the centres of cells, behind the surface, where the supports are */
     int    behind;
+    int    scattered;                                  /* 1: nodes are evaluated and form no lattice */
     double points, evaluation, bonds;  /* of evaluation; evaluation-point-to-node bonds */
     double reach;                                      /* horizon over spacing */
     double edge[3];                                    /* nodes along the body */
@@ -579,6 +580,8 @@ typedef struct {
     double columns;
 } pg_solve_counts;
 pg_solve_counts pg_solve_count (const pg_problem *problem);
+/* 1: finite elements on a coarse grid precondition such a body, 0: on all its nodes. */
+int    pg_solve_on_grid (const pg_solve_counts *c);
 /* Seconds, by stored rates: assembly; the same with analysis and factor; one solve with finite elements. */
 double pg_solve_assembly_cost (const pg_solve_counts *c);
 double pg_solve_direct_cost   (const pg_solve_counts *c);
@@ -618,7 +621,7 @@ typedef struct {
     int    automatic, dynamic;                         /* solver.linear: auto; newmark */
     /* events: a factor would serve many; elements: finite elements may precondition */
     int    events, elements;
-    int    order, interpolates, behind;                /* as in pg_solve_counts */
+    int    order, interpolates, behind, scattered;     /* as in pg_solve_counts */
     double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
     char   ordering[16];                               /* of an analysed factor */
     double spacing, step[3], horizon;                  /* m */

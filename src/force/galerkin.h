@@ -9,7 +9,8 @@
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums),
  * galerkin_ended.c, galerkin_ended_plan.c (cells that end at cracks), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
- * (preconditioner), galerkin_intact.c (rows of the intact body), galerkin_share.c
+ * (preconditioner), galerkin_hats.c (the same on a coarse grid),
+ * galerkin_intact.c (rows of the intact body), galerkin_share.c
  * (rows that are alike), galerkin_sample.c (any place),
  * galerkin_sample_alike.c (places that are alike),
  * galerkin_sample_again.c (places that are asked for again),

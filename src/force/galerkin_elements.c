@@ -405,7 +405,7 @@ done:
 /* ---- supports ------------------------------------------------------------------------------------------ */
 /* A penalty so much above E / h that springs of the elements would not do: the polynomial is not exact, and
  * what it leaves of the displacement of the node would be multiplied by it. */
-static int is_stiff (const galerkin *g, const constraint *q)
+int elements_stiff (const galerkin *g, const constraint *q)
 {
     return g->problem->load[q->load].penalty > 30;
 }
@@ -418,7 +418,7 @@ static pg_status list_stiff (const galerkin *g, pg_elements *out)
     size_t dim = (size_t) g->dim, n = 0, nnz = 0;
     for (size_t i = 0; i < g->npenalty; i++) {
         size_t node = (size_t) g->penalty_node[g->penalty[i].point];
-        if (!is_stiff (g, &g->penalty[i]) || r->grade[node] >= PG_GRADE_DEAD) continue;
+        if (!elements_stiff (g, &g->penalty[i]) || r->grade[node] >= PG_GRADE_DEAD) continue;
         n++, nnz += r->family.start[node + 1] - r->family.start[node];
     }
     if (n == 0) return PG_OK;
@@ -429,7 +429,7 @@ static pg_status list_stiff (const galerkin *g, pg_elements *out)
     for (size_t i = 0; i < g->npenalty; i++) {
         const constraint *q = &g->penalty[i];
         size_t node = (size_t) g->penalty_node[q->point], k = (size_t) q->component;
-        if (!is_stiff (g, q) || r->grade[node] >= PG_GRADE_DEAD) continue;
+        if (!elements_stiff (g, q) || r->grade[node] >= PG_GRADE_DEAD) continue;
         for (size_t e = r->family.start[node]; e < r->family.start[node + 1]; e++, at++)
             out->W.row[at] = (long) ((size_t) r->family.node[e] * dim + k),
             out->W.value[at] = r->N[e + pg_rows_offset (r, node)];
@@ -446,7 +446,7 @@ static void add_penalties (const galerkin *g, pg_block_matrix *Q)
     size_t dim = (size_t) g->dim;
     for (size_t i = 0; i < g->npenalty; i++) {
         const constraint *q = &g->penalty[i];
-        if (is_stiff (g, q)) continue;
+        if (elements_stiff (g, q)) continue;
         pg_block_add_diagonal (Q, (size_t) g->penalty_node[q->point] * dim + (size_t) q->component,
                                galerkin_penalty_stiffness (g, q));
     }
@@ -515,11 +515,15 @@ pg_status galerkin_elements (void *self, pg_elements *out)
     galerkin *g = self;
     element_list b = { .g = g, .set = g->bulk };
     memset (out, 0, sizeof *out);
+    PG_TRY (list_stiff (g, out));
+    if (galerkin_takes_hats (g)) {
+        PG_TRY (galerkin_hats (g, out));
+        goto done;
+    }
     PG_TRY (elements_find (&b));
     PG_TRY (pg_block_create (&out->Q, g->n, g->dim, &b.list, g->threads));
     PG_TRY (add_elements (&b, &out->Q));
     add_penalties (g, &out->Q);
-    PG_TRY (list_stiff (g, out));
     if (!g->problem->approx.type->interpolates) PG_TRY (elements_values (g, &out->Q, &out->N));
     PG_TRY (choose_polynomial (g->problem, out));
     out->spacing = g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: finite elements on the nodes of the Galerkin form while they are made. galerkin_elements_list.c
- * finds them, galerkin_elements.c sums up their matrices, galerkin_elements_values.c makes N. */
+ * finds them, galerkin_elements.c sums up their matrices, galerkin_elements_values.c makes N; galerkin_hats.c
+ * makes those on a coarse grid. */
 #ifndef PG_GALERKIN_ELEMENTS_H
 #define PG_GALERKIN_ELEMENTS_H
 #include "galerkin.h"
@@ -28,6 +29,11 @@ typedef struct {
 pg_status elements_find (element_list *b);
 /* Values of the shape functions at the nodes, tempered beside cracks; Q: stiffness of the elements. */
 pg_status elements_values (const galerkin *g, const pg_block_matrix *Q, pg_node_matrix *N);
+/* Is a penalty so stiff that it is taken on its own (pg_elements.W)? */
+int       elements_stiff (const galerkin *g, const constraint *q);
+/* galerkin_hats.c: is it elements on a coarse grid that precondition? They, of a body whose W is known. */
+int       galerkin_takes_hats (const galerkin *g);
+pg_status galerkin_hats (galerkin *g, pg_elements *out);
 /* Squared distance, m^2. */
 static inline double distance2 (int dim, const double *a, const double *b)
 {

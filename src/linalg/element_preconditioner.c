@@ -54,7 +54,8 @@ struct pg_element_preconditioner {
     double *force, *along, *part;
     /* residual without the forces along W (ndof) */
     double *rest;
-    /* Vectors of the recurrence and of the two halves (ndof). */
+    /* Vectors of the recurrence and of the two halves (ndof; of elements on a coarse grid, of its
+     * functions). */
     double *t[2], *left, *right;
 };
 
@@ -262,6 +263,9 @@ done:
 void pg_elements_clear (pg_elements *e)
 {
     pg_block_clear (&e->Q);
+    pg_hats_clear (&e->hats);
+    pg_free (e->diagonal);
+    e->diagonal = NULL;
     pg_node_matrix_clear (&e->N);
     pg_sparse_clear (&e->W);
     pg_free (e->held), pg_free (e->holds);
@@ -326,27 +330,47 @@ done:
     return status;
 }
 
-/* V: a multilevel cycle of the elements, or what ranks make of their rows, who then have Q themselves. */
+/* V: a multilevel cycle of the elements, or what ranks make of their rows, who then have Q themselves. Of
+ * elements on a coarse grid no unknown is fixed: their functions leave out what is. */
 static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_setting *s)
 {
     pg_status status = PG_OK;
-    pg_block_matrix *Q = &P->elements.Q;
+    pg_elements *e = &P->elements;
+    pg_block_matrix *Q = &e->Q;
     pg_multilevel_setting m = { .dim = s->dim,
                                 .block = Q->block,
                                 .threads = Q->threads,
                                 .n = Q->n,
-                                .x = s->x,
-                                .fixed = P->fixed,
+                                .x = e->hats.count ? e->hats.place : s->x,
+                                .fixed = e->hats.count ? NULL : P->fixed,
                                 .A = &P->Q,
-                                .rows = pg_block_couplings (Q, P->elements.reach),
-                                .step = 2.5 * P->elements.spacing / P->elements.reach, .aligned = 1 };
-    memcpy (m.rows.lattice, P->elements.lattice, sizeof m.rows.lattice);
+                                .rows = pg_block_couplings (Q, e->reach),
+                                .step = 2.5 * e->spacing / e->reach, .aligned = 1 };
+    memcpy (m.rows.lattice, e->lattice, sizeof m.rows.lattice);
+    P->Q = pg_block_operator (Q);
     if (!s->subdomain) return pg_multilevel_create (&P->multilevel, &m);
     pg_shared_rows rows = { .dim = s->dim, .block = Q->block, .x = s->x, .fixed = P->fixed,
                             .subdomain = s->subdomain, .rows = m.rows };
     PG_TRY (pg_shared_preconditioner_now ()->create (&P->shared, &rows));
     pg_free (Q->start), pg_free (Q->node), pg_free (Q->value);
     Q->start = NULL, Q->node = NULL, Q->value = NULL;
+done:
+    return status;
+}
+
+/* The polynomial and what it works on. */
+static pg_status make_polynomial (pg_element_preconditioner *P, size_t ndof)
+{
+    pg_status status = PG_OK;
+    P->terms = P->elements.terms < MOST_TERMS ? P->elements.terms : MOST_TERMS;
+    interpolate (P, P->elements.low, P->elements.high, inverse, P->elements.floor);
+    PG_TRY (transpose (&P->transposed, &P->elements.N));
+    PG_TRY (find_runs (&P->alike, &P->elements.N));
+    PG_TRY (find_runs (&P->alike_transposed, &P->transposed));
+    PG_ALLOC (P->t[0], ndof);
+    PG_ALLOC (P->t[1], ndof);
+    PG_ALLOC (P->left, ndof);
+    PG_ALLOC (P->right, ndof);
 done:
     return status;
 }
@@ -362,23 +386,17 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
     P->elements = *elements;
     memset (elements, 0, sizeof *elements);
     pg_block_matrix *Q = &P->elements.Q;
-    size_t ndof = Q->n * (size_t) Q->block;
-    P->Q = pg_block_operator (Q);
+    const pg_hats *hats = &P->elements.hats;
+    size_t ndof = (hats->count ? hats->n : Q->n) * (size_t) Q->block;
     PG_TRY (find_fixed (P, s->fixed, ndof));
     PG_TRY (factor_springs (P, ndof, Q->threads));
     P->subdomain = s->subdomain;
     PG_TRY (make_cycle (P, s));
-    if (P->elements.N.start) {
-        P->terms = P->elements.terms < MOST_TERMS ? P->elements.terms : MOST_TERMS;
-        interpolate (P, P->elements.low, P->elements.high, inverse, P->elements.floor);
-        PG_TRY (transpose (&P->transposed, &P->elements.N));
-        PG_TRY (find_runs (&P->alike, &P->elements.N));
-        PG_TRY (find_runs (&P->alike_transposed, &P->transposed));
+    if (hats->count) {
+        PG_ALLOC (P->left, Q->n * (size_t) Q->block);
+        PG_ALLOC (P->right, Q->n * (size_t) Q->block);
         PG_ALLOC (P->t[0], ndof);
-        PG_ALLOC (P->t[1], ndof);
-        PG_ALLOC (P->left, ndof);
-        PG_ALLOC (P->right, ndof);
-    }
+    } else if (P->elements.N.start) PG_TRY (make_polynomial (P, ndof));
     *out = P, P = NULL;
 done:
     pg_elements_clear (elements);
@@ -394,10 +412,27 @@ static pg_status cycle (pg_element_preconditioner *P, const double *r, double *z
     return V.solve (V.context, r, z);
 }
 
-/* z = p (N) V (Q) p (N') r */
+/* z = D^-1 r + H V (Q) H' r; nothing at unknowns that are fixed. */
+static pg_status solve_coarse (pg_element_preconditioner *P, const double *r, double *z)
+{
+    pg_status status = PG_OK;
+    const pg_elements *e = &P->elements;
+    size_t ndof = e->hats.n * (size_t) e->Q.block;
+    for (size_t i = 0; i < ndof; i++) P->t[0][i] = P->fixed[i] ? 0 : r[i];
+    pg_hats_restrict (&e->hats, e->Q.block, P->t[0], P->left);
+    PG_TRY (cycle (P, P->left, P->right));
+    for (size_t i = 0; i < ndof; i++) z[i] = e->diagonal[i] > 0 ? P->t[0][i] / e->diagonal[i] : P->t[0][i];
+    pg_hats_add (&e->hats, e->Q.block, P->right, z);
+    for (size_t i = 0; i < ndof; i++) if (P->fixed[i]) z[i] = 0;
+done:
+    return status;
+}
+
+/* z = p (N) V (Q) p (N') r, or on a coarse grid. */
 static pg_status solve_elements (pg_element_preconditioner *P, const double *r, double *z)
 {
     pg_status status = PG_OK;
+    if (P->elements.hats.count) return solve_coarse (P, r, z);
     if (!P->elements.N.start) return cycle (P, r, z);
     PG_TRY (polynomial (P, &P->transposed, &P->alike_transposed, r, P->left));
     PG_TRY (cycle (P, P->left, P->right));
@@ -448,6 +483,11 @@ done:
 pg_preconditioner pg_element_preconditioner_of (pg_element_preconditioner *P)
 {
     return (pg_preconditioner) { P, solve, P->elements.Q.threads };
+}
+
+int pg_element_preconditioner_on_grid (const pg_element_preconditioner *P)
+{
+    return P->elements.hats.count > 0;
 }
 
 void pg_element_preconditioner_describe (const pg_element_preconditioner *P, char *text, size_t size)

@@ -59,7 +59,7 @@ static void dissect (const pg_forecast *f, double *entries, double *flops)
 /* As the solver decides under `auto`: no factor where the mass dominates (conjugate gradients then need some
  * 40 iterations at most, which takes beta dt^2 omega^2 <= 9 with omega = 2 c_p / h), nor where iterations
  * with finite elements cost less (solve_costs.c). */
-static int by_elements (const pg_forecast *f)
+static pg_solve_counts counts_of (const pg_forecast *f)
 {
     int set = f->nodal ? PG_NODES : PG_POINTS;
     pg_solve_counts c = { .dim = f->dim,
@@ -68,12 +68,19 @@ static int by_elements (const pg_forecast *f)
                           .interpolates = f->interpolates,
                           .projected = f->patched > 0,
                           .behind = f->behind,
+                          .scattered = f->scattered,
                           .points = f->points,
                           .evaluation = f->nodal ? f->points : f->evaluation,
                           .bonds = f->bonds[set],
                           .reach = f->horizon / f->spacing,
                           .columns = f->columns };
     for (int k = 0; k < 3; k++) c.edge[k] = f->edge[k];
+    return c;
+}
+
+static int by_elements (const pg_forecast *f)
+{
+    pg_solve_counts c = counts_of (f);
     return pg_solve_by_elements (&c, f->elements, f->events, f->dynamic);
 }
 
@@ -141,7 +148,8 @@ static double shape_bytes (const pg_forecast *f, double all, double rows)
  * preconditioner with its finest level and its first coarse matrix. Products with K by shape functions: runs
  * of points that are alike and sums of slices that overlap, 0.1 kB a point as measured on cubes of 3 000 to
  * 55 000 nodes; their preconditioner at rest: values of shape functions at the nodes and their transpose, 12
- * bytes an entry each, and the matrix of finite elements, whose nodes see 3^dim others. Contact: three arrays
+ * bytes an entry each, and the matrix of finite elements, whose nodes see 3^dim others; on a coarse grid the
+ * functions at each node, twice. Contact: three arrays
  * of columns of the compliance, also of those that stay zero. */
 static double vector_bytes (const pg_forecast *f)
 {
@@ -152,8 +160,10 @@ static double vector_bytes (const pg_forecast *f)
     if (!f->method->shape_functions && !f->linear && at_rest)
         bytes += n * (32 * m + 16 * corners + 16) + n * m * m * 12 * pow (1.25, d);
     if (f->method->shape_functions && !f->linear) bytes += 100 * (f->nodal ? n : f->evaluation);
+    pg_solve_counts c = counts_of (f);
     if (f->method->shape_functions && !f->linear && f->elements && !small)
-        bytes += 24 * f->bonds[PG_NODES] + 8 * m * m * pow (3, d) * n;
+        bytes += pg_solve_on_grid (&c) ? n * (16 * corners + 16 * d)
+                                       : 24 * f->bonds[PG_NODES] + 8 * m * m * pow (3, d) * n;
     return bytes + 24 * f->dofs * f->columns * (f->dim == 3 && f->pressed == 1 ? 3 : 1);
 }
 
@@ -281,7 +291,7 @@ pg_status pg_forecast_problem (pg_forecast *f, const pg_problem *p)
     f->patched = p->patches ? (double) p->patches->family.start[p->patches->n] : 0;
     f->horizon = p->approx.horizon, f->spacing = p->cloud.h;
     f->columns = contact_columns (f, p);
-    f->behind = pg_solve_count (p).behind;
+    f->behind = pg_solve_count (p).behind, f->scattered = pg_solve_count (p).scattered;
     /* from event to event by a factor that is kept: bonds one by one without contact (event_stepping.c) */
     f->events = f->events && !f->pressed && !pg_problem_grows (p);
     f->counted = 1;

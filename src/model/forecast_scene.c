@@ -160,6 +160,7 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;
     f->order = how->approx->order, f->interpolates = how->approx->type && how->approx->type->interpolates;
     f->behind = how->centred;
+    f->scattered = f->nodal && pg_scene_number (scene, "perturb.amount") > 0;
     f->width = 0.93 * radius_of (f->dim, t->coupled);
     f->counted = !t->sampled && finer == 1 && t->crossed == 0;
     for (int k = 0; k < 3; k++)

@@ -34,11 +34,19 @@ double pg_solve_direct_cost (const pg_solve_counts *c)
     return pg_solve_assembly_cost (c) + 5e-6 * c->points * c->components + factor_flops (c) / 20e9;
 }
 
+/* On scattered nodes K x is cheap, and smooth displacements on a coarse grid are what the diagonal lacks. The
+ * wider the support, the less energy have patterns that alternate from node to node: then it does not do. */
+int pg_solve_on_grid (const pg_solve_counts *c)
+{
+    return c->scattered && !c->interpolates && !c->projected && c->reach <= (c->order == 2 ? 2.7 : 2.2);
+}
+
 /* Iterations to a tolerance of 1e-9, as seen: the shape functions of a wide support are far from those of
  * elements, and so is a dilatation that is projected. */
 static double iterations (const pg_solve_counts *c)
 {
     double count = 35;
+    if (pg_solve_on_grid (c)) return c->order == 2 ? 220 : 150;
     if (c->interpolates) count = 30;
     else if (c->order == 2) count = c->reach > 2.7 ? 150 : 60;
     else if (c->reach > 2.2) count = c->reach > 2.7 ? 1000 : 70;
@@ -46,10 +54,11 @@ static double iterations (const pg_solve_counts *c)
 }
 
 /* Set-up counts as 20 iterations; beside K x an iteration takes 0.9 us for each node: products with the
- * element matrix and its coarse levels, and with the polynomial. */
+ * element matrix and its coarse levels, and with the polynomial; on a coarse grid 0.1 us. */
 static double iterations_cost (const pg_solve_counts *c, double solves)
 {
-    return (solves * iterations (c) + 20) * (pg_solve_apply_rate * c->bonds + 0.9e-6 * c->points);
+    double beside = pg_solve_on_grid (c) ? 0.1e-6 : 0.9e-6;
+    return (solves * iterations (c) + 20) * (pg_solve_apply_rate * c->bonds + beside * c->points);
 }
 
 double pg_solve_elements_cost (const pg_solve_counts *c) { return iterations_cost (c, 1); }
@@ -101,6 +110,7 @@ pg_solve_counts pg_solve_count (const pg_problem *p)
                           .interpolates = p->approx.type->interpolates,
                           .projected = p->patches != NULL,
                           .behind = stands_behind (p),
+                          .scattered = p->integration->at_nodes && !p->cloud.regular,
                           .points = (double) p->cloud.n,
                           .evaluation = (double) p->rows[set].n,
                           .bonds = (double) (p->first_bond[set + 1] - p->first_bond[set]),

@@ -12,6 +12,8 @@
 enum { RENEWAL = 20, MOST_ITERATIONS = 200 };  /* a new preconditioner costs about so many iterations */
 /* Finite elements fit worse near Poisson's ratio 1/2 and on smooth kernels with a wide support. */
 enum { MOST_BY_ELEMENTS = 300 };
+/* On a coarse grid there are more iterations, and each is cheap. */
+enum { MOST_ON_GRID = 1000 };
 
 int system_has_preconditioner (const pg_system *s) { return s->multilevel || s->elements || s->amg; }
 
@@ -99,8 +101,11 @@ static void tell (pg_system *s)
     }
     pg_multilevel_describe (s->elements ? pg_element_preconditioner_levels (s->elements) : s->multilevel,
                             &info);
-    at = (size_t) snprintf (text, workspace, "%smultilevel, %d levels of",
-                            s->elements ? "finite elements, " : "", info.levels);
+    const char *kind = "";
+    if (s->elements)
+        kind = pg_element_preconditioner_on_grid (s->elements) ? "finite elements on a coarse grid, "
+                                                               : "finite elements, ";
+    at = (size_t) snprintf (text, workspace, "%smultilevel, %d levels of", kind, info.levels);
     for (int k = 0; k < info.levels && k < 8 && at < workspace; k++)
         at += (size_t) snprintf (text + at, workspace - at, "%s%zu", k ? ", " : " ", info.unknowns[k]);
     if (at < workspace) snprintf (text + at, workspace - at, " unknowns");
@@ -123,6 +128,22 @@ done:
     return status;
 }
 
+/* On a coarse grid functions carry the mass of their nodes. */
+static pg_status weigh_coarse (pg_system *s, pg_elements *e, double k, double m)
+{
+    pg_status status = PG_OK;
+    size_t n = e->Q.n * (size_t) e->Q.block;
+    double *mass = NULL;
+    for (size_t i = 0; i < s->ndof; i++) e->diagonal[i] = k * e->diagonal[i] + (m != 0 ? m * s->mass[i] : 0);
+    if (m == 0) return PG_OK;
+    PG_ALLOC (mass, n);
+    pg_hats_restrict (&e->hats, e->Q.block, s->mass, mass);
+    for (size_t i = 0; i < n; i++) pg_block_add_diagonal (&e->Q, i, m * mass[i]);
+done:
+    pg_free (mass);
+    return status;
+}
+
 /* In motion the elements have the matrix k K + m M, with the mass of the displacements lumped: patterns of
  * unknowns that hardly move the nodes have less of it than here, and no stiffness either. */
 static pg_status make_by_elements (pg_system *s, double k, double m)
@@ -136,7 +157,8 @@ static pg_status make_by_elements (pg_system *s, double k, double m)
     pg_block_matrix *Q = &elements.Q;
     size_t entries = Q->start[Q->n] * (size_t) (Q->block * Q->block);
     for (size_t q = 0; k != 1 && q < entries; q++) Q->value[q] = (float) (k * Q->value[q]);
-    for (size_t i = 0; m != 0 && i < s->ndof; i++) pg_block_add_diagonal (Q, i, m * s->mass[i]);
+    if (elements.hats.count) PG_TRY (weigh_coarse (s, &elements, k, m));
+    else for (size_t i = 0; m != 0 && i < s->ndof; i++) pg_block_add_diagonal (Q, i, m * s->mass[i]);
     PG_TRY (pg_element_preconditioner_create (&s->elements, &elements, &setting));
 done:
     pg_elements_clear (&elements);
@@ -192,9 +214,10 @@ static pg_status iterate_all (pg_system *s, double tolerance, size_t *used)
  * logarithm, when it was new. */
 static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, size_t *used)
 {
-    pg_status status = s->elements || s->amg
-                           ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, MOST_BY_ELEMENTS, used)
-                           : iterate_all (s, tolerance, used);
+    size_t most = s->elements && pg_element_preconditioner_on_grid (s->elements) ? MOST_ON_GRID
+                                                                                 : MOST_BY_ELEMENTS;
+    pg_status status = s->elements || s->amg ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, most, used)
+                                             : iterate_all (s, tolerance, used);
     double gain = -log (fmax (s->fell, tolerance));    /* where it stopped early, less than was asked for */
     if (s->pace == 0) s->pace = gain / (double) (*used + 1);
     else s->extra_cost += fmax (0, (double) (*used + 1) - gain / s->pace);

@@ -50,9 +50,45 @@ static void where_points_stand (void **unused)
         }
 }
 
+/* Scattered nodes that are evaluated themselves take a coarse grid: cheaper than elements on all nodes, which
+ * wide supports need. */
+static void scattered_nodes (void **unused)
+{
+    (void) unused;
+    pg_solve_counts c = cube (24), all;
+    c.evaluation = c.points, c.bonds = 33 * c.points, all = c, c.scattered = 1;
+    assert_true (pg_solve_on_grid (&c) && !pg_solve_on_grid (&all));
+    assert_true (pg_solve_by_elements (&c, 1, 0, 0));
+    assert_true (pg_solve_elements_cost (&c) < 2 * pg_solve_elements_cost (&all));
+    c.reach = 2.6;
+    assert_false (pg_solve_on_grid (&c));
+    c.order = 2;
+    assert_true (pg_solve_on_grid (&c));
+    c.projected = 1;
+    assert_false (pg_solve_on_grid (&c));
+    static const char text[] = "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [4, 4, 4]}}}]\n"
+                               "spacing: 1\nmaterials: {m: {youngs_modulus: 1, poissons_ratio: 0.25}}\n"
+                               "method: {integration: %s}\n%s\n";
+    static const struct { const char *integration, *more; int scattered; } way[] = {
+        { "nodal", "", 0 }, { "nodal", "perturb: {amount: 0.2}", 1 }, { "gauss", "perturb: {amount: 0.2}", 0 }
+    };
+    for (int k = 0; k < 3; k++) {
+        char scene_text[512];
+        pg_scene *scene = NULL;
+        pg_problem *p = NULL;
+        snprintf (scene_text, sizeof scene_text, text, way[k].integration, way[k].more);
+        check_ok (pg_scene_parse (&scene, scene_text, "test.yaml"));
+        check_ok (pg_problem_build (&p, scene, 1));
+        assert_int_equal (pg_solve_count (p).scattered, way[k].scattered);
+        pg_problem_free (&p);
+        pg_scene_free (&scene);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (many_right_hand_sides_want_a_factor),
-                                        cmocka_unit_test (where_points_stand) };
+                                        cmocka_unit_test (where_points_stand),
+                                        cmocka_unit_test (scattered_nodes) };
     return cmocka_run_group_tests (tests, NULL, NULL);
 }

@@ -40,8 +40,15 @@ static const struct { const char *body, *points; double nu; const char *method; 
     { "", moved, 0.2, "horizon: 2 spacing, integration: consistent", 45 },
     { "", disc, 0.2, "horizon: 2 spacing, approximation: nosb, integration: nodal", 34 },
     { "", "", 0.2, "horizon: 2 spacing, integration: nodal", 50 },
+    /* on a coarse grid from here on */
+    { "", moved, 0.2, "horizon: 2 spacing, integration: nodal", 160 },
+    { "", moved, 0.2, "horizon: 2 spacing, integration: nodal, essential: penalty", 160 },
+    { "", moved, 0.2, "horizon: 2 spacing, integration: nodal, essential: transformation", 160 },
+    { "", moved, 0.2, "horizon: 2.6 spacing, basis: quadratic, integration: nodal", 440 },
+    { "", both, 0.3, "horizon: 2 spacing, integration: nodal", 200 },
+    { ball, moved, 0.2, "horizon: 1.6 spacing, integration: nodal", 120 },
 };
-enum { CASES = sizeof cases / sizeof *cases };
+enum { CASES = sizeof cases / sizeof *cases, ON_GRID = 16 };
 
 static run cube_of (size_t k, double spacing, const char *solver)
 {
@@ -56,6 +63,13 @@ static double difference (const run *a, const run *b)
     return worst / top;
 }
 
+static double dot (size_t n, const double *a, const double *b)
+{
+    double s = 0;
+    for (size_t i = 0; i < n; i++) s += a[i] * b[i];
+    return s;
+}
+
 static void answers_are_those_of_the_factor (void **state)
 {
     (void) state;
@@ -63,7 +77,9 @@ static void answers_are_those_of_the_factor (void **state)
         run a = cube_of (k, 0.125, "linear: pcg"), b = cube_of (k, 0.125, "linear: cholmod");
         to_the_end (&a), to_the_end (&b);
         const pg_statistics *by = pg_solver_report_now (a.solver), *factor = pg_solver_report_now (b.solver);
-        assert_int_equal (strncmp (by->preconditioner, "finite elements, multilevel, ", 29), 0);
+        const char *kind = k < ON_GRID ? "finite elements, multilevel, "
+                                       : "finite elements on a coarse grid, multilevel, ";
+        assert_int_equal (strncmp (by->preconditioner, kind, strlen (kind)), 0);
         assert_string_equal (by->solver, "cg");
         assert_int_equal (by->preconditioners, 1);
         assert_int_equal (by->factorizations, 0);
@@ -81,21 +97,42 @@ static void iterations_do_not_grow_with_the_size (void **state)
     (void) state;
     size_t used[3];
     static const double spacing[3] = { 0.125, 0.0833, 0.0625 };
-    for (int k = 0; k < 3; k++) {
-        run r = cube_of (0, spacing[k], "linear: pcg");
-        to_the_end (&r);
-        const pg_statistics *report = pg_solver_report_now (r.solver);
-        used[k] = report->cg_iterations / (size_t) report->solves;
-        clear (&r);
+    static const size_t which[2] = { 0, ON_GRID };
+    /* measured 160, 192, 210 on a grid: in larger bodies some points stand worse than any in small ones */
+    static const double most[2] = { 1.3, 1.4 };
+    for (int w = 0; w < 2; w++) {
+        for (int k = 0; k < 3; k++) {
+            run r = cube_of (which[w], spacing[k], "linear: pcg");
+            to_the_end (&r);
+            const pg_statistics *report = pg_solver_report_now (r.solver);
+            used[k] = report->cg_iterations / (size_t) report->solves;
+            clear (&r);
+        }
+        if ((double) used[2] > most[w] * (double) used[0] || (double) used[1] > most[w] * (double) used[0])
+            fail_msg ("case %zu: %zu, %zu, %zu iterations", which[w], used[0], used[1], used[2]);
     }
-    assert_true ((double) used[2] < 1.3 * (double) used[0] && (double) used[1] < 1.3 * (double) used[0]);
 }
 
-static double dot (size_t n, const double *a, const double *b)
+/* By steps in time with little mass: the factor's answer, and as few iterations as at rest. */
+static void on_a_grid_mass_is_carried_too (void **state)
 {
-    double s = 0;
-    for (size_t i = 0; i < n; i++) s += a[i] * b[i];
-    return s;
+    (void) state;
+    static const char text[] =
+        "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\nspacing: 0.125\n"
+        "perturb: {amount: 0.3, seed: 1}\n"
+        "materials: {m: {youngs_modulus: 10 GPa, poissons_ratio: 0.2, density: 2500}}\n"
+        "method: {horizon: 2 spacing, integration: nodal}\n"
+        "boundary:\n  - {name: bottom, set: bottom, displacement: {x: 0, y: 0, z: 0}}\n"
+        "  - {name: top, set: top, traction: {y: 1 MPa, x: 0.3 MPa}}\n"
+        "solver: {kind: newmark, dt: 5 ms, end: 10 ms, linear: %s}\n"
+        "output: {at: {levels: 1}}\n";
+    run a = scene_of (1, text, "pcg"), b = scene_of (1, text, "cholmod");
+    to_the_end (&a), to_the_end (&b);
+    const pg_statistics *by = pg_solver_report_now (a.solver);
+    assert_int_equal (strncmp (by->preconditioner, "finite elements on a coarse grid, ", 34), 0);
+    assert_true (by->cg_iterations < 220 * (size_t) by->solves);         /* 171 measured */
+    assert_true (difference (&a, &b) < 1e-6);
+    clear (&a), clear (&b);
 }
 
 static void the_preconditioner_is_symmetric_and_positive (void **state)
@@ -171,6 +208,79 @@ static void no_element_spans_a_crack (void **state)
     }
 }
 
+/* The same of functions on a coarse grid: each has nodes on one side only, and no stiffness joins two that
+ * are on different sides. */
+static void no_function_spans_a_crack (void **state)
+{
+    (void) state;
+    run r = scene_of (1, cube, "", 0.125,
+                      "perturb: {amount: 0.2, seed: 1}\n"
+                      "cracks: [{polygon: [[-1, 0.2, -1], [2, 0.2, -1], [2, 0.8, 2], [-1, 0.8, 2]]}]",
+                      0.2, "horizon: 2 spacing, integration: nodal", "linear: pcg");
+    const pg_force_type *force = pg_force_of (r.problem);
+    const double *x = r.problem->cloud.x;
+    void *self = NULL;
+    pg_elements elements;
+    check_ok (force->create (&self, r.problem));
+    check_ok (force->refresh (self, r.state, NULL));
+    check_ok (force->elements (self, &elements));
+    const pg_hats *h = &elements.hats;
+    int *side = pg_calloc (h->count, sizeof *side), both_sides = 0;
+    for (size_t f = 0; f < h->count; f++)
+        for (size_t e = h->first[f]; e < h->first[f + 1]; e++) {
+            const double *at = x + 3 * (size_t) h->member[e];
+            int here = at[1] - 0.4 - 0.2 * at[2] > 0 ? 1 : -1;
+            assert_true (side[f] != -here);
+            side[f] = here, both_sides |= here > 0 ? 1 : 2;
+        }
+    assert_int_equal (both_sides, 3);
+    for (size_t f = 0; f < h->count; f++)
+        for (size_t e = elements.Q.start[f]; e < elements.Q.start[f + 1]; e++)
+            for (size_t k = 0; k < 9 && side[elements.Q.node[e]] == -side[f]; k++)
+                assert_true (elements.Q.value[9 * e + k] == 0);
+    pg_free (side);
+    pg_elements_clear (&elements);
+    force->free (&self);
+    clear (&r);
+}
+
+/* Q = H' K H, where nothing is held, and the diagonal is that of K. */
+static void the_coarse_matrix_is_that_of_the_force (void **state)
+{
+    (void) state;
+    run r = scene_of (1, cube, "", 0.125, moved, 0.2, "horizon: 2 spacing, integration: nodal, "
+                      "essential: penalty", "linear: pcg");
+    const pg_force_type *force = pg_force_of (r.problem);
+    void *self = NULL;
+    pg_elements elements;
+    size_t n = r.state->ndof;
+    double *a = pg_calloc (4 * n, sizeof *a), *Ka = a + n, *c = Ka + n, *Qc = c + n, fine, coarse = 0;
+    check_ok (force->create (&self, r.problem));
+    check_ok (force->refresh (self, r.state, NULL));
+    check_ok (force->elements (self, &elements));
+    size_t m = 3 * elements.hats.count;
+    pg_operator Q = pg_block_operator (&elements.Q);
+    assert_true (m < n && elements.W.ncol > 0);
+    /* functions that vanish at the bottom: the penalty there has nothing to hold */
+    for (size_t f = 0; f < elements.hats.count; f++)
+        for (size_t k = 0; k < 3; k++)
+            c[3 * f + k] = elements.hats.place[3 * f + 1] > 0.5 ? sin (1 + 3.7 * (double) (3 * f + k)) : 0;
+    pg_hats_add (&elements.hats, 3, c, a);
+    const pg_operator *K = force->operator_ (self);
+    K->apply (K->context, a, Ka);
+    Q.apply (Q.context, c, Qc);
+    fine = dot (n, a, Ka);
+    for (size_t i = 0; i < m; i++) coarse += c[i] * Qc[i];
+    check_scaled (coarse, fine, 1e-5, fine);
+    K->diagonal (K->context, Ka);
+    for (size_t i = 0; i < n; i++)
+        if (r.problem->cloud.x[i / 3 * 3 + 1] > 0.6) check_scaled (elements.diagonal[i], Ka[i], 1e-9, Ka[i]);
+    pg_free (a);
+    pg_elements_clear (&elements);
+    force->free (&self);
+    clear (&r);
+}
+
 /* By counted cost: a body of 8 000 unknowns has a dear factor, one of 200 a cheap one. */
 static void it_is_taken_where_it_pays (void **state)
 {
@@ -195,6 +305,9 @@ int main (void)
         cmocka_unit_test (iterations_do_not_grow_with_the_size),
         cmocka_unit_test (the_preconditioner_is_symmetric_and_positive),
         cmocka_unit_test (no_element_spans_a_crack),
+        cmocka_unit_test (no_function_spans_a_crack),
+        cmocka_unit_test (the_coarse_matrix_is_that_of_the_force),
+        cmocka_unit_test (on_a_grid_mass_is_carried_too),
         cmocka_unit_test (it_is_taken_where_it_pays),
     };
     return cmocka_run_group_tests_name ("scene_runs/elements", tests, NULL, NULL);
