@@ -259,6 +259,16 @@ pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *bod
  * lattice gives cannot be divided so far: PG_E_USAGE in words. */
 pg_status pg_cloud_build_part (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene,
                                double width);
+/* What a rank holds of a body that is divided. */
+typedef struct {
+    double owned, ghosts;                              /* points */
+    int    neighbours;                                 /* ranks that it exchanges values of ghosts with */
+    double sent;                                       /* points, as often as each is sent to one of them */
+} pg_part_size;
+/* What pg_cloud_build_part would give each of `size` ranks, found by one process: out (size). PG_E_LIMIT:
+ * the body cannot be divided among so many. */
+pg_status pg_cloud_parts (pg_part_size *out, const pg_body *body, const pg_scene *scene, double width,
+                          int size);
 /* Nominal spacing of the lattice of a scene, m, before it is built (pg_cloud.h). */
 pg_status pg_cloud_spacing (double *h, const pg_body *body, const pg_scene *scene);
 void      pg_cloud_clear (pg_cloud *cloud);

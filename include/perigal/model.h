@@ -403,6 +403,11 @@ int       pg_solver_is (const char *kind, unsigned flags);
 /* 1: ranks are to divide the points of the body (perigal/ranks.h); 0: each holds all, and they share
  * matrices. By solver.kind and solver.division. */
 int       pg_subdomain_wanted (const pg_scene *scene);
+/* What pg_rank_count ranks that divide the body cannot do so far, as faults of the scene. PG_E_SCENE. */
+pg_status pg_subdomain_check  (const pg_method *method, const pg_scene *scene);
+/* The layer of ghosts around their parts, m. */
+pg_status pg_subdomain_width  (double *width, const pg_method *method, const pg_body *body,
+                               const pg_scene *scene);
 /* 1: its cracks grow by facets: the criterion judges their tips (2D). */
 int       pg_problem_grows (const pg_problem *problem);
 int       pg_problem_proportional (const pg_problem *problem);  /* every load is a constant pattern times t */
@@ -652,6 +657,10 @@ void pg_forecast_analysed (pg_forecast *f, double pairs, const char *ordering, d
  * sum anew. */
 pg_forecast pg_forecast_at    (const pg_forecast *f, double spacing);
 void        pg_forecast_sum   (pg_forecast *f);        /* bytes and peak from the counts */
+/* What a rank needs that holds this part of the `total` points; collects: it also puts the result together.
+ * And one of so many ranks that all hold the whole body and share the factor. */
+pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part, double total, int collects);
+pg_forecast pg_forecast_in_step (const pg_forecast *f, int ranks);
 /* smallest spacing (m, 2 digits) that fits */
 double      pg_forecast_fitting (const pg_forecast *f, double available);
 /* PG_E_LIMIT with needs, means and ways out when the peak exceeds `available` bytes. */

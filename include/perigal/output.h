@@ -55,6 +55,8 @@ void      pg_exodus_part_path (char *out, size_t size, const char *folder, int c
  * parts have; the parts stay. Where there are no parts, or unless `again` a result.e that is newer than they
  * are, nothing is done. PG_E_FILE: a part is missing or is none of them, or none holds a step. */
 pg_status pg_exodus_join (const char *folder, int again);
+/* Removes the parts in a folder that do not belong to a result of `keep` parts (0: all of them). */
+void      pg_exodus_drop_parts (const char *folder, int keep);
 /* Opens a file in order to append to it: keeps the first `steps` steps, which end at byte
  * `bytes` as pg_exodus_size reported it, and cuts off what was written later. PG_E_FILE if
  * points or components differ or bytes are missing. */
@@ -160,6 +162,14 @@ typedef pg_status (*pg_keep) (void *context, const pg_keeper *keeper);
  * variables and to write them. The file is written as PATH.new, synced and renamed, so that
  * PATH is at any instant the old file or the whole new one. */
 pg_status pg_checkpoint_write (const char *path, pg_keep walk, void *context);
+/* The same in two halves, so that ranks replace their checkpoints only when all of them have a new one:
+ * PATH.new, whole and on the disk; then its rename (PG_E_FILE). */
+pg_status pg_checkpoint_prepare (const char *path, pg_keep walk, void *context);
+pg_status pg_checkpoint_commit  (const char *path);
+/* Removes PATH.new, if it is there. */
+void      pg_checkpoint_drop    (const char *path);
+/* The n counts that a checkpoint holds under a name. PG_E_FILE: there is none, or it is not whole. */
+pg_status pg_checkpoint_counts  (const char *path, const char *name, size_t n, long *value);
 /* Reads a checkpoint by the same function. PG_E_FILE: damaged (the checksum differs), or a
  * name that the file lacks or holds with another length or type. */
 pg_status pg_checkpoint_read  (const char *path, pg_keep walk, void *context);

@@ -34,7 +34,11 @@ typedef struct {
     /* The bytes of all ranks, in the order of the ranks, on rank 0: *all (pg_free), *bytes_all; elsewhere
      * NULL and 0. */
     pg_status (*collect)  (void *context, size_t bytes, const void *mine, size_t *bytes_all, void **all);
+    int   whole;                                       /* 1: this process alone stands for all of them */
 } pg_ranks;
+/* Ranks that this process plays alone, holding the whole body: what so many ranks would refuse is asked
+ * without any of them. Sums and exchanges leave values as they are. */
+void pg_ranks_stand_in (pg_ranks *out, int size);
 /* From now on this process is one of these ranks; NULL: it is alone again. Borrowed. */
 void pg_ranks_join (const pg_ranks *ranks);
 /* What ranks share. divided 1 (as at the start): the body, each holding a subdomain. 0: every rank holds the

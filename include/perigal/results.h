@@ -53,6 +53,10 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
  * rows without a report of another scene), or overwrite a scene.yaml that no run put there, or
  * if `folder` is a file. */
 pg_status pg_result_may_open (const char *folder, const pg_scene *scene);
+/* 1: with this value of output.join ranks that divide so many points put their fields together at the end */
+int       pg_result_joins (const char *join, double points);
+/* 1: there is a checkpoint that the run can go on from. */
+int       pg_result_kept (const pg_result *result);
 /* Removes the checkpoint and the rows of an unfinished run; the rest of the folder stays.
  * PG_E_USAGE: a run uses it. */
 pg_status pg_result_discard (const char *folder);

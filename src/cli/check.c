@@ -44,6 +44,7 @@ int pg_cli_check (int argc, char **argv)
     int wrong = command_parse (&c, argc, argv);
     if (wrong >= 0) return wrong;
     if (c.echo) return echo (&c);
+    if (c.ranks) return check_ranks (&c);
     PG_TRY (command_scene (&c, &scene));
     PG_TRY (afford_scene (&c, &f));
     PG_TRY (command_problem (&c, scene, &p, &o));

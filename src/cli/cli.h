@@ -66,6 +66,8 @@ typedef struct {
     size_t nset;
     /* Options as flags; threads is never 0. */
     int threads, quiet, resume, force, json, solve, spectrum, echo;
+    /* Processes of --ranks; 0: not given. */
+    int ranks;
     /* Bytes of --memory; 0: not given. */
     double memory;
     /* Runs of --seeds, and how many at a time; 0: not given. */
@@ -122,6 +124,9 @@ pg_status spectrum_write (const spectrum *spectrum, const pg_problem *p, const c
 /* The linear system of a scene as files of a folder, NULL: none (check_matrix.c). */
 pg_status matrix_write (const pg_problem *p, const pg_solver_options *o, const char *folder);
 
+/* check --ranks (check_ranks.c): what that many processes would do with the scene; returns the exit code. */
+int       check_ranks (const command *c);
+
 /* What a scene amounts to (plan.c): in short, before a run. */
 void plan_print      (const pg_problem *p, const pg_solver_options *o);
 /* Everything that check has found out. stable: time step of an explicit method, s, and where
@@ -148,6 +153,8 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most);
 /* The same numbers at length for people, and as JSON for programs. */
 void plan_print_long (const plan *p);
 pg_status plan_print_json (const plan *p);
+/* Prints what `write` puts into the JSON file `path`. */
+pg_status json_to_stdout (pg_status (*write) (const void *what, const char *path), const void *what);
 /* The mesh of a body, if it has one (plan_mesh.c). */
 void plan_mesh       (const pg_problem *p);
 void plan_mesh_json  (pg_json *j, const pg_problem *p);

@@ -72,6 +72,20 @@ static int read_jobs (command *c, const char *text)
     return PG_EXIT_USAGE;
 }
 
+/* --ranks N: what so many processes would do. */
+static int read_ranks (command *c, const char *text)
+{
+    enum { MOST = 1000000 };
+    char *end;
+    long n = strtol (text, &end, 10);
+    if (end != text && !*end && n >= 1 && n <= MOST) {
+        c->ranks = (int) n;
+        return -1;
+    }
+    fprintf (stderr, "perigal: --ranks %s: a number of processes from 1 to %d is needed\n", text, MOST);
+    return PG_EXIT_USAGE;
+}
+
 /* --set KEY=VALUE, at most 64 times; the key is checked when the scene is loaded. */
 static int read_set (command *c, const char *text)
 {
@@ -93,8 +107,8 @@ static int refuse (const char *name, int option, const char *argument)
         const char *near =
             pg_nearest_name (argument,
                              strcmp (name, "check") == 0
-                                 ? "--json|--solve|--spectrum|--echo|--matrix|--out|--threads|--memory|"
-                                   "--plain|--set|--quiet|--help"
+                                 ? "--json|--solve|--spectrum|--echo|--matrix|--ranks|--out|--threads|"
+                                   "--memory|--plain|--set|--quiet|--help"
                                  : "--out|--resume|--force|--threads|--memory|--plain|--set|--seeds|--jobs|"
                                    "--quiet|"
                                    "--help");
@@ -137,11 +151,11 @@ int command_unquoted (char *out, size_t size, int argc, char **argv)
 }
 
 /* run and check share their options but for these: --force, --seeds are for run; --json, --solve,
- * --spectrum, --echo for check. */
+ * --spectrum, --echo, --matrix, --ranks for check. */
 static int belongs_to (int option, const char *name)
 {
     int checks = strcmp (name, "check") == 0;
-    return strchr ("fnj", option) ? !checks : checks || !strchr ("kvweM", option);
+    return strchr ("fnj", option) ? !checks : checks || !strchr ("kvweMR", option);
 }
 
 /* One option of run or check; -1: go on, else the exit code. */
@@ -165,6 +179,7 @@ static int read_option (command *c, const char *name, int option, const char *wo
     case 'j': return read_jobs (c, optarg);
     case 'e': c->echo = 1; return -1;
     case 'M': c->matrix = optarg; return -1;
+    case 'R': return read_ranks (c, optarg);
     default: return refuse (name, option, word);
     }
 }
@@ -180,7 +195,7 @@ int command_parse (command *c, int argc, char **argv)
         { "json", no_argument, NULL, 'k' },      { "solve", no_argument, NULL, 'v' },
         { "spectrum", no_argument, NULL, 'w' },  { "quiet", no_argument, NULL, 'q' },
         { "seeds", required_argument, NULL, 'n' }, { "jobs", required_argument, NULL, 'j' },
-        { "matrix", required_argument, NULL, 'M' },
+        { "matrix", required_argument, NULL, 'M' }, { "ranks", required_argument, NULL, 'R' },
         { "plain", no_argument, NULL, 'p' },     { "echo", no_argument, NULL, 'e' },
         { "help", no_argument, NULL, 'h' },      { NULL, 0, NULL, 0 }
     };
@@ -208,6 +223,11 @@ int command_parse (command *c, int argc, char **argv)
     }
     if (c->jobs && !c->seeds) {
         fprintf (stderr, "perigal: --jobs is for --seeds: one run is one job; --threads are its threads\n");
+        return PG_EXIT_USAGE;
+    }
+    if (c->ranks && (c->solve || c->spectrum || c->matrix)) {
+        fprintf (stderr, "perigal: --ranks does not go with --solve, --spectrum and --matrix, which are for "
+                         "one process\n");
         return PG_EXIT_USAGE;
     }
     c->scene = argv[optind];
@@ -263,7 +283,9 @@ static void put_word (const char *word)
 /* All options that change the run are repeated, so that the line can be copied. */
 void command_again (const command *c)
 {
-    fputs ("perigal: continue with: perigal run ", stderr);
+    fputs ("perigal: continue with: ", stderr);
+    if (pg_rank_count () > 1) fprintf (stderr, "mpirun -n %d perigal-mpi run ", pg_rank_count ());
+    else fputs ("perigal run ", stderr);
     put_word (c->scene);
     if (c->folder) fputs (" -o ", stderr), put_word (c->folder);
     for (size_t k = 0; k < c->nset; k++) fputs (" --set ", stderr), put_word (c->set[k]);

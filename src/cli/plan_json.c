@@ -220,8 +220,9 @@ static void doubts (pg_json *j, const plan *p)
 }
 
 /* Writes everything to a file; a failure of the writer is reported when it closes. */
-static pg_status write_plan (const plan *p, const char *path)
+static pg_status write_plan (const void *what, const char *path)
 {
+    const plan *p = what;
     pg_status status = PG_OK;
     pg_json *j = NULL;
     pg_skip skip[8];
@@ -254,7 +255,7 @@ done:
 
 /* The JSON writer replaces whole files, so the text passes through a temporary one (TMPDIR, or
  * /tmp), which is removed. */
-pg_status plan_print_json (const plan *p)
+pg_status json_to_stdout (pg_status (*write) (const void *what, const char *path), const void *what)
 {
     pg_status status = PG_OK;
     const char *folder = getenv ("TMPDIR");
@@ -264,7 +265,7 @@ pg_status plan_print_json (const plan *p)
     int made = mkstemp (path);
     if (made < 0) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
     close (made);
-    PG_TRY (write_plan (p, path));
+    PG_TRY (write (what, path));
     file = fopen (path, "r");
     if (!file) PG_FAIL (PG_E_FILE, "cannot read %s: %s", path, strerror (errno));
     while (fgets (text, sizeof text, file)) fputs (text, stdout);
@@ -273,3 +274,5 @@ done:
     if (made >= 0) remove (path);
     return status;
 }
+
+pg_status plan_print_json (const plan *p) { return json_to_stdout (write_plan, p); }

@@ -20,12 +20,13 @@
 static volatile sig_atomic_t asked_to_stop;
 static void on_signal (int number) { asked_to_stop = number; }
 
-/* The first SIGINT, SIGTERM or SIGHUP asks for a checkpoint, the second one of its kind ends
- * the program (SA_RESETHAND). Signals that the caller ignores (nohup) stay ignored, SIGINT
- * excepted. A file that grows beyond its limit is an error of writing, not a signal. */
+/* The first SIGINT, SIGTERM, SIGHUP or SIGUSR1 (which mpirun passes on to its ranks and batch
+ * systems send ahead of their limit) asks for a checkpoint, the second one of its kind ends the
+ * program (SA_RESETHAND). Signals that the caller ignores (nohup) stay ignored, SIGINT excepted.
+ * A file that grows beyond its limit is an error of writing, not a signal. */
 static void settle_signals (void)
 {
-    static const int asking[] = { SIGINT, SIGTERM, SIGHUP };
+    static const int asking[] = { SIGINT, SIGTERM, SIGHUP, SIGUSR1 };
     struct sigaction act = { 0 }, before;
     act.sa_handler = on_signal;
     /* SA_RESTART: system calls go on after the signal, so that no write is cut short. */
@@ -145,7 +146,7 @@ typedef struct {
  * message says it. */
 static void keep_now (const watched *w)
 {
-    if (pg_result_checkpoint (w->result, w->state) != PG_OK)
+    if (pg_result_checkpoint (w->result, w->state) != PG_OK && pg_rank () == 0)
         fprintf (stderr, "perigal: no checkpoint: %s\n", pg_last_error ());
 }
 
@@ -207,7 +208,7 @@ static pg_status advance (pg_solver *solver, watched *w, int quiet)
                      state->factor);
         status = pg_solver_step (solver, state, &step);
         if (status != PG_OK && !w->within) pg_result_refused (w->result);
-        w->alone = status != PG_OK && status != PG_E_INTERRUPTED && status != PG_E_EQUILIBRIUM;
+        w->alone = status != PG_OK && status != PG_E_INTERRUPTED && status != PG_E_EQUILIBRIUM && !w->within;
         PG_TRY (status);
         PG_TRY (pg_ranks_agree (pg_result_step (w->result, state, &step)));
         PG_TRY (ask_all (w, &stop, &due));
@@ -220,11 +221,11 @@ done:
 }
 
 /* Writes what it takes to go on with a run that did not come to its end; 1 if there is a
- * checkpoint now. A run that has done nothing needs none. */
+ * checkpoint now, be it an older one. A run that has done nothing needs none. */
 static int keep_for_later (const watched *w)
 {
     if (w->state->step == 0 && !w->within) return 0;   /* nothing has been done yet */
-    return pg_result_checkpoint (w->result, w->state) == PG_OK;
+    return pg_result_checkpoint (w->result, w->state) == PG_OK || pg_result_kept (w->result);
 }
 
 /* A new result, or a resumed one; --force first discards what an unfinished run left. Other
@@ -289,6 +290,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     if (failed) snprintf (failure, sizeof failure, "%s", pg_last_error ());
     if (w->alone && pg_rank_count () > 1) {            /* the others wait: nothing can be done together */
         fprintf (stderr, "perigal: rank %d: %s\n", pg_rank (), failure);
+        if (pg_result_kept (w->result)) command_again (c);
         return outcome;
     }
     if (failed) kept = keep_for_later (w);

@@ -24,12 +24,12 @@ static const char run[] =
     "                       DIR/seed_1 ..., -j N of them at a time (--jobs, default 1); DIR/seeds.csv\n"
     "                       and seeds.png (histogram) have the peak loads. Called again it goes on\n"
     "  -q, --quiet          no progress and no summary; warnings are in DIR/report.json\n"
-    "  Ctrl-C (SIGINT, SIGTERM, SIGHUP) writes a checkpoint after the current break round and stops; a\n"
-    "  second one stops at once.\n";
+    "  Ctrl-C (SIGINT, SIGTERM, SIGHUP, SIGUSR1) writes a checkpoint after the current break round and\n"
+    "  stops; a second one stops at once.\n";
 
 static const char check[] =
     "perigal check SCENE.yaml [--json] [--solve] [--spectrum [-o DIR]] [--memory SIZE]\n"
-    "              [--echo] [--matrix DIR] [--set KEY=VALUE]... [--quiet]\n"
+    "              [--echo] [--matrix DIR] [--ranks N] [--set KEY=VALUE]... [--quiet]\n"
     "  Reports all faults of a scene with line and column; of a valid scene, what a run would do: points,\n"
     "  bonds, unknowns, memory, material constants, time steps, and what it will skip.\n"
     "      --solve          solve once at load factor 1: at which load the first bond breaks, and where;\n"
@@ -42,6 +42,9 @@ static const char check[] =
     "      --matrix DIR     also the linear system at load factor 1 as Matrix Market files: DIR/K.mtx,\n"
     "                       f.mtx, T.mtx, g.mtx, N.mtx and points.csv: d = T q + g, (T' K T) q =\n"
     "                       T' (f - K g), displacement of the points N d\n"
+    "      --ranks N        instead of all that: what N processes (mpirun -n N perigal-mpi run) would do:\n"
+    "                       points and ghosts of each, memory, messages; or why they cannot. None of them\n"
+    "                       is started\n"
     "      --memory SIZE    limit, such as 8GB; default: what the machine has free. A scene that needs\n"
     "                       more is refused\n";
 

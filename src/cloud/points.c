@@ -29,8 +29,7 @@ static void spread (sites *s, const pg_lattice *l, const int *cell, int first)
                 s->around[((size_t) i[2] * s->size[1] + (size_t) i[1]) * s->size[0] + (size_t) i[0]]++;
 }
 
-/* Counts the kept cells around all sites. */
-static pg_status count_around (sites *s, const pg_lattice *l, int cells)
+pg_status cloud_count_around (sites *s, const pg_lattice *l, int cells)
 {
     pg_status status = PG_OK;
     memset (s, 0, sizeof *s);
@@ -129,6 +128,12 @@ static pg_status check_inside (const pg_cloud *c, const pg_body *body, const pg_
     return pg_scene_verdict (scene);
 }
 
+/* 1 in space. */
+static double thickness_of (int dim, const pg_scene *scene)
+{
+    return dim == 3 ? 1 : pg_scene_number (scene, dim == 2 ? "thickness" : "cross_section");
+}
+
 /* h from the mean volume of the points. */
 static pg_status from_file (pg_cloud *c, const pg_body *body, const pg_scene *scene)
 {
@@ -140,6 +145,32 @@ static pg_status from_file (pg_cloud *c, const pg_body *body, const pg_scene *sc
     for (int k = 0; k < c->dim; k++) c->step[k] = c->h;
     if (pg_scene_count (scene, "body")) PG_TRY (check_inside (c, body, scene));
 done:
+    return status;
+}
+
+/* Shrinks an array to the n values that are still needed. */
+static void shrink (void **array, size_t n, size_t size)
+{
+    void *less = *array ? pg_resize (*array, n, size) : NULL;
+    if (less) *array = less;
+}
+
+/* The part of this rank. All points are read, and most of them dropped again. */
+static pg_status keep_part (pg_cloud *c, double width)
+{
+    pg_status status = PG_OK;
+    int *owner = NULL;
+    size_t all = c->n;
+    PG_TRY (cloud_bisect (&owner, c, pg_rank_count ()));
+    PG_TRY (cloud_subdomain_of_points (&c->subdomain, c, owner, width, pg_rank (), pg_rank_count ()));
+    PG_TRY (cloud_count_owned ((double) all, all < (size_t) pg_rank_count (), pg_rank_count ()));
+    cloud_keep_held (c, c->subdomain);
+    void *x = c->x, *volume = c->volume, *block = c->block, *size = c->size;
+    shrink (&x, c->n * (size_t) c->dim, sizeof *c->x), shrink (&volume, c->n, sizeof *c->volume);
+    shrink (&block, c->n, sizeof *c->block), shrink (&size, c->n, sizeof *c->size);
+    c->x = x, c->volume = volume, c->block = block, c->size = size;
+done:
+    pg_free (owner);
     return status;
 }
 
@@ -195,11 +226,31 @@ pg_status pg_cloud_spacing (double *h, const pg_body *body, const pg_scene *scen
 {
     pg_status status = PG_OK;
     pg_lattice l;
+    pg_cloud c = { .dim = body->dim, .thickness = thickness_of (body->dim, scene) };
     grid g;
+    if (pg_scene_given (scene, "points")) {
+        PG_TRY (from_file (&c, body, scene));
+        *h = c.h;
+        goto done;
+    }
     PG_TRY (read_grid (&g, scene));
     PG_TRY (judge_fit (pg_lattice_fit_part (&l, body, g.spacing, g.shifted ? g.offset : NULL, NULL), &g, body,
                        scene));
     *h = spacing_of (&l);
+done:
+    pg_cloud_clear (&c);
+    return status;
+}
+
+/* The points of all ranks, each of which must have some. */
+static pg_status count_all (pg_subdomain *d)
+{
+    pg_status status = PG_OK;
+    double total = (double) d->nowned, none = d->nowned == 0;
+    PG_TRY (pg_ranks_sum (1, &total));
+    PG_TRY (pg_ranks_most (1, &none));
+    PG_TRY (cloud_count_owned (total, none > 0, pg_rank_count ()));
+    d->total = (int64_t) total;
 done:
     return status;
 }
@@ -215,18 +266,21 @@ static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, 
     PG_TRY (read_grid (&g, scene));
     const double *offset = g.shifted ? g.offset : NULL;
     if (part) {
-        pg_box held;
         PG_TRY (judge_fit (pg_lattice_fit_part (l, body, g.spacing, offset, NULL), &g, body, scene));
-        PG_TRY (cloud_divide (&boxes, &held, l, body, width, g.centred));
+        PG_TRY (cloud_divide (&boxes, l, body, pg_rank_count ()));
+        pg_box held = cloud_cells_held (&boxes[pg_rank ()], l, width, g.centred);
         PG_TRY (pg_lattice_fit_part (l, body, g.spacing, offset, &held));
     } else PG_TRY (judge_fit (pg_lattice_fit (l, body, g.spacing, offset), &g, body, scene));
     PG_TRY (check_cells (l, scene));
     for (int k = 0; k < c->dim; k++) c->step[k] = l->step[k];
     c->h = spacing_of (l);
-    PG_TRY (count_around (&s, l, g.centred));
+    PG_TRY (cloud_count_around (&s, l, g.centred));
     PG_TRY (place_points (c, l, &s, pg_scene_number (scene, "perturb.amount"),
                           (uint64_t) pg_scene_integer (scene, "perturb.seed")));
-    if (part) PG_TRY (cloud_subdomain (&c->subdomain, &s, l, boxes, width));
+    if (part) {
+        PG_TRY (cloud_subdomain (&c->subdomain, &s, l, boxes, width, pg_rank (), pg_rank_count ()));
+        PG_TRY (count_all (c->subdomain));
+    }
     c->regular = !(pg_scene_number (scene, "perturb.amount") > 0);
 done:
     pg_free (s.around), pg_free (boxes);
@@ -254,11 +308,10 @@ static pg_status build (pg_cloud *out, pg_lattice *lattice, const pg_body *body,
     memset (out, 0, sizeof *out);
     memset (lattice, 0, sizeof *lattice);
     out->dim = body->dim;
-    out->thickness = out->dim == 3 ? 1
-                                   : pg_scene_number (scene, out->dim == 2 ? "thickness" : "cross_section");
+    out->thickness = thickness_of (out->dim, scene);
     if (pg_scene_given (scene, "points")) {
-        if (part) PG_FAIL (PG_E_USAGE, "points of a file cannot be divided among ranks so far");
         PG_TRY (from_file (out, body, scene));
+        if (part) PG_TRY (keep_part (out, width));
     } else PG_TRY (from_lattice (out, lattice, body, scene, part, width));
     if (part) PG_TRY (bound_all (out));
     else pg_place_bounds (out);
@@ -279,6 +332,67 @@ pg_status pg_cloud_build_part (pg_cloud *out, pg_lattice *lattice, const pg_body
                                double width)
 {
     return build (out, lattice, body, scene, pg_ranks_now () != NULL, width);
+}
+
+static pg_part_size size_of (const pg_subdomain *d)
+{
+    return (pg_part_size) { (double) d->nowned, (double) (d->n - d->nowned), (int) d->halo.n,
+                            (double) d->halo.send_first[d->halo.n] };
+}
+
+/* Of points of a file. */
+static pg_status parts_of_file (pg_part_size *out, const pg_body *body, const pg_scene *scene, double width,
+                                int size)
+{
+    pg_status status = PG_OK;
+    pg_cloud c = { .dim = body->dim, .thickness = thickness_of (body->dim, scene) };
+    pg_subdomain *d = NULL;
+    int *owner = NULL;
+    PG_TRY (from_file (&c, body, scene));
+    PG_TRY (cloud_count_owned ((double) c.n, c.n < (size_t) size, size));
+    PG_TRY (cloud_bisect (&owner, &c, size));
+    for (int r = 0; r < size; r++) {
+        PG_TRY (cloud_subdomain_of_points (&d, &c, owner, width, r, size));
+        out[r] = size_of (d);
+        pg_subdomain_free (&d);
+    }
+done:
+    pg_free (owner);
+    pg_cloud_clear (&c);
+    return status;
+}
+
+/* Of a lattice part by part as each rank would build it, so that no more than one of them is in memory. */
+pg_status pg_cloud_parts (pg_part_size *out, const pg_body *body, const pg_scene *scene, double width,
+                          int size)
+{
+    if (pg_scene_given (scene, "points")) return parts_of_file (out, body, scene, width, size);
+    pg_status status = PG_OK;
+    pg_lattice whole = { 0 }, l = { 0 };
+    pg_subdomain *d = NULL;
+    sites s = { 0 };
+    grid g;
+    pg_box *boxes = NULL;
+    double total = 0;
+    int empty = 0;
+    PG_TRY (read_grid (&g, scene));
+    const double *offset = g.shifted ? g.offset : NULL;
+    PG_TRY (judge_fit (pg_lattice_fit_part (&whole, body, g.spacing, offset, NULL), &g, body, scene));
+    PG_TRY (cloud_divide (&boxes, &whole, body, size));
+    for (int r = 0; r < size; r++) {
+        pg_box held = cloud_cells_held (&boxes[r], &whole, width, g.centred);
+        PG_TRY (pg_lattice_fit_part (&l, body, g.spacing, offset, &held));
+        PG_TRY (cloud_count_around (&s, &l, g.centred));
+        PG_TRY (cloud_subdomain (&d, &s, &l, boxes, width, r, size));
+        out[r] = size_of (d);
+        total += out[r].owned, empty |= d->nowned == 0;
+        pg_subdomain_free (&d), pg_lattice_clear (&l), pg_free (s.around), s.around = NULL;
+    }
+    PG_TRY (cloud_count_owned (total, empty, size));
+done:
+    pg_subdomain_free (&d), pg_lattice_clear (&l), pg_lattice_clear (&whole);
+    pg_free (s.around), pg_free (boxes);
+    return status;
 }
 
 double pg_cloud_ratio (const pg_cloud *cloud, size_t i)

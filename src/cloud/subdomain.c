@@ -57,28 +57,31 @@ static double count_plane (const void *context, const pg_box *box, int axis, int
     return n;
 }
 
-pg_status cloud_divide (pg_box **boxes, pg_box *held, const pg_lattice *l, const pg_body *body, double width,
-                        int centred)
+pg_status cloud_divide (pg_box **boxes, const pg_lattice *l, const pg_body *body, int size)
 {
     pg_status status = PG_OK;
     counting c = { l, body };
     pg_box whole = {{0, 0, 0}, {1, 1, 1}};
-    pg_lattice as_whole = *l;
-    PG_ALLOC (*boxes, (size_t) pg_rank_count ());
+    PG_ALLOC (*boxes, (size_t) size);
     for (int k = 0; k < 3; k++) whole.high[k] = l->count[k];
+    PG_TRY (pg_boxes_divide (*boxes, &whole, l->step, size, count_plane, &c));
+done:
+    return status;
+}
+
+pg_box cloud_cells_held (const pg_box *cells, const pg_lattice *l, double width, int centred)
+{
+    pg_lattice as_whole = *l;
     memcpy (as_whole.whole, l->count, sizeof as_whole.whole);
     memcpy (as_whole.whole_origin, l->origin, sizeof l->origin);
     memcpy (as_whole.whole_high, l->high, sizeof l->high);
-    PG_TRY (pg_boxes_divide (*boxes, &whole, l->step, pg_rank_count (), count_plane, &c));
-    *held = sites_of (&(*boxes)[pg_rank ()], &as_whole, centred);
-    *held = widened (*held, &as_whole, centred, width);
+    pg_box held = widened (sites_of (cells, &as_whole, centred), &as_whole, centred, width);
     /* the cells around these sites: of vertex v those from v - 1 to v, of a centre its neighbours too */
     for (int k = 0; k < l->dim; k++) {
-        held->low[k] = held->low[k] > 0 ? held->low[k] - 1 : 0;
-        held->high[k] = held->high[k] + centred < l->count[k] ? held->high[k] + centred : l->count[k];
+        held.low[k] = held.low[k] > 0 ? held.low[k] - 1 : 0;
+        held.high[k] = held.high[k] + centred < l->count[k] ? held.high[k] + centred : l->count[k];
     }
-done:
-    return status;
+    return held;
 }
 
 /* Index of the cell around x along an axis; places beyond the lattice go to that at its end. */
@@ -172,17 +175,17 @@ done:
 
 /* With every other rank what lies in its box and in the layer here, and the other way round. */
 static pg_status make_halo (pg_subdomain *d, const sites *s, const pg_lattice *l, const pg_box *boxes,
-                            const int *at)
+                            int rank, int size, const int *at)
 {
     pg_status status = PG_OK;
-    int centred = s->shift > 0, size = pg_rank_count ();
+    int centred = s->shift > 0;
     numbers send = { 0 }, receive = { 0 };
     pg_halo *h = &d->halo;
     PG_ALLOC (h->rank, (size_t) size);
     PG_ALLOC (h->send_first, (size_t) size + 1);
     PG_ALLOC (h->receive_first, (size_t) size + 1);
     for (int r = 0; r < size; r++) {
-        if (r == pg_rank ()) continue;
+        if (r == rank) continue;
         pg_box own = sites_of (&boxes[r], l, centred), held = widened (own, l, centred, d->width), both;
         if (common (&both, &d->own, &held)) PG_TRY (take (&send, &both, s, l, at));
         if (common (&both, &d->held, &own)) PG_TRY (take (&receive, &both, s, l, at));
@@ -198,7 +201,7 @@ done:
 }
 
 pg_status cloud_subdomain (pg_subdomain **out, const sites *s, const pg_lattice *l, const pg_box *boxes,
-                           double width)
+                           double width, int rank, int size)
 {
     pg_status status = PG_OK;
     pg_subdomain *d = NULL;
@@ -207,7 +210,7 @@ pg_status cloud_subdomain (pg_subdomain **out, const sites *s, const pg_lattice 
     PG_ALLOC (d, 1);
     PG_ALLOC (at, s->n);
     d->width = width;
-    d->own = sites_of (&boxes[pg_rank ()], l, centred);
+    d->own = sites_of (&boxes[rank], l, centred);
     d->held = widened (d->own, l, centred, width);
     for (size_t i = 0; i < s->n; i++) d->n += s->around[i] != 0;
     PG_ALLOC (d->owned, d->n);
@@ -220,18 +223,19 @@ pg_status cloud_subdomain (pg_subdomain **out, const sites *s, const pg_lattice 
         d->nowned += d->owned[n];
         d->number[n++] = cloud_site_number (s, l, i);
     }
-    double total = (double) d->nowned, none = d->nowned == 0;
-    PG_TRY (pg_ranks_sum (1, &total));
-    PG_TRY (pg_ranks_most (1, &none));
-    if (none > 0)
-        PG_FAIL (PG_E_LIMIT, "a rank would have no point: the body has %.0f, take fewer ranks than %d", total,
-                 pg_rank_count ());
-    d->total = (int64_t) total;
-    PG_TRY (make_halo (d, s, l, boxes, at));
+    PG_TRY (make_halo (d, s, l, boxes, rank, size, at));
     *out = d;
     d = NULL;
 done:
     pg_free (at);
     pg_subdomain_free (&d);
     return status;
+}
+
+/* A rank without points would wait for the others in every step and have nothing to do. */
+pg_status cloud_count_owned (double total, int empty, int size)
+{
+    if (!empty) return PG_OK;
+    return pg_error (PG_E_LIMIT, PG_HERE, "a rank would have no point: the body has %.0f, take fewer ranks "
+                     "than %d", total, size);
 }

@@ -18,13 +18,26 @@ typedef struct {
     unsigned char *around;
 } sites;
 
-/* The cells of every rank (boxes: pg_free), and those that this one holds: the cells around the sites that it
- * owns and around a layer of ghosts of `width`, m. l: counts and steps of the whole lattice. */
-pg_status cloud_divide (pg_box **boxes, pg_box *held, const pg_lattice *l, const pg_body *body, double width,
-                        int centred);
+/* Counts the kept cells around all sites (points.c). */
+pg_status cloud_count_around (sites *s, const pg_lattice *l, int cells);
+/* The cells of each of `size` ranks (boxes: pg_free). l: counts and steps of the whole lattice. */
+pg_status cloud_divide (pg_box **boxes, const pg_lattice *l, const pg_body *body, int size);
+/* The cells that a rank with these cells of its own holds: those around the sites that it owns and around a
+ * layer of ghosts of `width`, m. l: the whole lattice. */
+pg_box    cloud_cells_held (const pg_box *cells, const pg_lattice *l, double width, int centred);
 /* Number of site i in the whole lattice, from 0. */
 int64_t   cloud_site_number (const sites *s, const pg_lattice *l, size_t i);
-/* Who owns the points at the sites, and what is exchanged with whom. */
+/* Who owns the points at the sites, and what is exchanged with whom, as rank `rank` of `size` sees it; total
+ * is left 0. */
 pg_status cloud_subdomain (pg_subdomain **out, const sites *s, const pg_lattice *l, const pg_box *boxes,
-                           double width);
+                           double width, int rank, int size);
+/* Points of a file (subdomain_points.c): which rank owns each of the n (pg_free). */
+pg_status cloud_bisect (int **owner, const pg_cloud *cloud, int size);
+/* As cloud_subdomain, of all points of the body. */
+pg_status cloud_subdomain_of_points (pg_subdomain **out, const pg_cloud *cloud, const int *owner,
+                                     double width, int rank, int size);
+/* Leaves of all points those that the subdomain holds. */
+void      cloud_keep_held (pg_cloud *cloud, const pg_subdomain *subdomain);
+/* empty: some rank owns none of the `total` points, which is refused: PG_E_LIMIT. */
+pg_status cloud_count_owned (double total, int empty, int size);
 #endif

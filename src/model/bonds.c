@@ -245,18 +245,18 @@ static pg_status check_company (const pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     const pg_family *f = &p->rows[PG_NODES].family;
-    for (size_t i = 0; i < f->n; i++) {
-        if (f->start[i + 1] > f->start[i]) continue;
+    for (size_t i = 0; i < f->n && status == PG_OK; i++) {
+        if (f->start[i + 1] > f->start[i] || !pg_owns (p->cloud.subdomain, i)) continue;
         const double *x = p->cloud.x + i * (size_t) p->dim;
         pg_scene_fault (scene, "method.horizon",
                         "point %zu at (%.6g, %.6g, %.6g) m sees no other point within its horizon, %.6g m: "
                         "use a larger horizon",
-                        i + 1, x[0], p->dim > 1 ? x[1] : 0, p->dim > 2 ? x[2] : 0,
+                        (p->cloud.subdomain ? (size_t) p->cloud.subdomain->number[i] : i) + 1, x[0],
+                        p->dim > 1 ? x[1] : 0, p->dim > 2 ? x[2] : 0,
                         p->approx.horizon * pg_cloud_ratio (&p->cloud, i));
-        PG_TRY (pg_scene_verdict (scene));
+        status = pg_scene_verdict (scene);
     }
-done:
-    return status;
+    return pg_ranks_agree (status);
 }
 
 /* Counts the points on a pre-crack, which lose their bonds to both sides. Of the first crack that has

@@ -3,8 +3,6 @@
 #ifndef PG_MODEL_PRIVATE_H
 #define PG_MODEL_PRIVATE_H
 #include "perigal/model.h"
-/* subdomain.c: what ranks cannot share so far is refused: PG_E_SCENE. */
-pg_status pg_subdomain_check (const pg_problem *problem, const pg_scene *scene);
 pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 /* supports.c: supports that contradict each other (at corners: warnings), or are too many for elimination, as
  * faults. duration: end of the run, s (static: 1). */

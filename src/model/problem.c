@@ -112,36 +112,18 @@ static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
     return pg_cracks_index (&p->cracks);
 }
 
-/* How many horizons of ghosts: what the force needs; one more where bonds break by something else than what
- * their two ends show, as points that die by their energy look at all their bonds; one more where bonds weigh
- * by how full the families of both ends are. */
-static double ghost_layers (const pg_problem *p, const pg_scene *scene, const pg_approx *approx, double h)
-{
-    const int of_ends = PG_NEEDS_STRETCH | PG_NEEDS_BEAMS;
-    int judged = 0;
-    pg_sum_rule rule = { .surface = PG_SURFACE_NONE };
-    if (pg_scene_given (scene, "failure")) {
-        const pg_criterion_type *c = NULL;
-        if (pg_scene_given (scene, "failure.criterion"))
-            c = pg_criterion_find (pg_scene_text (scene, "failure.criterion"));
-        judged = !c || (c->needs & ~of_ends);
-    }
-    if (p->method->rule) p->method->rule (&rule, scene, p->mode, approx, h, 1);
-    return p->method->ghosts + judged + (rule.surface != PG_SURFACE_NONE);
-}
-
-/* The points of this rank, with as many ghosts as the method sees. */
+/* The points of this rank, with as many ghosts as the force needs; of a process that stands for all ranks
+ * (perigal check) all points. */
 static pg_status build_subdomain (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    pg_approx approx = { 0 };
-    double h, width, beyond;
-    PG_TRY (pg_subdomain_check (p, scene));
-    PG_TRY (pg_cloud_spacing (&h, &p->body, scene));
-    PG_TRY (pg_method_approx (&approx, p->method, scene, h));
-    width = ghost_layers (p, scene, &approx, h) * approx.horizon;
-    if (p->method->ghost_cells) width = p->method->ghosts * approx.horizon
-                                        + p->method->ghost_cells (scene, &beyond) * h;
+    double width;
+    PG_TRY (pg_subdomain_check (p->method, scene));
+    if (pg_ranks_now ()->whole) {
+        PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
+        goto done;
+    }
+    PG_TRY (pg_subdomain_width (&width, p->method, &p->body, scene));
     PG_TRY (pg_cloud_build_part (&p->cloud, &p->lattice, &p->body, scene, width));
     pg_problem_note (p,
                      "%d ranks share the %.0f points; the patch test is left out: perigal check makes it",

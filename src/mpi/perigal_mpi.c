@@ -12,7 +12,8 @@ static void usage (FILE *to)
 {
     fprintf (to, "Perigal " PG_VERSION ": a scene on several processes by MPI\n\nusage:\n"
                  "  mpirun -n N perigal-mpi run SCENE.yaml [-o DIR] [--set KEY=VALUE] [--resume]\n"
-                 "  perigal help run  explains the options\n\n"
+                 "  perigal-mpi check SCENE.yaml --ranks N  what N processes would do; starts none of them\n"
+                 "  perigal help run, perigal help check  explain the options\n\n"
                  "exit codes: 0 done, 64 wrong usage, 65 invalid scene, 70 failed (numerics, memory,\n"
                  "            files, messages), 130 interrupted\n");
 }
@@ -38,8 +39,12 @@ int main (int argc, char **argv)
         usage (argc < 2 ? stderr : stdout);
         return argc < 2 ? PG_EXIT_USAGE : PG_EXIT_DONE;
     }
+    if (strcmp (argv[1], "check") == 0) {
+        petsc_name ();
+        return pg_cli_check (argc - 1, argv + 1);
+    }
     if (strcmp (argv[1], "run") != 0) {
-        fprintf (stderr, "perigal-mpi: there is no command %s for several processes: run\n", argv[1]);
+        fprintf (stderr, "perigal-mpi: there is no command %s for several processes: run, check\n", argv[1]);
         return PG_EXIT_USAGE;
     }
     setenv ("OMP_THREAD_LIMIT", "1", 0);

@@ -249,6 +249,8 @@ const pg_linear_type petsc_factor = {
     .free = shared_free,
 };
 
+void petsc_name (void) { pg_linear_add (&petsc_factor); }
+
 pg_status petsc_start (void)
 {
     PetscErrorCode code = PetscInitialize (NULL, NULL, NULL, NULL);

@@ -18,5 +18,7 @@ pg_status petsc_grids (const pg_shared_rows *setting, size_t n, const int *node,
 /* Starts PETSc (after MPI) and makes its solver the usual one; ends it. Nothing of the command line is read;
  * the variable PETSC_OPTIONS is. */
 pg_status petsc_start (void);
+/* Scenes may name it, without a start: perigal-mpi check. */
+void      petsc_name (void);
 void      petsc_end   (void);
 #endif

@@ -203,20 +203,69 @@ static pg_status sync_folder_of (const char *path, char *work)
 pg_status pg_checkpoint_write (const char *path, pg_keep walk, void *context)
 {
     pg_status status = PG_OK;
+    PG_TRY (pg_checkpoint_prepare (path, walk, context));
+    PG_TRY (pg_checkpoint_commit (path));
+done:
+    return status;
+}
+
+/* PATH.new (pg_free). */
+static pg_status name_new (char **out, const char *path)
+{
+    pg_status status = PG_OK;
+    size_t size = strlen (path) + 5;
+    PG_ALLOC (*out, size);
+    snprintf (*out, size, "%s.new", path);
+done:
+    return status;
+}
+
+pg_status pg_checkpoint_prepare (const char *path, pg_keep walk, void *context)
+{
+    pg_status status = PG_OK;
     checkpoint c = { 0 };
     char *fresh = NULL;
-    int moved = 0;
-    size_t size = strlen (path) + 5;
-    PG_ALLOC (fresh, size);
-    snprintf (fresh, size, "%s.new", path);
+    PG_TRY (name_new (&fresh, path));
     c.path = fresh;
-    PG_TRY (write_file (&c, walk, context));
-    if (rename (fresh, path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", path, strerror (errno));
-    moved = 1;
+    status = write_file (&c, walk, context);
+    if (status != PG_OK) remove (fresh);
+done:
+    pg_free (fresh);
+    return status;
+}
+
+pg_status pg_checkpoint_commit (const char *path)
+{
+    pg_status status = PG_OK;
+    char *fresh = NULL;
+    PG_TRY (name_new (&fresh, path));
+    if (rename (fresh, path) != 0) {
+        status = pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));
+        remove (fresh);
+        goto done;
+    }
     PG_TRY (sync_folder_of (path, fresh));
 done:
-    if (fresh && !moved) remove (fresh);
     pg_free (fresh);
+    return status;
+}
+
+void pg_checkpoint_drop (const char *path)
+{
+    char *fresh = NULL;
+    if (name_new (&fresh, path) == PG_OK) remove (fresh);
+    pg_free (fresh);
+}
+
+pg_status pg_checkpoint_counts (const char *path, const char *name, size_t n, long *value)
+{
+    pg_status status = PG_OK;
+    checkpoint c = { .path = path, .reading = 1, .sum = PG_FINGERPRINT };
+    PG_TRY (pg_netcdf_open (&c.from, path));
+    PG_TRY (check_sum (&c));
+    PG_TRY (keep_counts (&c, name, n, value));
+done:
+    pg_netcdf_close (&c.from);
     return status;
 }
 

@@ -38,6 +38,16 @@ void pg_exodus_part_path (char *out, size_t size, const char *folder, int count,
     snprintf (out, size, "%s/result.e.%d.%0*d", folder, count, width, part);
 }
 
+/* 1: an entry of a folder is called like part `part` of `count`. */
+static int is_part (const char *name, int *count, int *part)
+{
+    char own[64];
+    int used = 0;
+    if (sscanf (name, "result.e.%d.%d%n", count, part, &used) != 2 || name[used] || *count < 1) return 0;
+    pg_exodus_part_path (own, sizeof own, ".", *count, *part);
+    return strcmp (own + 2, name) == 0;
+}
+
 /* Into how many parts the newest result of the folder is divided; 0: there are none. *when: of its last
  * change. */
 static int find_parts (const char *folder, struct timespec *when)
@@ -47,14 +57,12 @@ static int find_parts (const char *folder, struct timespec *when)
     DIR *dir = opendir (folder);
     *when = (struct timespec) { 0 };
     while (dir && (entry = readdir (dir))) {
-        int n, part, used = 0;
-        char path[4096], own[4096];
+        int n, part;
+        char path[4096];
         struct stat s;
-        if (sscanf (entry->d_name, "result.e.%d.%d%n", &n, &part, &used) != 2 || entry->d_name[used] || n < 1)
-            continue;
-        pg_exodus_part_path (own, sizeof own, folder, n, part);
+        if (!is_part (entry->d_name, &n, &part)) continue;
         snprintf (path, sizeof path, "%s/%s", folder, entry->d_name);
-        if (strcmp (own, path) != 0 || stat (path, &s) != 0) continue;
+        if (stat (path, &s) != 0) continue;
         if (s.st_mtim.tv_sec < when->tv_sec
             || (s.st_mtim.tv_sec == when->tv_sec && s.st_mtim.tv_nsec < when->tv_nsec))
             continue;
@@ -62,6 +70,20 @@ static int find_parts (const char *folder, struct timespec *when)
     }
     if (dir) closedir (dir);
     return size;
+}
+
+void pg_exodus_drop_parts (const char *folder, int keep)
+{
+    struct dirent *entry;
+    DIR *dir = opendir (folder);
+    while (dir && (entry = readdir (dir))) {
+        int n, part;
+        char path[4096];
+        if (!is_part (entry->d_name, &n, &part) || (n == keep && part < n)) continue;
+        snprintf (path, sizeof path, "%s/%s", folder, entry->d_name);
+        remove (path);
+    }
+    if (dir) closedir (dir);
 }
 
 /* How many points a part has. */

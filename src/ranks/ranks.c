@@ -37,17 +37,42 @@ pg_status pg_ranks_ask (size_t n, double *value)
     return joined && n ? took (pg_seconds (), joined->most (joined->context, n, value)) : PG_OK;
 }
 
-pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, void **all)
+/* ---- one process for all ------------------------------------------------------------------------------- */
+static pg_status leave (void *context, size_t n, double *value)
+{
+    (void) context, (void) n, (void) value;
+    return PG_OK;
+}
+
+static pg_status leave_ghosts (void *context, const pg_halo *halo, size_t components, double *value)
+{
+    (void) context, (void) halo, (void) components, (void) value;
+    return PG_OK;
+}
+
+static pg_status copy_own (void *context, size_t bytes, const void *mine, size_t *bytes_all, void **all)
 {
     pg_status status = PG_OK;
-    *bytes_all = 0, *all = NULL;
-    if (sharing) return took (pg_seconds (), sharing->collect (joined->context, bytes, mine, bytes_all, all));
     char *copy = NULL;
+    (void) context;
     PG_ALLOC (copy, bytes);
     if (bytes) memcpy (copy, mine, bytes);
     *all = copy, *bytes_all = bytes;
 done:
     return status;
+}
+
+void pg_ranks_stand_in (pg_ranks *out, int size)
+{
+    *out = (pg_ranks) { .size = size, .sum = leave, .most = leave, .exchange = leave_ghosts,
+                        .collect = copy_own, .whole = 1 };
+}
+
+pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, void **all)
+{
+    *bytes_all = 0, *all = NULL;
+    if (!sharing) return copy_own (NULL, bytes, mine, bytes_all, all);
+    return took (pg_seconds (), sharing->collect (sharing->context, bytes, mine, bytes_all, all));
 }
 
 /* The first rank collects them and spreads them by a sum to which the others add nothing. */

@@ -283,13 +283,13 @@ done:
 pg_status pg_result_discard (const char *folder)
 {
     pg_status status = PG_OK;
-    static const char *const name[] = { "checkpoint.nc", "history.csv" };
+    static const char *const name[] = { "checkpoint.nc", "checkpoint.nc.new", "history.csv" };
     char path[4096];
     int lock = 0;
     struct stat s;
     if (stat (folder, &s) != 0 || !S_ISDIR (s.st_mode)) return PG_OK;
     PG_TRY (pg_result_lock (folder, &lock));
-    for (size_t k = 0; k < 2; k++) {
+    for (size_t k = 0; k < sizeof name / sizeof *name; k++) {
         snprintf (path, sizeof path, "%s/%s", folder, name[k]);
         if (unlink (path) != 0 && errno != ENOENT)
             PG_FAIL (PG_E_FILE, "cannot remove %s: %s", path, strerror (errno));
@@ -297,4 +297,19 @@ pg_status pg_result_discard (const char *folder)
 done:
     pg_result_unlock (folder, &lock);
     return status;
+}
+
+/* Folders of ranks are numbered without gaps. */
+void pg_result_drop_ranks (const char *folder)
+{
+    char path[4096];
+    struct stat s;
+    for (int rank = pg_rank_count ();; rank++) {
+        snprintf (path, sizeof path, "%s/ranks/%d", folder, rank);
+        if (stat (path, &s) != 0) break;
+        pg_folder_remove (path);
+    }
+    snprintf (path, sizeof path, "%s/ranks", folder);
+    if (pg_rank_count () == 1) rmdir (path);
+    pg_exodus_drop_parts (folder, pg_ranks_now () ? pg_rank_count () : 0);
 }

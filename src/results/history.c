@@ -142,19 +142,13 @@ static double mean_of (const pg_problem *p, const pg_load *load, const double *u
 /* One row per bond that broke in the step. Numbers come first, so that readers of numbers can
  * read all of a row but its last two names. In static runs with fixed steps the load factor at
  * the break follows from its time within the step. */
-static pg_status event_rows (pg_result *r, const pg_step *step, double dissipated)
+static pg_status event_rows (pg_result *r, const pg_step *step, size_t n, const pg_broken *list,
+                             double dissipated)
 {
     pg_status status = PG_OK;
     static const char *const set_name[] = { "node-node", "point-node", "facet-node" }, *const kind_name[] = {
         "tension", "shear", "bending", "energy", "facet"
     };
-    size_t n = step->nbroken;
-    const pg_broken *list = step->broken;
-    pg_broken *collected = NULL;
-    if (pg_ranks_now ()) {
-        PG_TRY (pg_result_collect_broken (r, step, &n, &collected));
-        list = collected;
-    }
     for (size_t i = 0; i < n; i++) {
         const pg_broken *b = &list[i];
         char text[EVENT_NUMBERS][40];
@@ -181,7 +175,6 @@ static pg_status event_rows (pg_result *r, const pg_step *step, double dissipate
         PG_TRY (pg_table_line (r->events, cell));
     }
 done:
-    pg_free (collected);
     return status;
 }
 
@@ -208,7 +201,8 @@ done:
 /* Writes the row of a step and the rows of its bonds. Displacements are those of the body, u
  * (x) = sum N_j d_j, not coefficients. Gauges are empty if the force knows no field between
  * the points. r->u holds two fields: displacements and, 3 n values behind, rotations. Ranks
- * fill in what their own points contribute; their sum is the row. */
+ * fill in what their own points contribute; their sum is the row. What they do together comes before
+ * anything is written, which may fail on one of them. */
 pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -219,6 +213,8 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     size_t n = 0, platens;
     size_t x = 0, y = 0;                               /* columns of the load-displacement curve */
     double shared = step->dissipated;
+    pg_broken *collected = NULL;
+    size_t nbroken = step->nbroken;
     int components;
     const char *unit;
     r->row[n++] = pg_result_once ((double) step->number), r->row[n++] = pg_result_once (step->time),
@@ -272,11 +268,13 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     if (p->nstage) r->row[n++] = pg_result_once ((double) step->stage);
     PG_TRY (pg_ranks_sum (n, r->row));
     PG_TRY (pg_ranks_sum (1, &shared));
+    if (pg_ranks_now ()) PG_TRY (pg_result_collect_broken (r, step, &nbroken, &collected));
     if (r->curve_load >= 0) PG_TRY (pg_result_curve_row (r, r->row[x], r->row[y], gauges, step));
     PG_TRY (pg_table_row (r->history, r->row));
-    PG_TRY (event_rows (r, step, shared));
+    PG_TRY (event_rows (r, step, nbroken, collected ? collected : step->broken, shared));
     PG_TRY (pg_result_paths_write (r, state, step));
     PG_TRY (pg_result_contact_write (r, step));
 done:
+    pg_free (collected);
     return status;
 }

@@ -51,27 +51,28 @@ done:
 }
 
 /* Points of the body above which one rank should not hold the values of all. */
-static const int64_t most_joined = 20000000;
+static const double most_joined = 2e7;
 
-/* As the scene asks (output.join). */
+int pg_result_joins (const char *join, double points)
+{
+    return strcmp (join, "yes") == 0 || (strcmp (join, "no") != 0 && points <= most_joined);
+}
+
 int pg_result_in_parts (const pg_result *r, const char *join)
 {
     const pg_subdomain *s = r->problem->cloud.subdomain;
-    return s && (strcmp (join, "no") == 0 || (strcmp (join, "yes") != 0 && s->total > most_joined));
+    return s && !pg_result_joins (join, (double) s->total);
 }
 
-/* All ranks call; where one fails, the parts stay. */
+/* All ranks call. The parts stay until the run is finished. */
 pg_status pg_result_join_fields (pg_result *r)
 {
     pg_status status = PG_OK;
-    char path[4096];
     if (!r->problem->cloud.subdomain || r->in_parts) return PG_OK;
     pg_exodus_close (&r->file);
     PG_TRY (pg_ranks_agree (PG_OK));                   /* all parts are complete */
     if (pg_rank () == 0) status = pg_exodus_join (r->folder, 1);
     PG_TRY (pg_ranks_agree (status));
-    pg_result_fields_path (r, path, sizeof path);
-    remove (path);
 done:
     return status;
 }

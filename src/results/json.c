@@ -299,7 +299,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     char path[4096], note[400];
     const pg_statistics *r = pg_solver_report (res->solver, state);
     snprintf (path, sizeof path, "%s/report.json", res->folder);
-    PG_TRY (pg_json_create (&j, path));
+    pg_status made = pg_json_create (&j, path);        /* ranks ask each other, also if one cannot write */
     pg_json_open (j, NULL, '{');
     pg_json_text (j, "version", PG_VERSION);
     pg_json_text (j, "scene", res->scene);
@@ -327,6 +327,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     }
     pg_result_tips_json (j, res);
     pg_json_count (j, "peak_bytes", peak_of_ranks ());
+    if (pg_rank_count () > 1) pg_result_parts_json (j, res);
     pg_json_count (j, "threads", (size_t) res->problem->threads);
     criteria (j, res->problem);
     variations (j, res->problem);
@@ -348,6 +349,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
         pg_json_text (j, NULL, note);
     pg_json_shut (j);
     pg_json_shut (j);
+    PG_TRY (made);
     PG_TRY (pg_json_close (&j));
 done:
     if (j) pg_json_close (&j);

@@ -116,6 +116,7 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     PG_TRY (pg_folder_make (folder));
     PG_TRY (pg_result_lock (folder, &r->lock));
     PG_TRY (pg_result_may_open (folder, scene));
+    if (pg_rank () == 0) pg_result_drop_ranks (folder);
     PG_TRY (pg_result_remove (r, "report.json"));
     PG_TRY (pg_result_copy_scene (folder, scene));
     PG_TRY (pg_result_history_create (r, NULL));
@@ -208,6 +209,7 @@ pg_status pg_result_stage (pg_result *r, const pg_state *state, const pg_step *s
     r->now = pg_result_marks_now (r);
     PG_TRY (share_has_broken (r, state, &r->last_written));
     if (r->last_written) status = write_fields (r, state, time_within (r));
+    status = pg_ranks_agree (status);
     if (status == PG_OK) r->now = pg_result_marks_now (r);
     else r->last_written = 0, r->next_broken = next;
 done:
@@ -224,8 +226,8 @@ void pg_result_refused (pg_result *r)
     r->last_written = r->done.last_written || r->time > r->stamp;
 }
 
-/* `pending` keeps the step until all of it is written, so that a checkpoint after a full disk
- * can write it later. */
+/* `pending` keeps the step until all of it is written, on all ranks, so that a checkpoint after a full
+ * disk can write it later. */
 pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
@@ -235,12 +237,12 @@ pg_status pg_result_step (pg_result *r, const pg_state *state, const pg_step *st
     r->rounds = 0;
     r->last_written = 0;
     r->stamp = step->stamp;
-    PG_TRY (pg_result_history_row (r, state, step));
+    PG_TRY (pg_ranks_agree (pg_result_history_row (r, state, step)));
     int due = r->every > 0 && step->event && state->events % r->every == 0;
     int share;
     PG_TRY (share_has_broken (r, state, &share));
     due |= share || step->level;
-    if (due) PG_TRY (write_fields (r, state, step->stamp));
+    if (due) PG_TRY (pg_ranks_agree (write_fields (r, state, step->stamp)));
     r->last_written = due;
     r->done = pg_result_marks_now (r);
     r->is_pending = 0;
@@ -263,6 +265,21 @@ static pg_status estimate (pg_result *r, const pg_state *state)
 
 const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }
 
+/* The run is finished when that of rank 0 is gone; parts of fields, which going on would need, go with those
+ * of the others. */
+static pg_status drop_checkpoints (const pg_result *r)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    if (pg_rank () == 0) status = pg_result_remove (r, "checkpoint.nc");
+    PG_TRY (pg_ranks_agree (status));
+    if (pg_rank () > 0) status = pg_result_remove (r, "checkpoint.nc");
+    if (pg_ranks_now () && !r->in_parts) pg_result_fields_path (r, path, sizeof path), remove (path);
+    PG_TRY (pg_ranks_agree (status));
+done:
+    return status;
+}
+
 /* report.json is written even if pictures fail. The checkpoint goes last: until then the run
  * can be resumed. */
 pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search,
@@ -273,7 +290,8 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     /* ended before anything was done: pictures would only show the body as the scene describes it */
     int nothing = failure && state->step == 0 && r->rounds == 0;
     PG_TRY (pg_solver_share_report (r->solver));
-    if (!r->last_written) PG_TRY (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp));
+    if (!r->last_written)
+        PG_TRY (pg_ranks_agree (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp)));
     r->last_written = 1;
     PG_TRY (pg_result_curve_read (r));
     PG_TRY (pg_result_crack_measure (r, state));
@@ -287,9 +305,8 @@ done:
     /* the report comes also without pictures */
     /* With what finishing took: fields, pictures, errors against the reference, the estimate. */
     pg_status written = pg_result_json (r, state, failure, search, r->earlier + total + pg_seconds () - t0);
-    if (status == PG_OK) status = written;
-    if (status == PG_OK && !failure) status = pg_result_remove (r, "checkpoint.nc");
-    return status;
+    status = pg_ranks_agree (status == PG_OK ? written : status);
+    return status == PG_OK && !failure ? drop_checkpoints (r) : status;
 }
 
 /* The lock is given up after the files are closed. */

@@ -159,6 +159,8 @@ struct pg_result {
     double    opened, earlier;
     /* Seconds between checkpoints; when the last one was written; how long that took. */
     double    interval, checkpoint_at, checkpoint_cost;
+    /* How many checkpoints the run has written: ranks go on from those of one number. */
+    long      generation;
 };
 /* ---- shared.c: ranks that share a run ------------------------------------------------------------------ */
 void      pg_result_fields_path  (const pg_result *r, char *out, size_t size);
@@ -167,6 +169,10 @@ void      pg_result_keep_own     (const pg_result *r, size_t components, double 
 double    pg_result_once         (double value);
 pg_status pg_result_place_here   (const pg_result *r, const double *place, signed char *here);
 pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken);
+/* What each rank holds of the body, and its largest memory, as a list "parts" of report.json. */
+void      pg_result_parts_json   (pg_json *j, const pg_result *r);
+/* folder.c: removes what an earlier run of more ranks, or of another number, has left in the folder. */
+void      pg_result_drop_ranks   (const char *folder);
 /* joined_fields.c: the parts of all ranks become result.e; nothing alone. */
 pg_status pg_result_join_fields (pg_result *r);
 int       pg_result_in_parts    (const pg_result *r, const char *join);

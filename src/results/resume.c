@@ -8,6 +8,7 @@
  * read are checked against the problem before they are used as sizes. */
 #include "results_private.h"
 #include <errno.h>
+#include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
@@ -63,6 +64,34 @@ done:
     return status;
 }
 
+/* A checkpoint holds what one of so many ranks knows. was: number of ranks, rank, 1: they share the body. */
+static pg_status check_ranks (const char *path, const long *was)
+{
+    pg_status status = PG_OK;
+    int now = pg_rank_count ();
+    if (was[0] > 1 && was[0] != now)
+        PG_FAIL (PG_E_USAGE, "%s was written by %ld ranks, now there %s %d: continue with mpirun -n %ld "
+                 "perigal-mpi run, or start anew with --force",
+                 path, was[0], now > 1 ? "are" : "is", now, was[0]);
+    if (was[0] != now)
+        PG_FAIL (PG_E_USAGE, "%s was written by one process, now there are %d ranks: continue with perigal "
+                 "run, or start anew with --force", path, now);
+    if (was[1] != pg_rank () || was[2] != (pg_ranks_now () != NULL))
+        PG_FAIL (PG_E_USAGE, "%s is that of rank %ld of %ld: start anew with --force", path, was[1], was[0]);
+done:
+    return status;
+}
+
+static pg_status keep_ranks (const memory *m, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    long ranks[3] = { pg_rank_count (), pg_rank (), pg_ranks_now () != NULL };
+    PG_TRY (k->counts (k->context, "ranks", 3, ranks));
+    PG_TRY (check_ranks (m->path, ranks));
+done:
+    return status;
+}
+
 /* Version, scene, files and points must be those of this run; the number of threads may
  * differ. */
 static pg_status keep_identity (memory *m, const pg_keeper *k)
@@ -90,6 +119,7 @@ static pg_status keep_identity (memory *m, const pg_keeper *k)
                  "have changed since; "
                  "%s/scene.yaml has those it was made with",
                  m->path, hash, m->r->hash, m->r->folder);
+    PG_TRY (keep_ranks (m, k));
     PG_TRY (keep_files (m, k));
     PG_TRY (k->counts (k->context, "sizes", SIZES, found));
     if (memcmp (found, size, sizeof size) != 0)
@@ -191,15 +221,15 @@ static pg_status keep_all (void *context, const pg_keeper *k)
     pg_status status = PG_OK;
     memory *m = context;
     pg_result *r = m->r;
-    long flag[2] = { m->rounds, m->is_pending };
+    long flag[3] = { m->rounds, m->is_pending, r->generation };
     double seconds[2] = { m->seconds, r->seconds };
     PG_TRY (keep_identity (m, k));
-    PG_TRY (k->counts (k->context, "result.counts", 2, flag));
+    PG_TRY (k->counts (k->context, "result.counts", 3, flag));
     PG_TRY (k->numbers (k->context, "result.seconds", 2, seconds));
     if (flag[0] < 0 || flag[0] > 1L << 50)
         PG_FAIL (PG_E_FILE, "%s is not of this run: %ld rounds of a step", m->path, flag[0]);
     m->rounds = flag[0], m->is_pending = flag[1], m->seconds = seconds[0];
-    if (k->reading) r->seconds = seconds[1];
+    if (k->reading) r->seconds = seconds[1], r->generation = flag[2];
     PG_TRY (keep_marks (m, &m->now, "now", k));
     PG_TRY (keep_marks (m, &r->done, "done", k));
     PG_TRY (pg_result_curve_keep (r, (size_t) m->now.points, k));
@@ -251,13 +281,25 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     if (r->tip_rows) PG_TRY (pg_table_sync (r->tip_rows));
     if (r->contact) PG_TRY (pg_table_sync (r->contact));
     PG_TRY (pg_exodus_sync (r->file));
-    PG_TRY (pg_checkpoint_write (path, keep_all, &m));
+    r->generation++;
+    PG_TRY (pg_checkpoint_prepare (path, keep_all, &m));
 done:
+    /* those before are kept until all ranks have a new one */
+    status = pg_ranks_agree (status);
+    if (status == PG_OK) status = pg_ranks_agree (pg_checkpoint_commit (path));
+    else pg_checkpoint_drop (path);
     pg_free (m.broken), pg_free (m.reaction);
     r->checkpoint_at = pg_seconds ();
     r->checkpoint_cost = r->checkpoint_at - t0;
     r->seconds += r->checkpoint_cost;
     return status;
+}
+
+int pg_result_kept (const pg_result *r)
+{
+    char path[4096];
+    snprintf (path, sizeof path, "%s/checkpoint.nc", r->folder);
+    return access (path, F_OK) == 0;
 }
 
 /* At most a tenth of the time goes into checkpoints, however short the interval. An interval
@@ -303,9 +345,54 @@ done:
     return status;
 }
 
+/* The number of a checkpoint; -1: there is none, or it is not whole. PG_E_USAGE: other ranks wrote it. */
+static pg_status number_of (const char *path, double *number)
+{
+    pg_status status = PG_OK;
+    long count[3], ranks[3];
+    *number = -1;
+    if (access (path, F_OK) != 0 || pg_checkpoint_counts (path, "result.counts", 3, count) != PG_OK
+        || pg_checkpoint_counts (path, "ranks", 3, ranks) != PG_OK)
+        return PG_OK;
+    PG_TRY (check_ranks (path, ranks));
+    *number = (double) count[2];
+done:
+    return status;
+}
+
+/* A run that was killed while it wrote checkpoints may have left those of one moment under two names: some
+ * ranks have renamed theirs already (then all have written them), or some have no new one yet (then nobody
+ * has renamed his). The newest that all ranks have gets the name that is read. All ranks call. */
+static pg_status choose_checkpoint (const char *path)
+{
+    pg_status status = PG_OK;
+    char fresh[4100];
+    double present = -1, next = -1, common;
+    if (pg_rank_count () > 1) {
+        snprintf (fresh, sizeof fresh, "%s.new", path);
+        status = number_of (path, &present);
+        if (status == PG_OK) status = number_of (fresh, &next);
+        PG_TRY (pg_ranks_agree (status));
+        common = -fmax (present, next);
+        PG_TRY (pg_ranks_ask (1, &common));            /* minus the least of the newest of all ranks */
+        if (common <= 0 && next == -common) status = pg_checkpoint_commit (path);
+        else if (common <= 0 && present != -common)
+            status = pg_error (PG_E_FILE, PG_HERE, "%s: the ranks have no checkpoint of one moment: start "
+                               "anew with --force", path);
+        PG_TRY (pg_ranks_agree (status));
+        pg_checkpoint_drop (path);                     /* of another moment, or half a file */
+    }
+    if (access (path, F_OK) != 0)
+        status = pg_error (PG_E_USAGE, PG_HERE, "there is no %s to continue from: run without --resume",
+                           path);
+    PG_TRY (pg_ranks_agree (status));
+done:
+    return status;
+}
+
 /* The folder is locked before the checkpoint is read, and its files are cut only after
- * everything in the checkpoint has been accepted; a refused resume leaves the folder as it
- * was. */
+ * everything in the checkpoint has been accepted, by all ranks; a refused resume leaves the
+ * folder as it was. */
 pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene,
                             const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from)
 {
@@ -316,15 +403,16 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
     snprintf (path, sizeof path, "%s/checkpoint.nc", folder);
     m.path = path;
     PG_TRY (pg_result_check (scene, problem));
-    if (access (path, F_OK) != 0)
-        PG_FAIL (PG_E_USAGE, "there is no %s to continue from: run without --resume", path);
+    PG_TRY (choose_checkpoint (path));
     PG_ALLOC (r, 1);
     m.r = r;
     PG_TRY (pg_result_prepare (r, folder, scene, problem, solver));
-    PG_TRY (pg_result_lock (folder, &r->lock));
-    PG_TRY (pg_checkpoint_read (path, keep_all, &m));
-    PG_TRY (open_files (r, &m.now));
-    PG_TRY (pg_result_remove (r, "report.json"));
+    status = pg_result_lock (folder, &r->lock);
+    if (status == PG_OK) status = pg_checkpoint_read (path, keep_all, &m);
+    PG_TRY (pg_ranks_agree (status));
+    status = open_files (r, &m.now);
+    if (status == PG_OK) status = pg_result_remove (r, "report.json");
+    PG_TRY (pg_ranks_agree (status));
     r->earlier = m.seconds;
     PG_TRY (catch_up (&m));
     *from = (pg_resumed) { state->step, m.rounds, m.seconds, (int) m.threads };

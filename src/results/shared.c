@@ -141,3 +141,30 @@ done:
     pg_free (mine), pg_free (all);
     return status;
 }
+
+/* ---- report.json --------------------------------------------------------------------------------------- */
+void pg_result_parts_json (pg_json *j, const pg_result *r)
+{
+    enum { OWNED, GHOSTS, NEIGHBOURS, SENT, PEAK, COUNT };
+    static const char *const name[COUNT] = { "owned", "ghosts", "neighbours", "sent", "peak_bytes" };
+    const pg_subdomain *s = r->problem->cloud.subdomain;
+    size_t size = (size_t) pg_rank_count ();
+    double *all = pg_calloc (size * COUNT, sizeof *all), *mine = all + (size_t) pg_rank () * COUNT,
+           lost = all == NULL;
+    if (pg_ranks_ask (1, &lost) != PG_OK || lost > 0) goto done;
+    mine[OWNED] = (double) (s ? s->nowned : r->problem->cloud.n);
+    mine[GHOSTS] = s ? (double) (s->n - s->nowned) : 0;
+    mine[NEIGHBOURS] = s ? (double) s->halo.n : 0;
+    mine[SENT] = s ? (double) s->halo.send_first[s->halo.n] : 0;
+    mine[PEAK] = (double) pg_memory_process_peak ();
+    if (pg_ranks_ask (size * COUNT, all) != PG_OK) goto done;
+    pg_json_open (j, "parts", '[');
+    for (size_t rank = 0; rank < size; rank++) {
+        pg_json_open (j, NULL, '{');
+        for (size_t k = 0; k < COUNT; k++) pg_json_count (j, name[k], (size_t) all[rank * COUNT + k]);
+        pg_json_shut (j);
+    }
+    pg_json_shut (j);
+done:
+    pg_free (all);
+}

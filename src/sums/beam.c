@@ -4,7 +4,6 @@
 #include "beam.h"
 #include "sums_private.h"
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const double pi = 3.14159265358979323846264338327950288;
@@ -84,13 +83,6 @@ void pg_beam_split (double *bond_modulus, double *dilation, pg_mode mode, double
 }
 
 /* ---- points at hand ------------------------------------------------------------------------------------ */
-/* For qsort; the comparison must not overflow, hence no difference. */
-static int ascending (const void *a, const void *b)
-{
-    double x = *(const double *) a, y = *(const double *) b;
-    return (x > y) - (x < y);
-}
-
 /* The sum of k beta V / r over the bonds of a point inside the body, m^(dim - 1) for points of unit
  * thickness: the discrete counterpart of shear_moment times the unit circle or sphere. Irregular points
  * have no stencil to take it from, so it is the median over the points whose family is whole (at least
@@ -101,8 +93,7 @@ static pg_status shear_of_cloud (double *out, const pg_sums *sums)
     pg_status status = PG_OK;
     const pg_cloud *cloud = sums->cloud;
     pg_family family = { 0 };
-    double *volume = NULL, *sum = NULL, most = 0;
-    size_t whole = 0;
+    double *volume = NULL, *sum = NULL;
     PG_TRY (pg_sums_family (&family, sums));
     PG_ALLOC (volume, cloud->n);
     PG_ALLOC (sum, cloud->n);
@@ -114,11 +105,8 @@ static pg_status shear_of_cloud (double *out, const pg_sums *sums)
             volume[i] += b.beta * cloud->volume[j] / pow (pg_cloud_ratio (cloud, i), cloud->dim);
             sum[i] += ratio * ratio * b.weight / b.r * cloud->volume[j] / cloud->thickness;
         }
-        most = fmax (most, volume[i]);
     }
-    for (size_t i = 0; i < cloud->n; i++) if (volume[i] >= 0.8 * most) sum[whole++] = sum[i];
-    qsort (sum, whole, sizeof *sum, ascending);
-    *out = whole % 2 ? sum[whole / 2] : 0.5 * (sum[whole / 2 - 1] + sum[whole / 2]);
+    PG_TRY (pg_sums_median (out, cloud, volume, sum));
 done:
     pg_free (volume), pg_free (sum);
     pg_family_clear (&family);

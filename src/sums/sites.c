@@ -37,27 +37,52 @@ static int ascending (const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
+/* Coordinate k of all points of the body, ascending; ranks that share it leave that to one of them, the
+ * others have none. */
+static pg_status coordinates (const pg_cloud *cloud, int k, size_t *n, double **x)
+{
+    pg_status status = PG_OK;
+    double *mine = NULL;
+    void *all = NULL;
+    size_t m = 0, bytes;
+    PG_ALLOC (mine, cloud->n);
+    for (size_t i = 0; i < cloud->n; i++)
+        if (pg_owns (cloud->subdomain, i)) mine[m++] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
+    PG_TRY (pg_ranks_collect (m * sizeof *mine, mine, &bytes, &all));
+    *x = all, *n = bytes / sizeof **x;
+    if (*n) qsort (*x, *n, sizeof **x, ascending);
+done:
+    pg_free (mine);
+    return status;
+}
+
 /* Steps of a lattice from the points alone: the smallest gap between two coordinates along each axis that
  * is no rounding (1e-3 h). found = 0: an axis without any gap, or a box with more than 8 sites a point:
  * those are irregular points that happen to have small gaps. */
 static pg_status find_steps (const pg_cloud *cloud, double *step, int *found)
 {
     pg_status status = PG_OK;
-    double *x = NULL, all = 1;
+    double *x = NULL, all = 1, is_one = 0, points = 0;
+    size_t n = 0;
     *found = 0;
-    PG_ALLOC (x, cloud->n);
     for (int k = 0; k < cloud->dim; k++) {
         double gap = INFINITY;
-        for (size_t i = 0; i < cloud->n; i++) x[i] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
-        qsort (x, cloud->n, sizeof *x, ascending);
-        double length = x[cloud->n - 1] - x[0];
-        for (size_t i = 1; i < cloud->n; i++)
+        pg_free (x), x = NULL;
+        PG_TRY (coordinates (cloud, k, &n, &x));
+        step[k] = 0;
+        if (n == 0) continue;
+        double length = x[n - 1] - x[0];
+        for (size_t i = 1; i < n; i++)
             if (x[i] - x[i - 1] > 1e-3 * cloud->h) gap = fmin (gap, x[i] - x[i - 1]);
-        if (!isfinite (gap) || !isfinite (length)) goto done;
-        step[k] = length / floor (length / gap + 0.5);  /* gaps are rounded, their sum is less so */
+        points = (double) n;
+        if (!isfinite (gap) || !isfinite (length)) all = INFINITY;
+        else step[k] = length / floor (length / gap + 0.5);  /* gaps are rounded, their sum is less so */
         all *= length / step[k] + 1;
     }
-    *found = all < sparse * (double) cloud->n + 64;
+    is_one = n > 0 && all < sparse * points + 64;
+    PG_TRY (pg_ranks_sum ((size_t) cloud->dim, step));
+    PG_TRY (pg_ranks_sum (1, &is_one));
+    *found = is_one > 0;
 done:
     pg_free (x);
     return status;
@@ -90,6 +115,29 @@ static int site_of (const pg_sites *s, const double *x, const double *low)
     return site;
 }
 
+/* 0: a point is on no site, or on one that is taken. */
+static int put_on_sites (pg_sites *out, const pg_cloud *cloud, size_t all, const double *low)
+{
+    for (size_t s = 0; s < all; s++) out->point[s] = -1;
+    for (size_t i = 0; i < cloud->n; i++) {
+        int site = out->site[i] = site_of (out, cloud->x + i * (size_t) cloud->dim, low);
+        if (site < 0 || out->point[site] >= 0) return 0;
+        out->point[site] = (int) i;
+    }
+    return 1;
+}
+
+/* What is so on any of the ranks that share the points is so on all. */
+static pg_status any_rank (const pg_cloud *cloud, int *yes)
+{
+    pg_status status = PG_OK;
+    double any = *yes;
+    if (cloud->subdomain) PG_TRY (pg_ranks_most (1, &any));
+    *yes = any > 0;
+done:
+    return status;
+}
+
 /* The site of every point and the point of every site, -1 for none. Any point that is on no site, or on
  * one that is taken, makes the whole cloud irregular: *out is empty then, which is no failure. */
 pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice *lattice)
@@ -97,25 +145,23 @@ pg_status pg_sites_build (pg_sites *out, const pg_cloud *cloud, const pg_lattice
     pg_status status = PG_OK;
     double low[3], step[3];
     size_t all = 0;
-    int fits = 0, found = 1, given = lattice && lattice->dim > 0;
+    int fits = 0, found = 1, other, given = lattice && lattice->dim > 0;
     memset (out, 0, sizeof *out);
     out->dim = cloud->dim;
-    if ((given && lattice->dim != cloud->dim) || cloud->n == 0 || cloud->n > INT_MAX || !alike (cloud))
-        goto done;
+    if ((given && lattice->dim != cloud->dim) || cloud->n == 0 || cloud->n > INT_MAX) goto done;
+    other = !alike (cloud);
+    PG_TRY (any_rank (cloud, &other));
+    if (other) goto done;
     if (given) memcpy (step, lattice->step, sizeof step);
     else PG_TRY (find_steps (cloud, step, &found));
     if (!found) goto done;
     all = count_sites (out, cloud, step, low);
-    if (all < cloud->n) goto done;
-    PG_ALLOC (out->site, cloud->n);
-    PG_ALLOC (out->point, all);
-    for (size_t s = 0; s < all; s++) out->point[s] = -1;
-    for (size_t i = 0; i < cloud->n; i++) {
-        out->site[i] = site_of (out, cloud->x + i * (size_t) cloud->dim, low);
-        if (out->site[i] < 0 || out->point[out->site[i]] >= 0) goto done;
-        out->point[out->site[i]] = (int) i;
-    }
-    fits = 1;
+    other = all < cloud->n;
+    if (!other) PG_ALLOC (out->site, cloud->n);
+    if (!other) PG_ALLOC (out->point, all);
+    if (!other) other = !put_on_sites (out, cloud, all, low);
+    PG_TRY (any_rank (cloud, &other));                 /* points are a lattice together or not at all */
+    fits = !other;
 done:
     if (!fits || status != PG_OK) pg_sites_clear (out);
     return status;

@@ -125,16 +125,30 @@ static int ascending (const void *a, const void *b)
     return (x > y) - (x < y);
 }
 
-/* Median of the values of those points whose family's volume is nearly the largest (whole_family of it):
- * points inside the body. work holds n numbers. */
-static double median_of_whole (size_t n, const double *volume, const double *value, double *work)
+/* Of ranks that share the points each gives those that it owns. */
+pg_status pg_sums_median (double *out, const pg_cloud *cloud, const double *volume, const double *value)
 {
-    double most = 0;
-    size_t m = 0;
-    for (size_t i = 0; i < n; i++) most = fmax (most, volume[i]);
-    for (size_t i = 0; i < n; i++) if (volume[i] >= whole_family * most) work[m++] = value[i];
-    qsort (work, m, sizeof *work, ascending);
-    return m == 0 ? 0 : m % 2 ? work[m / 2] : 0.5 * (work[m / 2 - 1] + work[m / 2]);
+    pg_status status = PG_OK;
+    double most = 0, *mine = NULL, *all = NULL;
+    void *collected = NULL;
+    size_t m = 0, bytes = 0;
+    *out = 0;
+    for (size_t i = 0; i < cloud->n; i++)
+        if (pg_owns (cloud->subdomain, i)) most = fmax (most, volume[i]);
+    PG_TRY (pg_ranks_most (1, &most));
+    PG_ALLOC (mine, cloud->n);
+    for (size_t i = 0; i < cloud->n; i++)
+        if (pg_owns (cloud->subdomain, i) && volume[i] >= whole_family * most) mine[m++] = value[i];
+    PG_TRY (pg_ranks_collect (m * sizeof *mine, mine, &bytes, &collected));
+    all = collected, m = bytes / sizeof *all;
+    if (m) {
+        qsort (all, m, sizeof *all, ascending);
+        *out = m % 2 ? all[m / 2] : 0.5 * (all[m / 2 - 1] + all[m / 2]);
+    }
+    PG_TRY (pg_ranks_sum (1, out));                    /* of one rank, which has collected them */
+done:
+    pg_free (mine), pg_free (collected);
+    return status;
 }
 
 /* Without a lattice calibration and full family volume are medians over the points whose family is whole. */
@@ -143,7 +157,7 @@ static pg_status from_cloud (pg_sums *s)
     pg_status status = PG_OK;
     const pg_cloud *cloud = s->cloud;
     pg_family family = {0};
-    double *volume = NULL, *moment = NULL, *work = NULL;
+    double *volume = NULL, *moment = NULL, middle;
     size_t n = cloud->n;
     if (s->rule.partial == PG_PARTIAL_OVERLAP)
         PG_FAIL (PG_E_USAGE, "partial volume `overlap` needs points on a lattice: choose `linear` or `none`");
@@ -151,7 +165,6 @@ static pg_status from_cloud (pg_sums *s)
     if (family.start[n] == 0) PG_FAIL (PG_E_USAGE, "a horizon of %g m reaches no neighbour", s->rule.horizon);
     PG_ALLOC (volume, n);
     PG_ALLOC (moment, n);
-    PG_ALLOC (work, n);
     for (size_t i = 0; i < n; i++)
         for (size_t e = family.start[i]; e < family.start[i + 1]; e++) {
             size_t j = (size_t) family.node[e];
@@ -159,16 +172,16 @@ static pg_status from_cloud (pg_sums *s)
             volume[i] += b.beta * cloud->volume[j] / pow (pg_cloud_ratio (cloud, i), cloud->dim);
             moment[i] += b.weight * b.r * cloud->volume[j] / cloud->thickness;
         }
-    s->full = median_of_whole (n, volume, volume, work);
-    double middle = median_of_whole (n, volume, moment, work);
+    PG_TRY (pg_sums_median (&s->full, cloud, volume, volume));
+    PG_TRY (pg_sums_median (&middle, cloud, volume, moment));
     if (s->rule.calibrate) s->calibration = pg_sums_whole (&s->rule, cloud->dim) / middle;
     if (s->rule.surface != PG_SURFACE_NONE) {
         for (size_t i = 0; i < n; i++) volume[i] /= s->full;
+        PG_TRY (pg_subdomain_exchange (cloud->subdomain, 1, volume));  /* ghosts do not see all neighbours */
         s->family_volume = volume;
         volume = NULL;
     }
 done:
-    pg_free (work);
     pg_free (moment);
     pg_free (volume);
     pg_family_clear (&family);

@@ -20,6 +20,9 @@ typedef struct { double r, beta, weight; } sums_bond;
 sums_bond pg_sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, size_t i, size_t j);
 /* The point at an offset (x, y, z) from a site; -1: none. */
 int       pg_sums_neighbour    (const pg_sites *sites, int site, const int *offset);
+/* Median of the values of those points whose family's volume is nearly the largest (0.8 of it): points inside
+ * the body. volume, value: of each point; ranks that share the points get the median of all. */
+pg_status pg_sums_median (double *out, const pg_cloud *cloud, const double *volume, const double *value);
 /* g_ij; 1: no correction */
 double    pg_sums_surface      (const pg_sums *sums, size_t i, size_t j);
 /* Fills sums->family_volume of points on a lattice. */

@@ -1,0 +1,99 @@
+#!/bin/bash
+# test_resume.sh BUILD: runs of several ranks that are interrupted, killed as a whole, lose one rank or the disk of one rank go on from their
+# checkpoints to the files of a run that nobody disturbed.
+. "$(dirname "$0")/ranks.sh"
+often=(--set output.checkpoint='0.01 s')
+explicit=(plate.yaml --set spacing='1.25 mm' --set solver.dt='1.5e-7 s' --set solver.time_steps=1200 --set output.at.rows=120 --set output.at.levels=12)
+rest=(rest.yaml --set solver.steps=8 --set output.at.levels=8)
+facets=(facets.yaml --set solver.linear=petsc)
+
+# begin ROWS DIR ARGUMENTS...: a run on 3 ranks (mpirun: $run) that goes on when this returns, history.csv having so many rows, all ranks a checkpoint
+begin() {
+    local rows=$1 dir=$2 k; shift 2
+    mpirun --oversubscribe -n 3 "$mpi" run "$@" -o "$dir" --quiet "${often[@]}" > "$work/out" 2> "$work/err" & run=$!
+    for k in $(seq 3000); do
+        [ "$(wc -l 2> /dev/null < "$dir/history.csv" || echo 0)" -gt "$rows" ] && [ -e "$dir/checkpoint.nc" ] && [ -e "$dir/ranks/2/checkpoint.nc" ] && return
+        kill -0 $run 2> /dev/null || break
+        sleep 0.02
+    done
+    return 1
+}
+ended() { wait $run 2> /dev/null; code=$?; }
+# pid DIR RANK: of its process, which the lock of its folder names
+pid() { [ "$2" = 0 ] && cut -d' ' -f1 "$1/run.lock" || cut -d' ' -f1 "$1/ranks/$2/run.lock"; }
+# same NAME DIR: goes on; then tables and fields are those of $work/NAME, byte by byte; where PETSc solves, which adds in the order in which
+# messages come, so that two runs differ by rounding, to that
+same() {
+    local name=$1 dir=$2 f; shift 2
+    declare -n arguments=$name
+    ranks 3 "${arguments[@]}" -o "$dir" "${often[@]}" --resume || return 1
+    if [ "$name" = explicit ]; then
+        for f in history.csv events.csv result.e; do cmp "$work/$name/$f" "$dir/$f" > "$work/why" 2>&1 || return 1; done
+    else
+        alike 1e-7 "$work/$name" "$dir" events.csv && alike 1e-8 "$work/$name" "$dir" history.csv residual force_x displacement_x moment || return 1
+        python3 fields.py 1e-8 "$work/$name/result.e" "$dir/result.e" > "$work/why" 2>&1 || return 1
+    fi
+    [ ! -e "$dir/ranks" ] && [ ! -e "$dir/checkpoint.nc" ] && [ ! -e "$dir/result.e.3.0" ]
+}
+for name in explicit rest facets; do
+    declare -n arguments=$name
+    ranks 3 "${arguments[@]}" -o "$work/$name" "${often[@]}"; verdict "$name: the run that nobody disturbs" $?
+done
+grep -c '"peak_bytes"' "$work/explicit/report.json" | grep -q '^4$'; verdict "the report has the memory of each rank" $?
+
+for name in explicit rest facets; do
+    declare -n arguments=$name
+    [ $name = explicit ] && rows=20 || rows=2
+    begin $rows "$work/some" "${arguments[@]}"; kill -USR1 $run; ended
+    [ $code -eq 130 ] && grep -q 'continue with: mpirun -n 3 perigal-mpi run' "$work/err"; verdict "$name: a signal that mpirun passes on ends it, said how to go on" $?
+    same $name "$work/some"; verdict "$name: it goes on to the same files" $?
+    rm -rf "$work/some"
+    begin $rows "$work/some" "${arguments[@]}"; left=$(pid "$work/some" 0; pid "$work/some" 1; pid "$work/some" 2); kill -KILL $run; ended
+    [ ! -e "$work/some/report.json" ]; verdict "$name: mpirun is killed" $?
+    while kill -0 $left 2> /dev/null; do sleep 0.1; done; same $name "$work/some"; verdict "$name: the run goes on to the same files" $?
+    rm -rf "$work/some"
+done
+
+begin 20 "$work/some" "${explicit[@]}"; kill -TERM "$(pid "$work/some" 1)"; ended
+[ $code -eq 130 ]; verdict "a signal to one rank ends all" $?
+cp -r "$work/some" "$work/half"
+ranks 2 "${explicit[@]}" "${often[@]}" -o "$work/some" --resume; [ $? -eq 64 ] && grep -q 'written by 3 ranks, now there are 2: continue with mpirun -n 3 perigal-mpi run' "$work/err"
+verdict "another number of ranks is refused, and what to do" $?
+alone "${explicit[@]}" "${often[@]}" -o "$work/some" --resume; [ $? -eq 64 ] && grep -q 'written by 3 ranks, now there is 1: continue with mpirun -n 3 perigal-mpi run' "$work/err"
+verdict "so is one process" $?
+ranks 4 "${explicit[@]}" "${often[@]}" -o "$work/some" --resume; [ $? -eq 64 ] && grep -q 'written by 3 ranks' "$work/err"; verdict "so are more" $?
+same explicit "$work/some"; verdict "the folder was left as it was" $?
+
+# killed between the renames of two ranks: one has the newer checkpoint under its name, the other one beside it
+begin 60 "$work/later" "${explicit[@]}"; kill -USR1 $run; ended
+cp -r "$work/later" "$work/some1"; mv "$work/some1/ranks/1/checkpoint.nc" "$work/some1/ranks/1/checkpoint.nc.new"
+cp "$work/half/ranks/1/checkpoint.nc" "$work/some1/ranks/1/"
+same explicit "$work/some1"; verdict "killed while checkpoints were renamed: all ranks take the newer one" $?
+# killed before all had written theirs: the newer one of one rank does not count
+cp -r "$work/later" "$work/some2"; cp "$work/later/ranks/1/checkpoint.nc" "$work/some2/ranks/1/checkpoint.nc.new"
+for r in . ranks/1 ranks/2; do cp "$work/half/$r/checkpoint.nc" "$work/some2/$r/"; done
+same explicit "$work/some2"; verdict "killed while checkpoints were written: all ranks take the older one" $?
+cp "$work/half/ranks/1/checkpoint.nc" "$work/later/ranks/1/"
+ranks 3 "${explicit[@]}" "${often[@]}" -o "$work/later" --resume; [ $? -eq 70 ] && grep -q 'no checkpoint of one moment' "$work/err"
+verdict "checkpoints of two moments are refused" $?
+rm -rf "$work/later" "$work/half" "$work"/some*
+
+begin 20 "$work/some" "${explicit[@]}"; kill -KILL "$(pid "$work/some" 1)"; ended
+[ $code -ne 0 ] && grep -q 'rank 1' "$work/err"; verdict "a rank that is killed ends the run, said which" $?
+same explicit "$work/some"; verdict "its checkpoints serve" $?
+rm -rf "$work/some"
+
+# a file that one rank cannot write: the limit is far below what its fields will take
+begin 20 "$work/some" "${explicit[@]}"; prlimit --pid "$(pid "$work/some" 1)" --fsize=$(($(stat -c %s "$work/some/result.e.3.1") + 2000)); ended
+[ $code -eq 70 ] && grep -q 'result.e.3.1: File too large' "$work/err" && grep -q 'continue with: mpirun -n 3' "$work/err"; verdict "the disk of one rank is full: all end, said why and how to go on" $?
+same explicit "$work/some"; verdict "with room they go on to the same files" $?
+rm -rf "$work/some"
+begin 20 "$work/some" "${explicit[@]}"; prlimit --pid "$(pid "$work/some" 2)" --fsize=1000; ended
+[ $code -eq 70 ] && grep -q 'ranks/2/.*: File too large' "$work/err"; verdict "so do tables and checkpoints" $?
+same explicit "$work/some"; verdict "the checkpoints before it serve" $?
+
+# what other numbers of ranks have left is not in the way
+rm "$work/some/report.json"; mkdir -p "$work/some/ranks/7"; : > "$work/some/result.e.8.7"; mkdir -p "$work/some/ranks/3" "$work/some/ranks/4"
+ranks 3 "${explicit[@]}" -o "$work/some" --force && [ ! -e "$work/some/ranks/3" ] && [ ! -e "$work/some/result.e.8.7" ]
+verdict "an earlier run of more ranks leaves nothing" $?
+finish
