@@ -122,11 +122,12 @@ pg_status pg_subdomain_width (double *width, const pg_method *method, const pg_b
     double h, beyond;
     PG_TRY (pg_cloud_spacing (&h, body, scene));
     PG_TRY (pg_method_approx (&approx, method, scene, h));
-    /* off a lattice volumes fall over a spacing about the horizon, and points are not where their sites are */
+    /* off a lattice volumes fall over a spacing about the horizon, and points are not on their sites */
     double amount = pg_scene_number (scene, "perturb.amount");
     if (amount > 0 || pg_scene_given (scene, "points"))
         approx.horizon += (0.5 + (amount > 0 ? 2 * amount : 0)) * h;
-    *width = method->ghost_cells ? method->ghosts * approx.horizon + method->ghost_cells (scene, &beyond) * h
+    *width = method->ghost_cells ? method->ghosts * approx.horizon
+                                       + method->ghost_cells (scene, &beyond) * h
                                  : ghost_layers (method, scene, body->dim, &approx, h) * approx.horizon;
 done:
     return status;
