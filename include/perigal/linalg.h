@@ -294,8 +294,11 @@ typedef struct {
     const unsigned char *part;
     /* 1: M is the inverse, by a factor that ranks share. */
     int     exact;
-    /* Read only during creation, of nodes that are owned. */
+    /* Read only during creation, of nodes that are owned: rows of K, and masses of all unknowns held, kg. The
+     * matrix is k K + m M (m 0: mass is not read). */
     pg_couplings rows;
+    double k, m;
+    const double *mass;
 } pg_shared_rows;
 /* One that all ranks make and use together, given from outside, as the library has none. solve: z = M r, of
  * vectors with an entry for each unknown held here (subdomain.n x block): those of ghosts are neither read

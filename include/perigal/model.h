@@ -401,8 +401,10 @@ unsigned  pg_solver_flags (const char *kind);
 /* 1: it has all of these flags. */
 int       pg_solver_is (const char *kind, unsigned flags);
 /* 1: ranks are to divide the points of the body (perigal/ranks.h); 0: each holds all, and they share
- * matrices. By solver.kind and solver.division. */
-int       pg_subdomain_wanted (const pg_scene *scene);
+ * matrices. By solver.kind and solver.division; auto: of forces between points as many unknowns, by a
+ * forecast, as one process solves for without a factor, and nothing in the scene needs the whole body.
+ * Faults that the forecast meets are added to the scene. Collective, before the problem is built. */
+int       pg_subdomain_wanted (const pg_scene *scene, const pg_method *const *methods);
 /* What pg_rank_count ranks that divide the body cannot do so far, as faults of the scene. PG_E_SCENE. */
 pg_status pg_subdomain_check  (const pg_method *method, const pg_scene *scene);
 /* The layer of ghosts around their parts, m. */

@@ -163,6 +163,17 @@ done:
     return status;
 }
 
+/* 1: so many ranks would divide the body. */
+static int would_divide (const command *c, const pg_scene *scene)
+{
+    pg_ranks all;
+    pg_ranks_stand_in (&all, c->ranks);
+    pg_ranks_join (&all);
+    int divided = pg_subdomain_wanted (scene, pg_force_methods ());
+    pg_ranks_join (NULL);
+    return divided;
+}
+
 int check_ranks (const command *c)
 {
     pg_status status = PG_OK;
@@ -174,7 +185,7 @@ int check_ranks (const command *c)
     PG_TRY (command_scene (c, &scene));
     PG_TRY (command_scene (c, &counted));              /* its faults come out when the problem is built */
     if (pg_forecast_scene (&o.whole, counted, pg_force_methods ()) != PG_OK) o.whole.peak = 0;
-    o.divided = pg_subdomain_wanted (scene);
+    o.divided = would_divide (c, counted);
     PG_TRY (look_for_faults (&o, scene, &built));
     if (!(o.whole.peak > 0)) PG_TRY (pg_forecast_scene (&o.whole, counted, pg_force_methods ()));
     o.components = o.whole.dim + o.whole.rotations;

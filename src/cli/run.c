@@ -208,7 +208,9 @@ static pg_status advance (pg_solver *solver, watched *w, int quiet)
                      state->factor);
         status = pg_solver_step (solver, state, &step);
         if (status != PG_OK && !w->within) pg_result_refused (w->result);
-        w->alone = status != PG_OK && status != PG_E_INTERRUPTED && status != PG_E_EQUILIBRIUM && !w->within;
+        /* what conjugate gradients find out all ranks find out */
+        w->alone = status != PG_OK && status != PG_E_INTERRUPTED && status != PG_E_EQUILIBRIUM
+                   && status != PG_E_NOT_SPD && !w->within;
         PG_TRY (status);
         PG_TRY (pg_ranks_agree (pg_result_step (w->result, state, &step)));
         PG_TRY (ask_all (w, &stop, &due));
@@ -316,6 +318,18 @@ typedef struct {
     int        finished;                               /* --resume of a run that is whole already */
 } run;
 
+/* What ranks share; it is asked of a scene of its own, as faults are found again later. */
+static pg_status divide (const command *c, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_scene *copy = NULL;
+    if (pg_rank_count () > 1) PG_TRY (command_scene (c, &copy));
+    pg_ranks_divide (pg_subdomain_wanted (copy ? copy : scene, pg_force_methods ()));
+done:
+    pg_scene_free (&copy);
+    return status;
+}
+
 /* Everything that can refuse a run before its long work begins, the cheap refusals first:
  * folder, memory, faults of the scene, patch test. The name of the folder follows from the
  * scene unless it is given. */
@@ -326,7 +340,7 @@ static pg_status prepare (run *r)
     int fresh = !c->resume && !c->force;
     pg_forecast forecast;
     PG_TRY (command_scene (c, &r->scene));
-    pg_ranks_divide (pg_subdomain_wanted (r->scene));
+    PG_TRY (divide (c, r->scene));
     if (c->folder && fresh && pg_rank () == 0) PG_TRY (pg_result_may_open (c->folder, r->scene));
     if (!pg_ranks_now ()) PG_TRY (afford_scene (c, &forecast));
     PG_TRY (command_problem (c, r->scene, &r->problem, &r->options));

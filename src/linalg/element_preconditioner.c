@@ -349,7 +349,7 @@ static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_sett
     memcpy (m.rows.lattice, e->lattice, sizeof m.rows.lattice);
     P->Q = pg_block_operator (Q);
     if (!s->subdomain) return pg_multilevel_create (&P->multilevel, &m);
-    pg_shared_rows rows = { .dim = s->dim, .block = Q->block, .x = s->x, .fixed = P->fixed,
+    pg_shared_rows rows = { .k = 1, .dim = s->dim, .block = Q->block, .x = s->x, .fixed = P->fixed,
                             .subdomain = s->subdomain, .rows = m.rows };
     PG_TRY (pg_shared_preconditioner_now ()->create (&P->shared, &rows));
     pg_free (Q->start), pg_free (Q->node), pg_free (Q->value);

@@ -15,81 +15,123 @@ static const struct {
     { "reference", "results are compared with a reference by one process only: perigal compare" },
 };
 
+/* What stands against a division: all of it as faults of the scene, or only how much there is. */
+typedef struct { const pg_scene *scene; int quiet, n; } against;
+
+static void refuse (against *a, const char *key, const char *why)
+{
+    a->n++;
+    if (!a->quiet) pg_scene_fault (a->scene, key, "%d ranks: %s", pg_rank_count (), why);
+}
+
+static int is (const pg_scene *scene, const char *key, const char *word)
+{
+    return strcmp (pg_scene_text (scene, "%s", key), word) == 0;
+}
+
 /* Loads that act at a place, rather than on a set, choose the points around it by looking at all. */
-static void check_loads (const pg_scene *scene)
+static void check_loads (against *a)
 {
     char path[64];
-    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
+    for (size_t i = 0; i < pg_scene_count (a->scene, "boundary"); i++) {
         snprintf (path, sizeof path, "boundary[%zu].at", i);
-        if (pg_scene_given (scene, "%s", path))
-            pg_scene_fault (scene, path, "a load at a place is for one process only so far: name a set");
+        if (pg_scene_given (a->scene, "%s", path))
+            refuse (a, path, "a load at a place is for one process only so far: name a set");
         snprintf (path, sizeof path, "boundary[%zu].symmetry", i);
-        if (pg_scene_given (scene, "%s", path))
-            pg_scene_fault (scene, path, "planes of symmetry are for one process only so far: prescribe "
-                            "the displacement across it");
+        if (pg_scene_given (a->scene, "%s", path))
+            refuse (a, path, "planes of symmetry are for one process only so far: prescribe the displacement "
+                             "across it");
     }
 }
 
 /* Of forces with shape functions, which are evaluated in cells. */
-static void check_cells (const pg_scene *scene, const char *kind)
+static void check_cells (against *a)
 {
     char path[64];
-    if (!pg_solver_is (kind, PG_SOLVER_STATIC))
-        pg_scene_fault (scene, "solver.kind", "%d ranks: galerkin in motion is for one process only so far, "
-                        "or for division: matrices", pg_rank_count ());
-    if (pg_scene_bool (scene, "solver.plain"))
-        pg_scene_fault (scene, "solver.plain", "goes with one process only for force: galerkin");
-    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
+    if (!pg_solver_is (pg_scene_text (a->scene, "solver.kind"), PG_SOLVER_STATIC)
+        || is (a->scene, "solver.on_instability", "dynamic"))
+        refuse (a, "solver.kind",
+                "galerkin in motion is for one process only so far, or for division: matrices");
+    if (pg_scene_bool (a->scene, "solver.plain"))
+        refuse (a, "solver.plain", "goes with one process only for force: galerkin");
+    for (size_t i = 0; i < pg_scene_count (a->scene, "boundary"); i++) {
         snprintf (path, sizeof path, "boundary[%zu].set", i);
-        if (pg_scene_given (scene, "%s", path) && strcmp (pg_scene_text (scene, "%s", path), "cracks") == 0)
-            pg_scene_fault (scene, path, "%d ranks: a pressure in cracks is for one process only so far",
-                            pg_rank_count ());
+        if (pg_scene_given (a->scene, "%s", path) && is (a->scene, path, "cracks"))
+            refuse (a, path, "a pressure in cracks is for one process only so far");
     }
 }
 
 /* Points that are no lattice are divided without their cells and surface. */
-static void check_points (const pg_method *method, const pg_scene *scene)
+static void check_points (against *a, const pg_method *method)
 {
-    if (method->ghost_cells && pg_scene_given (scene, "points"))
-        pg_scene_fault (scene, "points", "%d ranks: points of a file are divided for forces between points "
-                        "only so far", pg_rank_count ());
-    if (method->ghost_cells && pg_scene_number (scene, "perturb.amount") > 0)
-        pg_scene_fault (scene, "perturb.amount", "%d ranks: perturbed points are divided for forces between "
-                        "points only so far", pg_rank_count ());
+    const pg_scene *scene = a->scene;
     const char *surface = pg_scene_text (scene, "surface");
+    if (method->ghost_cells && pg_scene_given (scene, "points"))
+        refuse (a, "points", "points of a file are divided for forces between points only so far");
+    if (method->ghost_cells && pg_scene_number (scene, "perturb.amount") > 0)
+        refuse (a, "perturb.amount", "perturbed points are divided for forces between points only so far");
     if (pg_scene_given (scene, "points")
         && (pg_scene_count (scene, "body") || (surface && strcmp (surface, "none") != 0)))
-        pg_scene_fault (scene, "points", "%d ranks: points whose surface is known (body, surface) are for "
-                        "one process only so far: leave it out, and name sets by where", pg_rank_count ());
+        refuse (a, "points", "points whose surface is known (body, surface) are for one process only so far: "
+                "leave it out, and name sets by where");
 }
 
-int pg_subdomain_wanted (const pg_scene *scene)
+/* Of equilibria and implicit steps in time. */
+static void check_implicit (against *a)
 {
+    const pg_criterion_type *type = pg_criterion_find (pg_scene_text (a->scene, "failure.criterion"));
+    if (!is (a->scene, "solver.linear", "auto"))
+        refuse (a, "solver.linear",
+                "division: subdomains goes with conjugate gradients alone (linear: auto)");
+    if (type && (type->needs & PG_NEEDS_FACETS))
+        refuse (a, "failure.criterion", "facets grow in the whole body only: use division: matrices");
+    if (is (a->scene, "solver.mass", "consistent") || is (a->scene, "solver.motion.mass", "consistent"))
+        refuse (a, is (a->scene, "solver.mass", "consistent") ? "solver.mass" : "solver.motion.mass",
+                "with division: subdomains masses are lumped so far: use lumped, or division: matrices");
+}
+
+static void check_all (against *a, const pg_method *method)
+{
+    const pg_scene *scene = a->scene;
+    const char *kind = pg_scene_text (scene, "solver.kind");
+    char text[160];
+    for (size_t k = 0; k < sizeof alone / sizeof *alone; k++)
+        if (pg_scene_given (scene, "%s", alone[k].key)) refuse (a, alone[k].key, alone[k].why);
+    if (!is (scene, "contact.kind", "none"))
+        refuse (a, "contact.kind", "contact is for one process only so far");
+    snprintf (text, sizeof text, "%s is not divided among ranks so far", method->name);
+    if (method->ghost_cells) check_cells (a);
+    if (!(method->ghosts > 0)) refuse (a, "method.force", text);
+    if (pg_solver_is (kind, PG_SOLVER_IMPLICIT)) check_implicit (a);
+    snprintf (text, sizeof text, "%s is for one process only so far", kind);
+    if (!pg_solver_is (kind, PG_SOLVER_RANKS)) refuse (a, "solver.kind", text);
+    check_points (a, method);
+    check_loads (a);
+}
+
+/* By the forecast of one process: a body so large that it is solved without a factor. */
+static int is_large (const pg_scene *scene, const pg_method *const *methods)
+{
+    pg_forecast f = { 0 };
+    pg_ranks_divide (0);                               /* every rank counts for itself */
+    return pg_forecast_scene (&f, scene, methods) == PG_OK && !f.linear;
+}
+
+int pg_subdomain_wanted (const pg_scene *scene, const pg_method *const *methods)
+{
+    const pg_method *method = pg_method_of (methods, scene);
+    against a = { .scene = scene, .quiet = 1 };
     if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT)) return 1;
-    return strcmp (pg_scene_text (scene, "solver.division"), "subdomains") == 0;
+    if (!is (scene, "solver.division", "auto")) return is (scene, "solver.division", "subdomains");
+    if (pg_rank_count () < 2 || !method || method->shape_functions) return 0;
+    check_all (&a, method);
+    return a.n == 0 && is_large (scene, methods);
 }
 
 pg_status pg_subdomain_check (const pg_method *method, const pg_scene *scene)
 {
-    const char *kind = pg_scene_text (scene, "solver.kind");
-    for (size_t k = 0; k < sizeof alone / sizeof *alone; k++)
-        if (pg_scene_given (scene, "%s", alone[k].key))
-            pg_scene_fault (scene, alone[k].key, "%d ranks: %s", pg_rank_count (), alone[k].why);
-    if (strcmp (pg_scene_text (scene, "contact.kind"), "none") != 0)
-        pg_scene_fault (scene, "contact.kind", "%d ranks: contact is for one process only so far",
-                        pg_rank_count ());
-    if (method->ghost_cells) check_cells (scene, kind);
-    if (!(method->ghosts > 0))
-        pg_scene_fault (scene, "method.force", "%d ranks: %s is not divided among ranks so far",
-                        pg_rank_count (), method->name);
-    if (strcmp (pg_scene_text (scene, "solver.linear"), "auto") != 0)
-        pg_scene_fault (scene, "solver.linear", "division: subdomains goes with conjugate gradients alone "
-                        "(linear: auto)");
-    if (!pg_solver_is (kind, PG_SOLVER_RANKS))
-        pg_scene_fault (scene, "solver.kind", "%d ranks: %s is for one process only so far",
-                        pg_rank_count (), kind);
-    check_points (method, scene);
-    check_loads (scene);
+    against a = { .scene = scene };
+    check_all (&a, method);
     return pg_scene_verdict (scene);
 }
 

@@ -108,7 +108,8 @@ static pg_status put_rows (multigrid *m, reading *r, size_t k, double *mean)
         for (size_t c = 0; c < count; c++) {
             size_t j = (size_t) r->node[c];
             for (size_t e = 0; e < b; e++) {
-                double v = r->value[(c * b + a) * b + e];
+                double v = s->k * r->value[(c * b + a) * b + e];
+                if (j == i && a == e && s->m != 0) v += s->m * s->mass[i * b + a];
                 int out = is_fixed (s, i, a) || is_fixed (s, j, e);
                 if (j == i && a == e) {
                     if (v > 0) *mean = v;

@@ -69,7 +69,7 @@ done:
 const pg_solver_type pg_solver_adr = {
     .name = "adr",
     .summary = "quasi-static stages by adaptive dynamic relaxation",
-    .flags = PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_CONTACT,
+    .flags = PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_CONTACT | PG_SOLVER_RANKS,
     .keys = { &solver_keys_stages, &solver_keys_breaking },
     .read = relaxation_read,
     .prepare = prepare,

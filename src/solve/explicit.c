@@ -217,10 +217,12 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     if (force->balance_and_break) PG_TRY (remove_broken (s, state, t, &own));
     else {
         PG_TRY (break_by_utilisation (s, state, t));
-        if (b->changes.n)
+        double any = system_most (sys, (double) b->changes.n);         /* all ranks measure again */
+        if (any > 0)
             PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     }
-    if (own && s->problem->cloud.subdomain) PG_TRY (note_break (s, state));
+    if (own && s->problem->cloud.subdomain && !(s->options.flags & PG_SOLVER_STAGED))
+        PG_TRY (note_break (s, state));
     else if (b->changes.n && !s->problem->cloud.subdomain) state->events++, s->report.events++;
 press:
     if (sys->contact) contact_push (sys, state->d, sys->residual, follows (s));

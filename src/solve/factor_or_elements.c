@@ -31,7 +31,8 @@ static pg_status both_ways (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;
     *can = 0;
-    if (!dyn || s->problem->dim < 3 || !s->force->elements || s->options->plain || s->indefinite
+    if (!dyn || system_is_shared (s) || s->problem->dim < 3 || !s->force->elements || s->options->plain
+        || s->indefinite
         || strcmp (s->options->linear, "auto") != 0)
         return PG_OK;
     PG_TRY (system_can_precondition (s, dyn, can));

@@ -17,6 +17,7 @@
  * first, as far as it has digits: an entry x' y is as uncertain as y, and y as the rounding of d makes it,
  * eps |diag (A) d| beside |y|. In small time steps that is much more than eps. */
 #include "solve.h"
+#include "perigal/ranks.h"
 #include <math.h>
 #include <string.h>
 
@@ -92,12 +93,16 @@ static void solve_nearly_singular (int n, double G[PAIRS][PAIRS], double noise, 
 /* Share of the smallest y that the rounding of d is. */
 static double rounding_of (const pg_system *s, const dynamics *dyn, const double *d, int n, const int *at)
 {
-    double sum = 0, least = INFINITY;
+    double sum = 0, least = INFINITY, size[PAIRS + 1] = { 0 };
     for (size_t i = 0; i < s->ndof; i++) {
         double part = (dyn->k * s->diagonal0[i] + dyn->m * s->mass[i]) * d[i];
-        sum += part * part;
+        if (pg_owns (s->problem->cloud.subdomain, i / (size_t) s->components)) sum += part * part;
     }
-    for (int k = 0; k < n; k++) least = fmin (least, dot (pair_y (s, at[k]), pair_y (s, at[k]), s->ndof));
+    size[0] = sum;
+    for (int k = 0; k < n; k++) size[k + 1] = dot (pair_y (s, at[k]), pair_y (s, at[k]), s->ndof);
+    if (system_is_shared (s) && pg_ranks_sum (PAIRS + 1, size) != PG_OK) return NAN;
+    sum = size[0];
+    for (int k = 0; k < n; k++) least = fmin (least, size[k + 1]);
     return 2.2e-16 * sqrt (sum / least);
 }
 
@@ -107,7 +112,7 @@ pg_status system_guess (pg_system *s, const dynamics *dyn, double *d, int *used)
 {
     pg_status status = PG_OK;
     pg_guess *g = &s->guess;
-    double G[PAIRS][PAIRS], b[PAIRS], c[PAIRS];
+    double G[PAIRS][PAIRS] = { { 0 } }, b[PAIRS] = { 0 }, c[PAIRS];
     int at[PAIRS], n, most = 0;
     PG_TRY (system_guess_ready (s));
     if (!g->fresh) g->n = 0, g->fresh = 1;
@@ -115,12 +120,14 @@ pg_status system_guess (pg_system *s, const dynamics *dyn, double *d, int *used)
     double *x = pair_x (s, g->next), *y = pair_y (s, g->next);
     for (size_t i = 0; i < s->ndof; i++) x[i] = 0, y[i] = s->residual[i];
     for (int k = 1; k <= n; k++) at[n - k] = (g->next - k + PAIRS + 1) % (PAIRS + 1);
-    for (int i = 0; i < n; i++) {
+    for (int i = 0; i < n; i++) {                      /* of ghosts residuals, and so all y, are 0 */
         b[i] = dot (pair_x (s, at[i]), s->residual, s->ndof);
         for (int j = 0; j <= i; j++)
             G[i][j] = G[j][i] = dot (pair_x (s, at[i]), pair_y (s, at[j]), s->ndof);
-        most += G[i][i] > 0;
     }
+    if (system_is_shared (s)) PG_TRY (pg_ranks_sum (PAIRS, b));
+    if (system_is_shared (s)) PG_TRY (pg_ranks_sum (PAIRS * PAIRS, &G[0][0]));
+    for (int i = 0; i < n; i++) most += G[i][i] > 0;
     if (most < n) n = 0;                               /* a step without any correction */
     double noise = n > 0 ? fmax (least_pivot, above_rounding * rounding_of (s, dyn, d, n, at)) : 0;
     if (n > 0) solve_nearly_singular (n, G, noise, b, c);

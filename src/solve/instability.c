@@ -131,8 +131,10 @@ static void compare_reactions (pg_solver *s, const double *before, const double 
 {
     double size = 0, change = 0;
     for (size_t k = 0; before && after && k < 3 * s->problem->nload; k++) {
-        size = fmax (size, fmax (fabs (before[k]), fabs (after[k])));
-        change = fmax (change, fabs (after[k] - before[k]));
+        double from = system_sum (&s->break_loop.system, before[k]),
+               to = system_sum (&s->break_loop.system, after[k]);
+        size = fmax (size, fmax (fabs (from), fabs (to)));
+        change = fmax (change, fabs (to - from));
     }
     if (size > 0) s->report.switch_jump = fmax (s->report.switch_jump, change / size);
 }
@@ -205,12 +207,13 @@ static double damped (newmark *n, const pg_state *from, const pg_state *state)
     if (n->setting.rayleigh_mass == 0 && n->setting.rayleigh_stiffness == 0) return 0;
     for (size_t i = 0; i < state->ndof; i++) mean[i] = 0.5 * (from->v[i] + state->v[i]), force[i] = 0;
     newmark_damp (n, mean, force);
+    system_clear_ghosts (n->system, force);
     for (size_t i = 0; i < state->ndof; i++) sum -= n->dt * mean[i] * force[i];
     return sum;
 }
 
 /* Energies after a time step, and where what is missing went. */
-static void balance_energy (pg_solver *s, instability *u, const pg_state *state, pg_step *step)
+static void balance_energy (pg_solver *s, instability *u, const pg_state *state, int broke, pg_step *step)
 {
     break_loop *b = &s->break_loop;
     pg_statistics *r = &s->report;
@@ -218,7 +221,7 @@ static void balance_energy (pg_solver *s, instability *u, const pg_state *state,
     r->energy_strain = b->work_balance.strain;
     double lost = b->work - b->work0 - (r->energy_strain + r->energy_kinetic - b->stored0);
     int opening = b->growth && b->growth->start.nhold > 0;
-    double taken = step->nbroken || opening ? damped (&u->scheme, s->backup, state) : lost;
+    double taken = broke || opening ? damped (&u->scheme, s->backup, state) : lost;
     /* Steps of settling stop the body within one: dt v C v is far above what there is to lose, and facets
      * never give energy to the body. */
     if (b->growth && u->phase == PHASE_SETTLING) taken = fmin (taken, lost);
@@ -246,7 +249,7 @@ static void compare_energies (pg_solver *s, const instability *u)
     else pg_statistics_warn (r, "%s", text);
 }
 
-/* Energy above the equilibrium u->rest, J. */
+/* Energy above the equilibrium u->rest, J; of ranks that share the body their shares. */
 static double excess (const pg_solver *s, instability *u, const pg_state *state)
 {
     const pg_system *sys = &s->break_loop.system;
@@ -309,7 +312,7 @@ done:
 }
 
 /* What the next step is: one of the same phase, of another, or a static one. */
-static pg_status next_phase (pg_solver *s, instability *u, pg_state *state, const pg_step *step)
+static pg_status next_phase (pg_solver *s, instability *u, pg_state *state, int broke)
 {
     pg_status status = PG_OK;
     if (u->phase == PHASE_RUNNING) {
@@ -317,12 +320,14 @@ static pg_status next_phase (pg_solver *s, instability *u, pg_state *state, cons
             PG_TRY (try_to_settle (s, u, state));
         goto done;
     }
-    if (step->nbroken) {
+    if (broke) {
         enter (s, u, PHASE_RUNNING);
         if (u->scheme.force0) PG_TRY (newmark_remember (&u->scheme, state->factor, state));
         goto done;
     }
-    if (u->settling + 1 >= MOST_SETTLING || excess (s, u, state) <= calm * s->report.energy_strain) {
+    double stored = system_sum (&s->break_loop.system, s->report.energy_strain),
+           above = system_sum (&s->break_loop.system, excess (s, u, state));
+    if (u->settling + 1 >= MOST_SETTLING || above <= calm * stored) {
         PG_TRY (come_to_rest (s, u, state));
         goto done;
     }
@@ -340,7 +345,8 @@ pg_status instability_step (pg_solver *s, instability *u, pg_state *state, pg_st
     double factor = state->factor;
     int arrived;
     PG_TRY (newmark_advance (&u->scheme, b, s->backup, state, factor, step));
-    balance_energy (s, u, state, step);
+    int broke = system_most (&b->system, (double) step->nbroken) > 0;  /* on any rank */
+    balance_energy (s, u, state, broke, step);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction,
@@ -349,7 +355,7 @@ pg_status instability_step (pg_solver *s, instability *u, pg_state *state, pg_st
     s->report.unstable_steps++;
     step->factor = step->time = factor;
     step->instability = u->count, step->motion = u->time;
-    if (step->nbroken) {
+    if (broke) {
         u->last_break = u->time;
         step->event = 1;
         state->events++, s->report.events++;
@@ -362,7 +368,7 @@ pg_status instability_step (pg_solver *s, instability *u, pg_state *state, pg_st
                             s->options.stop_set->name, state->events, factor);
         s->finished = 1;
     }
-    PG_TRY (next_phase (s, u, state, step));
+    PG_TRY (next_phase (s, u, state, broke));
     event_limit (s, state, factor);
 done:
     return status;
@@ -461,10 +467,6 @@ void instability_read (pg_solver_options *o, const pg_problem *problem, const pg
         if (!dynamic && pg_scene_given (scene, "%s", keys[k].path))
             pg_scene_fault (scene, keys[k].path, "goes with on_instability: dynamic");
     if (!dynamic) return;
-    if (pg_ranks_now ())
-        pg_scene_fault (scene, "solver.on_instability",
-                        "%d ranks: dynamic is for one process only so far: with division: subdomains use "
-                        "follow or hold", pg_rank_count ());
     if (pg_problem_removes (problem))
         pg_scene_fault (scene, "solver.on_instability",
                         "what stages remove goes slowly, through states at rest: use follow or hold");

@@ -27,6 +27,7 @@ static void apply_combined (void *context, const double *x, double *y)
     system_multiply (s, full, z);
     for (size_t i = 0; c->dyn && i < s->ndof; i++) z[i] *= c->dyn->k;
     if (c->dyn) system_add_mass (s, c->dyn->m, full, z);
+    if (c->dyn) system_clear_ghosts (s, z);
     if (c->T) pg_sparse_multiply_transposed (c->T, z, y);
 }
 
@@ -54,13 +55,11 @@ static void diagonal_combined (void *context, double *d)
 static void keep_earlier (combined *c)
 {
     pg_system *s = c->s;
-    double sum = 0;
     if (c->T) pg_sparse_multiply_transposed (c->T, s->residual, s->scratch);
-    const double *r = c->T ? s->scratch : s->residual;
-    for (size_t i = 0; i < s->nred; i++) sum += r[i] * r[i];
-    if (sqrt (sum) > c->keep || s->rough.found) return;
+    double size = system_norm (s, c->T ? s->scratch : s->residual, s->nred);
+    if (size > c->keep || s->rough.found) return;
     memcpy (s->rough.earlier, s->delta, s->nred * sizeof *s->delta);
-    s->rough.found = sqrt (sum) > c->keep / ROUGHER ? 1 : -1;      /* the last one is no earlier one */
+    s->rough.found = size > c->keep / ROUGHER ? 1 : -1;            /* the last one is no earlier one */
 }
 
 /* R of all rows, those of prescribed unknowns too, goes on with the iterations. */

@@ -55,6 +55,17 @@ static void rates (const course *m, const double *d, double *v, double *a)
     newmark_follow (m->n, m->t, v, a);
 }
 
+/* The same at the end of a step, on ranks that share the body with ghosts as their owners have them. */
+static pg_status settle_rates (const course *m, pg_state *state)
+{
+    pg_status status = PG_OK;
+    rates (m, state->d, state->v, state->a);
+    PG_TRY (system_exchange (m->n->system, state->v));
+    PG_TRY (system_exchange (m->n->system, state->a));
+done:
+    return status;
+}
+
 /* The first guess: acceleration goes on as it was. */
 static void predict (const course *m, double *d)
 {
@@ -73,6 +84,7 @@ static int join_damping (void *context, const double *d, double *x)
     if (!n->joined) return 0;
     rates (m, d, n->work1, n->work3);
     for (size_t i = 0; i < n->system->ndof; i++) x[i] = d[i] + ck * n->work1[i];
+    if (system_exchange (n->system, x) != PG_OK) x[0] = NAN;           /* which the residual tells */
     return 1;
 }
 
@@ -85,7 +97,7 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
     newmark *n = m->n;
     pg_system *sys = n->system;
     const pg_state *f = m->from;
-    double *v = n->work1, *a = n->work3, size = 0, parts = 0, alpha = n->setting.alpha;
+    double *v = n->work1, *a = n->work3, size, parts, alpha = n->setting.alpha;
     rates (m, d, v, a);
     if (n->joined) system_add_mass (sys, -n->setting.rayleigh_mass, v, residual);
     else newmark_damp (n, v, residual);
@@ -98,9 +110,9 @@ static void add_inertia (void *context, const double *d, double *residual, doubl
     for (size_t i = 0; i < sys->ndof; i++) known[i] = m->c.b[1] * f->v[i] + (m->c.b[2] - 1) * f->a[i];
     system_add_mass (sys, 1, known, Mknown);
     system_add_mass (sys, 1, a, Ma);
-    for (size_t i = 0; i < sys->ndof; i++)
-        residual[i] -= Ma[i], parts += Mknown[i] * Mknown[i], size += Ma[i] * Ma[i];
-    *reference = fmax (*reference, fmax (sqrt (size), 1e-6 * sqrt (parts)));
+    for (size_t i = 0; i < sys->ndof; i++) residual[i] -= Ma[i];
+    size = system_norm_owned (sys, NULL, Ma), parts = system_norm_owned (sys, NULL, Mknown);
+    *reference = fmax (*reference, fmax (size, 1e-6 * parts));
 }
 
 /* Reactions are those of the end of the step, whatever its equations weigh with alpha. */
@@ -142,7 +154,7 @@ pg_status newmark_advance (newmark *n, break_loop *b, const pg_state *from, pg_s
     PG_TRY (newmark_supports (n, t, 0));
     if (b->round == 0) predict (&m, state->d);
     PG_TRY (equilibrate (b, state, t, state->d, &dyn, step));
-    rates (&m, state->d, state->v, state->a);
+    PG_TRY (settle_rates (&m, state));
     PG_TRY (newmark_without_contact (n, state->a));
     PG_TRY (newmark_rebound (n, from, state->v));
     if (n->setting.alpha != 0) PG_TRY (newmark_remember (n, t, state));
@@ -272,7 +284,8 @@ static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 const pg_solver_type pg_solver_newmark = {
     .name = "newmark",
     .summary = "implicit dynamics, Newmark's method",
-    .flags = PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS | PG_SOLVER_CONTACT,
+    .flags = PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS | PG_SOLVER_CONTACT
+             | PG_SOLVER_RANKS,
     .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear,
               &solver_keys_step, &solver_keys_time },
     .read = newmark_read,

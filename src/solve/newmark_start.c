@@ -53,6 +53,7 @@ double newmark_kinetic (newmark *n, const double *v)
     double sum = 0, *Mv = n->work2;
     memset (Mv, 0, sys->ndof * sizeof *Mv);
     system_add_mass (sys, 1, v, Mv);
+    system_clear_ghosts (sys, Mv);                     /* of a rank its share */
     for (size_t i = 0; i < sys->ndof; i++) sum += 0.5 * v[i] * Mv[i];
     return sum;
 }
@@ -105,6 +106,7 @@ static void apply_mass (void *context, const double *x, double *y)
     if (T) pg_sparse_multiply (T, x, sys->full);
     memset (z, 0, sys->ndof * sizeof *z);
     system_add_mass (sys, 1, T ? sys->full : x, z);
+    system_clear_ghosts (sys, z);
     if (T) pg_sparse_multiply_transposed (T, z, y);
 }
 
@@ -135,7 +137,9 @@ static pg_status accelerate (pg_system *sys, double *a)
     if (T) pg_sparse_multiply_transposed (T, sys->residual, sys->reduced);
     else memcpy (sys->reduced, sys->residual, sys->ndof * sizeof *sys->reduced);
     memset (sys->delta, 0, sys->ndof * sizeof *sys->delta);
-    PG_TRY (pg_conjugate_gradients (&op, sys->reduced, sys->delta, 1e-13, 20 * sys->nred + 1000, &used));
+    pg_cg_watch watch = { .shared = system_is_shared (sys) };
+    PG_TRY (pg_conjugate_gradients_watched (&op, NULL, sys->reduced, sys->delta, 1e-13, 20 * sys->nred + 1000,
+                                            &used, &watch));
     if (T) pg_sparse_multiply (T, sys->delta, sys->full);
     const double *gain = T ? sys->full : sys->delta;
     for (size_t i = 0; i < sys->ndof; i++) a[i] += gain[i];
@@ -227,18 +231,23 @@ pg_status newmark_launch (newmark *n, pg_state *state, double t)
     pg_system *sys = n->system;
     size_t ndof = sys->ndof;
     double reference;
-    for (size_t i = 0; i < ndof; i++)
-        if (!(sys->mass[i] > 0))
-            PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
+    double none = 0;
+    for (size_t i = 0; i < ndof; i++) none = fmax (none, !(sys->mass[i] > 0));
+    if (system_most (sys, none) > 0)
+        PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
     memset (state->a, 0, ndof * sizeof *state->a);
     if (elimination (sys)) {
         PG_TRY (sys->force->impose (sys->self, t, state->d));
         PG_TRY (newmark_supports (n, t, 1));
         newmark_follow (n, t, state->v, state->a);
     }
+    PG_TRY (system_exchange (sys, state->d));
+    PG_TRY (system_exchange (sys, state->v));
     PG_TRY (sys->force->balance (sys->self, t, state->d, sys->residual, &reference));
     newmark_resist (n, state->v, state->a, sys->residual);
+    system_clear_ghosts (sys, sys->residual);
     PG_TRY (accelerate (sys, state->a));
+    PG_TRY (system_exchange (sys, state->a));
 done:
     return status;
 }

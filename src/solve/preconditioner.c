@@ -63,18 +63,23 @@ done:
     return status;
 }
 
-/* Static systems of forces that know the rows of K, with supports that prescribe single unknowns; systems of
- * forces with finite elements, in motion too. */
+/* Static systems of forces that know the rows of K, in motion too where ranks share them; systems of forces
+ * with finite elements. */
+static int has_what_it_takes (const pg_system *s, const dynamics *dyn)
+{
+    const pg_force_type *f = s->force;
+    if (!f->operator_ || strcmp (s->options->preconditioner, "jacobi") == 0) return 0;
+    if (f->elements ? s->options->plain : !f->couplings || (dyn && !system_is_shared (s))) return 0;
+    return !system_is_shared (s) || pg_shared_preconditioner_now ();
+}
+
+/* The same with supports that leave unknowns for it. */
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can)
 {
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     *can = 0;
-    if ((!s->force->couplings && !s->force->elements) || !s->force->operator_
-        || (dyn && !s->force->elements) || strcmp (s->options->preconditioner, "jacobi") == 0
-        || (s->force->elements && s->options->plain))
-        return PG_OK;
-    if (system_is_shared (s) && !pg_shared_preconditioner_now ()) return PG_OK;
+    if (!has_what_it_takes (s, dyn)) return PG_OK;
     if (s->fixed) {
         *can = s->precondition;
         return PG_OK;
@@ -175,7 +180,7 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m)
     /* finds what constraints leave, also in a resumed run */
     PG_TRY (system_can_precondition (s, NULL, &can));
     PG_TRY (s->force->elements ? make_by_elements (s, k, m)
-            : system_is_shared (s) ? system_make_shared (s) : make_by_rows (s));
+            : system_is_shared (s) ? system_make_shared (s, k, m) : make_by_rows (s));
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;
     s->made[0] = k, s->made[1] = m;

@@ -176,9 +176,11 @@ static pg_status improve (pg_system *s, double t, double *d, const dynamics *dyn
     int used;
     PG_TRY (system_guess (s, dyn, d, &used));
     if (used == 0) goto done;
+    PG_TRY (system_exchange (s, d));
     PG_TRY (system_residual (s, t, d, dyn, r));
     if (*r > before) {
         system_guess_undo (s, d);
+        PG_TRY (system_exchange (s, d));
         PG_TRY (system_residual (s, t, d, dyn, r));
     }
 done:

@@ -45,7 +45,8 @@ static const pg_key_table table = { "solve", keys, sizeof keys / sizeof *keys };
 const pg_solver_type pg_solver_relax = {
     .name = "relax",
     .summary = "quasi-static stages by damped relaxation",
-    .flags = PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_CONTACT,
+    .flags = PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_CONTACT
+             | PG_SOLVER_RANKS,
     .keys = { &table, &solver_keys_step, &solver_keys_stages, &solver_keys_breaking },
     .read = read,
     .prepare = prepare,

@@ -4,6 +4,7 @@
  * arrival is not part of a quasi-static path. */
 #include "contact.h"
 #include "relaxation.h"
+#include "perigal/ranks.h"
 #include <math.h>
 #include <string.h>
 
@@ -112,8 +113,36 @@ static void move (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Euclidean norm, by lanes. */
-static double norm (const double *a, size_t n) { return sqrt (lane_dot (a, a, 0, n)); }
+/* Sums of all blocks and, behind them, squares of loads and reactions: over all ranks that share the body, of
+ * whose ghosts residuals, loads and velocities are 0. */
+enum { SQUARE_P = SUMS, SQUARE_PUSH, ALL_SUMS };
+static pg_status add_up (const pg_solver *s, double *total)
+{
+    pg_status status = PG_OK;
+    const motion *m = motion_of (s);
+    const pg_system *sys = &s->break_loop.system;
+    explicit_total (s, total);
+    total[SQUARE_P] = m->P ? lane_dot (m->P, m->P, 0, sys->ndof) : 0;
+    total[SQUARE_PUSH] = lane_dot (m->push, m->push, 0, m->nprescribed);
+    if (system_is_shared (sys)) PG_TRY (pg_ranks_sum (ALL_SUMS, total));
+done:
+    return status;
+}
+
+/* The first point that is not finite; ranks whose own are say that another one has it. */
+static pg_status lost (const pg_solver *s, const pg_state *state, double t)
+{
+    if (!system_is_shared (&s->break_loop.system) || lane_not_finite (state->d, 0, state->ndof) != 0)
+        return explicit_lost (s, state, t);
+    return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                     "a displacement on another rank is no longer finite at load factor %.6g", t);
+}
+
+/* Did a bond break since so many had, on any rank? */
+static int any_broke (const pg_solver *s, size_t before)
+{
+    return system_most (&s->break_loop.system, (double) (s->break_loop.nbroken - before)) > 0;
+}
 
 /* The residual at d, free of the forces of supports; imbalance: its size over that of loads and
  * reactions, or of a hundredth of the largest so far once the body is apart; the damping of the next
@@ -125,22 +154,24 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     motion *m = motion_of (s);
     struct relaxation *x = m->relaxation;
     pg_system *sys = &s->break_loop.system;
-    double reference = 0, total[SUMS];
+    double reference = 0, total[ALL_SUMS];
+    size_t before = s->break_loop.nbroken;
     PG_TRY (explicit_force (s, state, t, breaking, &reference));
-    x->broke = breaking && s->break_loop.changes.n > 0;
+    x->broke = breaking && any_broke (s, before);
+    if (x->broke && system_is_shared (sys)) state->events++, s->report.events++;
     if (x->broke && x->weigh) PG_TRY (x->weigh (s));
     double t0 = pg_seconds ();
     for (size_t k = 0; k < m->nprescribed; k++)
         m->push[k] = -sys->residual[m->prescribed[k]], sys->residual[m->prescribed[k]] = 0;
-    if (m->P) reference = 0;
-    reference = fmax (reference, fmax (m->P ? norm (m->P, sys->ndof) : 0, norm (m->push, m->nprescribed)));
-    if (x->armed || !own->hold) x->most = fmax (x->most, reference);
-    reference = fmax (reference, least * x->most);
     iterating all = { x, state->d, state->v, state->a, sys->residual, m->inverse, m->sum, 0, sys->ndof, 0 };
     pg_parallel (s->problem->threads, m->nblock, measure, &all);
-    explicit_total (s, total);
+    PG_TRY (add_up (s, total));
+    if (m->P) reference = 0;
+    reference = fmax (reference, fmax (sqrt (total[SQUARE_P]), sqrt (total[SQUARE_PUSH])));
+    if (x->armed || !own->hold) x->most = fmax (x->most, reference);
+    reference = fmax (reference, least * x->most);
     double size = sqrt (total[SUM_R]);
-    if (total[SUM_BAD] != 0 || !isfinite (size)) PG_TRY (explicit_lost (s, state, t));
+    if (total[SUM_BAD] != 0 || !isfinite (size)) PG_TRY (lost (s, state, t));
     x->imbalance = reference > 0 ? size / reference : size > 0 ? 1 : 0;
     relaxation_damp (x, own->hold, total[SUM_STIFF], total[SUM_MASS]);
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
@@ -149,8 +180,9 @@ done:
 }
 
 /* One iteration of all unknowns. */
-static void iterate (pg_solver *s, pg_state *state)
+static pg_status iterate (pg_solver *s, pg_state *state)
 {
+    pg_status status = PG_OK;
     motion *m = motion_of (s);
     struct relaxation *x = m->relaxation;
     const pg_system *sys = &s->break_loop.system;
@@ -159,21 +191,25 @@ static void iterate (pg_solver *s, pg_state *state)
                       m->inverse, m->sum,   x->c,     sys->ndof, x->resting };
     pg_parallel (s->problem->threads, m->nblock, move, &all);
     x->resting = 0;
+    PG_TRY (system_exchange (sys, state->d));
+done:
     s->report.seconds[PG_SECONDS_SOLVE] += pg_seconds () - t0;
+    return status;
 }
 
 /* ---- a stage that is held ------------------------------------------------------------------------------ */
 /* Prescribed unknowns take their values and have no velocity. */
-static void impose (const pg_solver *s, pg_state *state)
+static pg_status impose (const pg_solver *s, pg_state *state)
 {
     const motion *m = motion_of (s);
     for (size_t k = 0; k < m->nprescribed; k++)
         state->d[m->prescribed[k]] = m->goal[k], state->v[m->prescribed[k]] = state->a[m->prescribed[k]] = 0;
+    return system_exchange (&s->break_loop.system, state->d);
 }
 
 /* The next load. Under proportional loads the last balanced state times the ratio of loads is the next
  * one, until bonds break: then most iterations are spent where something has changed. */
-static void open_stage (pg_solver *s, pg_state *state)
+static pg_status open_stage (pg_solver *s, pg_state *state)
 {
     struct relaxation *x = motion_of (s)->relaxation;
     /* u of stage n + 1 = (n + 1) / n times u of stage n. */
@@ -183,7 +219,7 @@ static void open_stage (pg_solver *s, pg_state *state)
     for (size_t i = 0; i < state->ndof; i++) state->d[i] *= ratio, state->v[i] = state->a[i] = 0;
     x->resting = 1, x->armed = x->pending = 0;
     s->break_loop.nbroken = 0;
-    impose (s, state);
+    return impose (s, state);
 }
 
 /* The load has come to act: from now on bonds may break. The work up to this state is remembered, as the
@@ -213,23 +249,24 @@ static pg_status book_pending (pg_solver *s)
 }
 
 /* In balance: breaks what is over its limit as options.break_mode has it (the worst, a share of the
- * worst, all); *died: how many bonds did. */
-static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_step *step, size_t *died)
+ * worst, all); *died: 1, some did, on any rank. */
+static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_step *step, int *died)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
     break_loop *b = &s->break_loop;
     pg_system *sys = &b->system;
     const pg_solver_options *o = &s->options;
-    double top = 0, t0 = pg_seconds ();
+    double top, t0 = pg_seconds ();
+    size_t before = b->nbroken;
+    int tested = o->break_mode == PG_BREAK_PASSING
+                 || (o->break_mode == PG_BREAK_ALL && sys->force->balance_and_break);
     b->changes.n = 0;
-    if (o->break_mode == PG_BREAK_PASSING || (o->break_mode == PG_BREAK_ALL && sys->force->balance_and_break))
-        PG_TRY (examine (s, state, t, 1));
+    if (tested) PG_TRY (examine (s, state, t, 1));
     else {
         PG_TRY (break_loop_ready (b));
         PG_TRY (sys->force->utilisation (sys->self, state, state->d, b->utilisation, b->kind, NULL));
-        for (size_t i = 0; i < state->nbond; i++) top = fmax (top, b->utilisation[i]);
-        step->utilisation = top;
+        step->utilisation = top = break_loop_largest (b, b->utilisation);
         /* Bonds at cut or above break. Of the worst those within `tie` of it, so that bonds that are
          * equal by symmetry break together; a share of the worst is wider, but takes none below its
          * limit of 1. */
@@ -243,10 +280,10 @@ static pg_status break_in_balance (pg_solver *s, pg_state *state, double t, pg_s
         if (b->changes.n) {
             PG_TRY (system_refresh (sys, state, &b->changes));
             if (m->relaxation->weigh) PG_TRY (m->relaxation->weigh (s));
-            state->events++, s->report.events++;
         }
     }
-    *died = b->changes.n;
+    *died = any_broke (s, before);
+    if (*died && !tested) state->events++, s->report.events++;
 done:
     return status;
 }
@@ -298,19 +335,19 @@ static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
         PG_TRY (examine (s, state, t, tested));
         if (x->broke) PG_TRY (book_pending (s));
         if (x->imbalance <= stages_of (s)->imbalance) {
-            size_t died = x->broke;
+            int died = x->broke;
             if (can && !tested) {
                 if (!x->armed) PG_TRY (arm (s, state, t, 1));
                 PG_TRY (break_in_balance (s, state, t, step, &died));
                 if (died) PG_TRY (book_pending (s));
                 if (died && o->break_mode != PG_BREAK_PASSING) PG_TRY (examine (s, state, t, 0));
-                x->broke = died > 0;
+                x->broke = died;
             }
             if (!died) break;
         }
         if (!x->armed && x->imbalance <= arrival) PG_TRY (arm (s, state, t, passing));
         if (b->round >= o->max_iterations) PG_TRY (too_long (s, state, b->round));
-        iterate (s, state);
+        PG_TRY (iterate (s, state));
     }
     step->iterations = b->round;
 done:
@@ -327,7 +364,7 @@ static pg_status step_of_held_stage (pg_solver *s, pg_state *state, pg_step *ste
     double t = factor_at (s, state->step + 1);
     m->fresh = 0;
     PG_TRY (explicit_follow (s, t, t, t));
-    if (b->round == 0) open_stage (s, state);
+    if (b->round == 0) PG_TRY (open_stage (s, state));
     PG_TRY (hold (s, state, t, step));
     PG_TRY (break_loop_account (b, t, state->d, NULL, 1));
     memset (state->v, 0, state->ndof * sizeof *state->v);
@@ -363,11 +400,11 @@ static pg_status step_on (pg_solver *s, pg_state *state, pg_step *step)
         double t = factor_at (s, ++n);
         m->fresh = 0;
         PG_TRY (explicit_follow (s, t, t, t));
-        impose (s, state);
+        PG_TRY (impose (s, state));
         PG_TRY (examine (s, state, t, 1));
         if (is_due (n)) x->floor = relaxation_least_damping (s, state);
         x->worst = fmax (x->worst, x->imbalance);
-        iterate (s, state);
+        PG_TRY (iterate (s, state));
         b->round = n - state->iterations;
         if (b->watch && n % m->between == 0 && n < last) {
             step->time = t;

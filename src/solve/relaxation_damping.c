@@ -3,6 +3,7 @@
  * v M v, Rayleigh's quotient of the velocity, found anew at every iteration from the change of the residual
  * (Kilic and Madenci 2010). */
 #include "relaxation.h"
+#include "perigal/ranks.h"
 #include <math.h>
 
 /* What of the quotient's two sums is kept from one iteration to the next, without and with hold: one
@@ -29,14 +30,21 @@ double relaxation_least_damping (const pg_solver *s, const pg_state *state)
     const motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     const double *d = state->d, *mass = m->relaxation->mass;
-    double stiff = 0, heavy = 0;
+    size_t components = (size_t) sys->components;
+    double stiff = 0, heavy = 0, sum[1 + 3 * 6] = { 0 };
     for (size_t i = 0; i < sys->ndof; i++) stiff += d[i] * ((m->P ? m->P[i] : 0) - sys->residual[i]);
     for (size_t k = 0; k < m->nprescribed; k++) stiff += d[m->prescribed[k]] * m->push[k];
-    for (size_t c = 0; c < (size_t) sys->components; c++) {
-        double sum = 0, first = 0, second = 0;
-        for (size_t i = c; i < sys->ndof; i += (size_t) sys->components)
-            sum += mass[i], first += mass[i] * d[i], second += mass[i] * d[i] * d[i];
-        if (sum > 0) heavy += second - first * first / sum;
+    sum[0] = stiff;
+    for (size_t i = 0; i < sys->ndof; i++) {
+        double *of = sum + 1 + 3 * (i % components);
+        if (!pg_owns (s->problem->cloud.subdomain, i / components)) continue;
+        of[0] += mass[i], of[1] += mass[i] * d[i], of[2] += mass[i] * d[i] * d[i];
     }
+    if (system_is_shared (sys) && pg_ranks_sum (1 + 3 * components, sum) != PG_OK) return NAN;
+    for (size_t c = 0; c < components; c++) {
+        const double *of = sum + 1 + 3 * c;
+        if (of[0] > 0) heavy += of[2] - of[1] * of[1] / of[0];
+    }
+    stiff = sum[0];
     return heavy > 0 && stiff > 0 ? share * 2 * sqrt (stiff / heavy) : 0;
 }

@@ -67,12 +67,13 @@ void system_multiply_shared (const pg_system *s, const pg_operator *op, const do
 
 /* ---- the preconditioner -------------------------------------------------------------------------------- */
 /* Of the rows of points that are owned here, by what perigal-mpi brings along. */
-pg_status system_make_shared (pg_system *s)
+pg_status system_make_shared (pg_system *s, double k, double m)
 {
     pg_status status = PG_OK;
     const pg_shared_preconditioner *type = pg_shared_preconditioner_now ();
     pg_shared_rows setting = { .dim = s->problem->dim, .block = s->components, .x = s->problem->cloud.x,
-                               .fixed = s->fixed, .subdomain = part_of (s) };
+                               .fixed = s->fixed, .subdomain = part_of (s),
+                               .k = k, .m = m, .mass = s->mass };
     PG_TRY (s->force->couplings (s->self, &setting.rows));
     /* too wide for coarse grids of twice the step */
     memset (setting.rows.lattice, 0, sizeof setting.rows.lattice);

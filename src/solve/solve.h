@@ -133,7 +133,7 @@ double    system_most      (const pg_system *s, double mine);
 double    system_norm      (const pg_system *s, const double *force, size_t n);
 double    system_norm_owned (const pg_system *s, const double *weight, const double *d);
 void      system_multiply_shared (const pg_system *s, const pg_operator *op, const double *x, double *y);
-pg_status system_make_shared  (pg_system *s);
+pg_status system_make_shared  (pg_system *s, double k, double m);      /* of k K + m M */
 pg_status system_find_bare    (pg_system *s, const dynamics *dyn);     /* after breaking */
 void      system_clear_rest   (const pg_system *s, double *z);         /* ghosts, and what nothing holds */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z);

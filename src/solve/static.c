@@ -89,10 +89,6 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
         pg_scene_fault (scene, "solver.stepping",
                         "event goes with friction in space where all loads grow with the load factor: with a "
                         "constant part, cohesion, or stages, use fixed, or contact.kind: normal");
-    if (pg_ranks_now () && o->break_mode == PG_BREAK_FACET)
-        pg_scene_fault (scene, "failure.criterion",
-                        "%d ranks: facets grow in the whole body only: use division: matrices",
-                        pg_rank_count ());
     if (closes && pg_problem_removes (problem))
         pg_scene_fault (scene, "stages", "remove does not go with contact.kind so far");
     if (o->event && o->break_mode == PG_BREAK_ALL)

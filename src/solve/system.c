@@ -105,7 +105,8 @@ static void mark_touched (pg_system *s, const pg_state *state)
 }
 
 /* The force updates what broken bonds have touched. Where its revision says that this left K as it was
- * (bonds that do not enter K), the factor stays. */
+ * (bonds that do not enter K), the factor stays. K of ranks that share the body is another one where that of
+ * any of them is: all call after a round of breaking. */
 pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes *changes)
 {
     double t0 = pg_seconds ();
@@ -113,7 +114,9 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     if (!changes && !s->marked) mark_touched (s, state), s->marked = 1;
     s->alive = state->alive;
     unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
-    if (now != s->revision) s->stale = 1, s->guess.fresh = 0;
+    double other = now != s->revision;
+    if (changes && (s->options->flags & PG_SOLVER_IMPLICIT)) other = system_most (s, other);
+    if (other != 0) s->stale = 1, s->guess.fresh = 0;
     else s->kept++;
     if (changes && now != s->revision) ways_note_broken (s, changes->n);
     s->revision = now;
@@ -397,12 +400,28 @@ done:
     return status;
 }
 
+/* The same of ranks that share the body, in iterations: a preconditioner of several levels is made when those
+ * beyond a few would have paid for it. */
+enum { SHARED_SET_UP = 150 };
+static pg_status leave_for_shared (pg_system *s, const dynamics *dyn, size_t used)
+{
+    pg_status status = PG_OK;
+    int can;
+    PG_TRY (system_can_precondition (s, dyn, &can));
+    if (used > FEW_ITERATIONS) s->extra_cost += (double) (used - FEW_ITERATIONS);
+    if (!can || s->extra_cost <= SHARED_SET_UP) goto done;
+    s->mode = SYSTEM_NO_FACTOR, s->stale = 1, s->extra_cost = 0;
+done:
+    return status;
+}
+
 /* In motion the diagonal did in the first step. Breaking may change that: nodes that few points see are
  * light, rows of few bonds stiff. When the iterations beyond a few have cost as much as a factor (rent or
  * buy, counted), something better is taken for good. */
 static pg_status leave_diagonal (pg_system *s, const dynamics *dyn, size_t used)
 {
     pg_status status = PG_OK;
+    if (dyn && system_is_shared (s)) return leave_for_shared (s, dyn, used);
     if (!dyn || strcmp (s->options->linear, "auto") != 0 || !system_has_matrix (s) || s->problem->sums
         || !s->linear->factors || s->options->plain)
         return PG_OK;

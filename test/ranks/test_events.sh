@@ -41,6 +41,4 @@ equal "the load held where growth goes on by itself" rest.yaml "$some" "${events
 equal "a constant load beside" rest.yaml "$some" "${events[@]}" --set 'boundary[1]={name: bottom, set: grip_bottom, displacement: {x: 0, y: 0}}' \
       --set 'boundary[2]={name: side, set: right, depth: 1 spacing, traction: {x: 40 MPa, y: 20 MPa}, ramp: constant}' --set failure.critical_stretch=0.01
 
-ranks 2 rest.yaml -o "$work/no" "${events[@]}" --set solver.on_instability=dynamic; [ $? -eq 65 ] && grep -q "2 ranks: dynamic is for one process only" "$work/err"
-verdict "what cannot be shared so far is refused, with the key" $?
 finish

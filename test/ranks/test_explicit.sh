@@ -26,6 +26,6 @@ equal "gmpd" plate.yaml "${small[@]}" --set method.force=gmpd --set materials.st
 digits=last
 equal "plane strain, volumes of surfaces corrected" plate.yaml "${small[@]}" --set plane=strain --set method.surface_correction=volume
 
-ranks 2 plate.yaml -o "$work/no" --set solver.kind=adr; [ $? -eq 65 ] && grep -q "2 ranks: adr is for one process only" "$work/err"
+ranks 2 plate.yaml -o "$work/no" --set contact.kind=normal; [ $? -eq 65 ] && grep -q "2 ranks: contact is for one process only" "$work/err"
 verdict "what cannot be shared so far is refused, with the key" $?
 finish

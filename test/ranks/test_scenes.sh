@@ -24,6 +24,10 @@ numbers='1 2 3 4'
 same cui_disk_plane/scene.yaml 20 moment --set spacing='5 mm' --set solver.max_events=10
 same cui_disk_10/scene.yaml 20 moment --set spacing='5 mm' --set solver.end='320 us' --set solver.dt='8 us'
 same l_panel/scene.yaml 20 moment --set spacing='25 mm' --set solver.max_events=12
+numbers='2 3'
+same l_panel/scene.yaml 20 moment --set spacing='25 mm' --set solver.max_events=12 --set solver.division=subdomains
+grep -q '"division": "subdomains"' "$work/some/report.json"; verdict "l_panel: they divided the body" $?
+numbers='1 2 3 4'
 same zhou_2/scene.yaml 1000 moment --set spacing='1 mm' --set solver.dt='1e-7 s' --set solver.time_steps=400
 same chen_cube/scene.yaml 50 moment --set spacing='4 mm' --set solver.end='0.45 ms'
 

@@ -1,0 +1,45 @@
+#!/bin/bash
+# test_motion.sh BUILD: Newmark's method and relaxation on ranks that divide the body: the same bonds break in the same steps as in one process, rows and
+# fields are the same.
+. "$(dirname "$0")/ranks.sh"
+
+# equal NAME LEAST SCENE NUMBERS ARGUMENTS...: with at least so many broken bonds
+equal() {
+    local name=$1 least=$2 scene=$3 numbers=$4 r; shift 4
+    alone "$scene" -o "$work/one" --force "$@"; verdict "$name: one process" $?
+    [ "$(wc -l < "$work/one/events.csv")" -gt "$least" ]; verdict "$name: at least $least bonds break" $?
+    for r in $numbers; do
+        rm -rf "$work/some"
+        ranks "$r" "$scene" -o "$work/some" "$@" && alike 1e-8 "$work/one" "$work/some" events.csv
+        verdict "$name: the same bonds on $r ranks" $?
+        # sums of forces that are zero but for rounding have no size of their own
+        alike 1e-8 "$work/one" "$work/some" history.csv residual force_x displacement_x moment; verdict "$name: the same rows on $r ranks" $?
+        python3 fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
+        report "$work/one" > "$work/counts" && report "$work/some" | diff "$work/counts" - > "$work/why" 2>&1
+        verdict "$name: as many events and iterations on $r ranks" $?
+    done
+}
+# report DIR: what a report counts
+report() {
+    python3 -c 'import json, sys; r = json.load(open(sys.argv[1])); print(*(r[k] for k in ("steps", "events", "iterations", "broken")))' "$1/report.json"
+}
+all='2 4' some=3
+[ "$PERIGAL_TEST_SIZE" = long ] && all='2 3 4' some='2 3 4'
+equal "Newmark, bond" 10 motion.yaml "$all"
+grep -q '"preconditioner": "jacobi"' "$work/some/report.json"; verdict "in small steps the diagonal does" $?
+large=(--set solver.dt="12e-6 s" --set output.at.levels=1 --set solver.time_steps=5)
+equal "Newmark, large steps" 3 motion.yaml "$some" "${large[@]}" --set 'boundary[0].velocity.y=4 m/s' --set 'boundary[1].velocity.y=-4 m/s'
+grep -q 'GAMG' "$work/some/report.json" && grep -q '"preconditioners": [12],' "$work/some/report.json"; verdict "in large ones a cycle that is kept from step to step" $?
+damped=(--set solver.alpha=-0.1 --set solver.rayleigh.mass='1000 1/s' --set solver.rayleigh.stiffness='1e-8 s')
+equal "Newmark, lps, damped" 4 motion.yaml "$some" "${damped[@]}" --set method.force=lps --set materials.steel.poissons_ratio=0.2 \
+      --set failure.critical_stretch=0.0185
+equal "motion where growth goes on by itself" 40 ties.yaml 2 --set solver.max_events=5 --set solver.on_instability=dynamic
+grep -q '"motion_time": [1-9]' "$work/some/report.json"; verdict "it was in motion" $?
+
+equal "adr" 20 relaxed.yaml "$all"
+equal "relax, bonds that break while it moves" 20 relaxed.yaml "$some" --set solver.kind=relax --set solver.break=passing
+equal "relax, no stage is held" 10 relaxed.yaml "$some" --set solver.kind=relax --set solver.hold=off --set solver.stages=300
+equal "adr, lps, a traction" 10 relaxed.yaml "$some" --set method.force=lps --set materials.steel.poissons_ratio=0.2 \
+      --set 'boundary[0]={name: bottom, set: grip_bottom, displacement: {x: 0, y: 0}}' \
+      --set 'boundary[1]={name: side, set: right, depth: 1 spacing, traction: {x: 1 GPa, y: 500 MPa}}'
+finish
