@@ -290,10 +290,6 @@ typedef struct {
     const double *x;
     const unsigned char *fixed;
     const pg_subdomain *subdomain;
-    /* 1: a node of the matrix (n); NULL: all are. Unknowns of others are neither read nor written. */
-    const unsigned char *part;
-    /* 1: M is the inverse, by a factor that ranks share. */
-    int     exact;
     /* Read only during creation, of nodes that are owned: rows of K, and masses of all unknowns held, kg. The
      * matrix is k K + m M (m 0: mass is not read). */
     pg_couplings rows;
