@@ -24,17 +24,20 @@ double pg_ranks_seconds (void) { return spent; }
 
 pg_status pg_ranks_sum (size_t n, double *value)
 {
-    return sharing && n ? took (pg_seconds (), sharing->sum (sharing->context, n, value)) : PG_OK;
+    double t0 = pg_seconds ();
+    return sharing && n ? took (t0, sharing->sum (sharing->context, n, value)) : PG_OK;
 }
 
 pg_status pg_ranks_most (size_t n, double *value)
 {
-    return sharing && n ? took (pg_seconds (), sharing->most (sharing->context, n, value)) : PG_OK;
+    double t0 = pg_seconds ();
+    return sharing && n ? took (t0, sharing->most (sharing->context, n, value)) : PG_OK;
 }
 
 pg_status pg_ranks_ask (size_t n, double *value)
 {
-    return joined && n ? took (pg_seconds (), joined->most (joined->context, n, value)) : PG_OK;
+    double t0 = pg_seconds ();
+    return joined && n ? took (t0, joined->most (joined->context, n, value)) : PG_OK;
 }
 
 /* ---- one process for all ------------------------------------------------------------------------------- */
@@ -72,7 +75,8 @@ pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, v
 {
     *bytes_all = 0, *all = NULL;
     if (!sharing) return copy_own (NULL, bytes, mine, bytes_all, all);
-    return took (pg_seconds (), sharing->collect (sharing->context, bytes, mine, bytes_all, all));
+    double t0 = pg_seconds ();
+    return took (t0, sharing->collect (sharing->context, bytes, mine, bytes_all, all));
 }
 
 /* The first rank collects them and spreads them by a sum to which the others add nothing. */
