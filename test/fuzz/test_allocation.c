@@ -341,7 +341,8 @@ static void an_orthotropic_plate_survives_every_failing_allocation (void **state
     "solver: {kind: static, max_events: 3}\noutput: {fields: [displacement, damage], pictures: []}\n"
 static const char cloud_scene[] =
     "dimension: 2\nbody: [{add: {box: {low: [-1.5, -1.5], high: [1.5, 1.5]}}},\n"
-    "  {subtract: {alpha_shape: {mesh: {file: %s/data/mesh/disk_tri3.msh}, rim: 0.05}}}]\nspacing: 0.25\n"
+    "  {subtract: {alpha_shape: {mesh: {file: %s/data/mesh/disk_tri3.msh}, rim: 0.05}}},\n"
+    "  {subtract: {disk: {center: [0, 0], radius: 0.5}}}]\nspacing: 0.25\n"
     "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
     "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 1 mm}}]\n";
 static const char growing_scene[] =
@@ -369,7 +370,7 @@ static void growing_cracks_survive_every_failing_allocation (void **state)
     sweep (starting_scene, 1, 40);
 }
 
-/* Nodes of a mesh as a shape; Qhull's own memory is not swept. */
+/* Nodes of a mesh as a shape, a ring, and what is within it; Qhull's own memory is not swept. */
 static void a_cloud_survives_every_failing_allocation (void **state)
 {
     (void) state;
