@@ -8,7 +8,7 @@ counted() {
     python3 - "$1/report.json" <<'PYTHON'
 import json, sys
 report = json.load(open(sys.argv[1]), parse_float=lambda text: f'{float(text):.9g}')
-for key in 'seconds peak_bytes ranks division skipped patch patch_error notes warnings energy curve new_crack overlap_max'.split():
+for key in 'seconds peak_bytes ranks division parts skipped patch patch_error notes warnings energy curve new_crack overlap_max'.split():
     report.pop(key, None)
 for key in 'points bonds dofs evaluation_points eroded_points isolated_nodes fragments steps events broken tips'.split():
     assert key in report, key
