@@ -69,7 +69,7 @@ static void kinds_tell_what_they_do (void **state)
                                  | PG_SOLVER_CONTACT | PG_SOLVER_RANKS));
     o = options_of (HELD "solver: {kind: newmark, dt: 1, end: 10}\n");
     assert_true (o.flags == (PG_SOLVER_IMPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS
-                             | PG_SOLVER_CONTACT));
+                             | PG_SOLVER_CONTACT | PG_SOLVER_RANKS));
     o = options_of (MOVED "solver: {kind: verlet, end: 10}\n");
     assert_true (o.flags == (PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS
                              | PG_SOLVER_CONTACT | PG_SOLVER_RANKS));
@@ -78,13 +78,13 @@ static void kinds_tell_what_they_do (void **state)
                              | PG_SOLVER_CONTACT | PG_SOLVER_RANKS));
     o = options_of (BONDS "solver: {kind: adr}\n");
     assert_true ((o.flags & ~PG_SOLVER_NEEDS_DENSITY)
-                     == (PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_CONTACT)
+                     == (PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_CONTACT | PG_SOLVER_RANKS)
                  && PG_OWN (pg_stages_options, &o)->hold && PG_OWN (pg_stages_options, &o)->stages == 10
                  && o.break_mode == PG_BREAK_PASSING);
     check_relative (PG_OWN (pg_stages_options, &o)->imbalance, 1e-5, 1e-15);
     o = options_of (BONDS "solver: {kind: relax, hold: off, stages: 7, damping: 5e6, dt: 1 us}\n");
     assert_true ((o.flags & ~PG_SOLVER_NEEDS_DENSITY)
-                     == (PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_CONTACT)
+                     == (PG_SOLVER_QUASI_STATIC | PG_SOLVER_STAGED | PG_SOLVER_CONTACT | PG_SOLVER_RANKS)
                  && !PG_OWN (pg_stages_options, &o)->hold && PG_OWN (pg_stages_options, &o)->stages == 7);
     check_relative (PG_OWN (pg_stages_options, &o)->damping, 5e6, 1e-15);
     check_relative (o.dt, 1e-6, 1e-15);
