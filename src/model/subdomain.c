@@ -48,10 +48,8 @@ static void check_loads (against *a)
 static void check_cells (against *a)
 {
     char path[64];
-    if (!pg_solver_is (pg_scene_text (a->scene, "solver.kind"), PG_SOLVER_STATIC)
-        || is (a->scene, "solver.on_instability", "dynamic"))
-        refuse (a, "solver.kind",
-                "galerkin in motion is for one process only so far, or for division: matrices");
+    if (!pg_solver_is (pg_scene_text (a->scene, "solver.kind"), PG_SOLVER_IMPLICIT))
+        refuse (a, "solver.kind", "galerkin in explicit steps is for one process only so far: use newmark");
     if (pg_scene_bool (a->scene, "solver.plain"))
         refuse (a, "solver.plain", "goes with one process only for force: galerkin");
     for (size_t i = 0; i < pg_scene_count (a->scene, "boundary"); i++) {
