@@ -117,8 +117,14 @@ typedef struct {
     /* points that sample the gap: places (x dim), unit normals (x dim), tangents (x dim - 1 x dim), m^2 */
     size_t npoint;  double *x, *normal, *tangent, *weight;
     size_t *first;                                     /* those of piece k: first[k] .. first[k + 1] - 1 */
+    /* pieces of the state's cracks, which come first; then those of bonds that broke one by one, a point
+     * each: these bonds (places in the family of all points), and the point that each belongs to */
+    size_t nknown, nbroken, *broken, *place;
 } pg_contact_pieces;
 pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *problem, const pg_state *state);
+/* Appends the faces that bonds between points have left which broke one by one: where they are, and which way
+ * they face, is told by the dead bonds that no crack of the state cuts. */
+pg_status pg_contact_add_broken    (pg_contact_pieces *out, const pg_problem *problem, const pg_state *state);
 void      pg_contact_pieces_clear  (pg_contact_pieces *pieces);
 /* Their rows as columns of G' (unknowns x dim n): column dim k makes the mean gap of piece k, those after it
  * its mean slips, positive where the face that the normal shows to goes ahead along the tangent (plane: the

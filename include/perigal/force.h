@@ -65,6 +65,10 @@ typedef struct {
     const size_t *first;                               /* those of piece k: first[k] .. first[k + 1] - 1 */
     /* of places: m (x dim); unit normals (x dim); tangents at right angles (x dim - 1 x dim); m^2 */
     const double *x, *normal, *tangent, *weight;
+    /* Pieces of cracks of the state, which come first, get the dead bonds that cross them; the others those
+     * listed: places in the family of all points, and the place on the faces that each belongs to. */
+    size_t nknown, nbroken;
+    const size_t *broken, *place;
 } pg_face_pieces;
 
 /* Needed: create, free, fields, balance and one of operator_ and matrix; newmark also needs mass. The rest

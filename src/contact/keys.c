@@ -7,7 +7,8 @@ static const pg_key keys[] = {
     { "contact", PG_MAP, NULL, NULL, "", NULL, NULL, NULL,
       "What the faces of cracks do to each other where cracks close: with force: galerkin at rest (static) "
       "and in motion (newmark); with forces by bonds by the layer that the cut "
-      "bonds were (static, explicit, adr, relax). Elsewhere it is refused." },
+      "bonds were (static, explicit, adr, relax), at rest also where bonds break one by one. Elsewhere it is "
+      "refused." },
     { "contact.kind", PG_NAME, NULL, NULL, "none", "none|normal|friction", NULL, NULL,
       "none: faces pass through each other; normal: they press without friction; friction: they stick or "
       "slide by Coulomb's law." },

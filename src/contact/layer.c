@@ -7,6 +7,8 @@ pg_status pg_contact_layer (pg_sparse *out, double *soft, double *stiffer, const
 {
     const pg_face_pieces faces = { .n = pieces->n, .dim = pieces->dim, .npoint = pieces->npoint,
                                    .first = pieces->first, .x = pieces->x, .normal = pieces->normal,
-                                   .tangent = pieces->tangent, .weight = pieces->weight };
+                                   .tangent = pieces->tangent, .weight = pieces->weight,
+                                   .nknown = pieces->nknown, .nbroken = pieces->nbroken,
+                                   .broken = pieces->broken, .place = pieces->place };
     return force->faces (self, state, &faces, out, soft, stiffer);
 }

@@ -336,6 +336,7 @@ pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *p,
     PG_GROW (out->first, d.cap_first, 1);
     if (p->dim == 3) {
         PG_TRY (surface_pieces_create (out, p, state));
+        out->nknown = out->n;
         goto done;
     }
     PG_TRY (take_segments (&d, pg_state_cracks (p, state)));
@@ -345,6 +346,7 @@ pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *p,
         for (to = from; to < d.nlink && d.link[to].path == d.link[from].path; to++) continue;
         PG_TRY (divide (&d, out, from, to));
     }
+    out->nknown = out->n;
 done:
     pg_free (d.segment), pg_free (d.link);
     if (status != PG_OK) pg_contact_pieces_clear (out);
@@ -355,6 +357,7 @@ void pg_contact_pieces_clear (pg_contact_pieces *k)
 {
     pg_free (k->piece), pg_free (k->first);
     pg_free (k->x), pg_free (k->normal), pg_free (k->tangent), pg_free (k->weight);
+    pg_free (k->broken), pg_free (k->place);
     memset (k, 0, sizeof *k);
 }
 

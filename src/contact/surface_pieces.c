@@ -11,8 +11,7 @@
  * plane of a disc or polygon that cuts there itself they do not count again, and within half a spacing beside
  * it, where it stopped behind its front, they go with its pieces: behind a kink there is no more than that,
  * too narrow for pieces. The others, as far as their triangles share vertices without a sharp turn, are one
- * patch, and are gathered around as many centres as it has pieces: each next to begin with where it is
- * farthest from those there are, then where the middles of their points lie (Lloyd 1982).
+ * patch, and are gathered to pieces (gather_dots.c).
  *
  * All areas that are compared are measured in local spacings. */
 #include "pieces.h"
@@ -23,15 +22,10 @@
  * the cosine between the normals. */
 static const double BESIDE = 0.5, OFF_PLANE = 0.05, SAME_PLANE = 0.99;
 
-/* Parts of a cell of the raster each way; rounds of gathering; the least area of a piece, of that of a usual
- * one; what a turn of normals counts, as a distance in spacings per rad. */
-enum { PARTS = 3, ROUNDS = 12 };
-static const double LEAST = 0.35, TURN_COUNTS = 4;
+/* Parts of a cell of the raster each way. */
+enum { PARTS = 3 };
 static const double FULL = PG_CONTACT_PIECE * PG_CONTACT_PIECE;
 
-/* A point: where, normal, m^2, local spacings squared; its cell of the raster; the piece that it is in.
- * triangle: of a grown one, until it is taken for a piece, else SIZE_MAX. */
-typedef struct { double x[3], normal[3], area, size; size_t row, column, piece, triangle; } dot;
 typedef struct {
     const pg_problem *p;
     dot *dot;  size_t ndot, cap_dot;
@@ -39,16 +33,6 @@ typedef struct {
     size_t npatch;
     size_t cap_x, cap_normal, cap_tangent, cap_weight, cap_piece, cap_first;
 } surface;
-
-static double dot3 (const double *a, const double *b) { return a[0]*b[0] + a[1]*b[1] + a[2]*b[2]; }
-
-static void cross3 (const double *a, const double *b, double *out)
-{
-    for (int k = 0; k < 3; k++) {
-        int m = (k + 1) % 3, n = (k + 2) % 3;
-        out[k] = a[m]*b[n] - a[n]*b[m];
-    }
-}
 
 /* ---- a plane crack on a raster ------------------------------------------------------------------------- */
 /* Axes of the crack in its plane, and how far it reaches along them from `origin`, m. */
@@ -120,7 +104,7 @@ static pg_status add_cell (surface *w, const pg_crack *c, const sheet *s, const 
     if (!in) return PG_OK;
     for (int k = 0; k < 3; k++) d.x[k] /= in, d.normal[k] = c->normal[k];
     double h = pg_problem_spacing_at (w->p, d.x);
-    d.area *= in, d.size = d.area / (h * h);
+    d.area *= in, d.size = d.area / (h * h), d.h = h;
     PG_GROW (w->dot, w->cap_dot, w->ndot + 1);
     w->dot[w->ndot++] = d;
 done:
@@ -159,12 +143,12 @@ static pg_status find_strips (surface *w, size_t first, size_t rows, double cell
     PG_ALLOC (held, *count);
     for (size_t i = 0; i < rows; i++) held[strip[i]] += area[i];
     for (size_t k = 0; k + 1 < *count; k++) {          /* too small a strip goes to the next */
-        if (held[k] >= LEAST * FULL) break;
+        if (held[k] >= DOTS_LEAST * FULL) break;
         held[k + 1] += held[k];
         for (size_t i = 0; i < rows; i++) if (strip[i] == k) strip[i] = k + 1;
     }
     for (size_t k = *count; k-- > 1;) {
-        if (held[k] >= LEAST * FULL) break;
+        if (held[k] >= DOTS_LEAST * FULL) break;
         held[k - 1] += held[k];
         for (size_t i = 0; i < rows; i++) if (strip[i] == k) strip[i] = k - 1;
     }
@@ -202,16 +186,6 @@ done:
 }
 
 /* ---- pieces from dots ---------------------------------------------------------------------------------- */
-/* Two tangents at right angles to the normal n: the part of `along` in its plane, and what is across. */
-static void tangents (const double *n, const double *along, double *out)
-{
-    double part = dot3 (n, along), size;
-    for (int k = 0; k < 3; k++) out[k] = along[k] - part * n[k];
-    size = sqrt (dot3 (out, out));
-    for (int k = 0; k < 3; k++) out[k] /= size;
-    cross3 (n, out, out + 3);
-}
-
 /* Appends dots from `first` on, which belong to the pieces 0 to count - 1, as pieces of one path. along:
  * about the first tangent; NULL: the axis that lies most in the plane of each piece. */
 static pg_status put_pieces (surface *w, pg_contact_pieces *out, size_t first, size_t count,
@@ -228,7 +202,7 @@ static pg_status put_pieces (surface *w, pg_contact_pieces *out, size_t first, s
     for (size_t k = 0; k < count; k++) {
         pg_contact_piece *piece = &out->piece[out->n];
         const size_t begins = out->npoint;
-        double size, axis[3] = { 0 };
+        double size;
         memset (piece, 0, sizeof *piece);
         for (size_t i = first; i < w->ndot; i++) {
             const dot *d = &w->dot[i];
@@ -243,12 +217,9 @@ static pg_status put_pieces (surface *w, pg_contact_pieces *out, size_t first, s
         size = sqrt (dot3 (piece->normal, piece->normal));
         if (out->npoint == begins || !(size > 0)) continue;
         for (int c = 0; c < 3; c++) piece->x[c] /= piece->area, piece->normal[c] /= size;
-        int least = 0;
-        for (int c = 1; c < 3; c++) if (fabs (piece->normal[c]) < fabs (piece->normal[least])) least = c;
-        axis[least] = 1;
-        tangents (piece->normal, along ? along : axis, piece->tangent[0]);
+        piece_tangents (piece->normal, along, piece->tangent[0]);
         for (size_t q = begins; q < out->npoint; q++)
-            tangents (out->normal + 3*q, piece->tangent[0], out->tangent + 6*q);
+            piece_tangents (out->normal + 3*q, piece->tangent[0], out->tangent + 6*q);
         piece->length = sqrt (piece->area), piece->path = w->npatch;
         out->first[++out->n] = out->npoint;
     }
@@ -350,82 +321,9 @@ static pg_status add_triangle (surface *w, const pg_crack *c, size_t number)
                 d->x[k] = c->vertex[k] + s * u[k] + t * v[k], d->normal[k] = c->normal[k];
             if (!pg_problem_has_body (w->p, d->x)) continue;
             h = pg_problem_spacing_at (w->p, d->x);
-            d->area = area, d->size = area / (h * h), d->triangle = number, w->ngrown++;
+            d->area = area, d->size = area / (h * h), d->h = h, d->triangle = number, w->ngrown++;
         }
 done:
-    return status;
-}
-
-/* How far a dot is from a place of that normal, in local spacings, squared; a turn counts as a way. */
-static double away (const dot *d, const double *x, const double *normal)
-{
-    double far = 0, turn = 0;
-    for (int k = 0; k < 3; k++) {
-        far += (d->x[k] - x[k]) * (d->x[k] - x[k]);
-        turn += (d->normal[k] - normal[k]) * (d->normal[k] - normal[k]);
-    }
-    return far * d->size / d->area + TURN_COUNTS * TURN_COUNTS * turn;
-}
-
-/* Of a centre: place (3), normal (3), area in local spacings. */
-enum { WIDE = 7 };
-
-/* The first centres: the first dot, then always the one farthest from all there are. far: of each dot. */
-static void spread (const surface *w, size_t first, size_t count, double *centre, double *far)
-{
-    size_t next = first;
-    for (size_t i = first; i < w->ndot; i++) far[i] = INFINITY;
-    for (size_t n = 0; n < count; n++) {
-        double *to = centre + WIDE * n;
-        memcpy (to, w->dot[next].x, 3 * sizeof *to), memcpy (to + 3, w->dot[next].normal, 3 * sizeof *to);
-        for (size_t i = first; i < w->ndot; i++) far[i] = fmin (far[i], away (&w->dot[i], to, to + 3));
-        next = first;
-        for (size_t i = first; i < w->ndot; i++) if (far[i] > far[next] * (1 + 1e-9)) next = i;
-    }
-}
-
-/* Dots go to the nearest centre, then centres to the middle of their dots. */
-static void gather_round (surface *w, size_t first, size_t count, double *centre)
-{
-    for (size_t i = first; i < w->ndot; i++) {
-        double least = INFINITY;
-        for (size_t k = 0; k < count; k++) {
-            double now = away (&w->dot[i], centre + WIDE * k, centre + WIDE * k + 3);
-            if (now < least) least = now, w->dot[i].piece = k;
-        }
-    }
-    memset (centre, 0, WIDE * count * sizeof *centre);
-    for (size_t i = first; i < w->ndot; i++) {
-        const dot *d = &w->dot[i];
-        double *to = centre + WIDE * d->piece;
-        for (int k = 0; k < 3; k++) to[k] += d->size * d->x[k], to[3 + k] += d->size * d->normal[k];
-        to[6] += d->size;
-    }
-    for (size_t k = 0; k < count; k++) {
-        double *to = centre + WIDE * k, size = sqrt (dot3 (to + 3, to + 3));
-        for (int c = 0; c < 3 && to[6] > 0; c++) to[c] /= to[6], to[3 + c] /= size;
-    }
-}
-
-/* Dots from `first` on in *count pieces or fewer: a centre that holds too little is taken away. */
-static pg_status gather_dots (surface *w, size_t first, size_t *count)
-{
-    pg_status status = PG_OK;
-    double *centre = NULL, *far = NULL;
-    PG_ALLOC (centre, WIDE * *count);
-    PG_ALLOC (far, w->ndot);
-    spread (w, first, *count, centre, far);
-    for (int small = 1; small;) {
-        for (int round = 0; round < ROUNDS; round++) gather_round (w, first, *count, centre);
-        small = 0;
-        for (size_t k = 0; k < *count && *count > 1 && !small; k++) {
-            if (centre[WIDE * k + 6] >= LEAST * FULL) continue;
-            memmove (centre + WIDE * k, centre + WIDE * (k + 1), WIDE * (*count - k - 1) * sizeof *centre);
-            --*count, small = 1;
-        }
-    }
-done:
-    pg_free (centre), pg_free (far);
     return status;
 }
 
@@ -473,7 +371,7 @@ static pg_status divide_grown (surface *w, pg_contact_pieces *out, const pg_crac
         for (size_t i = first; i < w->ndot; i++) whole += w->dot[i].size;
         if (w->ndot == first) continue;
         size_t count = (size_t) fmax (1, round (whole / FULL));
-        PG_TRY (gather_dots (w, first, &count));
+        PG_TRY (gather_dots (w->dot + first, w->ndot - first, FULL, &count));
         PG_TRY (put_pieces (w, out, first, count, NULL));
     }
 done:

@@ -56,36 +56,71 @@ static size_t place_crossed (const search *s, const double *a, const double *b, 
     return away <= size * size ? q : SIZE_MAX;
 }
 
-/* Dead bonds of point i to later points that cross a face. */
+/* Dead bond e of point i, whose bonds are at hand, at a place on the faces. turned: as of place_crossed. */
+static pg_status add_crossing (search *s, size_t i, const point_bonds *bonds, size_t e, size_t place,
+                               int turned)
+{
+    pg_status status = PG_OK;
+    const bond_force *b = s->b;
+    const double *x = b->problem->cloud.x;
+    size_t dim = (size_t) b->dim, m = (size_t) b->stride, j = (size_t) b->family->node[e];
+    double own[36], rr = 0;
+    b->theory->blocks (b, i, bonds, e - bonds->first, own, NULL);
+    PG_GROW (s->list, s->room, s->n + 1);
+    crossing *c = &s->list[s->n];
+    *c = (crossing){ .node = { (int) (turned ? j : i), (int) (turned ? i : j) }, .place = place,
+                     .piece = s->piece_of[place] };
+    for (size_t k = 0; k < dim; k++) {
+        c->xi[k] = (turned ? -1 : 1) * (x[dim * j + k] - x[dim * i + k]), rr += c->xi[k] * c->xi[k];
+    }
+    for (size_t k = 0; k < dim; k++)
+        for (size_t l = 0; l < dim; l++) c->w += own[k * m + l] * c->xi[k] * c->xi[l] / rr;
+    if (c->w > 0) s->n++;
+done:
+    return status;
+}
+
+/* Dead bonds of point i to later points that cross a face of a crack of the state. */
 static pg_status search_point (search *s, size_t i)
 {
     pg_status status = PG_OK;
     bond_force *b = s->b;
     const double *x = b->problem->cloud.x;
-    size_t dim = (size_t) b->dim, m = (size_t) b->stride;
+    size_t dim = (size_t) b->dim;
     point_bonds bonds = { 0 };
     for (size_t e = b->family->start[i]; e < b->family->start[i + 1]; e++) {
         size_t j = (size_t) b->family->node[e];
         int turned = 0;
         if (j <= i || bond_force_lives (b, e)) continue;
         size_t place = place_crossed (s, x + dim * i, x + dim * j, &turned);
-        /* one that broke beside a crack belongs to no face of it */
+        /* one that broke beside a crack belongs to no face of it, but to those that it left (add_listed) */
         if (place == SIZE_MAX
             || !pg_cracks_cut (s->cracks, x + dim * i, x + dim * j, 1e-9 * b->problem->cloud.h))
             continue;
         if (!bonds.node) point_bonds_at (b, i, 0, &bonds);
-        double own[36], rr = 0;
-        b->theory->blocks (b, i, &bonds, e - bonds.first, own, NULL);
-        PG_GROW (s->list, s->room, s->n + 1);
-        crossing *c = &s->list[s->n];
-        *c = (crossing){ .node = { (int) (turned ? j : i), (int) (turned ? i : j) }, .place = place,
-                         .piece = s->piece_of[place] };
-        for (size_t k = 0; k < dim; k++) {
-            c->xi[k] = (turned ? -1 : 1) * (x[dim * j + k] - x[dim * i + k]), rr += c->xi[k] * c->xi[k];
-        }
-        for (size_t k = 0; k < dim; k++)
-            for (size_t l = 0; l < dim; l++) c->w += own[k * m + l] * c->xi[k] * c->xi[l] / rr;
-        if (c->w > 0) s->n++;
+        PG_TRY (add_crossing (s, i, &bonds, e, place, turned));
+    }
+done:
+    return status;
+}
+
+/* Bonds that broke one by one, each at the place that is given for it. */
+static pg_status add_listed (search *s)
+{
+    pg_status status = PG_OK;
+    bond_force *b = s->b;
+    const pg_face_pieces *f = s->pieces;
+    const double *x = b->problem->cloud.x;
+    for (size_t k = 0; k < f->nbroken; k++) {
+        size_t i, e = f->broken[k], j = (size_t) b->family->node[e], dim = (size_t) b->dim;
+        int set;
+        double along = 0;
+        point_bonds bonds = { 0 };
+        pg_problem_locate (b->problem, b->problem->first_bond[PG_NODES] + e, &set, &i);
+        for (size_t c = 0; c < dim; c++)
+            along += f->normal[dim * f->place[k] + c] * (x[dim * j + c] - x[dim * i + c]);
+        point_bonds_at (b, i, 0, &bonds);
+        PG_TRY (add_crossing (s, i, &bonds, e, f->place[k], along < 0));
     }
 done:
     return status;
@@ -109,8 +144,8 @@ done:
     return status;
 }
 
-/* What the bonds of a piece amount to. */
-typedef struct { double inverse[9], Q[9], P[2]; } layer;         /* A^-1; Q; mean moduli M, G, Pa */
+/* What the bonds of a piece amount to: A^-1; Q; mean moduli M, G, Pa; the diagonal of A, N. */
+typedef struct { double inverse[9], Q[9], P[2], borne[3]; } layer;
 
 /* Directions of place q: its normal, then its tangents. */
 static const double *direction (const pg_face_pieces *f, size_t q, size_t a)
@@ -151,6 +186,7 @@ static int measure (const search *s, size_t from, size_t to, layer *l)
         sum += 2 * c->w;
     }
     for (int a = 0; a < 2 && sum > 0; a++) l->P[a] /= sum;
+    for (size_t a = 0; a < d; a++) l->borne[a] = A[a * d + a];
     if (!(sum > 0)) return 0;
     pg_dense_eigen ((int) d, A, lambda, NULL);
     if (!(lambda[d - 1] > POOR * lambda[0]) || pg_dense_cholesky ((int) d, A, 0)) return 0;
@@ -161,14 +197,18 @@ static int measure (const search *s, size_t from, size_t to, layer *l)
     return 1;
 }
 
-/* Compliance of the pairs of a piece, and by how much its springs may be stiffer than the bonds were. */
-static double yield (const layer *l, size_t d, double area, double *soft)
+/* Compliance of the pairs of a piece, and by how much its springs may be stiffer than the bonds were. Where
+ * bonds broke one by one the layer bears no more than those that are dead: others may live beside them. */
+static double yield (const layer *l, size_t d, double area, int known, double *soft)
 {
     double R[9] = { 0 }, T[9] = { 0 }, lambda[3];
     for (size_t a = 0; a < d; a++)
         for (size_t c = 0; c < d; c++)
             for (size_t k = 0; k < d; k++) R[a * d + c] += l->inverse[a * d + k] * l->Q[k * d + c];
-    for (size_t a = 0; a < d; a++) soft[a] = R[a * d + a] / (l->P[a > 0] * area);
+    for (size_t a = 0; a < d; a++) {
+        double whole = l->P[a > 0] * area;
+        soft[a] = R[a * d + a] / (known ? whole : fmin (whole, l->borne[a]));
+    }
     /* energy 1/2 g S^-1 g = 1/2 r B r with B = A^-1 S^-1 A^-1, r r' <= Q times that of the bonds */
     for (size_t a = 0; a < d; a++)
         for (size_t c = 0; c < d; c++) {
@@ -236,7 +276,7 @@ pg_status bond_force_jump (void *self, const pg_state *state, size_t n, const do
 {
     const bond_force *b = self;
     const pg_approx by = { .type = pg_approx_first (), .kernel = pg_kernel_entry (0) };
-    return jump_rows (b->problem, &by, state, n, x, normal, radius, out);
+    return jump_rows (b->problem, &by, state, n, x, normal, radius, 1, out);
 }
 
 pg_status bond_force_faces (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,
@@ -254,11 +294,12 @@ pg_status bond_force_faces (void *self, const pg_state *state, const pg_face_pie
     PG_ALLOC (s.piece_of, pieces->npoint);
     for (size_t k = 0; k < pieces->n; k++)
         for (size_t q = pieces->first[k]; q < pieces->first[k + 1]; q++) s.piece_of[q] = k;
-    if (pieces->npoint) {
-        PG_TRY (pg_nearest_create (&s.near, (int) d, pieces->npoint, pieces->x));
-        PG_TRY (dilatation_weigh (s.b));
+    if (pieces->npoint) PG_TRY (dilatation_weigh (s.b));
+    if (pieces->nknown) {
+        PG_TRY (pg_nearest_create (&s.near, (int) d, pieces->first[pieces->nknown], pieces->x));
         for (size_t i = 0; i < n; i++) PG_TRY (search_point (&s, i));
     }
+    PG_TRY (add_listed (&s));
     PG_TRY (sort_by_piece (&s, first));
     PG_TRY (pg_sparse_create (rows, n * (size_t) s.b->stride, d * pieces->n, 2 * d * d * s.n, 0));
     PG_ALLOC (row, d * n * d);
@@ -267,9 +308,11 @@ pg_status bond_force_faces (void *self, const pg_state *state, const pg_face_pie
         layer l;
         double area = 0;
         for (size_t q = pieces->first[k]; q < pieces->first[k + 1]; q++) area += pieces->weight[q];
-        if (!measure (&s, first[k], first[k + 1], &l)) PG_TRY (refuse (pieces, k));
-        *stiffer = fmax (*stiffer, yield (&l, d, area, soft + d * k));
-        put_columns (&s, first[k], first[k + 1], k, &l, row, list, rows);
+        int tells = measure (&s, first[k], first[k + 1], &l), known = k < pieces->nknown;
+        if (!tells && known) PG_TRY (refuse (pieces, k));
+        /* a few bonds that broke among others that live tell no jump: there is no face yet */
+        if (tells) *stiffer = fmax (*stiffer, yield (&l, d, area, known, soft + d * k));
+        put_columns (&s, first[k], tells ? first[k + 1] : first[k], k, &l, row, list, rows);
     }
 done:
     pg_nearest_free (&s.near);

@@ -339,7 +339,7 @@ static pg_status jump (void *self, const pg_state *state, size_t n, const double
 {
     pg_status status = PG_OK;
     const galerkin *g = self;
-    PG_TRY (jump_rows (g->problem, &g->problem->approx, state, n, x, normal, radius, out));
+    PG_TRY (jump_rows (g->problem, &g->problem->approx, state, n, x, normal, radius, 0, out));
     PG_TRY (galerkin_ended_jump (g, n, x, normal, out));
 done:
     return status;

@@ -20,12 +20,25 @@ typedef struct {
     const pg_rows *rows;
     const double *normal;
     double side;                                       /* 1: that the normal shows to; -1 */
+    int    flat;                                       /* 1: places beside all cracks are on planes */
     unsigned char *alive;
 } looking;
 
-/* What is wanted of the two sides, 1 and -1: the factor of their functions (0: not looked at), and the least
- * good basis that still counts. */
-typedef struct { double factor[2]; int worst; } sides;
+/* What is wanted of the two sides, 1 and -1: the factor of their functions (0: not looked at), the least good
+ * basis that still counts, and `flat` of looking. */
+typedef struct { double factor[2]; int worst, flat; } sides;
+
+/* Nodes on that side of the plane of a place. */
+static void look_flat (const looking *l, size_t q)
+{
+    size_t dim = (size_t) l->p->dim;
+    for (size_t e = l->rows->family.start[q]; e < l->rows->family.start[q + 1]; e++) {
+        const double *x = l->p->cloud.x + (size_t) l->rows->family.node[e] * dim;
+        double off = 0;
+        for (size_t k = 0; k < dim; k++) off += l->normal[q * dim + k] * (x[k] - l->rows->x[q * dim + k]);
+        l->alive[e] = l->side * off > 0;
+    }
+}
 
 /* Which nodes does each place see from its side? */
 static void look (void *context, size_t first, size_t last, int thread)
@@ -38,6 +51,10 @@ static void look (void *context, size_t first, size_t last, int thread)
         const double *x = l->rows->x + q * dim;
         double eye[3], away = l->side * BESIDE * pg_problem_spacing_at (p, x);
         for (size_t k = 0; k < dim; k++) eye[k] = x[k] + away * l->normal[q * dim + k];
+        if (l->flat && !pg_cracks_touch (l->cracks, x, PG_NO_LENGTH * p->cloud.h)) {
+            look_flat (l, q);
+            continue;
+        }
         for (size_t e = l->rows->family.start[q]; e < l->rows->family.start[q + 1]; e++)
             l->alive[e] = !pg_cracks_cut (l->cracks, eye,
                                           p->cloud.x + (size_t) l->rows->family.node[e] * dim,
@@ -70,7 +87,8 @@ static pg_status find (const pg_problem *p, const pg_approx *a, const pg_state *
     pg_family_search *search = NULL;
     pg_rows rows = { 0 };
     unsigned char *poor = NULL;
-    looking l = { .p = p, .cracks = pg_state_cracks (p, state), .rows = &rows, .normal = normal };
+    looking l = { .p = p, .cracks = pg_state_cracks (p, state), .rows = &rows, .normal = normal,
+                  .flat = wanted->flat };
     memset (out, 0, sizeof *out);
     PG_TRY (pg_rows_search (&search, a, &p->cloud));
     PG_TRY (pg_rows_place (&rows, search, p->dim, n, x, NULL, NULL, NULL, p->threads));
@@ -104,9 +122,9 @@ done:
 }
 
 pg_status jump_rows (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
-                     const double *x, const double *normal, double radius, pg_jump_rows *out)
+                     const double *x, const double *normal, double radius, int flat, pg_jump_rows *out)
 {
-    const sides both = { { 1, -1 }, PG_GRADE_FULL };
+    const sides both = { { 1, -1 }, PG_GRADE_FULL, flat };
     pg_approx a = *by;
     a.horizon = radius * p->cloud.h, a.order = 1, a.congruent = a.extrapolates = a.projected = 0;
     return find (p, &a, state, n, x, normal, &both, out);
@@ -115,7 +133,7 @@ pg_status jump_rows (const pg_problem *p, const pg_approx *by, const pg_state *s
 pg_status trace_rows (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
                       const double *x, const double *normal, pg_jump_rows *out)
 {
-    const sides inner = { { 0, 1 }, PG_GRADE_LOWERED };
+    const sides inner = { { 0, 1 }, PG_GRADE_LOWERED, 0 };
     pg_approx a = *by;
     a.congruent = 0;
     return find (p, &a, state, n, x, normal, &inner, out);

@@ -4,9 +4,10 @@
 #define PG_FORCE_ONE_SIDED_H
 #include "perigal/force.h"
 
-/* As pg_force_type.jump, by the approximation `by` with a linear basis and that radius. */
+/* As pg_force_type.jump, by the approximation `by` with a linear basis and that radius. flat: places may lie
+ * on faces that bonds left which broke one by one; there nodes are told apart by the plane of the place. */
 pg_status jump_rows  (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
-                      const double *x, const double *normal, double radius, pg_jump_rows *out);
+                      const double *x, const double *normal, double radius, int flat, pg_jump_rows *out);
 /* As pg_force_type.trace, by the approximation `by` as it is. */
 pg_status trace_rows (const pg_problem *p, const pg_approx *by, const pg_state *state, size_t n,
                       const double *x, const double *normal, pg_jump_rows *out);

@@ -50,7 +50,7 @@ done:
 }
 
 /* Forces that tell the sums of their rows only soften when bonds break; others may stiffen what is left, and
- * are weighed anew. */
+ * are weighed anew, as are bodies whose bonds leave faces that touch. */
 static pg_status prepare (pg_solver *s)
 {
     pg_status status = PG_OK;
@@ -60,7 +60,7 @@ static pg_status prepare (pg_solver *s)
     PG_TRY (system_refresh (sys, s->backup, NULL));
     x->dt = 1;
     PG_TRY (weigh (s));
-    if (!sys->force->row_sums) x->weigh = weigh;
+    if (!sys->force->row_sums || sys->contact) x->weigh = weigh;
     PG_TRY (relaxation_stages (s));
 done:
     return status;

@@ -51,6 +51,12 @@ static size_t piece_at (const contact_memory *m, const pg_contact_pieces *now, s
     return found;
 }
 
+/* Vectors in space are those of the side that the normal shows to, which may be the other one now: -1. */
+static double sense_of (const double *old, const double *now, size_t dim)
+{
+    return dim == 3 && old[0] * now[0] + old[1] * now[1] + old[2] * now[2] < 0 ? -1 : 1;
+}
+
 pg_status contact_remember (struct system_contact *c)
 {
     pg_status status = PG_OK;
@@ -68,8 +74,11 @@ pg_status contact_remember (struct system_contact *c)
         for (size_t q = c->pieces.first[k]; q < c->pieces.first[k + 1]; q++) {
             size_t at = piece_at (&c->now, &c->pieces, p->platen, q);
             sum += c->pieces.weight[q], old += at != SIZE_MAX || first ? c->pieces.weight[q] : 0;
-            for (size_t i = l.shear; at != SIZE_MAX && i < l.values; i++)
-                v[i] += c->pieces.weight[q] * c->now.value[at * l.values + i];
+            if (at == SIZE_MAX) continue;
+            const double *before = c->now.value + at * l.values;
+            double sense = sense_of (before + l.normal, c->pieces.normal + dim * q, dim);
+            for (size_t i = l.shear; i < l.values; i++)
+                v[i] += c->pieces.weight[q] * (i < l.overlap ? sense : 1) * before[i];
         }
         for (size_t i = l.shear; i < l.values; i++) v[i] /= sum;
         v[l.old] = old / sum;

@@ -16,12 +16,19 @@ enum { MOST_ROUNDS = 4 };
 static const double GOOD = 1e-13;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* Of a single bond that breaks in the run no face is known. */
+/* Are the faces that single broken bonds leave looked for? At rest, of forces by bonds. */
+static int finds_broken (const pg_system *s)
+{
+    return s->force->faces && pg_criterion_of_bonds (s->problem->criterion)
+           && (s->options->flags & PG_SOLVER_QUASI_STATIC);
+}
+
+/* Elsewhere of a single bond that breaks in the run no face is known. */
 static void doubt_broken (const pg_system *s)
 {
     const pg_criterion *breaks = s->problem->criterion;
     int steps = (s->options->flags & PG_SOLVER_EXPLICIT) != 0;
-    if (!breaks->type || pg_criterion_of_tips (breaks)) return;
+    if (!breaks->type || pg_criterion_of_tips (breaks) || finds_broken (s)) return;
     pg_statistics_warn (s->report,
                         "contact.kind keeps the faces of the scene's cracks apart; where bonds break in the "
                         "run nothing does when they close again, and overlap_max is not theirs%s",
@@ -139,6 +146,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
     c->stiffer = 1;
     if (contact_of_faces (c)) {
         PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
+        if (finds_broken (s)) PG_TRY (pg_contact_add_broken (&c->pieces, s->problem, state));
         PG_ALLOC (c->soft, c->pieces.dim * c->pieces.n);
         if (s->force->faces)
             PG_TRY (pg_contact_layer (&c->G, c->soft, &c->stiffer, &c->pieces, s->force, s->self, state));

@@ -214,7 +214,12 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
     s->evaluations++;
     if (!breaking) goto press;
     size_t own = 0;
-    if (force->balance_and_break) PG_TRY (remove_broken (s, state, t, &own));
+    if (force->balance_and_break) {
+        PG_TRY (remove_broken (s, state, t, &own));
+        /* in relaxation bonds leave faces that may touch */
+        if (own && (s->options.flags & PG_SOLVER_QUASI_STATIC))
+            PG_TRY (contact_refresh (sys, state, &b->changes));
+    }
     else {
         PG_TRY (break_by_utilisation (s, state, t));
         double any = system_most (sys, (double) b->changes.n);         /* all ranks measure again */

@@ -382,10 +382,11 @@ static void check_contact (const pg_solver_options *o, const pg_problem *problem
         pg_scene_fault (scene, "contact.kind",
                         "solver.kind: %s knows it of forces by bonds, whose layer between the faces is a "
                         "spring: use solver.kind: static, another method.force, or set none", o->kind);
-    else if (breaks_bonds (problem) && !moves && (!by_bonds || rests))
+    else if (breaks_bonds (problem) && rests && !by_bonds)
         pg_scene_fault (scene, "contact.kind",
-                        "keeps the faces of cracks apart, not single broken bonds: judge tips (break: "
-                        "facet), leave failure out, or set none");
+                        "keeps the faces of cracks apart, not those of single broken bonds of force: %s: "
+                        "judge tips (break: facet), take a force by bonds, leave failure out, or set none",
+                        problem->method->name);
     else if (options_begin_cracks (problem) && (problem->dim == 3 || by_bonds || !rests))
         pg_scene_fault (scene, "contact.kind",
                         "goes with a strength, at which new cracks begin, in the plane, at rest and with "

@@ -71,6 +71,21 @@ static int is_rough (const pg_solver_options *o)
     return o->contact.kind != PG_CONTACT_NONE && (o->contact.coefficient > 0 || o->contact.cohesion > 0);
 }
 
+/* Event stepping by loads that do not all grow with the load factor. */
+static void check_faces (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene,
+                         int closes)
+{
+    /* Coulomb's cone is round in space: forces are no straight lines between changes of status */
+    if (is_rough (o) && problem->dim == 3)
+        pg_scene_fault (scene, "solver.stepping",
+                        "event goes with friction in space where all loads grow with the load factor: with a "
+                        "constant part, cohesion, or stages, use fixed, or contact.kind: normal");
+    else if (closes && pg_criterion_of_bonds (problem->criterion))
+        pg_scene_fault (scene, "solver.stepping",
+                        "event goes with contact of faces that single broken bonds leave where all loads "
+                        "grow with the load factor: with a constant part, cohesion, or stages, use fixed");
+}
+
 /* What does not go together with the stepping that was asked for, or found. */
 static void check_stepping (const pg_solver_options *o, const pg_problem *problem, const pg_scene *scene,
                             int closes)
@@ -84,11 +99,7 @@ static void check_stepping (const pg_solver_options *o, const pg_problem *proble
         pg_scene_fault (scene, "solver.stepping",
                         "event stepping needs loads that grow with the load factor (ramp: linear), stay "
                         "(ramp: constant), or both: use fixed, or stages");
-    /* Coulomb's cone is round in space: forces are no straight lines between changes of status */
-    if (o->event && is_rough (o) && affine && problem->dim == 3)
-        pg_scene_fault (scene, "solver.stepping",
-                        "event goes with friction in space where all loads grow with the load factor: with a "
-                        "constant part, cohesion, or stages, use fixed, or contact.kind: normal");
+    if (affine) check_faces (o, problem, scene, closes);
     if (closes && pg_problem_removes (problem))
         pg_scene_fault (scene, "stages", "remove does not go with contact.kind so far");
     if (o->event && o->break_mode == PG_BREAK_ALL)
@@ -118,6 +129,8 @@ static void static_read (pg_solver_options *o, const pg_problem *problem, const 
                 || (o->break_mode == PG_BREAK_FACET && pg_problem_affine (problem));
     if (problem->nplaten) suits = proportional && platens_touch (problem);
     if (is_rough (o) && problem->dim == 3 && (!proportional || o->contact.cohesion > 0)) suits = 0;
+    if (closes && pg_criterion_of_bonds (problem->criterion) && (!proportional || o->contact.cohesion > 0))
+        suits = 0;
     o->event = is (stepping, "event") || (is (stepping, "auto") && suits && o->break_mode != PG_BREAK_ALL);
     /* cohesion does not grow with the load */
     own->affine = o->event && (!proportional || o->contact.cohesion > 0);

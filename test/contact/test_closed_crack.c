@@ -344,8 +344,9 @@ static void the_rest_is_refused (void **state)
         { FLAT "]\nmethod: {force: bond, stretch: finite}\ncontact: {kind: normal}\n"
           "solver: {kind: adr}\n", "small displacements" },
         { FLAT "]\nsolver: {kind: verlet, end: 1}\ncontact: {kind: normal}\n", "forces by bonds" },
-        { FLAT "]\nmethod: {force: bond}\ncontact: {kind: normal}\n"
-          "failure: {criterion: stretch, critical_stretch: 1e-3}\n", "not single broken bonds" },
+        { FLAT ", {set: top, displacement: {x: 0.01}, ramp: constant}]\nmethod: {force: bond}\n"
+          "contact: {kind: normal}\nfailure: {criterion: stretch, critical_stretch: 1e-3}\n"
+          "solver: {stepping: event}\n", "faces that single broken bonds leave" },
         { FLAT "]\nsolver: {kind: newmark, dt: 1, end: 2, alpha: -0.1}\ncontact: {kind: normal}\n",
           "impulses of contact" },
         { FLAT "]\ncontact: {kind: friction}\n", "kind: friction needs it" },
@@ -354,7 +355,7 @@ static void the_rest_is_refused (void **state)
           "failure: {criterion: energy_release, fracture_energy: 1, tensile_strength: 1}\n",
           "with a strength" },
         { FLAT "]\ncontact: {kind: normal}\nfailure: {criterion: principal_stress, tensile_strength: 1}\n",
-          "not single broken bonds" },
+          "not those of single broken bonds" },
     };
     for (size_t i = 0; i < sizeof wrong / sizeof *wrong; i++)
         check_refused (wrong[i].scene, wrong[i].words);

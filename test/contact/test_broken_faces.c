@@ -1,0 +1,281 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Faces that bonds leave which broke one by one: a body cut in two is pressed like a whole one and slides;
+ * inclined cracks slip as cracks of the scene do, with friction and without; what broke in tension closes
+ * when the load turns round, in equilibria and in relaxation. */
+#include "scene_runs/run.h"
+#include "perigal/contact.h"
+#include "solve/tape.h"
+
+/* A square of half width 3 m with a crack of half length `half` m, n spacings to the metre, inclined by
+ * `beta` to the load. */
+typedef struct {
+    double beta, perturb, nu, half;
+    const char *plane, *method, *contact, *solver;
+    int n, threads;
+} plate;
+
+static const char *const fixed = "{kind: static, stepping: fixed, steps: 2}";
+
+/* known: 1: the crack is one of the scene; 0: there is none, but bonds may break. */
+static run plate_of (const plate *l, int known)
+{
+    char text[4000], crack[300], support[400];
+    double b = l->beta * 3.14159265358979323846 / 180, h = 1.0 / l->n, x = l->half * sin (b),
+           y = l->half * cos (b);
+    snprintf (crack, sizeof crack, "cracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n", -x + 0.13 * h,
+              -y + 0.21 * h, x + 0.13 * h, y + 0.21 * h);
+    snprintf (support, sizeof support,
+              "sets: {a: {where: \"x < %.17g and y < %.17g\"}, b: {where: \"x > %.17g and y < %.17g\"}}\n",
+              -3 + 1.01 * h, -3 + 1.01 * h, 3 - 1.01 * h, -3 + 1.01 * h);
+    snprintf (text, sizeof text,
+              "dimension: 2\nplane: %s\nthickness: 1\nbody: [{add: {box: {low: [-3, -3], high: [3, 3]}}}]\n"
+              "spacing: %.17g\nlattice: cells\nperturb: {amount: %g}\n%s"
+              "materials: {m: {youngs_modulus: 1000, poissons_ratio: %.17g, density: 1}}\nmethod: %s\n"
+              "%scontact: %s\n%sboundary:\n  - {name: t, set: top, traction: {y: -1}}\n"
+              "  - {name: d, set: bottom, traction: {y: 1}}\n"
+              "  - {name: a, set: a, displacement: {x: 0, y: 0}}\n"
+              "  - {name: b, set: b, displacement: {y: 0}}\nsolver: %s\noutput: {at: {levels: 1}}\n",
+              l->plane, h, l->perturb, known ? crack : "", l->nu, l->method,
+              known ? "" : "failure: {criterion: stretch, critical_stretch: 1}\n", l->contact, support,
+              l->solver);
+    return prepare (l->threads ? l->threads : 1, text);
+}
+
+/* The bonds that the cracks of one scene cut are broken in the other. */
+static void break_as (const run *from, run *to)
+{
+    assert_int_equal (from->state->nbond, to->state->nbond);
+    memcpy (to->state->alive, from->state->alive, to->state->nbond);
+}
+
+/* Mean pressure and shear of the inner pieces, the largest slip, the worst angle of a normal, rad. */
+typedef struct { double pressure, shear, slip, angle, gap; size_t n; } faces;
+static faces faces_of (const run *r, double beta)
+{
+    size_t n, inner = 0;
+    const pg_contact_values *v = pg_solver_contact (r->solver, &n);
+    double b = beta * 3.14159265358979323846 / 180, normal[2] = { -cos (b), sin (b) };
+    faces out = { .n = n };
+    for (size_t k = 0; k < n; k++) {
+        double along = fabs (v[k].x[0] * sin (b) + v[k].x[1] * cos (b));
+        out.slip = fmax (out.slip, fabs (v[k].slip[0])), out.gap = fmax (out.gap, fabs (v[k].gap));
+        double off = fabs (v[k].normal[0] * normal[0] + v[k].normal[1] * normal[1]);
+        out.angle = fmax (out.angle, acos (fmin (1, off)));
+        if (along > 0.7) continue;
+        out.pressure += v[k].pressure, out.shear += fabs (v[k].shear[0]), inner++;
+    }
+    if (inner) out.pressure /= (double) inner, out.shear /= (double) inner;
+    return out;
+}
+
+static int long_run (void)
+{
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    return size && strcmp (size, "long") == 0;
+}
+
+/* An inclined crack of broken bonds slips as the same crack of the scene, and bears the same. */
+static void slips_as_a_crack_of_the_scene (void **state)
+{
+    (void) state;
+    static const char *const bond = "{force: bond}", *const lps = "{force: lps, weighted_volume: live}",
+                      *const beams = "{force: gmpd}", *const fast = "{force: fcbm}";
+    const struct { double beta, mu, perturb; const char *plane, *method; double nu; } row[] = {
+        { 45, 0, 0, "stress", bond, 1.0 / 3 },   { 60, 0.3, 0, "stress", bond, 1.0 / 3 },
+        { 30, 0, 0.2, "stress", bond, 1.0 / 3 }, { 60, 0.6, 0, "stress", bond, 1.0 / 3 },
+        { 30, 0, 0, "stress", bond, 1.0 / 3 },   { 30, 0.3, 0, "stress", bond, 1.0 / 3 },
+        { 45, 0.3, 0, "strain", bond, 0.25 },    { 60, 0, 0, "stress", bond, 1.0 / 3 },
+        { 20, 0, 0, "stress", bond, 1.0 / 3 },   { 70, 0, 0.2, "stress", bond, 1.0 / 3 },
+        { 45, 0.3, 0, "stress", lps, 0.25 },     { 45, 0.3, 0, "stress", beams, 0.2 },
+        { 50, 0.3, 0.1, "strain", lps, 0.3 },    { 50, 0.3, 0, "stress", fast, 1.0 / 3 },
+    };
+    for (size_t i = 0; i < (long_run () ? sizeof row / sizeof *row : 3); i++) {
+        char contact[64] = "{kind: normal}";
+        if (row[i].mu > 0) snprintf (contact, sizeof contact, "{kind: friction, coefficient: %g}", row[i].mu);
+        plate l = { row[i].beta, row[i].perturb, row[i].nu, 1, row[i].plane, row[i].method, contact, fixed,
+                    10, 1 };
+        run known = plate_of (&l, 1), found = plate_of (&l, 0);
+        to_the_end (&known);
+        break_as (&known, &found);
+        to_the_end (&found);
+        faces a = faces_of (&known, l.beta), b = faces_of (&found, l.beta);
+        const double free_slip = 2.5e-3;               /* about that of 45 degrees without friction */
+        print_message ("%s, %g degrees, friction %g, moved %g: pressure %.4f and %.4f, slip %.5g, over that "
+                       "of the crack %.4f, normals within %.2f degrees\n", l.method, l.beta, row[i].mu,
+                       l.perturb, a.pressure, b.pressure, a.slip, b.slip / a.slip,
+                       b.angle * 180 / 3.14159265358979323846);
+        check_relative (b.pressure, a.pressure, 0.03);
+        assert_true (b.angle < 0.1 && b.n + 1 >= a.n && b.n <= a.n + 1);
+        if (row[i].mu < 0.6) {
+            check_relative (b.slip, a.slip, row[i].perturb > 0 ? 0.04 : 0.02);
+            check_scaled (b.shear, row[i].mu * b.pressure, 1e-9, 1);
+        } else assert_true (b.slip < 0.02 * free_slip);
+        assert_true (pg_solver_report_now (found.solver)->contact_overlap < 1e-9 * free_slip);
+        clear (&known), clear (&found);
+    }
+}
+
+/* ---- a body in two parts ------------------------------------------------------------------------------- */
+/* A block of 2 m, spacing .1, that a plane at `tilt` degrees to the horizontal cuts in two, pressed by
+ * `press` and dragged by `drag`, m, at its top. */
+typedef struct { int dim; double tilt, perturb, press, drag; const char *method, *contact, *solver; } block;
+enum { WHOLE, KNOWN, FOUND };
+
+static run block_of (const block *l, int way)
+{
+    double b = l->tilt * 3.14159265358979323846 / 180, x = 2 * cos (b), y = 2 * sin (b);
+    char crack[400];
+    if (l->dim == 2)
+        snprintf (crack, sizeof crack, "cracks: [{from: [%.17g, %.17g], to: [%.17g, %.17g]}]\n", -x, -y, x,
+                  y);
+    else
+        snprintf (crack, sizeof crack,
+                  "cracks: [{polygon: [[%.17g, %.17g, -3], [%.17g, %.17g, -3], [%.17g, %.17g, 3], "
+                  "[%.17g, %.17g, 3]]}]\n", -x, -y, x, y, x, y, -x, -y);
+    return scene_of (1, "dimension: %d\n%sbody: [{add: {box: {low: [-1, -1%s], high: [1, 1%s]}}}]\n"
+                     "spacing: %g\nlattice: cells\nperturb: {amount: %g}\n%s"
+                     "materials: {m: {youngs_modulus: 1000, poissons_ratio: %s, density: 1}}\nmethod: %s\n"
+                     "%scontact: %s\nboundary:\n  - {set: top, displacement: {x: %g, y: %g%s}}\n"
+                     "  - {set: bottom, displacement: {x: 0, y: 0%s}}\nsolver: %s\n"
+                     "output: {at: {levels: 1}}\n", l->dim,
+                     l->dim == 2 ? "plane: stress\nthickness: 1\n" : "", l->dim == 2 ? "" : ", -1",
+                     l->dim == 2 ? "" : ", 1", l->dim == 2 ? 0.1 : 0.2, l->perturb, way == KNOWN ? crack : "",
+                     l->dim == 2 ? "0.3333333333333333" : "0.25", l->method,
+                     way == FOUND ? "failure: {criterion: stretch, critical_stretch: 1}\n" : "",
+                     way == WHOLE ? "{kind: none}" : l->contact, l->drag, l->press,
+                     l->dim == 2 ? "" : ", z: 0", l->dim == 2 ? "" : ", z: 0", l->solver);
+}
+
+/* Bonds across the plane through the middle at `tilt` degrees are broken. */
+static void cut (run *r, double tilt)
+{
+    const pg_family *f = &r->problem->rows[PG_NODES].family;
+    size_t dim = (size_t) r->problem->dim;
+    const double *all = r->problem->cloud.x;
+    double b = tilt * 3.14159265358979323846 / 180, n[2] = { -sin (b), cos (b) };
+    for (size_t i = 0; i < r->problem->cloud.n; i++)
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+            const double *x = all + dim * i, *y = all + dim * (size_t) f->node[e];
+            int above = n[0] * x[0] + n[1] * x[1] > 0, other = n[0] * y[0] + n[1] * y[1] > 0;
+            if (above != other) r->state->alive[e] = 0;
+        }
+}
+
+/* Energy, work of friction, mean pressure and slip of all pieces. */
+typedef struct { double energy, friction, pressure, slip; } borne;
+static borne borne_by (run *r, size_t dim)
+{
+    size_t n;
+    double area = 0;
+    to_the_end (r);
+    const pg_statistics *s = pg_solver_report_now (r->solver);
+    const pg_contact_values *v = pg_solver_contact (r->solver, &n);
+    borne out = { .energy = s->energy_strain, .friction = s->energy_friction };
+    for (size_t k = 0; k < n; k++) {
+        double slip = 0;
+        for (size_t c = 0; c < (dim == 3 ? 3 : 1); c++) slip += v[k].slip[c] * v[k].slip[c];
+        area += v[k].area, out.pressure += v[k].area * v[k].pressure, out.slip += v[k].area * sqrt (slip);
+    }
+    if (n) out.pressure /= area, out.slip /= area;
+    return out;
+}
+
+/* Pressed, and held by friction, it is the whole body; dragged, or pressed on a slope, it slides as along a
+ * crack of the scene. lps with weighted volumes of live bonds is stiffer in its skin, as at that crack. */
+static void a_body_cut_in_two (void **state)
+{
+    (void) state;
+    static const struct { block l; double whole, slip; } row[] = {
+        { { 2, 0, 0, -0.01, 0, "{force: bond}", "{kind: normal}", NULL }, 0.01, 0 },
+        { { 2, 0, 0.2, -0.01, 0, "{force: bond}", "{kind: friction, coefficient: 5}", NULL }, 0.01, 0 },
+        { { 2, 25, 0, -0.01, 0, "{force: bond}", "{kind: friction, coefficient: 5}", NULL }, 0.01, 0 },
+        { { 3, 20, 0, -0.01, 0, "{force: bond}", "{kind: friction, coefficient: 5}", NULL }, 0.02, 0 },
+        { { 2, 25, 0.2, -0.01, 0, "{force: lps, weighted_volume: live}", "{kind: friction, coefficient: 5}",
+            NULL }, 0.06, 0 },
+        { { 2, 0, 0, -0.01, 0.02, "{force: bond}", "{kind: normal}", NULL }, 0, 1e-3 },
+        { { 2, 0, 0, -0.01, 0.02, "{force: bond}", "{kind: friction, coefficient: 0.2}", NULL }, 0, 0.01 },
+        { { 2, 25, 0, -0.01, 0, "{force: bond}", "{kind: normal}", NULL }, 0, 0.03 },
+        { { 2, 25, 0, -0.01, 0, "{force: gmpd}", "{kind: friction, coefficient: 0.2}", NULL }, 0, 0.06 },
+        { { 3, 20, 0, -0.01, 0, "{force: bond}", "{kind: friction, coefficient: 0.1}", NULL }, 0, 0.03 },
+    };
+    for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
+        borne of[3];
+        block l = row[i].l;
+        l.solver = fixed;
+        for (int way = WHOLE; way <= FOUND; way++) {
+            run r = block_of (&l, way);
+            if (way == FOUND) cut (&r, l.tilt);
+            of[way] = borne_by (&r, (size_t) l.dim);
+            clear (&r);
+        }
+        print_message ("%dD %s, slope %g, moved %g, drag %g, %s: energy over that of the whole body %.4f "
+                       "(crack) and %.4f (bonds), pressure %.4f and %.4f, slip %.5f and %.5f, friction %.3g "
+                       "and %.3g\n", l.dim, l.method, l.tilt, l.perturb, l.drag, l.contact,
+                       of[KNOWN].energy / of[WHOLE].energy, of[FOUND].energy / of[WHOLE].energy,
+                       of[KNOWN].pressure, of[FOUND].pressure,
+                       of[KNOWN].slip, of[FOUND].slip, of[KNOWN].friction, of[FOUND].friction);
+        if (row[i].whole > 0) check_relative (of[FOUND].energy, of[WHOLE].energy, row[i].whole);
+        if (row[i].whole > 0) assert_true (of[FOUND].slip < 1e-12);
+        if (row[i].slip > 0) check_relative (of[FOUND].slip, of[KNOWN].slip, row[i].slip);
+        check_relative (of[FOUND].energy, of[KNOWN].energy, 0.06);
+        check_scaled (of[FOUND].friction, of[KNOWN].friction, 0.06, of[KNOWN].energy);
+    }
+}
+
+/* A block with two notches, drawn apart until it has broken, then pressed. */
+static run notched (const char *failure, const char *table, const char *solver, int threads)
+{
+    return scene_of (threads,
+        "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [-1, -1], high: [1, 1]}}}]\n"
+        "spacing: 0.1\nlattice: cells\n"
+        "cracks: [{from: [-2, 0.02], to: [-0.5, 0.02]}, {from: [0.5, 0.02], to: [2, 0.02]}]\n"
+        "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.3333333333333333, density: 1}}\n"
+        "method: {force: bond}\n%scontact: {kind: friction, coefficient: 0.3}\nboundary:\n"
+        "  - {set: top, displacement: {x: 0, y: 0.02}, table: %s}\n"
+        "  - {set: bottom, displacement: {x: 0, y: 0}}\nsolver: %s\noutput: {at: {levels: 1}}\n", failure,
+        table, solver);
+}
+
+/* What breaks in tension closes when the load turns round, and bears as the notched body does whose notches
+ * alone are cracks; what breaking took stays what it was. By relaxation other bonds break, more of them. */
+static void what_broke_closes (void **state)
+{
+    (void) state;
+    static const char *const ways[] = { "{kind: static, stepping: fixed, steps: 12}",
+                                        "{kind: adr, stages: 12, imbalance: 1e-9}",
+                                        "{kind: relax, stages: 12, imbalance: 1e-9}" };
+    run whole = notched ("", "[[0, 0], [1, -0.1]]", fixed, 1);
+    to_the_end (&whole);
+    double stored = pg_solver_report_now (whole.solver)->energy_strain;
+    clear (&whole);
+    for (int w = 0; w < 3; w++) {
+        run r = notched ("failure: {criterion: stretch, critical_stretch: 4e-3}\n",
+                         "[[0, 0], [0.5, 1], [0.9166666666666667, 0], [1, -0.1]]", ways[w], 1 + w % 2);
+        for (int step = 0; step < 8; step++) advance (&r);
+        const pg_statistics *s = pg_solver_report_now (r.solver);
+        double taken = s->energy_dissipated;
+        long broken = r.state->broken;
+        assert_true (broken > 300 && s->energy_strain < 1e-9 * taken && s->overlap_max == 0);
+        to_the_end (&r);
+        s = pg_solver_report_now (r.solver);
+        print_message ("%s: %ld bonds broken, stored %.4f of the body without a crack between the notches, "
+                       "overlap %.1e spacings, taken by breaking %.12g then %.12g, friction %.1e\n", ways[w],
+                       r.state->broken / 2, s->energy_strain / stored, s->overlap_max / 0.1, taken,
+                       s->energy_dissipated, s->energy_friction);
+        assert_int_equal (r.state->broken, broken);
+        check_relative (s->energy_strain, stored, w ? 0.04 : 0.03);
+        check_relative (s->energy_dissipated, taken, 1e-9);
+        assert_true (s->overlap_max < (w ? 3e-3 : 1e-3) * 0.1);
+        clear (&r);
+    }
+}
+
+int main (void)
+{
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (a_body_cut_in_two),
+        cmocka_unit_test (slips_as_a_crack_of_the_scene),
+        cmocka_unit_test (what_broke_closes),
+    };
+    return cmocka_run_group_tests_name ("contact/broken_faces", tests, NULL, NULL);
+}
