@@ -22,11 +22,9 @@ typedef struct {
 /* The default of the key with this pattern, NULL: it has none. */
 static const pg_node *default_of (const pg_scene *s, const char *pattern)
 {
-    for (size_t k = 0; k < s->schema.n; k++) {
-        const pg_node *node = &s->fallback[k];
-        if (strcmp (s->schema.row[k]->path, pattern) == 0 && node->origin) return node;
-    }
-    return NULL;
+    size_t k = pg_schema_next (&s->schema, pattern, 0);
+    while (k < s->schema.n && !s->fallback[k].origin) k = pg_schema_next (&s->schema, pattern, k + 1);
+    return k < s->schema.n ? &s->fallback[k] : NULL;
 }
 
 /* Element i of a list; a single value is a list of one. */

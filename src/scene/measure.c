@@ -218,12 +218,13 @@ pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
     if (n >= WORD) return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s...'", word);
     /* Without the database, if possible. */
     if (is_common (m, word, n)) return PG_OK;
-    pthread_once (&database.once, load);
-    if (!database.units)
-        return pg_error (PG_E_FILE, PG_HERE,
-                         "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");
+    /* an expression is asked as well whether it is a number with a unit: nothing to read for that */
     int good = well_formed (word);
     if (good) {
+        pthread_once (&database.once, load);
+        if (!database.units)
+            return pg_error (PG_E_FILE, PG_HERE,
+                             "the unit database of udunits2 cannot be read (see UDUNITS2_XML_PATH)");
         /* A unit that was met before, or udunits2. */
         pthread_mutex_lock (&database.lock);
         size_t k = place_of (word);

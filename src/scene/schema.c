@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Finds the row of a key table for a place in the scene. A pattern is a path in which {} stands for a name
  * chosen by the user and [] for an element of a list: "materials.{}.density", "body[].add.disk.radius". All
- * searches are linear in the number of rows, some hundreds, which takes no time beside reading the file. */
+ * searches are linear in the number of rows, some hundreds. */
 #include "schema.h"
 #include "unit.h"
 #include <string.h>
@@ -24,13 +24,20 @@ void pg_schema_clear (pg_schema *s)
     *s = (pg_schema) { 0 };
 }
 
-/* What follows the pattern in the path, if it leads there; else NULL. */
-static const char *rest_of (const char *path, const char *pattern)
+/* What follows the pattern in the path, if it leads there; else NULL. Most paths differ in their first
+ * letters: no call pays for that. */
+static inline const char *rest_of (const char *path, const char *pattern)
 {
-    size_t n = strlen (pattern);
-    if (strncmp (path, pattern, n) != 0) return NULL;
-    path += n;
-    return *path == '\0' || *path == '.' || *path == '[' || n == 0 ? path : NULL;
+    const char *begin = path;
+    for (; *pattern; pattern++, path++) if (*path != *pattern) return NULL;
+    return *path == '\0' || *path == '.' || *path == '[' || path == begin ? path : NULL;
+}
+
+/* Are two paths one? */
+static inline int same_path (const char *a, const char *b)
+{
+    while (*a && *a == *b) a++, b++;
+    return *a == *b;
 }
 
 /* Does any row begin with the pattern? */
@@ -82,15 +89,20 @@ static int takes (pg_kind kind, pg_node_shape shape)
 const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_node_shape shape)
 {
     for (size_t k = 0; k < s->n; k++)
-        if (takes (s->row[k]->kind, shape) && strcmp (s->row[k]->path, pattern) == 0) return s->row[k];
+        if (same_path (s->row[k]->path, pattern) && takes (s->row[k]->kind, shape)) return s->row[k];
     return NULL;
 }
 
 const pg_key *pg_schema_any (const pg_schema *s, const char *pattern)
 {
-    for (size_t k = 0; k < s->n; k++)
-        if (strcmp (s->row[k]->path, pattern) == 0) return s->row[k];
-    return NULL;
+    size_t k = pg_schema_next (s, pattern, 0);
+    return k < s->n ? s->row[k] : NULL;
+}
+
+size_t pg_schema_next (const pg_schema *s, const char *pattern, size_t from)
+{
+    while (from < s->n && !same_path (s->row[from]->path, pattern)) from++;
+    return from;
 }
 
 int pg_schema_opens (const pg_schema *s, const char *pattern, char next)

@@ -23,6 +23,8 @@ int  pg_schema_item  (const pg_schema *s, char pattern[PG_PATTERN]);
 /* The row of exactly this pattern that takes such a node, or any row of it; NULL: there is none. */
 const pg_key *pg_schema_row (const pg_schema *s, const char *pattern, pg_node_shape shape);
 const pg_key *pg_schema_any (const pg_schema *s, const char *pattern);
+/* The next row of this pattern from row `from` on; s->n: there is none. */
+size_t pg_schema_next (const pg_schema *s, const char *pattern, size_t from);
 /* Does some path continue the pattern by `next`, '.' or '[' ? */
 int  pg_schema_opens (const pg_schema *s, const char *pattern, char next);
 /* Names one level below the pattern, "a|b|c", each once, without {}. */
