@@ -526,7 +526,7 @@ pg_status galerkin_elements (void *self, pg_elements *out)
     add_penalties (g, &out->Q);
     if (!g->problem->approx.type->interpolates) PG_TRY (elements_values (g, &out->Q, &out->N));
     PG_TRY (choose_polynomial (g->problem, out));
-    out->spacing = g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);
+    out->spacing = (b.classes ? 2 : 1) * g->problem->cloud.h, out->reach = sqrt (b.reach) * (1 + 1e-9);
     for (int k = 0; k < g->dim && g->problem->cloud.regular; k++) out->lattice[k] = g->problem->cloud.step[k];
 done:
     element_list_clear (&b);

@@ -21,6 +21,7 @@ typedef struct {
     int    *cell;                                      /* kind of element, NO_CELL: of a point, SPRINGS */
     double *weight;                                    /* of the point */
     double  reach;
+    int     classes;                                   /* boxes join nodes of one class, two steps apart */
     double *K, *last;                                  /* matrix of an element; of the last whole cell */
     double  shape[MOST_NODES * 3]; int shape_kind; const pg_material *shape_material;
 } element_list;

@@ -10,6 +10,11 @@
  * by `wider` farther until there are enough. */
 static const double near_by = 1.45, near_facet = 1.2, wider = 0.3;
 
+/* Boxes by dimension, and the order of their corners. */
+static const pg_element box_kind[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
+static const unsigned char box_corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
+                                                { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
+
 /* ---- which nodes --------------------------------------------------------------------------------------- */
 /* Where node j stands in the family of point p; SIZE_MAX: nowhere. */
 static size_t entry_of (const pg_rows *r, size_t p, int j)
@@ -105,10 +110,9 @@ static pg_element straight (pg_element kind)
  * that the surface cuts has the corners of the box. */
 static int whole_cell (const galerkin *g, size_t cell, size_t first, size_t last, int *node)
 {
-    static const pg_element box[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
     int kind = g->problem->cells.kind[cell];
     if (first == last) return NO_CELL;
-    if (kind == PG_CUT) kind = (int) box[g->dim];
+    if (kind == PG_CUT) kind = (int) box_kind[g->dim];
     if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) {
         kind = (int) straight ((pg_element) kind);
         if (!find_nodes (g, cell, (size_t) pg_element_types[kind].nodes, first, last, node)) return NO_CELL;
@@ -226,13 +230,60 @@ done:
     return status;
 }
 
-/* Nodal integration: every node. */
+/* ---- nodal integration --------------------------------------------------------------------------------- */
+/* The node that stands `shift` from node i, which still sees it; -1: there is none. */
+static int seen_at (const galerkin *g, size_t i, const double *shift)
+{
+    const pg_rows *r = &g->rows[PG_NODES];
+    double x[3], d2, h = 0.6 * g->problem->cloud.h;
+    for (int c = 0; c < g->dim; c++) x[c] = place (g, (int) i)[c] + shift[c];
+    int node = elements_nearest (g, r, i, x, &d2);
+    if (node < 0 || d2 > h * h || elements_broken (g, r, i, entry_of (r, i, node))) return -1;
+    return node;
+}
+
+/* On a lattice the gradient at node i is a difference between its neighbours on both sides, so that nodes of
+ * odd and even places along an axis hardly know of each other: each of the 2^dim classes of nodes may move by
+ * itself with next to no energy. So shall the elements: the box from the neighbours on one side to those on
+ * the other, two steps wide, whose corners are all of one class; along an axis on which a neighbour is
+ * missing, where the gradient is one-sided and ties classes together, from node i on. Its nodes, and its size
+ * over that of a cell; 0: node i does not see all corners. */
+static size_t box_around (const galerkin *g, size_t i, int *node, double *size)
+{
+    const double *step = g->problem->cloud.step;
+    size_t m = (size_t) 1 << g->dim;
+    double end[3][2], shift[3];
+    *size = 1;
+    for (int c = 0; c < g->dim; c++) {
+        for (int s = 0; s < 2; s++) {
+            memset (shift, 0, sizeof shift), shift[c] = s ? step[c] : -step[c];
+            end[c][s] = seen_at (g, i, shift) >= 0 ? shift[c] : 0;
+        }
+        *size *= (end[c][1] - end[c][0]) / step[c];
+    }
+    for (size_t k = 0; k < m && *size > 0; k++) {
+        for (int c = 0; c < g->dim; c++) shift[c] = end[c][box_corner[k][c]];
+        node[k] = seen_at (g, i, shift);
+        if (node[k] < 0) return 0;
+    }
+    return *size > 0 ? m : 0;
+}
+
+/* Every node: on a lattice the box around it, where nothing resists what alternates. */
 static pg_status list_nodes (element_list *b)
 {
     pg_status status = PG_OK;
     const galerkin *g = b->g;
     const pg_problem *p = g->problem;
-    for (size_t i = 0; i < g->n; i++) PG_TRY (append_point (b, i, p->cloud.volume[i]));
+    int boxes = p->cloud.regular && !(g->options->silling > 0), node[8];
+    double whole = p->cloud.thickness, size;
+    for (int k = 0; k < g->dim; k++) whole *= p->cloud.step[k];
+    for (size_t i = 0; i < g->n; i++) {
+        size_t m = boxes ? box_around (g, i, node, &size) : 0;
+        if (m) PG_TRY (append (b, i, (int) box_kind[g->dim], p->cloud.volume[i] / (whole * size), m, node));
+        else PG_TRY (append_point (b, i, p->cloud.volume[i]));
+        b->classes |= m > 0;
+    }
 done:
     return status;
 }
@@ -242,13 +293,11 @@ done:
  * are not as many. */
 static size_t box_of (const galerkin *g, size_t i, int *node)
 {
-    static const unsigned char corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
-                                                { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
     size_t m = (size_t) 1 << g->dim;
     double x[3], d2, h = 0.6 * g->problem->cloud.h;
     for (size_t k = 0; k < m; k++) {
         for (int c = 0; c < g->dim; c++)
-            x[c] = place (g, (int) i)[c] + corner[k][c] * g->problem->cloud.step[c];
+            x[c] = place (g, (int) i)[c] + box_corner[k][c] * g->problem->cloud.step[c];
         node[k] = elements_nearest (g, &g->rows[PG_NODES], i, x, &d2);
         if (node[k] < 0 || d2 > h * h) return 0;
         for (size_t l = 0; l < k; l++) if (node[l] == node[k]) return 0;
@@ -273,7 +322,6 @@ static int parted (const galerkin *g, size_t m, const int *node)
  * boxes, and points without any, become elements around the points. */
 static pg_status list_boxes (element_list *b)
 {
-    static const pg_element kind[4] = { PG_POINT1, PG_BAR2, PG_QUAD4, PG_HEX8 };
     pg_status status = PG_OK;
     const galerkin *g = b->g;
     const pg_problem *p = g->problem;
@@ -294,7 +342,7 @@ static pg_status list_boxes (element_list *b)
         int apart = m && parted (g, m, node);
         for (size_t k = 0; k < m; k++) share += part[node[k]] / whole;
         for (size_t k = 0; k < m && apart; k++) own[node[k]] += part[node[k]];
-        if (m && !apart) PG_TRY (append (b, i, kind[g->dim], share, m, node));
+        if (m && !apart) PG_TRY (append (b, i, (int) box_kind[g->dim], share, m, node));
     }
     for (size_t i = 0; i < g->n; i++) if (own[i] > 0) PG_TRY (append_point (b, i, own[i]));
 done:
