@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The catalogue of linear solvers: the entries of list.h as a table and as a string of names. */
+#include "failed_row.h"
 #include "perigal/linalg.h"
 #include <stdio.h>
 #include <string.h>
@@ -39,6 +40,11 @@ const pg_linear_type *pg_linear_first (int symmetric, int factors)
         if (entries[i]->symmetric == symmetric && entries[i]->factors == factors) return entries[i];
     return NULL;
 }
+
+/* A diagnosis asks for it after a failed factorisation, on the same thread. */
+static _Thread_local long failed_row = -1;
+long pg_linear_failed_row (void) { return failed_row; }
+void linear_failed_at (long row) { failed_row = row; }
 
 /* "auto" is no entry: the solver of the scene chooses one. */
 static const char names[] = ""

@@ -7,6 +7,7 @@
  *
  * The forecast analyses the graph of the nodes alone: a column with c entries there stands for m columns of
  * the unknowns with m (c - 1) + m, ..., m (c - 1) + 1 entries; a column of e entries costs e^2 operations. */
+#include "failed_row.h"
 #include "supernodal.h"
 #include <math.h>
 #include <stdint.h>
@@ -25,10 +26,6 @@ typedef struct {
     double pivots;
     supernodal_solver few;
 } chol;
-
-/* A diagnosis asks for it after a failed factorisation, on the same thread. */
-static _Thread_local long failed_row = -1;
-long pg_linear_failed_row (void) { return failed_row; }
 
 /* CHOLMOD may not print; its status is looked at instead. */
 static void quiet (int status, const char *file, int line, const char *message)
@@ -227,7 +224,8 @@ static pg_status chol_factor (void *self, const pg_sparse *A)
     /* minor: the first column that could not be factored, in the permuted numbering. */
     if (c->common.status == CHOLMOD_NOT_POSDEF || (c->common.status >= 0 && c->L->minor < A->ncol)) {
         SuiteSparse_long *perm = c->L->Perm;
-        failed_row = (long) (c->L->minor < A->ncol ? perm[c->L->minor] : 0);
+        long failed_row = (long) (c->L->minor < A->ncol ? perm[c->L->minor] : 0);
+        linear_failed_at (failed_row);
         PG_FAIL (PG_E_NOT_SPD, "the stiffness matrix is not positive definite at unknown %ld of %zu",
                  failed_row, A->ncol);
     }

@@ -99,7 +99,7 @@ static void choose_linear (pg_forecast *f)
                    ? !f->dynamic
                          && pg_method_iterates (f->method, 1, f->dim, f->points * (f->dim + f->rotations))
                    : by_elements (f);
-    f->linear = none ? NULL : pg_linear_usual (1, 1);
+    f->linear = none ? NULL : f->linear ? f->linear : pg_linear_usual (1, 1);
 }
 
 const char *pg_forecast_linear (const pg_forecast *f) { return f->linear ? f->linear->name : "cg"; }

@@ -229,7 +229,9 @@ static pg_status analyse (pg_system *s)
     int reduced = s->nred != s->ndof;
     pg_linear_options o = { reduced ? 1 : s->components, s->problem->dim, s->problem->threads,
                             0.01 * s->options->tolerance, s->problem->criterion->type != NULL };
-    PG_TRY (s->linear->analyse (&s->factor, &s->A, &o));
+    int free = strcmp (s->options->linear, "auto") == 0 && !s->options->plain;
+    if (free) PG_TRY (pg_linear_analyse (&s->linear, &s->factor, &s->A, &o));
+    else PG_TRY (s->linear->analyse (&s->factor, &s->A, &o));
     pg_linear_info info;
     s->linear->info (s->factor, &info);
     s->report->factor_entries = info.factor_entries, s->report->factor_flops = info.flops;

@@ -16,7 +16,9 @@ loaded() {   # names of the libraries that a command loads, at any time
 explicit=$(loaded run moving.yaml --set 'solver={kind: verlet, end: 6 us}' -o "$work/explicit" --force --threads 1 --set output.pictures=[])
 [ -s "$work/explicit/result.e" ]; verdict "an explicit run without pictures runs" $?
 ! grep -E 'cholmod|umfpack|openblas|cairo|netcdf|hdf5' <<< "$explicit"; verdict "and loads neither solvers nor cairo nor netCDF" $?
-static=$(loaded run plate.yaml -o "$work/static" --force --threads 1 --set output.pictures=[] --set 'failure={criterion: none}')
+small=$(loaded run plate.yaml -o "$work/small" --force --threads 1 --set output.pictures=[] --set 'failure={criterion: none}')
+! grep -E 'cholmod|openblas|cairo|netcdf|umfpack' <<< "$small"; verdict "a small static run loads no solver" $?
+static=$(loaded run plate.yaml --plain -o "$work/static" --force --threads 1 --set output.pictures=[] --set 'failure={criterion: none}')
 grep -q cholmod <<< "$static" && ! grep -E 'cairo|netcdf|umfpack' <<< "$static"; verdict "a static run loads CHOLMOD alone" $?
 drawn=$(loaded plot "$work/static" --out "$work/drawn.png")
 grep -q cairo <<< "$drawn" && ! grep -E 'cholmod|openblas|netcdf' <<< "$drawn"; verdict "a picture loads cairo alone" $?
@@ -40,7 +42,7 @@ first() {   # the first number of threads that a run with these options sets
 }
 [ "$(first --threads 3)" = 3 ] && [ "$(first --threads=3)" = 3 ] && [ "$(first --thr=5)" = 5 ] && [ "$(first --threads 2 --threads=4)" = 4 ]
 verdict "--threads reaches the libraries, in every spelling" $?
-set=$(env -u OMP_THREAD_LIMIT LD_PRELOAD="$work/shown.so" "$perigal" run plate.yaml -o "$work/set" --threads 2 --set 'failure={criterion: none}' 2>&1 > /dev/null)
+set=$(env -u OMP_THREAD_LIMIT LD_PRELOAD="$work/shown.so" "$perigal" run plate.yaml -o "$work/set" --threads 2 --plain --set 'failure={criterion: none}' 2>&1 > /dev/null)
 grep -q '^setenv OMP_THREAD_LIMIT=1$' <<< "$set" && [ "$(grep '^setenv OPENBLAS' <<< "$set" | tail -1)" = "setenv OPENBLAS_NUM_THREADS=1" ]
 verdict "a small system is solved by one thread of BLAS" $?
 user=$(OMP_THREAD_LIMIT=2 LD_PRELOAD="$work/shown.so" "$perigal" check plate.yaml 2>&1 > /dev/null)

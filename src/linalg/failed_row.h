@@ -1,0 +1,7 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Private: how Cholesky factorisations tell pg_linear_failed_row which unknown had no positive pivot. */
+#ifndef PG_LINALG_FAILED_ROW_H
+#define PG_LINALG_FAILED_ROW_H
+/* Of the failed factorisation on this thread; catalogue.c. */
+void linear_failed_at (long row);
+#endif
