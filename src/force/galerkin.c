@@ -192,7 +192,8 @@ done:
 }
 
 /* The same by K x, one pass over the shape functions instead of two. Loads do not depend on d; only supports
- * ask for it. */
+ * ask for it. With a projected dilatation K x has the flux through supported facets already (Nitsche), which
+ * the boundary adds too. */
 static pg_status galerkin_balance_lean (void *self, double t, const double *d, double *residual,
                                         double *reference)
 {
@@ -200,7 +201,8 @@ static pg_status galerkin_balance_lean (void *self, double t, const double *d, d
     galerkin *g = self;
     size_t ndof = g->n * (size_t) g->dim;
     double inside = 0, external = 0, reaction = 0;
-    if (galerkin_eigen_pairs (g)) return galerkin_balance (self, t, d, residual, reference);
+    if (galerkin_eigen_pairs (g) || (g->dilatation && g->nnitsche))
+        return galerkin_balance (self, t, d, residual, reference);
     PG_TRY (galerkin_sight_ready (g, 1));
     memset (residual, 0, ndof * sizeof *residual);
     if (g->nnitsche || g->dilatation) galerkin_measure (g, PG_FACETS, d);
