@@ -19,9 +19,10 @@ static const char plate[] =
     "tolerance: 1e-12, plain: %s}\noutput: {at: {levels: 3}}\n";
 
 static const struct { const char *plane, *criterion, *integration, *essential, *dt, *end, *broken; } runs[] = {
-    { "stress", "principal_stress, tensile_strength: 30 MPa", "gauss", "transformation", "0.5 us", "20 us", "worst" },
-    { "stress", "mohr_coulomb, tensile_strength: 30 MPa, cohesion: 40 MPa, friction_angle: 30 deg", "nodal",
-      "nitsche", "0.5 us", "20 us", "fraction" },
+    { "stress", "principal_stress, tensile_strength: 30 MPa", "gauss", "transformation",
+      "0.5 us", "20 us", "worst" },
+    { "stress", "mohr_coulomb, tensile_strength: 30 MPa, cohesion: 40 MPa, friction_angle: 30 deg",
+      "nodal", "nitsche", "0.5 us", "20 us", "fraction" },
     { "stress", "stretch, critical_stretch: 5e-4", "gauss", "penalty", "0.1 us", "4 us", "fraction" },
     { "strain", "principal_stress, tensile_strength: 30 MPa", "gauss, dilatation: projected", "nitsche",
       "0.5 us", "5 us", "worst" },
@@ -31,8 +32,8 @@ enum { RUNS = sizeof runs / sizeof *runs };
 
 static run start (int k, int plain)
 {
-    return scene_of (1, plate, runs[k].plane, runs[k].criterion, runs[k].integration, runs[k].essential, runs[k].dt,
-                     runs[k].end, runs[k].broken, plain ? "true" : "false");
+    return scene_of (1, plate, runs[k].plane, runs[k].criterion, runs[k].integration, runs[k].essential,
+                     runs[k].dt, runs[k].end, runs[k].broken, plain ? "true" : "false");
 }
 
 static double size (const double *a, size_t n)
@@ -87,7 +88,8 @@ static void guesses_spare_iterations (void **state)
     (void) state;
     size_t used[2];
     for (int plain = 0; plain < 2; plain++) {
-        run r = scene_of (1, plate, "stress", "principal_stress, tensile_strength: 1 GPa", "gauss", "transformation",
+        run r = scene_of (1, plate, "stress", "principal_stress, tensile_strength: 1 GPa", "gauss",
+                          "transformation",
                           "0.1 us", "6 us", "worst", plain ? "true" : "false");
         to_the_end (&r);
         const pg_statistics *report = pg_solver_report (r.solver, r.state);
