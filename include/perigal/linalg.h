@@ -259,6 +259,11 @@ typedef struct {
     int     aligned;
     /* Degree of the smoothing polynomial; 0: 2. */
     int     degree;
+    /* Of ranks that share the nodes of a lattice (aligned): which are owned, borrowed. Rows of nodes within
+     * four sites of owned ones are complete, and nodes within five of them held. All ranks call; what is
+     * below the first coarse grid is given from outside (pg_shared_preconditioner). Vectors are read and
+     * written at owned nodes. NULL: alone. */
+    const pg_subdomain *subdomain;
 } pg_multilevel_setting;
 
 /* What the preconditioner reports. */
@@ -287,6 +292,8 @@ void      pg_multilevel_free   (pg_multilevel **multilevel);
 pg_preconditioner pg_multilevel_preconditioner (pg_multilevel *multilevel);
 /* Fills in the report. */
 void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel_info *info);
+/* The same of ranks that share it, in words. */
+void      pg_multilevel_describe_shared (const pg_multilevel *multilevel, char *text, size_t size);
 /* ---- a preconditioner that ranks share ----------------------------------------------------------------- */
 /* What it is built from: rows of the nodes that this rank owns, whose couplings are with nodes held here. */
 typedef struct {

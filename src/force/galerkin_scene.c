@@ -82,18 +82,6 @@ static void check_elimination (const pg_problem *p, const pg_load *load, const p
                     pg_rank_count ());
 }
 
-/* Stiff springs are taken out of the iterations by a factor that ranks do not share so far. */
-static void check_penalty (const pg_problem *p, const pg_load *load, const pg_scene *scene, size_t i)
-{
-    char path[64];
-    if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_PENALTY || load->penalty <= 30) return;
-    if (!p->cloud.subdomain) return;
-    snprintf (path, sizeof path, "boundary[%zu]", i);
-    pg_scene_fault (scene, path, "%d ranks: essential: penalty (here of %g E / spacing) is for one process "
-                    "only so far: use essential: nitsche on facets, method.penalty_factor up to 30, or "
-                    "division: matrices", pg_rank_count (), load->penalty);
-}
-
 /* Unless the scene says how: Nitsche's terms on facets; a penalty on the points of a set with an inside,
  * which its facets would leave free, and of a set too large to eliminate; else elimination, always where
  * the shape functions are 1 at their own nodes. */
@@ -111,14 +99,12 @@ void galerkin_support (const pg_problem *p, pg_load *load, const pg_scene *scene
     load->penalty = o->penalty;
     if (strcmp (how, "auto") != 0 || eliminate || !large) {
         check_elimination (p, load, scene, i);
-        check_penalty (p, load, scene, i);
         return;
     }
     load->essential = PG_ESSENTIAL_PENALTY;
     /* no shorter time step than with Nitsche's terms */
     if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT))
         load->penalty = fmin (o->penalty, o->nitsche);
-    check_penalty (p, load, scene, i);
 }
 
 /* The estimate knows Nitsche's terms; supports by a penalty are not in it. */

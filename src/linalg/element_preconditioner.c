@@ -18,6 +18,7 @@
  * p interpolates a given function at the Chebyshev nodes of [low, high] and is evaluated by the recurrence
  * T_k+1 = 2 s T_k - T_k-1 of s = (x - middle) / half. */
 #include "perigal/linalg.h"
+#include "shared_springs.h"
 #include "wide.h"
 #include <math.h>
 #include <stdio.h>
@@ -40,9 +41,7 @@ struct pg_element_preconditioner {
     /* N', by rows. */
     pg_node_matrix transposed;
     pg_multilevel *multilevel;
-    /* of ranks that share the body, in its place */
-    void          *shared;
-    const pg_subdomain *subdomain;
+    const pg_subdomain *subdomain;                     /* of ranks that share the body */
     pg_operator    Q;
     int     terms;
     double  middle, half, c[MOST_TERMS];
@@ -279,7 +278,6 @@ void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
     pg_elements_clear (&P->elements);
     pg_node_matrix_clear (&P->transposed);
     pg_multilevel_free (&P->multilevel);
-    if (P->shared) pg_shared_preconditioner_now ()->free (&P->shared);
     pg_free (P->alike.run), pg_free (P->alike_transposed.run);
     if (P->factor) P->direct->free (&P->factor);
     pg_free (P->t[0]), pg_free (P->t[1]), pg_free (P->left), pg_free (P->right);
@@ -306,19 +304,21 @@ done:
     return status;
 }
 
-/* W'W by Cholesky: the congruence of the unit matrix. */
+/* W'W by Cholesky: the congruence of the unit matrix. Ranks have the springs of all from here on. */
 static pg_status factor_springs (pg_element_preconditioner *P, size_t ndof, int threads)
 {
     pg_status status = PG_OK;
-    pg_sparse unit = { 0 }, G = { 0 };
+    pg_sparse unit = { 0 }, G = { 0 }, whole = { 0 };
     pg_linear_options o = { 1, 3, threads, 0, 1 };
-    size_t n = P->elements.W.ncol;
-    if (n == 0) return PG_OK;
+    if (P->subdomain) PG_TRY (springs_share (&P->elements, P->subdomain, &whole));
+    const pg_sparse *W = P->subdomain ? &whole : &P->elements.W;
+    size_t n = W->ncol, nrow = W->nrow;
+    if (n == 0) goto done;
     P->direct = pg_linear_first (1, 1);
-    PG_TRY (pg_sparse_create (&unit, ndof, ndof, ndof, 1));
-    for (size_t i = 0; i < ndof; i++)
+    PG_TRY (pg_sparse_create (&unit, nrow, nrow, nrow, 1));
+    for (size_t i = 0; i < nrow; i++)
         unit.row[i] = (long) i, unit.value[i] = 1, unit.start[i + 1] = (long) i + 1;
-    PG_TRY (pg_sparse_congruence (&G, &unit, &P->elements.W));
+    PG_TRY (pg_sparse_congruence (&G, &unit, W));
     PG_TRY (P->direct->analyse (&P->factor, &G, &o));
     PG_TRY (P->direct->factor (P->factor, &G));
     PG_ALLOC (P->force, n);
@@ -326,15 +326,14 @@ static pg_status factor_springs (pg_element_preconditioner *P, size_t ndof, int 
     PG_ALLOC (P->part, n);
     PG_ALLOC (P->rest, ndof);
 done:
-    pg_sparse_clear (&unit), pg_sparse_clear (&G);
+    pg_sparse_clear (&unit), pg_sparse_clear (&G), pg_sparse_clear (&whole);
     return status;
 }
 
-/* V: a multilevel cycle of the elements, or what ranks make of their rows, who then have Q themselves. Of
- * elements on a coarse grid no unknown is fixed: their functions leave out what is. */
+/* V: a multilevel cycle of the elements. Of elements on a coarse grid no unknown is fixed: their functions
+ * leave out what is. */
 static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_setting *s)
 {
-    pg_status status = PG_OK;
     pg_elements *e = &P->elements;
     pg_block_matrix *Q = &e->Q;
     pg_multilevel_setting m = { .dim = s->dim,
@@ -345,17 +344,11 @@ static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_sett
                                 .fixed = e->hats.count ? NULL : P->fixed,
                                 .A = &P->Q,
                                 .rows = pg_block_couplings (Q, e->reach),
-                                .step = 2.5 * e->spacing / e->reach, .aligned = 1 };
+                                .step = 2.5 * e->spacing / e->reach, .aligned = 1,
+                                .subdomain = s->subdomain };
     memcpy (m.rows.lattice, e->lattice, sizeof m.rows.lattice);
     P->Q = pg_block_operator (Q);
-    if (!s->subdomain) return pg_multilevel_create (&P->multilevel, &m);
-    pg_shared_rows rows = { .k = 1, .dim = s->dim, .block = Q->block, .x = s->x, .fixed = P->fixed,
-                            .subdomain = s->subdomain, .rows = m.rows };
-    PG_TRY (pg_shared_preconditioner_now ()->create (&P->shared, &rows));
-    pg_free (Q->start), pg_free (Q->node), pg_free (Q->value);
-    Q->start = NULL, Q->node = NULL, Q->value = NULL;
-done:
-    return status;
+    return pg_multilevel_create (&P->multilevel, &m);
 }
 
 /* The polynomial and what it works on. */
@@ -388,9 +381,9 @@ pg_status pg_element_preconditioner_create (pg_element_preconditioner **out, pg_
     pg_block_matrix *Q = &P->elements.Q;
     const pg_hats *hats = &P->elements.hats;
     size_t ndof = (hats->count ? hats->n : Q->n) * (size_t) Q->block;
+    P->subdomain = s->subdomain;
     PG_TRY (find_fixed (P, s->fixed, ndof));
     PG_TRY (factor_springs (P, ndof, Q->threads));
-    P->subdomain = s->subdomain;
     PG_TRY (make_cycle (P, s));
     if (hats->count) {
         PG_ALLOC (P->left, Q->n * (size_t) Q->block);
@@ -407,7 +400,6 @@ done:
 /* z = V r */
 static pg_status cycle (pg_element_preconditioner *P, const double *r, double *z)
 {
-    if (P->shared) return pg_shared_preconditioner_now ()->solve (P->shared, r, z);
     pg_preconditioner V = pg_multilevel_preconditioner (P->multilevel);
     return V.solve (V.context, r, z);
 }
@@ -444,8 +436,12 @@ done:
 /* c = (W'W)^-1 W' x */
 static pg_status take_along (pg_element_preconditioner *P, const double *x, double *c)
 {
+    pg_status status = PG_OK;
     pg_sparse_multiply_transposed (&P->elements.W, x, P->part);
-    return P->direct->solve (P->factor, 1, P->part, c);
+    if (P->subdomain) PG_TRY (pg_ranks_sum (P->elements.W.ncol, P->part));
+    PG_TRY (P->direct->solve (P->factor, 1, P->part, c));
+done:
+    return status;
 }
 
 /* to = x - W c */
@@ -464,7 +460,6 @@ static pg_status solve (void *context, const double *r, double *z)
     pg_element_preconditioner *P = context;
     if (!P->factor) {
         PG_TRY (solve_elements (P, r, z));
-        pg_subdomain_clear_ghosts (P->subdomain, (size_t) P->elements.Q.block, z);
         goto done;
     }
     PG_TRY (take_along (P, r, P->force));
@@ -477,6 +472,7 @@ static pg_status solve (void *context, const double *r, double *z)
     for (size_t c = 0; c < P->elements.W.ncol; c++) P->along[c] = -P->along[c];
     take_off (P, z, P->along, z);
 done:
+    pg_subdomain_clear_ghosts (P->subdomain, (size_t) P->elements.Q.block, z);
     return status;
 }
 
@@ -493,7 +489,7 @@ int pg_element_preconditioner_on_grid (const pg_element_preconditioner *P)
 void pg_element_preconditioner_describe (const pg_element_preconditioner *P, char *text, size_t size)
 {
     size_t at = (size_t) snprintf (text, size, "finite elements, ");
-    if (P->shared && at < size) pg_shared_preconditioner_now ()->describe (P->shared, text + at, size - at);
+    if (at < size) pg_multilevel_describe_shared (P->multilevel, text + at, size - at);
 }
 
 const pg_multilevel *pg_element_preconditioner_levels (const pg_element_preconditioner *P)

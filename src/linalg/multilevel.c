@@ -6,6 +6,7 @@
 #include "multilevel.h"
 #include <math.h>
 #include <stdint.h>
+#include <stdio.h>
 #include <string.h>
 
 /* Most unknowns of a coarsest level, unless there are MOST_LEVELS of them. */
@@ -35,6 +36,7 @@ static void level_clear (level *l, int finest)
                     finest ? NULL : l->z,
                     l->places };
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) pg_free (all[k]);
+    pg_subdomain_free (&l->made);
 }
 
 void pg_multilevel_free (pg_multilevel **multilevel)
@@ -42,6 +44,7 @@ void pg_multilevel_free (pg_multilevel **multilevel)
     pg_multilevel *m = *multilevel;
     if (!m) return;
     if (m->factor) m->direct->free (&m->factor);
+    if (m->shared) m->below->free (&m->shared);
     for (int k = 0; k < MOST_LEVELS; k++) level_clear (&m->at[k], k == 0);
     pg_free (m);
     *multilevel = NULL;
@@ -124,6 +127,10 @@ static pg_status make_levels (pg_multilevel *m, double step)
     for (;; step *= 2) {
         level *l = &m->at[m->count++];
         PG_TRY (make_vectors (l, m->count == 1));
+        if (m->count > 1 && l->part) {
+            PG_TRY (multilevel_pass_on (m, l));
+            break;
+        }
         if (m->count > 1 && (l->ndof <= DIRECT || m->count == MOST_LEVELS)) {
             PG_TRY (factor_coarsest (m, l));
             break;
@@ -131,6 +138,7 @@ static pg_status make_levels (pg_multilevel *m, double step)
         PG_TRY (level_bound (l));
         PG_TRY (level_space (l, step));
         PG_TRY (level_coarsen (&m->at[m->count], l));
+        PG_TRY (level_divide (&m->at[m->count], l));
     }
 done:
     return status;
@@ -155,10 +163,12 @@ pg_status pg_multilevel_create (pg_multilevel **out, const pg_multilevel_setting
     l->dim = s->dim, l->block = s->block, l->threads = s->threads > 1 ? s->threads : 1, l->n = s->n,
     l->ndof = s->n * (size_t) s->block;
     l->x = s->x, l->aligned = s->aligned;
-    l->A = s->A, l->rows = s->rows;
+    l->A = s->A, l->rows = s->rows, l->part = s->subdomain;
     for (int k = 0; k < 3; k++) l->reach[k] = s->rows.reach;
+    double step = (s->step > 0 ? s->step : 4.0 / 3) * s->rows.reach;
     PG_TRY (level_diagonal (l, s->fixed));
-    PG_TRY (make_levels (m, (s->step > 0 ? s->step : 4.0 / 3) * s->rows.reach));
+    PG_TRY (level_join (l, &step));
+    PG_TRY (make_levels (m, step));
     *out = m, m = NULL;
 done:
     pg_multilevel_free (&m);
@@ -186,4 +196,10 @@ void pg_multilevel_describe (const pg_multilevel *m, pg_multilevel_info *info)
         info->unknowns[k] = m->at[k].ndof, info->top[k] = m->at[k].top;
     for (size_t h = 0; m->count > 1 && h < m->at[0].nvertex; h++)
         info->split += m->at[0].first[h + 1] - m->at[0].first[h] > 1;
+}
+
+void pg_multilevel_describe_shared (const pg_multilevel *m, char *text, size_t size)
+{
+    size_t at = (size_t) snprintf (text, size, "%.0f unknowns, then ", m->unknowns);
+    if (m->shared && at < size) m->below->describe (m->shared, text + at, size - at);
 }

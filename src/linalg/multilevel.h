@@ -3,7 +3,8 @@
  * grids over the nodes (doc/method.md, How the systems are solved).
  *
  * Files: multilevel.c (creation, coarsest level), multilevel_space.c (coarse functions of a level),
- * multilevel_matrix.c (their matrix), multilevel_cycle.c (smoothing, transfers, the cycle).
+ * multilevel_matrix.c (their matrix), multilevel_cycle.c (smoothing, transfers, the cycle),
+ * multilevel_ranks.c (levels that ranks share).
  *
  * Unknown k of node i has the number i * block + k. A masked unknown (prescribed, or without stiffness)
  * takes no part: its inverse diagonal is stored as 0. Each vertex of a grid has a hat function,
@@ -65,6 +66,11 @@ typedef struct {
     /* Vectors of the cycle (ndof): right-hand side and solution (on the finest level the caller's),
      * residual, step, A times step. */
     double *b, *z, *r, *d, *q;
+    /* Of ranks: which nodes are owned here, and the halo; NULL: the process is alone. made: that of a coarse
+     * level, which is the level's own. origin: site 0 of the whole lattice, m. */
+    const pg_subdomain *part;
+    pg_subdomain *made;
+    double origin[3];
 } level;
 
 /* The levels, the factor of the coarsest matrix, and counts. */
@@ -76,6 +82,11 @@ struct pg_multilevel {
     void   *factor;
     const pg_linear_type *direct;
     size_t  applications;
+    /* Of ranks: what they make of the rows of level 1 together, instead of levels below; unknowns of the
+     * finest level, of all ranks. */
+    void   *shared;
+    const pg_shared_preconditioner *below;
+    double  unknowns;
 };
 
 /* ---- multilevel_space.c -------------------------------------------------------------------------------- */
@@ -99,4 +110,22 @@ void      level_multiply (const level *l, const double *x, double *y);
 pg_status level_bound (level *l);
 /* z = M b from level k down. */
 pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z);
+/* ---- multilevel_ranks.c: alone these do nothing -------------------------------------------------------- */
+/* Before functions are made of the finest level: all ranks take the largest step, m, the same unknowns that
+ * take no part, and the same origin. */
+pg_status level_join (level *l, double *step);
+/* Moves the first vertex of the grid along an axis down to one of all ranks. */
+void      level_align (level *l, int axis);
+/* Nodes are told by their owners which part of each hat function they are in; parts: numbers of parts of the
+ * hat functions, which become as many as there are. */
+pg_status level_agree_parts (level *l, size_t *parts);
+/* Which functions of f, nodes of c, are owned here, and the halo between them. */
+pg_status level_divide (level *c, const level *f);
+/* Ghosts of x (ndof) take the values of their owners. */
+pg_status level_exchange (const level *l, double *x);
+/* Sum over all ranks; not finite where they lose each other. */
+double    level_sum (const level *l, double mine);
+/* What ranks make of the rows of level l, and z of its unknowns by that. */
+pg_status multilevel_pass_on (pg_multilevel *m, level *l);
+pg_status multilevel_solve_below (pg_multilevel *m, const level *l, const double *b, double *z);
 #endif

@@ -153,17 +153,30 @@ static void take_off (void *context, size_t first, size_t last, int thread)
     for (size_t i = first; i < last; i++) w->l->r[i] -= w->l->q[i];
 }
 
+/* q = A d */
+static pg_status multiply_change (const level *l)
+{
+    pg_status status = PG_OK;
+    PG_TRY (level_exchange (l, l->d));
+    level_multiply (l, l->d, l->q);
+done:
+    return status;
+}
+
 /* `degree` steps of the smoother. b given: from z = 0. b NULL: a second smoothing of a z whose last change
  * d has not been taken from the residual yet, which the first step does. */
-static void smooth (const level *l, int degree, const double *b, double *z)
+static pg_status smooth (const level *l, int degree, const double *b, double *z)
 {
+    pg_status status = PG_OK;
     smoothing w = { .l = l, .x = b, .out = z };
     for (int k = 1; k <= degree; k++) {
         w.c1 = k > 1 ? (2 * k - 3) / (2.0 * k + 1) : 0;
         w.c2 = (8 * k - 4) / (2.0 * k + 1) / l->top;
-        if (k > 1 || !b) level_multiply (l, l->d, l->q);
+        if (k > 1 || !b) PG_TRY (multiply_change (l));
         pg_parallel (l->threads, l->ndof, k > 1 || !b ? next_step : first_step, &w);
     }
+done:
+    return status;
 }
 
 /* The two smoothings are the same polynomial, hence the cycle is symmetric. */
@@ -171,6 +184,7 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
 {
     pg_status status = PG_OK;
     level *l = &m->at[k];
+    if (k > 0 && m->shared) return multilevel_solve_below (m, l, b, z);
     /* On one thread: BLAS adds in another order on two, and the bits must not depend on their number. */
     if (k + 1 == m->count && m->factor) {
         pg_linear_threads (1);
@@ -178,28 +192,30 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
         pg_linear_threads (l->threads);
         return status;
     }
-    smooth (l, m->degree, b, z);
+    PG_TRY (smooth (l, m->degree, b, z));
     if (k + 1 == m->count) return PG_OK;
     level *c = &m->at[k + 1];
     smoothing down = { .l = l, .x = l->r, .out = c->b }, up = { .l = l, .x = c->z, .out = z };
     /* The residual of the smoothed z, which the last change d has not entered yet. */
-    level_multiply (l, l->d, l->q);
+    PG_TRY (multiply_change (l));
     pg_parallel (l->threads, l->ndof, take_off, &down);
+    PG_TRY (level_exchange (l, l->r));
     pg_parallel (l->threads, c->n, restrict_functions, &down);
     PG_TRY (multilevel_cycle (m, k + 1, c->b, c->z));
     pg_parallel (l->threads, l->n, correct_nodes, &up);
-    smooth (l, m->degree, NULL, z);
+    PG_TRY (smooth (l, m->degree, NULL, z));
 done:
     return status;
 }
 
 /* ---- bound --------------------------------------------------------------------------------------------- */
-/* a . b over the unknowns that are not masked. */
+/* a . b over the unknowns that are not masked, of all ranks. */
 static double dot (const level *l, const double *a, const double *b)
 {
     double s = 0;
-    for (size_t i = 0; i < l->ndof; i++) s += l->inverse[i] > 0 ? a[i] * b[i] : 0;
-    return s;
+    for (size_t i = 0; i < l->ndof; i++)
+        s += l->inverse[i] > 0 && pg_owns (l->part, i / (size_t) l->block) ? a[i] * b[i] : 0;
+    return level_sum (l, s);
 }
 
 /* Number of eigenvalues of the symmetric tridiagonal matrix above x (Sturm sequence). */
@@ -250,7 +266,7 @@ pg_status level_bound (level *l)
         double next = dot (l, l->r, z), turn = k ? next / rz : 0, before = alpha;
         if (!(next > 0)) break;
         for (size_t i = 0; i < l->ndof; i++) l->d[i] = z[i] + turn * l->d[i];
-        level_multiply (l, l->d, l->q);
+        PG_TRY (multiply_change (l));
         double dq = dot (l, l->d, l->q);
         if (!(dq > 0)) break;
         rz = next, alpha = next / dq;

@@ -28,6 +28,8 @@ static void make_grid (level *l, double step)
         if (h > 0) {
             l->share_of[k] = (int) fmax (1, round (step / h));
             l->low[k] = l->aligned ? low : low - h / 2, l->step[k] = l->share_of[k] * h;
+            level_align (l, k);
+            low = l->aligned ? l->low[k] : low;
             count = fmax (1, ceil (round ((high - low) / h + !l->aligned) / l->share_of[k]));
         }
         l->cells[k] = (int) count;
@@ -201,6 +203,7 @@ static pg_status split_hats (level *l)
     PG_ALLOC (l->first, l->nvertex + 1);
     s.parts = l->first + 1;
     pg_parallel (l->threads, l->nvertex, search_vertices, &s);
+    PG_TRY (level_agree_parts (l, s.parts));
     for (size_t h = 0; h < l->nvertex; h++) l->first[h + 1] += l->first[h];
     l->nfunction = l->first[l->nvertex];
 done:

@@ -11,10 +11,10 @@ extern const pg_shared_preconditioner petsc_multigrid;
 /* What PETSc or MUMPS says becomes a status; what: the work that failed, in words. */
 pg_status petsc_said (int code, const char *what);
 /* Interpolations from coarse grids on a lattice (petsc_grids.c), the finest first, until a grid has `enough`
- * unknowns or there are `most`. node (n): owned nodes, numbered from `number` on; masked (n x block):
- * unknowns that stay zero. *P: those made so far, also where it fails. */
-pg_status petsc_grids (const pg_shared_rows *setting, size_t n, const int *node, const unsigned char *masked,
-                       long long number, size_t enough, int most, Mat *P, int *count);
+ * unknowns or there are `most`. node (n): owned nodes, numbered from `number` on. *P: those made so far, also
+ * where it fails. */
+pg_status petsc_grids (const pg_shared_rows *setting, size_t n, const int *node, long long number,
+                       size_t enough, int most, Mat *P, int *count);
 /* Starts PETSc (after MPI) and makes its solver the usual one; ends it. Nothing of the command line is read;
  * the variable PETSC_OPTIONS is. */
 pg_status petsc_start (void);

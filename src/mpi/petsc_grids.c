@@ -1,8 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Coarse grids of ranks that divide a lattice: multilinear functions on the vertices of grids of twice, four
- * times ... the step, as one process has them (src/linalg/multilevel_space.c), which PETSc multiplies out to
- * coarse matrices (P' A P). A vertex belongs to the lowest rank that has a node under its function; ranks
- * tell each other which vertices they have at the borders of what they own. */
+ * Coarse grids of ranks that divide a lattice, which is itself the first coarse grid of the nodes
+ * (src/linalg/multilevel_ranks.c): multilinear functions on the vertices of grids of twice, four times ...
+ * the step, as one process has them, which PETSc multiplies out to coarse matrices (P' A P). A vertex belongs
+ * to the lowest rank that has a node under its function; ranks tell each other which vertices they have at
+ * the borders of what they own. */
 #include "petsc_factor.h"
 #include <math.h>
 #include <mpi.h>
@@ -159,9 +160,9 @@ done:
     return status;
 }
 
-/* P: from values at the vertices to those at the nodes; rows of masked unknowns are empty. */
-static pg_status make_interpolation (const grid *g, size_t block, const unsigned char *masked,
-                                     const vertex *v, size_t n, size_t own, Mat *P)
+/* P: from values at the vertices to those at the nodes. */
+static pg_status make_interpolation (const grid *g, size_t block, const vertex *v, size_t n, size_t own,
+                                     Mat *P)
 {
     pg_status status = PG_OK;
     long long key[8];
@@ -177,7 +178,6 @@ static pg_status make_interpolation (const grid *g, size_t block, const unsigned
             for (size_t k = 0; k < block; k++) {
                 PetscInt row = (PetscInt) ((g->number + (long long) i) * (long long) block + (long long) k),
                          column = (PetscInt) (a->number * (long long) block + (long long) k);
-                if (masked && masked[i * block + k]) continue;
                 PG_TRY (petsc_said (MatSetValue (*P, row, column, weight[c], INSERT_VALUES), "coarse grids"));
             }
         }
@@ -189,7 +189,7 @@ done:
 }
 
 /* The next grid, with the vertices that are owned here as its nodes. */
-static pg_status next_grid (grid *g, size_t block, int first_grid, const unsigned char *masked, Mat *P)
+static pg_status next_grid (grid *g, size_t block, int first_grid, Mat *P)
 {
     pg_status status = PG_OK;
     vertex *v = NULL;
@@ -199,7 +199,7 @@ static pg_status next_grid (grid *g, size_t block, int first_grid, const unsigne
     MPI_Comm_rank (MPI_COMM_WORLD, &rank);
     PG_TRY (list_vertices (g, rank, &v, &n));
     PG_TRY (number_vertices (g, first_grid, v, n, &own, &first));
-    PG_TRY (make_interpolation (g, block, masked, v, n, own, P));
+    PG_TRY (make_interpolation (g, block, v, n, own, P));
     pg_free (g->at), g->at = NULL;
     PG_ALLOC (g->at, 3 * own);
     for (int k = 0; k < g->dim; k++) g->end[k] = (g->end[k] + 1) / 2;
@@ -237,8 +237,8 @@ done:
     return status;
 }
 
-pg_status petsc_grids (const pg_shared_rows *s, size_t n, const int *node, const unsigned char *masked,
-                       long long number, size_t enough, int most, Mat *P, int *count)
+pg_status petsc_grids (const pg_shared_rows *s, size_t n, const int *node, long long number, size_t enough,
+                       int most, Mat *P, int *count)
 {
     pg_status status = PG_OK;
     grid g = { 0 };
@@ -249,7 +249,7 @@ pg_status petsc_grids (const pg_shared_rows *s, size_t n, const int *node, const
         long long all = (long long) (g.n * block);
         PG_TRY (lost (MPI_Allreduce (MPI_IN_PLACE, &all, 1, MPI_LONG_LONG, MPI_SUM, MPI_COMM_WORLD)));
         if (all <= (long long) enough) break;
-        PG_TRY (next_grid (&g, block, first, first ? masked : NULL, &P[*count]));
+        PG_TRY (next_grid (&g, block, first, &P[*count]));
         ++*count;
     }
 done:

@@ -19,7 +19,7 @@ typedef struct {
     size_t n, block, held;
     int   *node;
     const unsigned char *fixed;
-    int    grids;                                      /* on a lattice; 0: GAMG */
+    int    grids;                                      /* on a lattice, itself among them; 0: GAMG */
 } multigrid;
 
 static pg_status said (PetscErrorCode code, const char *what) { return petsc_said (code, what); }
@@ -188,7 +188,7 @@ done:
 }
 
 /* ---- coarse grids on a lattice ------------------------------------------------------------------------- */
-/* Then coarse functions are known. */
+/* Then coarse functions are known; no unknown is prescribed there. */
 static int on_a_lattice (const pg_shared_rows *s)
 {
     int yes = 1;
@@ -220,12 +220,7 @@ static pg_status make_grids (multigrid *m, const pg_shared_rows *setting, const 
     pg_status status = PG_OK;
     Mat P[MOST_GRIDS] = { 0 };
     int count = 0;
-    unsigned char *masked = NULL;
-    PG_ALLOC (masked, m->n * m->block);
-    for (size_t k = 0; k < m->n; k++)
-        for (size_t c = 0; c < m->block; c++)
-            masked[k * m->block + c] = m->fixed && m->fixed[(size_t) m->node[k] * m->block + c];
-    PG_TRY (petsc_grids (setting, m->n, m->node, masked, m->n ? (long long) number[m->node[0]] : 0, ENOUGH,
+    PG_TRY (petsc_grids (setting, m->n, m->node, m->n ? (long long) number[m->node[0]] : 0, ENOUGH,
                          MOST_GRIDS, P, &count));
     PG_TRY (said (PCCreate (PETSC_COMM_WORLD, &m->pc), "coarse grids"));
     PG_TRY (said (PCSetOperators (m->pc, m->A, m->A), "coarse grids"));
@@ -240,9 +235,8 @@ static pg_status make_grids (multigrid *m, const pg_shared_rows *setting, const 
     PG_TRY (said (PCSetFromOptions (m->pc), "coarse grids"));
     PG_TRY (said (PCSetUp (m->pc), "coarse grids"));
     PG_TRY (said (MatCreateVecs (m->A, &m->x, &m->b), "coarse grids"));
-    m->grids = 1;
+    m->grids = count + 1;
 done:
-    pg_free (masked);
     for (int k = 0; k < MOST_GRIDS; k++) if (P[k]) MatDestroy (&P[k]);
     return status;
 }
@@ -304,6 +298,10 @@ static void multigrid_describe (const void *self, char *text, size_t size)
 {
     const multigrid *m = self;
     PetscInt levels = 0;
+    if (m->grids == 1) {                               /* the lattice is the only one */
+        snprintf (text, size, "a factor (PETSc)");
+        return;
+    }
     size_t at = (size_t) snprintf (text, size, m->grids ? "multigrid (PETSc)" : "GAMG (PETSc)");
     if (PCMGGetLevels (m->pc, &levels) != 0) return;
     at += (size_t) snprintf (text + at, size > at ? size - at : 0, ", %ld levels of", (long) levels);
