@@ -117,6 +117,7 @@ void pg_result_tips_free (pg_result *r)
 {
     for (size_t i = 0; r->tip && i < r->ntip; i++) pg_free (r->tip[i].along), pg_free (r->tip[i].length);
     pg_free (r->tip), pg_free (r->tip_time);
+    pg_free (r->tip_seen), pg_free (r->tip_known), pg_free (r->tip_queue);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
@@ -157,15 +158,16 @@ static void spread (const result_tip *tip, const pg_problem *p, const double *da
 }
 
 /* Collects the damaged points of the crack: those nearest to `from` (all within one spacing of
- * the nearest), and all that are connected with them; queue: their numbers (n), seen: twice n, zero on
- * entry. *found: how many there are. Ranks tell each other which of their points have been reached, until
+ * the nearest), and all that are connected with them: r->tip_queue, marked in r->tip_seen. *found: how many
+ * there are, also where it fails. Ranks tell each other which of their points have been reached, until
  * none of them finds another one: the neighbours of a point are among the ghosts of its owner. */
-static pg_status follow (const result_tip *tip, const pg_problem *p, const double *damage, int *queue,
-                         double *seen, size_t *found)
+static pg_status follow (pg_result *r, const result_tip *tip, const double *damage, size_t *found)
 {
     pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
     const pg_subdomain *s = p->cloud.subdomain;
-    double nearest = -INFINITY, more = 1, *known = seen + p->cloud.n;
+    double nearest = -INFINITY, more = 1, *seen = r->tip_seen, *known = r->tip_known;
+    int *queue = r->tip_queue;
     size_t n = 0, at = 0, before;
     for (size_t i = 0; i < p->cloud.n; i++)
         if (damage[i] >= tip->damage) nearest = fmax (nearest, -distance (p, i, tip->from));
@@ -185,26 +187,37 @@ static pg_status follow (const result_tip *tip, const pg_problem *p, const doubl
         more = n > before;
         PG_TRY (pg_ranks_most (1, &more));
     }
+done:
     *found = n;
+    return status;
+}
+
+static pg_status make_workspace (pg_result *r)
+{
+    pg_status status = PG_OK;
+    size_t n = r->problem->cloud.n;
+    if (!r->tip_seen) PG_ALLOC (r->tip_seen, n);
+    if (!r->tip_queue) PG_ALLOC (r->tip_queue, n);
+    if (!r->tip_known && r->problem->cloud.subdomain) PG_ALLOC (r->tip_known, n);
 done:
     return status;
 }
 
 /* The length of the crack, m; 0 without damaged points. */
-static pg_status farthest (const result_tip *tip, const pg_problem *p, const double *damage, double *length)
+static pg_status farthest (pg_result *r, const result_tip *tip, const double *damage, double *length)
 {
     pg_status status = PG_OK;
-    int *queue = NULL;
-    double *seen = NULL;
     size_t n = 0;
-    PG_ALLOC (queue, p->cloud.n);
-    PG_ALLOC (seen, 2 * p->cloud.n);
-    PG_TRY (follow (tip, p, damage, queue, seen, &n));
+    PG_TRY (make_workspace (r));
     *length = 0;
-    for (size_t k = 0; k < n; k++) *length = fmax (*length, tip->along[queue[k]]);
+    status = follow (r, tip, damage, &n);
+    for (size_t k = 0; k < n; k++) {
+        *length = fmax (*length, tip->along[r->tip_queue[k]]);
+        r->tip_seen[r->tip_queue[k]] = 0;
+    }
+    PG_TRY (status);
     PG_TRY (pg_ranks_most (1, length));
 done:
-    pg_free (queue), pg_free (seen);
     return status;
 }
 
@@ -227,7 +240,7 @@ pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step
         result_tip *tip = &r->tip[i];
         PG_GROW (tip->length, tip->capacity, n + 1);
         tip->length[n] = n > 0 ? tip->length[n - 1] : 0;
-        if (components == 1) PG_TRY (farthest (tip, r->problem, work, &tip->length[n]));
+        if (components == 1) PG_TRY (farthest (r, tip, work, &tip->length[n]));
         row[i] = pg_result_once (tip->length[n]);
     }
     PG_GROW (r->tip_time, r->tip_capacity, n + 1);

@@ -115,6 +115,11 @@ struct pg_result {
     pg_front_values *front_value;  size_t nfront_value, cap_front_value;
     /* Time (s) or load factor of each of these rows. */
     double   *tip_time;
+    /* Workspace of their search: marks of the points, and of those of other ranks, zero between rows; points
+     * in the order in which they are reached. Kept: to clear a body's points for each of many rows takes
+     * longer than the search. */
+    double   *tip_seen, *tip_known;
+    int      *tip_queue;
     /* Broken bonds when the lengths were measured last; -1: they must be measured. */
     long      tip_broken;
     /* Steps in result.e. */

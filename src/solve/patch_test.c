@@ -58,39 +58,98 @@ static void find_middle (probe *t)
     t->size = sqrt (square / all);
 }
 
-/* Motion m of point i about the middle, up to dim displacements (m) and its rotations times the spacing:
- * linear ones of unit strain (engineering shear; nv of them), then translations and turns. */
-static inline void motion_at (const probe *t, size_t m, size_t i, double *d)
+/* A motion that is affine in the place x relative to the middle: d_k = p_k + sum_l R_kl x_l, up to dim
+ * displacements (m) and the rotations times the spacing. */
+typedef struct { double p[6], R[6][3]; } motion;
+
+/* Motion m about the middle: linear ones of unit strain (engineering shear; nv of them), then translations
+ * and turns. */
+static motion motion_of (const probe *t, size_t m)
 {
     static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
-    const double *at = t->p->cloud.x + i * t->dim;
-    double x[3] = { at[0] - t->middle[0], t->dim > 1 ? at[1] - t->middle[1] : 0,
-                    t->dim > 2 ? at[2] - t->middle[2] : 0 };
-    d[0] = d[1] = d[2] = d[3] = d[4] = d[5] = 0;
+    motion d = { 0 };
     if (m < t->nv) {
         const int *of = pair[t->dim == 2 && m == 2 ? 3 : m];
-        if (of[0] == of[1]) d[of[0]] = x[of[0]];
-        else d[of[0]] = 0.5 * x[of[1]], d[of[1]] = 0.5 * x[of[0]];
-    } else if (m < t->nv + t->dim) d[m - t->nv] = t->size;
+        if (of[0] == of[1]) d.R[of[0]][of[0]] = 1;
+        else d.R[of[0]][of[1]] = d.R[of[1]][of[0]] = 0.5;
+    } else if (m < t->nv + t->dim) d.p[m - t->nv] = t->size;
     else {
         size_t turn = m - t->nv - t->dim;
         const int *of = pair[3 + turn];                /* xy, yz, zx */
-        d[of[0]] = -x[of[1]], d[of[1]] = x[of[0]];
-        d[t->dim + (t->dim == 2 ? 0 : (turn + 2) % 3)] = t->p->cloud.h;
+        d.R[of[0]][of[1]] = -1, d.R[of[1]][of[0]] = 1;
+        d.p[t->dim + (t->dim == 2 ? 0 : (turn + 2) % 3)] = t->p->cloud.h;
+    }
+    return d;
+}
+
+/* a += c b */
+static void add_motion (motion *a, double c, const motion *b)
+{
+    for (size_t k = 0; k < 6; k++) {
+        a->p[k] += c * b->p[k];
+        for (size_t l = 0; l < 3; l++) a->R[k][l] += c * b->R[k][l];
     }
 }
 
-/* out = sum of strains times their fields, `stride` numbers a point; fields of strain zero are left out. */
+/* f += d at all points, `stride` numbers a point. */
+static void add_field (const probe *t, const motion *d, size_t stride, double *f)
+{
+    size_t dim = t->dim;
+    for (size_t i = 0; i < t->n; i++) {
+        double x[3] = { 0 };
+        for (size_t l = 0; l < dim; l++) x[l] = t->p->cloud.x[i * dim + l] - t->middle[l];
+        for (size_t k = 0; k < stride; k++) {
+            double s = d->p[k];
+            for (size_t l = 0; l < dim; l++) s += d->R[k][l] * x[l];
+            f[i * stride + k] += s;
+        }
+    }
+}
+
+/* out = sum of strains times their fields, `stride` numbers a point. */
 static void linear_field (const probe *t, const double *strain, size_t stride, double *out)
 {
-    double d[6];
+    motion all = { 0 };
+    for (size_t v = 0; v < t->nv; v++) {
+        motion one = motion_of (t, v);
+        add_motion (&all, strain[v], &one);
+    }
     memset (out, 0, t->n * stride * sizeof *out);
-    for (size_t i = 0; i < t->n; i++)
-        for (size_t v = 0; v < t->nv; v++) {
-            if (strain[v] == 0) continue;
-            motion_at (t, v, i, d);
-            for (size_t k = 0; k < stride; k++) out[i * stride + k] += strain[v] * d[k];
+    add_field (t, &all, stride, out);
+}
+
+/* Sums over the points, weighted by volumes or by 1: of 1 and x (4), of their products (4 x 4), and of those
+ * with the numbers of a field (6 x 4). Products of fields with motions, and of motions, follow from them. */
+typedef struct { double square[4][4], field[6][4]; } moments;
+
+static moments moments_of (const probe *t, size_t stride, int volumes, const double *f)
+{
+    moments s = { 0 };
+    size_t m = t->dim + 1;
+    for (size_t i = 0; i < t->n; i++) {
+        double w = volumes ? t->p->cloud.volume[i] : 1, x[4] = { 1 };
+        for (size_t l = 1; l < m; l++) x[l] = t->p->cloud.x[i * t->dim + l - 1] - t->middle[l - 1];
+        for (size_t a = 0; a < m; a++) for (size_t b = 0; b <= a; b++) s.square[a][b] += w * x[a] * x[b];
+        for (size_t k = 0; k < stride; k++)
+            for (size_t b = 0; b < m; b++) s.field[k][b] += w * f[i * stride + k] * x[b];
+    }
+    for (size_t a = 0; a < m; a++) for (size_t b = 0; b < a; b++) s.square[b][a] = s.square[a][b];
+    return s;
+}
+
+/* Coefficient b of number k of a motion, of 1 and x. */
+static double part (const motion *d, size_t k, size_t b) { return b ? d->R[k][b - 1] : d->p[k]; }
+
+/* Sum of a motion times another, or times the field (other NULL). */
+static double product (const moments *s, size_t stride, const motion *d, const motion *other)
+{
+    double sum = 0;
+    for (size_t k = 0; k < stride; k++)
+        for (size_t a = 0; a < 4; a++) {
+            if (!other) sum += part (d, k, a) * s->field[k][a];
+            else for (size_t b = 0; b < 4; b++) sum += part (d, k, a) * part (other, k, b) * s->square[a][b];
         }
+    return sum;
 }
 
 /* Takes out of f (n x stride) its least squares of rigid motions, and with `linear` of linear ones as
@@ -99,27 +158,21 @@ static void linear_field (const probe *t, const double *strain, size_t stride, d
 static void without (const probe *t, size_t stride, int volumes, int linear, double *f)
 {
     size_t first = linear ? 0 : t->nv, last = t->nv + t->dim + t->dim * (t->dim - 1) / 2, m = last - first;
-    double G[144] = { 0 }, V[144], lambda[12], b[12] = { 0 }, c[12] = { 0 }, d[12][6];
-    for (size_t i = 0; i < t->n; i++) {
-        double w = volumes ? t->p->cloud.volume[i] : 1;
-        for (size_t a = 0; a < m; a++) {
-            motion_at (t, first + a, i, d[a]);
-            b[a] += w * dot (stride, d[a], f + i * stride);
-            for (size_t e = 0; e <= a; e++) G[a * m + e] += w * dot (stride, d[a], d[e]);
-        }
+    double G[144] = { 0 }, V[144], lambda[12], b[12] = { 0 };
+    moments s = moments_of (t, stride, volumes, f);
+    motion d[12], all = { 0 };
+    for (size_t a = 0; a < m; a++) {
+        d[a] = motion_of (t, first + a);
+        b[a] = product (&s, stride, &d[a], NULL);
+        for (size_t e = 0; e <= a; e++) G[a * m + e] = G[e * m + a] = product (&s, stride, &d[a], &d[e]);
     }
-    for (size_t a = 0; a < m; a++) for (size_t e = 0; e < a; e++) G[e * m + a] = G[a * m + e];
     pg_dense_eigen ((int) m, G, lambda, V);
     for (size_t l = 0; l < m && lambda[l] > 1e-12 * lambda[0]; l++) {
         double along = 0;
         for (size_t a = 0; a < m; a++) along += V[a * m + l] * b[a];
-        for (size_t a = 0; a < m; a++) c[a] += V[a * m + l] * along / lambda[l];
+        for (size_t a = 0; a < m; a++) add_motion (&all, -V[a * m + l] * along / lambda[l], &d[a]);
     }
-    for (size_t i = 0; i < t->n; i++)
-        for (size_t a = 0; a < m; a++) {
-            motion_at (t, first + a, i, d[0]);
-            for (size_t k = 0; k < stride; k++) f[i * stride + k] -= c[a] * d[0][k];
-        }
+    add_field (t, &all, stride, f);
 }
 
 /* ---- points at the rim, where there are no facets ------------------------------------------------------ */
@@ -201,18 +254,19 @@ static double iterate (probe *t, double scale)
     size_t k;
     for (size_t i = 0; i < t->ndof; i++) p[i] = t->inverse[i] * t->r[i], rz += t->r[i] * p[i];
     for (k = 0; k < t->limit && rz > 0; k++) {
+        double curve = 0, alpha, next = 0, of_late = 0;
         t->op->apply (t->op->context, p, t->q);
-        for (size_t i = 0; i < t->ndof; i++) if (t->inverse[i] == 0) t->q[i] = 0;
-        double curve = dot (t->ndof, p, t->q), alpha, next = 0, of_late = 0;
+        for (size_t i = 0; i < t->ndof; i++) curve += p[i] * t->q[i];                  /* p: 0 where held */
         if (!(curve > 0)) break;
         alpha = rz / curve;
         for (size_t i = 0; i < t->ndof; i++) {
+            if (t->inverse[i] == 0) continue;
             t->x[i] += alpha * p[i], t->r[i] -= alpha * t->q[i];
-            t->z[i] = t->inverse[i] * t->r[i], next += t->r[i] * t->z[i];
+            next += t->inverse[i] * t->r[i] * t->r[i];
         }
         found += late[k % DELAY] = alpha * rz;
         for (int l = 0; l < DELAY; l++) of_late += late[l];
-        for (size_t i = 0; i < t->ndof; i++) p[i] = t->z[i] + next / rz * p[i];
+        for (size_t i = 0; i < t->ndof; i++) p[i] = t->inverse[i] * t->r[i] + next / rz * p[i];
         rz = next;
         if (k + 1 >= DELAY && of_late < fmax (gain * found, enough * scale)) break;
     }
