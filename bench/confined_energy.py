@@ -4,8 +4,9 @@
 
     python3 bench/confined_energy.py build/release [CONFINEMENT_MPA...] [-- SPACING_MM...]
 
-A facet dissipates what the straight line between its two equilibria says. The load of the first wings grows much while
-two spacings open, so that this line is long; it becomes shorter with the spacing."""
+Single facets scatter by what the stress along the wings does to the strain energy of a discretised body
+(bench/stress_along_crack.py), and by the straight line between the two equilibria of a facet, whose loads are far apart
+for the first wings; both become smaller with the spacing."""
 import csv
 import os
 import subprocess

@@ -59,6 +59,7 @@ typedef struct {
     size_t  poor;                                      /* places whose values are zero: see pg_force_type */
 } pg_jump_rows;
 void pg_jump_rows_clear (pg_jump_rows *rows);
+#define PG_CONTACT_STIFFEST 2.0                        /* see pg_force_type.faces */
 /* Faces of cracks that may touch, in pieces that are sampled at places. Borrowed. */
 typedef struct {
     size_t n, dim, npoint;                             /* pieces; places of all of them */
@@ -219,7 +220,8 @@ typedef struct {
     /* Instead of jump, of forces whose bonds are what joins the two sides: columns of G' for each piece (ndof
      * x dim n: its mean opening, then its slips), compliance of the layer between the faces, m/N (dim n), and
      * how much stiffer than the bonds that crossed them its springs may be (*stiffer >= 1), at the last
-     * refresh. NULL: jump, if there is one. */
+     * refresh. Layers of bonds that broke one by one are made no stiffer than PG_CONTACT_STIFFEST times.
+     * NULL: jump, if there is one. */
     pg_status (*faces) (void *self, const pg_state *state, const pg_face_pieces *pieces, pg_sparse *rows,
                         double *soft, double *stiffer);
     /* Of forces whose unknowns are no displacements of points (both entries; NULL: they are): u = N x, what

@@ -216,7 +216,9 @@ static double yield (const layer *l, size_t d, double area, int known, double *s
             T[a * d + c] /= sqrt (soft[a] * soft[c]);
         }
     pg_dense_eigen ((int) d, T, lambda, NULL);
-    return lambda[0];
+    double softer = known ? 1 : fmax (1, lambda[0] / PG_CONTACT_STIFFEST);
+    for (size_t a = 0; a < d; a++) soft[a] *= softer;
+    return lambda[0] / softer;
 }
 
 static int compare_nodes (const void *a, const void *b)

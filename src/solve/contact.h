@@ -127,6 +127,8 @@ void contact_count (pg_system *s);
 void contact_note_overlap (pg_system *s, const pg_state *state);
 /* What the layers between closed faces store, J: a part of the strain energy of the body. */
 double contact_energy (const pg_system *s);
+/* How much stiffer the layers between closed faces may be, now and later, than the bonds that they were. */
+double contact_stiffer (const pg_system *s);
 /* Forces of contact on the nodes as they stand in the equations, N (ndof); NULL: none. */
 const double *contact_forces (const pg_system *s);
 /* In motion, pairs that were apart at displacement d and bear pressure now: their normal forces on the nodes,

@@ -23,6 +23,13 @@ static int finds_broken (const pg_system *s)
            && (s->options->flags & PG_SOLVER_QUASI_STATIC);
 }
 
+/* The time step of relaxation is found before bonds break. */
+double contact_stiffer (const pg_system *s)
+{
+    if (!s->contact) return 1;
+    return finds_broken (s) ? fmax (s->contact->stiffer, PG_CONTACT_STIFFEST) : s->contact->stiffer;
+}
+
 /* Elsewhere of a single bond that breaks in the run no face is known. */
 static void doubt_broken (const pg_system *s)
 {

@@ -433,6 +433,9 @@ pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
     break_loop *b = &s->break_loop;
+    struct relaxation *x = motion_of (s)->relaxation;
+    if (x->read && x->weigh) PG_TRY (x->weigh (s));
+    x->read = 0;
     PG_TRY (stages_of (s)->hold ? step_of_held_stage (s, state, step) : step_on (s, state, step));
     if (b->system.contact) contact_accept (&b->system), contact_count (&b->system);
     PG_TRY (contact_show (&b->system, 1));
@@ -481,7 +484,7 @@ pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
     x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3],
     x->stiff = number[4], x->heavy = number[5], x->floor = number[6];
     x->armed = (int) count[0], x->resting = (int) count[1], x->pending = (int) count[2],
-    x->broke = (int) count[3];
+    x->broke = (int) count[3], x->read = k->reading;
 done:
     return status;
 }

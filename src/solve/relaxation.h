@@ -21,6 +21,7 @@ struct relaxation {
     /* bonds may break; the next iteration starts from rest; the work balance at hand is that before the first
      * break of the stage and not booked; bonds broke at the last residual */
     int    armed, resting, pending, broke;
+    int    read;                                       /* 1: from a checkpoint, which has no masses */
 };
 static inline const pg_stages_options *stages_of (const pg_solver *s)
 {

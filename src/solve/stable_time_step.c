@@ -32,7 +32,7 @@ static pg_status find_bound (pg_solver *s)
     if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
     PG_TRY (pg_ranks_most (1, &m->omega));
     /* closed faces stand in for bonds that are among those of the bound */
-    if (sys->contact) m->omega *= sqrt (sys->contact->stiffer);
+    m->omega *= sqrt (contact_stiffer (sys));
     if (!isfinite (m->omega))
         PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
     double whole = with_contact (s, m->omega);
