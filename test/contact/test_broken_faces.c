@@ -227,6 +227,32 @@ static void a_body_cut_in_two (void **state)
     }
 }
 
+/* Points that have lost all their bonds lie between the faces: nothing holds them, and they bear nothing. */
+static void rubble_bears_nothing (void **state)
+{
+    (void) state;
+    block l = { 2, 0, 0, -0.01, 0, "{force: bond}", "{kind: normal}", fixed };
+    run r = block_of (&l, WHOLE), f = block_of (&l, FOUND);
+    const pg_family *family = &f.problem->rows[PG_NODES].family;
+    double whole = borne_by (&r, 2).energy;
+    size_t loose = 0;
+    cut (&f, 0);
+    for (size_t i = 0; i < f.problem->cloud.n; i++) {
+        const double *x = f.problem->cloud.x + 2*i;
+        if (x[1] < 0 || x[1] > 0.1 || fabs (x[0]) > 0.11) continue;
+        loose++;
+        for (size_t k = 0; k < f.problem->cloud.n; k++)
+            for (size_t e = family->start[k]; e < family->start[k + 1]; e++)
+                if (k == i || (size_t) family->node[e] == i) f.state->alive[e] = 0;
+    }
+    assert_true (loose >= 2);
+    double energy = borne_by (&f, 2).energy;
+    print_message ("%zu loose points between the faces: energy over that of the whole body %.4f\n", loose,
+                   energy / whole);
+    assert_true (energy < whole && energy > 0.9 * whole);
+    clear (&r), clear (&f);
+}
+
 /* A block with two notches, drawn apart until it has broken, then pressed. */
 static run notched (const char *failure, const char *table, const char *solver, int threads)
 {
@@ -349,6 +375,13 @@ static void wings_leave_broken_bonds (void **state)
         if (!k) break_as (&known, &r);
         long before = 0;
         for (size_t i = 0; i < r.state->nbond; i++) before += !r.state->alive[i];
+        /* bonds that the crack of the scene cuts are its own */
+        pg_contact_pieces pieces;
+        check_ok (pg_contact_pieces_create (&pieces, r.problem, r.state));
+        check_ok (pg_contact_add_broken (&pieces, r.problem, r.state));
+        assert_int_equal (pieces.nknown, k ? pieces.n : 0);
+        assert_true (pieces.n > 4 && (k ? pieces.nbroken == 0 : pieces.nbroken > 50));
+        pg_contact_pieces_clear (&pieces);
         advance (&r);
         load[k] = r.step.factor;
         to_the_end (&r);
@@ -367,6 +400,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_body_cut_in_two),
         cmocka_unit_test (slips_as_a_crack_of_the_scene),
+        cmocka_unit_test (rubble_bears_nothing),
         cmocka_unit_test (what_broke_closes),
         cmocka_unit_test (all_ways_lead_to_one_equilibrium),
         cmocka_unit_test (wings_leave_broken_bonds),
