@@ -18,7 +18,9 @@ static const char plate[] =
     "solver: {kind: newmark, dt: %s, end: %s, rayleigh: {stiffness: 0.05 us, mass: 100}, break: %s, "
     "tolerance: 1e-12, plain: %s}\noutput: {at: {levels: 3}}\n";
 
-static const struct { const char *plane, *criterion, *integration, *essential, *dt, *end, *broken; } runs[] = {
+static const struct {
+    const char *plane, *criterion, *integration, *essential, *dt, *end, *broken;
+} runs[] = {
     { "stress", "principal_stress, tensile_strength: 30 MPa", "gauss", "transformation",
       "0.5 us", "20 us", "worst" },
     { "stress", "mohr_coulomb, tensile_strength: 30 MPa, cohesion: 40 MPa, friction_angle: 30 deg",
