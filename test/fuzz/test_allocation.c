@@ -223,6 +223,8 @@ static const plan plans[] = {
       "kind: newmark, dt: 0.1 us, end: 1 us, mass: consistent" },
     { "galerkin, nodal, umfpack", "", "0.2", "approximation: nosb, integration: nodal, essential: penalty",
       STRETCH, "kind: static, linear: umfpack, stepping: fixed, steps: 2, break: all" },
+    { "galerkin, nodal, skyline", "", "0.2", "approximation: rkpm, integration: nodal, essential: nitsche",
+      STRETCH, "kind: static, linear: skyline, stepping: fixed, steps: 2, break: all" },
     { "galerkin, pddo, nodal, verlet", "", "0.2",
       "approximation: pddo, integration: nodal, essential: nitsche", STRETCH, "kind: verlet, end: 1 us" },
     { "galerkin, quadratic, central", "", "0.2",
