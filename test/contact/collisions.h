@@ -8,7 +8,8 @@
 static inline void momentum_of (const run *r, double *p, double *turn, double *size, double *size_turn)
 {
     size_t dim = (size_t) r->problem->dim;
-    p[0] = p[1] = *turn = *size = *size_turn = 0;
+    *turn = *size = *size_turn = 0;
+    for (size_t k = 0; k < dim; k++) p[k] = 0;
     for (size_t i = 0; i < r->problem->cloud.n; i++) {
         const double *x = r->problem->cloud.x + i * dim, *d = r->state->d + i * dim,
                      *v = r->state->v + i * dim;
