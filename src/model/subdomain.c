@@ -121,7 +121,7 @@ int pg_subdomain_wanted (const pg_scene *scene, const pg_method *const *methods)
     against a = { .scene = scene, .quiet = 1 };
     if (!pg_solver_is (pg_scene_text (scene, "solver.kind"), PG_SOLVER_IMPLICIT)) return 1;
     if (!is (scene, "solver.division", "auto")) return is (scene, "solver.division", "subdomains");
-    if (pg_rank_count () < 2 || !method || method->shape_functions) return 0;
+    if (pg_rank_count () < 2 || !method) return 0;
     check_all (&a, method);
     return a.n == 0 && is_large (scene, methods);
 }

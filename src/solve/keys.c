@@ -66,9 +66,9 @@ static const pg_key linear[] = {
     ROW ("solver.division", PG_NAME, NULL, NULL, "auto", "auto|subdomains|matrices",
          "What the ranks of perigal-mpi share: points (subdomains: each rank holds its part of the body; "
          "lattices, conjugate gradients), or the factor of the matrix (matrices: each rank holds all "
-         "points). auto: subdomains where forces act between points, the body is so large that one process "
-         "would do without a factor as well, and nothing in the scene needs the whole body (contact, "
-         "platens, stages); else matrices. One process ignores it."),
+         "points). auto: subdomains where the body is so large that one process would do without a factor as "
+         "well, and nothing in the scene needs the whole body (facets, contact, platens, stages); else "
+         "matrices. One process ignores it."),
 };
 const pg_key_table solver_keys_linear = { "solve", linear, sizeof linear / sizeof *linear };
 
