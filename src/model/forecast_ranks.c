@@ -6,11 +6,11 @@
 /* Measured on notched plates of 2 000 to 160 000 points and blocks of 6 000 to 75 000 on 1 to 4 ranks
  * (test/ranks/test_check.sh compares): MPI and PETSc loaded and started; what factors by MUMPS adds. */
 static const double started = 41e6, factoring = 10e6;
-/* Bytes of the rows of a preconditioner of PETSc over those of its finest matrix, in the plane and in space,
- * where coarse levels couple more; of MUMPS over its factor: with transposes and work space. */
 /* Step of the first coarse grid over that of the lattice, with what its functions have beside the body: a
  * block of 331 056 points has 22 016. */
 static const double coarser = 2.5;
+/* Bytes of the rows of a preconditioner of PETSc over those of its finest matrix, in the plane and in space,
+ * where coarse levels couple more; of MUMPS over its factor: with transposes and work space. */
 static const double of_levels[4] = { 0, 1.45, 1.45, 2.8 }, of_factor = 1.23;
 
 static void add (pg_forecast *f, int item, double bytes) { f->bytes[item] += bytes, f->peak += bytes; }
@@ -19,7 +19,10 @@ pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part,
 {
     pg_forecast g = *f;
     double d = f->dim, m = f->dim + f->rotations, more = (part->owned + part->ghosts) / f->points;
-    double coupled = f->points > 0 ? 2 * f->pairs / f->points - 1 : 0;
+    /* couplings of a point in the rows that PETSc gets: of shape functions those of the elements of the first
+     * coarse grid alone (multilevel_ranks.c), three along each axis */
+    double coupled = f->method->shape_functions ? pow (3 / coarser, d)
+                     : f->points > 0            ? 2 * f->pairs / f->points - 1 : 0;
     g.points *= more, g.cells *= more, g.evaluation *= more, g.facets *= more, g.pairs *= more;
     g.summed *= more, g.patched *= more, g.slaves *= more, g.columns *= more;
     for (int s = 0; s < PG_BOND_SETS; s++) g.bonds[s] *= more;
@@ -27,8 +30,6 @@ pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part,
     g.automatic = 0, g.linear = NULL;
     pg_forecast_sum (&g);
     add (&g, PG_BYTES_PROGRAM, started);
-    /* of shape functions PETSc has the elements of the first coarse grid alone (multilevel_ranks.c) */
-    if (f->method->shape_functions) coupled = pow (3, d) / pow (coarser, d);
     if (!f->explicit_)
         add (&g, PG_BYTES_MATRIX, of_levels[f->dim] * 12 * m * m * coupled * part->owned);
     /* one rank puts the fields of all together at the end: places, volumes, numbers, and what is shown of

@@ -46,6 +46,11 @@ equal "Newmark, shape functions, nodal" 10 galerkin.yaml "$all" "${shapes[@]}" -
 equal "Newmark, shape functions, large damped steps" 40 galerkin.yaml "$some" "${shapes[@]}" "${damped[@]}" --set solver.dt='1e-5 s' --set solver.time_steps=5 \
       --set 'boundary[0].velocity.x=-0.1 m/s' --set 'boundary[1].velocity.x=0.1 m/s'
 grep -q '"preconditioner": "finite elements' "$work/some/report.json"; verdict "by finite elements" $?
+equal "shape functions in motion where growth goes on by itself" 5 galerkin.yaml 2 --set materials.rock.density='2500 kg/m3' \
+      --set 'solver={kind: static, stepping: event, max_events: 4, on_instability: dynamic, tolerance: 1e-11, division: subdomains}' \
+      --set 'cracks=[{from: [-30 mm, 0.1 mm], to: [3 mm, 0.1 mm]}]' --set output.gauges=[] --set output.at.levels=1 \
+      --set 'boundary=[{name: bottom, set: bottom, displacement: {x: 0, y: -10 um}}, {name: top, set: top, displacement: {x: 0, y: 10 um}}]'
+grep -q '"motion_time": [1-9]' "$work/some/report.json"; verdict "it was in motion" $?
 if [ "$PERIGAL_TEST_SIZE" = long ]; then
     equal "Newmark, shape functions, Gauss" 40 galerkin.yaml "$some" "${shapes[@]}"
     equal "Newmark, shape functions, consistent" 40 galerkin.yaml "$some" "${shapes[@]}" --set method.integration=consistent
