@@ -296,7 +296,7 @@ def cuts(bench):
             row.append((last, (last["cpu"] - first["cpu"]) / (last["events"] - first["events"])))
         ours, each = row[0]
         plain = row[1][1] if few else None
-        made = "%d factors" % ours["factorizations"] if ours["factorizations"] else "%d preconditioners, %d iterations" % (ours["preconditioners"], ours["cg_iterations"])
+        made = "factors: %d" % ours["factorizations"] if ours["factorizations"] else "preconditioners: %d, iterations: %d" % (ours["preconditioners"], ours["cg_iterations"])
         lines.append([title, "%d" % ours["points"], "%d" % ours["events"], short(ours["cpu"]), made, short(1e3 * each),
                       short(1e3 * plain) if few else "-", short(plain / each) if few else "-", megabytes(ours)])
     return command("make bench T=cuts") + table(
