@@ -9,6 +9,8 @@ fi
 # root may run them, more ranks than cores too, which then give way to each other; without threads of BLAS
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_mpi_yield_when_idle=1 OMPI_MCA_btl_vader_single_copy_mechanism=none
 export OMPI_MCA_rmaps_base_oversubscribe=1 OMP_NUM_THREADS=1
+# without a look for fast networks (0.2 s a run); not bound to the cores that another test is bound to
+export OMPI_MCA_pml=ob1 OMPI_MCA_hwloc_base_binding_policy=none
 ranks() { local n=$1; shift; timeout 300 mpirun --oversubscribe -n "$n" "$mpi" run "$@" --quiet > "$work/out" 2> "$work/err"; }
 alone() { "$perigal" run "$@" --quiet --threads 1 > "$work/out" 2> "$work/err"; }
 # alike SHARE DIR DIR TABLE [COLUMN...]: the same rows, see compare.py
