@@ -61,6 +61,14 @@ typedef struct {
     /* Blocks K_ab (block x block, row-major) of point p between its local nodes a and b = 0 .. m - 1,
      * written one behind the other to out, which is zero on entry. Called by several threads. */
     void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
+    /* Instead (blocks NULL): numbers that are summed over all points first, of which the blocks follow after
+     * that. rows: block rows of m block numbers, row i that of unknown i of node a, entry b block + j for
+     * unknown j of node b; out is zero on entry. finish: the rows of K, in place of sums for m nodes. */
+    void (*rows)   (void *context, size_t p, size_t a, size_t m, double *out);
+    void (*finish) (void *context, size_t m, double *rows);
+    /* What another assembly of this source alone has come to: taken once, when all rows are first computed,
+     * and borrowed until then. NULL: not known. */
+    const struct pg_assembly *known;
 } pg_assembly_source;
 
 /* A matrix under assembly: pattern, values, and what is needed to compute rows anew. */
@@ -70,6 +78,8 @@ typedef struct pg_assembly pg_assembly;
 pg_status pg_assembly_create (pg_assembly **out, size_t n, int block, size_t nsource,
                               const pg_assembly_source *sources);
 void      pg_assembly_free   (pg_assembly **assembly);
+/* Frees what computes rows: from then on it serves as `known` alone. */
+void      pg_assembly_settle (pg_assembly *assembly);
 /* Computes the rows of the nodes list[0 .. count - 1] anew (list NULL: those of nodes 0 .. count - 1). */
 pg_status pg_assembly_gather (pg_assembly *assembly, size_t count, const int *list, int threads);
 /* The matrix, borrowed: its upper triangle; zeros that the pattern holds are stored. */

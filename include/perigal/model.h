@@ -271,8 +271,10 @@ typedef struct {
 typedef struct { unsigned char *owned; int64_t *number; } pg_held_points;
 /* Values of shape functions with all bonds alive, N, dN, w and grades alone: of the sets PG_NODES and
  * PG_POINTS, and with consistent integration those of its wider rows. They were evaluated by the patch test;
- * forces read them as long as no bond of theirs is broken. */
-typedef struct pg_intact { pg_rows rows[PG_BOND_SETS], sums; } pg_intact;
+ * forces read them as long as no bond of theirs is broken. K: the stiffness of the evaluation points, without
+ * supports, for the force that takes it first (then NULL); NULL: the patch test has not assembled it, or the
+ * materials of the run are others. */
+typedef struct pg_intact { pg_rows rows[PG_BOND_SETS], sums; struct pg_assembly *K; } pg_intact;
 struct pg_problem {
     char     title[256], name[64];                     /* name: of the scene's folder or file */
     int      dim, threads;

@@ -315,6 +315,12 @@ static int spared (const void *self, size_t k, char *what, char *why, double *se
         *seconds = 1.5e-7 * (double) (lent > bonds ? lent - bonds : 0);
         return 1;
     }
+    if (g->took && k-- == 0) {
+        snprintf (what, 96, "the part of K that evaluation points have");
+        snprintf (why, 160, "the patch test has assembled it, and no bond is broken");
+        *seconds = NAN;
+        return 1;
+    }
     size_t shared = galerkin_shared_bonds (g);
     if (shared && k-- == 0) {
         snprintf (what, 96, "memory for the shape functions of every point");

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
- * blocks, energy), galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
+ * blocks, energy), galerkin_gradients.c (rows of K),
+ * galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
  * galerkin_sum.c (loops over points), galerkin_runs.c (points that are alike), galerkin_silling.c
  * (stabilisation), galerkin_operator.c (K x, K),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_worst.c (the worst bonds),
@@ -82,6 +83,7 @@ typedef struct {
     double  *kept, *place;  /* galerkin_silling.c; NULL: no stabilisation */
     galerkin_dilatation *dilatation;                   /* NULL: at the points everywhere */
     pg_assembly *K;                                   /* NULL until someone asks for the matrix */
+    int      took;                                     /* 1: the bulk's part was pg_problem.intact's */
     pg_assembly *M;                                   /* consistent mass, NULL until asked for */
     int      all_stale;  /* rows of K to be gathered again: all, or those marked */
     unsigned char *stale;
@@ -129,6 +131,8 @@ pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem)
 int       galerkin_borrow (galerkin *g, int set);
 /* 1: and the wider ones of consistent integration. */
 int       galerkin_borrow_sums (galerkin *g);
+/* The bulk's part of K, to be freed by the caller, or NULL: nobody has it, or bonds are broken. */
+pg_assembly *galerkin_take_stiffness (const galerkin *g);
 /* Copies of its own, a row for every point, where a bond of the set is broken. */
 pg_status galerkin_own (galerkin *g, const pg_state *state, int set);
 int       galerkin_all_alive (const galerkin *g, int set, const pg_state *state);
@@ -286,6 +290,12 @@ void galerkin_dilatation_adjoint (const galerkin *g, double *f);
 void galerkin_bulk_blocks (void *context, size_t p, size_t a, size_t m, double *out);
 /* consistent: all points of a cell at once */
 void galerkin_cell_blocks (void *context, size_t cell, size_t a, size_t m, double *out);
+/* gradients: as sources of an assembly whose sums are finished once (pg_assembly_source.rows); 0: points
+ * differ in D, or there is more than D, and the blocks above are needed. */
+int  galerkin_has_rows    (const galerkin *g);
+void galerkin_point_rows  (void *context, size_t p, size_t a, size_t m, double *out);
+void galerkin_cell_rows   (void *context, size_t cell, size_t a, size_t m, double *out);
+void galerkin_finish_rows (void *context, size_t m, double *rows);
 /* f += internal force (after measure) */
 void galerkin_bulk_force  (galerkin *g, const double *d, double *f);
 void galerkin_bulk_apply  (galerkin *g, const double *x, double *y);   /* y += K x of the bulk */

@@ -9,14 +9,16 @@
 #include <math.h>
 #include <string.h>
 
-enum { TERMS = 10, VOIGT = 6, TRIANGLE = TERMS * (TERMS + 1) / 2 };
+enum { TERMS = 10, VOIGT = 6, LANES = 4, WIDEST = TERMS + VOIGT + LANES };
 typedef struct {
     galerkin *g;
     const pg_rows *rows;
     const double *stress;                              /* at the points (points x nv) */
     int     order, terms;                              /* of the polynomials */
-    size_t  stride;                                    /* numbers a node in `fit` */
-    double *fit;  /* A (lower triangle by rows), then b; after the solution the coefficients in b */
+    /* Normal equations A c = b of each node (stride numbers): row a begins at at[a] with nv numbers of b,
+     * which the coefficients take the place of, then a + 1 of A; what fills its last four has no meaning. */
+    size_t  at[TERMS + 1], stride;
+    double *fit;
     unsigned char *known;                              /* the node has a polynomial (n) */
     double *error, *size;  /* (s* - s) C (s* - s), s C s; NAN: left out (points), Pa */
     double *L;                                         /* factor of D of each material (36 each) */
@@ -67,22 +69,32 @@ static double weight_of (const recovery *r, size_t p, size_t e)
 static int solve (const recovery *r, double *fit)
 {
     int nv = r->g->nv, dim = r->g->dim;
-    double *b = fit + r->terms * (r->terms + 1) / 2, mass = fit[0];
+    double mass = fit[nv];
     if (!(mass > 0)) return 0;
     for (int order = r->order; order >= 0; order--) {
         int m = terms_of (dim, order);
         double L[TERMS * TERMS], x[TERMS];
-        for (int a = 0, at = 0; a < m; a++)
-            for (int c = 0; c <= a; c++, at++) L[a * m + c] = fit[at] / mass;
+        for (int a = 0; a < m; a++)
+            for (int c = 0; c <= a; c++) L[a * m + c] = fit[r->at[a] + (size_t) (nv + c)] / mass;
         if (pg_dense_cholesky (m, L, order > 1 ? 1e-6 : 1e-4) != 0) continue;
         for (int v = 0; v < nv; v++) {
-            for (int a = 0; a < m; a++) x[a] = b[a * nv + v] / mass;
+            for (int a = 0; a < m; a++) x[a] = fit[r->at[a] + (size_t) v] / mass;
             pg_dense_solve (m, L, x);
-            for (int a = 0; a < r->terms; a++) b[a * nv + v] = a < m ? x[a] : 0;
+            for (int a = 0; a < r->terms; a++) fit[r->at[a] + (size_t) v] = a < m ? x[a] : 0;
         }
         return 1;
     }
     return 0;
+}
+
+/* Adds a point to the normal equations of a node, four numbers at a time. row: its stress, then the terms. */
+PG_WIDE static void add_point (const recovery *r, double w, const double *row, double *fit)
+{
+    for (int a = 0; a < r->terms; a++) {
+        double c = w * row[r->g->nv + a];
+        for (size_t k = r->at[a]; k < r->at[a + 1]; k += LANES)
+            *(four *) (void *) (fit + k) += c * *(const four *) (const void *) (row + k - r->at[a]);
+    }
 }
 
 /* Normal equations of nodes first .. last. Each thread reads all points and takes what concerns its own
@@ -91,21 +103,19 @@ static void fit_nodes (void *context, size_t first, size_t last, int thread)
 {
     recovery *r = context;
     const pg_family *f = &r->rows->family;
+    double row[WIDEST] = { 0 };
     int nv = r->g->nv;
-    double q[TERMS];
     (void) thread;
     for (size_t p = 0; p < f->n; p++) {
         if (!takes_part (r, p)) continue;
+        memcpy (row, r->stress + p * (size_t) nv, (size_t) nv * sizeof *row);
         for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
             size_t j = (size_t) f->node[e];
             if (j < first || j >= last) continue;
-            double w = weight_of (r, p, e) * r->rows->weight[p], *to = r->fit + j * r->stride;
+            double w = weight_of (r, p, e) * r->rows->weight[p];
             if (!(w > 0)) continue;
-            polynomial (r, p, j, q);
-            for (int a = 0; a < r->terms; a++)
-                for (int c = 0; c <= a; c++) *to++ += w * q[a] * q[c];
-            for (int a = 0; a < r->terms; a++)
-                for (int v = 0; v < nv; v++) *to++ += w * q[a] * r->stress[p * (size_t) nv + (size_t) v];
+            polynomial (r, p, j, row + nv);
+            add_point (r, w, row, r->fit + j * r->stride);
         }
     }
     for (size_t j = first; j < last; j++) r->known[j] = (unsigned char) solve (r, r->fit + j * r->stride);
@@ -122,28 +132,38 @@ static double complementary (const recovery *r, size_t p, const double *s)
     return sum;
 }
 
+/* s += w times the polynomials with the coefficients of a node (eight numbers; those from nv on are not
+ * used). */
+PG_WIDE static void add_values (const recovery *r, double w, const double *q, const double *fit, double *s)
+{
+    four *sum = (four *) (void *) s;
+    for (int a = 0; a < r->terms; a++) {
+        const four *c = (const four *) (const void *) (fit + r->at[a]);
+        sum[0] += w * q[a] * c[0];
+        if (r->g->nv > LANES) sum[1] += w * q[a] * c[1];
+    }
+}
+
 /* Recovered stress less the computed one at a range of points, and both in the energy norm; NAN where
  * nothing is known. */
 static void compare_points (void *context, size_t first, size_t last, int thread)
 {
     recovery *r = context;
     const pg_family *f = &r->rows->family;
-    int nv = r->g->nv, triangle = r->terms * (r->terms + 1) / 2;
+    int nv = r->g->nv;
     double q[TERMS];
     (void) thread;
     for (size_t p = first; p < last; p++) {
         const double *s = r->stress + p * (size_t) nv;
-        double sum = 0, recovered[VOIGT] = { 0 };
+        double sum = 0, recovered[2 * LANES] = { 0 };
         r->error[p] = r->size[p] = NAN;
         if (!takes_part (r, p)) continue;
         for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
             size_t j = (size_t) f->node[e];
             double w = r->known[j] ? weight_of (r, p, e) : 0;
-            const double *c = r->fit + j * r->stride + triangle;
             if (!(w > 0)) continue;
             polynomial (r, p, j, q);
-            for (int a = 0; a < r->terms; a++)
-                for (int v = 0; v < nv; v++) recovered[v] += w * q[a] * *c++;
+            add_values (r, w, q, r->fit + j * r->stride, recovered);
             sum += w;
         }
         if (!(sum > 0)) continue;
@@ -205,7 +225,9 @@ pg_status galerkin_estimate (void *self, const double *d, pg_estimate *out, doub
     size_t points = r.rows->n;
     *out = (pg_estimate) { 0 };
     r.terms = terms_of (g->dim, r.order);
-    r.stride = (size_t) (r.terms * (r.terms + 1) / 2 + r.terms * g->nv);
+    for (int a = 0; a < r.terms; a++)
+        r.at[a + 1] = r.at[a] + (size_t) (g->nv + a + 1 + LANES - 1) / LANES * LANES;
+    r.stride = r.at[r.terms];
     PG_ALLOC (r.fit, g->n * r.stride);
     PG_ALLOC (r.known, g->n);
     PG_ALLOC (r.error, points);

@@ -4,7 +4,8 @@
  * own (pg_problem_bare). As long as all bonds of a set are alive, a force on the problem itself would
  * evaluate the same rows from the same numbers to the same bits. It therefore reads those that the problem
  * keeps (pg_problem.intact), and makes rows of its own, copies at first, as soon as a bond of theirs is
- * broken. */
+ * broken. Where the patch test has assembled K, and the material is that of the run, the part of the
+ * evaluation points is kept as well. */
 #include "galerkin.h"
 #include <string.h>
 
@@ -31,6 +32,12 @@ void galerkin_follow (galerkin *g)
     else g->sums = g->rows[g->bulk];
 }
 
+/* Has the run the material of the bare body everywhere, and no other part of K in the bulk? */
+static int same_stiffness (const galerkin *g, const pg_problem *run)
+{
+    return g->K && !g->all_stale && run->nmaterial == 1 && run->nlaw == 1 && !g->dilatation;
+}
+
 /* Boundary facets of the bare problem are others than those of the run: only nodes and points are kept. */
 pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem)
 {
@@ -44,6 +51,7 @@ pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem)
     for (int set = PG_NODES; set <= PG_POINTS; set++) move_values (&kept->rows[set], &g->rows[set]);
     if (g->problem->consistency) move_values (&kept->sums, &g->sums), kept->sums.grade = NULL;
     galerkin_follow (g);
+    if (same_stiffness (g, problem)) kept->K = g->K, g->K = NULL, pg_assembly_settle (kept->K);
     problem->intact = kept;
 done:
     return status;
@@ -63,6 +71,14 @@ int galerkin_borrow_sums (galerkin *g)
     if (!g->borrows[g->bulk]) return 0;
     g->sums.N = g->problem->intact->sums.N, g->sums.dN = g->problem->intact->sums.dN;
     return 1;
+}
+
+/* Forces on one problem may ask at the same time: one gets it, the others assemble themselves, to the same
+ * bits. */
+pg_assembly *galerkin_take_stiffness (const galerkin *g)
+{
+    pg_intact *kept = g->problem->intact;
+    return kept && g->borrows[g->bulk] ? __atomic_exchange_n (&kept->K, NULL, __ATOMIC_ACQ_REL) : NULL;
 }
 
 /* A copy of the values of all rows, `width` numbers a bond, in which every point has a row of its own. */

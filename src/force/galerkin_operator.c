@@ -134,18 +134,25 @@ void galerkin_mark_stale (galerkin *g, const size_t *count)
 
 /* Sources of blocks: bulk (cell by cell with consistent integration, whose derivatives join all points of
  * a cell), facets, nodes under a penalty, patches of the dilatation. */
-static pg_status create_matrix (galerkin *g)
+static pg_status create_matrix (galerkin *g, const pg_assembly *known)
 {
     pg_assembly_source source[4];
     size_t n = 0;
-    if (g->whole) source[n++] = (pg_assembly_source){ &g->problem->consistency->cell_family, g,
-                                                      galerkin_cell_blocks };
-    else source[n++] = (pg_assembly_source) { &g->sums.family, g, galerkin_bulk_blocks };
-    if (g->nnitsche) source[n++] = (pg_assembly_source) { &g->rows[PG_FACETS].family, g,
-                                                          galerkin_facet_blocks };
-    if (g->dilatation)
-        source[n++] = (pg_assembly_source){ galerkin_dilatation_family (g), g, galerkin_dilatation_blocks };
-    if (g->npenalty) source[n++] = (pg_assembly_source) { &g->penalty_family, g, galerkin_penalty_blocks };
+    const pg_adjacency *cells = g->whole ? &g->problem->consistency->cell_family : NULL;
+    source[n] = (pg_assembly_source) { .seen = cells ? cells : &g->sums.family, .context = g,
+                                       .known = known };
+    if (galerkin_has_rows (g))
+        source[n].rows = cells ? galerkin_cell_rows : galerkin_point_rows,
+        source[n].finish = galerkin_finish_rows;
+    else source[n].blocks = cells ? galerkin_cell_blocks : galerkin_bulk_blocks;
+    n++;
+    if (g->nnitsche) source[n++] = (pg_assembly_source) { .seen = &g->rows[PG_FACETS].family, .context = g,
+                                                          .blocks = galerkin_facet_blocks };
+    if (g->dilatation) source[n++] = (pg_assembly_source) { .seen = galerkin_dilatation_family (g),
+                                                            .context = g,
+                                                            .blocks = galerkin_dilatation_blocks };
+    if (g->npenalty) source[n++] = (pg_assembly_source) { .seen = &g->penalty_family, .context = g,
+                                                          .blocks = galerkin_penalty_blocks };
     g->all_stale = 1;
     return pg_assembly_create (&g->K, g->n, g->dim, n, source);
 }
@@ -155,9 +162,11 @@ pg_status galerkin_assemble (void *self)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
+    pg_assembly *known = g->K ? NULL : galerkin_take_stiffness (g);
     int *node = NULL;
     size_t nnode = 0;
-    if (!g->K) PG_TRY (create_matrix (g));
+    if (!g->K) PG_TRY (create_matrix (g, known));
+    g->took |= known != NULL;
     if (g->all_stale) PG_TRY (pg_assembly_gather (g->K, g->n, NULL, g->threads));
     else {
         PG_ALLOC (node, g->n);
@@ -167,7 +176,9 @@ pg_status galerkin_assemble (void *self)
     g->all_stale = 0;
     memset (g->stale, 0, g->n);
 done:
+    if (status != PG_OK && known) pg_assembly_free (&g->K);            /* which still looks at it */
     pg_free (node);
+    pg_assembly_free (&known);
     return status;
 }
 
@@ -195,7 +206,7 @@ pg_status galerkin_mass_matrix (void *self, const pg_sparse **M)
     pg_status status = PG_OK;
     galerkin *g = self;
     if (!g->M) {
-        pg_assembly_source source = { &g->sums.family, g, mass_blocks };
+        pg_assembly_source source = { .seen = &g->sums.family, .context = g, .blocks = mass_blocks };
         PG_TRY (pg_assembly_create (&g->M, g->n, 1, 1, &source));
         PG_TRY (pg_assembly_gather (g->M, g->n, NULL, g->threads));
     }

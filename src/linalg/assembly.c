@@ -48,23 +48,35 @@ done:
     return status;
 }
 
-/* Counts (node NULL) or lists the nodes J <= I that share a point with I. mark[J] = I + 1 once J has been
- * found. As the nodes of a point ascend, those up to its local number suffice. */
+/* Adds those of n nodes to the neighbours of I that are not among them yet: mark[J] = I + 1 once J has been
+ * found. Counts alone where `list` is NULL. */
+static size_t add_nodes (size_t I, size_t n, const int *node, size_t *mark, size_t count, int *list)
+{
+    for (size_t b = 0; b < n; b++) {
+        int J = node[b];
+        if (mark[J] == I + 1) continue;
+        mark[J] = I + 1;
+        if (list) list[count] = J;
+        count++;
+    }
+    return count;
+}
+
+/* Counts (node NULL) or lists the nodes J <= I that share a point with I. As the nodes of a point ascend,
+ * those up to its local number suffice. */
 static size_t neighbours (const pg_assembly *K, size_t I, size_t *mark, int *node)
 {
     size_t count = 0;
-    for (size_t s = 0; s < K->nsource; s++)
-        for (size_t k = K->inverse[s].start[I]; k < K->inverse[s].start[I + 1]; k++) {
-            const pg_adjacency *f = K->source[s].seen;
-            size_t first = f->start[K->inverse[s].point[k]];
-            for (size_t b = 0; b <= K->inverse[s].local[k]; b++) {
-                int J = f->node[first + b];
-                if (mark[J] == I + 1) continue;
-                mark[J] = I + 1;
-                if (node) node[count] = J;
-                count++;
-            }
-        }
+    for (size_t s = 0; s < K->nsource; s++) {
+        const pg_adjacency *f = K->source[s].seen, *known = K->source[s].known ? &K->source[s].known->lower
+                                                                               : NULL;
+        if (known)
+            count = add_nodes (I, known->start[I + 1] - known->start[I], known->node + known->start[I], mark,
+                               count, node);
+        for (size_t k = K->inverse[s].start[I]; !known && k < K->inverse[s].start[I + 1]; k++)
+            count = add_nodes (I, K->inverse[s].local[k] + 1,
+                               f->node + f->start[K->inverse[s].point[k]], mark, count, node);
+    }
     /* A node that no point sees keeps its diagonal, so that the matrix has a full diagonal. */
     if (mark[I] != I + 1) {
         if (node) node[count] = (int) I;
@@ -213,14 +225,20 @@ done:
     return status;
 }
 
+void pg_assembly_settle (pg_assembly *K)
+{
+    for (size_t s = 0; K->inverse && s < K->nsource; s++) {
+        inverse *v = &K->inverse[s];
+        pg_free (v->start), pg_free (v->point), pg_free (v->local);
+    }
+    pg_free (K->inverse), pg_free (K->source), pg_free (K->K.row);
+    K->inverse = NULL, K->source = NULL, K->nsource = 0, K->K.row = NULL;
+}
+
 void pg_assembly_free (pg_assembly **K)
 {
     if (!*K) return;
-    for (size_t s = 0; (*K)->inverse && s < (*K)->nsource; s++) {
-        inverse *v = &(*K)->inverse[s];
-        pg_free (v->start), pg_free (v->point), pg_free (v->local);
-    }
-    pg_free ((*K)->inverse), pg_free ((*K)->source);
+    pg_assembly_settle (*K);
     pg_free ((*K)->lower.start), pg_free ((*K)->lower.node);
     pg_sparse_clear (&(*K)->K);
     pg_free (*K);
@@ -230,8 +248,16 @@ void pg_assembly_free (pg_assembly **K)
 pg_sparse *pg_assembly_matrix (pg_assembly *K) { return &K->K; }
 
 /* ---- gather -------------------------------------------------------------------------------------------- */
-/* Workspaces of all threads: slot (node -> place within the row, threads x n) and blocks. */
-typedef struct { pg_assembly *K; const int *list; size_t *slot; double *blocks; } gathering;
+/* Workspaces of a thread: where each node stands in the row at hand (n), what one point gives, and the sums
+ * of a source that finishes them. */
+typedef struct { size_t *slot; double *blocks, *sum; } workspace;
+/* Those of all threads, one behind the other: so many numbers each. */
+typedef struct {
+    pg_assembly *K;
+    const int *list;
+    size_t *slot, nblocks, nsum;
+    double *blocks, *sum;
+} gathering;
 
 /* Adds block (I, J), row-major m x m, transposed into the columns of node I; `slot` is the place of J among
  * the rows of these columns. */
@@ -245,50 +271,125 @@ static void add_block (pg_assembly *K, size_t I, size_t J, size_t slot, const do
     }
 }
 
-/* Computes the columns of node I anew. */
-static void gather_row (gathering *g, size_t I, size_t *slot, double *blocks)
+/* Adds block rows of the first m nodes of a point (`part`) to rows of `wide` numbers: nodes whose places
+ * follow each other at once. */
+static void add_rows (size_t block, size_t m, const int *node, const size_t *slot, const double *part,
+                      size_t wide, double *sum)
 {
-    pg_assembly *K = g->K;
-    size_t m = (size_t) K->block, mm = m * m;
+    for (size_t b = 0, end; b < m; b = end) {
+        size_t to = slot[node[b]];
+        for (end = b + 1; end < m && slot[node[end]] == to + (end - b);) end++;
+        for (size_t beta = 0; beta < block; beta++) {
+            const double *from = part + (beta * m + b) * block;
+            double *at = sum + beta * wide + to * block;
+            for (size_t k = 0; k < (end - b) * block; k++) at[k] += from[k];
+        }
+    }
+}
+
+/* Adds what a source that finishes its sums has for the columns of node I: the last block, that of I itself,
+ * by its upper triangle. */
+static void gather_sums (pg_assembly *K, size_t source, size_t I, const workspace *w)
+{
+    const pg_assembly_source *s = &K->source[source];
+    const inverse *v = &K->inverse[source];
+    size_t m = (size_t) K->block, count = K->lower.start[I + 1] - K->lower.start[I], wide = count * m;
+    if (v->start[I] == v->start[I + 1]) return;
+    memset (w->sum, 0, m * wide * sizeof *w->sum);
+    for (size_t k = v->start[I]; k < v->start[I + 1]; k++) {
+        size_t p = v->point[k], a = v->local[k];
+        memset (w->blocks, 0, (a + 1) * m * m * sizeof *w->blocks);
+        s->rows (s->context, p, a, a + 1, w->blocks);
+        add_rows (m, a + 1, s->seen->node + s->seen->start[p], w->slot, w->blocks, wide, w->sum);
+    }
+    s->finish (s->context, count, w->sum);
+    for (size_t beta = 0; beta < m; beta++) {
+        double *column = K->K.value + K->K.start[I * m + beta];
+        for (size_t k = 0; k < wide - m + beta + 1; k++) column[k] += w->sum[beta * wide + k];
+    }
+}
+
+/* Adds the columns of node I of another assembly, whose couplings are among those at hand. */
+static void add_known (pg_assembly *K, const pg_assembly *known, size_t I, const size_t *slot)
+{
+    size_t m = (size_t) K->block, from = known->lower.start[I], count = known->lower.start[I + 1] - from;
+    for (size_t beta = 0; beta < m; beta++) {
+        const double *value = known->K.value + known->K.start[I * m + beta];
+        double *column = K->K.value + K->K.start[I * m + beta];
+        for (size_t k = 0; k < count; k++) {
+            size_t J = (size_t) known->lower.node[from + k], top = J == I ? beta + 1 : m;
+            for (size_t alpha = 0; alpha < top; alpha++)
+                column[slot[J] * m + alpha] += value[k * m + alpha];
+        }
+    }
+}
+
+/* Adds the blocks of all points of a source to the columns of node I. */
+static void gather_blocks (pg_assembly *K, size_t source, size_t I, const workspace *w)
+{
+    const pg_assembly_source *s = &K->source[source];
+    const inverse *v = &K->inverse[source];
+    size_t mm = (size_t) (K->block * K->block);
+    for (size_t k = v->start[I]; k < v->start[I + 1]; k++) {
+        size_t p = v->point[k], a = v->local[k];
+        const int *node = s->seen->node + s->seen->start[p];
+        memset (w->blocks, 0, (a + 1) * mm * sizeof *w->blocks);
+        s->blocks (s->context, p, a, a + 1, w->blocks);
+        for (size_t b = 0; b <= a; b++)
+            add_block (K, I, (size_t) node[b], w->slot[node[b]], w->blocks + b * mm);
+    }
+}
+
+/* Computes the columns of node I anew: sources, and points within a source, in their order. */
+static void gather_row (pg_assembly *K, size_t I, const workspace *w)
+{
+    size_t m = (size_t) K->block;
     memset (K->K.value + K->K.start[I * m], 0,
             (size_t) (K->K.start[(I + 1) * m] - K->K.start[I * m]) * sizeof (double));
-    /* Where each coupled node stands in this row. */
     for (size_t k = K->lower.start[I]; k < K->lower.start[I + 1]; k++)
-        slot[K->lower.node[k]] = k - K->lower.start[I];
-    /* Sources, and points within a source, in their order. */
+        w->slot[K->lower.node[k]] = k - K->lower.start[I];
     for (size_t s = 0; s < K->nsource; s++) {
-        const pg_assembly_source *source = &K->source[s];
-        for (size_t k = K->inverse[s].start[I]; k < K->inverse[s].start[I + 1]; k++) {
-            size_t p = K->inverse[s].point[k], a = K->inverse[s].local[k];
-            const int *node = source->seen->node + source->seen->start[p];
-            memset (blocks, 0, (a + 1) * mm * sizeof *blocks);
-            source->blocks (source->context, p, a, a + 1, blocks);
-            for (size_t b = 0; b <= a; b++)
-                add_block (K, I, (size_t) node[b], slot[node[b]], blocks + b * mm);
-        }
+        if (K->source[s].known) add_known (K, K->source[s].known, I, w->slot);
+        else if (K->source[s].rows) gather_sums (K, s, I, w);
+        else gather_blocks (K, s, I, w);
     }
 }
 
 /* The rows first .. last - 1 of the list. */
 static void gather (void *context, size_t first, size_t last, int thread)
 {
-    gathering *g = context;
-    size_t wide = g->K->widest + 1, mm = (size_t) (g->K->block * g->K->block);
-    for (size_t k = first; k < last; k++)
-        gather_row (g, g->list ? (size_t) g->list[k] : k, g->slot + (size_t) thread * g->K->n,
-                    g->blocks + (size_t) thread * wide * mm);
+    const gathering *g = context;
+    size_t t = (size_t) thread;
+    workspace w = { g->slot + t * g->K->n, g->blocks + t * g->nblocks, g->sum + t * g->nsum };
+    for (size_t k = first; k < last; k++) gather_row (g->K, g->list ? (size_t) g->list[k] : k, &w);
+}
+
+/* Numbers of the longest row of blocks, where a source sums them. */
+static size_t longest_sum (const pg_assembly *K)
+{
+    size_t most = 0;
+    int summed = 0;
+    for (size_t s = 0; s < K->nsource; s++) summed |= K->source[s].rows != NULL;
+    for (size_t I = 0; I < K->n && summed; I++) {
+        size_t count = K->lower.start[I + 1] - K->lower.start[I];
+        most = count > most ? count : most;
+    }
+    return most * (size_t) (K->block * K->block);
 }
 
 /* Each thread needs a map from nodes to places in a row, and room for the blocks of one point. */
 pg_status pg_assembly_gather (pg_assembly *K, size_t count, const int *list, int threads)
 {
     pg_status status = PG_OK;
-    gathering g = { K, list, NULL, NULL };
+    gathering g = { .K = K, .list = list, .nsum = longest_sum (K),
+                    .nblocks = (K->widest + 1) * (size_t) (K->block * K->block) };
     if (threads < 1 || count < 64) threads = 1;
     PG_ALLOC (g.slot, (size_t) threads * K->n);
-    PG_ALLOC (g.blocks, (size_t) threads * (K->widest + 1) * (size_t) (K->block * K->block));
+    PG_ALLOC (g.blocks, (size_t) threads * g.nblocks);
+    PG_ALLOC (g.sum, (size_t) threads * g.nsum + 1);
     pg_parallel (threads, count, gather, &g);
+    for (size_t s = 0; !list && s < K->nsource; s++) K->source[s].known = NULL;
 done:
-    pg_free (g.slot), pg_free (g.blocks);
+    pg_free (g.slot), pg_free (g.blocks), pg_free (g.sum);
     return status;
 }

@@ -379,7 +379,7 @@ done:
 static void intact_free (pg_intact **intact)
 {
     for (int s = 0; *intact && s < PG_BOND_SETS; s++) pg_rows_clear (&(*intact)->rows[s]);
-    if (*intact) pg_rows_clear (&(*intact)->sums);
+    if (*intact) pg_rows_clear (&(*intact)->sums), pg_assembly_free (&(*intact)->K);
     pg_free (*intact);
     *intact = NULL;
 }

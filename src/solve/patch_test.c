@@ -275,18 +275,18 @@ static double iterate (probe *t, double scale)
     return found;
 }
 
-/* What is missing of K x = P, by the factor: x takes it, and the residual is gone. *energy: as `iterate` has
- * it. A residual of the size of rounding stays: soft modes would make of it more than it means. What supports
- * on points hold no factor knows. */
+/* What is missing of K x = P: x takes it. *energy: as `iterate` has it; the factor leaves no residual. One of
+ * the size of rounding stays: there is nothing to be found, and soft modes would make of it more than it
+ * means. What supports on points hold no factor knows. */
 static pg_status find_rest (probe *t, double scale, double *energy)
 {
     pg_status status = PG_OK;
+    *energy = 0;
+    if (scale > 0 && !(dot (t->ndof, t->r, t->r) > 1e-22 * dot (t->ndof, t->P, t->P))) return PG_OK;
     if (!t->factor || t->supported) {
         *energy = iterate (t, scale);
         return PG_OK;
     }
-    *energy = 0;
-    if (scale > 0 && !(dot (t->ndof, t->r, t->r) > 1e-22 * dot (t->ndof, t->P, t->P))) return PG_OK;
     PG_TRY (patch_factor_solve (t->factor, t->r, t->z));
     for (size_t i = 0; i < t->ndof; i++) t->x[i] += t->z[i];
     *energy = dot (t->ndof, t->r, t->z);
@@ -479,7 +479,8 @@ pg_status pg_patch_probe (pg_problem *problem)
     count_defects (&t);
     if (t.out.fragments && !problem->method->shape_functions) hold_rim (&t);
     int whole = !t.out.held && !t.out.fragments && !t.out.isolated;
-    if (whole) PG_TRY (patch_factor_create (&t.factor, bare, t.force, t.self, t.limit));
+    int reused = lasts (problem) && problem->nmaterial == 1 && problem->nlaw == 1;
+    if (whole) PG_TRY (patch_factor_create (&t.factor, bare, t.force, t.self, t.limit, reused));
     for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
     PG_TRY (measure_softness (&t));
     if (mark_supports (&t, problem)) for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));

@@ -1,14 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The equilibria of the patch test by a factor of K. In the plane K has a cheap factor, and the run that
- * follows will make such a factor as well, so that memory suffices; conjugate gradients need some
+ * The equilibria of the patch test by a factor of K. In the plane, and of small bodies in space, K has a
+ * cheap factor, and the run that follows will make such a factor as well, so that memory suffices (it takes K
+ * as it is, where the body has one material and nothing breaks); conjugate gradients need some
  * 60 + 1.6 n^(1/2) products with K for all states of stress and the measure of softness together (107, 123
  * and 134 with 576, 1248 and 2176 points around a hole). On a large lattice they are fewer and cheaper: an
  * edge crack of 40 000 points takes 0.2 s by iterations and 0.85 s by a factor; on a small one most points
  * are like few others (297 points: 44 million instructions by iterations, 22 by a factor).
  *
- * The bare body is free to move. Two springs hold one point and one spring keeps a point far from it from
- * turning about it, each as stiff as K is there. Forces in balance leave these springs without force, so that
- * K x = b holds as it stands, and x is the solution that is zero at the springs. */
+ * The bare body is free to move. As many springs as it has rigid motions hold it. Forces in balance leave
+ * these springs without force, so that K x = b holds as it stands, and x is the solution that is zero at the
+ * springs. */
 #include "patch_test_factor.h"
 #include <math.h>
 #include <string.h>
@@ -32,33 +33,64 @@ static double cost_of_iterations (const pg_problem *p, size_t products)
 
 static int has_matrix (const pg_problem *p, const pg_force_type *force, void *self)
 {
-    if (p->dim != 2 || pg_problem_unknowns (p) != 2 || !p->equilibria || p->plain) return 0;
+    if (p->dim < 2 || pg_problem_unknowns (p) != p->dim || !p->equilibria || p->plain) return 0;
     if (p->cloud.regular && p->cloud.n > MOST_ON_LATTICE) return 0;    /* products cost little */
+    pg_solve_counts c = pg_solve_count (p);            /* has the run no factor either? */
+    if (p->dim > 2 && (!p->method->shape_functions || pg_solve_by_elements (&c, 1, 0, 0))) return 0;
     if (!force->matrix || !force->assemble || (force->basis && force->basis (self))) return 0;
     return !force->matrix_free || !force->matrix_free (self);
 }
 
-/* The point farthest from point `from`. */
-static size_t farthest (const pg_cloud *c, size_t from)
+/* Displacements of unknown `at` in the rigid motions of the body: translations, then turns about the middle
+ * over the size of the body (at most 6 numbers; returns how many). */
+static size_t rigid_motions (const pg_cloud *c, const double *middle, double size, size_t at, double *out)
 {
-    double most = -1;
-    size_t best = from;
-    for (size_t i = 0; i < c->n; i++) {
-        double dx = c->x[2 * i] - c->x[2 * from], dy = c->x[2 * i + 1] - c->x[2 * from + 1];
-        if (dx * dx + dy * dy > most) most = dx * dx + dy * dy, best = i;
-    }
-    return best;
+    size_t dim = (size_t) c->dim, k = at % dim, n = dim;
+    const double *x = c->x + (at - k);
+    memset (out, 0, 6 * sizeof *out);
+    out[k] = 1;
+    for (size_t a = 0; a < dim; a++)
+        for (size_t b = a + 1; b < dim; b++, n++) {
+            if (k == a) out[n] = -(x[b] - middle[b]) / size;
+            if (k == b) out[n] = (x[a] - middle[a]) / size;
+        }
+    return n;
 }
 
-/* Springs on both unknowns of a point, and across the line to the point farthest from it at that. The last
- * entry of a column is its diagonal. */
-static void hold (pg_sparse *K, const pg_cloud *c)
+/* Springs on as many unknowns as there are rigid motions, each as stiff as K is there, the next one where
+ * what those before leave free moves the body most (QR decomposition with pivots). The last entry of a column
+ * is its diagonal. */
+static pg_status hold (pg_sparse *K, const pg_cloud *c)
 {
-    size_t one = farthest (c, 0), other = farthest (c, one);
-    double along_x = fabs (c->x[2 * other] - c->x[2 * one]),
-           along_y = fabs (c->x[2 * other + 1] - c->x[2 * one + 1]);
-    size_t held[3] = { 2 * one, 2 * one + 1, 2 * other + (along_x >= along_y) };
-    for (int k = 0; k < 3; k++) K->value[K->start[held[k] + 1] - 1] *= 2;
+    pg_status status = PG_OK;
+    size_t dim = (size_t) c->dim, n = dim * c->n, m = 0;
+    double *R = NULL, middle[3] = { 0 }, size = 0;
+    PG_ALLOC (R, 6 * n);
+    for (size_t k = 0; k < dim; k++) {
+        middle[k] = (c->low[k] + c->high[k]) / 2;
+        size = fmax (size, c->high[k] - c->low[k]);
+    }
+    for (size_t i = 0; i < n; i++) m = rigid_motions (c, middle, size > 0 ? size : 1, i, R + 6 * i);
+    for (size_t s = 0; s < m; s++) {
+        double most = 0, row[6];
+        size_t best = 0;
+        for (size_t i = 0; i < n; i++) {
+            double square = 0;
+            for (size_t k = 0; k < m; k++) square += R[6 * i + k] * R[6 * i + k];
+            if (square > most) most = square, best = i;
+        }
+        if (!(most > 1e-12)) break;                    /* points in a line */
+        K->value[K->start[best + 1] - 1] *= 2;
+        memcpy (row, R + 6 * best, sizeof row);
+        for (size_t i = 0; i < n; i++) {
+            double along = 0;
+            for (size_t k = 0; k < m; k++) along += R[6 * i + k] * row[k];
+            for (size_t k = 0; k < m; k++) R[6 * i + k] -= along / most * row[k];
+        }
+    }
+done:
+    pg_free (R);
+    return status;
 }
 
 void patch_factor_free (patch_factor **factor)
@@ -72,24 +104,25 @@ void patch_factor_free (patch_factor **factor)
 }
 
 pg_status patch_factor_create (patch_factor **out, const pg_problem *bare, const pg_force_type *force,
-                               void *self, size_t products)
+                               void *self, size_t products, int reused)
 {
     pg_status status = PG_OK;
     patch_factor *f = NULL;
     pg_linear_info info;
     double iterations = cost_of_iterations (bare, products),
-           assembly = assembly_cost * (double) bare->first_bond[PG_BOND_SETS];
-    pg_linear_options o = { 2, bare->dim, bare->threads, 1e-12, 0 };
+           assembly = reused ? 0 : assembly_cost * (double) bare->first_bond[PG_BOND_SETS];
+    size_t n = (size_t) bare->dim * bare->cloud.n, entries;
+    pg_linear_options o = { bare->dim, bare->dim, bare->threads, 1e-12, 0 };
     *out = NULL;
     if (!has_matrix (bare, force, self) || assembly > iterations) return PG_OK;
     PG_ALLOC (f, 1);
     f->linear = pg_linear_first (1, 1);
     PG_TRY (force->assemble (self));
     f->K = *force->matrix (self), f->K.value = NULL;
-    size_t n = 2 * bare->cloud.n, entries = (size_t) f->K.start[n];
+    entries = (size_t) f->K.start[n];
     PG_ALLOC (f->K.value, entries);
     memcpy (f->K.value, force->matrix (self)->value, entries * sizeof *f->K.value);
-    hold (&f->K, &bare->cloud);
+    PG_TRY (hold (&f->K, &bare->cloud));
     PG_TRY (pg_linear_analyse (&f->linear, &f->self, &f->K, &o));
     f->linear->info (f->self, &info);
     if (assembly + operation_cost * info.flops > iterations) goto done;

@@ -14,6 +14,11 @@ static const char *const scenes[] = {
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
+/* A run that finds equilibria, with supports whose points see more nodes than are coupled without them. */
+#define HELD \
+    "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1}}]\n" \
+    "solver: {kind: static}\n"
+
 /* The scene of plane strain says `plane` twice. */
 static bonded built (int k)
 {
@@ -83,6 +88,79 @@ static void kept_rows_give_the_same_bits (void **unused)
     }
 }
 
+/* Matrices of two forces, after `assemble` of both. */
+static void same_matrix (const bonded *b, void *one, void *other)
+{
+    check_ok (b->force->assemble (one));
+    check_ok (b->force->assemble (other));
+    const pg_sparse *A = b->force->matrix (one), *B = b->force->matrix (other);
+    size_t entries = (size_t) A->start[A->ncol];
+    assert_int_equal (B->start[B->ncol], A->start[A->ncol]);
+    assert_memory_equal (A->row, B->row, entries * sizeof *A->row);
+    assert_memory_equal (A->value, B->value, entries * sizeof *A->value);
+}
+
+/* So is the bulk's part of K, where the patch test takes a factor: the first force that assembles gets it. */
+static void kept_stiffness_gives_the_same_bits (void **unused)
+{
+    (void) unused;
+    static const char *const of[] = {
+        BODY2 "method: {integration: gauss}\nperturb: {amount: 0.2}\n" HELD,
+        BODY2 "method: {integration: consistent, basis: quadratic, horizon: 2.6 spacing}\n" HELD,
+        BODY3 "method: {integration: gauss}\n" HELD,
+        BODY3 "method: {integration: consistent, basis: quadratic, horizon: 2.6 spacing}\n" HELD,
+    };
+    for (size_t k = 0; k < sizeof of / sizeof *of; k++) {
+        bonded b = bonded_of (of[k]);
+        void *first = NULL, *later = NULL;
+        check_ok (pg_patch_probe (b.problem));
+        assert_non_null (b.problem->intact);
+        assert_non_null (b.problem->intact->K);
+        check_ok (b.force->create (&first, b.problem));
+        check_ok (b.force->refresh (first, b.state, NULL));
+        check_ok (b.force->create (&later, b.problem));
+        check_ok (b.force->refresh (later, b.state, NULL));
+        same_matrix (&b, first, b.self);
+        assert_null (b.problem->intact->K);
+        same_matrix (&b, later, b.self);
+        size_t dead[60], n = 0;
+        for (size_t e = 0; e < 350; e += 7) dead[n++] = e, b.state->alive[e] = 0;
+        pg_changes changes = { .n = n, .bond = dead };
+        check_ok (b.force->refresh (b.self, b.state, &changes));
+        check_ok (b.force->refresh (first, b.state, &changes));
+        same_matrix (&b, first, b.self);
+        b.force->free (&first), b.force->free (&later);
+        unbonded (&b);
+    }
+}
+
+/* Two materials are not those of the bare body, and bonds that break change what was kept. */
+static void stiffness_of_another_body_is_not_kept (void **unused)
+{
+    (void) unused;
+    bonded b = bonded_of (
+        "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1, 0.7]}}}]\nspacing: 0.1\n"
+        "thickness: 0.2\nmaterials: {rock: {youngs_modulus: 10, poissons_ratio: 0.3}, "
+        "clay: {youngs_modulus: 1, poissons_ratio: 0.2}}\n"
+        "blocks: [{material: rock, where: 'x <= 0.5'}, {material: clay, where: 'x > 0.5'}]\n"
+        "method: {integration: consistent}\n" HELD);
+    check_ok (pg_patch_probe (b.problem));
+    assert_non_null (b.problem->intact);
+    assert_null (b.problem->intact->K);
+    unbonded (&b);
+    b = bonded_of (BODY2 "method: {integration: consistent}\n" HELD);
+    void *late = NULL;
+    check_ok (pg_patch_probe (b.problem));
+    assert_non_null (b.problem->intact->K);
+    for (int s = 0; s < PG_BOND_SETS; s++) b.state->alive[b.problem->first_bond[s]] = 0;
+    check_ok (b.force->refresh (b.self, b.state, NULL));
+    check_ok (b.force->create (&late, b.problem));
+    check_ok (b.force->refresh (late, b.state, NULL));
+    same_matrix (&b, b.self, late);
+    b.force->free (&late);
+    unbonded (&b);
+}
+
 /* Where bonds may break, or `plain` asks for no shortcuts, nothing is kept. */
 static void kept_only_where_nothing_breaks (void **unused)
 {
@@ -123,6 +201,8 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (kept_rows_give_the_same_bits),
+        cmocka_unit_test (kept_stiffness_gives_the_same_bits),
+        cmocka_unit_test (stiffness_of_another_body_is_not_kept),
         cmocka_unit_test (kept_only_where_nothing_breaks),
         cmocka_unit_test (memory_that_ends_harms_nothing),
     };

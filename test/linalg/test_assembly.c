@@ -1,6 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * The row-owned gather against a naive dense assembly of random families; redoing rows and adding threads
- * change no bit. */
+ * The row-owned gather against a naive dense assembly of random families, by blocks and by sums that are
+ * finished; redoing rows, adding threads and what is known of a source change no bit. */
 #include "check.h"
 #include "perigal/linalg.h"
 
@@ -80,7 +80,8 @@ static pg_assembly *gathered (size_t n, int block, size_t nsource, random_source
     pg_assembly_source list[3];
     pg_assembly *K = NULL;
     for (size_t s = 0; s < nsource; s++)
-        list[s] = (pg_assembly_source) { &sources[s].family, &sources[s], blocks };
+        list[s] = (pg_assembly_source) { .seen = &sources[s].family, .context = &sources[s],
+                                          .blocks = blocks };
     check_ok (pg_assembly_create (&K, n, block, nsource, list));
     check_ok (pg_assembly_gather (K, n, NULL, threads));
     return K;
@@ -188,11 +189,107 @@ static void a_node_that_no_point_sees_keeps_its_diagonal (void **state)
     pg_assembly_free (&K);
 }
 
+/* The same blocks as rows of sums, which are those of the matrix with rows and columns of every block
+ * exchanged, and twice as large, until they are finished. */
+static void rows (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    random_source *s = context;
+    size_t block = (size_t) s->block, mm = block * block;
+    double *all = pg_calloc (m * mm, sizeof *all);
+    blocks (context, p, a, m, all);
+    for (size_t b = 0; b < m; b++)
+        for (size_t e = 0; e < mm; e++)
+            out[(e % block * m + b) * block + e / block] += 2 * all[b * mm + e];
+    pg_free (all);
+}
+
+/* finish is not told how many unknowns there are: that of the test at hand. */
+static size_t finished_block;
+static void finish (void *context, size_t m, double *sum)
+{
+    size_t n = finished_block;
+    (void) context;
+    for (size_t b = 0; b < m; b++)
+        for (size_t i = 0; i < n; i++)
+            for (size_t j = 0; j <= i; j++) {
+                double *x = &sum[(i * m + b) * n + j], *y = &sum[(j * m + b) * n + i], keep = *x / 2;
+                *x = *y / 2, *y = keep;
+            }
+}
+
+static void sums_that_are_finished_equal_blocks (void **state)
+{
+    (void) state;
+    for (int block = 1; block <= 3; block++) {
+        size_t n = 90;
+        finished_block = (size_t) block;
+        random_source s[2] = { random_points (80, n, 0.1, block, 11),
+                               random_points (20, n, 0.06, block, 12) };
+        pg_assembly *K = gathered (n, block, 2, s, 1);
+        const pg_sparse *A = pg_assembly_matrix (K);
+        size_t entries = (size_t) A->start[A->ncol];
+        pg_assembly_source list[2] = {
+            { .seen = &s[0].family, .context = &s[0], .rows = rows, .finish = finish },
+            { .seen = &s[1].family, .context = &s[1], .blocks = blocks }
+        };
+        pg_assembly *of[2] = { NULL, NULL };
+        for (int k = 0; k < 2; k++) {
+            check_ok (pg_assembly_create (&of[k], n, block, 2, list));
+            check_ok (pg_assembly_gather (of[k], n, NULL, k ? 3 : 1));
+        }
+        const pg_sparse *B = pg_assembly_matrix (of[0]);
+        assert_memory_equal (A->start, B->start, (A->ncol + 1) * sizeof *A->start);
+        assert_memory_equal (A->row, B->row, entries * sizeof *A->row);
+        for (size_t e = 0; e < entries; e++) check_scaled (B->value[e], A->value[e], 1e-13, 10);
+        assert_memory_equal (B->value, pg_assembly_matrix (of[1])->value, entries * sizeof *B->value);
+        pg_assembly_free (&of[0]), pg_assembly_free (&of[1]), pg_assembly_free (&K);
+        random_free (&s[0]), random_free (&s[1]);
+    }
+}
+
+/* What an assembly of the first source alone has come to is taken for it, bit by bit; rows that are asked for
+ * later are computed. */
+static void a_known_source_gives_the_same_bits (void **state)
+{
+    (void) state;
+    for (int block = 1; block <= 3; block++) {
+        size_t n = 80;
+        random_source s[2] = { random_points (90, n, 0.07, block, 13),
+                               random_points (25, n, 0.06, block, 14) };
+        pg_assembly *alone = gathered (n, block, 1, s, 1), *both = gathered (n, block, 2, s, 1), *K = NULL;
+        pg_assembly_source list[2] = {
+            { .seen = &s[0].family, .context = &s[0], .blocks = blocks, .known = alone },
+            { .seen = &s[1].family, .context = &s[1], .blocks = blocks }
+        };
+        pg_assembly_settle (alone);
+        check_ok (pg_assembly_create (&K, n, block, 2, list));
+        s[0].factor[3] *= 7;                           /* not looked at */
+        check_ok (pg_assembly_gather (K, n, NULL, 2));
+        pg_assembly_free (&alone);
+        for (int again = 0; again < 2; again++) {
+            const pg_sparse *A = pg_assembly_matrix (both), *B = pg_assembly_matrix (K);
+            size_t entries = (size_t) A->start[A->ncol];
+            assert_memory_equal (A->start, B->start, (A->ncol + 1) * sizeof *A->start);
+            assert_memory_equal (A->row, B->row, entries * sizeof *A->row);
+            assert_memory_equal (A->value, B->value, entries * sizeof *A->value);
+            int list_of[80], count = 0;
+            for (size_t e = s[0].family.start[3]; e < s[0].family.start[4]; e++)
+                list_of[count++] = s[0].family.node[e];
+            assert_true (count > 0);
+            check_ok (pg_assembly_gather (K, (size_t) count, list_of, 1));
+            check_ok (pg_assembly_gather (both, n, NULL, 1));
+        }
+        pg_assembly_free (&both), pg_assembly_free (&K);
+        random_free (&s[0]), random_free (&s[1]);
+    }
+}
+
 static void each_failed_allocation_is_reported (void **state)
 {
     (void) state;
     random_source s[2] = { random_points (20, 30, 0.2, 2, 9), random_points (5, 30, 0.2, 2, 10) };
-    pg_assembly_source list[2] = { { &s[0].family, &s[0], blocks }, { &s[1].family, &s[1], blocks } };
+    pg_assembly_source list[2] = { { .seen = &s[0].family, .context = &s[0], .blocks = blocks },
+                                   { .seen = &s[1].family, .context = &s[1], .blocks = blocks } };
     size_t used = pg_memory_used (), k = 0;
     pg_status status = PG_E_MEMORY;
     while (status != PG_OK) {
@@ -258,6 +355,8 @@ int main (void)
         cmocka_unit_test (threads_change_no_bit),
         cmocka_unit_test (a_node_that_no_point_sees_keeps_its_diagonal),
         cmocka_unit_test (graphs_hold_the_pairs_and_the_diagonal),
+        cmocka_unit_test (sums_that_are_finished_equal_blocks),
+        cmocka_unit_test (a_known_source_gives_the_same_bits),
         cmocka_unit_test (each_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests_name ("linalg/assembly", tests, NULL, NULL);

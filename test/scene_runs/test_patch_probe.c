@@ -207,7 +207,7 @@ static void softness_is_a_pure_number (void **state)
     check_relative (c, a, 1e-3);
 }
 
-/* In the plane a factor of K finds what iterations find: the same errors, and as much softness, also where
+/* A factor of K finds what iterations find: the same errors, and as much softness, also where
  * next to nothing resists some motion. `plain` asks for the iterations. */
 static void a_factor_finds_what_iterations_find (void **state)
 {
@@ -216,8 +216,10 @@ static void a_factor_finds_what_iterations_find (void **state)
         { "integration: nodal, stabilization: none", MOVED, 2, 0.1, { 1, 1, 0 }, 0, 0 },
         { "approximation: pddo, horizon: 3 spacing", MOVED, 2, 0.1, { 1, 2, 0 }, 0, 0 },
         { "integration: gauss, basis: quadratic, horizon: 2.6 spacing", MOVED, 2, 0.06, { 2, 1, 0 }, 0, 0 },
-        /* on a small lattice too */
+        /* on a small lattice too, and in space */
         { "approximation: pddo, horizon: 3 spacing", "", 2, 0.1, { 1, 2, 0 }, 0, 0 },
+        { "integration: gauss", "", 3, 0.2, { 1.4, 0.8, 1 }, 0, 0 },
+        { "integration: gauss, kernel: linear_r", MOVED, 3, 0.2, { 1, 0.8, 1 }, 0, 0 },
     };
     for (size_t k = 0; k < sizeof list / sizeof *list; k++) {
         pg_patch a = measured (&list[k], 1, ""), b = measured_as (&list[k], 1, "", 1);
@@ -232,6 +234,19 @@ static void a_factor_finds_what_iterations_find (void **state)
     /* products with K are cheap on a large lattice */
     static const tension lattice = { "integration: nodal", "", 2, 0.02, { 1, 1, 0 }, 0, 0 };
     assert_true (measured (&lattice, 1, "").iterations > 0);
+}
+
+/* Where the linear field is the answer to rounding nothing has to be solved for: iterations are those of the
+ * softness alone. */
+static void nothing_is_solved_where_nothing_is_missing (void **state)
+{
+    (void) state;
+    static const tension exact = { "integration: consistent", "", 3, 0.2, { 1, 1, 1 }, 0, 0 },
+                         other = { "integration: gauss", "", 3, 0.2, { 1, 1, 1 }, 0, 0 };
+    pg_patch a = measured_as (&exact, 1, "", 1), b = measured_as (&other, 1, "", 1);
+    print_message ("  %zu iterations where it is exact, %zu where it is not\n", a.iterations, b.iterations);
+    check_below (a.error, 1e-12);
+    assert_true (a.iterations > 0 && a.iterations + 6 * 6 <= b.iterations && b.error > 1e-4);
 }
 
 static void refused (const tension *c, const char *more, const char *const *words)
@@ -341,6 +356,7 @@ int main (void)
         cmocka_unit_test (points_without_a_surface_are_measured_inside),
         cmocka_unit_test (softness_is_a_pure_number),
         cmocka_unit_test (a_factor_finds_what_iterations_find),
+        cmocka_unit_test (nothing_is_solved_where_nothing_is_missing),
         cmocka_unit_test (too_wrong_is_refused),
         cmocka_unit_test (what_was_hardly_meant_is_said),
     };
