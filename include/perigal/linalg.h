@@ -335,6 +335,10 @@ void pg_shared_preconditioner_give (const pg_shared_preconditioner *type);
 const pg_shared_preconditioner *pg_shared_preconditioner_now (void);
 
 /* ---- finite elements as a preconditioner --------------------------------------------------------------- */
+/* Rows of a matrix that are alike: row first + k has the numbers of row `first`, for nodes k higher. */
+typedef struct { size_t first, count; } pg_row_run;
+typedef struct { size_t n, cap; pg_row_run *run; } pg_row_runs;
+
 /* A symmetric matrix of node blocks as a sum of element matrices, by rows with both triangles: row of node i
  * start[i] .. start[i + 1] - 1, nodes ascending, blocks row-major. Float: it serves preconditioners. */
 typedef struct {
@@ -344,6 +348,11 @@ typedef struct {
     size_t  n, widest;
     /* First coupling of each row (n + 1), its node (start[n]), its block (start[n] x block x block). */
     size_t *start;  int *node;  float *value;
+    /* pg_block_settle: rows that are alike; numbers of the first row of each run, and where they begin (run);
+     * vectors of a product, one for each unknown of a node. */
+    pg_row_runs alike;
+    double *model;  size_t *model_at;
+    double *part[6];
 } pg_block_matrix;
 /* Pattern of the elements, whose nodes `elements` lists; all values zero. PG_E_MEMORY. */
 pg_status pg_block_create (pg_block_matrix *out, size_t n, int block, const pg_adjacency *elements,
@@ -353,6 +362,8 @@ void      pg_block_clear  (pg_block_matrix *A);
 void      pg_block_add    (pg_block_matrix *A, size_t m, const int *node, const double *K);
 /* Adds to the diagonal of an unknown; nothing where the node is in no element. */
 void      pg_block_add_diagonal (pg_block_matrix *A, size_t unknown, double value);
+/* All has been added: products go faster from here on, where rows are alike. PG_E_MEMORY. */
+pg_status pg_block_settle (pg_block_matrix *A);
 /* As an operator, and as rows for pg_multilevel (reach: pg_couplings.reach); both borrow A. */
 pg_operator  pg_block_operator  (pg_block_matrix *A);
 pg_couplings pg_block_couplings (pg_block_matrix *A, double reach);

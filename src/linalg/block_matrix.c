@@ -5,12 +5,18 @@
  *
  * The pattern of row i is the union of the nodes of all elements that contain node i, ascending. */
 #include "perigal/linalg.h"
+#include "alike.h"
 #include "wide.h"
 #include <string.h>
+
+/* Unknowns of a node at most; rows at a time that are alike, and of a run at least. */
+enum { MOST_BLOCK = 6, LANES = 8, LEAST = 3 };
 
 void pg_block_clear (pg_block_matrix *A)
 {
     pg_free (A->start), pg_free (A->node), pg_free (A->value);
+    pg_free (A->alike.run), pg_free (A->model), pg_free (A->model_at);
+    for (int k = 0; k < MOST_BLOCK; k++) pg_free (A->part[k]);
     memset (A, 0, sizeof *A);
 }
 
@@ -186,11 +192,9 @@ PG_WIDE static void multiply_solid (const pg_block_matrix *A, const double *x, d
     }
 }
 
-/* Rows times x; planes with lengths that the compiler knows. */
-static void multiply_rows (void *context, size_t first, size_t last, int thread)
+/* Rows one by one; planes with lengths that the compiler knows. */
+static void multiply_rows (const product *w, size_t first, size_t last)
 {
-    (void) thread;
-    const product *w = context;
     const pg_block_matrix *A = w->A;
     size_t block = (size_t) A->block, bb = block * block;
     if (block == 3) {
@@ -198,7 +202,7 @@ static void multiply_rows (void *context, size_t first, size_t last, int thread)
         return;
     }
     for (size_t i = first; i < last; i++) {
-        double y[6] = { 0 };
+        double y[MOST_BLOCK] = { 0 };
         const float *v = A->value + A->start[i] * bb;
         for (size_t e = A->start[i]; e < A->start[i + 1]; e++, v += bb) {
             const double *x = w->x + (size_t) A->node[e] * block;
@@ -213,10 +217,101 @@ static void multiply_rows (void *context, size_t first, size_t last, int thread)
     }
 }
 
+#define INLINE static inline __attribute__ ((always_inline))
+/* Rows of run k, from its row `from` to before its row `end`, eight at a time: each lane is a row, and what
+ * lanes beyond the last become is dropped. `block` is a number that the compiler knows. */
+INLINE void multiply_lanes (size_t block, const product *w, size_t k, size_t from, size_t end)
+{
+    const pg_block_matrix *A = w->A;
+    size_t model = A->alike.run[k].first;
+    double *const *x = A->part;
+    for (size_t at = from; at < end; at += LANES) {
+        const double *v = A->model + A->model_at[k];
+        eight s0 = { 0 }, s1 = { 0 }, s2 = { 0 };
+        for (size_t e = A->start[model]; e < A->start[model + 1]; e++, v += block * block) {
+            size_t j = (size_t) A->node[e] + at;
+            eight d0 = *(const eight *) (x[0] + j), d1 = *(const eight *) (x[1] + j);
+            if (block == 2) {
+                s0 += v[0] * d0 + v[1] * d1, s1 += v[2] * d0 + v[3] * d1;
+                continue;
+            }
+            eight d2 = *(const eight *) (x[2] + j);
+            s0 += v[0] * d0 + v[1] * d1 + v[2] * d2;
+            s1 += v[3] * d0 + v[4] * d1 + v[5] * d2;
+            s2 += v[6] * d0 + v[7] * d1 + v[8] * d2;
+        }
+        double *y = w->y + (model + at) * block;
+        for (size_t lane = 0; lane < LANES && at + lane < end; lane++, y += block) {
+            y[0] = s0[lane], y[1] = s1[lane];
+            if (block == 3) y[2] = s2[lane];
+        }
+    }
+}
+
+PG_WIDEST static void multiply_alike (const product *w, size_t k, size_t from, size_t end)
+{
+    if (w->A->block == 3) multiply_lanes (3, w, k, from, end);
+    else multiply_lanes (2, w, k, from, end);
+}
+
+/* Rows of a range: runs, or what of them lies there, and rows between them. What a row becomes does not
+ * depend on the range. */
+static void multiply_range (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    const product *w = context;
+    const pg_row_runs *runs = &w->A->alike;
+    for (size_t k = rows_alike_at (runs, first); k < runs->n && runs->run[k].first < last; k++) {
+        const pg_row_run *r = &runs->run[k];
+        size_t from = r->first > first ? r->first : first,
+               end = r->first + r->count < last ? r->first + r->count : last;
+        multiply_rows (w, first, from);
+        multiply_alike (w, k, from - r->first, end - r->first);
+        first = end;
+    }
+    multiply_rows (w, first, last);
+}
+
+/* One vector for each unknown of a node. */
+static void take_apart (void *context, size_t first, size_t last, int thread)
+{
+    const product *w = context;
+    size_t block = (size_t) w->A->block;
+    (void) thread;
+    for (size_t c = 0; c < block; c++) {
+        double *to = w->A->part[c];
+        for (size_t i = first; i < last; i++) to[i] = w->x[i * block + c];
+    }
+}
+
 static void multiply (void *context, const double *x, double *y)
 {
     product w = { context, x, y };
-    pg_parallel (w.A->threads, w.A->n, multiply_rows, &w);
+    if (w.A->alike.n) pg_parallel (w.A->threads, w.A->n, take_apart, &w);
+    pg_parallel (w.A->threads, w.A->n, multiply_range, &w);
+}
+
+/* In the plane and in space, of two and three unknowns a node. */
+pg_status pg_block_settle (pg_block_matrix *A)
+{
+    pg_status status = PG_OK;
+    size_t bb = (size_t) (A->block * A->block), room = 0;
+    if (A->block < 2 || A->block > 3) return PG_OK;
+    PG_TRY (rows_alike (&A->alike, LEAST, A->n, A->start, A->node, A->value, bb));
+    PG_ALLOC (A->model_at, A->alike.n + 1);
+    for (size_t k = 0; k < A->alike.n; k++) {
+        const size_t *start = A->start + A->alike.run[k].first;
+        A->model_at[k + 1] = room += (start[1] - start[0]) * bb;
+    }
+    PG_ALLOC (A->model, room);
+    for (size_t k = 0; k < A->alike.n; k++) {
+        const float *from = A->value + A->start[A->alike.run[k].first] * bb;
+        for (size_t q = A->model_at[k]; q < A->model_at[k + 1]; q++) A->model[q] = *from++;
+    }
+    for (int c = 0; c < A->block; c++) PG_ALLOC (A->part[c], A->n + LANES);
+done:
+    if (status != PG_OK) A->alike.n = 0;
+    return status;
 }
 
 static void diagonal (void *context, double *d)

@@ -18,6 +18,7 @@
  * p interpolates a given function at the Chebyshev nodes of [low, high] and is evaluated by the recurrence
  * T_k+1 = 2 s T_k - T_k-1 of s = (x - middle) / half. */
 #include "perigal/linalg.h"
+#include "alike.h"
 #include "shared_springs.h"
 #include "wide.h"
 #include <math.h>
@@ -26,18 +27,13 @@
 
 static const double pi = 3.14159265358979323846;
 
-/* Terms at most. */
-enum { MOST_TERMS = 32 };
-
-/* Rows of a matrix that are alike: row first + k has the numbers of row `first`, for nodes that are k higher.
- * On a lattice most are. They are multiplied eight numbers at a time, which lie side by side in x. */
-typedef struct { size_t first, count; } run;
-typedef struct { size_t n, cap; run *run; } runs;
+/* Terms at most; fewest rows of a run: eight numbers have to fit in. */
+enum { MOST_TERMS = 32, LEAST = 8 };
 
 struct pg_element_preconditioner {
     pg_elements elements;
     /* Rows of N and of N' that are alike. */
-    runs    alike, alike_transposed;
+    pg_row_runs alike, alike_transposed;
     /* N', by rows. */
     pg_node_matrix transposed;
     pg_multilevel *multilevel;
@@ -85,43 +81,6 @@ done:
     return status;
 }
 
-/* ---- rows that are alike ------------------------------------------------------------------------------- */
-/* Fewest rows of a run: eight numbers have to fit in. Values may differ by what floats can tell apart. */
-enum { LEAST = 8 };
-static const float rounding = 1e-6f;
-
-/* Is row i that of `first`, with the same shift? */
-static int is_alike (const pg_node_matrix *A, size_t first, size_t i)
-{
-    size_t a = A->start[first], b = A->start[i], m = A->start[first + 1] - a;
-    int shift = (int) (i - first);
-    float most = 0;
-    if (A->start[i + 1] - b != m || m == 0) return 0;
-    for (size_t k = 0; k < m; k++) {
-        if (A->node[b + k] != A->node[a + k] + shift) return 0;
-        most = fmaxf (most, fabsf (A->value[a + k]));
-    }
-    for (size_t k = 0; k < m; k++) if (fabsf (A->value[b + k] - A->value[a + k]) > rounding * most) return 0;
-    return 1;
-}
-
-/* From row 0 on: the longest run that begins at a row, or the row is left to itself. */
-static pg_status find_runs (runs *out, const pg_node_matrix *A)
-{
-    pg_status status = PG_OK;
-    for (size_t i = 0, end; i < A->n; i = end) {
-        for (end = i + 1; end < A->n && is_alike (A, i, end);) end++;
-        if (end - i < LEAST) {
-            end = i + 1;
-            continue;
-        }
-        PG_GROW (out->run, out->cap, out->n + 1);
-        out->run[out->n++] = (run) { i, end - i };
-    }
-done:
-    return status;
-}
-
 /* ---- the polynomial ------------------------------------------------------------------------------------ */
 /* Coefficients of the Chebyshev polynomials from the values at their nodes (a discrete cosine transform). */
 static void interpolate (pg_element_preconditioner *P, double low, double high,
@@ -142,7 +101,7 @@ static void interpolate (pg_element_preconditioner *P, double low, double high,
  * first step, where there is no T_-1, else 2. */
 typedef struct {
     const pg_node_matrix *A;
-    const runs *runs;
+    const pg_row_runs *runs;
     size_t block;
     double middle, scale, keep, c;
     const double *now;
@@ -184,16 +143,36 @@ PG_WIDE static void recur_rows (const step *w, size_t first, size_t last)
     }
 }
 
-/* `count` rows like row `model`, from row `first` on. The last eight numbers may overlap those before: what
- * has been done is not done again. */
+/* The same at eight numbers from number i on. */
+static inline __attribute__ ((always_inline)) void recur_eight (const step *w, size_t i,
+                                                                const eight *s)
+{
+    eight *last = (eight *) (w->last + i), *sum = (eight *) (w->sum + i),
+          next = w->scale * (*s - w->middle * *(const eight *) (w->now + i)) - w->keep * *last;
+    *last = next;
+    *sum += w->c * next;
+}
+
+/* `count` rows like row `model`, from row `first` on; 32 numbers at a time, so that sums need not wait for
+ * one another. The last eight numbers may overlap those before: what has been done is not done again. */
 PG_WIDEST static void recur_alike (const step *w, size_t model, size_t first, size_t count)
 {
     const pg_node_matrix *A = w->A;
-    size_t length = count * w->block, to = first * w->block, shift = (first - model) * w->block;
-    for (size_t done = 0; done < length; ) {
+    size_t length = count * w->block, to = first * w->block, shift = (first - model) * w->block,
+           begin = A->start[model], end = A->start[model + 1], done = 0;
+    for (; done + 32 <= length; done += 32) {
+        eight s[4] = { { 0 } };
+        for (size_t e = begin; e < end; e++) {
+            const double *x = w->now + (size_t) A->node[e] * w->block + shift + done;
+            double v = (double) A->value[e];
+            for (int k = 0; k < 4; k++) s[k] += v * *(const eight *) (x + 8 * k);
+        }
+        for (size_t k = 0; k < 4; k++) recur_eight (w, to + done + 8 * k, &s[k]);
+    }
+    while (done < length) {
         size_t at = length - done < 8 ? length - 8 : done;
         eight s = { 0 };
-        for (size_t e = A->start[model]; e < A->start[model + 1]; e++)
+        for (size_t e = begin; e < end; e++)
             s += (double) A->value[e]
                  * *(const eight *) (w->now + (size_t) A->node[e] * w->block + shift + at);
         for (; done < at + 8; done++) recur_at (w, to + done, s[done - at]);
@@ -219,14 +198,8 @@ static void recur (void *context, size_t first, size_t last, int thread)
 {
     (void) thread;
     const step *w = context;
-    size_t low = 0, high = w->runs->n;
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (w->runs->run[middle].first + w->runs->run[middle].count <= first) low = middle + 1;
-        else high = middle;
-    }
-    for (; low < w->runs->n && w->runs->run[low].first < last; low++) {
-        const run *r = &w->runs->run[low];
+    for (size_t k = rows_alike_at (w->runs, first); k < w->runs->n && w->runs->run[k].first < last; k++) {
+        const pg_row_run *r = &w->runs->run[k];
         size_t from = r->first > first ? r->first : first,
                end = r->first + r->count < last ? r->first + r->count : last;
         recur_rows (w, first, from);
@@ -238,8 +211,8 @@ static void recur (void *context, size_t first, size_t last, int thread)
 }
 
 /* y = p (A) r; of ranks at owned nodes, as products need what ghosts have. */
-static pg_status polynomial (const pg_element_preconditioner *P, const pg_node_matrix *A, const runs *alike,
-                             const double *r, double *y)
+static pg_status polynomial (const pg_element_preconditioner *P, const pg_node_matrix *A,
+                             const pg_row_runs *alike, const double *r, double *y)
 {
     pg_status status = PG_OK;
     const pg_block_matrix *Q = &P->elements.Q;
@@ -334,6 +307,7 @@ done:
  * leave out what is. */
 static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_setting *s)
 {
+    pg_status status = PG_OK;
     pg_elements *e = &P->elements;
     pg_block_matrix *Q = &e->Q;
     pg_multilevel_setting m = { .dim = s->dim,
@@ -347,8 +321,16 @@ static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_sett
                                 .step = 2.5 * e->spacing / e->reach, .aligned = 1,
                                 .subdomain = s->subdomain };
     memcpy (m.rows.lattice, e->lattice, sizeof m.rows.lattice);
+    PG_TRY (pg_block_settle (Q));
     P->Q = pg_block_operator (Q);
-    return pg_multilevel_create (&P->multilevel, &m);
+    PG_TRY (pg_multilevel_create (&P->multilevel, &m));
+done:
+    return status;
+}
+
+static pg_status find_runs (pg_row_runs *out, const pg_node_matrix *A)
+{
+    return rows_alike (out, LEAST, A->n, A->start, A->node, A->value, 1);
 }
 
 /* The polynomial and what it works on. */
