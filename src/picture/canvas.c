@@ -1,12 +1,15 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The surface under a picture, written as PNG or SVG by the ending of the file's name, and text on it.
- * Cairo draws into memory and hands the bytes to a function of ours, so that a full disk is reported with
+ * Cairo draws into memory and the bytes pass through a function of ours, so that a full disk is reported with
  * the system's reason and leaves no half file. */
 #include "picture_private.h"
 #include "perigal/output.h"
 #include <errno.h>
 #include <string.h>
 #include <strings.h>
+
+/* Bytes that are written at a time. */
+enum { PIECE = 1 << 20 };
 
 /* Takes the bytes that cairo has encoded; remembers errno of the first write that failed, because cairo
  * itself only says that one did. */
@@ -31,7 +34,8 @@ static int ends_with (const char *path, const char *ending)
 pg_status pg_canvas_open (pg_canvas *c, const char *path, double width, double height)
 {
     pg_status status = PG_OK;
-    *c = (pg_canvas) { .path = path, .svg = ends_with (path, ".svg") };
+    *c = (pg_canvas) { .path = path, .svg = ends_with (path, ".svg"), .width = (int) width,
+                       .height = (int) height };
     if (!c->svg && !ends_with (path, ".png"))
         PG_FAIL (PG_E_USAGE, "%s: a picture's file ends in .png or .svg", path);
     PG_TRY (pg_cairo_load ());
@@ -49,18 +53,34 @@ done:
     return status;
 }
 
-/* Ends the surface, whose bytes go to the file if the picture is whole; returns cairo's first fault. */
-static cairo_status_t end_surface (pg_canvas *c, int whole)
+/* The pixels of a sheet to the file, where a fault of it is remembered as one of cairo's would be. */
+static pg_status write_pixels (pg_canvas *c)
 {
-    cairo_status_t fault = c->cr ? cairo_status (c->cr) : CAIRO_STATUS_SUCCESS;
+    pg_status status = PG_OK;
+    unsigned char *data = NULL;
+    size_t size;
+    PG_TRY (pg_canvas_encode (c->surface, c->path, c->width, c->height, &data, &size));
+    for (size_t at = 0, n; at < size; at += n) {
+        n = size - at < PIECE ? size - at : PIECE;
+        if (write_bytes (c, data + at, (unsigned) n) != CAIRO_STATUS_SUCCESS) break;
+    }
+done:
+    pg_free (data);
+    return status;
+}
+
+/* Ends the surface, whose bytes go to the file if the picture is whole; *fault: cairo's first one. */
+static pg_status end_surface (pg_canvas *c, int whole, cairo_status_t *fault)
+{
+    pg_status status = PG_OK;
+    *fault = c->cr ? cairo_status (c->cr) : CAIRO_STATUS_SUCCESS;
     if (c->cr) cairo_destroy (c->cr);
-    if (!c->surface) return fault;
-    if (whole && fault == CAIRO_STATUS_SUCCESS && !c->svg)
-        fault = cairo_surface_write_to_png_stream (c->surface, write_bytes, c);
+    if (!c->surface) return PG_OK;
+    if (whole && *fault == CAIRO_STATUS_SUCCESS && !c->svg) status = write_pixels (c);
     cairo_surface_finish (c->surface);
-    if (fault == CAIRO_STATUS_SUCCESS) fault = cairo_surface_status (c->surface);
+    if (*fault == CAIRO_STATUS_SUCCESS) *fault = cairo_surface_status (c->surface);
     cairo_surface_destroy (c->surface);
-    return fault;
+    return status;
 }
 
 /* Writes the picture if all went well so far, and otherwise removes the file. Returns the first fault: of
@@ -68,10 +88,12 @@ static cairo_status_t end_surface (pg_canvas *c, int whole)
 pg_status pg_canvas_close (pg_canvas *c, pg_status given)
 {
     pg_status status = given;
-    cairo_status_t fault = end_surface (c, given == PG_OK);
+    cairo_status_t fault;
+    pg_status encoded = end_surface (c, given == PG_OK, &fault);
     errno = 0;
     if (c->file && fclose (c->file) != 0 && !c->reason) c->reason = errno ? errno : EIO;
     if (given != PG_OK) goto done;
+    PG_TRY (encoded);
     if (c->reason) PG_FAIL (PG_E_FILE, "%s: %s", c->path, strerror (c->reason));
     if (fault == CAIRO_STATUS_NO_MEMORY) PG_FAIL (PG_E_MEMORY, "%s: no memory to draw", c->path);
     if (fault != CAIRO_STATUS_SUCCESS) PG_FAIL (PG_E_FILE, "%s: %s", c->path, cairo_status_to_string (fault));

@@ -26,6 +26,8 @@ typedef struct {
     const char *path;
     /* svg: 1 for SVG; reason: errno of the first write that failed, 0 if none did. */
     int      svg, reason;
+    /* pixels */
+    int      width, height;
 } pg_canvas;
 /* Creates the file and a white canvas of that size in pixels. PG_E_USAGE: the name ends
  * neither in .png nor in .svg. */
@@ -34,6 +36,9 @@ pg_status pg_canvas_open  (pg_canvas *c, const char *path, double width, double 
  * removed. Returns the given status, or the failure of writing. May be called for a canvas
  * that never opened. */
 pg_status pg_canvas_close (pg_canvas *c, pg_status status);
+/* canvas_png.c: the bytes of a PNG file of a surface of so many pixels (pg_free); path: for messages. */
+pg_status pg_canvas_encode (cairo_surface_t *surface, const char *path, int width, int height,
+                            unsigned char **out, size_t *size);
 /* Draws text, or with draw = 0 only measures it, and returns its width. ^{...} and _{...} are
  * raised and lowered. align 0 starts the text at x, 0.5 centres it there, 1 ends it there; y
  * is the middle of the capital letters. turned = 1 writes upwards. */

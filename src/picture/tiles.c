@@ -280,8 +280,13 @@ static double distance_to (const pg_tiles *t, size_t k, double a, double b)
     return sqrt (dx * dx + dy * dy);
 }
 
+/* A square of a distance that is so many times that of another belongs to the larger distance, rounding of
+ * both, one of them to a float, allowed for. */
+static const double sure = 1 + 1e-6;
+
 /* Offers point k to the pixels within `reach` spacings: the nearest point owns a pixel, and one across a
- * pre-crack only where there is no other. What lies on a crack is on both sides of it. */
+ * pre-crack only where there is no other. What lies on a crack is on both sides of it. Most pixels are out of
+ * the question by the square of their distance alone. */
 static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
 {
     const double *at = t->place + 2 * k;
@@ -292,15 +297,20 @@ static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
         from[a] = (int) fmin (fmax (floor (middle - r), 0), most[a]),
         to[a] = (int) fmin (fmax (ceil (middle + r), 0), most[a]);
     }
-    for (int j = from[1]; j < to[1]; j++)
+    double far = reach * t->spacing[k], step = 1 / s->scale, ratio = t->loose ? 1 : t->step[0] / t->step[1];
+    for (int j = from[1]; j < to[1]; j++) {
+        double dy = (s->top - (j + 0.5) * step - at[1]) * ratio;
         for (int i = from[0]; i < to[0]; i++) {
             size_t p = (size_t) j * (size_t) s->width + (size_t) i;
+            double dx = s->left + (i + 0.5) * step - at[0], square = dx * dx + dy * dy, limit = s->depth[p];
+            if (square > sure * far * far || (s->owner[p] >= 0 && square >= sure * limit * limit)) continue;
             double place[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale },
                    d = distance_to (t, k, place[0], place[1]);
-            if (d > reach * t->spacing[k] || (s->owner[p] >= 0 && d >= s->depth[p])) continue;
+            if (d > far || (s->owner[p] >= 0 && d >= s->depth[p])) continue;
             if (t->cracked[k] == NEAR_CRACK && pg_tiles_cut (t, at, place)) d += 1e3 * t->widest;
             if (s->owner[p] < 0 || d < s->depth[p]) s->owner[p] = (int) k, s->depth[p] = (float) d;
         }
+    }
 }
 
 /* Pixels of the body beyond the reach of every point take the nearest one; pixels outside are
