@@ -113,6 +113,9 @@ struct pg_criterion_type {
      * number of forms (at most 2), 0: it is not so. NULL: never. */
     int  (*linear)   (const pg_criterion *c, const pg_bond_measures *m, double *a);
     int  (*planes)   (const pg_criterion *c, double form[2][2]);
+    /* Where utilisation grows with the elongation e = (2 xi . eta + square eta . eta) / xi . xi and depends
+     * on nothing else (but reach): the e at which it is u > 0, and *square, 0 or 1. NULL: it is not so. */
+    double (*elongation) (const pg_criterion *c, double u, double *square);
     /* Criteria of tips: the limits at x (m) for growth at `angle` from the x axis (rad). */
     void (*fracture) (const pg_criterion *c, const double *x, double angle, pg_fracture_limits *out);
     /* Criteria of tips: 1: the limits depend on place or angle, so that directions have to be compared. */

@@ -124,6 +124,14 @@ static int linear (const pg_criterion *c, const pg_bond_measures *m, double *a)
     return 1;
 }
 
+/* linear: 2 s; finite: (1 + s)^2 - 1 */
+static double elongation (const pg_criterion *c, double u, double *square)
+{
+    double s = u * c->parameter[LIMIT];
+    *square = c->parameter[FINITE] > 0;
+    return *square > 0 ? s * (2 + s) : 2 * s;
+}
+
 static void describe (const pg_criterion *c, char *text, size_t size)
 {
     int energy = c->parameter[FROM_ENERGY] > 0;
@@ -178,5 +186,6 @@ const pg_criterion_type pg_criterion_stretch = {
     .factor = factor,
     .scale = scale,
     .linear = linear,
+    .elongation = elongation,
     .describe = describe
 };

@@ -24,6 +24,7 @@ static void galerkin_free (void **self)
     if (!g) return;
     galerkin_consistent_free (g);                      /* what is borrowed it tells by the flags below */
     for (int s = 0; s < PG_BOND_SETS; s++) {
+        galerkin_leaders_free (g, s);
         if (!g->borrows[s])
             pg_free (g->rows[s].N), pg_free (g->rows[s].dN), pg_free (g->rows[s].w),
                 pg_free (g->rows[s].at), pg_free (g->rows[s].grade);
@@ -31,8 +32,9 @@ static void galerkin_free (void **self)
         pg_free (g->s1[s]), pg_free (g->s3[s]), pg_free (g->seen[s]), pg_free (g->list[s]),
             pg_free (g->judged[s]);
         pg_free (g->alone[s]), pg_free (g->exact[s]), pg_free (g->bounded[s]);
-        pg_free (g->disturbed[s]);
+        pg_free (g->disturbed[s]), pg_free (g->longest[s]);
     }
+    pg_free (g->place_now);
     pg_assembly_free (&g->K);
     pg_assembly_free (&g->M);
     galerkin_boundary_free (g);

@@ -5,14 +5,15 @@
  * galerkin_sum.c (loops over points), galerkin_runs.c (points that are alike), galerkin_silling.c
  * (stabilisation), galerkin_operator.c (K x, K),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_worst.c (the worst bonds),
- * galerkin_groups.c (bonds outside of a group), galerkin_sight.c (which points see which nodes),
+ * galerkin_stretch.c (those by their elongation), galerkin_groups.c (bonds outside of a group),
+ * galerkin_sight.c (which points see which nodes),
  * galerkin_dilatation.c, galerkin_dilatation_facet.c (near
  * Poisson's ratio 1/2), galerkin_consistent.c (rows of the sums),
  * galerkin_ended.c, galerkin_ended_plan.c (cells that end at cracks), galerkin_change.c
  * (what breaking changes of K), galerkin_field.c (fields), galerkin_elements.c, galerkin_elements_list.c
  * (preconditioner), galerkin_hats.c (the same on a coarse grid),
- * galerkin_intact.c (rows of the intact body), galerkin_share.c
- * (rows that are alike), galerkin_sample.c (any place),
+ * galerkin_intact.c (rows of the intact body), galerkin_share.c,
+ * galerkin_leaders.c (rows that are alike), galerkin_sample.c (any place),
  * galerkin_sample_alike.c (places that are alike),
  * galerkin_sample_again.c (places that are asked for again),
  * galerkin_estimate.c (error of the stress). */
@@ -40,6 +41,7 @@ typedef struct galerkin_sight galerkin_sight;           /* galerkin_sight.c */
 typedef struct galerkin_dilatation galerkin_dilatation; /* galerkin_dilatation.c */
 typedef struct galerkin_change galerkin_change;         /* galerkin_change.c */
 typedef struct galerkin_ended galerkin_ended;           /* galerkin_ended.c */
+typedef struct galerkin_leaders galerkin_leaders;       /* galerkin_leaders.c */
 
 /* What the scene says of the method (pg_problem.options). */
 typedef struct {
@@ -57,6 +59,8 @@ typedef struct {
     pg_rows  sums;
     /* 1: the values of a set, and with the bulk those of consistent sums, are pg_problem.intact's */
     int      borrows[PG_BOND_SETS];
+    /* rows of their own of which equal ones are read from one place; NULL: none are */
+    galerkin_leaders *leaders[PG_BOND_SETS];
     unsigned char *whole;  /* cells whose derivatives are corrected; NULL: not consistent */
     galerkin_ended *ended;                             /* NULL: no cells that could end at cracks */
     const int *material[PG_BOND_SETS];                 /* per point; the problem's */
@@ -67,6 +71,9 @@ typedef struct {
      * s3 of a point are no bounds; 1: those of a block of points are by the stress of the last measure */
     double  *alone[PG_BOND_SETS];
     unsigned char *exact[PG_BOND_SETS], *bounded[PG_BOND_SETS];
+    /* galerkin_stretch.c: the largest elongation in each block of points; place and displacement of every
+     * node, 8 numbers; NULL until asked for */
+    double  *longest[PG_BOND_SETS], *place_now;
     galerkin_sight *sight[PG_BOND_SETS];               /* NULL until asked for */
     double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof) */
     /* the measure is that of `seen` and of the rows as they are, but for blocks of points that are disturbed
@@ -141,6 +148,11 @@ void      galerkin_follow (galerkin *g);
 /* share: evaluates rows of a set that are its own (list NULL: all, otherwise `count` of them); rows that are
  * alike are kept once where no bond is broken. */
 pg_status galerkin_evaluate (galerkin *g, const pg_state *state, int set, size_t count, const size_t *list);
+/* leaders: own rows of a set that have just been evaluated, bonds being broken: equal ones are read from one
+ * place. Before rows of a list are evaluated anew. */
+pg_status galerkin_leaders_find  (galerkin *g, const pg_state *state, int set);
+void      galerkin_leaders_leave (galerkin *g, int set, size_t count, const size_t *list);
+void      galerkin_leaders_free  (galerkin *g, int set);
 /* Bonds of all sets whose points share their rows. */
 size_t    galerkin_shared_bonds (const galerkin *g);
 /* sum: the loops over points */
@@ -359,6 +371,12 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
 /* worst: the worst bonds alone */
 pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
                           double *utilisation, char *kind, double *top, pg_changes *over);
+/* stretch: the same of a criterion by which elongation decides, of all bonds alike (1) */
+int       galerkin_elongation_decides (const galerkin *g);
+pg_status galerkin_longest (galerkin *g, const pg_state *state, const double *d, double from,
+                            double *utilisation, char *kind, double *top, pg_changes *over);
+/* Of all ranks that share the body. */
+double    galerkin_largest (const galerkin *g, double mine);
 /* g->judged, once */
 pg_status galerkin_find_judged (galerkin *g);
 /* Of graded clouds: support of a bond of an entry of a set over the horizon, by which limits scale. */

@@ -97,6 +97,12 @@ done:
     return status;
 }
 
+/* Has every point a row of its own, even if some read that of another one? */
+static int has_own (const galerkin *g, int set)
+{
+    return !g->borrows[set] && (!g->rows[set].at || g->leaders[set]);
+}
+
 /* On failure what is still borrowed is set to NULL, so that nobody frees what belongs to the problem. */
 pg_status galerkin_own (galerkin *g, const pg_state *state, int set)
 {
@@ -104,7 +110,7 @@ pg_status galerkin_own (galerkin *g, const pg_state *state, int set)
     pg_rows *r = &g->rows[set], old = *r, wide = g->sums;
     size_t dim = (size_t) g->dim;
     int borrowed = g->borrows[set], sums = borrowed && set == g->bulk && g->problem->consistency;
-    if ((!borrowed && !r->at) || galerkin_all_alive (g, set, state)) return PG_OK;
+    if (has_own (g, set) || galerkin_all_alive (g, set, state)) return PG_OK;
     g->borrows[set] = 0;
     r->N = r->dN = r->w = NULL, r->at = NULL;
     if (borrowed) r->grade = NULL;
@@ -118,6 +124,7 @@ pg_status galerkin_own (galerkin *g, const pg_state *state, int set)
     }
     if (sums) PG_TRY (copy_values (&wide, 1, wide.N, &g->sums.N));
     if (sums) PG_TRY (copy_values (&wide, dim, wide.dN, &g->sums.dN));
+    PG_TRY (galerkin_leaders_find (g, state, set));
 done:
     if (!borrowed) pg_free (old.N), pg_free (old.dN), pg_free (old.w), pg_free (old.at);
     if (set == g->bulk) galerkin_follow (g);

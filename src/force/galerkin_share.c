@@ -177,14 +177,17 @@ pg_status galerkin_evaluate (galerkin *g, const pg_state *state, int set, size_t
     const unsigned char *alive = state->alive + p->first_bond[set];
     pg_rows *r = &g->rows[set];
     size_t bonds = r->family.start[r->n];
-    int shared = r->at != NULL;                        /* all bonds live as they did: nothing has changed */
+    if (!list) galerkin_leaders_free (g, set);
+    int shared = r->at && !g->leaders[set];            /* all bonds live as they did: nothing has changed */
     if (!r->N && !list && may_share (g, state, set)) PG_TRY (share (g, alive, set, &shared));
     if (!shared) {
         if (!r->N || !r->dN || !r->w) list = NULL, count = r->n;   /* of none of them values are known */
         if (!r->N) PG_ALLOC (r->N, bonds);
         if (!r->dN) PG_ALLOC (r->dN, bonds * (size_t) g->dim);
         if (!r->w) PG_ALLOC (r->w, bonds);
+        if (list) galerkin_leaders_leave (g, set, count, list);
         PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, alive, count, list, g->threads));
+        if (!list) PG_TRY (galerkin_leaders_find (g, state, set));
     }
 done:
     galerkin_follow (g);
@@ -194,6 +197,7 @@ done:
 size_t galerkin_shared_bonds (const galerkin *g)
 {
     size_t sum = 0;
-    for (int s = 0; s < PG_BOND_SETS; s++) if (g->rows[s].at) sum += g->rows[s].family.start[g->rows[s].n];
+    for (int s = 0; s < PG_BOND_SETS; s++)
+        if (g->rows[s].at && !g->leaders[s]) sum += g->rows[s].family.start[g->rows[s].n];
     return sum;
 }

@@ -124,8 +124,7 @@ done:
 }
 
 /* ---- the worst bonds ----------------------------------------------------------------------------------- */
-/* Of all ranks that share the body. */
-static double largest (const galerkin *g, double mine)
+double galerkin_largest (const galerkin *g, double mine)
 {
     if (g->problem->cloud.subdomain && pg_ranks_most (1, &mine) != PG_OK) return NAN;
     return mine;
@@ -151,7 +150,7 @@ static pg_status utilisation_over (const galerkin *g, const pg_state *state, con
                 over->bond[over->n++] = i;
             }
     }
-    *top = largest (g, most);
+    *top = galerkin_largest (g, most);
     if (!(*top > 1)) over->n = 0;
 done:
     return status;
@@ -273,6 +272,8 @@ pg_status galerkin_worst (void *self, const pg_state *state, const double *d, do
     galerkin *g = self;
     search s = { .judge = { g, state, 0, utilisation, NULL, kind }, .top_node = NEVER };
     over->n = 0;
+    if (galerkin_elongation_decides (g))
+        return galerkin_longest (g, state, d, from, utilisation, kind, top, over);
     if (g->problem->criterion->type->needs != PG_NEEDS_STRESS) {
         PG_TRY (galerkin_utilisation (g, state, d, utilisation, kind, NULL));
         return utilisation_over (g, state, utilisation, from, top, over);
@@ -280,9 +281,9 @@ pg_status galerkin_worst (void *self, const pg_state *state, const double *d, do
     PG_TRY (find_bounds (g, d));
     for (size_t i = 0; i < g->n; i++) s.top_node = fmax (s.top_node, g->alone[PG_NODES][i]);
     PG_TRY (search_first (&s));
-    s.least = s.top = largest (g, s.top);
+    s.least = s.top = galerkin_largest (g, s.top);
     PG_TRY (search_all (&s));
-    *top = largest (g, s.top);
+    *top = galerkin_largest (g, s.top);
     if (!(s.top > 1)) goto done;
     s.list = over, s.least = from;
     PG_TRY (search_all (&s));

@@ -185,6 +185,25 @@ static void finite_and_linear_stretch_agree_for_small_strains (void **state)
     check_relative (f, g, 2e-9);
 }
 
+/* The elongation that a utilisation is told to mean is the one of the bond. */
+static void utilisation_grows_with_elongation_alone (void **state)
+{
+    (void) state;
+    for (int finite = 0; finite < 2; finite++)
+        for (int k = 0; k < 20; k++) {
+            pg_criterion c = make ("stretch", 0.02, finite, 0);
+            double xi[3] = { 1, -2, 2 }, eta[3], u, square = -1, rr = 0, re = 0, ee = 0;
+            for (int i = 0; i < 3; i++) eta[i] = 0.3 * sin (7 * k + i) + 0.05 * xi[i];
+            const pg_bond_measures m = { .n = 1, .dim = 3, .xi = xi, .eta = eta };
+            c.type->utilisation (&c, &m, &u, NULL);
+            if (!(u > 0)) continue;
+            for (int i = 0; i < 3; i++) rr += xi[i] * xi[i], re += xi[i] * eta[i], ee += eta[i] * eta[i];
+            double e = c.type->elongation (&c, u, &square);
+            assert_true (square == finite);
+            check_relative (e, (2 * re + finite * ee) / rr, 1e-12);
+        }
+}
+
 static void without_motion_no_factor_breaks_the_bond (void **state)
 {
     (void) state;
@@ -273,6 +292,7 @@ int main (void)
         cmocka_unit_test (finite_stretch_keeps_its_digits_for_tiny_strains),
         cmocka_unit_test (finite_stretch_factor_reaches_the_limit_exactly),
         cmocka_unit_test (finite_and_linear_stretch_agree_for_small_strains),
+        cmocka_unit_test (utilisation_grows_with_elongation_alone),
         cmocka_unit_test (without_motion_no_factor_breaks_the_bond),
         cmocka_unit_test (factor_is_one_over_utilisation_where_the_measure_is_of_degree_one),
         cmocka_unit_test (principal_stress_breaks_at_the_tensile_strength),

@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Points of a lattice that see their nodes alike share their rows: every row has the bits that it has alone,
  * before bonds break and after; where rows are corrected, or each is another, none is shared. */
+#include <math.h>
 #include "../scene_runs/run.h"
 #include "force/galerkin.h"
 
@@ -20,8 +21,6 @@ static const char *const alone[] = {
     SOLID REST "method: {integration: consistent}\n",
     SOLID REST "method: {approximation: nosb, integration: nodal, stabilization: silling}\n",
     SOLID REST "method: {integration: gauss}\nperturb: {amount: 0.1}\n",
-    SOLID REST "method: {integration: gauss}\ncracks: [{disc: {center: [0.52, 0.31, 0.33], radius: 0.2, "
-               "normal: [0, 0, 1]}}]\n",
 };
 enum { SHARING = sizeof sharing / sizeof *sharing, ALONE = sizeof alone / sizeof *alone };
 
@@ -48,6 +47,14 @@ static void same_rows (const galerkin *a, const galerkin *b)
     }
 }
 
+/* Points that read the row of another one. */
+static size_t of_others (const pg_rows *r)
+{
+    size_t n = 0;
+    for (size_t i = 0; i < r->n; i++) n += r->at[i] != r->family.start[i];
+    return n;
+}
+
 static void rows_are_those_of_points_alone (void **state)
 {
     (void) state;
@@ -63,13 +70,60 @@ static void rows_are_those_of_points_alone (void **state)
         for (size_t i = 0; i < bulk->n; i++) most = bulk->at[i] > most ? bulk->at[i] : most;
         check_below ((double) most, 0.8 * (double) bulk->family.start[bulk->n]);
         same_rows (a, b);
-        /* the last point of evaluation loses a bond: all have rows of their own, that one another */
+        /* the last point of evaluation loses a bond: all have rows of their own, that one another, and read
+         * equal ones from one place */
         size_t bond = r.problem->first_bond[a->bulk + 1] - 1;
         r.state->alive[bond] = own.state->alive[bond] = 0;
         pg_changes changes = { 1, 1, &bond };
         refresh (&r, &changes), refresh (&own, &changes);
-        assert_null (bulk->at), assert_ptr_equal (a->sums.dN, bulk->dN);
+        assert_ptr_equal (a->sums.dN, bulk->dN);
+        assert_ptr_equal (a->sums.at, bulk->at), assert_non_null (bulk->at);
+        assert_int_equal (bulk->at[bulk->n - 1], bulk->family.start[bulk->n - 1]);
+        assert_true (of_others (bulk) > bulk->n / 2);
         same_rows (a, b);
+        clear (&r), clear (&own);
+    }
+}
+
+/* Bonds break one after the other at points whose rows others read, at those that read them, and at both
+ * again; every row stays what it is by itself, and so do the products that are made of them. */
+static void rows_are_read_elsewhere_until_they_change (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 2; k++) {
+        const char *scene = k ? sharing[3] : sharing[0];
+        run r = scene_of (2, "%s", scene), own = scene_of (1, "%s", scene);
+        own.problem->plain = 1;
+        refresh (&r, NULL), refresh (&own, NULL);
+        galerkin *a = force_of (&r), *b = force_of (&own);
+        const pg_rows *bulk = &a->rows[a->bulk];
+        size_t base = r.problem->first_bond[a->bulk], n = r.state->ndof;
+        double *x = pg_calloc (3 * n, sizeof *x), *y = x + n, *z = x + 2 * n, top = 0;
+        for (size_t i = 0; i < n; i++) x[i] = sin (12.9898 * (double) i);
+        for (size_t round = 0; round < 40; round++) {
+            /* in turns a point that others read from, one that reads from it, any one */
+            size_t point = 37 * round % bulk->n, leader = point;
+            for (size_t i = 0; bulk->at && i < bulk->n && leader == point; i++)
+                if (bulk->at[i] != bulk->family.start[i]) {
+                    leader = 0;
+                    while (bulk->family.start[leader + 1] <= bulk->at[i]) leader++;
+                    point = round % 3 == 0 ? leader : round % 3 == 1 ? i : point;
+                    break;
+                }
+            size_t bond = base + bulk->family.start[point];
+            while (!r.state->alive[bond]) bond++;
+            r.state->alive[bond] = own.state->alive[bond] = 0;
+            pg_changes changes = { 1, 1, &bond };
+            refresh (&r, &changes), refresh (&own, &changes);
+            assert_non_null (bulk->at);
+            same_rows (a, b);
+            galerkin_apply (a, x, y), galerkin_apply (b, x, z);
+            for (size_t i = 0; i < n; i++) top = fmax (top, fabs (z[i]));
+            for (size_t i = 0; i < n; i++) check_scaled (y[i], z[i], 1e-11, top);
+        }
+        refresh (&r, NULL), refresh (&own, NULL);
+        same_rows (a, b);
+        pg_free (x);
         clear (&r), clear (&own);
     }
 }
@@ -117,6 +171,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (rows_are_those_of_points_alone),
+        cmocka_unit_test (rows_are_read_elsewhere_until_they_change),
         cmocka_unit_test (corrected_and_irregular_rows_are_alone),
         cmocka_unit_test (memory_that_ends_is_told),
     };

@@ -1,0 +1,198 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The worst bonds where a bond breaks by its elongation alone. Of every block of points the largest
+ * elongation of a live bond comes first, for which nothing is kept of a single bond. Only in blocks that
+ * reach the largest one, or the limit that is asked for, bonds are then judged, by the same numbers as all of
+ * them would be: the elongation of a bond has the bits that its utilisation is made of. */
+#include "galerkin.h"
+#include <math.h>
+#include <string.h>
+
+enum { BATCH = GALERKIN_BATCH, PLACE = 8 };
+/* Blocks without a bond that lives. A hair for the rounding of a limit. */
+static const double NONE = -INFINITY, hair = 1e-12;
+
+/* A look at a set. node: place and displacement of every node, x y z 0 u v w 0, m; square: of
+ * pg_criterion_type.elongation. */
+typedef struct {
+    galerkin *g;
+    const pg_state *state;
+    int set;
+    double square;
+    const double *node;
+} looking;
+
+/* One criterion for all bonds, which judges by nothing but their two ends. */
+int galerkin_elongation_decides (const galerkin *g)
+{
+    const pg_problem *p = g->problem;
+    int free = 0;
+    for (int set = 0; set < PG_BOND_SETS; set++) free |= g->eigen[set] != NULL;
+    return p->nlimit == 1 && p->limit->type->elongation && !p->cloud.size && !free;
+}
+
+/* Place and displacement of a point, behind each other. */
+static void put (size_t dim, const double *x, const double *u, double *to)
+{
+    for (size_t k = 0; k < dim; k++) to[k] = x[k], to[4 + k] = u[k];
+}
+
+static void put_nodes (void *context, size_t first, size_t last, int thread)
+{
+    galerkin *g = context;
+    size_t dim = (size_t) g->dim;
+    (void) thread;
+    for (size_t i = first; i < last; i++)
+        put (dim, g->problem->cloud.x + i * dim, g->u[PG_NODES] + i * dim, g->place_now + PLACE * i);
+}
+
+#define INLINE static inline __attribute__ ((always_inline))
+/* Elongation of a bond, in the order of sums of src/criterion/stretch.c. */
+INLINE double elongation (const double *from, const double *to, double square)
+{
+    four xi = *(const four *) to - *(const four *) from,
+         eta = *(const four *) (to + 4) - *(const four *) (from + 4), rr = xi * xi, re = xi * eta;
+    double length = rr[0] + rr[1] + rr[2], e = 2 * ((re[0] + re[1] + re[2]) / length);
+    if (!(square > 0)) return e;
+    four ee = eta * eta;
+    return e + (ee[0] + ee[1] + ee[2]) / length;
+}
+
+/* The largest elongation of the live bonds of each block. */
+PG_WIDE static void measure (const looking *w, size_t first, size_t last)
+{
+    const galerkin *g = w->g;
+    const pg_rows *r = &g->rows[w->set];
+    const unsigned char *alive = w->state->alive + g->problem->first_bond[w->set],
+                        *judged = g->judged[w->set];
+    size_t dim = (size_t) g->dim;
+    for (size_t b = first; b < last; b++) {
+        size_t end = (b + 1) * GALERKIN_BLOCK < r->n ? (b + 1) * GALERKIN_BLOCK : r->n;
+        double most = NONE;
+        for (size_t p = b * GALERKIN_BLOCK; p < end; p++) {
+            double own[PLACE] = { 0 };
+            if (!pg_problem_owns (g->problem, w->set, p)) continue;
+            put (dim, r->x + p * dim, g->u[w->set] + p * dim, own);
+            for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+                if (!alive[k] || !judged[k]) continue;
+                double e = elongation (own, w->node + PLACE * (size_t) r->family.node[k], w->square);
+                most = e > most ? e : most;
+            }
+        }
+        g->longest[w->set][b] = most;
+    }
+}
+
+static void measure_blocks (void *context, size_t first, size_t last, int thread)
+{
+    (void) thread;
+    measure (context, first, last);
+}
+
+/* Displacements of all points, and the longest bond of every block; returns the elongation of the longest of
+ * all. */
+static pg_status find_longest (galerkin *g, const pg_state *state, const double *d, double square,
+                               double *most)
+{
+    pg_status status = PG_OK;
+    PG_TRY (galerkin_find_judged (g));
+    if (!g->place_now) PG_ALLOC (g->place_now, PLACE * g->n);
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        size_t blocks = (g->rows[set].n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
+        if (!g->longest[set]) PG_ALLOC (g->longest[set], blocks);
+        if (blocks) galerkin_measure (g, set, d);
+    }
+    pg_parallel (g->threads, g->n, put_nodes, g);
+    *most = NONE;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        size_t blocks = (g->rows[set].n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
+        looking w = { g, state, set, square, g->place_now };
+        pg_parallel_heavy (g->threads, blocks, measure_blocks, &w);
+        for (size_t b = 0; b < blocks; b++) *most = fmax (*most, g->longest[set][b]);
+    }
+done:
+    return status;
+}
+
+/* ---- the bonds that are judged ------------------------------------------------------------------------- */
+/* Bonds with at least this elongation; list takes those with a utilisation from `from` on (NULL: not
+ * wanted). */
+typedef struct {
+    galerkin_judging judge;
+    double  least, from, square, top;
+    pg_changes *list;
+    size_t  bond[BATCH], point[BATCH], count;
+} search;
+
+static pg_status judge_collected (search *s)
+{
+    pg_status status = PG_OK;
+    size_t base = s->judge.g->problem->first_bond[s->judge.set], to[BATCH];
+    double *u = s->judge.utilisation;
+    for (size_t k = 0; k < s->count; k++) to[k] = base + s->bond[k], u[to[k]] = 0;
+    if (s->count) galerkin_judge (&s->judge, s->count, s->bond, s->point, to);
+    for (size_t k = 0; k < s->count; k++) {
+        s->top = fmax (s->top, u[to[k]]);
+        if (!s->list || !(u[to[k]] >= s->from)) continue;
+        PG_GROW (s->list->bond, s->list->cap, s->list->n + 1);
+        s->list->bond[s->list->n++] = to[k];
+    }
+done:
+    s->count = 0;
+    return status;
+}
+
+static pg_status search_point (search *s, size_t p)
+{
+    pg_status status = PG_OK;
+    const galerkin *g = s->judge.g;
+    int set = s->judge.set;
+    const pg_rows *r = &g->rows[set];
+    const unsigned char *alive = s->judge.state->alive + g->problem->first_bond[set],
+                        *judged = g->judged[set];
+    size_t dim = (size_t) g->dim;
+    double own[PLACE] = { 0 };
+    put (dim, r->x + p * dim, g->u[set] + p * dim, own);
+    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
+        if (!alive[k] || !judged[k]) continue;
+        double e = elongation (own, g->place_now + PLACE * (size_t) r->family.node[k], s->square);
+        if (!(e >= s->least)) continue;
+        s->bond[s->count] = k, s->point[s->count++] = p;
+        if (s->count == BATCH) PG_TRY (judge_collected (s));
+    }
+done:
+    return status;
+}
+
+/* All bonds that this rank owns with the elongation asked for, ascending. */
+static pg_status search_all (search *s)
+{
+    pg_status status = PG_OK;
+    galerkin *g = s->judge.g;
+    for (int set = 0; set < PG_BOND_SETS; set++) {
+        s->judge.set = set;
+        for (size_t p = 0; p < g->rows[set].n; p++)
+            if (g->longest[set][p / GALERKIN_BLOCK] >= s->least && pg_problem_owns (g->problem, set, p))
+                PG_TRY (search_point (s, p));
+        PG_TRY (judge_collected (s));
+    }
+done:
+    return status;
+}
+
+pg_status galerkin_longest (galerkin *g, const pg_state *state, const double *d, double from,
+                            double *utilisation, char *kind, double *top, pg_changes *over)
+{
+    pg_status status = PG_OK;
+    const pg_criterion *c = g->problem->limit;
+    search s = { .judge = { g, state, 0, utilisation, NULL, kind } };
+    double most = NONE, limit = c->type->elongation (c, from, &s.square);
+    PG_TRY (find_longest (g, state, d, s.square, &most));
+    s.least = most * (1 - hair);
+    if (most > 0) PG_TRY (search_all (&s));
+    *top = galerkin_largest (g, s.top);
+    if (!(*top > 1)) goto done;
+    s.list = over, s.from = from, s.least = limit * (1 - hair);
+    if (most >= s.least) PG_TRY (search_all (&s));
+done:
+    return status;
+}
