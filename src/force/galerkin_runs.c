@@ -101,7 +101,7 @@ static int compare (const void *a, const void *b)
     const galerkin_entry *x = a, *y = b;
     if (x->place != y->place) return (x->place > y->place) - (x->place < y->place);
     if (x->node != y->node) return (x->node > y->node) - (x->node < y->node);
-    return (x->bond > y->bond) - (x->bond < y->bond);
+    return (x->point > y->point) - (x->point < y->point);  /* not where its values happen to be */
 }
 
 /* Lists the bonds of the first group by their nodes. Nodes whose numbers follow each other are far apart in

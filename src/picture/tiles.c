@@ -302,8 +302,8 @@ static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
         double dy = (s->top - (j + 0.5) * step - at[1]) * ratio;
         for (int i = from[0]; i < to[0]; i++) {
             size_t p = (size_t) j * (size_t) s->width + (size_t) i;
-            double dx = s->left + (i + 0.5) * step - at[0], square = dx * dx + dy * dy, limit = s->depth[p];
-            if (square > sure * far * far || (s->owner[p] >= 0 && square >= sure * limit * limit)) continue;
+            double dx = s->left + (i + 0.5) * step - at[0], limit = s->owner[p] < 0 ? far : s->depth[p];
+            if (dx * dx + dy * dy > sure * limit * limit) continue;
             double place[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale },
                    d = distance_to (t, k, place[0], place[1]);
             if (d > far || (s->owner[p] >= 0 && d >= s->depth[p])) continue;
