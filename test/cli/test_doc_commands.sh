@@ -22,6 +22,9 @@ scene_of() {
         case $1 in
             -o|--memory|--seeds) shift ;;
             -q|--quiet|--resume) ;;
+            spacing=*)                                 # a fine one takes minutes to check: its value alone is looked at
+                [[ $1 =~ ^spacing=[0-9.]+(e-?[0-9]+)?\ ?(m|mm|um)?$ ]] || return 1
+                [ "${options[-1]}" != --set ] || unset 'options[-1]' ;;
             *) options+=("$1") ;;
         esac
         shift
