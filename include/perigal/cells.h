@@ -59,6 +59,9 @@ typedef struct {
     double *volume;
     /* Index of the mesh block that the cell belongs to; 0 in a lattice (n). */
     int    *block;
+    /* Of ranks that share a body which no lattice gives: which cells this one owns, and the number of each
+     * among those of all ranks; else NULL (n). */
+    unsigned char *owned;  int64_t *number;
     /* Number of facets. */
     size_t  nfacet;
     /* Kind of each facet: a value of pg_element of dimension dim - 1, or PG_CUT (nfacet). */
@@ -135,6 +138,11 @@ pg_status pg_cells_share (pg_cloud *cloud, const pg_cells *cells, const pg_latti
  * left out as facets. Node sets become sets of points and of those facets whose nodes all belong to the
  * set. */
 pg_status pg_cells_from_mesh (pg_cells *out, const pg_mesh_body *body, double thickness);
+/* Of ranks that share a body which no lattice gives: of the cells of the whole body leaves those within
+ * `reach` (m) of the box of the points that this rank owns, and all that it owns: a cell belongs to the rank
+ * of the point nearest to its middle. whole: all points (pg_cloud_divide), owner: of each; afterwards points
+ * have the numbers of those held. PG_E_MEMORY. */
+pg_status pg_cells_keep (pg_cells *cells, const pg_cloud *whole, const int *owner, double reach);
 /* The name under which a scene refers to a set of a mesh: characters other than letters, digits, - and _
  * become _; at most 56 bytes; "all" becomes mesh_all, an empty name mesh_set. */
 void      pg_set_name (char out[57], const char *name);

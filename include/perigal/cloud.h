@@ -255,21 +255,27 @@ typedef struct {
  * lattice is empty then (dim = 0). PG_E_SCENE, PG_E_MEMORY. */
 pg_status pg_cloud_build (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene);
 /* The same of the subdomain of this rank, with a layer of ghosts of `width` (m) around it: only these points
- * and their part of the lattice are made (out->subdomain). Without ranks it is pg_cloud_build. Points that no
- * lattice gives cannot be divided so far: PG_E_USAGE in words. */
+ * and their part of the lattice are made (out->subdomain). Without ranks it is pg_cloud_build, and of points
+ * of a file, which pg_cloud_divide divides. */
 pg_status pg_cloud_build_part (pg_cloud *out, pg_lattice *lattice, const pg_body *body, const pg_scene *scene,
                                double width);
+/* Of points that no lattice gives, all of which every rank has read: who owns each (pg_free), by recursive
+ * bisection of their coordinates, and cloud->subdomain of this rank, with a layer of ghosts of `width` (m)
+ * where the spacing is the nominal one, wider where it is larger. The cloud still has all points: then
+ * pg_cloud_keep drops those that are not held. PG_E_LIMIT: more ranks than points. */
+pg_status pg_cloud_divide (pg_cloud *cloud, double width, int **owner);
+void      pg_cloud_keep   (pg_cloud *cloud);
 /* What a rank holds of a body that is divided. */
 typedef struct {
     double owned, ghosts;                              /* points */
     int    neighbours;                                 /* ranks that it exchanges values of ghosts with */
     double sent;                                       /* points, as often as each is sent to one of them */
 } pg_part_size;
-/* What pg_cloud_build_part would give each of `size` ranks, found by one process: out (size). PG_E_LIMIT:
- * the body cannot be divided among so many. */
+/* What pg_cloud_build_part or pg_cloud_divide would give each of `size` ranks, found by one process: out
+ * (size). PG_E_LIMIT: the body cannot be divided among so many. */
 pg_status pg_cloud_parts (pg_part_size *out, const pg_body *body, const pg_scene *scene, double width,
                           int size);
-/* Nominal spacing of the lattice of a scene, m, before it is built (pg_cloud.h). */
+/* Nominal spacing of the points of a scene, m, before they are built (pg_cloud.h). */
 pg_status pg_cloud_spacing (double *h, const pg_body *body, const pg_scene *scene);
 void      pg_cloud_clear (pg_cloud *cloud);
 /* Local spacing of point i over the nominal one: the support of node i is `horizon` times this. Exactly 1

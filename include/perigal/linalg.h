@@ -438,9 +438,9 @@ typedef struct {
     const double *x;
     /* 1: the displacement of this unknown is prescribed (n x block); NULL: none is. Borrowed. */
     const unsigned char *fixed;
-    /* Of ranks that share the body: which of the nodes are owned; V is what they have in common
-     * (pg_shared_preconditioner_now). Vectors are read and written at owned nodes, z = 0 at ghosts. NULL: the
-     * process is alone. Borrowed. */
+    /* Of ranks that share the body: which nodes are owned; V, all of it where they are no lattice, is what
+     * ranks have in common (pg_shared_preconditioner_now). Vectors are read and written at owned nodes, z = 0
+     * at ghosts. NULL: the process is alone. Borrowed. */
     const pg_subdomain *subdomain;
 } pg_element_setting;
 typedef struct pg_element_preconditioner pg_element_preconditioner;

@@ -409,9 +409,9 @@ int       pg_solver_is (const char *kind, unsigned flags);
 int       pg_subdomain_wanted (const pg_scene *scene, const pg_method *const *methods);
 /* What pg_rank_count ranks that divide the body cannot do so far, as faults of the scene. PG_E_SCENE. */
 pg_status pg_subdomain_check  (const pg_method *method, const pg_scene *scene);
-/* The layer of ghosts around their parts, m. */
-pg_status pg_subdomain_width  (double *width, const pg_method *method, const pg_body *body,
-                               const pg_scene *scene);
+/* The layer of ghosts around their parts, m; h: the nominal spacing of the points, m. */
+pg_status pg_subdomain_width  (double *width, const pg_method *method, const pg_scene *scene, int dim,
+                               double h);
 /* 1: its cracks grow by facets: the criterion judges their tips (2D). */
 int       pg_problem_grows (const pg_problem *problem);
 int       pg_problem_proportional (const pg_problem *problem);  /* every load is a constant pattern times t */
@@ -631,6 +631,8 @@ typedef struct {
     /* events: a factor would serve many; elements: finite elements may precondition */
     int    events, elements;
     int    order, interpolates, behind, scattered;     /* as in pg_solve_counts */
+    /* 1: points are on no lattice, or moved off it; what every rank keeps of a mesh, bytes */
+    int    irregular;  double mesh;
     double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
     char   ordering[16];                               /* of an analysed factor */
     double spacing, step[3], horizon;                  /* m */

@@ -172,6 +172,6 @@ void pg_cells_clear (pg_cells *c)
     pg_free (c->normal), pg_free (c->area), pg_free (c->facet_cell), pg_free (c->facet_surface),
         pg_free (c->facet_point);
     for (size_t i = 0; i < c->ngiven; i++) pg_free (c->given[i].point), pg_free (c->given[i].facet);
-    pg_free (c->given);
+    pg_free (c->given), pg_free (c->owned), pg_free (c->number);
     memset (c, 0, sizeof *c);
 }

@@ -44,10 +44,11 @@ static pg_status divide (outlook *o, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_body body = { 0 };
-    double width;
+    double width, h;
     PG_TRY (pg_body_read (&body, scene));
     PG_TRY (pg_scene_verdict (scene));
-    PG_TRY (pg_subdomain_width (&width, o->whole.method, &body, scene));
+    PG_TRY (pg_cloud_spacing (&h, &body, scene));
+    PG_TRY (pg_subdomain_width (&width, o->whole.method, scene, body.dim, h));
     PG_TRY (pg_cloud_parts (o->part, &body, scene, width, o->c->ranks));
 done:
     pg_body_clear (&body);

@@ -148,29 +148,17 @@ done:
     return status;
 }
 
-/* Shrinks an array to the n values that are still needed. */
-static void shrink (void **array, size_t n, size_t size)
-{
-    void *less = *array ? pg_resize (*array, n, size) : NULL;
-    if (less) *array = less;
-}
-
-/* The part of this rank. All points are read, and most of them dropped again. */
-static pg_status keep_part (pg_cloud *c, double width)
+pg_status pg_cloud_divide (pg_cloud *c, double width, int **owner)
 {
     pg_status status = PG_OK;
-    int *owner = NULL;
-    size_t all = c->n;
-    PG_TRY (cloud_bisect (&owner, c, pg_rank_count ()));
-    PG_TRY (cloud_subdomain_of_points (&c->subdomain, c, owner, width, pg_rank (), pg_rank_count ()));
-    PG_TRY (cloud_count_owned ((double) all, all < (size_t) pg_rank_count (), pg_rank_count ()));
-    cloud_keep_held (c, c->subdomain);
-    void *x = c->x, *volume = c->volume, *block = c->block, *size = c->size;
-    shrink (&x, c->n * (size_t) c->dim, sizeof *c->x), shrink (&volume, c->n, sizeof *c->volume);
-    shrink (&block, c->n, sizeof *c->block), shrink (&size, c->n, sizeof *c->size);
-    c->x = x, c->volume = volume, c->block = block, c->size = size;
+    cloud_division d = { 0 };
+    int size = pg_rank_count ();
+    PG_TRY (cloud_count_owned ((double) c->n, c->n < (size_t) size, size));
+    PG_TRY (cloud_divide_points (&d, c, width, size));
+    PG_TRY (cloud_subdomain_of_points (&c->subdomain, c, &d, pg_rank ()));
+    *owner = d.owner, d.owner = NULL;
 done:
-    pg_free (owner);
+    cloud_division_clear (&d);
     return status;
 }
 
@@ -222,14 +210,35 @@ static double spacing_of (const pg_lattice *l)
     return l->dim == 1 ? cell : l->dim == 2 ? sqrt (cell) : cbrt (cell);
 }
 
+static int has_no_lattice (const pg_scene *scene)
+{
+    return pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh");
+}
+
+/* Of a file or a mesh. */
+static pg_status all_points (pg_cloud *c, const pg_body *body, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_mesh_body mesh = { 0 };
+    c->dim = body->dim, c->thickness = thickness_of (body->dim, scene);
+    if (pg_scene_given (scene, "points")) PG_TRY (from_file (c, body, scene));
+    else {
+        PG_TRY (pg_mesh_body_read (&mesh, scene));
+        PG_TRY (pg_mesh_body_cloud (c, &mesh, scene));
+    }
+done:
+    pg_mesh_body_clear (&mesh);
+    return status;
+}
+
 pg_status pg_cloud_spacing (double *h, const pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     pg_lattice l;
-    pg_cloud c = { .dim = body->dim, .thickness = thickness_of (body->dim, scene) };
+    pg_cloud c = { 0 };
     grid g;
-    if (pg_scene_given (scene, "points")) {
-        PG_TRY (from_file (&c, body, scene));
+    if (has_no_lattice (scene)) {
+        PG_TRY (all_points (&c, body, scene));
         *h = c.h;
         goto done;
     }
@@ -311,7 +320,7 @@ static pg_status build (pg_cloud *out, pg_lattice *lattice, const pg_body *body,
     out->thickness = thickness_of (out->dim, scene);
     if (pg_scene_given (scene, "points")) {
         PG_TRY (from_file (out, body, scene));
-        if (part) PG_TRY (keep_part (out, width));
+        part = 0;
     } else PG_TRY (from_lattice (out, lattice, body, scene, part, width));
     if (part) PG_TRY (bound_all (out));
     else pg_place_bounds (out);
@@ -340,24 +349,24 @@ static pg_part_size size_of (const pg_subdomain *d)
                             (double) d->halo.send_first[d->halo.n] };
 }
 
-/* Of points of a file. */
+/* Of points of a file or a mesh. */
 static pg_status parts_of_file (pg_part_size *out, const pg_body *body, const pg_scene *scene, double width,
                                 int size)
 {
     pg_status status = PG_OK;
-    pg_cloud c = { .dim = body->dim, .thickness = thickness_of (body->dim, scene) };
+    pg_cloud c = { 0 };
     pg_subdomain *d = NULL;
-    int *owner = NULL;
-    PG_TRY (from_file (&c, body, scene));
+    cloud_division how = { 0 };
+    PG_TRY (all_points (&c, body, scene));
     PG_TRY (cloud_count_owned ((double) c.n, c.n < (size_t) size, size));
-    PG_TRY (cloud_bisect (&owner, &c, size));
+    PG_TRY (cloud_divide_points (&how, &c, width, size));
     for (int r = 0; r < size; r++) {
-        PG_TRY (cloud_subdomain_of_points (&d, &c, owner, width, r, size));
+        PG_TRY (cloud_subdomain_of_points (&d, &c, &how, r));
         out[r] = size_of (d);
         pg_subdomain_free (&d);
     }
 done:
-    pg_free (owner);
+    cloud_division_clear (&how);
     pg_cloud_clear (&c);
     return status;
 }
@@ -366,7 +375,7 @@ done:
 pg_status pg_cloud_parts (pg_part_size *out, const pg_body *body, const pg_scene *scene, double width,
                           int size)
 {
-    if (pg_scene_given (scene, "points")) return parts_of_file (out, body, scene, width, size);
+    if (has_no_lattice (scene)) return parts_of_file (out, body, scene, width, size);
     pg_status status = PG_OK;
     pg_lattice whole = { 0 }, l = { 0 };
     pg_subdomain *d = NULL;

@@ -31,13 +31,16 @@ int64_t   cloud_site_number (const sites *s, const pg_lattice *l, size_t i);
  * is left 0. */
 pg_status cloud_subdomain (pg_subdomain **out, const sites *s, const pg_lattice *l, const pg_box *boxes,
                            double width, int rank, int size);
-/* Points of a file (subdomain_points.c): which rank owns each of the n (pg_free). */
-pg_status cloud_bisect (int **owner, const pg_cloud *cloud, int size);
+/* How points that no lattice gives are divided (subdomain_points.c): which rank owns each of them; of each
+ * rank the box of its points and the width of its layer of ghosts, m (size). */
+typedef struct { double low[3], high[3]; } cloud_region;
+typedef struct { int size, *owner; cloud_region *box; double *width; } cloud_division;
+/* width: of the layer where the spacing is the nominal one. */
+pg_status cloud_divide_points  (cloud_division *out, const pg_cloud *cloud, double width, int size);
+void      cloud_division_clear (cloud_division *division);
 /* As cloud_subdomain, of all points of the body. */
-pg_status cloud_subdomain_of_points (pg_subdomain **out, const pg_cloud *cloud, const int *owner,
-                                     double width, int rank, int size);
-/* Leaves of all points those that the subdomain holds. */
-void      cloud_keep_held (pg_cloud *cloud, const pg_subdomain *subdomain);
+pg_status cloud_subdomain_of_points (pg_subdomain **out, const pg_cloud *cloud,
+                                     const cloud_division *division, int rank);
 /* empty: some rank owns none of the `total` points, which is refused: PG_E_LIMIT. */
 pg_status cloud_count_owned (double total, int empty, int size);
 #endif

@@ -75,7 +75,7 @@ static void check_elimination (const pg_problem *p, const pg_load *load, const p
 {
     char path[64];
     if (!pg_load_prescribes (load) || load->essential != PG_ESSENTIAL_TRANSFORMATION) return;
-    if (p->approx.type->interpolates || !p->cloud.subdomain) return;
+    if (p->approx.type->interpolates || !pg_ranks_now ()) return;
     snprintf (path, sizeof path, "boundary[%zu]", i);
     pg_scene_fault (scene, path, "%d ranks: essential: transformation couples all points of the set, which "
                     "one process alone can hold: use essential: nitsche or penalty, or division: matrices",

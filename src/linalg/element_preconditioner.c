@@ -38,6 +38,9 @@ struct pg_element_preconditioner {
     pg_node_matrix transposed;
     pg_multilevel *multilevel;
     const pg_subdomain *subdomain;                     /* of ranks that share the body */
+    /* V of ranks whose nodes are no lattice: what they make of the rows of Q together. */
+    void   *shared;
+    const pg_shared_preconditioner *by;
     pg_operator    Q;
     int     terms;
     double  middle, half, c[MOST_TERMS];
@@ -251,6 +254,7 @@ void pg_element_preconditioner_free (pg_element_preconditioner **preconditioner)
     pg_elements_clear (&P->elements);
     pg_node_matrix_clear (&P->transposed);
     pg_multilevel_free (&P->multilevel);
+    if (P->shared) P->by->free (&P->shared);
     pg_free (P->alike.run), pg_free (P->alike_transposed.run);
     if (P->factor) P->direct->free (&P->factor);
     pg_free (P->t[0]), pg_free (P->t[1]), pg_free (P->left), pg_free (P->right);
@@ -303,6 +307,33 @@ done:
     return status;
 }
 
+/* Fragments that nothing holds leave Q singular: a share of its diagonal makes up for it, as on coarse
+ * grids. */
+static const double lift = 1e-10;
+
+/* V of ranks whose nodes are no lattice, so that they do not know the coarse functions of each other. Q is
+ * not needed any more when it is made. */
+static pg_status make_shared (pg_element_preconditioner *P, const pg_element_setting *s)
+{
+    pg_status status = PG_OK;
+    pg_block_matrix *Q = &P->elements.Q;
+    double *diagonal = NULL;
+    P->by = pg_shared_preconditioner_now ();
+    if (!P->by) PG_FAIL (PG_E_USAGE, "ranks share no preconditioner");
+    PG_ALLOC (diagonal, Q->n * (size_t) Q->block);
+    P->Q.diagonal (P->Q.context, diagonal);
+    pg_shared_rows rows = { .dim = s->dim, .block = Q->block, .x = s->x, .fixed = P->fixed,
+                            .subdomain = s->subdomain, .rows = pg_block_couplings (Q, P->elements.reach),
+                            .k = 1, .m = lift, .mass = diagonal };
+    PG_TRY (P->by->create (&P->shared, &rows));
+    pg_block_matrix empty = { .block = Q->block, .threads = Q->threads, .n = Q->n };
+    pg_block_clear (Q);
+    *Q = empty;
+done:
+    pg_free (diagonal);
+    return status;
+}
+
 /* V: a multilevel cycle of the elements. Of elements on a coarse grid no unknown is fixed: their functions
  * leave out what is. */
 static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_setting *s)
@@ -321,8 +352,9 @@ static pg_status make_cycle (pg_element_preconditioner *P, const pg_element_sett
                                 .step = 2.5 * e->spacing / e->reach, .aligned = 1,
                                 .subdomain = s->subdomain };
     memcpy (m.rows.lattice, e->lattice, sizeof m.rows.lattice);
-    PG_TRY (pg_block_settle (Q));
     P->Q = pg_block_operator (Q);
+    if (s->subdomain && !(e->lattice[0] > 0)) return make_shared (P, s);
+    PG_TRY (pg_block_settle (Q));
     PG_TRY (pg_multilevel_create (&P->multilevel, &m));
 done:
     return status;
@@ -382,6 +414,7 @@ done:
 /* z = V r */
 static pg_status cycle (pg_element_preconditioner *P, const double *r, double *z)
 {
+    if (P->shared) return P->by->solve (P->shared, r, z);
     pg_preconditioner V = pg_multilevel_preconditioner (P->multilevel);
     return V.solve (V.context, r, z);
 }
@@ -471,7 +504,9 @@ int pg_element_preconditioner_on_grid (const pg_element_preconditioner *P)
 void pg_element_preconditioner_describe (const pg_element_preconditioner *P, char *text, size_t size)
 {
     size_t at = (size_t) snprintf (text, size, "finite elements, ");
-    if (at < size) pg_multilevel_describe_shared (P->multilevel, text + at, size - at);
+    if (at >= size) return;
+    if (P->shared) P->by->describe (P->shared, text + at, size - at);
+    else pg_multilevel_describe_shared (P->multilevel, text + at, size - at);
 }
 
 const pg_multilevel *pg_element_preconditioner_levels (const pg_element_preconditioner *P)

@@ -253,7 +253,7 @@ pg_status pg_blocks_build (pg_problem *p, const pg_scene *scene)
                         "there are %zu: say with blocks which part of the body is made of which",
                         p->nmaterial);
     else by_number (p, scene);
-    PG_TRY (pg_scene_verdict (scene));
+    PG_TRY (pg_ranks_agree (pg_scene_verdict (scene)));
     PG_TRY (check_used (p, scene));
     PG_TRY (pg_scene_verdict (scene));
 done:

@@ -6,6 +6,61 @@
 #include <stdio.h>
 #include <string.h>
 
+/* Points between the nodes belong to the rank that has their cell, of facets the cell behind them. Their
+ * number: that of the cell in the whole body, then their place among the points of the cell, or of its
+ * facets, which all ranks list alike. */
+enum { PLACES = 4096 };
+static pg_status number_points (pg_problem *p, int set)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = &p->rows[set];
+    const pg_cells *c = &p->cells;
+    size_t dim = (size_t) p->dim, last = SIZE_MAX;
+    int64_t place = 0, number = 0;
+    int own = 0;
+    for (size_t q = 0; q < r->n; q++, place++) {
+        size_t cell = set == PG_POINTS ? (size_t) r->cell[q] : (size_t) c->facet_cell[r->cell[q]];
+        if (cell != last) {
+            double middle[3] = { 0 };
+            for (size_t k = c->start[cell]; k < c->start[cell + 1]; k++)
+                for (size_t a = 0; a < dim; a++)
+                    middle[a] += c->x[k * dim + a] / (double) (c->start[cell + 1] - c->start[cell]);
+            number = c->number ? c->number[cell] : pg_lattice_cell (&p->lattice, middle);
+            own = c->owned ? c->owned[cell] : pg_lattice_owns (&p->lattice, p->cloud.subdomain, middle);
+            last = cell, place = 0;
+        }
+        if (place == PLACES) PG_FAIL (PG_E_LIMIT, "more than %d points of a cell are too many", PLACES);
+        p->held[set].owned[q] = (unsigned char) own;
+        p->held[set].number[q] = number * PLACES + place;
+    }
+done:
+    return status;
+}
+
+/* Of ranks that share the body: which points of a set each owns, and their numbers. */
+static pg_status number_held (pg_problem *p, int set)
+{
+    pg_status status = PG_OK;
+    const pg_subdomain *s = p->cloud.subdomain;
+    size_t n = p->rows[set].n;
+    if (!s) return PG_OK;
+    PG_ALLOC (p->held[set].owned, n);
+    PG_ALLOC (p->held[set].number, n);
+    if (set != PG_NODES) PG_TRY (number_points (p, set));
+    else {
+        memcpy (p->held[set].owned, s->owned, n);
+        memcpy (p->held[set].number, s->number, n * sizeof *s->number);
+    }
+done:
+    return status;
+}
+
+/* Of a node that of the whole body. */
+static size_t number_of (const pg_problem *p, int set, size_t point)
+{
+    return set == PG_NODES && p->held[set].number ? (size_t) p->held[set].number[point] : point;
+}
+
 /* Points that are no lattice: every point of the whole body must see enough others, and these not too
  * flat a set, to carry a strain. Shape functions are evaluated once for their grades; the first point
  * with none is a fault that says where it is. */
@@ -15,12 +70,13 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
     pg_status status = PG_OK;
     pg_rows *r = &p->rows[set];
     char at[100];
-    if (p->lattice.dim || r->n == 0) goto done;
+    if (p->lattice.dim) return PG_OK;
     PG_ALLOC (r->grade, r->n);                         /* for this check only: the problem keeps geometry */
-    PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
-    for (size_t q = 0; q < r->n; q++) {
+    if (r->n)
+        PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
+    for (size_t q = 0; q < r->n && status == PG_OK; q++) {
         int used = 0;
-        if (r->grade[q] < PG_GRADE_PROJECTED) continue;
+        if (r->grade[q] < PG_GRADE_PROJECTED || (p->held[set].owned && !p->held[set].owned[q])) continue;
         for (int k = 0; k < p->dim; k++)
             used += snprintf (at + used, sizeof at - (size_t) used, k ? ", %.6g" : "%.6g",
                               r->x[q * (size_t) p->dim + (size_t) k]);
@@ -28,11 +84,12 @@ static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
             scene, "method.horizon",
             "%s %zu at (%s) m sees %zu points, too few or too flat a set for a strain: use a larger horizon "
             "or %s",
-            what[set], q + 1, at, r->family.start[q + 1] - r->family.start[q],
+            what[set], number_of (p, set, q) + 1, at, r->family.start[q + 1] - r->family.start[q],
             p->cloud.size ? "larger spacings of the points there"
                           : "a column spacing in the file of points, which the horizon of each then follows");
-        PG_TRY (pg_scene_verdict (scene));
+        status = pg_scene_verdict (scene);
     }
+    status = pg_ranks_agree (status);
 done:
     pg_free (r->grade), r->grade = NULL;
     return status;
@@ -48,6 +105,7 @@ static pg_status make_nodes (pg_problem *p, const pg_family_search *search, cons
     for (size_t i = 0; i < p->cloud.n; i++) own[i] = (int) i;
     PG_TRY (pg_rows_place (&p->rows[PG_NODES], search, p->dim, p->cloud.n, p->cloud.x, p->cloud.volume, own,
                            NULL, p->threads));
+    PG_TRY (number_held (p, PG_NODES));
     PG_TRY (check_support (p, scene, PG_NODES));
 done:
     pg_free (own);
@@ -90,6 +148,7 @@ static pg_status make_points (pg_problem *p, const pg_family_search *search, con
         PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
     PG_TRY (pg_rows_place (&p->rows[PG_POINTS], search, p->dim, q.n, q.x, q.weight, NULL, q.cell,
                            p->threads));
+    PG_TRY (number_held (p, PG_POINTS));
     PG_TRY (check_support (p, scene, PG_POINTS));
     if (p->integration->consistent)
         PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS],
@@ -124,6 +183,7 @@ static pg_status make_facets (pg_problem *p, const pg_family_search *search, con
     }
     PG_TRY (pg_rows_place (&p->rows[PG_FACETS], search, p->dim, keep, q.x, q.weight, NULL, q.cell,
                            p->threads));
+    PG_TRY (number_held (p, PG_FACETS));
     PG_TRY (check_support (p, scene, PG_FACETS));
     p->facet_normal = q.normal, q.normal = NULL;
 done:
@@ -232,6 +292,7 @@ static pg_status make_point_bonds (pg_problem *p)
     memcpy (r->weight, p->cloud.volume, n * sizeof *r->weight);
     for (size_t i = 0; i < n; i++) r->own[i] = (int) i, r->cell[i] = -1;
     PG_TRY (pg_sums_family (&r->family, p->sums));
+    PG_TRY (number_held (p, PG_NODES));
     for (int s = PG_POINTS; s < PG_BOND_SETS; s++)
         PG_TRY (pg_rows_create (&p->rows[s], &p->approx, &p->cloud, 0, NULL, NULL, NULL, NULL));
     PG_ALLOC (p->facet_normal, 0);
@@ -300,54 +361,6 @@ done:
     return status;
 }
 
-/* Of ranks that share the body: points between the nodes belong to the rank that has their cell, of facets
- * the cell behind them. Their number: that of the cell in the whole lattice, then their place among the
- * points of the cell, or of its facets, which all ranks list alike. */
-enum { PLACES = 4096 };
-static pg_status number_points (pg_problem *p, int set)
-{
-    pg_status status = PG_OK;
-    const pg_rows *r = &p->rows[set];
-    const pg_cells *c = &p->cells;
-    size_t dim = (size_t) p->dim, last = SIZE_MAX;
-    int64_t place = 0, number = 0;
-    int own = 0;
-    PG_ALLOC (p->held[set].owned, r->n);
-    PG_ALLOC (p->held[set].number, r->n);
-    for (size_t q = 0; q < r->n; q++, place++) {
-        size_t cell = set == PG_POINTS ? (size_t) r->cell[q] : (size_t) c->facet_cell[r->cell[q]];
-        if (cell != last) {
-            double middle[3] = { 0 };
-            for (size_t k = c->start[cell]; k < c->start[cell + 1]; k++)
-                for (size_t a = 0; a < dim; a++)
-                    middle[a] += c->x[k * dim + a] / (double) (c->start[cell + 1] - c->start[cell]);
-            number = pg_lattice_cell (&p->lattice, middle);
-            own = pg_lattice_owns (&p->lattice, p->cloud.subdomain, middle);
-            last = cell, place = 0;
-        }
-        if (place == PLACES) PG_FAIL (PG_E_LIMIT, "more than %d points of a cell are too many", PLACES);
-        p->held[set].owned[q] = (unsigned char) own;
-        p->held[set].number[q] = number * PLACES + place;
-    }
-done:
-    return status;
-}
-
-static pg_status number_held (pg_problem *p)
-{
-    pg_status status = PG_OK;
-    const pg_subdomain *s = p->cloud.subdomain;
-    if (!s) return PG_OK;
-    PG_ALLOC (p->held[PG_NODES].owned, s->n);
-    PG_ALLOC (p->held[PG_NODES].number, s->n);
-    memcpy (p->held[PG_NODES].owned, s->owned, s->n);
-    memcpy (p->held[PG_NODES].number, s->number, s->n * sizeof *s->number);
-    PG_TRY (number_points (p, PG_POINTS));
-    PG_TRY (number_points (p, PG_FACETS));
-done:
-    return status;
-}
-
 /* Rows of all bond sets, then what needs them: spacings, blocks, dilatation, exempt points. */
 pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
 {
@@ -362,7 +375,6 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
         PG_TRY (make_points (p, search, scene));
         PG_TRY (make_facets (p, search, scene));
     }
-    PG_TRY (number_held (p));
     for (int s = 0; s < PG_BOND_SETS; s++)
         p->first_bond[s + 1] = p->first_bond[s] + p->rows[s].family.start[p->rows[s].n];
     PG_TRY (measure_spacing (p));

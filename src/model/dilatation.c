@@ -72,6 +72,11 @@ pg_status pg_dilatation_build (pg_problem *p, const pg_scene *scene)
         if (wanted) lambda[m] = p->material[m].lambda, some++;
         if (wanted && p->vary[m].of[PG_OF_STIFFNESS]) refuse_graded (&p->material[m], scene);
     }
+    if (some && pg_ranks_now () && !p->lattice.dim)
+        pg_scene_fault (scene, "method.dilatation",
+                        "%d ranks: patches of points that no lattice gives are chosen one after the other, "
+                        "by one process only so far: use pointwise, or division: matrices",
+                        pg_rank_count ());
     PG_TRY (pg_scene_verdict (scene));
     if (!some) goto done;
     const pg_rows *points = points_of (p, &set);

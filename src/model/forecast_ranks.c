@@ -19,17 +19,19 @@ pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part,
 {
     pg_forecast g = *f;
     double d = f->dim, m = f->dim + f->rotations, more = (part->owned + part->ghosts) / f->points;
-    /* couplings of a point in the rows that PETSc gets: of shape functions those of the elements of the first
-     * coarse grid alone (multilevel_ranks.c), three along each axis */
-    double coupled = f->method->shape_functions ? pow (3 / coarser, d)
+    /* couplings of a point in the rows that PETSc gets: of shape functions those of elements, three along
+     * each axis, on a lattice of the first coarse grid alone (multilevel_ranks.c) */
+    double coupled = f->method->shape_functions ? pow (f->irregular ? 3 : 3 / coarser, d)
                      : f->points > 0            ? 2 * f->pairs / f->points - 1 : 0;
     g.points *= more, g.cells *= more, g.evaluation *= more, g.facets *= more, g.pairs *= more;
     g.summed *= more, g.patched *= more, g.slaves *= more, g.columns *= more;
     for (int s = 0; s < PG_BOND_SETS; s++) g.bonds[s] *= more;
     g.pictures = 0;                                    /* none are drawn of a body that nobody holds */
+    g.scattered = 0;                                   /* elements on all nodes */
     g.automatic = 0, g.linear = NULL;
     pg_forecast_sum (&g);
     add (&g, PG_BYTES_PROGRAM, started);
+    add (&g, PG_BYTES_POINTS, f->mesh);
     if (!f->explicit_)
         add (&g, PG_BYTES_MATRIX, of_levels[f->dim] * 12 * m * m * coupled * part->owned);
     /* one rank puts the fields of all together at the end: places, volumes, numbers, and what is shown of

@@ -108,6 +108,8 @@ static void read_method (pg_forecast *f, const pg_scene *scene)
     f->breaks = pg_scene_given (scene, "failure") && !is (pg_scene_text (scene, "failure.criterion"), "none");
     f->fields = (double) pg_scene_count (scene, "output.fields") + 1;  /* coefficients */
     f->pictures = pg_scene_name (scene, 0, "output.pictures") != NULL;
+    f->irregular = pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh")
+                   || pg_scene_number (scene, "perturb.amount") > 0;
     f->shared = !(f->summed > 0) && !f->breaks && shares_rows (f, scene);
     read_solver (f, scene);
 }
@@ -241,6 +243,8 @@ static pg_status count_elements (pg_forecast *f, const pg_scene *scene, const pg
     int *element = NULL, *side = NULL, node[9];
     for (int k = 0; k < PG_ELEMENTS; k++) count[k] = pg_element_rule ((pg_element) k, order, xi, w);
     f->cells = (double) m->n, f->evaluation = 0;
+    /* pg_mesh, pg_mesh_body: nodes, elements and their nodes */
+    f->mesh = 32 * (double) m->nnode + 25 * (double) m->n + 4 * (double) m->start[m->n];
     for (size_t e = 0; e < m->n && !f->nodal; e++) f->evaluation += count[m->kind[e]];
     f->bonds[PG_POINTS] = f->evaluation * each;
     PG_TRY (pg_mesh_surface (m, &n, &element, &side));

@@ -22,6 +22,7 @@ static int owns_facet (const pg_problem *p, size_t facet)
 {
     size_t dim = (size_t) p->dim;
     double behind[3] = { 0 };
+    if (p->cells.owned) return p->cells.owned[p->cells.facet_cell[facet]];
     for (size_t k = 0; k < dim; k++)
         behind[k] = p->cells.facet_centre[facet * dim + k]
                     - 0.5 * p->cloud.step[k] * p->cells.normal[facet * dim + k];

@@ -48,6 +48,7 @@ static pg_status cells_of_lattice (pg_problem *p, const pg_scene *scene)
         return pg_cells_from_lattice (&p->cells, &p->lattice, p->cloud.thickness);
     PG_TRY (pg_method_approx (&approx, p->method, scene, p->cloud.h));
     p->method->ghost_cells (scene, &beyond);
+    beyond += pg_scene_number (scene, "perturb.amount");   /* points are not on their sites */
     pg_box within = pg_subdomain_cells (s, &p->lattice, approx.horizon + beyond * p->cloud.h);
     PG_TRY (pg_cells_from_part (&p->cells, &p->lattice, p->cloud.thickness, &within));
 done:
@@ -112,23 +113,43 @@ static pg_status side_cracks (pg_problem *p, const pg_scene *scene)
     return pg_cracks_index (&p->cracks);
 }
 
-/* The points of this rank, with as many ghosts as the force needs; of a process that stands for all ranks
- * (perigal check) all points. */
+/* The points of a lattice that this rank holds, with as many ghosts as the force needs; of a process that
+ * stands for all ranks (perigal check), and of points that no lattice gives (divide_points), all points. */
 static pg_status build_subdomain (pg_problem *p, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    double width;
+    double width, h;
     PG_TRY (pg_subdomain_check (p->method, scene));
-    if (pg_ranks_now ()->whole) {
+    if (pg_ranks_now ()->whole || pg_scene_given (scene, "points")) {
         PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
         goto done;
     }
-    PG_TRY (pg_subdomain_width (&width, p->method, &p->body, scene));
+    PG_TRY (pg_cloud_spacing (&h, &p->body, scene));
+    PG_TRY (pg_subdomain_width (&width, p->method, scene, p->dim, h));
     PG_TRY (pg_cloud_build_part (&p->cloud, &p->lattice, &p->body, scene, width));
-    pg_problem_note (p,
-                     "%d ranks share the %.0f points; the patch test is left out: perigal check makes it",
-                     pg_rank_count (), (double) p->cloud.subdomain->total);
 done:
+    return status;
+}
+
+/* Leaves of points of a file or a mesh, and of the cells around them, which every rank has made as one
+ * process makes them, what this rank holds. */
+static pg_status divide_points (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    pg_approx approx = { 0 };
+    double width, beyond, share = 1;
+    int *owner = NULL;
+    PG_TRY (pg_subdomain_width (&width, p->method, scene, p->dim, p->cloud.h));
+    if (p->method->ghost_cells) {                      /* as of a lattice, cells do not fill the layer */
+        PG_TRY (pg_method_approx (&approx, p->method, scene, p->cloud.h));
+        p->method->ghost_cells (scene, &beyond);
+        share = (approx.horizon + beyond * p->cloud.h) / width;
+    }
+    PG_TRY (pg_cloud_divide (&p->cloud, width, &owner));
+    if (p->cells.n) PG_TRY (pg_cells_keep (&p->cells, &p->cloud, owner, share * p->cloud.subdomain->width));
+    pg_cloud_keep (&p->cloud);
+done:
+    pg_free (owner);
     return status;
 }
 
@@ -144,6 +165,7 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     if (pg_scene_given (scene, "mesh")) {
         PG_TRY (pg_mesh_body_read (&p->part, scene));
         PG_TRY (pg_mesh_body_cloud (&p->cloud, &p->part, scene));
+        if (pg_ranks_now ()) PG_TRY (pg_subdomain_check (p->method, scene));
     } else if (pg_ranks_now ()) PG_TRY (build_subdomain (p, scene));
     else PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
     PG_TRY (pg_scene_verdict (scene));
@@ -156,6 +178,11 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     else if (!p->lattice.dim && (pg_scene_count (scene, "body") || surface))
         PG_TRY (cells_of_points (p, scene, cut));
     else if (p->lattice.dim) PG_TRY (cells_of_lattice (p, scene));
+    if (pg_ranks_now () && !pg_ranks_now ()->whole && !p->lattice.dim) PG_TRY (divide_points (p, scene));
+    if (p->cloud.subdomain)
+        pg_problem_note (p,
+                         "%d ranks share the %.0f points; the patch test is left out: perigal check makes it",
+                         pg_rank_count (), (double) p->cloud.subdomain->total);
     PG_TRY (pass (scene, pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells)));
 done:
     return status;

@@ -9,7 +9,6 @@
 static const struct {
     const char *key, *why;
 } alone[] = {
-    { "mesh", "meshes are not divided among ranks so far; lattices and points of a file are" },
     { "platens", "platens press the body of one process only so far" },
     { "stages", "stages of loading are for one process only so far" },
     { "reference", "results are compared with a reference by one process only: perigal compare" },
@@ -59,21 +58,6 @@ static void check_cells (against *a)
     }
 }
 
-/* Points that are no lattice are divided without their cells and surface. */
-static void check_points (against *a, const pg_method *method)
-{
-    const pg_scene *scene = a->scene;
-    const char *surface = pg_scene_text (scene, "surface");
-    if (method->ghost_cells && pg_scene_given (scene, "points"))
-        refuse (a, "points", "points of a file are divided for forces between points only so far");
-    if (method->ghost_cells && pg_scene_number (scene, "perturb.amount") > 0)
-        refuse (a, "perturb.amount", "perturbed points are divided for forces between points only so far");
-    if (pg_scene_given (scene, "points")
-        && (pg_scene_count (scene, "body") || (surface && strcmp (surface, "none") != 0)))
-        refuse (a, "points", "points whose surface is known (body, surface) are for one process only so far: "
-                "leave it out, and name sets by where");
-}
-
 /* Of equilibria and implicit steps in time. */
 static void check_implicit (against *a)
 {
@@ -103,7 +87,6 @@ static void check_all (against *a, const pg_method *method)
     if (pg_solver_is (kind, PG_SOLVER_IMPLICIT)) check_implicit (a);
     snprintf (text, sizeof text, "%s is for one process only so far", kind);
     if (!pg_solver_is (kind, PG_SOLVER_RANKS)) refuse (a, "solver.kind", text);
-    check_points (a, method);
     check_loads (a);
 }
 
@@ -154,21 +137,22 @@ static double ghost_layers (const pg_method *method, const pg_scene *scene, int 
     return method->ghosts + judged + (rule.surface != PG_SURFACE_NONE);
 }
 
-pg_status pg_subdomain_width (double *width, const pg_method *method, const pg_body *body,
-                              const pg_scene *scene)
+pg_status pg_subdomain_width (double *width, const pg_method *method, const pg_scene *scene, int dim,
+                              double h)
 {
     pg_status status = PG_OK;
     pg_approx approx = { 0 };
-    double h, beyond;
-    PG_TRY (pg_cloud_spacing (&h, body, scene));
+    double beyond;
     PG_TRY (pg_method_approx (&approx, method, scene, h));
     /* off a lattice volumes fall over a spacing about the horizon, and points are not on their sites */
     double amount = pg_scene_number (scene, "perturb.amount");
-    if (amount > 0 || pg_scene_given (scene, "points"))
+    if (method->ghost_cells) {
+        *width = method->ghosts * approx.horizon + (method->ghost_cells (scene, &beyond) + 2 * amount) * h;
+        goto done;
+    }
+    if (amount > 0 || pg_scene_given (scene, "points") || pg_scene_given (scene, "mesh"))
         approx.horizon += (0.5 + (amount > 0 ? 2 * amount : 0)) * h;
-    *width = method->ghost_cells ? method->ghosts * approx.horizon
-                                       + method->ghost_cells (scene, &beyond) * h
-                                 : ghost_layers (method, scene, body->dim, &approx, h) * approx.horizon;
+    *width = ghost_layers (method, scene, dim, &approx, h) * approx.horizon;
 done:
     return status;
 }

@@ -54,6 +54,4 @@ equal "a crack along the boundary of parts" "$here/plate.yaml" "2 4" --set 'body
 python3 scattered.py 2 3 > "$work/cloud.csv"
 ranks 12 "$here/cloud.yaml" -o "$work/no" --set method.horizon='1.5 spacing' --set 'cracks=[]'; [ $? -ne 0 ] && grep -q 'a rank would have no point: the body has 9, take fewer ranks than 12' "$work/err"
 verdict "more ranks than points" $?
-ranks 2 "$here/cloud.yaml" -o "$work/no" --set surface=alpha_shape; [ $? -eq 65 ] && grep -q 'points whose surface is known' "$work/err"
-verdict "points with a surface are refused, and what to do" $?
 finish
