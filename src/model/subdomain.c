@@ -98,6 +98,28 @@ static int is_large (const pg_scene *scene, const pg_method *const *methods)
     return pg_forecast_scene (&f, scene, methods) == PG_OK && !f.linear;
 }
 
+/* Of shape functions off a lattice, what only the built problem knows to be refused: a dilatation that is
+ * projected, supports by elimination. Where it may be, `auto` does without subdomains. */
+static int may_be_refused (const pg_scene *scene, const pg_method *method)
+{
+    const char *mode = pg_scene_text (scene, "method.dilatation"), *name, *surface, *how;
+    char path[64];
+    int points = pg_scene_given (scene, "points"), yes = 0;
+    if (!method->ghost_cells || !(points || pg_scene_given (scene, "mesh"))) return 0;
+    for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++)
+        yes |= strcmp (mode, "projected") == 0
+               || (strcmp (mode, "auto") == 0
+                   && pg_scene_number (scene, "materials.%s.poissons_ratio", name) > 0.449);
+    surface = pg_scene_text (scene, "surface");
+    if (!points || pg_scene_count (scene, "body") || strcmp (surface, "none") != 0) return yes;
+    for (size_t i = 0; i < pg_scene_count (scene, "boundary"); i++) {
+        snprintf (path, sizeof path, "boundary[%zu].essential", i);
+        how = pg_scene_text (scene, "%s", pg_scene_given (scene, "%s", path) ? path : "method.essential");
+        yes |= strcmp (how, "penalty") != 0;
+    }
+    return yes;
+}
+
 int pg_subdomain_wanted (const pg_scene *scene, const pg_method *const *methods)
 {
     const pg_method *method = pg_method_of (methods, scene);
@@ -106,7 +128,7 @@ int pg_subdomain_wanted (const pg_scene *scene, const pg_method *const *methods)
     if (!is (scene, "solver.division", "auto")) return is (scene, "solver.division", "subdomains");
     if (pg_rank_count () < 2 || !method) return 0;
     check_all (&a, method);
-    return a.n == 0 && is_large (scene, methods);
+    return a.n == 0 && !may_be_refused (scene, method) && is_large (scene, methods);
 }
 
 pg_status pg_subdomain_check (const pg_method *method, const pg_scene *scene)

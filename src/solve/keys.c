@@ -65,7 +65,7 @@ static const pg_key linear[] = {
          "galerkin: by finite elements on the points); auto: multilevel where possible."),
     ROW ("solver.division", PG_NAME, NULL, NULL, "auto", "auto|subdomains|matrices",
          "What the ranks of perigal-mpi share: points (subdomains: each rank holds its part of the body; "
-         "lattices, conjugate gradients), or the factor of the matrix (matrices: each rank holds all "
+         "conjugate gradients), or the factor of the matrix (matrices: each rank holds all "
          "points). auto: subdomains where the body is so large that one process would do without a factor as "
          "well, and nothing in the scene needs the whole body (facets, contact, platens, stages); else "
          "matrices. One process ignores it."),
