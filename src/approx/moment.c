@@ -41,7 +41,7 @@ void pg_basis_slope (const pg_neighbourhood *s, const double *z, const double *b
 
 /* A (size x size, all of it) += w p p'. Both halves are filled, because loops of constant
  * length over whole rows become vector instructions. */
-static inline void add_moment (int size, double w, const double *p, double *A)
+static inline __attribute__ ((always_inline)) void add_moment (int size, double w, const double *p, double *A)
 {
     for (int r = 0; r < size; r++) {
         double c = w * p[r];
@@ -50,7 +50,7 @@ static inline void add_moment (int size, double w, const double *p, double *A)
 }
 
 /* Fills p of all neighbours and L; returns 0 where A is singular to working accuracy. */
-static int factor (pg_neighbourhood *s, double tiny)
+PG_WIDE static int factor (pg_neighbourhood *s, double tiny)
 {
     int size = s->size;
     double A[PG_BASIS_MAX * PG_BASIS_MAX] = { 0 };

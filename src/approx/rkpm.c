@@ -12,45 +12,55 @@
 #include "entries.h"
 #include "moment.h"
 
-/* r = a A,k b for all k (dim x size). */
-static void moment_rate (const pg_neighbourhood *s, const double *b, double r[3][PG_BASIS_MAX])
+/* One number of b and those of r for all k. */
+typedef double four __attribute__ ((vector_size (32), aligned (8)));
+
+/* N and r = a A,k b for all k (dim x size). What b does along the axes at each bond is kept in s->dk. */
+PG_WIDE static void moment_rate (const pg_neighbourhood *s, const double *b, double *N,
+                                 double r[3][PG_BASIS_MAX])
 {
-    for (int k = 0; k < s->dim; k++) {
-        for (int m = 0; m < s->size; m++) r[k][m] = 0;
-        r[k][1 + k] = -1;
-    }
+    four sum[PG_BASIS_MAX] = { 0 };
+    for (int k = 0; k < s->dim; k++) sum[1 + k][1 + k] = -1;
     for (size_t j = 0; j < s->n; j++) {
         const double *p = s->p + j * (size_t) s->size, *slope = s->slope + j * (size_t) s->dim;
-        double value = 0, rise[3];
+        double value = 0, *rise = s->dk + j * (size_t) s->dim;
+        four c = { 0 };
         for (int m = 0; m < s->size; m++) value += b[m] * p[m];
+        N[s->entry[j]] = s->w[j] * value;
         pg_basis_slope (s, s->z + j * (size_t) s->dim, b, rise);       /* p_j,k = -(1/a) dp/dz_k */
-        for (int k = 0; k < s->dim; k++) {
-            double c = slope[k] * value - s->w[j] * rise[k];
-            for (int m = 0; m < s->size; m++) r[k][m] += c * p[m];
-        }
+        for (int k = 0; k < s->dim; k++) c[1 + k] = slope[k] * value - s->w[j] * rise[k];
+        for (int m = 0; m < s->size; m++) sum[m] += c * p[m];
+    }
+    for (int k = 0; k < s->dim; k++) for (int m = 0; m < s->size; m++) r[k][m] = sum[m][1 + k];
+}
+
+/* The three terms of the derivative for each bond; r = -a b,k. */
+PG_WIDE static void derivatives (const pg_neighbourhood *s, const double *b, double r[3][PG_BASIS_MAX],
+                                 double *dN)
+{
+    size_t dim = (size_t) s->dim;
+    four all[PG_BASIS_MAX] = { 0 };
+    for (int m = 0; m < s->size; m++) {
+        all[m][0] = b[m];
+        for (size_t k = 0; k < dim; k++) all[m][1 + k] = r[k][m];
+    }
+    for (size_t j = 0; j < s->n; j++) {
+        const double *p = s->p + j * (size_t) s->size, *slope = s->slope + j * dim, *rise = s->dk + j * dim;
+        four sum = { 0 };                              /* b.p_j, then r.p_j */
+        for (int m = 0; m < s->size; m++) sum += p[m] * all[m];
+        for (size_t k = 0; k < dim; k++)
+            dN[s->entry[j] * dim + k] = (slope[k] * sum[0] - s->w[j] * (rise[k] + sum[1 + k])) / s->a;
     }
 }
 
-/* N, then b,k, then the three terms of the derivative for each bond. */
+/* N, then b,k, then the derivatives. */
 static void fill (const pg_neighbourhood *s, double *N, double *dN)
 {
     double b[PG_BASIS_MAX], r[3][PG_BASIS_MAX];
     pg_neighbourhood_solve (s, 0, b);
-    pg_neighbourhood_shape (s, b, N);
-    moment_rate (s, b, r);
-    for (int k = 0; k < s->dim; k++) pg_neighbourhood_invert (s, r[k]);                     /* r = -a b,k */
-    for (size_t j = 0; j < s->n; j++) {
-        const double *p = s->p + j * (size_t) s->size, *slope = s->slope + j * (size_t) s->dim;
-        double value = 0, rise[3];
-        for (int m = 0; m < s->size; m++) value += b[m] * p[m];
-        pg_basis_slope (s, s->z + j * (size_t) s->dim, b, rise);
-        for (int k = 0; k < s->dim; k++) {
-            double rate = 0;
-            for (int m = 0; m < s->size; m++) rate += r[k][m] * p[m];
-            dN[s->entry[j] * (size_t) s->dim + (size_t) k] = (slope[k] * value - s->w[j] * (rise[k] + rate))
-                                                             / s->a;
-        }
-    }
+    moment_rate (s, b, N, r);
+    for (int k = 0; k < s->dim; k++) pg_neighbourhood_invert (s, r[k]);
+    derivatives (s, b, r, dN);
 }
 
 /* N alone, by the same operations in the same order, so with the same bits. */

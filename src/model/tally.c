@@ -9,7 +9,9 @@
 
 static const double most_visits = 1e7;                 /* a few hundredths of a second */
 
-typedef struct { size_t n; int (*step)[3]; } stencil;  /* sites seen, relative to the node or the cell */
+/* Sites seen, relative to the node or the cell, and the same by rows along x: where each row is, and a bit for
+ * each of its sites, the first for the smallest step of all stencils (words numbers a row). */
+typedef struct { size_t n; int (*step)[3]; size_t nrow; int (*row)[2]; uint64_t *bits; } stencil;
 
 typedef struct {
     const pg_counting *how;
@@ -19,14 +21,18 @@ typedef struct {
     unsigned char *site;                               /* 1: a point */
     stencil node, *gauss;  size_t ngauss;
     int     span[3], wide[3];                          /* pairs: largest step, 2 span + 1 */
-    long   *mark, epoch;                               /* box of marks */
+    size_t  words;                                     /* of a row of the box of marks */
+    uint64_t *mark;                                    /* box of marks, a bit a site */
 } counter;
+
+static void stencil_clear (stencil *s) { pg_free (s->step), pg_free (s->row), pg_free (s->bits); }
 
 /* Also of a counter that was filled in part only. */
 static void counter_clear (counter *c)
 {
-    pg_free (c->site), pg_free (c->node.step), pg_free (c->mark);
-    for (size_t g = 0; c->gauss && g < c->ngauss; g++) pg_free (c->gauss[g].step);
+    pg_free (c->site), pg_free (c->mark);
+    stencil_clear (&c->node);
+    for (size_t g = 0; c->gauss && g < c->ngauss; g++) stencil_clear (&c->gauss[g]);
     pg_free (c->gauss);
 }
 
@@ -171,20 +177,34 @@ static size_t seen (const counter *c, const int *at, const stencil *s)
 }
 
 /* ---- pairs --------------------------------------------------------------------------------------------- */
-/* Marks what is seen from `from` in the box of marks about `node`; returns how many marks are new in this
- * epoch. An epoch is a number, so that marks need not be cleared between nodes. */
-static size_t mark_seen (counter *c, const int *node, const int *from, const stencil *s)
+/* Marks in the box of marks about a node what a stencil sees from the place that is `from` away from it, row by
+ * row. */
+static void mark_seen (counter *c, const int *from, const stencil *s)
 {
-    size_t n = 0;
-    for (size_t k = 0; k < s->n; k++) {
-        if (!is_point (c, from, s->step[k])) continue;
-        int d[3];
-        for (int i = 0; i < 3; i++) d[i] = from[i] + s->step[k][i] - node[i] + c->span[i];
-        long *m = &c->mark[((size_t) d[2] * (size_t) c->wide[1] + (size_t) d[1]) * (size_t) c->wide[0]
-                           + (size_t) d[0]];
-        n += *m != c->epoch;
-        *m = c->epoch;
+    size_t shift = (size_t) (c->span[0] / 2 + from[0]), whole = shift / 64, part = shift % 64;
+    for (size_t k = 0; k < s->nrow; k++) {
+        size_t y = (size_t) (from[1] + s->row[k][0] + c->span[1]),
+               z = (size_t) (from[2] + s->row[k][1] + c->span[2]);
+        uint64_t *m = c->mark + (z * (size_t) c->wide[1] + y) * c->words + whole;
+        const uint64_t *bits = s->bits + k * c->words;
+        for (size_t w = 0; w + whole < c->words; w++) {
+            m[w] |= bits[w] << part;
+            if (part && w + whole + 1 < c->words) m[w + 1] |= bits[w] >> (64 - part);
+        }
     }
+}
+
+/* How many marks are points. */
+static size_t count_marks (const counter *c, const int *node)
+{
+    size_t n = 0, rows = (size_t) c->wide[1] * (size_t) c->wide[2];
+    for (size_t k = 0; k < rows * c->words; k++)
+        for (uint64_t word = c->mark[k]; word; word &= word - 1) {
+            size_t row = k / c->words, x = 64 * (k % c->words) + (size_t) __builtin_ctzll (word);
+            int step[3] = { (int) x - c->span[0], (int) (row % (size_t) c->wide[1]) - c->span[1],
+                            (int) (row / (size_t) c->wide[1]) - c->span[2] };
+            n += (size_t) is_point (c, node, step);
+        }
     return n;
 }
 
@@ -192,20 +212,34 @@ static size_t mark_seen (counter *c, const int *node, const int *from, const ste
  * nodes. */
 static size_t coupled (counter *c, const int *node)
 {
-    size_t n = 0;
     if (c->how->bonds) return seen (c, node, &c->node) + 1;
-    c->epoch++;
+    memset (c->mark, 0, c->words * (size_t) c->wide[1] * (size_t) c->wide[2] * sizeof *c->mark);
     for (size_t g = 0; g < c->ngauss; g++)
         for (size_t k = 0; k < c->gauss[g].n; k++) {
-            const int *s = c->gauss[g].step[k];
-            int cell[3] = { node[0] - s[0], node[1] - s[1], node[2] - s[2] };
-            if (kept (c->l, cell[0], cell[1], cell[2])) n += mark_seen (c, node, cell, &c->gauss[g]);
+            const int *s = c->gauss[g].step[k], back[3] = { -s[0], -s[1], -s[2] };
+            if (kept (c->l, node[0] - s[0], node[1] - s[1], node[2] - s[2]))
+                mark_seen (c, back, &c->gauss[g]);
         }
-    for (size_t k = 0; c->how->nodal && k < c->node.n; k++) {
-        const int *s = c->node.step[k], other[3] = { node[0] + s[0], node[1] + s[1], node[2] + s[2] };
-        if (is_point (c, node, s)) n += mark_seen (c, node, other, &c->node);
+    for (size_t k = 0; c->how->nodal && k < c->node.n; k++)
+        if (is_point (c, node, c->node.step[k])) mark_seen (c, c->node.step[k], &c->node);
+    return count_marks (c, node);
+}
+
+/* The rows of a stencil, whose steps come row by row. */
+static pg_status make_rows (const counter *c, stencil *s)
+{
+    pg_status status = PG_OK;
+    PG_ALLOC (s->row, s->n);
+    PG_ALLOC (s->bits, s->n * c->words);
+    for (size_t k = 0; k < s->n; k++) {
+        const int *step = s->step[k];
+        if (k == 0 || step[1] != s->step[k - 1][1] || step[2] != s->step[k - 1][2])
+            s->row[s->nrow][0] = step[1], s->row[s->nrow][1] = step[2], s->nrow++;
+        size_t bit = (size_t) (step[0] + c->span[0] / 2);
+        s->bits[(s->nrow - 1) * c->words + bit / 64] |= (uint64_t) 1 << bit % 64;
     }
-    return n;
+done:
+    return status;
 }
 
 /* A box of marks twice as far as any stencil reaches: two nodes that one point sees are at most so far
@@ -220,7 +254,10 @@ static pg_status make_marks (counter *c)
                 if (abs (s->step[k][i]) > c->span[i]) c->span[i] = abs (s->step[k][i]);
     }
     for (int i = 0; i < 3; i++) c->span[i] *= 2, c->wide[i] = 2 * c->span[i] + 1;
-    PG_ALLOC (c->mark, (size_t) c->wide[0] * (size_t) c->wide[1] * (size_t) c->wide[2]);
+    c->words = ((size_t) c->wide[0] + 63) / 64;
+    PG_ALLOC (c->mark, c->words * (size_t) c->wide[1] * (size_t) c->wide[2]);
+    PG_TRY (make_rows (c, &c->node));
+    for (size_t g = 0; g < c->ngauss; g++) PG_TRY (make_rows (c, &c->gauss[g]));
 done:
     return status;
 }
@@ -244,10 +281,10 @@ static size_t stride_for (double items, double visits_each)
 static void count_nodes (counter *c, pg_tally *t)
 {
     double work = c->how->bonds  ? (double) c->node.n
-                  : c->how->nodal ? (double) c->node.n * (double) c->node.n
+                  : c->how->nodal ? (double) c->node.n * (double) c->node.nrow
                                   : 0,
            bonds = 0, pairs = 0;
-    for (size_t g = 0; g < c->ngauss; g++) work += (double) c->gauss[g].n * (double) c->gauss[g].n;
+    for (size_t g = 0; g < c->ngauss; g++) work += (double) c->gauss[g].n * (double) c->gauss[g].nrow;
     size_t stride = stride_for (t->points, (double) c->node.n), pair_stride = stride_for (t->points, work),
            i = 0, nbond = 0, npair = 0;
     int at[3];

@@ -54,6 +54,13 @@ static void test_bar (void **state)
     counts_as_built ("dimension: 1\nbody: [{add: {box: {low: [0], high: [1]}}}]\nspacing: 0.02\n" ROCK);
 }
 static void test_plane (void **state)    { (void) state; counts_as_built (DISK "spacing: 0.05\n"); }
+/* Rows of what a node is coupled to are longer than a machine word. */
+static void test_far (void **state)
+{
+    (void) state;
+    counts_as_built (DISK "spacing: 0.125\nmethod: {horizon: 17 spacing}\n");
+    counts_as_built (DISK "spacing: 0.125\nmethod: {horizon: 16.3 spacing, integration: nodal}\n");
+}
 static void test_solid (void **state)    { (void) state; counts_as_built (SLAB "spacing: 0.06\n"); }
 static void test_nodal (void **state)
 {
@@ -423,7 +430,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (test_bar),
         cmocka_unit_test (test_plane),
-        cmocka_unit_test (test_solid),
+        cmocka_unit_test (test_far), cmocka_unit_test (test_solid),
         cmocka_unit_test (test_nodal),
         cmocka_unit_test (test_centres),
         cmocka_unit_test (test_tensor),
