@@ -18,27 +18,6 @@ static int basis_size (int dim, int order, int constant)
     return constant + dim + (order == 2 ? dim * (dim + 1) / 2 : 0);
 }
 
-/* p (z), the constant first, then z_k, then the products z_k z_l with l >= k. */
-static void basis (const pg_neighbourhood *s, const double *z, double *p)
-{
-    int m = 0;
-    if (s->constant) p[m++] = 1;
-    for (int k = 0; k < s->dim; k++) p[m++] = z[k];
-    for (int k = 0; s->order == 2 && k < s->dim; k++)
-        for (int l = k; l < s->dim; l++) p[m++] = z[k] * z[l];
-}
-
-void pg_basis_slope (const pg_neighbourhood *s, const double *z, const double *b, double *slope)
-{
-    int m = 1 + s->dim;
-    for (int k = 0; k < s->dim; k++) slope[k] = b[1 + k];
-    for (int k = 0; s->order == 2 && k < s->dim; k++)
-        for (int l = k; l < s->dim; l++, m++) {
-            slope[k] += b[m] * z[l];
-            slope[l] += b[m] * z[k];
-        }
-}
-
 /* A (size x size, all of it) += w p p'. Both halves are filled, because loops of constant
  * length over whole rows become vector instructions. */
 static inline __attribute__ ((always_inline)) void add_moment (int size, double w, const double *p, double *A)
@@ -49,21 +28,35 @@ static inline __attribute__ ((always_inline)) void add_moment (int size, double 
     }
 }
 
-/* Fills p of all neighbours and L; returns 0 where A is singular to working accuracy. */
-PG_WIDE static int factor (pg_neighbourhood *s, double tiny)
+/* p of all neighbours, and A (size x size). */
+static inline __attribute__ ((always_inline)) void moments (pg_neighbourhood *s, int dim, int order,
+                                                            int constant, int size, double *A)
 {
-    int size = s->size;
-    double A[PG_BASIS_MAX * PG_BASIS_MAX] = { 0 };
     for (size_t j = 0; j < s->n; j++) {
-        double *p = s->p + j * (size_t) size, w = s->w[j];
-        basis (s, s->z + j * (size_t) s->dim, p);
-        if (size == 6) add_moment (6, w, p, A);        /* the usual ones, their loops known */
-        else if (size == 10) add_moment (10, w, p, A);
-        else if (size == 4) add_moment (4, w, p, A);
-        else add_moment (size, w, p, A);
+        double *p = s->p + j * (size_t) size;
+        pg_basis (dim, order, constant, s->z + j * (size_t) dim, p);
+        add_moment (size, s->w[j], p, A);
     }
+}
+
+/* The usual ones, all their loops known: quadratic and linear, in the plane and in space. */
+PG_WIDE static void fill_moments (pg_neighbourhood *s, double *A)
+{
+    int plane = s->constant && s->dim == 2, solid = s->constant && s->dim == 3;
+    if (plane && s->order == 2) moments (s, 2, 2, 1, 6, A);
+    else if (solid && s->order == 2) moments (s, 3, 2, 1, 10, A);
+    else if (plane) moments (s, 2, 1, 1, 3, A);
+    else if (solid) moments (s, 3, 1, 1, 4, A);
+    else moments (s, s->dim, s->order, s->constant, s->size, A);
+}
+
+/* Fills p of all neighbours and L; returns 0 where A is singular to working accuracy. */
+static int factor (pg_neighbourhood *s, double tiny)
+{
+    double A[PG_BASIS_MAX * PG_BASIS_MAX] = { 0 };
+    fill_moments (s, A);
     memcpy (s->L, A, sizeof A);
-    return pg_dense_cholesky (size, s->L, tiny) == 0;
+    return pg_dense_cholesky (s->size, s->L, tiny) == 0;
 }
 
 void pg_neighbourhood_centre (const pg_neighbourhood *s, double *centre)

@@ -101,6 +101,28 @@ void pg_neighbourhood_shape   (const pg_neighbourhood *around, const double *b, 
 /* dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j, where e_k is the row of z_k: E1 with the constant, D1
  * without it. */
 void pg_neighbourhood_differential (const pg_neighbourhood *around, double *dN);
+/* p (z): the constant, if there is one, then z_k, then the products z_k z_l with l >= k. Inlined where the
+ * compiler knows the numbers. */
+static inline __attribute__ ((always_inline)) void pg_basis (int dim, int order, int constant,
+                                                             const double *z, double *p)
+{
+    int m = 0;
+    if (constant) p[m++] = 1;
+    for (int k = 0; k < dim; k++) p[m++] = z[k];
+    for (int k = 0; order == 2 && k < dim; k++)
+        for (int l = k; l < dim; l++) p[m++] = z[k] * z[l];
+}
+
 /* The gradient of b . p with respect to z at z (dim), for a basis with the constant. */
-void pg_basis_slope  (const pg_neighbourhood *around, const double *z, const double *b, double *slope);
+static inline __attribute__ ((always_inline)) void pg_basis_slope (int dim, int order, const double *z,
+                                                                   const double *b, double *slope)
+{
+    int m = 1 + dim;
+    for (int k = 0; k < dim; k++) slope[k] = b[1 + k];
+    for (int k = 0; order == 2 && k < dim; k++)
+        for (int l = k; l < dim; l++, m++) {
+            slope[k] += b[m] * z[l];
+            slope[l] += b[m] * z[k];
+        }
+}
 #endif

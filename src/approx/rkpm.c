@@ -15,42 +15,64 @@
 /* One number of b and those of r for all k. */
 typedef double four __attribute__ ((vector_size (32), aligned (8)));
 
+#define INLINE static inline __attribute__ ((always_inline))
+
 /* N and r = a A,k b for all k (dim x size). What b does along the axes at each bond is kept in s->dk. */
-PG_WIDE static void moment_rate (const pg_neighbourhood *s, const double *b, double *N,
-                                 double r[3][PG_BASIS_MAX])
+INLINE void rates (const pg_neighbourhood *s, int dim, int order, int size, const double *b, double *N,
+                   double r[3][PG_BASIS_MAX])
 {
     four sum[PG_BASIS_MAX] = { 0 };
-    for (int k = 0; k < s->dim; k++) sum[1 + k][1 + k] = -1;
+    for (int k = 0; k < dim; k++) sum[1 + k][1 + k] = -1;
     for (size_t j = 0; j < s->n; j++) {
-        const double *p = s->p + j * (size_t) s->size, *slope = s->slope + j * (size_t) s->dim;
-        double value = 0, *rise = s->dk + j * (size_t) s->dim;
+        const double *p = s->p + j * (size_t) size, *slope = s->slope + j * (size_t) dim;
+        double value = 0, *rise = s->dk + j * (size_t) dim;
         four c = { 0 };
-        for (int m = 0; m < s->size; m++) value += b[m] * p[m];
+        for (int m = 0; m < size; m++) value += b[m] * p[m];
         N[s->entry[j]] = s->w[j] * value;
-        pg_basis_slope (s, s->z + j * (size_t) s->dim, b, rise);       /* p_j,k = -(1/a) dp/dz_k */
-        for (int k = 0; k < s->dim; k++) c[1 + k] = slope[k] * value - s->w[j] * rise[k];
-        for (int m = 0; m < s->size; m++) sum[m] += c * p[m];
+        pg_basis_slope (dim, order, s->z + j * (size_t) dim, b, rise); /* p_j,k = -(1/a) dp/dz_k */
+        for (int k = 0; k < dim; k++) c[1 + k] = slope[k] * value - s->w[j] * rise[k];
+        for (int m = 0; m < size; m++) sum[m] += c * p[m];
     }
-    for (int k = 0; k < s->dim; k++) for (int m = 0; m < s->size; m++) r[k][m] = sum[m][1 + k];
+    for (int k = 0; k < dim; k++) for (int m = 0; m < size; m++) r[k][m] = sum[m][1 + k];
 }
 
 /* The three terms of the derivative for each bond; r = -a b,k. */
-PG_WIDE static void derivatives (const pg_neighbourhood *s, const double *b, double r[3][PG_BASIS_MAX],
-                                 double *dN)
+INLINE void gradients (const pg_neighbourhood *s, size_t dim, int size, const double *b,
+                       double r[3][PG_BASIS_MAX], double *dN)
 {
-    size_t dim = (size_t) s->dim;
     four all[PG_BASIS_MAX] = { 0 };
-    for (int m = 0; m < s->size; m++) {
+    for (int m = 0; m < size; m++) {
         all[m][0] = b[m];
         for (size_t k = 0; k < dim; k++) all[m][1 + k] = r[k][m];
     }
     for (size_t j = 0; j < s->n; j++) {
-        const double *p = s->p + j * (size_t) s->size, *slope = s->slope + j * dim, *rise = s->dk + j * dim;
+        const double *p = s->p + j * (size_t) size, *slope = s->slope + j * dim, *rise = s->dk + j * dim;
         four sum = { 0 };                              /* b.p_j, then r.p_j */
-        for (int m = 0; m < s->size; m++) sum += p[m] * all[m];
+        for (int m = 0; m < size; m++) sum += p[m] * all[m];
         for (size_t k = 0; k < dim; k++)
             dN[s->entry[j] * dim + k] = (slope[k] * sum[0] - s->w[j] * (rise[k] + sum[1 + k])) / s->a;
     }
+}
+
+/* The usual bases with all their loops known. */
+PG_WIDE static void moment_rate (const pg_neighbourhood *s, const double *b, double *N,
+                                 double r[3][PG_BASIS_MAX])
+{
+    if (s->dim == 2 && s->size == 6) rates (s, 2, 2, 6, b, N, r);
+    else if (s->dim == 3 && s->size == 10) rates (s, 3, 2, 10, b, N, r);
+    else if (s->dim == 2 && s->size == 3) rates (s, 2, 1, 3, b, N, r);
+    else if (s->dim == 3 && s->size == 4) rates (s, 3, 1, 4, b, N, r);
+    else rates (s, s->dim, s->order, s->size, b, N, r);
+}
+
+PG_WIDE static void derivatives (const pg_neighbourhood *s, const double *b, double r[3][PG_BASIS_MAX],
+                                 double *dN)
+{
+    if (s->dim == 2 && s->size == 6) gradients (s, 2, 6, b, r, dN);
+    else if (s->dim == 3 && s->size == 10) gradients (s, 3, 10, b, r, dN);
+    else if (s->dim == 2 && s->size == 3) gradients (s, 2, 3, b, r, dN);
+    else if (s->dim == 3 && s->size == 4) gradients (s, 3, 4, b, r, dN);
+    else gradients (s, (size_t) s->dim, s->size, b, r, dN);
 }
 
 /* N, then b,k, then the derivatives. */

@@ -20,6 +20,7 @@ typedef struct {
     pg_state *state;
     size_t    n, dim, stride, ndof, nv;
     const pg_operator *op;
+    pg_operator product;  /* by the matrix that was factored, which is cheaper */
     patch_factor *factor;                              /* NULL: by conjugate gradients */
     double    middle[3], size;                         /* of the body, m */
     /* P: tractions of a state; inverse: of the diagonal, 0: held */
@@ -400,8 +401,7 @@ static void hold_rim (probe *t)
         if (outermost (t->p, i)) for (size_t k = 0; k < t->stride; k++) t->inverse[i * t->stride + k] = 0;
 }
 
-/* The force on the bare body, its unknowns, and K between the fields of unit strains. Iterations are
- * bounded by what they may cost; without loads to carry the outermost points are held. */
+/* The force on the bare body and its unknowns. Iterations are bounded by what they may cost. */
 static pg_status prepare (probe *t)
 {
     pg_status status = PG_OK;
@@ -419,23 +419,61 @@ static pg_status prepare (probe *t)
     double **arrays[] = { &t->P, &t->x, &t->r, &t->z, &t->q, &t->inverse, &t->u };
     for (size_t k = 0; k < sizeof arrays / sizeof *arrays; k++) PG_ALLOC (*arrays[k], t->ndof);
     find_middle (t);
+done:
+    return status;
+}
+
+/* K x by the matrix of a probe, and its diagonal, the last entry of each column. */
+static void multiply (void *context, const double *x, double *y)
+{
+    const probe *t = context;
+    pg_sparse_multiply (t->force->matrix (t->self), x, y);
+}
+
+static void diagonal (void *context, double *d)
+{
+    const probe *t = context;
+    const pg_sparse *K = t->force->matrix (t->self);
+    for (size_t i = 0; i < t->ndof; i++) d[i] = K->value[K->start[i + 1] - 1];
+}
+
+/* Will the body stay as it is here, without broken bonds? Then its shape functions are kept for the run; else
+ * they would lie in memory beside those of the run. */
+static int lasts (const pg_problem *p)
+{
+    return !p->plain && pg_force_of (p)->lend && !p->criterion->type && p->cracks.n == 0;
+}
+
+/* A factor where it costs less than iterations and the body is whole. */
+static pg_status make_factor (probe *t, const pg_problem *p, int held)
+{
+    pg_status status = PG_OK;
+    int reused = lasts (p) && p->nmaterial == 1 && p->nlaw == 1;
+    if (held || t->out.fragments || t->out.isolated) return PG_OK;
+    PG_TRY (patch_factor_create (&t->factor, t->p, t->force, t->self, t->limit, reused));
+    t->product = (pg_operator) { t->ndof, t, multiply, diagonal };
+    if (t->factor) t->op = &t->product;
+done:
+    return status;
+}
+
+/* K between the fields of unit strains, and its diagonal. */
+static void measure_unit_strains (probe *t)
+{
     for (size_t v = 0; v < t->nv; v++) {
         double one[STATES] = { 0 };
         one[v] = 1;
-        linear_field (t, one, stride, t->x);
+        linear_field (t, one, t->stride, t->x);
         t->op->apply (t->op->context, t->x, t->q);
         for (size_t w = 0; w < t->nv; w++) {
             one[v] = 0, one[w] = 1;
-            linear_field (t, one, stride, t->x);
+            linear_field (t, one, t->stride, t->x);
             t->A[w * t->nv + v] = dot (t->ndof, t->x, t->q);
             one[w] = 0;
         }
     }
     t->op->diagonal (t->op->context, t->inverse);
     for (size_t i = 0; i < t->ndof; i++) t->inverse[i] = t->inverse[i] > 0 ? 1 / t->inverse[i] : 0;
-    if (t->p->nload == 0) hold_rim (t);
-done:
-    return status;
 }
 
 /* Also of a probe that was made in part only. */
@@ -456,13 +494,6 @@ static void count_defects (probe *t)
     if (t->force->census) t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments);
 }
 
-/* Will the body stay as it is here, without broken bonds? Then its shape functions are kept for the run; else
- * they would lie in memory beside those of the run. */
-static int lasts (const pg_problem *p)
-{
-    return !p->plain && pg_force_of (p)->lend && !p->criterion->type && p->cracks.n == 0;
-}
-
 /* Measures the error under each stress; with supports on points that bear on facets a second time with
  * them. The worst counts. */
 pg_status pg_patch_probe (pg_problem *problem)
@@ -477,10 +508,10 @@ pg_status pg_patch_probe (pg_problem *problem)
     t.p = bare, t.rows = borne_by_rows (problem);
     PG_TRY (prepare (&t));
     count_defects (&t);
-    if (t.out.fragments && !problem->method->shape_functions) hold_rim (&t);
-    int whole = !t.out.held && !t.out.fragments && !t.out.isolated;
-    int reused = lasts (problem) && problem->nmaterial == 1 && problem->nlaw == 1;
-    if (whole) PG_TRY (patch_factor_create (&t.factor, bare, t.force, t.self, t.limit, reused));
+    int held = bare->nload == 0 || (t.out.fragments && !problem->method->shape_functions);
+    PG_TRY (make_factor (&t, problem, held));
+    measure_unit_strains (&t);
+    if (held) hold_rim (&t);
     for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
     PG_TRY (measure_softness (&t));
     if (mark_supports (&t, problem)) for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
