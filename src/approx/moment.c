@@ -67,15 +67,22 @@ void pg_neighbourhood_centre (const pg_neighbourhood *s, double *centre)
         for (int k = 0; k < dim; k++) centre[k] += s->w[j] * s->z[j * (size_t) dim + (size_t) k];
 }
 
-void pg_neighbourhood_spread (const pg_neighbourhood *s, const double *centre, double *M)
+static inline __attribute__ ((always_inline)) void spread (const pg_neighbourhood *s, int dim,
+                                                           const double *centre, double *M)
 {
-    int dim = s->dim;
     for (int k = 0; k < dim * dim; k++) M[k] = 0;
     for (size_t j = 0; j < s->n; j++) {
         const double *z = s->z + j * (size_t) dim;
         for (int k = 0; k < dim; k++)
             for (int l = 0; l <= k; l++) M[k*dim + l] += s->w[j] * (z[k] - centre[k]) * (z[l] - centre[l]);
     }
+}
+
+void pg_neighbourhood_spread (const pg_neighbourhood *s, const double *centre, double *M)
+{
+    if (s->dim == 3) spread (s, 3, centre, M);
+    else if (s->dim == 2) spread (s, 2, centre, M);
+    else spread (s, 1, centre, M);
 }
 
 /* 1 if the smallest eigenvalue of the centred second moment M is below 1e-3 h^2, h being the

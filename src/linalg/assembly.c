@@ -8,6 +8,7 @@
  * threads, and a few rows can be redone after bonds broke with the same bits as in a new assembly. The
  * price is that the blocks of a point are asked for row by row. */
 #include "perigal/linalg.h"
+#include "wide.h"
 #include <string.h>
 
 /* The inverse of a list of points: for each node the points that see it, and its local number in each. */
@@ -271,19 +272,24 @@ static void add_block (pg_assembly *K, size_t I, size_t J, size_t slot, const do
     }
 }
 
+/* to (n) += from (n), four at a time. */
+static inline __attribute__ ((always_inline)) void add_numbers (size_t n, const double *from, double *to)
+{
+    size_t k = 0;
+    for (; k + 4 <= n; k += 4) *(four *) (to + k) += *(const four *) (from + k);
+    for (; k < n; k++) to[k] += from[k];
+}
+
 /* Adds block rows of the first m nodes of a point (`part`) to rows of `wide` numbers: nodes whose places
  * follow each other at once. */
-static void add_rows (size_t block, size_t m, const int *node, const size_t *slot, const double *part,
-                      size_t wide, double *sum)
+PG_WIDE static void add_rows (size_t block, size_t m, const int *node, const size_t *slot,
+                              const double *part, size_t wide, double *sum)
 {
     for (size_t b = 0, end; b < m; b = end) {
         size_t to = slot[node[b]];
         for (end = b + 1; end < m && slot[node[end]] == to + (end - b);) end++;
-        for (size_t beta = 0; beta < block; beta++) {
-            const double *from = part + (beta * m + b) * block;
-            double *at = sum + beta * wide + to * block;
-            for (size_t k = 0; k < (end - b) * block; k++) at[k] += from[k];
-        }
+        for (size_t beta = 0; beta < block; beta++)
+            add_numbers ((end - b) * block, part + (beta * m + b) * block, sum + beta * wide + to * block);
     }
 }
 

@@ -9,8 +9,8 @@
 
 static const double most_visits = 1e7;                 /* a few hundredths of a second */
 
-/* Sites seen, relative to the node or the cell, and the same by rows along x: where each row is, and a bit for
- * each of its sites, the first for the smallest step of all stencils (words numbers a row). */
+/* Sites seen, relative to the node or the cell, and the same by rows along x: where each row is, and a bit
+ * for each of its sites, the first for the smallest step of all stencils (words numbers a row). */
 typedef struct { size_t n; int (*step)[3]; size_t nrow; int (*row)[2]; uint64_t *bits; } stencil;
 
 typedef struct {
@@ -177,8 +177,8 @@ static size_t seen (const counter *c, const int *at, const stencil *s)
 }
 
 /* ---- pairs --------------------------------------------------------------------------------------------- */
-/* Marks in the box of marks about a node what a stencil sees from the place that is `from` away from it, row by
- * row. */
+/* Marks in the box of marks about a node what a stencil sees from the place that is `from` away from it, row
+ * by row. */
 static void mark_seen (counter *c, const int *from, const stencil *s)
 {
     size_t shift = (size_t) (c->span[0] / 2 + from[0]), whole = shift / 64, part = shift % 64;
@@ -187,6 +187,10 @@ static void mark_seen (counter *c, const int *from, const stencil *s)
                z = (size_t) (from[2] + s->row[k][1] + c->span[2]);
         uint64_t *m = c->mark + (z * (size_t) c->wide[1] + y) * c->words + whole;
         const uint64_t *bits = s->bits + k * c->words;
+        if (c->words == 1) {
+            *m |= *bits << part;
+            continue;
+        }
         for (size_t w = 0; w + whole < c->words; w++) {
             m[w] |= bits[w] << part;
             if (part && w + whole + 1 < c->words) m[w + 1] |= bits[w] >> (64 - part);
