@@ -111,15 +111,19 @@ typedef struct {
     double *last, *sum;
 } step;
 
-/* s (3) = row i of A times x. */
+/* s (3) = row i of A times x, in two sums that need not wait for each other. */
 static inline __attribute__ ((always_inline)) void row_times (const pg_node_matrix *A, size_t i,
                                                               const double *x, double *s)
 {
-    four sum = { 0 };
+    four even = { 0 }, odd = { 0 };
     size_t e = A->start[i], end = A->start[i + 1];
-    for (; e + 1 < end; e++) sum += (double) A->value[e] * *(const four *) (x + 3 * (size_t) A->node[e]);
-    for (size_t k = 0; k < 3; k++)
-        s[k] = sum[k] + (e < end ? (double) A->value[e] * x[3 * (size_t) A->node[e] + k] : 0);
+    for (; e + 2 < end; e += 2) {
+        even += (double) A->value[e] * *(const four *) (x + 3 * (size_t) A->node[e]);
+        odd += (double) A->value[e + 1] * *(const four *) (x + 3 * (size_t) A->node[e + 1]);
+    }
+    for (size_t k = 0; k < 3; k++) s[k] = even[k] + odd[k];
+    for (; e < end; e++)                               /* where four numbers might be one too many */
+        for (size_t k = 0; k < 3; k++) s[k] += (double) A->value[e] * x[3 * (size_t) A->node[e] + k];
 }
 
 /* The recurrence at number i, where A times `now` is s. */
@@ -157,27 +161,26 @@ static inline __attribute__ ((always_inline)) void recur_eight (const step *w, s
 }
 
 /* `count` rows like row `model`, from row `first` on; 32 numbers at a time, so that sums need not wait for
- * one another. The last eight numbers may overlap those before: what has been done is not done again. */
+ * one another. The last eight may overlap those before: what has been done is not done again. */
 PG_WIDEST static void recur_alike (const step *w, size_t model, size_t first, size_t count)
 {
     const pg_node_matrix *A = w->A;
-    size_t length = count * w->block, to = first * w->block, shift = (first - model) * w->block,
-           begin = A->start[model], end = A->start[model + 1], done = 0;
-    for (; done + 32 <= length; done += 32) {
-        eight s[4] = { { 0 } };
-        for (size_t e = begin; e < end; e++) {
-            const double *x = w->now + (size_t) A->node[e] * w->block + shift + done;
+    size_t done = (first - model) * w->block, end = done + count * w->block, to = model * w->block;
+    for (; done + 32 <= end; done += 32) {
+        eight s0 = { 0 }, s1 = { 0 }, s2 = { 0 }, s3 = { 0 };
+        for (size_t e = A->start[model]; e < A->start[model + 1]; e++) {
+            const eight *x = (const eight *) (w->now + (size_t) A->node[e] * w->block + done);
             double v = (double) A->value[e];
-            for (int k = 0; k < 4; k++) s[k] += v * *(const eight *) (x + 8 * k);
+            s0 += v * x[0], s1 += v * x[1], s2 += v * x[2], s3 += v * x[3];
         }
-        for (size_t k = 0; k < 4; k++) recur_eight (w, to + done + 8 * k, &s[k]);
+        recur_eight (w, to + done, &s0), recur_eight (w, to + done + 8, &s1);
+        recur_eight (w, to + done + 16, &s2), recur_eight (w, to + done + 24, &s3);
     }
-    while (done < length) {
-        size_t at = length - done < 8 ? length - 8 : done;
+    while (done < end) {
+        size_t at = end - done < 8 ? end - 8 : done;
         eight s = { 0 };
-        for (size_t e = begin; e < end; e++)
-            s += (double) A->value[e]
-                 * *(const eight *) (w->now + (size_t) A->node[e] * w->block + shift + at);
+        for (size_t e = A->start[model]; e < A->start[model + 1]; e++)
+            s += (double) A->value[e] * *(const eight *) (w->now + (size_t) A->node[e] * w->block + at);
         for (; done < at + 8; done++) recur_at (w, to + done, s[done - at]);
     }
 }
