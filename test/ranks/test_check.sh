@@ -68,6 +68,8 @@ met "at rest, larger" 2 rest.yaml --set spacing='0.25 mm' --set solver.steps=1 -
 met "at rest in space" 2 ../../bench/ranks/rest.yaml --set spacing='3 mm'
 met "shape functions" 3 galerkin.yaml --set spacing='0.5 mm' --set solver.steps=1 --set failure.tensile_strength='8 GPa'
 met "shape functions in space" 2 solid.yaml --set spacing='1 mm' --set solver.steps=1 --set failure.tensile_strength='1 GPa'
+met "shape functions, perturbed" 2 galerkin.yaml --set spacing='0.5 mm' --set perturb.amount=0.25 --set solver.steps=1 --set failure.tensile_strength='8 GPa'
+met "shape functions on a mesh" 2 ../../data/bracket/scene.yaml --set solver.division=subdomains --set output.pictures=[]
 met "shared factor" 2 facets.yaml --set spacing='0.8 mm' --set solver.linear=petsc --set solver.max_events=1
 "$perigal" check plate.yaml --ranks 3 "${touching[@]}" 2> "$work/words" > "$work/out"
 ranks 3 plate.yaml -o "$work/no" "${touching[@]}"; [ $? -eq 65 ] && [ -s "$work/words" ] && [ "$(head -n "$(wc -l < "$work/words")" "$work/err")" = "$(cat "$work/words")" ]
