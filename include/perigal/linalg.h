@@ -269,10 +269,10 @@ typedef struct {
     int     aligned;
     /* Degree of the smoothing polynomial; 0: 2. */
     int     degree;
-    /* Of ranks that share the nodes of a lattice (aligned): which are owned, borrowed. Rows of nodes within
-     * four sites of owned ones are complete, and nodes within five of them held. All ranks call; what is
-     * below the first coarse grid is given from outside (pg_shared_preconditioner). Vectors are read and
-     * written at owned nodes. NULL: alone. */
+    /* Of ranks that share the nodes of a lattice (aligned): which are owned, borrowed. Rows of owned nodes
+     * are complete, those of others are not read. All ranks call; what is below the first coarse grid each
+     * has in full as long as that is little work, else it is given from outside (pg_shared_preconditioner).
+     * Vectors are read and written at owned nodes. NULL: alone. */
     const pg_subdomain *subdomain;
 } pg_multilevel_setting;
 
@@ -305,10 +305,12 @@ void      pg_multilevel_describe (const pg_multilevel *multilevel, pg_multilevel
 /* The same of ranks that share it, in words. */
 void      pg_multilevel_describe_shared (const pg_multilevel *multilevel, char *text, size_t size);
 /* ---- a preconditioner that ranks share ----------------------------------------------------------------- */
-/* What it is built from: rows of the nodes that this rank owns, whose couplings are with nodes held here. */
+/* What it is built from: rows of the nodes that this rank owns, whose couplings are with nodes held here.
+ * sums: 1: nodes are functions of a coarse grid on a lattice; rows of all nodes held are read, and what all
+ * ranks have of the row of a node is to be added up. */
 typedef struct {
     /* Dimension of space; unknowns of a node, 1 to 6. */
-    int     dim, block;
+    int     dim, block, sums;
     /* Of the nodes held here: positions, m (n x dim); 1 for each prescribed unknown, NULL: none is
      * (n x block); which are owned, and the halo (subdomain.n nodes). Borrowed, `fixed` as long as the
      * preconditioner is used. */

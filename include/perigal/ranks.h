@@ -34,6 +34,8 @@ typedef struct {
     /* The bytes of all ranks, in the order of the ranks, on rank 0: *all (pg_free), *bytes_all; elsewhere
      * NULL and 0. */
     pg_status (*collect)  (void *context, size_t bytes, const void *mine, size_t *bytes_all, void **all);
+    /* The numbers of all ranks, in the order of the ranks, on every rank: *all (pg_free), *n_all. */
+    pg_status (*share)    (void *context, size_t n, const double *mine, size_t *n_all, double **all);
     int   whole;                                       /* 1: this process alone stands for all of them */
 } pg_ranks;
 /* Ranks that this process plays alone, holding the whole body: what so many ranks would refuse is asked
@@ -56,7 +58,7 @@ pg_status pg_ranks_sum  (size_t n, double *value);
 pg_status pg_ranks_most (size_t n, double *value);
 /* Collects on rank 0; alone a copy of `mine`. */
 pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, void **all);
-/* The numbers of all ranks, in the order of the ranks, on every rank: *n_all, *all (pg_free). For few. */
+/* The numbers of all ranks on every rank; alone a copy. For few. */
 pg_status pg_ranks_share (size_t n, const double *mine, size_t *n_all, double **all);
 /* The largest over all ranks, also in lock-step: for what a clock or a signal decides. */
 pg_status pg_ranks_ask  (size_t n, double *value);
@@ -90,8 +92,11 @@ void      pg_subdomain_clear_ghosts (const pg_subdomain *subdomain, size_t compo
 
 /* Parts of the body that hang together. parent: sets of the n points that this rank holds (pg_disjoint),
  * joined by whatever joins an owned point to another one. label (n): the least number (pg_subdomain.number;
- * alone: index) of all points of the part, over all ranks; of ghosts that of their owner. All ranks call. */
-pg_status pg_subdomain_label (const pg_subdomain *subdomain, size_t n, int *parent, double *label);
+ * alone: index) of all points of the part, over all ranks; of ghosts that of their owner. With several
+ * components, each point has so many members of sets; member k of a point has the number of the point times
+ * the components, plus k, among them (parent, label: n x components). All ranks call. */
+pg_status pg_subdomain_label (const pg_subdomain *subdomain, size_t n, size_t components, int *parent,
+                              double *label);
 
 /* The same sets: out[0]: points that are joined to none, out[1]: parts of several points; on all ranks, each
  * counted where the point is owned that its part is labelled by. All ranks call. */

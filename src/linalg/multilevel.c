@@ -37,6 +37,7 @@ static void level_clear (level *l, int finest)
                     l->places };
     for (size_t k = 0; k < sizeof all / sizeof *all; k++) pg_free (all[k]);
     pg_subdomain_free (&l->made);
+    level_ranks_free (&l->ranks);
 }
 
 void pg_multilevel_free (pg_multilevel **multilevel)
@@ -46,6 +47,8 @@ void pg_multilevel_free (pg_multilevel **multilevel)
     if (m->factor) m->direct->free (&m->factor);
     if (m->shared) m->below->free (&m->shared);
     for (int k = 0; k < MOST_LEVELS; k++) level_clear (&m->at[k], k == 0);
+    level_clear (&m->meet, 0);
+    pg_free (m->whole), pg_free (m->slot), pg_free (m->total);
     pg_free (m);
     *multilevel = NULL;
 }
@@ -120,6 +123,17 @@ done:
     return status;
 }
 
+/* Ranks part with the finest level. */
+static pg_status meet (pg_multilevel *m, const level *l)
+{
+    pg_status status = PG_OK;
+    PG_TRY (level_coarsen (&m->meet, l));
+    PG_TRY (make_vectors (&m->meet, 0));
+    PG_TRY (multilevel_meet (m, l));
+done:
+    return status;
+}
+
 /* Levels from the finest down; each needs the bound of its spectrum before it is smoothed. */
 static pg_status make_levels (pg_multilevel *m, double step)
 {
@@ -127,18 +141,14 @@ static pg_status make_levels (pg_multilevel *m, double step)
     for (;; step *= 2) {
         level *l = &m->at[m->count++];
         PG_TRY (make_vectors (l, m->count == 1));
-        if (m->count > 1 && l->part) {
-            PG_TRY (multilevel_pass_on (m, l));
-            break;
-        }
         if (m->count > 1 && (l->ndof <= DIRECT || m->count == MOST_LEVELS)) {
             PG_TRY (factor_coarsest (m, l));
             break;
         }
         PG_TRY (level_bound (l));
         PG_TRY (level_space (l, step));
-        PG_TRY (level_coarsen (&m->at[m->count], l));
-        PG_TRY (level_divide (&m->at[m->count], l));
+        PG_TRY (l->part ? meet (m, l) : level_coarsen (&m->at[m->count], l));
+        if (m->shared) break;
     }
 done:
     return status;
@@ -201,5 +211,9 @@ void pg_multilevel_describe (const pg_multilevel *m, pg_multilevel_info *info)
 void pg_multilevel_describe_shared (const pg_multilevel *m, char *text, size_t size)
 {
     size_t at = (size_t) snprintf (text, size, "%.0f unknowns, then ", m->unknowns);
-    if (m->shared && at < size) m->below->describe (m->shared, text + at, size - at);
+    if (at >= size) return;
+    if (m->shared) m->below->describe (m->shared, text + at, size - at);
+    else at += (size_t) snprintf (text + at, size - at, "on every rank");
+    for (int k = 1; k < m->count && at < size; k++)
+        at += (size_t) snprintf (text + at, size - at, "%s%zu", k > 1 ? ", " : " ", m->at[k].ndof);
 }

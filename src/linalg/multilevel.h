@@ -4,7 +4,8 @@
  *
  * Files: multilevel.c (creation, coarsest level), multilevel_space.c (coarse functions of a level),
  * multilevel_matrix.c (their matrix), multilevel_cycle.c (smoothing, transfers, the cycle),
- * multilevel_ranks.c (levels that ranks share).
+ * multilevel_ranks.c (a finest level that ranks share), multilevel_whole.c (coarse levels that each of
+ * them has in full).
  *
  * Unknown k of node i has the number i * block + k. A masked unknown (prescribed, or without stiffness)
  * takes no part: its inverse diagonal is stored as 0. Each vertex of a grid has a hat function,
@@ -17,6 +18,19 @@
 
 /* Levels at most; unknowns per node at most. */
 enum { MOST_LEVELS = 12, MOST_BLOCK = 6 };
+
+/* What a finest level of ranks has beside: the sites that each rank owns (size), sites of the whole lattice,
+ * and for each node the neighbour in the halo that owns it (n), or one of these. While functions are found:
+ * entries of `function` that belong together (pg_disjoint), and the number of the function at each, which all
+ * ranks know it by (n x corners). */
+enum { MINE = -1, NOBODYS = -2 };
+typedef struct {
+    pg_box *box;
+    size_t  size;
+    long long sites[3];
+    int    *from, *joined;
+    double *label;
+} level_ranks;
 
 /* One level: its matrix, and the functions that make the next level. */
 typedef struct {
@@ -70,6 +84,7 @@ typedef struct {
      * level, which is the level's own. origin: site 0 of the whole lattice, m. */
     const pg_subdomain *part;
     pg_subdomain *made;
+    level_ranks  *ranks;
     double origin[3];
 } level;
 
@@ -82,8 +97,14 @@ struct pg_multilevel {
     void   *factor;
     const pg_linear_type *direct;
     size_t  applications;
-    /* Of ranks: what they make of the rows of level 1 together, instead of levels below; unknowns of the
-     * finest level, of all ranks. */
+    /* Of ranks: `meet` has the functions of the finest level that this rank holds, and of their matrix and
+     * right-hand side what the nodes that it owns add. The sums over all ranks are level 1 of each of them
+     * (whole: what each function is there), or what they make of them together (shared), which then takes
+     * the place of all coarse levels; back (slots for owned functions that others hold), total: room for the
+     * sums. Unknowns of the finest level, of all ranks. */
+    level   meet;
+    int    *whole, *slot;
+    double *total;
     void   *shared;
     const pg_shared_preconditioner *below;
     double  unknowns;
@@ -114,18 +135,24 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
 /* Before functions are made of the finest level: all ranks take the largest step, m, the same unknowns that
  * take no part, and the same origin. */
 pg_status level_join (level *l, double *step);
+void      level_ranks_free (level_ranks **ranks);
 /* Moves the first vertex of the grid along an axis down to one of all ranks. */
 void      level_align (level *l, int axis);
-/* Nodes are told by their owners which part of each hat function they are in; parts: numbers of parts of the
- * hat functions, which become as many as there are. */
+/* Parts of hat functions over all ranks, from what is joined here: part of each hat function that nodes are
+ * in; parts: how many each has of which nodes are held here. */
 pg_status level_agree_parts (level *l, size_t *parts);
-/* Which functions of f, nodes of c, are owned here, and the halo between them. */
-pg_status level_divide (level *c, const level *f);
 /* Ghosts of x (ndof) take the values of their owners. */
 pg_status level_exchange (const level *l, double *x);
 /* Sum over all ranks; not finite where they lose each other. */
 double    level_sum (const level *l, double mine);
-/* What ranks make of the rows of level l, and z of its unknowns by that. */
-pg_status multilevel_pass_on (pg_multilevel *m, level *l);
-pg_status multilevel_solve_below (pg_multilevel *m, const level *l, const double *b, double *z);
+/* Level 1 on each rank, or what they make together, of the functions of l. */
+pg_status multilevel_meet (pg_multilevel *m, const level *l);
+/* meet.z by that from what each rank has added to meet.b. */
+pg_status multilevel_solve_together (pg_multilevel *m);
+/* ---- multilevel_whole.c -------------------------------------------------------------------------------- */
+/* A function as all ranks know it: its number, the vertex where it stands (both over all ranks), its owner,
+ * whether nodes that are owned here add to its row, and its place, m. */
+typedef struct { int64_t key, vertex; int owner, touched; double place[3]; } function_of_all;
+/* Level 1 from the functions held here (meet.n) and their rows. All ranks call. */
+pg_status multilevel_gather (pg_multilevel *m, const function_of_all *held);
 #endif

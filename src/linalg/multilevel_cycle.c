@@ -184,7 +184,6 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
 {
     pg_status status = PG_OK;
     level *l = &m->at[k];
-    if (k > 0 && m->shared) return multilevel_solve_below (m, l, b, z);
     /* On one thread: BLAS adds in another order on two, and the bits must not depend on their number. */
     if (k + 1 == m->count && m->factor) {
         pg_linear_threads (1);
@@ -193,15 +192,15 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
         return status;
     }
     PG_TRY (smooth (l, m->degree, b, z));
-    if (k + 1 == m->count) return PG_OK;
-    level *c = &m->at[k + 1];
+    if (k + 1 == m->count && !m->shared) return PG_OK;
+    level *c = l->part ? &m->meet : &m->at[k + 1];
     smoothing down = { .l = l, .x = l->r, .out = c->b }, up = { .l = l, .x = c->z, .out = z };
     /* The residual of the smoothed z, which the last change d has not entered yet. */
     PG_TRY (multiply_change (l));
     pg_parallel (l->threads, l->ndof, take_off, &down);
-    PG_TRY (level_exchange (l, l->r));
+    pg_subdomain_clear_ghosts (l->part, (size_t) l->block, l->r);
     pg_parallel (l->threads, c->n, restrict_functions, &down);
-    PG_TRY (multilevel_cycle (m, k + 1, c->b, c->z));
+    PG_TRY (l->part ? multilevel_solve_together (m) : multilevel_cycle (m, k + 1, c->b, c->z));
     pg_parallel (l->threads, l->n, correct_nodes, &up);
     PG_TRY (smooth (l, m->degree, NULL, z));
 done:

@@ -225,13 +225,13 @@ static void blank_masked (const level *f, int rows, int columns, double *B)
         for (int c = 0; c < f->block; c++) if ((rows >> a & 1) || (columns >> c & 1)) B[a * f->block + c] = 0;
 }
 
-/* The rows of a cell: all functions at its m nodes. */
+/* The rows of a cell: all functions at its m nodes; of ranks at those that are owned, as in all sums. */
 static pg_status find_rows (summer *s, const level *f, const int *node, size_t m)
 {
     pg_status status = PG_OK;
     s->nrow = s->ncolumn = 0;
     for (size_t e = 0; e < m; e++)
-        for (int c = 0; c < f->corners; c++) {
+        for (int c = 0; c < f->corners && pg_owns (f->part, (size_t) node[e]); c++) {
             int p = f->function[(size_t) node[e] * (size_t) f->corners + (size_t) c];
             if (p < 0 || s->row_of[p] >= 0) continue;
             PG_GROW (s->row, s->cap_row, s->nrow + 1);
@@ -320,7 +320,8 @@ static void cell_place (const level *f, size_t cell, int *at)
         at[k] = (int) (cell % (size_t) f->cells[k]), cell /= (size_t) f->cells[k];
 }
 
-/* No node of the cell has a masked unknown, and no hat function at its corners is split. */
+/* No node of the cell has a masked unknown, and no hat function at its corners is split. (Nodes that nobody
+ * brings up to date are masked.) */
 static int is_plain (const level *f, size_t cell)
 {
     for (size_t p = f->cell_start[cell]; p < f->cell_start[cell + 1]; p++)
@@ -347,7 +348,8 @@ static void classify (void *context, size_t first, size_t last, int thread)
         const int *node = f->cell_node + f->cell_start[cell];
         size_t m = f->cell_start[cell + 1] - f->cell_start[cell], alike = 0;
         if (!is_plain (f, cell)) continue;
-        while (m == full && alike < m && f->rows.alike (f->rows.context, (size_t) node[alike])) alike++;
+        while (m == full && alike < m && pg_owns (f->part, (size_t) node[alike])
+               && f->rows.alike (f->rows.context, (size_t) node[alike])) alike++;
         g->pattern.like[cell] = (unsigned char) (alike == full ? PLAIN | ALIKE : PLAIN);
     }
 }
@@ -471,6 +473,7 @@ static pg_status sum_nodes (galerkin *g, size_t cell, int thread)
     size_t m = f->cell_start[cell + 1] - f->cell_start[cell];
     PG_TRY (find_rows (s, f, node, m));
     for (size_t e = 0; e < m && s->nrow; e++) {
+        if (!pg_owns (f->part, (size_t) node[e])) continue;
         size_t i = (size_t) node[e],
                count = level_row (f, i, thread, g->workspace.node[thread], g->workspace.value[thread]);
         PG_TRY (add_node (s, f, i, count, g->workspace.node[thread], g->workspace.value[thread]));

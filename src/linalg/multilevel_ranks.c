@@ -1,17 +1,21 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Levels of ranks that share the nodes of a lattice (perigal/ranks.h). Every rank has the finest level of the
- * nodes that it holds, smooths it by its own loops, and makes the rows of the first coarse matrix of the
- * functions that it owns; the levels below are what all ranks make of these rows together
- * (pg_shared_preconditioner, of PETSc). Where one process has products with A, ranks bring the ghosts of the
- * vector up to date before.
+ * The finest level of ranks that share the nodes of a lattice (perigal/ranks.h). Every rank has the nodes
+ * that it holds and smooths them by its own loops; where one process has products with A, ranks bring the
+ * ghosts of the vector up to date before. Of the coarse matrix P' A P and of right-hand sides P' r each rank
+ * sums up what the nodes that it owns add, to functions of its own and of others, so that ghosts need be no
+ * wider than products ask for. The sums over all ranks are a level like that of one process, which every
+ * rank has in full as long as that is little work beside the finest level (multilevel_whole.c); else each
+ * has the rows of the functions that it owns, and all ranks make the levels below together
+ * (pg_shared_preconditioner, of PETSc).
  *
- * Grids are laid from site 0 of the whole lattice, so that all ranks have the same vertices. A function
- * belongs to the rank that owns the site where its vertex stands (of a vertex beyond the end of the lattice
- * the last site): the layer of ghosts is wide enough for all nodes under such a function and for their rows,
- * so that the owner needs no sums of others. Which parts a crack makes of a hat function its nodes are told
- * by their owners, as ghosts near the rim do not see all of it. */
+ * Grids are laid from site 0 of the whole lattice, so that all ranks have the same vertices. Which parts a
+ * crack makes of a hat function no rank may see alone: each joins the nodes that its own ones are coupled
+ * with, and they tell each other. A part is known by the least of its nodes, and belongs to the rank that
+ * owns it. */
 #include "multilevel.h"
+#include <limits.h>
 #include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 pg_status level_exchange (const level *l, double *x)
@@ -26,36 +30,56 @@ double level_sum (const level *l, double mine)
 }
 
 /* ---- the whole lattice --------------------------------------------------------------------------------- */
-/* Sites that each rank owns (boxes: pg_free), and how many there are along each axis. */
-static pg_status share_boxes (const pg_subdomain *part, pg_box **boxes, size_t *size, long long sites[3])
+/* Sites that each rank owns, and how many there are along each axis. */
+static pg_status share_boxes (const pg_subdomain *part, level_ranks *out)
 {
     pg_status status = PG_OK;
     double mine[6], *all = NULL;
     size_t n = 0;
-    for (int k = 0; k < 3; k++) mine[k] = part->own.low[k], mine[3 + k] = part->own.high[k], sites[k] = 1;
+    for (int k = 0; k < 3; k++)
+        mine[k] = part->own.low[k], mine[3 + k] = part->own.high[k], out->sites[k] = 1;
     PG_TRY (pg_ranks_share (6, mine, &n, &all));
-    *size = n / 6;
-    PG_ALLOC (*boxes, *size);
-    for (size_t r = 0; r < *size; r++)
+    out->size = n / 6;
+    PG_ALLOC (out->box, out->size);
+    for (size_t r = 0; r < out->size; r++)
         for (int k = 0; k < 3; k++) {
-            (*boxes)[r].low[k] = (int) all[6 * r + (size_t) k];
-            (*boxes)[r].high[k] = (int) all[6 * r + 3 + (size_t) k];
-            if ((*boxes)[r].high[k] > sites[k]) sites[k] = (*boxes)[r].high[k];
+            out->box[r].low[k] = (int) all[6 * r + (size_t) k];
+            out->box[r].high[k] = (int) all[6 * r + 3 + (size_t) k];
+            if (out->box[r].high[k] > out->sites[k]) out->sites[k] = out->box[r].high[k];
         }
 done:
     pg_free (all);
     return status;
 }
 
-/* Ghosts take no part where they do not for their owners. */
+/* Indices of a site of the whole lattice from its number. */
+static void place_of (const level_ranks *l, int64_t number, long long *at)
+{
+    for (int k = 0; k < 3; k++) at[k] = number % l->sites[k], number /= l->sites[k];
+}
+
+/* Whom nodes belong to. Ghosts take no part where they do not for their owners, nor where nobody tells what
+ * they are. */
 static pg_status agree_masks (level *l)
 {
     pg_status status = PG_OK;
     double *mask = NULL;
+    const pg_halo *h = &l->part->halo;
     PG_ALLOC (mask, l->n);
-    for (size_t i = 0; i < l->n; i++) mask[i] = l->mask[i];
+    PG_ALLOC (l->ranks->from, l->n);
+    for (size_t i = 0; i < l->n; i++) {
+        l->ranks->from[i] = l->part->owned[i] ? MINE : NOBODYS;
+        mask[i] = l->part->owned[i] ? l->mask[i] : (1 << l->block) - 1;
+    }
+    for (size_t k = 0; k < h->n; k++)
+        for (size_t q = h->receive_first[k]; q < h->receive_first[k + 1]; q++)
+            l->ranks->from[h->receive[q]] = (int) k;
     PG_TRY (pg_subdomain_exchange (l->part, 1, mask));
-    for (size_t i = 0; i < l->n; i++) l->mask[i] = (unsigned char) mask[i];
+    for (size_t i = 0; i < l->n; i++) {
+        l->mask[i] = (unsigned char) mask[i];
+        for (size_t k = 0; l->ranks->from[i] == NOBODYS && k < (size_t) l->block; k++)
+            l->inverse[i * (size_t) l->block + k] = 0;
+    }
 done:
     pg_free (mask);
     return status;
@@ -64,22 +88,30 @@ done:
 pg_status level_join (level *l, double *step)
 {
     pg_status status = PG_OK;
-    pg_box *boxes = NULL;
-    size_t size;
-    long long sites[3], at;
+    long long at[3];
     if (!l->part) return PG_OK;
     for (int k = 0; k < l->dim; k++)
         if (!l->aligned || !(l->rows.lattice[k] > 0))
             PG_FAIL (PG_E_USAGE, "ranks share the nodes of a lattice, with vertices of coarse grids on them");
-    PG_TRY (share_boxes (l->part, &boxes, &size, sites));
-    at = l->n ? l->part->number[0] : 0;
-    for (int k = 0; k < l->dim && l->n; at /= sites[k++])
-        l->origin[k] = l->x[k] - (double) (at % sites[k]) * l->rows.lattice[k];
+    if (l->n > (size_t) (INT_MAX >> l->dim))
+        PG_FAIL (PG_E_LIMIT, "%zu points on one rank are too many", l->n);
+    PG_ALLOC (l->ranks, 1);
+    PG_TRY (share_boxes (l->part, l->ranks));
+    if (l->n) place_of (l->ranks, l->part->number[0], at);
+    for (int k = 0; k < l->dim && l->n; k++) l->origin[k] = l->x[k] - (double) at[k] * l->rows.lattice[k];
     PG_TRY (pg_ranks_most (1, step));
     PG_TRY (agree_masks (l));
 done:
-    pg_free (boxes);
     return status;
+}
+
+void level_ranks_free (level_ranks **ranks)
+{
+    level_ranks *l = *ranks;
+    if (!l) return;
+    pg_free (l->box), pg_free (l->from), pg_free (l->joined), pg_free (l->label);
+    pg_free (l);
+    *ranks = NULL;
 }
 
 void level_align (level *l, int axis)
@@ -90,119 +122,139 @@ void level_align (level *l, int axis)
 }
 
 /* ---- parts of hat functions ---------------------------------------------------------------------------- */
+/* A part of a hat function beside the first that is met. */
+typedef struct { size_t vertex; double label; int part; } further;
+
+static int by_vertex (const void *a, const void *b)
+{
+    const further *x = a, *y = b;
+    if (x->vertex != y->vertex) return x->vertex < y->vertex ? -1 : 1;
+    return (x->label > y->label) - (x->label < y->label);
+}
+
+/* Each once, and which part of its hat function it is. */
+static size_t number_further (further *list, size_t n, size_t *parts)
+{
+    size_t last = 0;
+    if (n) qsort (list, n, sizeof *list, by_vertex);
+    for (size_t k = 0; k < n; k++) {
+        if (k > 0 && by_vertex (&list[k], &list[last - 1]) == 0) continue;
+        list[last] = list[k];
+        list[last].part = (int) parts[list[last].vertex]++;
+        last++;
+    }
+    return last;
+}
+
+static size_t vertex_of (const level *l, size_t entry)
+{
+    size_t corners = (size_t) l->corners;
+    return level_vertex (l, (size_t) l->cell[entry / corners], (int) (entry % corners));
+}
+
+/* function: the part of each node's hat functions, from their labels. */
+static pg_status count_parts (level *l, size_t *parts)
+{
+    pg_status status = PG_OK;
+    const double *label = l->ranks->label;
+    double *first = NULL;
+    further *list = NULL;
+    size_t n = 0, cap = 0, entries = l->n * (size_t) l->corners;
+    PG_ALLOC (first, l->nvertex);
+    for (size_t e = 0; e < entries; e++) {
+        if (!(l->weight[e] > 0)) continue;
+        size_t v = vertex_of (l, e);
+        l->function[e] = 0;
+        if (!parts[v]) parts[v] = 1, first[v] = label[e];
+        if (label[e] == first[v]) continue;
+        PG_GROW (list, cap, n + 1);
+        list[n++] = (further) { v, label[e], 0 };
+        l->function[e] = 1;
+    }
+    n = number_further (list, n, parts);
+    for (size_t e = 0; e < entries; e++) {
+        if (!(l->weight[e] > 0) || !l->function[e]) continue;
+        further one = { vertex_of (l, e), label[e], 0 };
+        l->function[e] = ((further *) bsearch (&one, list, n, sizeof *list, by_vertex))->part;
+    }
+done:
+    pg_free (first), pg_free (list);
+    return status;
+}
+
 pg_status level_agree_parts (level *l, size_t *parts)
 {
     pg_status status = PG_OK;
     size_t corners = (size_t) l->corners;
-    double *part = NULL;
     if (!l->part) return PG_OK;
-    PG_ALLOC (part, l->n * corners);
-    for (size_t i = 0; i < l->n * corners; i++) part[i] = l->function[i];
-    PG_TRY (pg_subdomain_exchange (l->part, corners, part));
-    for (size_t i = 0; i < l->n; i++)
-        for (size_t c = 0; c < corners; c++) {
-            if (!(l->weight[i * corners + c] > 0)) continue;
-            size_t vertex = level_vertex (l, (size_t) l->cell[i], (int) c);
-            l->function[i * corners + c] = (int) part[i * corners + c];
-            if ((size_t) l->function[i * corners + c] >= parts[vertex])
-                parts[vertex] = (size_t) l->function[i * corners + c] + 1;
-        }
+    PG_ALLOC (l->ranks->label, l->n * corners);
+    PG_TRY (pg_subdomain_label (l->part, l->n, corners, l->ranks->joined, l->ranks->label));
+    PG_TRY (count_parts (l, parts));
 done:
-    pg_free (part);
+    pg_free (l->ranks->joined);
+    l->ranks->joined = NULL;
     return status;
 }
 
 /* ---- who owns which function --------------------------------------------------------------------------- */
-/* Parts of one hat function at most, in the number of a function. */
-enum { MOST_PARTS = 4096 };
-
-/* Functions as all ranks know them: a number, ascending with that here, and the owner. need: 1 for those of
- * others whose values or rows are asked for here. */
-typedef struct { int64_t *key; int *owner; unsigned char *need; } functions;
-
-static int owner_of (const pg_box *boxes, size_t size, int dim, const long long *site)
+static int owner_of (const level_ranks *l, int dim, const long long *site)
 {
-    for (size_t r = 0; r < size; r++) {
+    for (size_t r = 0; r < l->size; r++) {
         int in = 1;
-        for (int k = 0; k < dim; k++) in = in && site[k] >= boxes[r].low[k] && site[k] < boxes[r].high[k];
+        for (int k = 0; k < dim; k++) in = in && site[k] >= l->box[r].low[k] && site[k] < l->box[r].high[k];
         if (in) return (int) r;
     }
     return 0;
 }
 
-static pg_status number_functions (functions *out, const level *f)
+/* The label of a part tells its least node and the corner of its cell. */
+static void number_functions (const level *f, function_of_all *out)
 {
-    pg_status status = PG_OK;
-    pg_box *boxes = NULL;
-    size_t size;
-    long long sites[3], site[3] = { 0 };
-    int at[3];
-    PG_TRY (share_boxes (f->part, &boxes, &size, sites));
+    size_t corners = (size_t) f->corners;
+    long long site[3];
+    int at[3] = { 0 };
+    for (size_t e = 0; e < f->n * corners; e++) {
+        if (f->function[e] < 0) continue;
+        function_of_all *o = &out[f->function[e]];
+        o->key = (int64_t) f->ranks->label[e];
+        o->touched |= f->part->owned[e / corners];
+    }
     for (size_t h = 0; h < f->nvertex; h++) {
-        int64_t vertex = 0, stride = 1;
+        int64_t stride = 1, vertex = 0;
         level_vertex_place (f, h, at);
         for (int k = 0; k < f->dim; k++) {
-            long long v = (long long) round ((f->low[k] - f->origin[k]) / f->step[k]) + at[k],
-                      last = sites[k] - 1;
-            site[k] = v * f->share_of[k] < last ? v * f->share_of[k] : last;
-            vertex += v * stride, stride *= last / f->share_of[k] + 2;
+            long long v = (long long) round ((f->low[k] - f->origin[k]) / f->step[k]) + at[k];
+            vertex += v * stride, stride *= f->ranks->sites[k] / f->share_of[k] + 2;
         }
-        if (f->first[h + 1] - f->first[h] > MOST_PARTS)
-            PG_FAIL (PG_E_LIMIT, "cracks leave more than %d parts of a coarse function", (int) MOST_PARTS);
         for (size_t p = f->first[h]; p < f->first[h + 1]; p++) {
-            out->key[p] = vertex * MOST_PARTS + (int64_t) (p - f->first[h]);
-            out->owner[p] = owner_of (boxes, size, f->dim, site);
+            place_of (f->ranks, out[p].key / f->corners, site);
+            out[p].owner = owner_of (f->ranks, f->dim, site), out[p].vertex = vertex;
+            for (int k = 0; k < f->dim; k++) out[p].place[k] = f->low[k] + at[k] * f->step[k];
         }
     }
-done:
-    pg_free (boxes);
-    return status;
 }
 
-/* Those at nodes that are owned here, and those that the rows of owned functions lead to. */
-static pg_status find_needed (functions *out, const level *c, const level *f)
-{
-    pg_status status = PG_OK;
-    size_t corners = (size_t) f->corners;
-    int *node = NULL, me = pg_rank ();
-    PG_ALLOC (node, c->rows.widest);
-    for (size_t i = 0; i < f->n; i++)
-        for (size_t k = 0; k < corners && f->part->owned[i]; k++)
-            if (f->function[i * corners + k] >= 0) out->need[f->function[i * corners + k]] = 1;
-    for (size_t p = 0; p < c->n; p++) {
-        if (out->owner[p] != me) continue;
-        size_t m = level_row (c, p, 0, node, NULL);
-        for (size_t e = 0; e < m; e++) out->need[node[e]] = 1;
-    }
-    for (size_t p = 0; p < c->n; p++) if (out->owner[p] == me) out->need[p] = 0;
-done:
-    pg_free (node);
-    return status;
-}
+/* ---- functions that others own ------------------------------------------------------------------------- */
+/* A function held here by its number. */
+typedef struct { int64_t key; int function; } named;
 
-/* The function of that number here; -1: there is none. */
-static long find (const functions *f, size_t n, int64_t key)
+static int by_key (const void *a, const void *b)
 {
-    size_t low = 0, high = n;
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (f->key[middle] < key) low = middle + 1;
-        else high = middle;
-    }
-    return low < n && f->key[low] == key ? (long) low : -1;
+    const named *x = a, *y = b;
+    return (x->key > y->key) - (x->key < y->key);
 }
 
 /* What all ranks ask of others: three numbers each, who asks, whom, for which function. */
-static pg_status ask (const functions *f, size_t n, size_t *n_all, double **all)
+static pg_status ask (const function_of_all *f, size_t n, size_t *n_all, double **all)
 {
     pg_status status = PG_OK;
     double *mine = NULL;
     size_t count = 0;
     PG_ALLOC (mine, 3 * n);
     for (size_t p = 0; p < n; p++) {
-        if (!f->need[p]) continue;
-        mine[3 * count] = pg_rank (), mine[3 * count + 1] = f->owner[p];
-        mine[3 * count++ + 2] = (double) f->key[p];
+        if (f[p].owner == pg_rank ()) continue;
+        mine[3 * count] = pg_rank (), mine[3 * count + 1] = f[p].owner;
+        mine[3 * count++ + 2] = (double) f[p].key;
     }
     PG_TRY (pg_ranks_share (3 * count, mine, n_all, all));
     *n_all /= 3;
@@ -232,7 +284,7 @@ static void list_ranks (pg_halo *h, size_t size, size_t n_all, const double *all
 }
 
 /* With each rank what it asks for here, and what is asked of it, in the order of the numbers. */
-static pg_status make_halo (pg_halo *h, const functions *f, size_t n, size_t n_all, const double *all)
+static pg_status make_halo (pg_halo *h, const named *list, size_t n, size_t n_all, const double *all)
 {
     pg_status status = PG_OK;
     size_t size = (size_t) pg_rank_count (), *at = NULL;
@@ -247,10 +299,12 @@ static pg_status make_halo (pg_halo *h, const functions *f, size_t n, size_t n_a
     PG_ALLOC (h->receive, h->receive_first[h->n]);
     for (size_t e = 0; e < n_all; e++) {
         int asks = (int) all[3 * e], asked = (int) all[3 * e + 1];
-        long p = asks == me || asked == me ? find (f, n, (int64_t) all[3 * e + 2]) : 0;
-        if (p < 0) lost = 1, p = 0;
-        if (asked == me) h->send[at[asks]++] = (int) p;
-        if (asks == me) h->receive[at[(int) size + asked]++] = (int) p;
+        if (asked != me && asks != me) continue;
+        named one = { (int64_t) all[3 * e + 2], 0 };
+        const named *p = bsearch (&one, list, n, sizeof *list, by_key);
+        if (!p) lost = 1;
+        if (asked == me) h->send[at[asks]++] = p ? p->function : 0;
+        if (asks == me) h->receive[at[(int) size + asked]++] = p ? p->function : 0;
     }
     PG_TRY (pg_ranks_most (1, &lost));
     if (lost > 0) PG_FAIL (PG_E_FILE, "ranks disagree about their coarse functions");
@@ -259,30 +313,28 @@ done:
     return status;
 }
 
-pg_status level_divide (level *c, const level *f)
+/* Which functions are owned here, and the halo between them. */
+static pg_status divide (level *c, const function_of_all *f)
 {
     pg_status status = PG_OK;
-    functions all = { 0 };
+    named *list = NULL;
     double *asked = NULL;
     size_t n = 0;
-    if (!f->part) return PG_OK;
-    PG_ALLOC (all.key, c->n);
-    PG_ALLOC (all.owner, c->n);
-    PG_ALLOC (all.need, c->n);
     PG_ALLOC (c->made, 1);
     PG_ALLOC (c->made->owned, c->n);
-    PG_TRY (number_functions (&all, f));
-    PG_TRY (find_needed (&all, c, f));
+    PG_ALLOC (list, c->n);
     c->made->n = c->n;
     for (size_t p = 0; p < c->n; p++) {
-        c->made->owned[p] = all.owner[p] == pg_rank ();
+        c->made->owned[p] = f[p].owner == pg_rank ();
         c->made->nowned += c->made->owned[p];
+        list[p] = (named) { f[p].key, (int) p };
     }
-    PG_TRY (ask (&all, c->n, &n, &asked));
-    PG_TRY (make_halo (&c->made->halo, &all, c->n, n, asked));
+    if (c->n) qsort (list, c->n, sizeof *list, by_key);
+    PG_TRY (ask (f, c->n, &n, &asked));
+    PG_TRY (make_halo (&c->made->halo, list, c->n, n, asked));
     c->part = c->made;
 done:
-    pg_free (all.key), pg_free (all.owner), pg_free (all.need), pg_free (asked);
+    pg_free (list), pg_free (asked);
     return status;
 }
 
@@ -301,34 +353,94 @@ static size_t row_of (void *context, size_t i, int thread, int *node, double *va
     return m;
 }
 
-/* The matrix is not needed any more when they are made. */
-pg_status multilevel_pass_on (pg_multilevel *m, level *l)
+/* Ranks make them together. The matrix is not needed any more when they are made. */
+static pg_status pass_on (pg_multilevel *m, const function_of_all *f)
 {
     pg_status status = PG_OK;
-    pg_shared_rows s = { .dim = l->dim, .block = l->block, .x = l->x, .subdomain = l->part, .k = 1,
+    level *l = &m->meet;
+    PG_TRY (divide (l, f));
+    pg_shared_rows s = { .dim = l->dim, .block = l->block, .x = l->x, .subdomain = l->part, .k = 1, .sums = 1,
                          .rows = { .context = l, .widest = l->rows.widest, .row = row_of } };
     for (int k = 0; k < l->dim; k++) {
         s.rows.lattice[k] = l->rows.lattice[k];
         s.rows.reach = fmax (s.rows.reach, l->reach[k]);
     }
+    size_t send = l->part->halo.send_first[l->part->halo.n];
+    PG_ALLOC (m->slot, send);
+    for (size_t k = 0; k < send; k++) m->slot[k] = (int) (l->n + k);
+    PG_ALLOC (m->total, (l->n + send) * (size_t) l->block);
     m->below = pg_shared_preconditioner_now ();
     if (!m->below) PG_FAIL (PG_E_USAGE, "ranks share no preconditioner");
     PG_TRY (m->below->create (&m->shared, &s));
-    m->unknowns = 0;
-    for (size_t i = 0; i < m->at[0].n; i++)
-        m->unknowns += m->at[0].part->owned[i] ? m->at[0].block : 0;
-    PG_TRY (pg_ranks_sum (1, &m->unknowns));
-    pg_free (l->start), pg_free (l->node), pg_free (l->value);
-    l->start = NULL, l->node = NULL, l->value = NULL;
 done:
     return status;
 }
 
-pg_status multilevel_solve_below (pg_multilevel *m, const level *l, const double *b, double *z)
+/* Levels that every rank has for itself cost it at most this share of the work on the nodes that it owns, or
+ * have so few unknowns that nothing else is faster. */
+static const double share_of_work = 0.3;
+enum { FEW = 1000 };
+
+pg_status multilevel_meet (pg_multilevel *m, const level *l)
 {
     pg_status status = PG_OK;
-    PG_TRY (m->below->solve (m->shared, b, z));
-    PG_TRY (level_exchange (l, z));
+    level *c = &m->meet;
+    function_of_all *held = NULL;
+    double count[2] = { 0, (double) (l->part->nowned * (size_t) l->block) };
+    PG_ALLOC (held, c->n);
+    number_functions (l, held);
+    pg_free (l->ranks->label), pg_free (l->ranks->from);
+    l->ranks->label = NULL, l->ranks->from = NULL;
+    for (size_t p = 0; p < c->n; p++) count[0] += held[p].owner == pg_rank () ? c->block : 0;
+    PG_TRY (pg_ranks_sum (2, count));
+    m->unknowns = count[1];
+    if (count[0] <= FEW || count[0] * pg_rank_count () <= share_of_work * count[1])
+        PG_TRY (multilevel_gather (m, held));
+    else PG_TRY (pass_on (m, held));
+    pg_free (c->start), pg_free (c->node), pg_free (c->value);
+    c->start = NULL, c->node = NULL, c->value = NULL;
+done:
+    pg_free (held);
+    return status;
+}
+
+/* Owners of functions add what the others have for them. */
+static pg_status add_up (pg_multilevel *m)
+{
+    pg_status status = PG_OK;
+    level *c = &m->meet;
+    const pg_halo *h = &c->part->halo;
+    size_t block = (size_t) c->block;
+    pg_subdomain back = { .halo = { .n = h->n, .rank = h->rank,
+                                    .send_first = h->receive_first, .receive_first = h->send_first,
+                                    .send = h->receive, .receive = m->slot } };
+    memcpy (m->total, c->b, c->ndof * sizeof *c->b);
+    PG_TRY (pg_subdomain_exchange (&back, block, m->total));
+    for (size_t k = 0; k < h->send_first[h->n]; k++)
+        for (size_t a = 0; a < block; a++)
+            c->b[(size_t) h->send[k] * block + a] += m->total[(size_t) m->slot[k] * block + a];
+done:
+    return status;
+}
+
+pg_status multilevel_solve_together (pg_multilevel *m)
+{
+    pg_status status = PG_OK;
+    level *c = &m->meet, *l = &m->at[1];
+    size_t block = (size_t) c->block;
+    if (m->shared) {
+        PG_TRY (add_up (m));
+        PG_TRY (m->below->solve (m->shared, c->b, c->z));
+        PG_TRY (level_exchange (c, c->z));
+        goto done;
+    }
+    memset (l->b, 0, l->ndof * sizeof *l->b);
+    for (size_t p = 0; p < c->n; p++)
+        memcpy (l->b + (size_t) m->whole[p] * block, c->b + p * block, block * sizeof *l->b);
+    PG_TRY (pg_ranks_sum (l->ndof, l->b));
+    PG_TRY (multilevel_cycle (m, 1, l->b, l->z));
+    for (size_t p = 0; p < c->n; p++)
+        memcpy (c->z + p * block, l->z + (size_t) m->whole[p] * block, block * sizeof *l->z);
 done:
     return status;
 }

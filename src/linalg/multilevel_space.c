@@ -99,9 +99,10 @@ done:
 }
 
 /* ---- parts of a hat function -------------------------------------------------------------------------- */
-/* Workspace of one thread: nodes under the hat function, queue of the search, couplings of a node; seen:
- * hat function + 1 of the last hat function that reached each node. */
-typedef struct { int *under, *queue, *node; size_t *seen; } walker;
+/* Workspace of one thread: nodes under the hat function, queue of the search, couplings of a node; seen: hat
+ * function + 1 of the last hat function that reached each node, of ranks the last of `mark` searches; met:
+ * hat function + 1 of the last under which each neighbour has ghosts that have not been reached. */
+typedef struct { int *under, *queue, *node; size_t *seen, *met, mark; } walker;
 /* All threads: the level, their workspaces, the number of parts of each hat function. */
 typedef struct { level *l; walker *walker; size_t *parts; pg_status failed; } search;
 
@@ -171,11 +172,56 @@ static size_t find_parts (level *l, size_t h, walker *w, int thread)
     return parts;
 }
 
+/* Of ranks: whom ghosts under hat function h belong to is noted in `met`; returns how many neighbours. */
+static size_t note_neighbours (const level *l, size_t h, walker *w, size_t count)
+{
+    size_t n = 0;
+    for (size_t s = 0; s < count; s++) {
+        int from = l->ranks->from[w->under[s]];
+        if (from >= 0 && w->met[from] != h + 1) w->met[from] = h + 1, n++;
+    }
+    return n;
+}
+
+/* Of ranks: joins the nodes under hat function h that couplings of owned nodes join; what others join they
+ * tell (level_agree_parts). As soon as all owned nodes hang together, one ghost of each neighbour is enough:
+ * where those of the neighbour do not, it looks at all of its own couplings. */
+static void join_parts (level *l, size_t h, walker *w, int thread)
+{
+    const unsigned char *owned = l->part->owned;
+    size_t corners = (size_t) l->corners, own = 0, before = w->mark;
+    int vertex[3], *joined = l->ranks->joined;
+    level_vertex_place (l, h, vertex);
+    size_t count = gather (l, vertex, w->under), neighbours = note_neighbours (l, h, w, count);
+    for (size_t s = 0; s < count; s++) own += owned[w->under[s]];
+    for (size_t s = 0, reached = 0; s < count && reached < own; s++) {
+        size_t seed = (size_t) w->under[s], head = 0, tail = 0;
+        if (!owned[seed] || w->seen[seed] > before) continue;
+        int entry = (int) (seed * corners) + corner_of (l, seed, vertex);
+        w->seen[seed] = ++w->mark, w->queue[tail++] = (int) seed;
+        while (head < tail && (tail < own || neighbours > 0)) {
+            size_t i = (size_t) w->queue[head++], m = level_row (l, i, thread, w->node, NULL);
+            for (size_t e = 0; e < m; e++) {
+                size_t j = (size_t) w->node[e];
+                int corner;
+                if (w->seen[j] == w->mark || (corner = corner_of (l, j, vertex)) < 0) continue;
+                w->seen[j] = w->mark;
+                pg_disjoint_join (joined, (int) (j * corners) + corner, entry);
+                if (owned[j]) w->queue[tail++] = (int) j;
+                else if (w->met[l->ranks->from[j]] == h + 1) w->met[l->ranks->from[j]] = 0, neighbours--;
+            }
+        }
+        reached += tail;
+    }
+}
+
 /* The hat functions first .. last - 1. */
 static void search_vertices (void *context, size_t first, size_t last, int thread)
 {
     search *s = context;
-    for (size_t h = first; h < last; h++) s->parts[h] = find_parts (s->l, h, &s->walker[thread], thread);
+    for (size_t h = first; h < last; h++)
+        if (s->l->part) join_parts (s->l, h, &s->walker[thread], thread);
+        else s->parts[h] = find_parts (s->l, h, &s->walker[thread], thread);
 }
 
 /* Bound of the number of nodes under one hat function. */
@@ -199,9 +245,14 @@ static pg_status split_hats (level *l)
         PG_ALLOC (s.walker[t].queue, most);
         PG_ALLOC (s.walker[t].node, l->rows.widest);
         PG_ALLOC (s.walker[t].seen, l->n);
+        PG_ALLOC (s.walker[t].met, l->part ? l->part->halo.n : 0);
     }
     PG_ALLOC (l->first, l->nvertex + 1);
     s.parts = l->first + 1;
+    if (l->part) {
+        PG_ALLOC (l->ranks->joined, l->n * (size_t) l->corners);
+        pg_disjoint_start (l->ranks->joined, l->n * (size_t) l->corners);
+    }
     pg_parallel (l->threads, l->nvertex, search_vertices, &s);
     PG_TRY (level_agree_parts (l, s.parts));
     for (size_t h = 0; h < l->nvertex; h++) l->first[h + 1] += l->first[h];
@@ -209,7 +260,7 @@ static pg_status split_hats (level *l)
 done:
     for (int t = 0; s.walker && t < l->threads; t++)
         pg_free (s.walker[t].under), pg_free (s.walker[t].queue), pg_free (s.walker[t].node),
-            pg_free (s.walker[t].seen);
+            pg_free (s.walker[t].seen), pg_free (s.walker[t].met);
     pg_free (s.walker);
     return status;
 }

@@ -52,18 +52,19 @@ done:
     return status;
 }
 
+static int by_number (const void *a, const void *b)
+{
+    int64_t x = *(const int64_t *) a, y = *(const int64_t *) b;
+    return (x > y) - (x < y);
+}
+
 /* The unknown here that has this row, of an owned node; -1: there is none. */
 static long here (const pg_subdomain *part, size_t block, double row)
 {
     int64_t number = (int64_t) row / (int64_t) block;
-    size_t low = 0, high = part->n;
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (part->number[middle] < number) low = middle + 1;
-        else high = middle;
-    }
-    if (low == part->n || part->number[low] != number || !part->owned[low]) return -1;
-    return (long) (low * block) + (long) ((int64_t) row % (int64_t) block);
+    const int64_t *found = bsearch (&number, part->number, part->n, sizeof number, by_number);
+    if (!found || !part->owned[found - part->number]) return -1;
+    return (long) (found - part->number) * (long) block + (long) ((int64_t) row % (int64_t) block);
 }
 
 static void put (pg_sparse *W, size_t *at, size_t row, double value)

@@ -6,23 +6,44 @@
 /* Measured on notched plates of 2 000 to 160 000 points and blocks of 6 000 to 75 000 on 1 to 4 ranks
  * (test/ranks/test_check.sh compares): MPI and PETSc loaded and started; what factors by MUMPS adds. */
 static const double started = 41e6, factoring = 10e6;
-/* Step of the first coarse grid over that of the lattice, with what its functions have beside the body: a
- * block of 331 056 points has 22 016. */
-static const double coarser = 2.5;
 /* Bytes of the rows of a preconditioner of PETSc over those of its finest matrix, in the plane and in space,
- * where coarse levels couple more; of MUMPS over its factor: with transposes and work space. */
-static const double of_levels[4] = { 0, 1.45, 1.45, 2.8 }, of_factor = 1.23;
+ * where coarse levels couple more; of a coarse matrix that is put together beside it, with the levels below;
+ * of MUMPS over its factor: with transposes and work space. */
+static const double of_levels[4] = { 0, 1.45, 1.45, 2.8 }, of_gathered = 2.5, of_factor = 1.23;
 
 static void add (pg_forecast *f, int item, double bytes) { f->bytes[item] += bytes, f->peak += bytes; }
+
+/* Bytes of what is below the finest grid (linalg/multilevel_ranks.c), of `total` points on so many ranks. Of
+ * shape functions the first coarse grid has 2.5 times the step of the lattice with what its functions have
+ * beside the body (a block of 331 056 points has 22 016), and functions see those beside them; of bonds 4/3
+ * of the reach, which so many couplings of a point tell, and functions see two of them to each side. */
+static double coarse_bytes (const pg_forecast *f, double couplings, double total, double ranks)
+{
+    double d = f->dim, m = f->dim + f->rotations, shapes = f->method->shape_functions;
+    double functions = total / (shapes ? pow (2.5, d) : fmax (1, 0.57 * couplings)),
+           entries = m * m * functions * pow (shapes ? 3 : 5, d);
+    int whole = m * functions <= 1000 || functions * ranks <= 0.3 * total;
+    return whole ? of_gathered * 8 * entries : of_levels[f->dim] * 12 * entries / ranks;
+}
+
+/* Of all that solves without a factor: off a lattice PETSc has the rows of K. In motion one process has no
+ * preconditioner of bonds. */
+static void add_levels (pg_forecast *g, const pg_forecast *f, double owned, double total)
+{
+    double d = f->dim, m = f->dim + f->rotations,
+           couplings = f->points > 0 ? 2 * f->pairs / f->points - 1 : 0;
+    int off = f->listed || f->irregular;
+    if (off && f->method->shape_functions) couplings = pow (3, d);  /* those of elements */
+    if (off) add (g, PG_BYTES_MATRIX, of_levels[f->dim] * 12 * m * m * couplings * owned);
+    else add (g, PG_BYTES_MATRIX, coarse_bytes (f, couplings, total, fmax (1, total / owned)));
+    if (!off && f->dynamic && !f->method->shape_functions)
+        add (g, PG_BYTES_VECTORS, g->points * (32 * m + 16 * pow (2, d) + 16));
+}
 
 pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part, double total, int collects)
 {
     pg_forecast g = *f;
-    double d = f->dim, m = f->dim + f->rotations, more = (part->owned + part->ghosts) / f->points;
-    /* couplings of a point in the rows that PETSc gets: of shape functions those of elements, three along
-     * each axis, on a lattice of the first coarse grid alone (multilevel_ranks.c) */
-    double coupled = f->method->shape_functions ? pow (f->irregular ? 3 : 3 / coarser, d)
-                     : f->points > 0            ? 2 * f->pairs / f->points - 1 : 0;
+    double d = f->dim, more = (part->owned + part->ghosts) / f->points;
     g.points *= more, g.cells *= more, g.evaluation *= more, g.facets *= more, g.pairs *= more;
     g.summed *= more, g.patched *= more, g.slaves *= more, g.columns *= more;
     for (int s = 0; s < PG_BOND_SETS; s++) g.bonds[s] *= more;
@@ -32,8 +53,7 @@ pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part,
     pg_forecast_sum (&g);
     add (&g, PG_BYTES_PROGRAM, started);
     add (&g, PG_BYTES_POINTS, f->mesh);
-    if (!f->explicit_)
-        add (&g, PG_BYTES_MATRIX, of_levels[f->dim] * 12 * m * m * coupled * part->owned);
+    if (!f->explicit_) add_levels (&g, f, part->owned, total);
     /* one rank puts the fields of all together at the end: places, volumes, numbers, and what is shown of
      * each field, of which half have a component along each axis */
     if (collects) add (&g, PG_BYTES_RESULTS, total * (16 * d + 36 + 4 * (d + 1) * (f->fields + 1)));

@@ -205,7 +205,7 @@ pg_status pg_remark_parts (pg_problem *p)
     PG_ALLOC (label, p->cloud.n);
     PG_ALLOC (mine, p->cloud.n);
     join_points (p, parent);
-    PG_TRY (pg_subdomain_label (p->cloud.subdomain, p->cloud.n, parent, label));
+    PG_TRY (pg_subdomain_label (p->cloud.subdomain, p->cloud.n, 1, parent, label));
     PG_TRY (pg_ranks_collect (list_parts (p, parent, label, mine) * sizeof *mine, mine, &bytes, &all));
     loose l = find_loose (all, merge_parts (all, bytes / sizeof *mine));
     remark_loose (p, &l);

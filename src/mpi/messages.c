@@ -126,6 +126,27 @@ done:
     return status;
 }
 
+static pg_status share (void *context, size_t n, const double *mine, size_t *n_all, double **all)
+{
+    pg_status status = PG_OK;
+    messages *m = context;
+    int *count = NULL, *first = NULL, own = (int) n;
+    size_t total = 0, size = (size_t) m->ranks.size;
+    *all = NULL;
+    PG_TRY (check_count (n));
+    PG_ALLOC (count, size);
+    PG_ALLOC (first, size);
+    PG_TRY (said (MPI_Allgather (&own, 1, MPI_INT, count, 1, MPI_INT, MPI_COMM_WORLD)));
+    for (size_t r = 0; r < size; r++) first[r] = (int) total, total += (size_t) count[r];
+    PG_TRY (check_count (total));
+    PG_ALLOC (*all, total);
+    PG_TRY (said (MPI_Allgatherv (mine, own, MPI_DOUBLE, *all, count, first, MPI_DOUBLE, MPI_COMM_WORLD)));
+    *n_all = total;
+done:
+    pg_free (count), pg_free (first);
+    return status;
+}
+
 void mpi_join (void)
 {
     messages *m = pg_calloc (1, sizeof *m);
@@ -135,7 +156,7 @@ void mpi_join (void)
     MPI_Comm_rank (MPI_COMM_WORLD, &m->ranks.rank);
     MPI_Comm_size (MPI_COMM_WORLD, &m->ranks.size);
     m->ranks.context = m, m->ranks.sum = sum, m->ranks.most = most, m->ranks.exchange = exchange,
-    m->ranks.collect = collect;
+    m->ranks.collect = collect, m->ranks.share = share;
     pg_ranks_join (&m->ranks);
 }
 

@@ -24,15 +24,17 @@ static int by_key (const void *a, const void *b)
     return (x->owner > y->owner) - (x->owner < y->owner);
 }
 
-static vertex *find (const vertex *list, size_t n, long long key)
+static int same_key (const void *a, const void *b)
 {
-    size_t low = 0, high = n;
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (list[middle].key < key) low = middle + 1;
-        else high = middle;
-    }
-    return low < n && list[low].key == key ? (vertex *) &list[low] : NULL;
+    const vertex *x = a, *y = b;
+    return (x->key > y->key) - (x->key < y->key);
+}
+
+/* One of several owners' entries may be found: in a list that has each vertex once, the vertex. */
+static const vertex *find (const vertex *list, size_t n, long long key)
+{
+    vertex one = { .key = key };
+    return n ? bsearch (&one, list, n, sizeof *list, same_key) : NULL;
 }
 
 static pg_status lost (int code)
@@ -134,6 +136,7 @@ static pg_status number_vertices (const grid *g, int first_grid, vertex *v, size
     if (nall) qsort (all, nall, sizeof *all, by_key);
     for (size_t k = 0; k < n; k++) {
         const vertex *a = find (all, nall, v[k].key);
+        while (a && a > all && a[-1].key == a->key) a--;
         if (a) v[k].owner = a->owner;                  /* the lowest of its owners comes first */
         mine += v[k].owner == rank;
     }

@@ -149,6 +149,74 @@ done:
     return status;
 }
 
+/* ---- rows that are sums over ranks --------------------------------------------------------------------- */
+/* Couplings of all nodes held, entry by entry: row, column and value; first 0 on the diagonal of each row
+ * owned here, which PETSc is to have room for. value NULL: how many there are. */
+static size_t list_entries (const multigrid *m, reading *r, PetscInt *row, PetscInt *column, double *value)
+{
+    const pg_shared_rows *s = r->from;
+    size_t at = 0, b = m->block;
+    for (size_t k = 0; k < m->n * b; k++, at++) {
+        if (!value) continue;
+        row[at] = column[at] = (PetscInt) (r->number[m->node[k / b]] * (double) b) + (PetscInt) (k % b);
+        value[at] = 0;
+    }
+    for (size_t i = 0; i < m->held; i++) {
+        size_t count = s->rows.row (s->rows.context, i, 0, r->node, value ? r->value : NULL);
+        for (size_t q = 0; q < count * b * b; q++, at++) {
+            if (!value) continue;
+            size_t c = q / (b * b), a = q / b % b, e = q % b;
+            row[at] = (PetscInt) r->number[i] * (PetscInt) b + (PetscInt) a;
+            column[at] = (PetscInt) r->number[r->node[c]] * (PetscInt) b + (PetscInt) e;
+            value[at] = r->value[q];
+        }
+    }
+    return at;
+}
+
+/* Unknowns that no node has get the mean of the others' diagonal: nothing is coupled with them. */
+static pg_status fill_diagonal (multigrid *m)
+{
+    pg_status status = PG_OK;
+    Vec d = NULL;
+    PetscScalar *at;
+    double sum[2] = { 0 };
+    PG_TRY (said (MatCreateVecs (m->A, &d, NULL), "the preconditioner"));
+    PG_TRY (said (MatGetDiagonal (m->A, d), "the preconditioner"));
+    PG_TRY (said (VecGetArray (d, &at), "the preconditioner"));
+    for (size_t k = 0; k < m->n * m->block; k++) if (at[k] > 0) sum[0] += at[k], sum[1]++;
+    PG_TRY (pg_ranks_sum (2, sum));
+    for (size_t k = 0; k < m->n * m->block; k++) at[k] = at[k] > 0 ? 0 : sum[1] > 0 ? sum[0] / sum[1] : 1;
+    PG_TRY (said (VecRestoreArray (d, &at), "the preconditioner"));
+    PG_TRY (said (MatDiagonalSet (m->A, d, ADD_VALUES), "the preconditioner"));
+done:
+    if (d) VecDestroy (&d);
+    return status;
+}
+
+static pg_status add_up (multigrid *m, reading *r)
+{
+    pg_status status = PG_OK;
+    PetscInt *row = NULL, *column = NULL, rows = (PetscInt) (m->n * m->block);
+    double *value = NULL;
+    size_t n = list_entries (m, r, NULL, NULL, NULL);
+    PG_ALLOC (row, n);
+    PG_ALLOC (column, n);
+    PG_ALLOC (value, n);
+    n = list_entries (m, r, row, column, value);
+    PG_TRY (said (MatCreate (PETSC_COMM_WORLD, &m->A), "the preconditioner"));
+    PG_TRY (said (MatSetSizes (m->A, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE), "the preconditioner"));
+    PG_TRY (said (MatSetType (m->A, MATAIJ), "the preconditioner"));
+    PG_TRY (said (MatSetBlockSize (m->A, (PetscInt) m->block), "the preconditioner"));
+    PG_TRY (said (MatSetPreallocationCOO (m->A, (PetscCount) n, row, column), "room for the preconditioner"));
+    PG_TRY (said (MatSetValuesCOO (m->A, value, ADD_VALUES), "rows of the preconditioner"));
+    PG_TRY (fill_diagonal (m));
+    PG_TRY (said (MatSetOption (m->A, MAT_SYMMETRIC, PETSC_TRUE), "the preconditioner"));
+done:
+    pg_free (row), pg_free (column), pg_free (value);
+    return status;
+}
+
 /* Rigid motions of the points as columns that are orthonormal over all ranks. With rotations of their own,
  * points move along each unknown alone: PETSc's usual choice for a block. */
 static pg_status tell_motions (multigrid *m, const pg_shared_rows *s)
@@ -188,14 +256,7 @@ done:
 }
 
 /* ---- coarse grids on a lattice ------------------------------------------------------------------------- */
-/* Then coarse functions are known; no unknown is prescribed there. */
-static int on_a_lattice (const pg_shared_rows *s)
-{
-    int yes = 1;
-    for (int k = 0; k < s->dim; k++) yes = yes && s->rows.lattice[k] > 0;
-    return yes;
-}
-
+/* No unknown is prescribed there. */
 enum { ENOUGH = 2000, MOST_GRIDS = 12 };
 
 /* Smoothing by Chebyshev polynomials of degree 2 before and after, as one process does. */
@@ -256,8 +317,8 @@ static pg_status multigrid_create (void **self, const pg_shared_rows *setting)
     PG_ALLOC (r.value, setting->rows.widest * m->block * m->block);
     PG_ALLOC (r.line, setting->rows.widest * m->block);
     PG_ALLOC (r.column, setting->rows.widest * m->block);
-    PG_TRY (make_matrix (m, &r));
-    if (on_a_lattice (setting)) {
+    PG_TRY (setting->sums ? add_up (m, &r) : make_matrix (m, &r));
+    if (setting->sums) {
         PG_TRY (make_grids (m, setting, number));
         goto done;
     }

@@ -14,30 +14,34 @@ static void level_out (size_t n, int *parent, double *label)
     for (size_t i = 0; i < n; i++) label[i] = label[pg_disjoint_root (parent, (int) i)];
 }
 
-/* How many of the owned points have another label than before. */
-static double changed (const pg_subdomain *s, const double *label, double *before)
+/* How many members of the owned points have another label than before. */
+static double changed (const pg_subdomain *s, size_t components, const double *label, double *before)
 {
     double n = 0;
-    for (size_t i = 0; i < s->n; i++) {
-        n += s->owned[i] && label[i] != before[i];
+    for (size_t i = 0; i < s->n * components; i++) {
+        n += s->owned[i / components] && label[i] != before[i];
         before[i] = label[i];
     }
     return n;
 }
 
-pg_status pg_subdomain_label (const pg_subdomain *s, size_t n, int *parent, double *label)
+pg_status pg_subdomain_label (const pg_subdomain *s, size_t n, size_t components, int *parent, double *label)
 {
     pg_status status = PG_OK;
     double *before = NULL, more = 1;
-    for (size_t i = 0; i < n; i++) label[i] = s ? (double) s->number[i] : (double) i;
-    level_out (n, parent, label);
+    size_t all = n * components;
+    for (size_t i = 0; i < n; i++)
+        for (size_t k = 0; k < components; k++)
+            label[i * components + k] = (double) components * (s ? (double) s->number[i] : (double) i)
+                                        + (double) k;
+    level_out (all, parent, label);
     if (!s) return PG_OK;
-    PG_ALLOC (before, n);
-    memcpy (before, label, n * sizeof *label);
+    PG_ALLOC (before, all);
+    memcpy (before, label, all * sizeof *label);
     while (more > 0) {
-        PG_TRY (pg_subdomain_exchange (s, 1, label));
-        level_out (n, parent, label);
-        more = changed (s, label, before);
+        PG_TRY (pg_subdomain_exchange (s, components, label));
+        level_out (all, parent, label);
+        more = changed (s, components, label, before);
         PG_TRY (pg_ranks_most (1, &more));
     }
 done:
@@ -54,7 +58,7 @@ pg_status pg_subdomain_count (const pg_subdomain *s, size_t n, int *parent, doub
     PG_ALLOC (label, n);
     PG_ALLOC (size, n);
     for (size_t i = 0; i < n; i++) size[pg_disjoint_root (parent, (int) i)]++;
-    PG_TRY (pg_subdomain_label (s, n, parent, label));
+    PG_TRY (pg_subdomain_label (s, n, 1, parent, label));
     for (size_t i = 0; i < n; i++) {
         if (!pg_owns (s, i) || label[i] != (s ? (double) s->number[i] : (double) i)) continue;
         out[size[pg_disjoint_root (parent, (int) i)] > 1]++;

@@ -65,10 +65,19 @@ done:
     return status;
 }
 
+static pg_status copy_numbers (void *context, size_t n, const double *mine, size_t *n_all, double **all)
+{
+    void *copy = NULL;
+    size_t bytes = 0;
+    pg_status status = copy_own (context, n * sizeof *mine, mine, &bytes, &copy);
+    *all = copy, *n_all = n;
+    return status;
+}
+
 void pg_ranks_stand_in (pg_ranks *out, int size)
 {
     *out = (pg_ranks) { .size = size, .sum = leave, .most = leave, .exchange = leave_ghosts,
-                        .collect = copy_own, .whole = 1 };
+                        .collect = copy_own, .share = copy_numbers, .whole = 1 };
 }
 
 pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, void **all)
@@ -79,22 +88,12 @@ pg_status pg_ranks_collect (size_t bytes, const void *mine, size_t *bytes_all, v
     return took (t0, sharing->collect (sharing->context, bytes, mine, bytes_all, all));
 }
 
-/* The first rank collects them and spreads them by a sum to which the others add nothing. */
 pg_status pg_ranks_share (size_t n, const double *mine, size_t *n_all, double **all)
 {
-    pg_status status = PG_OK;
-    void *collected = NULL;
-    size_t bytes = 0;
-    PG_TRY (pg_ranks_collect (n * sizeof *mine, mine, &bytes, &collected));
-    double count = (double) (bytes / sizeof *mine);
-    PG_TRY (pg_ranks_sum (1, &count));
-    *n_all = (size_t) count;
-    PG_ALLOC (*all, *n_all);
-    if (bytes) memcpy (*all, collected, bytes);
-    PG_TRY (pg_ranks_sum (*n_all, *all));
-done:
-    pg_free (collected);
-    return status;
+    *n_all = 0, *all = NULL;
+    if (!sharing) return copy_numbers (NULL, n, mine, n_all, all);
+    double t0 = pg_seconds ();
+    return took (t0, sharing->share (sharing->context, n, mine, n_all, all));
 }
 
 /* The message travels as bytes: those of the lowest rank that failed, by a sum to which the others add

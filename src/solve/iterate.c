@@ -121,7 +121,8 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
     combined c = { s, dyn, s->force->basis ? s->force->basis (s->self) : NULL, NULL, 0 };
     pg_operator op = { s->nred, &c, apply_combined, diagonal_combined };
     int carries = dyn && !s->options->plain;
-    pg_preconditioner P = { s, by == BY_FACTOR ? by_factor_of_before : s->amg ? by_ranks : by_elements,
+    pg_preconditioner P = { s, by == BY_FACTOR ? by_factor_of_before : system_by_ranks (s) ? by_ranks
+                                                                                          : by_elements,
                             s->problem->threads };
     double t0 = pg_seconds ();
     system_remember_diagonal (s, NULL);

@@ -184,7 +184,7 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m)
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;
     s->made[0] = k, s->made[1] = m;
-    if (!s->amg) tell (s);
+    if (!system_by_ranks (s)) tell (s);
     PG_TRY (system_remember_alive (s));
 done:
     s->report->seconds[PG_SECONDS_FACTOR] += pg_seconds () - t0;
@@ -221,8 +221,9 @@ static pg_status iterate (pg_system *s, const dynamics *dyn, double tolerance, s
 {
     size_t most = s->elements && pg_element_preconditioner_on_grid (s->elements) ? MOST_ON_GRID
                                                                                  : MOST_BY_ELEMENTS;
-    pg_status status = s->elements || s->amg ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, most, used)
-                                             : iterate_all (s, tolerance, used);
+    pg_status status = s->elements || system_by_ranks (s)
+                           ? system_iterate (s, dyn, BY_ELEMENTS, tolerance, most, used)
+                           : iterate_all (s, tolerance, used);
     double gain = -log (fmax (s->fell, tolerance));    /* where it stopped early, less than was asked for */
     if (s->pace == 0) s->pace = gain / (double) (*used + 1);
     else s->extra_cost += fmax (0, (double) (*used + 1) - gain / s->pace);

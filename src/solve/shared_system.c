@@ -6,6 +6,7 @@
 #include "solve.h"
 #include "perigal/ranks.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 static const pg_subdomain *part_of (const pg_system *s) { return s->problem->cloud.subdomain; }
@@ -66,7 +67,66 @@ void system_multiply_shared (const pg_system *s, const pg_operator *op, const do
 }
 
 /* ---- the preconditioner -------------------------------------------------------------------------------- */
-/* Of the rows of points that are owned here, by what perigal-mpi brings along. */
+/* The matrix k K + m M of a preconditioner, s->made: as an operator, and its rows. */
+static void apply_made (void *context, const double *x, double *y)
+{
+    const pg_system *s = context;
+    const pg_operator *K = s->force->operator_ (s->self);
+    K->apply (K->context, x, y);
+    for (size_t i = 0; i < s->ndof; i++) y[i] = s->made[0] * y[i] + s->made[1] * s->mass[i] * x[i];
+}
+
+static void diagonal_made (void *context, double *d)
+{
+    const pg_system *s = context;
+    const pg_operator *K = s->force->operator_ (s->self);
+    K->diagonal (K->context, d);
+    for (size_t i = 0; i < s->ndof; i++) d[i] = s->made[0] * d[i] + s->made[1] * s->mass[i];
+}
+
+static size_t row_made (void *context, size_t i, int thread, int *node, double *value)
+{
+    const pg_system *s = context;
+    size_t b = (size_t) s->components, m = s->stiffness.row (s->stiffness.context, i, thread, node, value);
+    for (size_t e = 0; value && e < m; e++) {
+        for (size_t q = 0; q < b * b; q++) value[e * b * b + q] *= s->made[0];
+        for (size_t k = 0; k < b && (size_t) node[e] == i; k++)
+            value[(e * b + k) * b + k] += s->made[1] * s->mass[i * b + k];
+    }
+    return m;
+}
+
+/* Do all ranks have a lattice? (Rows that many points have in common only some of them may know.) */
+static int has_lattice (const pg_system *s)
+{
+    const pg_sums *sums = s->problem->sums;
+    const pg_box *own = &part_of (s)->own;
+    return system_most (s, !(sums && sums->stencil.n && own->high[0] > own->low[0])) == 0;
+}
+
+/* On a lattice ranks smooth their own points. */
+static pg_status make_levels (pg_system *s, const pg_couplings *rows)
+{
+    pg_status status = PG_OK;
+    s->inertia = (pg_operator) { s->ndof, s, apply_made, diagonal_made };
+    s->stiffness = *rows;
+    int moves = s->made[1] != 0 || s->made[0] != 1;
+    pg_multilevel_setting setting = { .dim = s->problem->dim, .block = s->components, .aligned = 1,
+                                      .threads = s->problem->threads, .n = s->problem->cloud.n,
+                                      .x = s->problem->cloud.x, .fixed = s->fixed, .rows = *rows,
+                                      .A = moves ? &s->inertia : s->force->operator_ (s->self),
+                                      .subdomain = part_of (s) };
+    if (moves) setting.rows.context = s, setting.rows.row = row_made, setting.rows.alike = NULL;
+    for (int k = 0; k < s->problem->dim; k++) setting.rows.lattice[k] = s->problem->sums->sites.step[k];
+    PG_TRY (pg_multilevel_create (&s->multilevel, &setting));
+    size_t size = sizeof s->report->preconditioner,
+           at = (size_t) snprintf (s->report->preconditioner, size, "multilevel, ");
+    pg_multilevel_describe_shared (s->multilevel, s->report->preconditioner + at, size - at);
+done:
+    return status;
+}
+
+/* Of the rows of points that are owned here; off a lattice by what perigal-mpi brings along. */
 pg_status system_make_shared (pg_system *s, double k, double m)
 {
     pg_status status = PG_OK;
@@ -74,13 +134,26 @@ pg_status system_make_shared (pg_system *s, double k, double m)
     pg_shared_rows setting = { .dim = s->problem->dim, .block = s->components, .x = s->problem->cloud.x,
                                .fixed = s->fixed, .subdomain = part_of (s),
                                .k = k, .m = m, .mass = s->mass };
+    s->made[0] = k, s->made[1] = m;
     PG_TRY (s->force->couplings (s->self, &setting.rows));
-    /* too wide for coarse grids of twice the step */
-    memset (setting.rows.lattice, 0, sizeof setting.rows.lattice);
+    if (has_lattice (s)) {
+        PG_TRY (make_levels (s, &setting.rows));
+        goto done;
+    }
     PG_TRY (type->create (&s->amg, &setting));
     type->describe (s->amg, s->report->preconditioner, sizeof s->report->preconditioner);
 done:
     return status;
+}
+
+/* 1: the preconditioner at hand is one of the above. */
+int system_by_ranks (const pg_system *s) { return s->amg || (s->multilevel && system_is_shared (s)); }
+
+static pg_status solve_together (pg_system *s, const double *r, double *z)
+{
+    if (s->amg) return pg_shared_preconditioner_now ()->solve (s->amg, r, z);
+    pg_preconditioner P = pg_multilevel_preconditioner (s->multilevel);
+    return P.solve (P.context, r, z);
 }
 
 /* Unknowns of points without a bond that lives: no stiffness holds them, and they stay where they are, which
@@ -108,15 +181,14 @@ void system_clear_rest (const pg_system *s, double *z)
 pg_status system_apply_shared (pg_system *s, const double *r, double *z)
 {
     pg_status status = PG_OK;
-    const pg_shared_preconditioner *type = pg_shared_preconditioner_now ();
     if (!s->own_row) {
-        PG_TRY (type->solve (s->amg, r, z));
+        PG_TRY (solve_together (s, r, z));
         system_clear_rest (s, z);
         goto done;
     }
     memset (s->full, 0, s->ndof * sizeof *s->full);
     for (size_t j = 0; j < s->nred; j++) s->full[s->own_row[j]] = r[j];
-    PG_TRY (type->solve (s->amg, s->full, s->scratch));
+    PG_TRY (solve_together (s, s->full, s->scratch));
     system_clear_rest (s, s->scratch);
     for (size_t j = 0; j < s->nred; j++) z[j] = s->scratch[s->own_row[j]];
 done:

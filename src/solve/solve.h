@@ -106,6 +106,7 @@ typedef struct {
     unsigned char *bare;  /* the same: unknowns that nothing holds any more (ndof); NULL: not asked for */
     double   *whole;  /* ranks that share the body: x of K x with its ghosts (ndof); else NULL */
     double    made[2];                                 /* k and m of the preconditioner */
+    pg_operator  inertia; pg_couplings stiffness;      /* of ranks in motion: its matrix, rows of K */
     int      *own_row;  /* unknown that each reduced one is (nred); with elements only */
     unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
     int       precondition;  /* with `fixed`: the constraints allow a preconditioner of several levels */
@@ -134,6 +135,7 @@ double    system_norm      (const pg_system *s, const double *force, size_t n);
 double    system_norm_owned (const pg_system *s, const double *weight, const double *d);
 void      system_multiply_shared (const pg_system *s, const pg_operator *op, const double *x, double *y);
 pg_status system_make_shared  (pg_system *s, double k, double m);      /* of k K + m M */
+int       system_by_ranks     (const pg_system *s);                    /* it is at hand */
 pg_status system_find_bare    (pg_system *s, const dynamics *dyn);     /* after breaking */
 void      system_clear_rest   (const pg_system *s, double *z);         /* ghosts, and what nothing holds */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z);

@@ -19,5 +19,41 @@ equal() {
 }
 equal "bond" rest.yaml "1 2 3 4"
 [ "$(wc -l < "$work/one/events.csv")" -gt 20 ]; verdict "something breaks" $?
+
+# coarse NAME SCENE NUMBERS PATTERN ARGUMENTS...: on any of these numbers of ranks the coarse grids have the same functions, and the same iterations do (one
+# more or less by rounding; `most` where the grid of one process differs); the preconditioner is of the kind that the pattern says
+coarse() {
+    local name=$1 scene=$2 numbers=$3 pattern=$4 r; shift 4
+    alone "$scene" -o "$work/one" --force --set solver.linear=pcg "$@"; verdict "$name: one process" $?
+    rm -f "$work/kinds"
+    for r in $numbers; do
+        rm -rf "$work/some"
+        ranks "$r" "$scene" -o "$work/some" "$@" && python3 - "$work/one" "$work/some" "$pattern" "$work/kinds" > "$work/why" 2>&1 << 'PYTHON'
+import json, os, re, sys
+one, some = (json.load(open(d + '/report.json')) for d in sys.argv[1:3])
+kind = some['preconditioner']
+print(kind, some['cg_iterations'], one['cg_iterations'])
+assert re.search(sys.argv[3], kind), kind
+assert some['cg_iterations'] <= 1.15 * one['cg_iterations'] + 1
+kept = sys.argv[4]
+first = open(kept).read() if os.path.exists(kept) else kind
+open(kept, 'w').write(first)
+levels = lambda text: re.findall('[0-9]+', text)[:3]
+assert levels(kind) == levels(first), (kind, first)
+PYTHON
+        verdict "$name: coarse functions and iterations of $r ranks" $?
+    done
+}
+# cracks that end in, cross and follow the borders of the parts (x = 0, y = 0), a comb whose teeth hang together in one part only, an island, supports
+comb='cracks=[{from: [-26 mm, -5.1 mm], to: [5 mm, -5.1 mm]}, {from: [-26 mm, -1.1 mm], to: [7 mm, -1.1 mm]}, {from: [-26 mm, 2.9 mm], to: [9 mm, 2.9 mm]},
+       {from: [0.1 mm, 8 mm], to: [0.1 mm, 18 mm]}, {from: [-9 mm, 9 mm], to: [3 mm, 17 mm]}, {from: [9 mm, -17 mm], to: [17 mm, -17 mm]},
+       {from: [17 mm, -17 mm], to: [17 mm, -9 mm]}, {from: [17 mm, -9 mm], to: [9 mm, -9 mm]}, {from: [9 mm, -9 mm], to: [9 mm, -17 mm]}]'
+one=(--set solver.steps=1 --set failure.critical_stretch=10)
+coarse "a cracked plate" rest.yaml "1 2 3 4" 'multilevel, .* on every rank' "${one[@]}" --set "$comb" --set spacing='1 mm'
+coarse "a cracked plate, lps" rest.yaml "1 4" 'multilevel, .* on every rank' "${one[@]}" --set "$comb" --set spacing='1 mm' --set method.force=lps
+coarse "grids of PETSc" rest.yaml "4" 'multilevel, .* multigrid .PETSc.' "${one[@]}" --set "$comb" --set spacing='0.5 mm' --set method.horizon='2.015 spacing'
+equal "grids of PETSc" rest.yaml "4" --set solver.steps=2 --set "$comb" --set spacing='0.5 mm' --set method.horizon='2.015 spacing'
+equal "points off the lattice" rest.yaml "3" --set solver.steps=2 --set perturb.amount=0.1
+grep -q '"preconditioner": "GAMG (PETSc)' "$work/some/report.json"; verdict "have the preconditioner of PETSc" $?
 equal "by the diagonal" rest.yaml 3 --set solver.preconditioner=jacobi --set solver.steps=2
 finish
