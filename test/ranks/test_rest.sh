@@ -52,7 +52,7 @@ one=(--set solver.steps=1 --set failure.critical_stretch=10)
 coarse "a cracked plate" rest.yaml "1 2 3 4" 'multilevel, .* on every rank' "${one[@]}" --set "$comb" --set spacing='1 mm'
 coarse "a cracked plate, lps" rest.yaml "1 4" 'multilevel, .* on every rank' "${one[@]}" --set "$comb" --set spacing='1 mm' --set method.force=lps
 coarse "coarse levels of PETSc" rest.yaml "4" 'multilevel, .* GAMG .PETSc.' "${one[@]}" --set "$comb" --set spacing='0.5 mm' --set method.horizon='2.015 spacing'
-equal "coarse levels of PETSc" rest.yaml "4" --set solver.steps=2 --set "$comb" --set spacing='0.5 mm' --set method.horizon='2.015 spacing'
+equal "coarse levels of PETSc" rest.yaml "4" "${one[@]}" --set "$comb" --set spacing='0.5 mm' --set method.horizon='2.015 spacing'
 equal "points off the lattice" rest.yaml "3" --set solver.steps=2 --set perturb.amount=0.1
 grep -q '"preconditioner": "GAMG (PETSc)' "$work/some/report.json"; verdict "have the preconditioner of PETSc" $?
 equal "by the diagonal" rest.yaml 3 --set solver.preconditioner=jacobi --set solver.steps=2
