@@ -242,6 +242,9 @@ typedef struct {
     double  step[3];
     /* 1: all points lie on the vertices or in the middle of the cells of the lattice, none was moved. */
     int     regular;
+    /* 1: points of a lattice are (or were, before they were moved) in the middle of its cells, else on
+     * vertices. */
+    int     centred;
     /* Thickness in 2D (m), cross section in 1D (m^2), 1 in 3D. */
     double  thickness;
     /* Bounding box of the points, m; of the points of all ranks. */
@@ -265,6 +268,9 @@ pg_status pg_cloud_build_part (pg_cloud *out, pg_lattice *lattice, const pg_body
  * pg_cloud_keep drops those that are not held. PG_E_LIMIT: more ranks than points. */
 pg_status pg_cloud_divide (pg_cloud *cloud, double width, int **owner);
 void      pg_cloud_keep   (pg_cloud *cloud);
+/* 1 on one rank only: that which owns the point nearest to the place (m), of several the lowest. *here: 1, 0;
+ * not below 0: it was found before, and stays. All ranks call. */
+pg_status pg_cloud_has_nearest (const pg_cloud *cloud, const double *place, signed char *here);
 /* What a rank holds of a body that is divided. */
 typedef struct {
     double owned, ghosts;                              /* points */

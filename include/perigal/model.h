@@ -356,6 +356,9 @@ pg_status pg_problem_bare  (pg_problem **out, const pg_problem *problem);
 void      pg_problem_bare_free (pg_problem **bare);
 /* The bond set and the point of that set that own a bond (an index into state->alive). */
 void      pg_problem_locate (const pg_problem *problem, size_t bond, int *set, size_t *point);
+/* Of each point of a set (PG_NODES ...) the number that it has however the points of the body are divided
+ * among processes (pg_free). PG_E_LIMIT: there is none. */
+pg_status pg_problem_numbers (const pg_problem *problem, int set, int64_t **number);
 int       pg_problem_rotations (const pg_problem *problem);            /* of every point */
 int       pg_problem_unknowns  (const pg_problem *problem);            /* of every point: dim + rotations */
 /* The box of the body, m (dim each); of points of a file or mesh: of the points. */

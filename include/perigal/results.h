@@ -86,10 +86,11 @@ pg_status pg_result_keep   (pg_result *result, pg_state *state, const pg_keeper 
 /* 1 if the time output.checkpoint has passed since the last checkpoint. */
 int       pg_result_due    (const pg_result *result);
 /* Where a resumed run begins: steps done, rounds of breaking done in the next one, seconds
- * that the run took so far, threads that it had. */
-typedef struct { long step, rounds; double seconds; int threads; } pg_resumed;
+ * that the run took so far, threads and ranks (1: one process alone) that it had. */
+typedef struct { long step, rounds; double seconds; int threads, ranks; } pg_resumed;
 /* Brings solver and state to where the checkpoint of the folder was written and cuts off what
- * the files have got since, so that the run goes on with the same bits. PG_E_USAGE: no
+ * the files have got since, so that the run goes on with the same bits; of another number of ranks (or none)
+ * to where its last step was made, so that it goes on but for rounding. PG_E_USAGE: no
  * checkpoint, or one of another scene, version or points; PG_E_FILE: a damaged one. */
 pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene,
                             const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from);

@@ -199,6 +199,7 @@ typedef struct {
 /* ---- solver -------------------------------------------------------------------------------------------- */
 typedef struct pg_solver pg_solver;
 struct pg_progress;
+struct pg_moved;                                       /* below: pg_solver_move */
 struct pg_dynamics;                                    /* what a matrix holds besides K: src/solve/solve.h */
 
 /* An entry of the catalogue: src/solve/<name>.c. Entries that are NULL: nothing to do, but for `step`. */
@@ -218,6 +219,10 @@ typedef struct {
     void      (*free)    (pg_solver *s);
     /* What it carries from step to step, written to or read from a checkpoint. */
     pg_status (*keep)    (pg_solver *s, const pg_keeper *keeper);
+    /* The same of a run whose points were divided among processes otherwise (pg_solver_move), the state being
+     * there already. within 1: the run ended in the middle of a step, whose start the state is. NULL: it
+     * cannot. */
+    pg_status (*move)    (pg_solver *s, pg_state *state, const struct pg_moved *moved, int within);
     double    (*progress) (const pg_solver *s, const pg_state *state); /* NULL: steps done of options.steps */
     /* Other ends that a run may come to: progress_offer. */
     void      (*ends)    (const pg_solver *s, const pg_state *state, struct pg_progress *out);
@@ -260,6 +265,30 @@ void      pg_solver_watch  (pg_solver *solver, pg_watch watch, void *context);
  * read back goes on bit by bit as the written one would have (same machine, threads and libraries).
  * PG_E_FILE: what is read back cannot be of this problem. */
 pg_status pg_solver_keep   (pg_solver *solver, pg_state *state, const pg_keeper *keeper);
+/* What processes have kept among whom the points were divided otherwise than they are now, by the names of
+ * pg_solver_keep. */
+typedef struct pg_moved {
+    void            *context;                          /* passed to the functions */
+    const pg_keeper *alike;                            /* reads what all of them knew alike */
+    /* Sums of what each had of its own points: on rank 0, and where this process has all points; on other
+     * ranks 0. */
+    pg_status (*shares)   (void *context, const char *name, size_t n, double *value);
+    /* Of each point that this process holds, what its owner had: `components` numbers a point. */
+    pg_status (*points)   (void *context, const char *name, size_t components, double *value);
+    /* The same of single unknowns. They were kept as a list of whole numbers, number of the point times
+     * `components` plus component, and as rows of as many numbers, of which `row` is asked for; all others of
+     * value stay as they are. */
+    pg_status (*unknowns) (void *context, const char *list, const char *name, size_t row, size_t components,
+                           double *value);
+    /* Bonds that were dead when the last step was made get the alive bit 0; the others keep theirs. */
+    pg_status (*bonds)    (void *context, unsigned char *alive);
+} pg_moved;
+/* Brings a solver that has not begun, and the state that it would start from, to where such a run was when
+ * its last step was made: on from there, results differ from those of an undisturbed run by rounding alone.
+ * All ranks call. PG_E_USAGE: this solver cannot, or the run was in the middle of what cannot be moved. */
+pg_status pg_solver_move   (pg_solver *solver, pg_state *state, const pg_moved *moved);
+/* The state when the last step was made: `state`, or in the middle of a step the one kept for its start. */
+const pg_state *pg_solver_accepted (const pg_solver *solver, const pg_state *state);
 /* Broken bonds in such a walk; what no bond of the problem can be is PG_E_FILE. */
 pg_status pg_broken_keep (const pg_problem *problem, const char *name, size_t n, pg_broken *broken,
                           const pg_keeper *keeper);

@@ -245,6 +245,12 @@ static pg_status open_result (const command *c, const char *folder, const pg_sce
                  "perigal: the checkpoint was written with %d threads, now there are %d: the last digits may "
                  "differ\n",
                  from.threads, problem->threads);
+    if (from.ranks != pg_rank_count () && pg_rank () == 0)
+        fprintf (stderr,
+                 "perigal: the checkpoint was written by %d process%s, now there %s %d: the last digits may "
+                 "differ\n",
+                 from.ranks, from.ranks > 1 ? "es" : "", pg_rank_count () > 1 ? "are" : "is",
+                 pg_rank_count ());
     if (!c->quiet)
         printf ("  continuing after step %ld%s, %.0f s after the start\n", from.step,
                 from.rounds ? " in the middle of the next one" : "", from.seconds);

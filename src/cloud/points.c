@@ -290,6 +290,7 @@ static pg_status from_lattice (pg_cloud *c, pg_lattice *l, const pg_body *body, 
         PG_TRY (cloud_subdomain (&c->subdomain, &s, l, boxes, width, pg_rank (), pg_rank_count ()));
         PG_TRY (count_all (c->subdomain));
     }
+    c->centred = g.centred;
     c->regular = !(pg_scene_number (scene, "perturb.amount") > 0);
 done:
     pg_free (s.around), pg_free (boxes);

@@ -5,6 +5,7 @@
  * are missing, are points too, but beyond all that counts, and nobody brings them up to date. As boxes are
  * known on all ranks, every rank finds by itself what each of the others needs from it: nothing is asked. */
 #include "subdomain.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -238,4 +239,28 @@ pg_status cloud_count_owned (double total, int empty, int size)
     if (!empty) return PG_OK;
     return pg_error (PG_E_LIMIT, PG_HERE, "a rank would have no point: the body has %.0f, take fewer ranks "
                      "than %d", total, size);
+}
+
+pg_status pg_cloud_has_nearest (const pg_cloud *c, const double *place, signed char *here)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) c->dim;
+    double best = INFINITY;
+    if (!c->subdomain) *here = 1;
+    if (*here >= 0) return PG_OK;
+    for (size_t i = 0; i < c->n; i++) {
+        double sum = 0;
+        for (size_t k = 0; k < dim; k++) {
+            double way = c->x[i * dim + k] - place[k];
+            sum += way * way;
+        }
+        if (c->subdomain->owned[i] && sum < best) best = sum;
+    }
+    double least = -best, rank = -DBL_MAX;
+    PG_TRY (pg_ranks_most (1, &least));
+    if (best == -least) rank = -(double) pg_rank ();
+    PG_TRY (pg_ranks_most (1, &rank));
+    *here = (int) -rank == pg_rank ();
+done:
+    return status;
 }

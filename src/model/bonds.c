@@ -10,7 +10,7 @@
  * number: that of the cell in the whole body, then their place among the points of the cell, or of its
  * facets, which all ranks list alike. */
 enum { PLACES = 4096 };
-static pg_status number_points (pg_problem *p, int set)
+static pg_status number_points (const pg_problem *p, int set, unsigned char *owned, int64_t *out)
 {
     pg_status status = PG_OK;
     const pg_rows *r = &p->rows[set];
@@ -25,13 +25,15 @@ static pg_status number_points (pg_problem *p, int set)
             for (size_t k = c->start[cell]; k < c->start[cell + 1]; k++)
                 for (size_t a = 0; a < dim; a++)
                     middle[a] += c->x[k * dim + a] / (double) (c->start[cell + 1] - c->start[cell]);
-            number = c->number ? c->number[cell] : pg_lattice_cell (&p->lattice, middle);
+            number = c->number        ? c->number[cell]
+                     : p->lattice.dim ? pg_lattice_cell (&p->lattice, middle)
+                                      : (int64_t) cell;
             own = c->owned ? c->owned[cell] : pg_lattice_owns (&p->lattice, p->cloud.subdomain, middle);
             last = cell, place = 0;
         }
         if (place == PLACES) PG_FAIL (PG_E_LIMIT, "more than %d points of a cell are too many", PLACES);
-        p->held[set].owned[q] = (unsigned char) own;
-        p->held[set].number[q] = number * PLACES + place;
+        if (owned) owned[q] = (unsigned char) own;
+        out[q] = number * PLACES + place;
     }
 done:
     return status;
@@ -46,7 +48,7 @@ static pg_status number_held (pg_problem *p, int set)
     if (!s) return PG_OK;
     PG_ALLOC (p->held[set].owned, n);
     PG_ALLOC (p->held[set].number, n);
-    if (set != PG_NODES) PG_TRY (number_points (p, set));
+    if (set != PG_NODES) PG_TRY (number_points (p, set, p->held[set].owned, p->held[set].number));
     else {
         memcpy (p->held[set].owned, s->owned, n);
         memcpy (p->held[set].number, s->number, n * sizeof *s->number);
@@ -358,6 +360,38 @@ static pg_status count_eroded (pg_problem *p, const pg_scene *scene)
                                 "crack were a spacing wide; %s",
                      p->eroded, p->eroded == 1 ? " lies" : "s lie", p->eroded == 1 ? "s" : "", way);
 done:
+    return status;
+}
+
+/* Of points of a file their place in it, of a lattice their site, counted through empty ones as well. */
+static void number_nodes (const pg_problem *p, int64_t *out)
+{
+    const pg_cloud *c = &p->cloud;
+    const pg_lattice *l = &p->lattice;
+    for (size_t i = 0; i < c->n; i++) {
+        int64_t number = 0;
+        for (int k = l->dim - 1; k >= 0; k--) {
+            /* a point may have been moved from its site, by less than half a step */
+            double at = (c->x[i * (size_t) c->dim + (size_t) k] - l->origin[k]) / l->step[k];
+            number = number * (l->count[k] + !c->centred) + llround (c->centred ? at - 0.5 : at);
+        }
+        out[i] = l->dim ? number : (int64_t) i;
+    }
+}
+
+pg_status pg_problem_numbers (const pg_problem *p, int set, int64_t **out)
+{
+    pg_status status = PG_OK;
+    size_t n = set == PG_NODES ? p->cloud.n : p->rows[set].n;
+    int64_t *number = NULL;
+    PG_ALLOC (number, n);
+    if (p->held[set].number) memcpy (number, p->held[set].number, n * sizeof *number);
+    else if (set == PG_NODES) number_nodes (p, number);
+    else PG_TRY (number_points (p, set, NULL, number));
+    *out = number;
+    number = NULL;
+done:
+    pg_free (number);
     return status;
 }
 

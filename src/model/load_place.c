@@ -4,6 +4,7 @@
 #include "model.h"
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* ---- moments ------------------------------------------------------------------------------------------- */
@@ -139,25 +140,31 @@ done:
 }
 
 /* ---- planes of symmetry -------------------------------------------------------------------------------- */
-/* The axis that all facets of a set show along, or all of its points have the same coordinate of; -1: none,
- * -2: several. */
-static int axis_of (const pg_problem *p, const pg_set *set, double *place)
+/* The axis that all facets of a set show along, or all of its points have the same coordinate of, on all
+ * ranks; -1: none, -2: several. */
+static pg_status axis_of (const pg_problem *p, const pg_set *set, double *place, int *found)
 {
-    size_t dim = (size_t) p->dim, n = set->nfacet ? set->nfacet : set->npoint;
-    int found = -1;
-    for (size_t k = 0; k < dim; k++) {
-        double low = INFINITY, high = -INFINITY, along = 1;
+    pg_status status = PG_OK;
+    int on_facets = pg_set_facets (set) > 0;
+    size_t dim = (size_t) p->dim, n = on_facets ? set->nfacet : set->npoint;
+    double most[9];                                    /* per axis: - lowest, highest, - least along it */
+    for (size_t k = 0; k < 3; k++) most[k] = most[3 + k] = -INFINITY, most[6 + k] = -1;
+    for (size_t k = 0; k < dim; k++)
         for (size_t i = 0; i < n; i++) {
-            size_t item = (size_t) (set->nfacet ? set->facet[i] : set->point[i]);
-            double x = (set->nfacet ? p->cells.facet_centre : p->cloud.x)[item * dim + k];
-            low = fmin (low, x), high = fmax (high, x);
-            if (set->nfacet) along = fmin (along, fabs (p->cells.normal[item * dim + k]));
+            size_t item = (size_t) (on_facets ? set->facet[i] : set->point[i]);
+            double x = (on_facets ? p->cells.facet_centre : p->cloud.x)[item * dim + k];
+            most[k] = fmax (most[k], -x), most[3 + k] = fmax (most[3 + k], x);
+            if (on_facets) most[6 + k] = fmax (most[6 + k], -fabs (p->cells.normal[item * dim + k]));
         }
-        if (high - low > 1e-6 * p->cloud.h || along < 1 - 1e-6) continue;
-        if (found >= 0) return -2;
-        found = (int) k, *place = low;
+    PG_TRY (pg_ranks_most (9, most));
+    *found = -1;
+    for (size_t k = 0; k < dim; k++) {
+        if (most[3 + k] + most[k] > 1e-6 * p->cloud.h || most[6 + k] > -(1 - 1e-6)) continue;
+        *place = -most[k], *found = *found >= 0 ? -2 : (int) k;
+        if (*found == -2) break;
     }
-    return found;
+done:
+    return status;
 }
 
 /* boundary[].symmetry: the displacement across the plane is zero. Points of other forces than those of a weak
@@ -172,7 +179,8 @@ pg_status pg_load_read_symmetry (pg_problem *p, pg_load *load, const pg_scene *s
         pg_scene_fault (scene, path, "off says nothing: leave the entry out");
         return PG_OK;
     }
-    int k = load->set->npoint + load->set->nfacet ? axis_of (p, load->set, &place) : 0;
+    int k = 0;
+    if (pg_set_points (load->set) + pg_set_facets (load->set)) PG_TRY (axis_of (p, load->set, &place, &k));
     if (k < 0) {
         pg_scene_fault (scene, path,
                         k == -1 ? "%s does not lie in one plane across x, y or z: turn the body so that the "
@@ -189,6 +197,7 @@ pg_status pg_load_read_symmetry (pg_problem *p, pg_load *load, const pg_scene *s
         size_t at = (size_t) load->set->point[q] * (size_t) p->dim + (size_t) k;
         away = fmax (away, fabs (p->cloud.x[at] - place));
     }
+    PG_TRY (pg_ranks_most (1, &away));
     if (!p->method->shape_functions)
         pg_problem_note (p, PG_WARNING "%.32s: force: %s has no bonds across a plane of symmetry, so that "
                                        "the body is "
@@ -233,27 +242,75 @@ done:
 }
 
 /* ---- a place between points ---------------------------------------------------------------------------- */
+/* A point near a place: where it is, the local spacing, its number in the body; numbers, so that ranks can
+ * send it to each other. */
+typedef struct { double x[3], size, number; } near_point;
+enum { NEAR = sizeof (near_point) / sizeof (double) };
 typedef struct {
     const pg_problem *p;
     const double *x;
-    double  reach;
-    size_t  n;  int *point;  double *share;            /* points found, ascending, and their shares */
+    double  reach, nearest;                            /* nearest: distance of the next point, m */
+    size_t  nnear;  near_point *near;                  /* the points around it on all ranks, by number */
+    size_t  n, cap;  size_t *found;  double *share;    /* those found of them, ascending, and their shares */
 } place;
+/* Spacings from the place to the farthest points that may bear it. */
+static const double farthest = 4;
+
+static double square_to (const place *a, const double *x)
+{
+    double square = 0;
+    for (int k = 0; k < a->p->dim; k++) square += pow (x[k] - a->x[k], 2);
+    return square;
+}
+
+static int ascending (const void *a, const void *b)
+{
+    const near_point *x = a, *y = b;
+    return (x->number > y->number) - (x->number < y->number);
+}
+
+/* The points that the place may be borne by, of all ranks, the same list on each of them. */
+static pg_status list_near (place *a)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *c = &a->p->cloud;
+    size_t dim = (size_t) c->dim, n = 0, cap = 0, numbers = 0;
+    near_point *mine = NULL;
+    double most[2] = { c->h, -INFINITY }, *all = NULL;
+    for (size_t i = 0; c->size && i < c->n; i++) most[0] = fmax (most[0], c->size[i]);
+    for (size_t i = 0; i < c->n; i++)
+        if (pg_owns (c->subdomain, i)) most[1] = fmax (most[1], -square_to (a, c->x + i * dim));
+    PG_TRY (pg_ranks_most (2, most));
+    a->nearest = sqrt (-most[1]);
+    for (size_t i = 0; i < c->n; i++) {
+        double reach = farthest * most[0];
+        if (!pg_owns (c->subdomain, i) || square_to (a, c->x + i * dim) > reach * reach) continue;
+        PG_GROW (mine, cap, n + 1);
+        mine[n] = (near_point) { .size = c->size ? c->size[i] : c->h,
+                                 .number = c->subdomain ? (double) c->subdomain->number[i] : (double) i };
+        memcpy (mine[n++].x, c->x + i * dim, dim * sizeof *c->x);
+    }
+    PG_TRY (pg_ranks_share (NEAR * n, (const double *) mine, &numbers, &all));
+    a->nnear = numbers / NEAR;
+    PG_ALLOC (a->near, a->nnear);
+    if (numbers) memcpy (a->near, all, numbers * sizeof *all);
+    qsort (a->near, a->nnear, sizeof *a->near, ascending);
+done:
+    pg_free (mine), pg_free (all);
+    return status;
+}
 
 /* Points within the reach of a place that no crack hides from it, ascending. */
 static pg_status look_around (place *a)
 {
     pg_status status = PG_OK;
-    const pg_cloud *c = &a->p->cloud;
-    size_t dim = (size_t) a->p->dim, cap = 0;
     a->n = 0;
-    for (size_t i = 0; i < c->n; i++) {
-        double square = 0;
-        for (size_t k = 0; k < dim; k++) square += pow (c->x[i * dim + k] - a->x[k], 2);
+    for (size_t i = 0; i < a->nnear; i++) {
+        double square = square_to (a, a->near[i].x);
         if (square >= a->reach * a->reach) continue;
-        if (square > 0 && pg_bond_cut_first (a->p, a->x, c->x + i * dim)) continue;
-        PG_GROW (a->point, cap, a->n + 1);
-        a->point[a->n++] = (int) i;
+        if (square > 0 && pg_bond_cut_first (a->p, a->x, a->near[i].x)) continue;
+        PG_GROW (a->found, a->cap, a->n + 1);
+        a->found[a->n++] = i;
     }
     pg_free (a->share);
     a->share = NULL;
@@ -266,14 +323,13 @@ done:
  * (1 - (r / reach)^2)^2. 0: too few points. */
 static int share_out (const place *a)
 {
-    const pg_cloud *cloud = &a->p->cloud;
     int dim = a->p->dim, m = dim + 1;
     double A[16] = { 0 }, value[4], b[4] = { 1 };
     for (int pass = 0; pass < 2; pass++) {
         for (size_t i = 0; i < a->n; i++) {
             double q[4] = { 1 }, square = 0, sum = 0;
             for (int k = 0; k < dim; k++) {
-                q[k + 1] = (cloud->x[(size_t) a->point[i] * (size_t) dim + (size_t) k] - a->x[k]) / a->reach;
+                q[k + 1] = (a->near[a->found[i]].x[k] - a->x[k]) / a->reach;
                 square += q[k + 1] * q[k + 1];
             }
             double weight = (1 - square) * (1 - square);
@@ -290,32 +346,37 @@ static int share_out (const place *a)
     return 1;
 }
 
+/* The local spacing, that of the nearest point. */
+static double spacing_near (const place *a)
+{
+    double least = INFINITY, size = a->p->cloud.h;
+    for (size_t i = 0; i < a->nnear; i++) {
+        double square = square_to (a, a->near[i].x);
+        if (square < least) least = square, size = a->near[i].size;
+    }
+    return size;
+}
+
 /* The reach grows until the shares are sound. A point at the place itself takes all. */
 static pg_status find_shares (place *a, const pg_scene *scene, const char *path)
 {
     pg_status status = PG_OK;
-    const pg_cloud *c = &a->p->cloud;
     size_t dim = (size_t) a->p->dim;
-    double h = pg_problem_spacing_at (a->p, a->x), nearest = INFINITY;
-    for (size_t i = 0; i < c->n; i++) {
-        double square = 0;
-        for (size_t k = 0; k < dim; k++) square += pow (c->x[i * dim + k] - a->x[k], 2);
-        nearest = fmin (nearest, square);
-    }
-    nearest = sqrt (nearest);
-    if (nearest > sqrt ((double) dim) * h) {
+    PG_TRY (list_near (a));
+    double h = spacing_near (a);
+    if (a->nearest > sqrt ((double) dim) * h) {
         pg_scene_fault (scene, path, "lies %.4g m from the nearest point of the body, which are %.4g m "
                                      "apart: it is "
-                        "outside", nearest, h);
+                        "outside", a->nearest, h);
         return PG_OK;
     }
     a->reach = 1e-6 * h;
-    if (nearest < a->reach) {
+    if (a->nearest < a->reach) {
         PG_TRY (look_around (a));
         a->n = 1, a->share[0] = 1;
         return PG_OK;
     }
-    for (a->reach = 1.2 * h; a->reach < 4 * h; a->reach *= 1.2) {
+    for (a->reach = 1.2 * h; a->reach < farthest * h; a->reach *= 1.2) {
         PG_TRY (look_around (a));
         if (a->n > dim && share_out (a)) return PG_OK;
     }
@@ -323,6 +384,24 @@ static pg_status find_shares (place *a, const pg_scene *scene, const char *path)
     pg_scene_fault (scene, path, "cracks leave it too few points around to bear a force: it lies on a "
                                  "crack, or beside "
                     "one within a spacing");
+done:
+    return status;
+}
+
+/* Those of the points found that this process holds, as a set, and their shares alone. */
+static pg_status take_held (place *a, pg_set *set)
+{
+    pg_status status = PG_OK;
+    const pg_subdomain *s = a->p->cloud.subdomain;
+    PG_ALLOC (set->point, a->n);
+    set->all_points = a->n;
+    for (size_t i = 0, at = 0; i < a->n; i++) {
+        int64_t number = (int64_t) a->near[a->found[i]].number;
+        while (s && at < s->n && s->number[at] < number) at++;         /* both lists ascend */
+        if (s && (at == s->n || s->number[at] != number)) continue;
+        a->share[set->npoint] = a->share[i];
+        set->point[set->npoint++] = s ? (int) at : (int) number;
+    }
 done:
     return status;
 }
@@ -344,9 +423,9 @@ pg_status pg_load_read_place (const pg_problem *p, pg_load *load, const pg_scene
     else if (load->kind != PG_POINT_FORCE && load->kind != PG_SPRING)
         pg_scene_fault (scene, path, "at a place there can be a force or a spring: others need a set");
     else PG_TRY (find_shares (&a, scene, path));
+    PG_TRY (take_held (&a, set));
 done:
     load->share = a.share;
-    if (set) set->point = a.point, set->npoint = a.n;
-    else pg_free (a.point);
+    pg_free (a.near), pg_free (a.found);
     return status;
 }

@@ -10,7 +10,6 @@ static const struct {
     const char *key, *why;
 } alone[] = {
     { "platens", "platens press the body of one process only so far" },
-    { "stages", "stages of loading are for one process only so far" },
     { "reference", "results are compared with a reference by one process only: perigal compare" },
 };
 
@@ -26,21 +25,6 @@ static void refuse (against *a, const char *key, const char *why)
 static int is (const pg_scene *scene, const char *key, const char *word)
 {
     return strcmp (pg_scene_text (scene, "%s", key), word) == 0;
-}
-
-/* Loads that act at a place, rather than on a set, choose the points around it by looking at all. */
-static void check_loads (against *a)
-{
-    char path[64];
-    for (size_t i = 0; i < pg_scene_count (a->scene, "boundary"); i++) {
-        snprintf (path, sizeof path, "boundary[%zu].at", i);
-        if (pg_scene_given (a->scene, "%s", path))
-            refuse (a, path, "a load at a place is for one process only so far: name a set");
-        snprintf (path, sizeof path, "boundary[%zu].symmetry", i);
-        if (pg_scene_given (a->scene, "%s", path))
-            refuse (a, path, "planes of symmetry are for one process only so far: prescribe the displacement "
-                             "across it");
-    }
 }
 
 /* Of forces with shape functions, which are evaluated in cells. */
@@ -87,7 +71,6 @@ static void check_all (against *a, const pg_method *method)
     if (pg_solver_is (kind, PG_SOLVER_IMPLICIT)) check_implicit (a);
     snprintf (text, sizeof text, "%s is for one process only so far", kind);
     if (!pg_solver_is (kind, PG_SOLVER_RANKS)) refuse (a, "solver.kind", text);
-    check_loads (a);
 }
 
 /* By the forecast of one process: a body so large that it is solved without a factor. */

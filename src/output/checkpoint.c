@@ -280,3 +280,42 @@ done:
     pg_netcdf_close (&c.from);
     return status;
 }
+
+struct pg_checkpoint { checkpoint c; char *path; pg_keeper keeper; };
+
+pg_status pg_checkpoint_open (pg_checkpoint **out, const char *path)
+{
+    pg_status status = PG_OK;
+    pg_checkpoint *k = NULL;
+    PG_ALLOC (k, 1);
+    PG_ALLOC (k->path, strlen (path) + 1);
+    strcpy (k->path, path);
+    k->c.path = k->path, k->c.reading = 1;
+    k->keeper = (pg_keeper) { &k->c, 1, keep_numbers, keep_counts, keep_bytes };
+    PG_TRY (pg_netcdf_open (&k->c.from, path));
+    *out = k, k = NULL;
+done:
+    pg_checkpoint_close (&k);
+    return status;
+}
+
+const pg_keeper *pg_checkpoint_keeper (const pg_checkpoint *k) { return &k->keeper; }
+
+size_t pg_checkpoint_length (const pg_checkpoint *k, const char *name)
+{
+    pg_netcdf_variable about;
+    int var = pg_netcdf_find (k->c.from, name);
+    if (var < 0) return 0;
+    pg_netcdf_about (k->c.from, var, &about);
+    return about.ndim == 1 ? about.n : 0;
+}
+
+void pg_checkpoint_close (pg_checkpoint **file)
+{
+    pg_checkpoint *k = *file;
+    if (!k) return;
+    pg_netcdf_close (&k->c.from);
+    pg_free (k->path);
+    pg_free (k);
+    *file = NULL;
+}

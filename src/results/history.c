@@ -189,7 +189,7 @@ static pg_status measure_gauge (pg_result *r, const pg_state *state, size_t g, d
     double end[2][3] = { { NAN, NAN, NAN }, { NAN, NAN, NAN } };
     for (int e = 0; e < 2 && force->sample; e++) {
         const double *place = e ? p->gauge[g].to : p->gauge[g].from;
-        PG_TRY (pg_result_place_here (r, place, &r->here[2 * g + (size_t) e]));
+        PG_TRY (pg_cloud_has_nearest (&p->cloud, place, &r->here[2 * g + (size_t) e]));
         PG_TRY (force->sample (self, state, state->d, 1, place, end[e], NULL, NULL));
         for (int k = 0; k < 3 && !r->here[2 * g + (size_t) e]; k++) end[e][k] = 0;
     }

@@ -172,7 +172,6 @@ void      pg_result_fields_path  (const pg_result *r, char *out, size_t size);
 pg_status pg_result_own_cloud    (pg_result *r, const pg_cloud **out);
 void      pg_result_keep_own     (const pg_result *r, size_t components, double *value);
 double    pg_result_once         (double value);
-pg_status pg_result_place_here   (const pg_result *r, const double *place, signed char *here);
 pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, size_t *n, pg_broken **broken);
 /* What each rank holds of the body, and its largest memory, as a list "parts" of report.json. */
 void      pg_result_parts_json   (pg_json *j, const pg_result *r);

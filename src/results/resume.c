@@ -4,9 +4,9 @@
  * files to their marks, so that what a killed run has added since does not count. A resumed
  * run then gives the same bits as one that was never interrupted.
  *
- * Everything passes through keep_all, once for writing and once for reading. Values that are
+ * Everything passes through resumed_all, once for writing and once for reading. Values that are
  * read are checked against the problem before they are used as sizes. */
-#include "results_private.h"
+#include "resume.h"
 #include <errno.h>
 #include <math.h>
 #include <stdint.h>
@@ -17,23 +17,6 @@
 
 /* Bytes of a hash and of the version; whole numbers of a set of marks. */
 enum { WORD = 64, MARKS = 11 };
-/* A checkpoint that is being written or read. */
-typedef struct {
-    pg_result *r;
-    pg_state  *state;
-    const char *path;
-    /* Where the files are to be cut. */
-    result_marks now;
-    long       rounds, is_pending, threads;
-    /* Seconds that the run has taken so far. */
-    double     seconds;
-    pg_step    pending;
-    /* Broken bonds (pending.nbroken) and reactions, N (PG_REACTIONS a load), of the pending step: own
-     * memory, since
-     * the same calls that write them also read them, and a step lends its arrays as constant. */
-    pg_broken *broken;  double *reaction;
-} memory;
-
 /* A hash of places, volumes and blocks: it also notices changes in files that the scene names
  * only indirectly. */
 static long fingerprint (const pg_cloud *cloud)
@@ -45,7 +28,7 @@ static long fingerprint (const pg_cloud *cloud)
 }
 
 /* PG_E_USAGE if a file of the scene has another content than when the checkpoint was written. */
-static pg_status keep_files (memory *m, const pg_keeper *k)
+static pg_status keep_files (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     const pg_result *r = m->r;
@@ -64,49 +47,28 @@ done:
     return status;
 }
 
-/* A checkpoint holds what one of so many ranks knows. was: number of ranks, rank, 1: they share the body. */
-static pg_status check_ranks (const char *path, const long *was)
+/* Who writes it: number of ranks, rank, 1: they share the body. Others than they read it in their own way
+ * (moved_run.c). */
+static pg_status keep_ranks (const resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    int now = pg_rank_count ();
-    if (was[0] > 1 && was[0] != now)
-        PG_FAIL (PG_E_USAGE, "%s was written by %ld ranks, now there %s %d: continue with mpirun -n %ld "
-                 "perigal-mpi run, or start anew with --force",
-                 path, was[0], now > 1 ? "are" : "is", now, was[0]);
-    if (was[0] != now)
-        PG_FAIL (PG_E_USAGE, "%s was written by one process, now there are %d ranks: continue with perigal "
-                 "run, or start anew with --force", path, now);
-    if (was[1] != pg_rank () || was[2] != (pg_ranks_now () != NULL))
-        PG_FAIL (PG_E_USAGE, "%s is that of rank %ld of %ld: start anew with --force", path, was[1], was[0]);
+    const long now[3] = { pg_rank_count (), pg_rank (), pg_ranks_now () != NULL };
+    long was[3];
+    memcpy (was, now, sizeof was);
+    PG_TRY (k->counts (k->context, "ranks", 3, was));
+    if (!m->anywhere && memcmp (was, now, sizeof was) != 0)
+        PG_FAIL (PG_E_USAGE, "%s is that of rank %ld of %ld: start anew with --force", m->path, was[1],
+                 was[0]);
 done:
     return status;
 }
 
-static pg_status keep_ranks (const memory *m, const pg_keeper *k)
+/* Version, scene and files must be those of this run. */
+pg_status resumed_identity (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long ranks[3] = { pg_rank_count (), pg_rank (), pg_ranks_now () != NULL };
-    PG_TRY (k->counts (k->context, "ranks", 3, ranks));
-    PG_TRY (check_ranks (m->path, ranks));
-done:
-    return status;
-}
-
-/* Version, scene, files and points must be those of this run; the number of threads may
- * differ. */
-static pg_status keep_identity (memory *m, const pg_keeper *k)
-{
-    pg_status status = PG_OK;
-    const pg_problem *p = m->r->problem;
     char version[WORD] = PG_VERSION, hash[WORD + 1] = "";
-    /* Whatever changes one of these numbers makes the checkpoint useless for this problem. */
-    long size[] = { (long) p->cloud.n,       (long) p->first_bond[PG_BOND_SETS],
-                    (long) m->state->ndof,   (long) p->nload,
-                    fingerprint (&p->cloud), (long) m->r->ntip };
-    enum { SIZES = sizeof size / sizeof *size };
-    long found[SIZES];
     memcpy (hash, m->r->hash, WORD);
-    memcpy (found, size, sizeof size);
     PG_TRY (k->bytes (k->context, "version", WORD, version));
     version[WORD - 1] = 0;
     if (strcmp (version, PG_VERSION) != 0)
@@ -119,22 +81,39 @@ static pg_status keep_identity (memory *m, const pg_keeper *k)
                  "have changed since; "
                  "%s/scene.yaml has those it was made with",
                  m->path, hash, m->r->hash, m->r->folder);
-    PG_TRY (keep_ranks (m, k));
     PG_TRY (keep_files (m, k));
+    PG_TRY (k->counts (k->context, "threads", 1, &m->threads));
+done:
+    return status;
+}
+
+/* Points, bonds and ranks are those of this run as well; the number of threads may differ. */
+static pg_status keep_identity (resumed *m, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = m->r->problem;
+    /* Whatever changes one of these numbers makes the checkpoint useless for this problem. */
+    long size[] = { (long) p->cloud.n,       (long) p->first_bond[PG_BOND_SETS],
+                    (long) m->state->ndof,   (long) p->nload,
+                    fingerprint (&p->cloud), (long) m->r->ntip };
+    enum { SIZES = sizeof size / sizeof *size };
+    long found[SIZES];
+    memcpy (found, size, sizeof size);
+    PG_TRY (resumed_identity (m, k));
+    PG_TRY (keep_ranks (m, k));
     PG_TRY (k->counts (k->context, "sizes", SIZES, found));
     if (memcmp (found, size, sizeof size) != 0)
         PG_FAIL (PG_E_USAGE,
                  "%s is of other points or bonds (%ld points, %ld bonds, %ld unknowns; now %ld, %ld, %ld): "
                  "run without --resume",
                  m->path, found[0], found[1], found[2], size[0], size[1], size[2]);
-    PG_TRY (k->counts (k->context, "threads", 1, &m->threads));
 done:
     return status;
 }
 
 /* Marks that are read must be possible: no more rows than history.csv has bytes, no more
  * points of the curve than rows. */
-static pg_status check_marks (const memory *m, const char *name, const long *count)
+static pg_status check_marks (const resumed *m, const char *name, const long *count)
 {
     pg_status status = PG_OK;
     struct stat s;
@@ -155,7 +134,7 @@ done:
 }
 
 /* One set of marks under a name. */
-static pg_status keep_marks (const memory *of, result_marks *m, const char *name, const pg_keeper *k)
+static pg_status keep_marks (const resumed *of, result_marks *m, const char *name, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     char part[WORD];
@@ -175,7 +154,7 @@ done:
 
 /* A step that was made and could not be written, for example because the disk was full: its
  * numbers, broken bonds and reactions, so that its rows are written after resuming. */
-static pg_status keep_pending (memory *m, const pg_keeper *k)
+static pg_status keep_pending (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     pg_step *s = &m->pending;
@@ -214,16 +193,12 @@ done:
     return status;
 }
 
-/* All of a checkpoint, in a fixed order: identity, counters, marks, curve, cracks, a pending
- * step, and at last the state and the solver. Sizes come before the arrays that they count. */
-static pg_status keep_all (void *context, const pg_keeper *k)
+pg_status resumed_files (resumed *m, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    memory *m = context;
     pg_result *r = m->r;
     long flag[3] = { m->rounds, m->is_pending, r->generation };
     double seconds[2] = { m->seconds, r->seconds };
-    PG_TRY (keep_identity (m, k));
     PG_TRY (k->counts (k->context, "result.counts", 3, flag));
     PG_TRY (k->numbers (k->context, "result.seconds", 2, seconds));
     if (flag[0] < 0 || flag[0] > 1L << 50)
@@ -234,8 +209,23 @@ static pg_status keep_all (void *context, const pg_keeper *k)
     PG_TRY (keep_marks (m, &r->done, "done", k));
     PG_TRY (pg_result_curve_keep (r, (size_t) m->now.points, k));
     PG_TRY (pg_result_tips_keep (r, (size_t) m->now.history, k));
+done:
+    return status;
+}
+
+/* All of a checkpoint, in a fixed order: identity, counters, marks, curve, cracks, a pending
+ * step, the state and the solver, and at last what other processes would need. Sizes come before the arrays
+ * that they count. */
+pg_status resumed_all (void *context, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    resumed *m = context;
+    const pg_result *r = m->r;
+    PG_TRY (keep_identity (m, k));
+    PG_TRY (resumed_files (m, k));
     PG_TRY (keep_pending (m, k));
     PG_TRY (pg_solver_keep (r->solver, m->state, k));
+    PG_TRY (parts_keep (r->problem, pg_solver_accepted (r->solver, m->state), k));
 done:
     return status;
 }
@@ -243,9 +233,9 @@ done:
 /* ---- writing ------------------------------------------------------------------------------------------- */
 /* In the middle of a step the files are to be cut to the marks of the last round, otherwise to
  * those of the last step. */
-static memory memory_of (pg_result *r, pg_state *state, const char *path)
+static resumed memory_of (pg_result *r, pg_state *state, const char *path)
 {
-    return (memory){ .r = r,
+    return (resumed){ .r = r,
                      .state = state,
                      .path = path,
                      .now = r->rounds > 0 ? r->now : r->done,
@@ -259,9 +249,9 @@ static memory memory_of (pg_result *r, pg_state *state, const char *path)
 /* The same bytes that a file would get, for comparisons of states. */
 pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper)
 {
-    memory m = memory_of (r, state, "the checkpoint");
+    resumed m = memory_of (r, state, "the checkpoint");
     if (keeper->reading) return pg_error (PG_E_USAGE, PG_HERE, "pg_result_resume reads");
-    pg_status status = keep_all (&m, keeper);
+    pg_status status = resumed_all (&m, keeper);
     pg_free (m.broken), pg_free (m.reaction);
     return status;
 }
@@ -273,7 +263,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     char path[4096];
     double t0 = pg_seconds ();
     snprintf (path, sizeof path, "%s/checkpoint.nc", r->folder);
-    memory m = memory_of (r, state, path);
+    resumed m = memory_of (r, state, path);
     /* Rows first, then the marks that count them. */
     PG_TRY (pg_table_sync (r->history));
     PG_TRY (pg_table_sync (r->events));
@@ -282,7 +272,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     if (r->contact) PG_TRY (pg_table_sync (r->contact));
     PG_TRY (pg_exodus_sync (r->file));
     r->generation++;
-    PG_TRY (pg_checkpoint_prepare (path, keep_all, &m));
+    PG_TRY (pg_checkpoint_prepare (path, resumed_all, &m));
 done:
     /* those before are kept until all ranks have a new one */
     status = pg_ranks_agree (status);
@@ -313,7 +303,7 @@ int pg_result_due (const pg_result *r)
 /* ---- going on ------------------------------------------------------------------------------------------ */
 /* Opens tables and result.e, cuts them to the marks, and takes over what the marks say of the
  * last fields. */
-static pg_status open_files (pg_result *r, const result_marks *at)
+static pg_status resumed_open (pg_result *r, const result_marks *at)
 {
     pg_status status = PG_OK;
     char path[4096];
@@ -331,7 +321,7 @@ done:
 
 /* Writes what was due when the checkpoint was written and could not be done: the rows of a
  * pending step, and the stage in the middle of a step. */
-static pg_status catch_up (memory *m)
+static pg_status catch_up (resumed *m)
 {
     pg_status status = PG_OK;
     pg_step so_far = { .number = m->state->step + 1, .iterations = m->rounds };
@@ -345,19 +335,23 @@ done:
     return status;
 }
 
-/* The number of a checkpoint; -1: there is none, or it is not whole. PG_E_USAGE: other ranks wrote it. */
-static pg_status number_of (const char *path, double *number)
+resumed_by resumed_who (const char *path)
 {
-    pg_status status = PG_OK;
     long count[3], ranks[3];
-    *number = -1;
     if (access (path, F_OK) != 0 || pg_checkpoint_counts (path, "result.counts", 3, count) != PG_OK
-        || pg_checkpoint_counts (path, "ranks", 3, ranks) != PG_OK)
-        return PG_OK;
-    PG_TRY (check_ranks (path, ranks));
-    *number = (double) count[2];
-done:
-    return status;
+        || pg_checkpoint_counts (path, "ranks", 3, ranks) != PG_OK || ranks[0] < 1 || ranks[0] > 1L << 24
+        || ranks[1] < 0 || ranks[1] >= ranks[0] || ranks[2] < 0 || ranks[2] > 1)
+        return (resumed_by) { .number = -1 };
+    return (resumed_by) { (double) count[2], (int) ranks[0], (int) ranks[1], (int) ranks[2] };
+}
+
+/* The number of a checkpoint that this rank wrote beside as many others; -1: it is none. */
+static double number_of (const char *path)
+{
+    const resumed_by who = resumed_who (path);
+    int own = who.count == pg_rank_count () && who.rank == pg_rank ()
+              && who.divided == (pg_ranks_now () != NULL);
+    return own ? who.number : -1;
 }
 
 /* A run that was killed while it wrote checkpoints may have left those of one moment under two names: some
@@ -367,12 +361,10 @@ static pg_status choose_checkpoint (const char *path)
 {
     pg_status status = PG_OK;
     char fresh[4100];
-    double present = -1, next = -1, common;
+    double present, next, common;
     if (pg_rank_count () > 1) {
         snprintf (fresh, sizeof fresh, "%s.new", path);
-        status = number_of (path, &present);
-        if (status == PG_OK) status = number_of (fresh, &next);
-        PG_TRY (pg_ranks_agree (status));
+        present = number_of (path), next = number_of (fresh);
         common = -fmax (present, next);
         PG_TRY (pg_ranks_ask (1, &common));            /* minus the least of the newest of all ranks */
         if (common <= 0 && next == -common) status = pg_checkpoint_commit (path);
@@ -390,6 +382,28 @@ done:
     return status;
 }
 
+pg_status resumed_go_on (pg_result *r, resumed *m)
+{
+    pg_status status = resumed_open (r, &m->now);
+    if (status == PG_OK) status = pg_result_remove (r, "report.json");
+    PG_TRY (pg_ranks_agree (status));
+    r->earlier = m->seconds;
+    PG_TRY (catch_up (m));
+done:
+    return status;
+}
+
+/* From the checkpoint that this process wrote. */
+static pg_status resume_own (pg_result *r, resumed *m)
+{
+    pg_status status = pg_result_lock (r->folder, &r->lock);
+    if (status == PG_OK) status = pg_checkpoint_read (m->path, resumed_all, m);
+    PG_TRY (pg_ranks_agree (status));
+    PG_TRY (resumed_go_on (r, m));
+done:
+    return status;
+}
+
 /* The folder is locked before the checkpoint is read, and its files are cut only after
  * everything in the checkpoint has been accepted, by all ranks; a refused resume leaves the
  * folder as it was. */
@@ -398,28 +412,26 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
 {
     pg_status status = PG_OK;
     pg_result *r = NULL;
-    memory m = { .state = state };
+    resumed m = { .state = state };
+    parts_kept others = { .count = 0 };
     char path[4096];
     snprintf (path, sizeof path, "%s/checkpoint.nc", folder);
     m.path = path;
     PG_TRY (pg_result_check (scene, problem));
-    PG_TRY (choose_checkpoint (path));
+    PG_TRY (moved_find (&others, folder));
+    int moves = moved_from_others (&others);
+    if (!moves) PG_TRY (choose_checkpoint (path));
     PG_ALLOC (r, 1);
     m.r = r;
     PG_TRY (pg_result_prepare (r, folder, scene, problem, solver));
-    status = pg_result_lock (folder, &r->lock);
-    if (status == PG_OK) status = pg_checkpoint_read (path, keep_all, &m);
-    PG_TRY (pg_ranks_agree (status));
-    status = open_files (r, &m.now);
-    if (status == PG_OK) status = pg_result_remove (r, "report.json");
-    PG_TRY (pg_ranks_agree (status));
-    r->earlier = m.seconds;
-    PG_TRY (catch_up (&m));
-    *from = (pg_resumed) { state->step, m.rounds, m.seconds, (int) m.threads };
+    PG_TRY (moves ? moved_resume (r, &m, &others) : resume_own (r, &m));
+    *from = (pg_resumed) { state->step, m.rounds, m.seconds, (int) m.threads,
+                           moves ? others.ranks : pg_rank_count () };
     *out = r;
     r = NULL;
 done:
     pg_free (m.broken), pg_free (m.reaction);
+    parts_close (&others);
     pg_result_free (&r);
     return status;
 }

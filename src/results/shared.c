@@ -5,7 +5,6 @@
  * (result.e.SIZE.RANK), until the run has ended (joined_fields.c). Rank 0 writes into the result folder, the
  * others into ranks/RANK below it, where each keeps what it needs to go on. */
 #include "results_private.h"
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -69,33 +68,6 @@ void pg_result_keep_own (const pg_result *r, size_t components, double *value)
 /* ---- rows ---------------------------------------------------------------------------------------------- */
 /* What all ranks know alike counts once. */
 double pg_result_once (double value) { return pg_ranks_now () && pg_rank () ? 0 : value; }
-
-/* 1 on one rank only: that with the point nearest to the place, of several the lowest. *here: 1, 0; it is
- * found once. */
-pg_status pg_result_place_here (const pg_result *r, const double *place, signed char *here)
-{
-    pg_status status = PG_OK;
-    const pg_cloud *c = &r->problem->cloud;
-    size_t dim = (size_t) c->dim;
-    double best = INFINITY;
-    if (!c->subdomain) *here = 1;
-    if (*here >= 0) return PG_OK;
-    for (size_t i = 0; i < c->n; i++) {
-        double sum = 0;
-        for (size_t k = 0; k < dim; k++) {
-            double way = c->x[i * dim + k] - place[k];
-            sum += way * way;
-        }
-        if (c->subdomain->owned[i] && sum < best) best = sum;
-    }
-    double least = -best, rank = -DBL_MAX;
-    PG_TRY (pg_ranks_most (1, &least));
-    if (best == -least) rank = -(double) pg_rank ();
-    PG_TRY (pg_ranks_most (1, &rank));
-    *here = (int) -rank == pg_rank ();
-done:
-    return status;
-}
 
 /* ---- events -------------------------------------------------------------------------------------------- */
 typedef struct { pg_broken broken; int64_t point, node; } event;

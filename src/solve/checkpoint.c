@@ -98,7 +98,7 @@ pg_status pg_broken_keep (const pg_problem *p, const char *name, size_t n, pg_br
 
 /* Counts, numbers and texts of the report, seconds too: those of the run so far, so that a resumed run
  * reports the whole of it. Numbers of entries are bounded before they are used. */
-static pg_status keep_report (pg_statistics *r, const pg_keeper *k)
+pg_status keep_report (pg_statistics *r, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     long *const word[] = { &r->steps,           &r->events,           &r->iterations,
@@ -404,6 +404,27 @@ done:
     return status;
 }
 
+const pg_state *pg_solver_accepted (const pg_solver *s, const pg_state *state)
+{
+    return s->break_loop.round > 0 ? s->backup : state;
+}
+
+/* For runs that go on among other processes; all of it is in what else is kept, step by step of the walk. */
+static pg_status keep_shares (const pg_solver *s, const pg_state *state, const pg_keeper *k)
+{
+    const break_loop *b = &s->break_loop;
+    const pg_statistics *r = &s->report;
+    const pg_state *at = pg_solver_accepted (s, state);
+    double share[SHARES] = {
+        [SHARE_BROKEN] = (double) at->broken, [SHARE_WORK] = at->work, [SHARE_REPORTED] = (double) r->broken,
+        [SHARE_STRAIN] = b->round > 0 ? b->strain0 : r->energy_strain,
+        [SHARE_KINETIC] = b->round > 0 ? b->kinetic0 : r->energy_kinetic,
+        [SHARE_EXTERNAL] = r->energy_external, [SHARE_DAMPING] = r->energy_damping,
+        [SHARE_DISSIPATED] = r->energy_dissipated
+    };
+    return k->numbers (k->context, "solver.shares", SHARES, share);
+}
+
 /* One walk for both directions: what is written in this order is read back in it. A solver that has not
  * begun is started first, so that its arrays exist. */
 pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
@@ -414,6 +435,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (keep_state (state, s->problem, "state", k));
     PG_TRY (keep_state (s->backup, s->problem, "backup", k));
     PG_TRY (keep_solver (s, k));
+    PG_TRY (keep_shares (s, state, k));
     PG_TRY (stages_keep (s, k));
     PG_TRY (keep_system (&s->break_loop.system, (s->type->flags & PG_SOLVER_IMPLICIT) != 0, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));

@@ -518,3 +518,32 @@ pg_status event_keep (pg_solver *s, const pg_keeper *k)
 done:
     return status;
 }
+
+/* Equilibria of the bonds that live are at hand as those who solved them had them; they are solved once more
+ * before the next step, as whatever solves them has to be made anew. Events found ahead are looked for
+ * again. */
+pg_status event_moved (pg_solver *s, pg_state *state, const pg_moved *moved)
+{
+    pg_status status = PG_OK;
+    event_stepping *e = events_of (s);
+    const pg_keeper *k = moved->alike;
+    break_loop *b = &s->break_loop;
+    size_t components = (size_t) b->system.components;
+    long count[5];
+    double number[2];
+    PG_TRY (k->counts (k->context, "event_stepping.counts", 5, count));
+    PG_TRY (k->numbers (k->context, "event_stepping.numbers", 2, number));
+    PG_KEEP_BOUND (k, "the end of the run", count[0], 0, 63);
+    PG_TRY (keep_text ("event_stepping.why", sizeof e->why, e->why, k));
+    PG_TRY (moved->points (moved->context, "event_stepping.unit", components, e->unit));
+    if (e->base) PG_TRY (moved->points (moved->context, "event_stepping.base", components, e->base));
+    e->ended = (pg_status) count[0], e->constant_events = count[3], e->lost = 1, e->balance_fresh = 0;
+    e->unit_residual = number[0], e->secant0 = number[1];
+    if (e->engine) event_solver_drop (e->engine);
+    ahead_refused (e->ahead);
+    PG_TRY (instability_moved (s, &e->unstable, k));
+    event_displacement (s, state->factor, b->system.scratch);
+    PG_TRY (moved_balance (b, state->factor, b->system.scratch, 1));
+done:
+    return status;
+}

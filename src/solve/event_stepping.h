@@ -32,6 +32,7 @@ pg_status event_step  (pg_solver *s, pg_state *state, pg_step *step);
 void      event_free  (pg_solver *s);
 void      event_refused (pg_solver *s);
 pg_status event_keep  (pg_solver *s, const pg_keeper *k);
+pg_status event_moved (pg_solver *s, pg_state *state, const pg_moved *moved);
 void      event_ends  (const pg_solver *s, const pg_state *state, pg_progress *out);
 
 /* The equilibria for the bonds that live now: at load factor 1, of affine loads also at 0. */

@@ -315,6 +315,28 @@ done:
     return status;
 }
 
+/* Which unknowns are prescribed here, by numbers of points that all ranks know: another division finds them
+ * by that. */
+static pg_status keep_prescribed (const pg_solver *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    const motion *m = motion_of (s);
+    const long components = s->break_loop.system.components;
+    long *list = NULL;
+    int64_t *number = NULL;
+    PG_TRY (pg_problem_numbers (s->problem, PG_NODES, &number));
+    PG_ALLOC (list, m->nprescribed);
+    for (size_t i = 0; i < m->nprescribed; i++) {
+        size_t unknown = m->prescribed[i];
+        list[i] = (long) number[unknown / (size_t) components] * components
+                  + (long) (unknown % (size_t) components);
+    }
+    PG_TRY (k->counts (k->context, "motion.prescribed", m->nprescribed, list));
+done:
+    pg_free (list), pg_free (number);
+    return status;
+}
+
 /* Energy taken by damping, reactions of the supports. Their motion is evaluated anew after reading back. */
 pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
 {
@@ -324,10 +346,38 @@ pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
     PG_TRY (k->numbers (k->context, "motion.numbers", 5, number));
     m->damped = number[0], m->damped0 = number[1], m->resist = number[2], m->resist0 = number[3],
     m->most = number[4];
+    if (m->nprescribed) PG_TRY (keep_prescribed (s, k));
     if (m->nprescribed) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nprescribed, m->push));
     if (k->reading) m->fresh = 0;
     PG_TRY (explicit_contact_keep (s, k));
     PG_TRY (facet_keep (&s->break_loop, k));
+done:
+    return status;
+}
+
+/* Ghosts have no velocities of their own here; displacements of the supports are evaluated anew. */
+pg_status explicit_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
+{
+    pg_status status = PG_OK;
+    motion *m = motion_of (s);
+    pg_system *sys = &s->break_loop.system;
+    const pg_subdomain *part = s->problem->cloud.subdomain;
+    size_t components = (size_t) sys->components;
+    double share[5], alike[5];
+    if (m->by_work_balance || m->contact)
+        PG_FAIL (PG_E_USAGE, "an explicit run whose work is measured by the force, or with contact, goes on "
+                 "only among as many processes as it had");
+    PG_TRY (moved->shares (moved->context, "motion.numbers", 5, share));
+    PG_TRY (moved->alike->numbers (moved->alike->context, "motion.numbers", 5, alike));
+    m->damped = m->damped0 = share[within ? 1 : 0], m->resist = m->resist0 = share[within ? 3 : 2];
+    m->most = alike[4];
+    memset (sys->full, 0, sys->ndof * sizeof *sys->full);
+    PG_TRY (moved->unknowns (moved->context, "motion.prescribed", "motion.push", (size_t) within, components,
+                             sys->full));
+    for (size_t k = 0; k < m->nprescribed; k++) m->push[k] = m->push0[k] = sys->full[m->prescribed[k]];
+    m->fresh = 0, m->bad = 0;
+    pg_subdomain_clear_ghosts (part, components, state->v);
+    pg_subdomain_clear_ghosts (part, components, state->a);
 done:
     return status;
 }

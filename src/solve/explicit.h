@@ -55,6 +55,7 @@ long      explicit_row     (const pg_solver *s, long total, long now);
 int       explicit_level   (pg_solver *s, long total, long now);
 pg_status explicit_end     (pg_solver *s, const pg_state *state, int last, const char *what, double t);
 pg_status explicit_keep    (pg_solver *s, const pg_keeper *keeper);
+pg_status explicit_moved   (pg_solver *s, pg_state *state, const pg_moved *moved, int within);
 
 /* ---- explicit_contact.c: short range, and platens ------------------------------------------------------ */
 struct explicit_contact {
@@ -122,8 +123,8 @@ double    explicit_progress (const pg_solver *s, const pg_state *state);
              | PG_SOLVER_RANKS, \
     .keys = { &solver_keys_facets, &solver_keys_step, &solver_keys_time }, \
     .read = explicit_read, .prepare = explicit_prepare, .start = explicit_start, .done = explicit_done, \
-    .refused = explicit_refused, .free = explicit_free, .keep = explicit_keep, .own_size = sizeof (motion), \
-    .stable = explicit_bound, .progress = explicit_progress
+    .refused = explicit_refused, .free = explicit_free, .keep = explicit_keep, .move = explicit_moved, \
+    .own_size = sizeof (motion), .stable = explicit_bound, .progress = explicit_progress
 double    lane_sum     (const double *s);             /* of 8 lanes */
 double    lane_dot     (const double *a, const double *b, size_t first, size_t last);
 /* 0, or NaN when one is not finite */

@@ -404,6 +404,27 @@ done:
     return status;
 }
 
+/* A body in motion stays with the processes that it has: its two phases, and how each was solved, belong to
+ * one division. */
+pg_status instability_moved (pg_solver *s, instability *u, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    pg_statistics *r = &s->report;
+    long count[8];
+    double number[6];
+    if (s->options.on_instability == PG_UNSTABLE_FOLLOW) return PG_OK;
+    PG_TRY (k->counts (k->context, "instability.counts", 8, count));
+    PG_TRY (k->numbers (k->context, "instability.numbers", 6, number));
+    if (count[0] != PHASE_REST)
+        PG_FAIL (PG_E_USAGE, "an event has set the body in motion, which goes on only among as many "
+                 "processes as before, until it has come to rest");
+    u->held = (int) count[1], u->count = count[2];
+    r->instabilities = count[6], r->unstable_steps = count[7];
+    u->time = number[0], u->last_break = number[1], r->motion_time = number[2], r->switch_jump = number[3];
+done:
+    return status;
+}
+
 /* ---- keys ---------------------------------------------------------------------------------------------- */
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 

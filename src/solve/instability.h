@@ -25,6 +25,7 @@ extern const pg_key_table instability_keys;
 pg_status instability_start (pg_solver *s, instability *u);
 void      instability_free  (instability *u);
 pg_status instability_keep  (pg_solver *s, instability *u, const pg_keeper *k);
+pg_status instability_moved (pg_solver *s, instability *u, const pg_keeper *k);
 
 /* over: bonds that live are over their limit at the present load. 1: it is to be held, and the worst of them
  * break; 0: the load goes where they are at their limit. Counts instabilities. */

@@ -235,6 +235,24 @@ done:
     return status;
 }
 
+/* The residual at the end of the last step; its velocities and accelerations are those of the state, of
+ * ghosts as well. */
+static pg_status newmark_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
+{
+    pg_status status = PG_OK;
+    newmark *n = newmark_of (s);
+    break_loop *b = &s->break_loop;
+    size_t components = (size_t) b->system.components;
+    double work = b->work;
+    (void) within;
+    if (n->force0) PG_TRY (moved->points (moved->context, "newmark.force0", components, n->force0));
+    pg_work_balance_clear (&b->before);
+    PG_TRY (newmark_account (n, b, state, state->time));
+    b->work = work;
+done:
+    return status;
+}
+
 /* ---- the entry ----------------------------------------------------------------------------------------- */
 /* Damping and mass, the scheme by alpha; beta and gamma may differ where the map has these keys. */
 void newmark_read_setting (pg_newmark_options *own, const pg_problem *problem, const pg_scene *scene,
@@ -293,6 +311,7 @@ const pg_solver_type pg_solver_newmark = {
     .step = newmark_step,
     .free = newmark_free,
     .keep = newmark_keep,
+    .move = newmark_moved,
     .own_size = sizeof (newmark),
     .dynamics = newmark_dynamics,
 };

@@ -428,6 +428,14 @@ done:
     return status;
 }
 
+/* Damping, imbalance and what they are measured by, as one list. */
+static void give_numbers (const struct relaxation *x, double *number)
+{
+    const double now[RELAXATION_NUMBERS] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy,
+                                             x->floor };
+    memcpy (number, now, sizeof now);
+}
+
 /* What both kinds of steps share: energies, reactions, what breaking has taken. */
 pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
 {
@@ -436,6 +444,7 @@ pg_status relaxation_step (pg_solver *s, pg_state *state, pg_step *step)
     struct relaxation *x = motion_of (s)->relaxation;
     if (x->read && x->weigh) PG_TRY (x->weigh (s));
     x->read = 0;
+    if (b->round == 0) give_numbers (x, x->start);
     PG_TRY (stages_of (s)->hold ? step_of_held_stage (s, state, step) : step_on (s, state, step));
     if (b->system.contact) contact_accept (&b->system), contact_count (&b->system);
     PG_TRY (contact_show (&b->system, 1));
@@ -472,19 +481,48 @@ void relaxation_refused (pg_solver *s)
     x->resting = 1, x->armed = x->pending = 0;
 }
 
-/* Damping, imbalance and where in a stage the body is. */
+static void take_numbers (struct relaxation *x, const double *number)
+{
+    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3],
+    x->stiff = number[4], x->heavy = number[5], x->floor = number[6];
+}
+
+/* These, and where in a stage the body is. */
 pg_status relaxation_keep (pg_solver *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
     struct relaxation *x = motion_of (s)->relaxation;
-    double number[7] = { x->c, x->imbalance, x->worst, x->most, x->stiff, x->heavy, x->floor };
+    double number[RELAXATION_NUMBERS];
     long count[4] = { x->armed, x->resting, x->pending, x->broke };
-    PG_TRY (k->numbers (k->context, "relaxation.numbers", 7, number));
+    give_numbers (x, number);
+    PG_TRY (k->numbers (k->context, "relaxation.numbers", RELAXATION_NUMBERS, number));
+    PG_TRY (k->numbers (k->context, "relaxation.start", RELAXATION_NUMBERS, x->start));
     PG_TRY (k->counts (k->context, "relaxation.counts", 4, count));
-    x->c = number[0], x->imbalance = number[1], x->worst = number[2], x->most = number[3],
-    x->stiff = number[4], x->heavy = number[5], x->floor = number[6];
+    take_numbers (x, number);
     x->armed = (int) count[0], x->resting = (int) count[1], x->pending = (int) count[2],
     x->broke = (int) count[3], x->read = k->reading;
+done:
+    return status;
+}
+
+/* Ghosts have no velocities of their own here. A run that moves on begins from rest before its first
+ * iteration alone. */
+pg_status relaxation_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
+{
+    pg_status status = PG_OK;
+    const pg_keeper *k = moved->alike;
+    const pg_subdomain *part = s->problem->cloud.subdomain;
+    struct relaxation *x = motion_of (s)->relaxation;
+    size_t components = (size_t) s->break_loop.system.components;
+    double number[RELAXATION_NUMBERS];
+    PG_TRY (k->numbers (k->context, within ? "relaxation.start" : "relaxation.numbers", RELAXATION_NUMBERS,
+                        number));
+    take_numbers (x, number);
+    x->armed = x->pending = x->broke = 0, x->resting = state->iterations == 0, x->read = 1;
+    motion_of (s)->fresh = 0;
+    pg_subdomain_clear_ghosts (part, components, state->v);
+    pg_subdomain_clear_ghosts (part, components, state->a);
+    if (state->step > 0) PG_TRY (moved_balance (&s->break_loop, state->factor, state->d, 1));
 done:
     return status;
 }

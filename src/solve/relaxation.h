@@ -8,6 +8,7 @@
 #define PG_RELAXATION_H
 #include "explicit.h"
 
+enum { RELAXATION_NUMBERS = 7 };
 struct relaxation {
     double *mass;                                      /* of every unknown (ndof) */
     /* masses anew where bonds that broke may have stiffened the body; NULL: never */
@@ -21,6 +22,8 @@ struct relaxation {
     /* bonds may break; the next iteration starts from rest; the work balance at hand is that before the first
      * break of the stage and not booked; bonds broke at the last residual */
     int    armed, resting, pending, broke;
+    /* c, imbalance, worst, most, stiff, heavy and floor at the start of the step at hand */
+    double start[RELAXATION_NUMBERS];
     int    read;                                       /* 1: from a checkpoint, which has no masses */
 };
 static inline const pg_stages_options *stages_of (const pg_solver *s)
@@ -37,6 +40,7 @@ int       relaxation_done    (const pg_solver *s, const pg_state *state);
 double    relaxation_progress (const pg_solver *s, const pg_state *state);
 void      relaxation_refused (pg_solver *s);
 pg_status relaxation_keep    (pg_solver *s, const pg_keeper *keeper);
+pg_status relaxation_moved   (pg_solver *s, pg_state *state, const pg_moved *moved, int within);
 
 /* ---- relaxation_damping.c ------------------------------------------------------------------------------ */
 /* c from the sums v K v dt and v M v of this iteration and of those before. */
@@ -53,6 +57,7 @@ const char *relaxation_manner (const pg_solver_options *o);
 #define RELAXATION_ENTRIES \
     .start = relaxation_start, .step = relaxation_step, .done = relaxation_done, \
     .refused = relaxation_refused, .free = relaxation_free, .keep = relaxation_keep, \
+    .move = relaxation_moved, \
     .own_size = sizeof (motion), .stable = explicit_bound, .progress = relaxation_progress, \
     .manner = relaxation_manner
 #endif

@@ -333,6 +333,7 @@ typedef struct {
     pg_problem *staged;                                /* with loads of the solver's own */
     double     *share;  /* per stage: of its way, at which it ended; 1 while it has not */
     double     *opening;                               /* of all records (stages x gauges) */
+    signed char *here;                                 /* per end of a gauge: measured here; -1: not known */
     pg_stage_record *record;                           /* per stage */
 } stage_path;
 
@@ -361,6 +362,7 @@ struct pg_solver {
 pg_status stages_create (pg_solver *s);
 void      stages_free   (pg_solver *s);
 pg_status stages_keep   (pg_solver *s, const pg_keeper *k);
+pg_status stages_moved  (pg_solver *s, const pg_moved *m, int within);  /* without what stages remove */
 /* t at the start and end of the stage at hand (no stages: 0 and 1); at the next level. */
 double    stage_start   (const pg_solver *s);
 double    stage_end     (const pg_solver *s);
@@ -405,4 +407,13 @@ void progress_offer (pg_progress *p, double share, const char *end, int even);
 /* ---- checkpoint.c -------------------------------------------------------------------------------------- */
 /* A text in an array of fixed size, ended whatever was read. */
 pg_status keep_text (const char *name, size_t size, char *text, const pg_keeper *k);
+pg_status keep_report (pg_statistics *r, const pg_keeper *k);
+/* What each of several ranks has of its own points, of the last step made: shares of the sums of all. */
+enum { SHARE_BROKEN, SHARE_WORK, SHARE_REPORTED, SHARE_STRAIN, SHARE_KINETIC, SHARE_EXTERNAL, SHARE_DAMPING,
+       SHARE_DISSIPATED, SHARES };
+
+/* ---- moved.c ------------------------------------------------------------------------------------------- */
+/* The work balance of (t, d) at rest becomes that of the last accounted state, no work being added. Loads
+ * scaled by `scale`. */
+pg_status moved_balance (break_loop *b, double t, const double *d, double scale);
 #endif

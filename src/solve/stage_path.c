@@ -33,6 +33,8 @@ pg_status stages_create (pg_solver *s)
     PG_ALLOC (p->share, problem->nstage);
     PG_ALLOC (p->record, problem->nstage);
     PG_ALLOC (p->opening, problem->nstage * problem->ngauge + 1);
+    PG_ALLOC (p->here, 2 * problem->ngauge + 1);
+    memset (p->here, -1, 2 * problem->ngauge);
     for (size_t k = 0; k < problem->nstage; k++)
         p->share[k] = 1, p->record[k].gauge = p->opening + k * problem->ngauge;
     p->now.number = 1;
@@ -45,7 +47,7 @@ void stages_free (pg_solver *s)
 {
     stage_path *p = &s->stage;
     pg_free (p->excavated), pg_free (p->excavated_now);
-    pg_free (p->share), pg_free (p->record), pg_free (p->opening);
+    pg_free (p->share), pg_free (p->record), pg_free (p->opening), pg_free (p->here);
     pg_problem_staged_free (&p->staged);
 }
 
@@ -157,18 +159,22 @@ double stage_growth (const pg_state *state)
     return state->paths ? state->paths->length : state->surfaces ? state->surfaces->area : 0;
 }
 
-/* The change of distance of its two places, along the line between them, m. */
+/* The change of distance of its two places, along the line between them, m. Each is measured by the rank next
+ * to it. */
 static pg_status opening_of (pg_solver *s, const pg_state *state, size_t gauge, const double *d, double *out)
 {
     pg_status status = PG_OK;
     const pg_gauge *g = &s->problem->gauge[gauge];
     const pg_system *sys = &s->break_loop.system;
-    double a[3] = { NAN, NAN, NAN }, b[3] = { NAN, NAN, NAN };
-    if (sys->force->sample) {
-        PG_TRY (sys->force->sample (sys->self, state, d, 1, g->from, a, NULL, NULL));
-        PG_TRY (sys->force->sample (sys->self, state, d, 1, g->to, b, NULL, NULL));
+    double end[2][3] = { { NAN, NAN, NAN }, { NAN, NAN, NAN } };
+    for (int e = 0; e < 2 && sys->force->sample; e++) {
+        const double *place = e ? g->to : g->from;
+        signed char *here = &s->stage.here[2 * gauge + (size_t) e];
+        PG_TRY (pg_cloud_has_nearest (&s->problem->cloud, place, here));
+        PG_TRY (sys->force->sample (sys->self, state, d, 1, place, end[e], NULL, NULL));
+        for (int k = 0; k < 3 && !*here; k++) end[e][k] = 0;
     }
-    *out = pg_gauge_opening (g, s->problem->dim, a, b);
+    *out = system_sum (sys, pg_gauge_opening (g, s->problem->dim, end[0], end[1]));
 done:
     return status;
 }
@@ -207,12 +213,15 @@ done:
     return status;
 }
 
-/* The force of the load of the condition, N; its largest in this stage so far is kept. */
+/* The force of the load of the condition, N, on all ranks; its largest in this stage so far is kept. */
 static int has_fallen (pg_solver *s, const pg_stage *stage, const double *reaction)
 {
     stage_path *p = &s->stage;
     double sum = 0;
-    for (int k = 0; k < 3; k++) sum += reaction[3 * stage->load + k] * reaction[3 * stage->load + k];
+    for (int k = 0; k < 3; k++) {
+        double force = system_sum (&s->break_loop.system, reaction[3 * stage->load + k]);
+        sum += force * force;
+    }
     p->now.peak = fmax (p->now.peak, sqrt (sum));
     return sqrt (sum) <= (1 - stage->drop) * p->now.peak && p->now.peak > 0;
 }
@@ -251,15 +260,16 @@ pg_status stage_close_step (pg_solver *s, const pg_state *state, pg_step *step)
     step->level = 1;
     if (p->now.number == (long) s->problem->nstage) s->finished = 1;
     pg_stage_record *record = &p->record[p->now.number - 1];
+    const pg_system *sys = &s->break_loop.system;
     double *gauge = record->gauge;
     *record = (pg_stage_record) { .done = 1,
                                   .why = reasons[p->now.over],
                                   .step = state->step,
                                   .events = state->events - p->now.first_event,
                                   .share = state->factor - stage_start (s),
-                                  .strain = r->energy_strain,
-                                  .external = r->energy_external,
-                                  .dissipated = r->energy_dissipated,
+                                  .strain = system_sum (sys, r->energy_strain),
+                                  .external = system_sum (sys, r->energy_external),
+                                  .dissipated = system_sum (sys, r->energy_dissipated),
                                   .growth = stage_growth (state) - p->now.first_growth,
                                   .reason = p->now.over,
                                   .gauge = gauge };
@@ -346,6 +356,16 @@ pg_status stages_keep (pg_solver *s, const pg_keeper *k)
                                                 .numbers = 5 + s->problem->ngauge, .give = give_record,
                                                 .take = take_record, .context = s }));
     follow (s);
+done:
+    return status;
+}
+
+/* All of it is known alike to whoever had a part of the body. */
+pg_status stages_moved (pg_solver *s, const pg_moved *m, int within)
+{
+    pg_status status = PG_OK;
+    PG_TRY (stages_keep (s, m->alike));
+    if (within) stage_return (s);
 done:
     return status;
 }

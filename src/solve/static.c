@@ -63,6 +63,14 @@ static pg_status static_step (pg_solver *s, pg_state *state, pg_step *step)
     return status;
 }
 
+/* Fixed load steps remember nothing but the work balance of the last one. */
+static pg_status static_moved (pg_solver *s, pg_state *state, const pg_moved *moved, int within)
+{
+    if (s->options.event) return event_moved (s, state, moved);
+    (void) within;
+    return state->step > 0 ? moved_balance (&s->break_loop, state->factor, state->d, 1) : PG_OK;
+}
+
 /* ---- the entry ----------------------------------------------------------------------------------------- */
 static int is (const char *text, const char *word) { return text && strcmp (text, word) == 0; }
 
@@ -182,6 +190,7 @@ const pg_solver_type pg_solver_static_ = {
     .refused = event_refused,
     .free = event_free,
     .keep = event_keep,
+    .move = static_moved,
     .ends = event_ends,
     .own_size = sizeof (event_stepping),
     .manner = static_manner,

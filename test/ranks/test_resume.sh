@@ -7,12 +7,12 @@ explicit=(plate.yaml --set spacing='1.25 mm' --set solver.dt='1.5e-7 s' --set so
 rest=(rest.yaml --set solver.steps=8 --set output.at.levels=8)
 facets=(facets.yaml --set solver.linear=petsc)
 
-# begin ROWS DIR ARGUMENTS...: a run on 3 ranks (mpirun: $run) that goes on when this returns, history.csv having so many rows, all ranks a checkpoint
+# begin ROWS DIR ARGUMENTS...: a run on 3 ranks, or on $n (mpirun: $run) that goes on when this returns, history.csv having so many rows, all ranks a checkpoint
 begin() {
     local rows=$1 dir=$2 k; shift 2
-    mpirun --oversubscribe -n 3 "$mpi" run "$@" -o "$dir" --quiet "${often[@]}" > "$work/out" 2> "$work/err" & run=$!
+    mpirun --oversubscribe -n "${n:-3}" "$mpi" run "$@" -o "$dir" --quiet "${often[@]}" > "$work/out" 2> "$work/err" & run=$!
     for k in $(seq 3000); do
-        [ "$(wc -l 2> /dev/null < "$dir/history.csv" || echo 0)" -gt "$rows" ] && [ -e "$dir/checkpoint.nc" ] && [ -e "$dir/ranks/2/checkpoint.nc" ] && return
+        [ "$(wc -l 2> /dev/null < "$dir/history.csv" || echo 0)" -gt "$rows" ] && [ -e "$dir/checkpoint.nc" ] && [ -e "$dir/ranks/$((${n:-3} - 1))/checkpoint.nc" ] && return
         kill -0 $run 2> /dev/null || break
         sleep 0.02
     done
@@ -41,27 +41,56 @@ for name in explicit rest facets; do
 done
 grep -c '"peak_bytes"' "$work/explicit/report.json" | grep -q '^4$'; verdict "the report has the memory of each rank" $?
 
-for name in explicit rest facets; do
+# each way to end with explicit steps, one of them with the others
+for way in "explicit signal" "explicit kill" "rest kill" "facets signal"; do
+    name=${way% *}
     declare -n arguments=$name
     [ $name = explicit ] && rows=20 || rows=2
-    begin $rows "$work/some" "${arguments[@]}"; kill -USR1 $run; ended
-    [ $code -eq 130 ] && grep -q 'continue with: mpirun -n 3 perigal-mpi run' "$work/err"; verdict "$name: a signal that mpirun passes on ends it, said how to go on" $?
+    if [ "${way#* }" = signal ]; then
+        begin $rows "$work/some" "${arguments[@]}"; kill -USR1 $run; ended
+        [ $code -eq 130 ] && grep -q 'continue with: mpirun -n 3 perigal-mpi run' "$work/err"; verdict "$name: a signal that mpirun passes on ends it, said how to go on" $?
+    else
+        begin $rows "$work/some" "${arguments[@]}"; left=$(pid "$work/some" 0; pid "$work/some" 1; pid "$work/some" 2); kill -KILL $run; ended
+        [ ! -e "$work/some/report.json" ]; verdict "$name: mpirun is killed" $?
+        while kill -0 $left 2> /dev/null; do sleep 0.1; done
+    fi
+    [ $name = rest ] && cp -r "$work/some" "$work/rest3"
     same $name "$work/some"; verdict "$name: it goes on to the same files" $?
-    rm -rf "$work/some"
-    begin $rows "$work/some" "${arguments[@]}"; left=$(pid "$work/some" 0; pid "$work/some" 1; pid "$work/some" 2); kill -KILL $run; ended
-    [ ! -e "$work/some/report.json" ]; verdict "$name: mpirun is killed" $?
-    while kill -0 $left 2> /dev/null; do sleep 0.1; done; same $name "$work/some"; verdict "$name: the run goes on to the same files" $?
     rm -rf "$work/some"
 done
 
 begin 20 "$work/some" "${explicit[@]}"; kill -TERM "$(pid "$work/some" 1)"; ended
 [ $code -eq 130 ]; verdict "a signal to one rank ends all" $?
 cp -r "$work/some" "$work/half"
-ranks 2 "${explicit[@]}" "${often[@]}" -o "$work/some" --resume; [ $? -eq 64 ] && grep -q 'written by 3 ranks, now there are 2: continue with mpirun -n 3 perigal-mpi run' "$work/err"
-verdict "another number of ranks is refused, and what to do" $?
-alone "${explicit[@]}" "${often[@]}" -o "$work/some" --resume; [ $? -eq 64 ] && grep -q 'written by 3 ranks, now there is 1: continue with mpirun -n 3 perigal-mpi run' "$work/err"
-verdict "so is one process" $?
-ranks 4 "${explicit[@]}" "${often[@]}" -o "$work/some" --resume; [ $? -eq 64 ] && grep -q 'written by 3 ranks' "$work/err"; verdict "so are more" $?
+
+# other numbers of ranks, and one process: to rounding, with nothing left of the three
+# moved NAME RANKS DIR: goes on there (0: without MPI), DIR being a copy
+moved() {
+    local name=$1 r=$2 dir=$3 share=1e-9 left=residual
+    declare -n arguments=$name
+    [ "$name" = rest ] && share=1e-8 left='residual force_x displacement_x moment'
+    if [ "$r" = 0 ]; then alone "${arguments[@]}" "${often[@]}" -o "$dir" --resume; else ranks "$r" "${arguments[@]}" "${often[@]}" -o "$dir" --resume; fi || return 1
+    grep -q 'the checkpoint was written by .* the last digits may differ' "$work/err" || return 1
+    alike 1e-7 "$work/$name" "$dir" events.csv && alike $share "$work/$name" "$dir" history.csv $left || return 1
+    python3 fields.py $share "$work/$name/result.e" "$dir/result.e" > "$work/why" 2>&1 || return 1
+    [ ! -e "$dir/ranks" ] && [ ! -e "$dir/checkpoint.nc" ] && ! ls "$dir"/result.e.* > /dev/null 2>&1
+}
+for r in 2 4 0; do
+    cp -r "$work/half" "$work/moved"; moved explicit $r "$work/moved"; verdict "explicit: 3 ranks, then $r" $?
+    rm -rf "$work/moved"
+done
+for r in 2 0; do
+    cp -r "$work/rest3" "$work/moved"; moved rest $r "$work/moved"; verdict "rest: 3 ranks, then $r" $?
+    rm -rf "$work/moved"
+done
+# two ranks go on, are killed between the renames of their first checkpoints, and three go on from that: rank 0 still has that of three under its
+# name, beside the one of two, rank 1 that of two
+cp -r "$work/half" "$work/moved"; n=2 begin 50 "$work/moved" "${explicit[@]}" --resume; kill -USR1 $run; ended
+grep -q 'continue with: mpirun -n 2 perigal-mpi run' "$work/err"; verdict "two ranks in place of three are interrupted" $?
+mv "$work/moved/checkpoint.nc" "$work/moved/checkpoint.nc.new"; cp "$work/half/checkpoint.nc" "$work/moved/"
+mkdir -p "$work/moved/ranks/2"; cp "$work/half/ranks/2/checkpoint.nc" "$work/moved/ranks/2/"
+moved explicit 3 "$work/moved"; verdict "killed while the checkpoints of two ranks took their places: three go on from these" $?
+rm -rf "$work/moved" "$work/rest3"
 same explicit "$work/some"; verdict "the folder was left as it was" $?
 
 # killed between the renames of two ranks: one has the newer checkpoint under its name, the other one beside it
