@@ -30,8 +30,8 @@ long() { [ "$PERIGAL_TEST_SIZE" = long ]; }
 [ "$PERIGAL_TEST_SIZE" = long ] && numbers='1 2 3 4'
 # the half of a plate; a force at a place near the boundary of two parts, held against by a spring elsewhere
 half=(--set 'boundary=[{name: middle, set: left, symmetry: on}, {name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: pull, at: [3.3 mm, 19 mm], force: {x: 20 N, y: 60 N}}, {name: hold, at: [20 mm, -7.7 mm], spring: {x: 1e6 N/m, y: 1e6 N/m}}]')
-equal 'symmetry, places' 10 galerkin.yaml "${half[@]}"
-equal 'the same by bonds' 5 rest.yaml "${half[@]}" --set lattice=nodes --set failure.critical_stretch=1e-5
+equal 'symmetry, places' 0 galerkin.yaml "${half[@]}" --set failure.tensile_strength='80 MPa' --set solver.steps=1
+equal 'the same by bonds' 0 rest.yaml "${half[@]}" --set lattice=nodes --set solver.steps=1
 # pressed, then pulled until a gauge has opened, then let go
 steps=(--set 'stages=[{name: press, boundary: {lid: 1}}, {name: pull, boundary: {left: 1, right: 1}, until: {gauge: g, opening: 3 um}}, {name: back, boundary: {left: 0, right: 0}}]')
 equal 'stages, fixed' 20 galerkin.yaml "${steps[@]}"; stages; verdict "stages, fixed: they end alike" $?

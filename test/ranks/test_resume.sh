@@ -7,12 +7,12 @@ explicit=(plate.yaml --set spacing='1.25 mm' --set solver.dt='1.5e-7 s' --set so
 rest=(rest.yaml --set solver.steps=8 --set output.at.levels=8)
 facets=(facets.yaml --set solver.linear=petsc)
 
-# begin ROWS DIR ARGUMENTS...: a run on 3 ranks, or on $n (mpirun: $run) that goes on when this returns, history.csv having so many rows, all ranks a checkpoint
+# begin ROWS DIR ARGUMENTS...: a run on 3 ranks, or on $number (mpirun: $run) that goes on when this returns, history.csv having so many rows, all ranks a checkpoint
 begin() {
     local rows=$1 dir=$2 k; shift 2
-    mpirun --oversubscribe -n "${n:-3}" "$mpi" run "$@" -o "$dir" --quiet "${often[@]}" > "$work/out" 2> "$work/err" & run=$!
+    mpirun --oversubscribe -n "${number:-3}" "$mpi" run "$@" -o "$dir" --quiet "${often[@]}" > "$work/out" 2> "$work/err" & run=$!
     for k in $(seq 3000); do
-        [ "$(wc -l 2> /dev/null < "$dir/history.csv" || echo 0)" -gt "$rows" ] && [ -e "$dir/checkpoint.nc" ] && [ -e "$dir/ranks/$((${n:-3} - 1))/checkpoint.nc" ] && return
+        [ "$(wc -l 2> /dev/null < "$dir/history.csv" || echo 0)" -gt "$rows" ] && [ -e "$dir/checkpoint.nc" ] && [ -e "$dir/ranks/$((${number:-3} - 1))/checkpoint.nc" ] && return
         kill -0 $run 2> /dev/null || break
         sleep 0.02
     done
@@ -85,7 +85,7 @@ for r in 2 0; do
 done
 # two ranks go on, are killed between the renames of their first checkpoints, and three go on from that: rank 0 still has that of three under its
 # name, beside the one of two, rank 1 that of two
-cp -r "$work/half" "$work/moved"; n=2 begin 50 "$work/moved" "${explicit[@]}" --resume; kill -USR1 $run; ended
+cp -r "$work/half" "$work/moved"; number=2 begin 50 "$work/moved" "${explicit[@]}" --resume; kill -USR1 $run; ended
 grep -q 'continue with: mpirun -n 2 perigal-mpi run' "$work/err"; verdict "two ranks in place of three are interrupted" $?
 mv "$work/moved/checkpoint.nc" "$work/moved/checkpoint.nc.new"; cp "$work/half/checkpoint.nc" "$work/moved/"
 mkdir -p "$work/moved/ranks/2"; cp "$work/half/ranks/2/checkpoint.nc" "$work/moved/ranks/2/"
