@@ -384,6 +384,8 @@ pg_status pg_problem_numbers (const pg_problem *p, int set, int64_t **out)
     pg_status status = PG_OK;
     size_t n = set == PG_NODES ? p->cloud.n : p->rows[set].n;
     int64_t *number = NULL;
+    if (set != PG_NODES && n && !p->held[set].number && (!p->rows[set].cell || !p->cells.n))
+        PG_FAIL (PG_E_LIMIT, "points that belong to no cell have no numbers");
     PG_ALLOC (number, n);
     if (p->held[set].number) memcpy (number, p->held[set].number, n * sizeof *number);
     else if (set == PG_NODES) number_nodes (p, number);
