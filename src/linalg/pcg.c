@@ -178,7 +178,6 @@ static pg_status tell (const pg_cg_watch *watch, double alpha, double residual, 
     return watch && watch->stepped ? watch->stepped (watch->context, alpha, residual, stop) : PG_OK;
 }
 
-/* The test `!(pq > 0)` also catches NaN. */
 pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                           double *x, double tolerance, size_t limit, size_t *iterations,
                                           const pg_cg_watch *watch)
@@ -202,8 +201,10 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
         A->apply (A->context, v.p, v.q);
         double pq = dot (&v, v.p, v.q);
         PG_TRY (v.lost);
-        /* Written so that NaN ends the iteration as well. */
-        if (!(pq > 0))
+        if (isnan (pq))
+            PG_FAIL (PG_E_NOT_SPD, "conjugate gradients found no solution: after %zu iterations the numbers "
+                                   "are not finite any more", k);
+        if (pq <= 0)
             PG_FAIL (PG_E_NOT_SPD, "conjugate gradients met a direction of energy %g after %zu iterations",
                      pq, k);
         v.alpha = next / pq;

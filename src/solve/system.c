@@ -452,7 +452,7 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
         limit = LAST_TRY;
     }
     pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, limit, &used);
-    int free_to_move = (can && now == PG_E_EQUILIBRIUM) || (s->problem->sums && now == PG_E_NOT_SPD);
+    int free_to_move = (can && now == PG_E_EQUILIBRIUM) || now == PG_E_NOT_SPD;
     if (free_to_move)
         PG_FAIL (now, "%s; %s", pg_last_error (), why_out_of_balance (s->problem, s->options));
     PG_TRY (now);

@@ -83,9 +83,14 @@ for r in 2 0; do
     cp -r "$work/rest3" "$work/moved"; moved rest $r "$work/moved"; verdict "rest: 3 ranks, then $r" $?
     rm -rf "$work/moved"
 done
+"$perigal" run "${explicit[@]}" "${often[@]}" -o "$work/moved" --quiet --threads 1 > "$work/out" 2> "$work/err" & run=$!
+for k in $(seq 3000); do [ -e "$work/moved/checkpoint.nc" ] || ! kill -0 $run 2> /dev/null && break; sleep 0.02; done; kill -USR1 $run; ended
+[ $code -eq 130 ] && moved explicit 2 "$work/moved"; verdict "explicit: one process, then 2 ranks" $?
+rm -rf "$work/moved"
 # two ranks go on, are killed between the renames of their first checkpoints, and three go on from that: rank 0 still has that of three under its
 # name, beside the one of two, rank 1 that of two
-cp -r "$work/half" "$work/moved"; number=2 begin 50 "$work/moved" "${explicit[@]}" --resume; kill -USR1 $run; ended
+soon=$(($(wc -l < "$work/half/history.csv") + 3))
+cp -r "$work/half" "$work/moved"; number=2 begin $soon "$work/moved" "${explicit[@]}" --resume; kill -USR1 $run; ended
 grep -q 'continue with: mpirun -n 2 perigal-mpi run' "$work/err"; verdict "two ranks in place of three are interrupted" $?
 mv "$work/moved/checkpoint.nc" "$work/moved/checkpoint.nc.new"; cp "$work/half/checkpoint.nc" "$work/moved/"
 mkdir -p "$work/moved/ranks/2"; cp "$work/half/ranks/2/checkpoint.nc" "$work/moved/ranks/2/"
@@ -94,7 +99,7 @@ rm -rf "$work/moved" "$work/rest3"
 same explicit "$work/some"; verdict "the folder was left as it was" $?
 
 # killed between the renames of two ranks: one has the newer checkpoint under its name, the other one beside it
-begin 60 "$work/later" "${explicit[@]}"; kill -USR1 $run; ended
+begin $soon "$work/later" "${explicit[@]}"; kill -USR1 $run; ended
 cp -r "$work/later" "$work/some1"; mv "$work/some1/ranks/1/checkpoint.nc" "$work/some1/ranks/1/checkpoint.nc.new"
 cp "$work/half/ranks/1/checkpoint.nc" "$work/some1/ranks/1/"
 same explicit "$work/some1"; verdict "killed while checkpoints were renamed: all ranks take the newer one" $?
