@@ -117,12 +117,15 @@ void galerkin_finish_rows (void *context, size_t m, double *rows)
     }
 }
 
-/* Do all points of evaluation have the same D, and nothing beside it? */
+/* Do all points of evaluation have the same D, under whatever names of materials, and nothing beside it? */
 int galerkin_has_rows (const galerkin *g)
 {
-    size_t same = 0;
+    const double *D = NULL;
     if (g->dim < 2 || g->problem->plain || g->options->silling > 0) return 0;
-    for (size_t p = 0; p < g->sums.n; p++)
-        same += galerkin_plain (g, g->bulk, p)->D == galerkin_plain (g, g->bulk, 0)->D;
-    return same > 0 && same == g->sums.n;
+    for (size_t p = 0; p < g->sums.n; p++) {
+        const double *own = galerkin_plain (g, g->bulk, p)->D;
+        if (!D) D = own;
+        if (own != D && memcmp (own, D, (size_t) (g->nv * g->nv) * sizeof *D) != 0) return 0;
+    }
+    return D != NULL;
 }
