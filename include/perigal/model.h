@@ -85,6 +85,9 @@ double pg_load_density (const pg_problem *problem, const pg_load *load, int set,
  * and pore pressure, the same along all axes. strained: 1: there are loads of this kind. */
 double pg_problem_eigenstrain (const pg_problem *problem, int set, size_t point, double t);
 int    pg_problem_strained    (const pg_problem *problem);
+/* 1: whether a bond breaks follows from the displacements of its two ends alone, by the same limit for all
+ * bonds (one criterion with pg_criterion_type.elongation, no free strains, no graded points). */
+int    pg_problem_breaks_by_elongation (const pg_problem *problem);
 /* The share of point i of its set in a total force or a spring; the place that its value is taken at: x, the
  * point's, or that of the load. */
 double pg_load_share (const pg_load *load, size_t i);

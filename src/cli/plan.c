@@ -172,6 +172,10 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
           && p->forecast->points + p->forecast->evaluation > 1000,
           "memory for the shape functions of every point",
           "points of a lattice that see their nodes alike share them; no bond is broken" },
+        { fails && !steps && !o->plain && p->problem->method->shape_functions
+          && pg_problem_breaks_by_elongation (p->problem), "utilisation of most bonds",
+          "a bond breaks by its elongation: only where the longest of a block reaches the limit they are "
+          "judged" },
         { steps, "stiffness matrix and factorization", "explicit time steps need neither" },
         { steps && !o->plain, "forces and energies for rows of history.csv",
           "the step before a row leaves the forces, from which work and energy follow" },

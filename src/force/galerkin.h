@@ -371,8 +371,7 @@ pg_status galerkin_utilisation (void *self, const pg_state *state, const double 
 /* worst: the worst bonds alone */
 pg_status galerkin_worst (void *self, const pg_state *state, const double *d, double from,
                           double *utilisation, char *kind, double *top, pg_changes *over);
-/* stretch: the same of a criterion by which elongation decides, of all bonds alike (1) */
-int       galerkin_elongation_decides (const galerkin *g);
+/* stretch: the same where elongation decides (pg_problem_breaks_by_elongation) */
 pg_status galerkin_longest (galerkin *g, const pg_state *state, const double *d, double from,
                             double *utilisation, char *kind, double *top, pg_changes *over);
 /* Of all ranks that share the body. */

@@ -21,15 +21,6 @@ typedef struct {
     const double *node;
 } looking;
 
-/* One criterion for all bonds, which judges by nothing but their two ends. */
-int galerkin_elongation_decides (const galerkin *g)
-{
-    const pg_problem *p = g->problem;
-    int free = 0;
-    for (int set = 0; set < PG_BOND_SETS; set++) free |= g->eigen[set] != NULL;
-    return p->nlimit == 1 && p->limit->type->elongation && !p->cloud.size && !free;
-}
-
 /* Place and displacement of a point, behind each other. */
 static void put (size_t dim, const double *x, const double *u, double *to)
 {

@@ -439,6 +439,13 @@ int galerkin_spared (const void *self, size_t k, char *what, char *why, double *
 {
     const galerkin *g = self;
     const galerkin_slices *s = g->slices;
+    if (g->place_now && k-- == 0) {
+        snprintf (what, 96, "utilisation of most bonds");
+        snprintf (why, 160, "a bond breaks by its elongation: only where the longest of a block reaches the "
+                            "limit they are judged");
+        *seconds = NAN;
+        return 1;
+    }
     if (k > 0 || !(s->alike > 0)) return 0;
     snprintf (what, 96, "shape functions point by point in products K x");
     snprintf (why, 160, "points of a lattice that see their nodes alike are summed eight at a time");

@@ -272,7 +272,7 @@ pg_status galerkin_worst (void *self, const pg_state *state, const double *d, do
     galerkin *g = self;
     search s = { .judge = { g, state, 0, utilisation, NULL, kind }, .top_node = NEVER };
     over->n = 0;
-    if (galerkin_elongation_decides (g))
+    if (pg_problem_breaks_by_elongation (g->problem))
         return galerkin_longest (g, state, d, from, utilisation, kind, top, over);
     if (g->problem->criterion->type->needs != PG_NEEDS_STRESS) {
         PG_TRY (galerkin_utilisation (g, state, d, utilisation, kind, NULL));

@@ -391,3 +391,9 @@ size_t pg_variation_words (const pg_problem *p, size_t k, char *text, size_t siz
         }
     return 0;
 }
+
+int pg_problem_breaks_by_elongation (const pg_problem *p)
+{
+    return p->nlimit == 1 && p->limit->type && p->limit->type->elongation && !p->cloud.size
+           && !pg_problem_strained (p);
+}
