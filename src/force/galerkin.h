@@ -364,6 +364,15 @@ enum { GALERKIN_BATCH = 128 };
 /* At most so many live bonds by the principal stresses of both ends; to: their places in the arrays. */
 void galerkin_judge (const galerkin_judging *s, size_t count, const size_t *bond, const size_t *point,
                      const size_t *to);
+/* Bonds of one set that are judged together. Of those judged so far: top, the largest utilisation; list those
+ * that use `from` or more of their limit (NULL: not wanted). galerkin_judge_batch judges and empties it. */
+typedef struct {
+    galerkin_judging judge;
+    double  from, top;
+    pg_changes *list;
+    size_t  bond[GALERKIN_BATCH], point[GALERKIN_BATCH], count;
+} galerkin_batch;
+pg_status galerkin_judge_batch (galerkin_batch *b);
 /* s1 and s3 of a point by the stress measured last. */
 void galerkin_principal (galerkin *g, int set, size_t p);
 pg_status galerkin_utilisation (void *self, const pg_state *state, const double *d, double *utilisation,

@@ -108,37 +108,18 @@ done:
 /* Bonds with at least this elongation; list takes those with a utilisation from `from` on (NULL: not
  * wanted). */
 typedef struct {
-    galerkin_judging judge;
-    double  least, from, square, top;
-    pg_changes *list;
-    size_t  bond[BATCH], point[BATCH], count;
+    galerkin_batch batch;
+    double least, square;
 } search;
-
-static pg_status judge_collected (search *s)
-{
-    pg_status status = PG_OK;
-    size_t base = s->judge.g->problem->first_bond[s->judge.set], to[BATCH];
-    double *u = s->judge.utilisation;
-    for (size_t k = 0; k < s->count; k++) to[k] = base + s->bond[k], u[to[k]] = 0;
-    if (s->count) galerkin_judge (&s->judge, s->count, s->bond, s->point, to);
-    for (size_t k = 0; k < s->count; k++) {
-        s->top = fmax (s->top, u[to[k]]);
-        if (!s->list || !(u[to[k]] >= s->from)) continue;
-        PG_GROW (s->list->bond, s->list->cap, s->list->n + 1);
-        s->list->bond[s->list->n++] = to[k];
-    }
-done:
-    s->count = 0;
-    return status;
-}
 
 static pg_status search_point (search *s, size_t p)
 {
     pg_status status = PG_OK;
-    const galerkin *g = s->judge.g;
-    int set = s->judge.set;
+    galerkin_batch *b = &s->batch;
+    const galerkin *g = b->judge.g;
+    int set = b->judge.set;
     const pg_rows *r = &g->rows[set];
-    const unsigned char *alive = s->judge.state->alive + g->problem->first_bond[set],
+    const unsigned char *alive = b->judge.state->alive + g->problem->first_bond[set],
                         *judged = g->judged[set];
     size_t dim = (size_t) g->dim;
     double own[PLACE] = { 0 };
@@ -147,8 +128,8 @@ static pg_status search_point (search *s, size_t p)
         if (!alive[k] || !judged[k]) continue;
         double e = elongation (own, g->place_now + PLACE * (size_t) r->family.node[k], s->square);
         if (!(e >= s->least)) continue;
-        s->bond[s->count] = k, s->point[s->count++] = p;
-        if (s->count == BATCH) PG_TRY (judge_collected (s));
+        b->bond[b->count] = k, b->point[b->count++] = p;
+        if (b->count == BATCH) PG_TRY (galerkin_judge_batch (b));
     }
 done:
     return status;
@@ -158,13 +139,13 @@ done:
 static pg_status search_all (search *s)
 {
     pg_status status = PG_OK;
-    galerkin *g = s->judge.g;
+    galerkin *g = s->batch.judge.g;
     for (int set = 0; set < PG_BOND_SETS; set++) {
-        s->judge.set = set;
+        s->batch.judge.set = set;
         for (size_t p = 0; p < g->rows[set].n; p++)
             if (g->longest[set][p / GALERKIN_BLOCK] >= s->least && pg_problem_owns (g->problem, set, p))
                 PG_TRY (search_point (s, p));
-        PG_TRY (judge_collected (s));
+        PG_TRY (galerkin_judge_batch (&s->batch));
     }
 done:
     return status;
@@ -175,14 +156,14 @@ pg_status galerkin_longest (galerkin *g, const pg_state *state, const double *d,
 {
     pg_status status = PG_OK;
     const pg_criterion *c = g->problem->limit;
-    search s = { .judge = { g, state, 0, utilisation, NULL, kind } };
+    search s = { .batch.judge = { g, state, 0, utilisation, NULL, kind } };
     double most = NONE, limit = c->type->elongation (c, from, &s.square);
     PG_TRY (find_longest (g, state, d, s.square, &most));
     s.least = most * (1 - hair);
     if (most > 0) PG_TRY (search_all (&s));
-    *top = galerkin_largest (g, s.top);
+    *top = galerkin_largest (g, s.batch.top);
     if (!(*top > 1)) goto done;
-    s.list = over, s.from = from, s.least = limit * (1 - hair);
+    s.batch.list = over, s.batch.from = from, s.least = limit * (1 - hair);
     if (most >= s.least) PG_TRY (search_all (&s));
 done:
     return status;

@@ -160,11 +160,9 @@ done:
  * both ends, so that a bond uses at most the mean of what its ends would use alone: only bonds are judged for
  * which this bound is above `least`. */
 typedef struct {
-    galerkin_judging judge;
+    galerkin_batch batch;                              /* its list takes bonds from `least` on */
     double  top_node;                                  /* the largest bound of a node */
-    double  least, top;
-    pg_changes *list;                                  /* takes bonds from `least` on; NULL: not wanted */
-    size_t  bond[BATCH], point[BATCH], count;
+    double  least;
 } search;
 
 /* The principal stresses of a point themselves, where only bounds are known. */
@@ -175,31 +173,39 @@ static void make_exact (galerkin *g, int set, size_t p)
     g->exact[set][p] = 1;
 }
 
+pg_status galerkin_judge_batch (galerkin_batch *b)
+{
+    pg_status status = PG_OK;
+    size_t base = b->judge.g->problem->first_bond[b->judge.set], to[BATCH];
+    double *u = b->judge.utilisation;
+    for (size_t k = 0; k < b->count; k++) to[k] = base + b->bond[k], u[to[k]] = 0;
+    if (b->count) galerkin_judge (&b->judge, b->count, b->bond, b->point, to);
+    for (size_t k = 0; k < b->count; k++) {
+        b->top = fmax (b->top, u[to[k]]);
+        if (!b->list || !(u[to[k]] >= b->from)) continue;
+        PG_GROW (b->list->bond, b->list->cap, b->list->n + 1);
+        b->list->bond[b->list->n++] = to[k];
+    }
+done:
+    b->count = 0;
+    return status;
+}
+
 /* Judges the bonds collected. Without a list the largest utilisation so far is what others have to reach. */
 static pg_status judge_collected (search *s)
 {
     pg_status status = PG_OK;
-    galerkin *g = s->judge.g;
-    int set = s->judge.set;
-    const int *node = g->rows[set].family.node;
-    size_t base = g->problem->first_bond[set], to[BATCH];
-    double *u = s->judge.utilisation;
-    for (size_t k = 0; k < s->count; k++) {
-        to[k] = base + s->bond[k], u[to[k]] = 0;
-        make_exact (g, set, s->point[k]);
-        make_exact (g, PG_NODES, (size_t) node[s->bond[k]]);
+    galerkin_batch *b = &s->batch;
+    galerkin *g = b->judge.g;
+    const int *node = g->rows[b->judge.set].family.node;
+    for (size_t k = 0; k < b->count; k++) {
+        make_exact (g, b->judge.set, b->point[k]);
+        make_exact (g, PG_NODES, (size_t) node[b->bond[k]]);
     }
-    if (s->count) galerkin_judge (&s->judge, s->count, s->bond, s->point, to);
-    for (size_t k = 0; k < s->count; k++) {
-        size_t i = to[k];
-        if (u[i] > s->top) s->top = u[i];
-        if (!s->list || !(u[i] >= s->least)) continue;
-        PG_GROW (s->list->bond, s->list->cap, s->list->n + 1);
-        s->list->bond[s->list->n++] = i;
-    }
-    if (!s->list) s->least = s->top;
+    b->from = s->least;
+    PG_TRY (galerkin_judge_batch (b));
+    if (!b->list) s->least = b->top;
 done:
-    s->count = 0;
     return status;
 }
 
@@ -213,16 +219,17 @@ static int may (const search *s, double one, double other)
 static pg_status search_point (search *s, size_t p)
 {
     pg_status status = PG_OK;
-    const galerkin *g = s->judge.g;
-    int set = s->judge.set;
+    galerkin_batch *b = &s->batch;
+    const galerkin *g = b->judge.g;
+    int set = b->judge.set;
     const pg_family *f = &g->rows[set].family;
-    const unsigned char *alive = s->judge.state->alive + g->problem->first_bond[set];
+    const unsigned char *alive = b->judge.state->alive + g->problem->first_bond[set];
     for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
         double other = g->alone[PG_NODES][f->node[e]];
         if (!alive[e] || !may (s, g->alone[set][p], other) || pg_problem_no_bond (g->problem, set, p, e))
             continue;
-        s->bond[s->count] = e, s->point[s->count++] = p;
-        if (s->count == BATCH) PG_TRY (judge_collected (s));
+        b->bond[b->count] = e, b->point[b->count++] = p;
+        if (b->count == BATCH) PG_TRY (judge_collected (s));
     }
 done:
     return status;
@@ -232,11 +239,11 @@ done:
 static pg_status search_all (search *s)
 {
     pg_status status = PG_OK;
-    galerkin *g = s->judge.g;
-    for (s->judge.set = 0; s->judge.set < PG_BOND_SETS; s->judge.set++) {
-        const double *alone = g->alone[s->judge.set];
-        for (size_t p = 0; p < g->rows[s->judge.set].n; p++)
-            if (may (s, alone[p], s->top_node) && pg_problem_owns (g->problem, s->judge.set, p))
+    galerkin *g = s->batch.judge.g;
+    for (s->batch.judge.set = 0; s->batch.judge.set < PG_BOND_SETS; s->batch.judge.set++) {
+        const double *alone = g->alone[s->batch.judge.set];
+        for (size_t p = 0; p < g->rows[s->batch.judge.set].n; p++)
+            if (may (s, alone[p], s->top_node) && pg_problem_owns (g->problem, s->batch.judge.set, p))
                 PG_TRY (search_point (s, p));
         PG_TRY (judge_collected (s));
     }
@@ -248,12 +255,13 @@ done:
 static pg_status search_first (search *s)
 {
     pg_status status = PG_OK;
-    galerkin *g = s->judge.g;
-    for (s->judge.set = 0; s->judge.set < PG_BOND_SETS; s->judge.set++) {
-        const double *alone = g->alone[s->judge.set];
-        size_t n = g->rows[s->judge.set].n, worst = n;
+    galerkin *g = s->batch.judge.g;
+    for (s->batch.judge.set = 0; s->batch.judge.set < PG_BOND_SETS; s->batch.judge.set++) {
+        const double *alone = g->alone[s->batch.judge.set];
+        size_t n = g->rows[s->batch.judge.set].n, worst = n;
         for (size_t p = 0; p < n; p++)
-            if (pg_problem_owns (g->problem, s->judge.set, p) && (worst == n || alone[p] > alone[worst]))
+            if (pg_problem_owns (g->problem, s->batch.judge.set, p)
+                && (worst == n || alone[p] > alone[worst]))
                 worst = p;
         if (worst < n) PG_TRY (search_point (s, worst));
         PG_TRY (judge_collected (s));
@@ -270,7 +278,7 @@ pg_status galerkin_worst (void *self, const pg_state *state, const double *d, do
 {
     pg_status status = PG_OK;
     galerkin *g = self;
-    search s = { .judge = { g, state, 0, utilisation, NULL, kind }, .top_node = NEVER };
+    search s = { .batch.judge = { g, state, 0, utilisation, NULL, kind }, .top_node = NEVER };
     over->n = 0;
     if (pg_problem_breaks_by_elongation (g->problem))
         return galerkin_longest (g, state, d, from, utilisation, kind, top, over);
@@ -281,11 +289,11 @@ pg_status galerkin_worst (void *self, const pg_state *state, const double *d, do
     PG_TRY (find_bounds (g, d));
     for (size_t i = 0; i < g->n; i++) s.top_node = fmax (s.top_node, g->alone[PG_NODES][i]);
     PG_TRY (search_first (&s));
-    s.least = s.top = galerkin_largest (g, s.top);
+    s.least = s.batch.top = galerkin_largest (g, s.batch.top);
     PG_TRY (search_all (&s));
-    *top = galerkin_largest (g, s.top);
-    if (!(s.top > 1)) goto done;
-    s.list = over, s.least = from;
+    *top = galerkin_largest (g, s.batch.top);
+    if (!(s.batch.top > 1)) goto done;
+    s.batch.list = over, s.least = from;
     PG_TRY (search_all (&s));
 done:
     return status;
