@@ -103,13 +103,14 @@ def case_of(name, n):
         E, nu, u = 2e11, 0.3, block()
         fixed = lambda x, y, z: dict(enumerate(u(x, y, z), 1)) if abs(x) < tiny else {}
         return dict(map=lambda a, b, c: (4 * a, b - 0.5, c - 0.5), n=(4 * n, n, n), E=E, nu=nu, fixed=fixed, u=u, loads=[('a1', lambda x, y, z: (E * 1e-3 * y, 0.0, 0.0))])
-    if name == 'cantilever_3d':                        # the beam in plane strain between smooth walls z = 0 and z = 6
+    if name in ('cantilever_3d', 'cantilever_3d_long'):  # the beam in plane strain between smooth walls z = 0 and z = 6
         E, nu = 3e7, 0.3
         u, s = beam(E / (1 - nu * nu), nu / (1 - nu))
         def fixed(x, y, z):
             at = dict(enumerate(u(x, y), 1)) if abs(x) < tiny else {}
             return {**at, 3: 0.0} if abs(x) < tiny or abs(z) < tiny or abs(z - 6) < tiny else at
-        return dict(map=lambda a, b, c: (48 * a, 12 * b - 6, 6 * c), n=(4 * n, n, max(1, n // 2)), E=E, nu=nu, fixed=fixed, u=lambda x, y, z: u(x, y) + (0.0,), s=s,
+        sizes = (4 * n, n, max(1, n // 2)) if name == 'cantilever_3d' else (2 * n, n, 1)
+        return dict(map=lambda a, b, c: (48 * a, 12 * b - 6, 6 * c), n=sizes, E=E, nu=nu, fixed=fixed, u=lambda x, y, z: u(x, y) + (0.0,), s=s,
                     loads=[('a1', lambda x, y, z: (0.0, s(x, y)[2], 0.0))])
     sys.exit(f'make_mesh.py: there is no case {name}')
 

@@ -313,7 +313,18 @@ void galerkin_bulk_force  (galerkin *g, const double *d, double *f);
 void galerkin_bulk_apply  (galerkin *g, const double *x, double *y);   /* y += K x of the bulk */
 double galerkin_bulk_energy (const galerkin *g, const double *d);
 const pg_material *galerkin_material (const galerkin *g, int set, size_t p);
-void galerkin_B_transpose (int dim, const double *grad, const double *stress, double *f);  /* f = B' stress */
+/* f_k = sum of sigma_kl dN/dx_l, thus B' sigma for one node: q is its gradient of N, 1/m, and s the
+ * stress in Voigt order. */
+static inline void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
+{
+    if (dim == 1) f[0] = q[0] * s[0];
+    else if (dim == 2) f[0] = q[0] * s[0] + q[1] * s[2], f[1] = q[1] * s[1] + q[0] * s[2];
+    else {
+        f[0] = q[0] * s[0] + q[1] * s[3] + q[2] * s[5];
+        f[1] = q[1] * s[1] + q[0] * s[3] + q[2] * s[4];
+        f[2] = q[2] * s[2] + q[1] * s[4] + q[0] * s[5];
+    }
+}
 /* boundary */
 pg_status galerkin_boundary_create (galerkin *g);
 void galerkin_boundary_free (galerkin *g);

@@ -22,19 +22,6 @@ static void add_strain (int dim, const double *q, const double *d, double *e)
     }
 }
 
-/* f_k = sum of sigma_kl dN/dx_l, thus B' sigma for one node: q is its gradient of N, 1/m, and s the
- * stress in Voigt order. */
-void galerkin_B_transpose (int dim, const double *q, const double *s, double *f)
-{
-    if (dim == 1) f[0] = q[0] * s[0];
-    else if (dim == 2) f[0] = q[0] * s[0] + q[1] * s[2], f[1] = q[1] * s[1] + q[0] * s[2];
-    else {
-        f[0] = q[0] * s[0] + q[1] * s[3] + q[2] * s[5];
-        f[1] = q[1] * s[1] + q[0] * s[3] + q[2] * s[4];
-        f[2] = q[2] * s[2] + q[1] * s[4] + q[0] * s[5];
-    }
-}
-
 /* In the plane all four entries of a block lie in one register: row by row they are products of D B_a
  * with q[0] and q[1]. */
 PG_WIDE static void add_plane_blocks (const double *DB, size_t m, const double *q, double *k)

@@ -196,6 +196,24 @@ static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
     }
 }
 
+/* Nitsche's terms of one constraint, between a node with N_a and the traction t_a of its unit displacements,
+ * times the weight w, and m nodes; QD as in traction_of_strain; press: beta w N_a. */
+static inline __attribute__ ((always_inline)) void add_nitsche (size_t dim, size_t k, const double *QD,
+                                                                double wN, const double *wt, double press,
+                                                                size_t m, const double *N, const double *dN,
+                                                                double *out)
+{
+    double tb[3];
+    for (size_t b = 0; b < m; b++, dN += dim, out += dim * dim) {
+        galerkin_B_transpose ((int) dim, dN, QD, tb);
+        for (size_t c = 0; c < dim; c++) {
+            out[k * dim + c] -= wN * tb[c];
+            out[c * dim + k] -= wt[c] * N[b];
+        }
+        out[k * dim + k] += press * N[b];
+    }
+}
+
 /* Nitsche's terms of one facet point, between its node a and its first m nodes (blocks m x dim x dim):
  * -N_a (sigma (N_b) n) - (sigma (N_a) n) N_b + beta N_a N_b for the prescribed component. The second term
  * makes K symmetric and costs no accuracy, as it vanishes at the solution. */
@@ -204,21 +222,18 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
     galerkin *g = context;
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim, first = r->family.start[p];
-    double w = r->weight[p], QD[6], ta[3], tb[3];
+    const double *N = r->N + first, *dN = r->dN + first * dim;
+    double w = r->weight[p], QD[6], wt[3];
+    if (g->nitsche_start[p] == g->nitsche_start[p + 1]) return;
+    double press = w * beta (g, p) * N[a];
     for (size_t i = g->nitsche_start[p]; i < g->nitsche_start[p + 1]; i++) {
         size_t k = (size_t) g->nitsche[i].component;
-        double Na = r->N[first + a];
         traction_of_strain (g, p, (int) k, QD);
-        galerkin_B_transpose (g->dim, r->dN + (first + a) * dim, QD, ta);
-        for (size_t b = 0; b < m; b++) {
-            double Nb = r->N[first + b], *K = out + b * dim * dim;
-            galerkin_B_transpose (g->dim, r->dN + (first + b) * dim, QD, tb);
-            for (size_t c = 0; c < dim; c++) {
-                K[k * dim + c] -= w * Na * tb[c];
-                K[c * dim + k] -= w * ta[c] * Nb;
-            }
-            K[k * dim + k] += w * beta (g, p) * Na * Nb;
-        }
+        galerkin_B_transpose (g->dim, dN + a * dim, QD, wt);
+        for (size_t c = 0; c < dim; c++) wt[c] *= w;
+        if (dim == 3) add_nitsche (3, k, QD, w * N[a], wt, press, m, N, dN, out);
+        else if (dim == 2) add_nitsche (2, k, QD, w * N[a], wt, press, m, N, dN, out);
+        else add_nitsche (dim, k, QD, w * N[a], wt, press, m, N, dN, out);
     }
 }
 

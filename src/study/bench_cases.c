@@ -147,8 +147,10 @@ static pg_status add_curve (pg_bench_cases *out, const pg_bench_request *q, size
         memset (c, 0, sizeof *c);
         c->scene = s, c->curve = out->ncurve;
         fill_case (c, q, b, m);
-        if (meshed)
-            snprintf (c->element, sizeof c->element, "CPS8"), c->size = strtol (q->mesh.word[k], NULL, 10);
+        if (meshed) {
+            snprintf (c->element, sizeof c->element, "%s", body->dim == 3 ? "C3D8I" : "CPS8");
+            c->size = strtol (q->mesh.word[k], NULL, 10);
+        }
         if (b->mesh) continue;
         char number[32];
         snprintf (number, sizeof number, "%.15g", b->spacing * factor[k < 3 ? k : 2]);
@@ -167,13 +169,15 @@ static const char *word_of (const pg_word_list *w, size_t k, size_t of)
     return w->n ? w->word[k / of % w->n] : NULL;
 }
 
-/* 1 if the runs of CalculiX for this body are in the list already: scenes of one group share
- * them. */
+/* 1 if the runs of CalculiX on the meshes of this scene are in the list already: scenes of one body may
+ * share them. */
 static int has_fem (const pg_bench_cases *cases, const char *name)
 {
     const pg_bench_body *body = pg_bench_body_find (name);
-    for (size_t i = 0; body && i < cases->n; i++)
-        if (cases->at[i].fem && strcmp (cases->at[i].group, body->group) == 0) return 1;
+    for (size_t i = 0; body && i < cases->n; i++) {
+        const pg_bench_body *of = cases->at[i].fem ? pg_bench_body_find (cases->at[i].name) : NULL;
+        if (of && strcmp (of->mesh, body->mesh) == 0) return 1;
+    }
     return 0;
 }
 

@@ -25,8 +25,10 @@ pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size
     static const char *const sizes[2][4] = { { "8", "16", "32", "64" }, { "2", "4", "8", NULL } };
     const char *why = missing (q->scene[s], name);
     const pg_bench_body *body = pg_bench_body_find (name);
-    int solid = body && body->dim == 3;
+    int solid = body && body->dim == 3, again = 0;
     size_t nelement = q->element.n ? q->element.n : 2, nsize = q->size.n ? q->size.n : solid ? 3 : 4;
+    for (size_t i = 0; body && i < out->n; i++)        /* on meshes of another shape */
+        again |= out->at[i].fem && strcmp (out->at[i].group, body->group) == 0;
     for (size_t e = 0; e < (why ? 1 : nelement); e++, out->ncurve++)
         for (size_t k = 0; k < (why ? 1 : nsize); k++) {
             PG_GROW (out->at, out->cap, out->n + 1);
@@ -38,7 +40,7 @@ pg_status pg_bench_fem_add (pg_bench_cases *out, const pg_bench_request *q, size
             snprintf (c->group, sizeof c->group, "%s", body ? body->group : name);
             snprintf (c->element, sizeof c->element, "%.15s",
                       q->element.n ? q->element.word[e] : usual[solid][e]);
-            snprintf (c->method, sizeof c->method, "ccx %s", why ? "" : c->element);
+            snprintf (c->method, sizeof c->method, "ccx %s%s", why ? "" : c->element, again ? " mesh" : "");
             c->size = strtol (q->size.n ? q->size.word[k] : sizes[solid][k], NULL, 10);
             if (why) snprintf (c->trouble, sizeof c->trouble, "skipped: %s", why);
         }

@@ -24,6 +24,7 @@ static const pg_bench_body known[] = {
     { "plate_hole_mesh_sliding", "plate_hole_sliding", "plate_sliding", "mm", 2, 1 },
     { "bending_3d", "bending_3d", "bending_3d", "m", 3, 0 },
     { "cantilever_3d", "cantilever_3d", "cantilever_3d", "m", 3, 0 },
+    { "cantilever_3d_mesh", "cantilever_3d", "cantilever_3d_long", "m", 3, 1 },
 };
 
 /* NULL for scenes that the script does not know. */

@@ -40,6 +40,11 @@ if command -v python3 > /dev/null; then
     between "$(column "$table" l2 ' mesh,' | tail -1)" 4.6e-4 4.8e-4; verdict "the error on the mesh" $?
     picture "$work/mesh/time_error.png" && [ ! -e "$work/mesh/time_error_kirsch.png" ]; verdict "one picture of both" $?
     [ "$(grep -c 'least CPU seconds' "$work/out")" -eq 1 ] && grep -q 'L2 1e-03: perigal [0-9.]* s (rkpm consistent quadratic mesh)' "$work/out"; verdict "the best curve of both scenes" $?
+    solid="data/cantilever_3d_mesh/scene.yaml --approximation rkpm --integration gauss --basis linear"
+    expect "bench: a solid on a mesh" 0 'cantilever_3d_mesh .*rkpm gauss linear mesh .* 270 dofs' '' bench $solid --mesh-size 3,4 -o "$work/solid"
+    table=$work/solid/bench.csv
+    [ "$(column "$table" dofs ' mesh,' | tr '\n' ' ')" = "168 270 " ]; verdict "the meshes asked for" $?
+    between "$(column "$table" l2 ' mesh,' | tail -1)" 3.0e-4 3.2e-4; verdict "the error of data/cantilever_3d_mesh/README.md" $?
     expect "bench: a size without elements" 0 'skipped: make_mesh.py' '' bench $kirsch --spacing 1 --mesh-size 0,4 -o "$work/mesh0"
     expect "bench: the plate with a hole on a mesh" 0 ' 1152 dofs' '' bench data/plate_hole_mesh/scene_sliding.yaml --approximation rkpm --integration consistent --basis quadratic \
            --mesh-size 8 -o "$work/hole"
@@ -48,6 +53,9 @@ fi
 if command -v ccx > /dev/null && command -v python3 > /dev/null; then
     expect "bench: the same sizes for CalculiX, once for both scenes" 0 'ccx [0-9.]* s (ccx CPS8)' '' bench $kirsch --spacing 1 --mesh-size 4,8 --fem -o "$work/both"
     [ "$(column "$work/both/bench.csv" dofs CPS8 | tr '\n' ' ')" = "130 450 " ]; verdict "their unknowns" $?
+    solid="data/cantilever_3d/scene.yaml data/cantilever_3d_mesh/scene.yaml --approximation rkpm --integration gauss --basis linear"
+    expect "bench: CalculiX on the meshes of both scenes" 0 'ccx C3D20 mesh .* 96 dofs' '' bench $solid --spacing 6 --mesh-size 2 --fem-element C3D20 --fem-size 1 -o "$work/long"
+    [ "$(column "$work/long/bench.csv" dofs C3D20 | tr '\n' ' ')" = "168 96 " ]; verdict "unknowns of cubes and of long hexahedra" $?
     expect "bench: CalculiX beside" 0 'ccx CPS4 .* 170 dofs' '' bench $beam --approximation rkpm --basis linear --integration gauss --spacing 1.5 --fem-element CPS4,CPS8 \
            --fem-size 4 --repeat 2 -o "$work/ccx"
     # the errors that data/calculix/make_mesh.py --measure gives, in code of its own
