@@ -2,19 +2,23 @@
  * A clock, and a parallel loop over disjoint ranges, by POSIX threads: the limit on OpenMP threads that
  * CHOLMOD needs does not bind them.
  *
- * Helper threads are started once and wait for a job, awake for some microseconds, then asleep. A part of a
- * loop that no helper has begun when the calling thread is done with its own part, the calling thread does
- * itself: on a busy machine nobody waits for a helper that gets no processor. Loops inside loops stay on
- * their thread; a loop that finds the helpers busy with another loop starts threads of its own. */
+ * Helper threads are started once and wait for a job: awake for some microseconds, then for some milliseconds
+ * in which any other thread gets the processor first, then asleep. To wake a thread takes as long as many a
+ * loop of conjugate gradients (with sleep after the first microseconds their solves take 8 % longer on two
+ * threads). A part of a loop that no helper has begun when the calling thread is done with its own part, the
+ * calling thread does itself: on a busy machine nobody waits for a helper that gets no processor. Loops
+ * inside loops stay on their thread; a loop that finds the helpers busy with another loop starts threads of
+ * its own. */
 #include "perigal/base.h"
 #include <pthread.h>
+#include <sched.h>
 #include <stdatomic.h>
 #include <time.h>
 #include <unistd.h>
 
-/* Threads at most. LOOKS: how often a waiting thread looks at a variable, some ten ns each, before it
- * sleeps. */
-enum { MAX_THREADS = 64, LOOKS = 1000 };
+/* Threads at most. How often a waiting thread looks at a variable: LOOKS times, some ten ns each, then YIELDS
+ * times, some hundred ns each, after which it sleeps. */
+enum { MAX_THREADS = 64, LOOKS = 1000, YIELDS = 5000 };
 
 /* A part of a loop. */
 typedef struct { pg_work work; void *context; size_t first, last; int thread; } job;
@@ -37,13 +41,12 @@ typedef struct {
 static struct {
     helper helper[MAX_THREADS];                        /* 1 .. started - 1 */
     int    started;                                    /* threads there are, the caller's among them */
-    /* how often to look before going to sleep; 0: one core */
-    int    looks;
+    int    looks;                                      /* before going to sleep; 0: one core */
     pthread_once_t  once;
     pthread_mutex_t gate;                              /* held during a loop */
     pthread_mutex_t end_lock;
     pthread_cond_t  end;                               /* the last thread has done its part */
-    atomic_int      unfinished;                        /* parts of the loop that are under way elsewhere */
+    atomic_uint     unfinished;                        /* parts of the loop that are under way elsewhere */
 } pool = { .started = 1, .looks = -1, .once = PTHREAD_ONCE_INIT, .gate = PTHREAD_MUTEX_INITIALIZER,
            .end_lock = PTHREAD_MUTEX_INITIALIZER, .end = PTHREAD_COND_INITIALIZER };
 /* 1: this thread is running a part of a loop. */
@@ -82,6 +85,17 @@ static int claim (helper *h, unsigned turn)
     return atomic_compare_exchange_strong (&h->claimed, &before, turn);
 }
 
+/* Waits awake, for a while, for the variable to be something else than `from`; 0: it still is. */
+static int watch (atomic_uint *variable, unsigned from)
+{
+    for (int k = 0; k < pool.looks; k++) {
+        if (atomic_load_explicit (variable, memory_order_acquire) != from) return 1;
+        if (k < LOOKS) pause_briefly ();
+        else sched_yield ();
+    }
+    return 0;
+}
+
 /* ---- threads that wait --------------------------------------------------------------------------------- */
 /* Main function of a helper. The lock is taken even where the job was seen without it, because `quit` and
  * `job` are written under it. */
@@ -90,8 +104,7 @@ static void *serve (void *p)
     helper *h = p;
     unsigned seen = 0;
     for (;;) {
-        for (int k = 0; k < pool.looks && atomic_load_explicit (&h->turn, memory_order_acquire) == seen; k++)
-            pause_briefly ();
+        watch (&h->turn, seen);
         pthread_mutex_lock (&h->lock);
         while (atomic_load (&h->turn) == seen) pthread_cond_wait (&h->wake, &h->lock);
         seen = atomic_load (&h->turn);
@@ -131,7 +144,7 @@ static void forget (void)
 static void prepare (void)
 {
     pthread_atfork (NULL, NULL, forget);
-    pool.looks = sysconf (_SC_NPROCESSORS_ONLN) > 1 ? LOOKS : 0;
+    pool.looks = sysconf (_SC_NPROCESSORS_ONLN) > 1 ? LOOKS + YIELDS : 0;
 }
 
 /* At exit, and where the library is unloaded: no thread may be left in its code. */
@@ -166,7 +179,7 @@ static void run_with_helpers (int threads, job *jobs)
 {
     hire (threads);
     int given = threads < pool.started ? threads : pool.started;
-    atomic_store (&pool.unfinished, given - 1);
+    atomic_store (&pool.unfinished, (unsigned) given - 1);
     for (int k = 1; k < given; k++) pool.helper[k].job = jobs[k], give_turn (&pool.helper[k], 0);
     run (&jobs[0]);
     for (int k = given; k < threads; k++) run (&jobs[k]);
@@ -175,9 +188,9 @@ static void run_with_helpers (int threads, job *jobs)
         run (&jobs[k]);
         atomic_fetch_sub (&pool.unfinished, 1);
     }
-    for (int k = 0; k < pool.looks && atomic_load_explicit (&pool.unfinished, memory_order_acquire) > 0; k++)
-        pause_briefly ();
-    if (atomic_load (&pool.unfinished) == 0) return;
+    unsigned left = atomic_load (&pool.unfinished);
+    while (left > 0 && watch (&pool.unfinished, left)) left = atomic_load (&pool.unfinished);
+    if (left == 0) return;
     pthread_mutex_lock (&pool.end_lock);
     while (atomic_load (&pool.unfinished) > 0) pthread_cond_wait (&pool.end, &pool.end_lock);
     pthread_mutex_unlock (&pool.end_lock);
