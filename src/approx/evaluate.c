@@ -21,8 +21,10 @@ typedef struct {
     congruent *known;
 } evaluation;
 
-/* Kernel and its derivative at q (n). Arguments are limited to 1: a family that includes its
- * edge may hold bonds that are longer by rounding. */
+#define INLINE static inline __attribute__ ((always_inline))
+
+/* Kernel and, where slopes are asked for, its derivative at q (n). Arguments are limited to 1: a family that
+ * includes its edge may hold bonds that are longer by rounding. */
 static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, double *dk)
 {
     for (size_t i = 0; i < n; i++) if (q[i] > 1) q[i] = 1;
@@ -31,9 +33,9 @@ static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, 
 
 /* Weights and slopes of anisotropic supports: q = sqrt (z' A z) a / a_j, A the measure of the neighbour, and
  * a dw/dx = - w' (a / a_j)^2 A z / q. s->slope holds A z until the kernel is known. */
-static void anisotropic (const pg_kernel *kernel, const pg_cloud *cloud, const int *node, pg_neighbourhood *s)
+INLINE void stretched (size_t dim, const pg_kernel *kernel, const pg_cloud *cloud, const int *node,
+                       pg_neighbourhood *s)
 {
-    size_t dim = (size_t) s->dim;
     for (size_t j = 0; j < s->n; j++) {
         const double *A = cloud->metric + (size_t) node[s->entry[j]] * dim * dim, *z = s->z + j * dim;
         double sum = 0;
@@ -45,26 +47,25 @@ static void anisotropic (const pg_kernel *kernel, const pg_cloud *cloud, const i
         }
         s->q[j] = sqrt (sum) * s->ratio[j];
     }
-    kernel_at (kernel, s->n, s->q, s->k, s->dk);
-    for (size_t j = 0; j < s->n; j++) {
+    kernel_at (kernel, s->n, s->q, s->k, s->sloped ? s->dk : NULL);
+    for (size_t j = 0; j < s->n; j++) s->w[j] = s->k[j];
+    for (size_t j = 0; s->sloped && j < s->n; j++) {
         double rate = s->q[j] > 0 ? -s->dk[j] / s->q[j] * s->ratio[j] * s->ratio[j] : 0;
-        s->w[j] = s->k[j];
         for (size_t k = 0; k < dim; k++) s->slope[j * dim + k] *= rate;
     }
 }
 
 /* Weights w (|z_j| a / a_j) and slopes a dw/dx = - w' z / |z|. */
-static void radial (const pg_kernel *kernel, pg_neighbourhood *s)
+INLINE void radial (size_t dim, const pg_kernel *kernel, pg_neighbourhood *s)
 {
-    size_t dim = (size_t) s->dim;
     for (size_t j = 0; j < s->n; j++) {
         double sum = 0;
         for (size_t k = 0; k < dim; k++) sum += s->z[j*dim + k] * s->z[j*dim + k];
         s->q[j] = s->ratio ? sqrt (sum) * s->ratio[j] : sqrt (sum);
     }
-    kernel_at (kernel, s->n, s->q, s->k, s->dk);
-    for (size_t j = 0; j < s->n; j++) {
-        s->w[j] = s->k[j];
+    kernel_at (kernel, s->n, s->q, s->k, s->sloped ? s->dk : NULL);
+    for (size_t j = 0; j < s->n; j++) s->w[j] = s->k[j];
+    for (size_t j = 0; s->sloped && j < s->n; j++) {
         double rate = s->q[j] > 0 ? -s->dk[j] / s->q[j] : 0;
         if (s->ratio) rate *= s->ratio[j] * s->ratio[j];
         for (size_t k = 0; k < dim; k++) s->slope[j*dim + k] = rate * s->z[j*dim + k];
@@ -92,10 +93,9 @@ static void tensor (const pg_kernel *kernel, pg_neighbourhood *s)
 }
 
 /* The node that row i is, or else the nearest one that it sees; -1: it sees none. */
-static int nearest_node (const evaluation *g, size_t i)
+INLINE int nearest_node (const evaluation *g, size_t i, size_t dim)
 {
     const pg_rows *rows = g->rows;
-    size_t dim = (size_t) rows->dim;
     int nearest = rows->own[i];
     double best = INFINITY;
     for (size_t e = rows->family.start[i]; rows->own[i] < 0 && e < rows->family.start[i + 1]; e++) {
@@ -110,25 +110,31 @@ static int nearest_node (const evaluation *g, size_t i)
 }
 
 /* Support radius and spacing at row i, those of its nearest node where spacings differ. */
-static void measure_place (const evaluation *g, size_t i, pg_neighbourhood *s)
+INLINE void measure_place (const evaluation *g, size_t i, size_t dim, pg_neighbourhood *s)
 {
-    int nearest = g->cloud->size ? nearest_node (g, i) : -1;
+    int nearest = g->cloud->size ? nearest_node (g, i, dim) : -1;
     double ratio = nearest < 0 ? 1 : pg_cloud_ratio (g->cloud, (size_t) nearest);
     s->a = g->a->horizon * ratio;
     s->slender = nearest < 0 ? 1 : pg_cloud_slender (g->cloud, (size_t) nearest);
     s->h = g->cloud->h * ratio / s->slender;
 }
 
+/* a / a_j of bond j, the kernel's radius at the place over that of its node. */
+INLINE double ratio_of (const evaluation *g, const pg_neighbourhood *s, int j)
+{
+    return s->a / (g->a->horizon * (g->cloud->size ? g->cloud->size[j] / g->cloud->h : 1));
+}
+
 /* Collects the live bonds of row i. A node that expands about its own value is not its own
  * neighbour. */
-static void gather (const evaluation *g, size_t i, pg_neighbourhood *s)
+INLINE void gather_those (const evaluation *g, size_t i, size_t dim, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;
-    size_t dim = (size_t) s->dim, first = rows->family.start[i], last = rows->family.start[i + 1];
+    size_t first = rows->family.start[i], last = rows->family.start[i + 1];
     int own = g->formula->about_node ? rows->own[i] : -1, seen = 0;
     s->constant = own < 0, s->lost = 0;
     s->n = 0;
-    measure_place (g, i, s);
+    measure_place (g, i, dim, s);
     for (size_t e = first; e < last; e++) {
         int j = rows->family.node[e];
         if (j == own) s->own = e - first, seen = 1;
@@ -136,10 +142,17 @@ static void gather (const evaluation *g, size_t i, pg_neighbourhood *s)
         if (j == own || (g->alive && !g->alive[e])) continue;
         for (size_t k = 0; k < dim; k++)
             s->z[s->n * dim + k] = (g->cloud->x[(size_t) j * dim + k] - rows->x[i*dim + k]) / s->a;
-        if (s->ratio) s->ratio[s->n] = s->a / (g->a->horizon * pg_cloud_ratio (g->cloud, (size_t) j));
+        if (s->ratio) s->ratio[s->n] = ratio_of (g, s, j);
         s->entry[s->n++] = e - first;
     }
     if (own >= 0 && !seen) s->stray = 1;
+}
+
+static void gather (const evaluation *g, size_t i, pg_neighbourhood *s)
+{
+    if (s->dim == 3) gather_those (g, i, 3, s);
+    else if (s->dim == 2) gather_those (g, i, 2, s);
+    else gather_those (g, i, 1, s);
 }
 
 /* The same of a row that has all its bonds and is no node that expands about itself, of a cloud of one
@@ -166,11 +179,12 @@ static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
 
 /* Writes the influence times volume of each bond into rows->w, drops bonds without a weight,
  * and scales the others to the sum 1. */
-static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
+INLINE void weigh_those (const evaluation *g, size_t i, size_t dim, pg_neighbourhood *s)
 {
-    size_t dim = (size_t) s->dim, first = g->rows->family.start[i], kept = 0;
-    if (g->cloud->metric) anisotropic (g->a->kernel, g->cloud, g->rows->family.node + first, s);
-    else (g->a->shape == PG_TENSOR ? tensor : radial) (g->a->kernel, s);
+    size_t first = g->rows->family.start[i], kept = 0;
+    if (g->cloud->metric) stretched (dim, g->a->kernel, g->cloud, g->rows->family.node + first, s);
+    else if (g->a->shape == PG_TENSOR) tensor (g->a->kernel, s);
+    else radial (dim, g->a->kernel, s);
     double total = 0;
     for (size_t j = 0; j < s->n; j++) {
         size_t e = first + s->entry[j];
@@ -180,18 +194,24 @@ static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
         if (!(w > 0)) continue;
         s->entry[kept] = s->entry[j];
         s->w[kept] = w;
-        for (size_t k = 0; k < dim; k++) {
-            s->z[kept*dim + k] = s->z[j*dim + k];
+        for (size_t k = 0; k < dim; k++) s->z[kept*dim + k] = s->z[j*dim + k];
+        for (size_t k = 0; k < dim && s->sloped; k++)
             s->slope[kept*dim + k] = s->slope[j*dim + k] * scale;
-        }
         total += w;
         kept++;
     }
     s->n = kept;
-    for (size_t j = 0; j < kept; j++) {
-        s->w[j] /= total;
-        for (size_t k = 0; k < dim; k++) s->slope[j*dim + k] /= total;
-    }
+    for (size_t j = 0; j < kept; j++) s->w[j] /= total;
+    for (size_t j = 0; s->sloped && j < kept * dim; j++) s->slope[j] /= total;
+}
+
+/* Slopes where derivatives will be asked for (fill). */
+static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
+{
+    s->sloped = g->rows->dN || s->lost || (g->rows->N && !g->formula->values);
+    if (s->dim == 3) weigh_those (g, i, 3, s);
+    else if (s->dim == 2) weigh_those (g, i, 2, s);
+    else weigh_those (g, i, 1, s);
 }
 
 /* 1 if the place has lost bonds and one of those left enters its derivatives by more than
@@ -229,7 +249,7 @@ static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t
         double *dN = rows->dN ? rows->dN + first * (size_t) s->dim : s->q,
                *N = rows->N ? rows->N + first : s->k;
         if (grade > PG_GRADE_PROJECTED) return grade;
-        if (rows->dN || s->lost || (rows->N && !g->formula->values)) g->formula->fill (s, N, dN);
+        if (s->sloped) g->formula->fill (s, N, dN);
         else if (rows->N) g->formula->values (s, N);
         if (!wild (s, dN)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
         clear (rows, first, last);

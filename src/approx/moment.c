@@ -50,12 +50,10 @@ PG_WIDE static void fill_moments (pg_neighbourhood *s, double *A)
     else moments (s, s->dim, s->order, s->constant, s->size, A);
 }
 
-/* Fills p of all neighbours and L; returns 0 where A is singular to working accuracy. */
-static int factor (pg_neighbourhood *s, double tiny)
+/* L from A; returns 0 where A is singular to working accuracy. */
+static int factor (pg_neighbourhood *s, const double *A, double tiny)
 {
-    double A[PG_BASIS_MAX * PG_BASIS_MAX] = { 0 };
-    fill_moments (s, A);
-    memcpy (s->L, A, sizeof A);
+    memcpy (s->L, A, (size_t) (s->size * s->size) * sizeof *A);
     return pg_dense_cholesky (s->size, s->L, tiny) == 0;
 }
 
@@ -88,14 +86,31 @@ void pg_neighbourhood_spread (const pg_neighbourhood *s, const double *centre, d
 /* 1 if the smallest eigenvalue of the centred second moment M is below 1e-3 h^2, h being the
  * spacing: the neighbours then lie almost on a line or plane. No eigenvalue is computed: M -
  * 1e-3 h^2 I has a Cholesky factor exactly if all eigenvalues are above. */
-static int flat (const pg_neighbourhood *s, double h)
+static int thin (const pg_neighbourhood *s, double h, double *M)
 {
     int dim = s->dim;
+    for (int k = 0; k < dim; k++) M[k*dim + k] -= PG_THINNEST * (h / s->a) * (h / s->a);
+    return pg_dense_cholesky (dim, M, 0) != 0;
+}
+
+/* From the bonds, where the basis does not begin with 1. */
+static int flat (const pg_neighbourhood *s, double h)
+{
     double centre[3], M[9];
     pg_neighbourhood_centre (s, centre);
     pg_neighbourhood_spread (s, centre, M);
-    for (int k = 0; k < dim; k++) M[k*dim + k] -= PG_THINNEST * (h / s->a) * (h / s->a);
-    return pg_dense_cholesky (dim, M, 0) != 0;
+    return thin (s, h, M);
+}
+
+/* Else A, of weights of sum 1, holds the centre in its first row and the second moment about the place. */
+static int flat_by_moments (const pg_neighbourhood *s, double h, const double *A)
+{
+    double M[9];
+    const double *centre = A + 1;
+    for (int k = 0; k < s->dim; k++)
+        for (int l = 0; l <= k; l++)
+            M[k * s->dim + l] = A[(1 + k) * s->size + 1 + l] - centre[k] * centre[l];
+    return thin (s, h, M);
 }
 
 /* What remains where the neighbours spread too little: a projected basis if that is allowed,
@@ -113,13 +128,17 @@ static int left_over (pg_neighbourhood *s, int order, double h)
  * moments is larger, so its pivots may be smaller before they count as zero. */
 int pg_neighbourhood_grade (pg_neighbourhood *s, int order, double h)
 {
+    int look = s->lost || !s->extrapolates;
     s->projected = 0;
     if (s->n == 0) return PG_GRADE_DEAD;
-    if (s->n < (size_t) s->dim + 1 || ((s->lost || !s->extrapolates) && flat (s, h)))
-        return left_over (s, order, h);
+    if (s->n < (size_t) s->dim + 1 || (look && !s->constant && flat (s, h))) return left_over (s, order, h);
     for (s->order = order; s->order >= 1; s->order--) {
+        double A[PG_BASIS_MAX * PG_BASIS_MAX] = { 0 };
         s->size = basis_size (s->dim, s->order, s->constant);
-        if (s->n >= (size_t) s->size && factor (s, s->order == 2 ? 1e-10 : 1e-8))
+        if (s->n < (size_t) s->size) continue;
+        fill_moments (s, A);
+        if (look && s->constant && flat_by_moments (s, h, A)) return left_over (s, order, h);
+        if (factor (s, A, s->order == 2 ? 1e-10 : 1e-8))
             return s->order == order ? PG_GRADE_FULL : PG_GRADE_LOWERED;
     }
     return PG_GRADE_SHEPARD;

@@ -329,6 +329,8 @@ static inline void galerkin_B_transpose (int dim, const double *q, const double 
 pg_status galerkin_boundary_create (galerkin *g);
 void galerkin_boundary_free (galerkin *g);
 void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out);
+/* the same as block rows (pg_assembly_source.rows) */
+void galerkin_facet_rows   (void *context, size_t p, size_t a, size_t m, double *out);
 void galerkin_penalty_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
 /* y += what supports add to K x; facet points and constrained nodes only */
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y);

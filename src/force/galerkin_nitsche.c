@@ -190,36 +190,35 @@ static void traction_of_strain (const galerkin *g, size_t q, int k, double *QD)
     double Q[6];
     const double *D = galerkin_plain (g, PG_FACETS, q)->D;
     traction_row (g->dim, k, normal (g, q), Q);
-    for (int v = 0; v < g->nv; v++) {
-        QD[v] = 0;
-        for (int w = 0; w < g->nv; w++) QD[v] += D[w * g->nv + v] * Q[w];
-    }
+    for (int v = 0; v < g->nv; v++) QD[v] = 0;
+    for (int w = 0; w < g->nv; w++)
+        for (int v = 0; v < g->nv && Q[w] != 0; v++) QD[v] += D[w * g->nv + v] * Q[w];
 }
 
 /* Nitsche's terms of one constraint, between a node with N_a and the traction t_a of its unit displacements,
- * times the weight w, and m nodes; QD as in traction_of_strain; press: beta w N_a. */
+ * times the weight w, and m nodes; QD as in traction_of_strain; press: beta w N_a. Row i of the block of the
+ * next node is `next` numbers on, its next row `row` numbers. */
 static inline __attribute__ ((always_inline)) void add_nitsche (size_t dim, size_t k, const double *QD,
                                                                 double wN, const double *wt, double press,
                                                                 size_t m, const double *N, const double *dN,
-                                                                double *out)
+                                                                size_t next, size_t row, double *out)
 {
     double tb[3];
-    for (size_t b = 0; b < m; b++, dN += dim, out += dim * dim) {
+    for (size_t b = 0; b < m; b++, dN += dim, out += next) {
         galerkin_B_transpose ((int) dim, dN, QD, tb);
         for (size_t c = 0; c < dim; c++) {
-            out[k * dim + c] -= wN * tb[c];
-            out[c * dim + k] -= wt[c] * N[b];
+            out[k * row + c] -= wN * tb[c];
+            out[c * row + k] -= wt[c] * N[b];
         }
-        out[k * dim + k] += press * N[b];
+        out[k * row + k] += press * N[b];
     }
 }
 
 /* Nitsche's terms of one facet point, between its node a and its first m nodes (blocks m x dim x dim):
  * -N_a (sigma (N_b) n) - (sigma (N_a) n) N_b + beta N_a N_b for the prescribed component. The second term
  * makes K symmetric and costs no accuracy, as it vanishes at the solution. */
-void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+static void facet_terms (const galerkin *g, size_t p, size_t a, size_t m, size_t next, size_t row, double *out)
 {
-    galerkin *g = context;
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim, first = r->family.start[p];
     const double *N = r->N + first, *dN = r->dN + first * dim;
@@ -231,10 +230,22 @@ void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double 
         traction_of_strain (g, p, (int) k, QD);
         galerkin_B_transpose (g->dim, dN + a * dim, QD, wt);
         for (size_t c = 0; c < dim; c++) wt[c] *= w;
-        if (dim == 3) add_nitsche (3, k, QD, w * N[a], wt, press, m, N, dN, out);
-        else if (dim == 2) add_nitsche (2, k, QD, w * N[a], wt, press, m, N, dN, out);
-        else add_nitsche (dim, k, QD, w * N[a], wt, press, m, N, dN, out);
+        if (dim == 3) add_nitsche (3, k, QD, w * N[a], wt, press, m, N, dN, next, row, out);
+        else if (dim == 2) add_nitsche (2, k, QD, w * N[a], wt, press, m, N, dN, next, row, out);
+        else add_nitsche (dim, k, QD, w * N[a], wt, press, m, N, dN, next, row, out);
     }
+}
+
+void galerkin_facet_blocks (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    const galerkin *g = context;
+    facet_terms (g, p, a, m, (size_t) (g->dim * g->dim), (size_t) g->dim, out);
+}
+
+void galerkin_facet_rows (void *context, size_t p, size_t a, size_t m, double *out)
+{
+    const galerkin *g = context;
+    facet_terms (g, p, a, m, (size_t) g->dim, m * (size_t) g->dim, out);
 }
 
 /* For bsearch; numbers of nodes are never negative. */

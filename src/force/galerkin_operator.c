@@ -146,8 +146,11 @@ static pg_status create_matrix (galerkin *g, const pg_assembly *known)
         source[n].finish = galerkin_finish_rows;
     else source[n].blocks = cells ? galerkin_cell_blocks : galerkin_bulk_blocks;
     n++;
-    if (g->nnitsche) source[n++] = (pg_assembly_source) { .seen = &g->rows[PG_FACETS].family, .context = g,
-                                                          .blocks = galerkin_facet_blocks };
+    if (g->nnitsche) {
+        source[n] = (pg_assembly_source) { .seen = &g->rows[PG_FACETS].family, .context = g };
+        if (g->problem->plain) source[n++].blocks = galerkin_facet_blocks;
+        else source[n++].rows = galerkin_facet_rows;
+    }
     if (g->dilatation) source[n++] = (pg_assembly_source) { .seen = galerkin_dilatation_family (g),
                                                             .context = g,
                                                             .blocks = galerkin_dilatation_blocks };

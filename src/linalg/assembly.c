@@ -293,7 +293,7 @@ PG_WIDE static void add_rows (size_t block, size_t m, const int *node, const siz
     }
 }
 
-/* Adds what a source that finishes its sums has for the columns of node I: the last block, that of I itself,
+/* Adds what a source that gives block rows has for the columns of node I: the last block, that of I itself,
  * by its upper triangle. */
 static void gather_sums (pg_assembly *K, size_t source, size_t I, const workspace *w)
 {
@@ -308,7 +308,7 @@ static void gather_sums (pg_assembly *K, size_t source, size_t I, const workspac
         s->rows (s->context, p, a, a + 1, w->blocks);
         add_rows (m, a + 1, s->seen->node + s->seen->start[p], w->slot, w->blocks, wide, w->sum);
     }
-    s->finish (s->context, count, w->sum);
+    if (s->finish) s->finish (s->context, count, w->sum);
     for (size_t beta = 0; beta < m; beta++) {
         double *column = K->K.value + K->K.start[I * m + beta];
         for (size_t k = 0; k < wide - m + beta + 1; k++) column[k] += w->sum[beta * wide + k];

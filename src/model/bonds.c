@@ -64,18 +64,20 @@ static size_t number_of (const pg_problem *p, int set, size_t point)
 }
 
 /* Points that are no lattice: every point of the whole body must see enough others, and these not too
- * flat a set, to carry a strain. Shape functions are evaluated once for their grades; the first point
- * with none is a fault that says where it is. */
+ * flat a set, to carry a strain. Moments are evaluated once for the grades of linear shape functions, which
+ * all others fall back on; the first point with none is a fault that says where it is. */
 static pg_status check_support (pg_problem *p, const pg_scene *scene, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
     pg_status status = PG_OK;
     pg_rows *r = &p->rows[set];
+    pg_approx linear = p->approx;
     char at[100];
+    linear.order = 1;
     if (p->lattice.dim) return PG_OK;
     PG_ALLOC (r->grade, r->n);                         /* for this check only: the problem keeps geometry */
     if (r->n)
-        PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, r, NULL, r->n, NULL, p->threads));
+        PG_TRY (linear.type->evaluate (&linear, &p->cloud, r, NULL, r->n, NULL, p->threads));
     for (size_t q = 0; q < r->n && status == PG_OK; q++) {
         int used = 0;
         if (r->grade[q] < PG_GRADE_PROJECTED || (p->held[set].owned && !p->held[set].owned[q])) continue;
