@@ -68,6 +68,7 @@ CONVERT := $(if $(GMSH),$(BUILD)/perigal-mesh)
 # perigal-mpi: only where MPI and PETSc are installed (petsc-dev mpi-default-dev mpi-default-bin)
 PETSC   := $(shell pkg-config --exists PETSc mpi 2>/dev/null && echo PETSc mpi)
 MPI     := $(if $(PETSC),$(BUILD)/perigal-mpi)
+PETSCLIB = $(patsubst -l%,%,$(filter -lpetsc%,$(shell pkg-config --libs-only-l PETSc)))
 MPISRC  := $(wildcard src/mpi/*.c)
 MPIOBJ  := $(MPISRC:src/%.c=$(BUILD)/src/%.o)
 Q       := $(if $(V),,@)
@@ -131,9 +132,10 @@ $(BUILD)/bench/ranks/%: bench/ranks/%.c
 	$(Q)$(CC) $(CFLAGS) $(shell pkg-config --cflags $(PETSC) | sed 's/-I/-isystem /g') -MMD -MP -MF $@.d $< $(LDFLAGS) -lfftw3_mpi $(shell pkg-config --libs $(PETSC)) $(LIBS) -o $@
 
 $(BUILD)/src/mpi/%.o: CFLAGS += $(shell pkg-config --cflags $(PETSC) | sed 's/-I/-isystem /g')
+$(BUILD)/src/mpi/petsc_library.o: CFLAGS += $(call soname,PETSC,$(PETSCLIB))
 $(BUILD)/perigal-mpi: $(MPIOBJ) $(filter-out %/main.o,$(CLIOBJ)) $(LIB)
 	$(if $(V),,@echo "  LD   $@")
-	$(Q)$(CC) $(LDFLAGS) $^ $(shell pkg-config --libs $(PETSC)) $(LIBS) -o $@
+	$(Q)$(CC) $(LDFLAGS) $^ $(shell pkg-config --libs mpi) $(LIBS) -o $@
 
 perigal.pc: perigal.pc.in FORCE
 	$(Q)sed -e 's|@prefix@|$(prefix)|' -e 's|@version@|$(VERSION)|' -e 's|@libs@|$(LIBS)|' $< > $@

@@ -637,8 +637,9 @@ typedef struct {
     /* events: a factor would serve many; elements: finite elements may precondition */
     int    events, elements;
     int    order, interpolates, behind, scattered;     /* as in pg_solve_counts */
-    /* 1: points are on no lattice, or moved off it; what every rank keeps of a mesh, bytes */
-    int    irregular;  double mesh;
+    /* 1: points are on no lattice, or moved off it; bytes that every rank keeps of a mesh, and that it needs
+     * while it reads the file of its points */
+    int    irregular;  double mesh, reading;
     double weight;  /* dynamic: beta (2 c_p dt)^2, m^2: K against M at spacing 1 */
     char   ordering[16];                               /* of an analysed factor */
     double spacing, step[3], horizon;                  /* m */

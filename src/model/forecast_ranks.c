@@ -57,6 +57,8 @@ pg_forecast pg_forecast_of_part (const pg_forecast *f, const pg_part_size *part,
     /* one rank puts the fields of all together at the end: places, volumes, numbers, and what is shown of
      * each field, of which half have a component along each axis */
     if (collects) add (&g, PG_BYTES_RESULTS, total * (16 * d + 36 + 4 * (d + 1) * (f->fields + 1)));
+    /* at the start each has all points of a file for a moment */
+    add (&g, PG_BYTES_POINTS, fmax (0, g.bytes[PG_BYTES_PROGRAM] + f->reading - g.peak));
     return g;
 }
 

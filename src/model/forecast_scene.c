@@ -5,6 +5,7 @@
 #include "perigal/linalg.h"
 #include <math.h>
 #include <string.h>
+#include <sys/stat.h>
 
 static const double pi = 3.14159265358979323846;
 static const double most_cells = 4e6;                  /* counted one by one */
@@ -260,6 +261,17 @@ done:
     return status;
 }
 
+/* Bytes of a file that the scene names; 0: there is none. */
+static double bytes_of_file (const pg_scene *scene, const char *key)
+{
+    char *path = NULL;
+    struct stat about;
+    int there = pg_scene_beside (&path, scene, pg_scene_text (scene, "%s", key)) == PG_OK
+                && stat (path, &about) == 0;
+    pg_free (path);
+    return there ? (double) about.st_size : 0;
+}
+
 /* Points of a file or a mesh: their families are searched for as they are, on a sample of about 20 000
  * centres; the nodes that one shares a point with are about those in a ball of 1.6 horizons. */
 static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_body *body)
@@ -274,7 +286,12 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
     if (pg_scene_given (scene, "mesh")) {
         PG_TRY (pg_mesh_body_read (&part, scene));
         PG_TRY (pg_mesh_body_cloud (&c, &part, scene));
-    } else PG_TRY (pg_cloud_build (&c, &l, body, scene));
+    } else {
+        PG_TRY (pg_cloud_build (&c, &l, body, scene));
+        /* its text, its points, and the list by which those that are there twice are found, sorted in a
+         * copy (cloud/points_file.c) */
+        f->reading = bytes_of_file (scene, "points") + (84 + 8 * (double) c.dim) * (double) c.n;
+    }
     PG_TRY (pg_method_approx (&a, f->method, scene, c.h));
     size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
     PG_ALLOC (centre, (c.n / stride + 1) * dim);

@@ -4,6 +4,7 @@
 #include "../cli/cli.h"
 #include "messages.h"
 #include "petsc_factor.h"
+#include "petsc_library.h"
 #include <mpi.h>
 #include <stdlib.h>
 #include <string.h>
@@ -23,6 +24,7 @@ static void usage (FILE *to)
 static int end (int code, int together)
 {
     if (code != PG_EXIT_DONE && !together) MPI_Abort (MPI_COMM_WORLD, code);
+    petsc_take_back ();
     petsc_end ();
     mpi_leave ();
     MPI_Finalize ();
@@ -40,7 +42,7 @@ int main (int argc, char **argv)
         return argc < 2 ? PG_EXIT_USAGE : PG_EXIT_DONE;
     }
     if (strcmp (argv[1], "check") == 0) {
-        petsc_name ();
+        petsc_give ();
         return pg_cli_check (argc - 1, argv + 1);
     }
     if (strcmp (argv[1], "run") != 0) {
@@ -55,10 +57,7 @@ int main (int argc, char **argv)
     }
     mpi_join ();
     pg_memory_keep ();
-    if (petsc_start () != PG_OK) {
-        fprintf (stderr, "perigal-mpi: %s\n", pg_last_error ());
-        MPI_Abort (MPI_COMM_WORLD, PG_EXIT_FAILED);
-    }
+    petsc_give ();
     int together = 0, code = pg_cli_run_ranks (argc - 1, argv + 1, &together);
     return end (code, together);
 }

@@ -4,8 +4,8 @@
  * calls with the same matrix and right-hand sides (lock-step, perigal/ranks.h), keeps the rows that are its
  * own, and gets the whole solution, of the same bits. */
 #include "petsc_factor.h"
+#include "petsc_library.h"
 #include <mpi.h>
-#include <petscksp.h>
 #include <string.h>
 
 /* State of the solver. The rows first .. last - 1 are this rank's, as rows of both triangles: start
@@ -25,14 +25,6 @@ typedef struct {
 
 enum { FIRST_ROOM = 40, MOST_ROOM = 1000 };
 
-pg_status petsc_said (int code, const char *what)
-{
-    const char *text = NULL;
-    if (code == 0) return PG_OK;
-    PetscErrorMessage (code, &text, NULL);
-    return pg_error (code == PETSC_ERR_MEM ? PG_E_MEMORY : PG_E_SINGULAR, PG_HERE,
-                     "PETSC: %s failed: %s", what, text ? text : "no reason is given");
-}
 static pg_status said (PetscErrorCode code, const char *what) { return petsc_said (code, what); }
 
 static void shared_free (void **self)
@@ -109,6 +101,7 @@ static pg_status shared_analyse (void **self, const pg_sparse *A, const pg_linea
     pg_status status = PG_OK;
     shared *s = NULL;
     if (A->ncol > PETSC_MAX_INT) return pg_error (PG_E_LIMIT, PG_HERE, "too many unknowns for PETSC");
+    PG_TRY (petsc_load ());
     PG_ALLOC (s, 1);
     *self = s;
     s->n = A->ncol;
@@ -126,7 +119,7 @@ static pg_status fill_matrix (shared *s, const pg_sparse *A)
     PetscInt rows = (PetscInt) (s->last - s->first);
     for (PetscInt k = 0; k < s->start[rows]; k++) s->value[k] = A->value[s->from[k]];
     if (!s->A) {
-        PG_TRY (said (MatCreateMPIAIJWithArrays (PETSC_COMM_WORLD, rows, rows, PETSC_DETERMINE,
+        PG_TRY (said (MatCreateMPIAIJWithArrays (MPI_COMM_WORLD, rows, rows, PETSC_DETERMINE,
                                                  PETSC_DETERMINE, s->start, s->column, s->value, &s->A),
                       "the matrix"));
         PG_TRY (said (MatSetOption (s->A, MAT_SYMMETRIC, PETSC_TRUE), "the matrix"));
@@ -212,9 +205,9 @@ static pg_status shared_solve (void *self, size_t nrhs, const double *b, double 
     double *own = s->local, *found = s->local + rows * nrhs;
     for (size_t k = 0; k < nrhs; k++)
         memcpy (own + k * rows, b + k * s->n + s->first, rows * sizeof *own);
-    PG_TRY (said (MatCreateDense (PETSC_COMM_WORLD, (PetscInt) rows, PETSC_DECIDE, PETSC_DETERMINE,
+    PG_TRY (said (MatCreateDense (MPI_COMM_WORLD, (PetscInt) rows, PETSC_DECIDE, PETSC_DETERMINE,
                                   (PetscInt) nrhs, own, &B), "a solve"));
-    PG_TRY (said (MatCreateDense (PETSC_COMM_WORLD, (PetscInt) rows, PETSC_DECIDE, PETSC_DETERMINE,
+    PG_TRY (said (MatCreateDense (MPI_COMM_WORLD, (PetscInt) rows, PETSC_DECIDE, PETSC_DETERMINE,
                                   (PetscInt) nrhs, found, &X), "a solve"));
     PetscInt why = 0, detail = 0;
     if (MatMatSolve (s->F, B, X) != 0) {
@@ -249,19 +242,12 @@ const pg_linear_type petsc_factor = {
     .free = shared_free,
 };
 
-void petsc_name (void) { pg_linear_add (&petsc_factor); }
-
-pg_status petsc_start (void)
+void petsc_give (void)
 {
-    PetscErrorCode code = PetscInitialize (NULL, NULL, NULL, NULL);
-    /* failures come back as codes, without words on the screen */
-    if (code == 0) code = PetscPushErrorHandler (PetscReturnErrorHandler, NULL);
-    if (code == 0) pg_linear_add (&petsc_factor), pg_shared_preconditioner_give (&petsc_multigrid);
-    return said (code, "its start");
+    pg_linear_add (&petsc_factor), pg_shared_preconditioner_give (&petsc_multigrid);
 }
 
-void petsc_end (void)
+void petsc_take_back (void)
 {
     pg_linear_add (NULL), pg_shared_preconditioner_give (NULL);
-    PetscFinalize ();
 }

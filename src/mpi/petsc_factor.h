@@ -7,12 +7,7 @@
 
 extern const pg_linear_type petsc_factor;
 extern const pg_shared_preconditioner petsc_multigrid;
-/* What PETSc or MUMPS says becomes a status; what: the work that failed, in words. */
-pg_status petsc_said (int code, const char *what);
-/* Starts PETSc (after MPI) and makes its solver the usual one; ends it. Nothing of the command line is read;
- * the variable PETSC_OPTIONS is. */
-pg_status petsc_start (void);
-/* Scenes may name it, without a start: perigal-mpi check. */
-void      petsc_name (void);
-void      petsc_end   (void);
+/* Their names are known from now on, and they are what is usual; no longer. */
+void petsc_give      (void);
+void petsc_take_back (void);
 #endif

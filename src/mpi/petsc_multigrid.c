@@ -5,8 +5,8 @@
  * own that nothing couples with. The rows are those of K, or of the first coarse grid on a lattice, to which
  * several ranks add (src/linalg/multilevel_ranks.c). */
 #include "petsc_factor.h"
+#include "petsc_library.h"
 #include <mpi.h>
-#include <petscksp.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -133,7 +133,7 @@ static pg_status make_matrix (multigrid *m, reading *r)
     PG_ALLOC (own, m->n * m->block);
     PG_ALLOC (other, m->n * m->block);
     PG_TRY (count_couplings (m, r, own, other));
-    PG_TRY (said (MatCreate (PETSC_COMM_WORLD, &m->A), "the preconditioner"));
+    PG_TRY (said (MatCreate (MPI_COMM_WORLD, &m->A), "the preconditioner"));
     PG_TRY (said (MatSetSizes (m->A, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE), "the preconditioner"));
     PG_TRY (said (MatSetType (m->A, MATAIJ), "the preconditioner"));
     PG_TRY (said (MatSetBlockSize (m->A, (PetscInt) m->block), "the preconditioner"));
@@ -203,7 +203,7 @@ static pg_status add_up (multigrid *m, reading *r)
     PG_ALLOC (column, n);
     PG_ALLOC (value, n);
     n = list_entries (m, r, row, column, value);
-    PG_TRY (said (MatCreate (PETSC_COMM_WORLD, &m->A), "the preconditioner"));
+    PG_TRY (said (MatCreate (MPI_COMM_WORLD, &m->A), "the preconditioner"));
     PG_TRY (said (MatSetSizes (m->A, rows, rows, PETSC_DETERMINE, PETSC_DETERMINE), "the preconditioner"));
     PG_TRY (said (MatSetType (m->A, MATAIJ), "the preconditioner"));
     PG_TRY (said (MatSetBlockSize (m->A, (PetscInt) m->block), "the preconditioner"));
@@ -260,7 +260,7 @@ static pg_status make_cycle (multigrid *m, int functions)
 {
     pg_status status = PG_OK;
     PetscReal threshold = close_by;
-    PG_TRY (said (PCCreate (PETSC_COMM_WORLD, &m->pc), "GAMG"));
+    PG_TRY (said (PCCreate (MPI_COMM_WORLD, &m->pc), "GAMG"));
     PG_TRY (said (PCSetOperators (m->pc, m->A, m->A), "GAMG"));
     PG_TRY (said (PCSetType (m->pc, PCGAMG), "GAMG"));
     if (functions) PG_TRY (set_option ("-perigal_coarse_pc_gamg_aggressive_coarsening", "0"));
@@ -279,6 +279,7 @@ static pg_status multigrid_create (void **self, const pg_shared_rows *setting)
     multigrid *m = NULL;
     double *number = NULL;
     reading r = { .from = setting };
+    PG_TRY (petsc_load ());
     PG_ALLOC (m, 1);
     *self = m;
     m->block = (size_t) setting->block, m->held = setting->subdomain->n, m->fixed = setting->fixed;

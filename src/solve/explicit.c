@@ -179,17 +179,31 @@ static int follows (const pg_solver *s)
     return !(s->options.flags & PG_SOLVER_STAGED) || !PG_OWN (pg_stages_options, &s->options)->hold;
 }
 
-/* Ranks: that a bond broke here in this time step is remembered until the row ends, when all ranks count the
- * steps in which one broke anywhere (explicit_share). */
-static pg_status note_break (pg_solver *s, const pg_state *state)
+/* Ranks: which time steps of the row at hand are looked at together when it ends? None where one process has
+ * the whole body, or where stages are held. */
+static int row_is_shared (const pg_solver *s)
+{
+    return s->problem->cloud.subdomain && !(s->options.flags & PG_SOLVER_STAGED);
+}
+
+pg_status explicit_room (motion *m, size_t steps)
+{
+    pg_status status = PG_OK;
+    size_t room = m->nbroke;
+    PG_GROW (m->broke, m->nbroke, steps);
+    for (size_t k = room; k < m->nbroke; k++) m->broke[k] = 0;
+done:
+    return status;
+}
+
+/* That a bond broke here in this time step is remembered until the row ends, when all ranks count the steps
+ * in which one broke anywhere (share_row). */
+static pg_status note_break (pg_solver *s)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
-    long n = state->iterations + s->break_loop.round, step = n - m->row;
-    size_t room = m->nbroke;
-    if (step < 0) return PG_OK;
-    PG_GROW (m->broke, m->nbroke, (size_t) step + 1);
-    for (size_t k = room; k < m->nbroke; k++) m->broke[k] = 0;
+    size_t step = (size_t) s->break_loop.round;
+    PG_TRY (explicit_room (m, step + 1));
     m->broke[step] = 1;
 done:
     return status;
@@ -226,8 +240,7 @@ pg_status explicit_force (pg_solver *s, pg_state *state, double t, int breaking,
         if (any > 0)
             PG_TRY (force->balance (sys->self, t, state->d, sys->residual, reference ? reference : &unused));
     }
-    if (own && s->problem->cloud.subdomain && !(s->options.flags & PG_SOLVER_STAGED))
-        PG_TRY (note_break (s, state));
+    if (own && row_is_shared (s)) PG_TRY (note_break (s));
     else if (b->changes.n && !s->problem->cloud.subdomain) state->events++, s->report.events++;
 press:
     if (sys->contact) contact_push (sys, state->d, sys->residual, follows (s));
@@ -349,6 +362,11 @@ pg_status explicit_keep (pg_solver *s, const pg_keeper *k)
     if (m->nprescribed) PG_TRY (keep_prescribed (s, k));
     if (m->nprescribed) PG_TRY (k->numbers (k->context, "motion.push", 2 * m->nprescribed, m->push));
     if (k->reading) m->fresh = 0;
+    if (row_is_shared (s)) {  /* the checkpoint may be one in the middle of a row */
+        size_t steps = (size_t) s->break_loop.round + 1;
+        PG_TRY (explicit_room (m, steps));
+        PG_TRY (k->numbers (k->context, "motion.broke", steps, m->broke));
+    }
     PG_TRY (explicit_contact_keep (s, k));
     PG_TRY (facet_keep (&s->break_loop, k));
 done:

@@ -20,9 +20,9 @@ typedef struct {
     double  most;                                      /* most external work so far, J */
     int     by_work_balance;  /* work comes from the force's work_balance, every time step */
     int     fresh;                                     /* lists and P are those of t_n */
-    /* Ranks: of each time step of the row, 1 where a bond broke here; that of the first; not finite seen here
-     * since the last row. */
-    double *broke;  size_t nbroke;  long row;  double bad;
+    /* Ranks: of each time step of the row, 1 where a bond broke here; not finite seen here since the last
+     * row. */
+    double *broke;  size_t nbroke;  double bad;
     long    between;                                   /* time steps, or iterations, from look to look */
     double  omega, stable;  const char *from;  /* bound of the largest frequency, rad/s; 2 / omega, s */
     double  damped, damped0;  /* energy taken by damping, J; at the start of the step */
@@ -46,6 +46,8 @@ pg_status explicit_follow  (pg_solver *s, double before, double now, double next
 /* system.residual at d and t, bonds over their limit dead; nothing breaks when `breaking` is 0. *reference
  * may be NULL. */
 pg_status explicit_force   (pg_solver *s, pg_state *state, double t, int breaking, double *reference);
+/* broke has so many entries, new ones 0 */
+pg_status explicit_room    (motion *m, size_t steps);
 /* sum = of all blocks, in order. */
 void      explicit_total   (const pg_solver *s, double *sum);
 /* names an unknown that is not finite */

@@ -395,11 +395,10 @@ static pg_status share_row (pg_solver *s, pg_state *state, long n)
 {
     pg_status status = PG_OK;
     motion *m = motion_of (s);
-    size_t steps = (size_t) (n - m->row + 1), room = m->nbroke;
+    size_t steps = (size_t) (n - state->iterations) + 1;
     double any[2] = { m->bad, 0 };
     if (!s->problem->cloud.subdomain) return PG_OK;
-    PG_GROW (m->broke, m->nbroke, steps);
-    for (size_t k = room; k < m->nbroke; k++) m->broke[k] = 0;
+    PG_TRY (explicit_room (m, steps));
     PG_TRY (pg_ranks_most (steps, m->broke));
     PG_TRY (pg_ranks_most (2, any));
     for (size_t k = 0; k < steps; k++) state->events += m->broke[k] > 0, s->report.events += m->broke[k] > 0;
@@ -460,7 +459,7 @@ pg_status explicit_step (pg_solver *s, pg_state *state, pg_step *step, kick_rang
     int closed = 1;
     if (b->round == 0) {
         b->nbroken = 0;
-        m->damped0 = m->damped, m->resist0 = m->resist, m->row = n;
+        m->damped0 = m->damped, m->resist0 = m->resist;
         PG_TRY (explicit_contact_save (s));
         if (n == 0) PG_TRY (begin (s, state, staggered));
         if (m->nprescribed) memcpy (m->push0, m->push, m->nprescribed * sizeof *m->push);
@@ -496,6 +495,7 @@ void explicit_refused (pg_solver *s)
     m->damped = m->damped0, m->resist = m->resist0;
     explicit_contact_return (s);
     if (m->nprescribed) memcpy (m->push, m->push0, m->nprescribed * sizeof *m->push);
+    if (m->nbroke) memset (m->broke, 0, m->nbroke * sizeof *m->broke);
     m->fresh = 0;
 }
 

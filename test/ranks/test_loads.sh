@@ -32,6 +32,10 @@ long() { [ "$PERIGAL_TEST_SIZE" = long ]; }
 half=(--set 'boundary=[{name: middle, set: left, symmetry: on}, {name: foot, set: bottom, displacement: {x: 0, y: 0}}, {name: pull, at: [3.3 mm, 19 mm], force: {x: 20 N, y: 60 N}}, {name: hold, at: [20 mm, -7.7 mm], spring: {x: 1e6 N/m, y: 1e6 N/m}}]')
 equal 'symmetry, places' 0 galerkin.yaml "${half[@]}" --set failure.tensile_strength='80 MPa' --set solver.steps=1
 equal 'the same by bonds' 0 rest.yaml "${half[@]}" --set lattice=nodes --set solver.steps=1
+# a hole that is dug where the parts meet
+dug=(--set spacing='1.25 m' --set 'solver={kind: static, stepping: fixed, steps: 3, division: subdomains}' --set output.at.levels=3)
+equal 'excavation' 0 ../../data/tunnel/scene.yaml "${dug[@]}"; stages; verdict "excavation: the stages end alike" $?
+equal 'excavation by bonds' 0 ../../data/tunnel/scene.yaml "${dug[@]}" --set 'method={force: bond, accept_inexact: yes}'
 # pressed, then pulled until a gauge has opened, then let go
 steps=(--set 'stages=[{name: press, boundary: {lid: 1}}, {name: pull, boundary: {left: 1, right: 1}, until: {gauge: g, opening: 3 um}}, {name: back, boundary: {left: 0, right: 0}}]')
 equal 'stages, fixed' 20 galerkin.yaml "${steps[@]}"; stages; verdict "stages, fixed: they end alike" $?

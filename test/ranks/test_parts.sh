@@ -8,7 +8,7 @@ first=(--set solver.time_steps=200 --set output.at.rows=20 --set output.at.level
 
 # ended DIR: the run begins, and is ended when some fields have been written
 ended() {
-    timeout 120 mpirun --oversubscribe -n 3 "$mpi" run plate.yaml -o "$1" --quiet "${long[@]}" > "$work/out" 2> "$work/err" &
+    timeout 120 "${launch[@]}" -n 3 "$mpi" run plate.yaml -o "$1" --quiet "${bare[@]}" "${long[@]}" > "$work/out" 2> "$work/err" &
     local pid=$! k
     for k in $(seq 400); do
         [ "$(wc -l 2> /dev/null < "$1/history.csv" || echo 0)" -gt 20 ] && break
