@@ -4,8 +4,8 @@
 #include <math.h>
 
 /* Measured on notched plates of 2 000 to 160 000 points and blocks of 6 000 to 75 000 on 1 to 4 ranks
- * (test/ranks/test_check.sh compares): MPI and PETSc loaded and started; what factors by MUMPS adds. */
-static const double started = 41e6, factoring = 10e6;
+ * (test/ranks/test_check.sh compares): MPI loaded and started; PETSc; what factors by MUMPS add. */
+static const double started = 12e6, loaded = 29e6, factoring = 10e6;
 /* Bytes of the rows of a preconditioner of PETSc over those of its finest matrix, in the plane and in space,
  * where coarse levels couple more; of a coarse matrix that is put together beside it, with the levels below;
  * of MUMPS over its factor: with transposes and work space. */
@@ -13,7 +13,7 @@ static const double of_levels[4] = { 0, 1.45, 1.45, 2.8 }, of_gathered = 2.5, of
 
 static void add (pg_forecast *f, int item, double bytes) { f->bytes[item] += bytes, f->peak += bytes; }
 
-/* Bytes of what is below the finest grid (linalg/multilevel_ranks.c), of `total` points on so many ranks. Of
+/* Bytes of what is below the finest grid (linalg/multilevel_ranks.c), PETSc too if it is that, of `total` points on so many ranks. Of
  * shape functions the first coarse grid has 2.5 times the step of the lattice with what its functions have
  * beside the body (a block of 331 056 points has 22 016), and functions see those beside them; of bonds 4/3
  * of the reach, which so many couplings of a point tell, and functions see two of them to each side. */
@@ -23,7 +23,7 @@ static double coarse_bytes (const pg_forecast *f, double couplings, double total
     double functions = total / (shapes ? pow (2.5, d) : fmax (1, 0.57 * couplings)),
            entries = m * m * functions * pow (shapes ? 3 : 5, d);
     int whole = m * functions <= 1000 || functions * ranks <= 0.3 * total;
-    return whole ? of_gathered * 8 * entries : of_levels[f->dim] * 12 * entries / ranks;
+    return whole ? of_gathered * 8 * entries : loaded + of_levels[f->dim] * 12 * entries / ranks;
 }
 
 /* Of all that solves without a factor: off a lattice PETSc has the rows of K. In motion one process has no
@@ -34,7 +34,7 @@ static void add_levels (pg_forecast *g, const pg_forecast *f, double owned, doub
            couplings = f->points > 0 ? 2 * f->pairs / f->points - 1 : 0;
     int off = f->listed || f->irregular;
     if (off && f->method->shape_functions) couplings = pow (3, d);  /* those of elements */
-    if (off) add (g, PG_BYTES_MATRIX, of_levels[f->dim] * 12 * m * m * couplings * owned);
+    if (off) add (g, PG_BYTES_MATRIX, loaded + of_levels[f->dim] * 12 * m * m * couplings * owned);
     else add (g, PG_BYTES_MATRIX, coarse_bytes (f, couplings, total, fmax (1, total / owned)));
     if (!off && f->dynamic && !f->method->shape_functions)
         add (g, PG_BYTES_VECTORS, g->points * (32 * m + 16 * pow (2, d) + 16));
@@ -67,7 +67,7 @@ pg_forecast pg_forecast_in_step (const pg_forecast *f, int ranks)
     pg_forecast g = *f;
     add (&g, PG_BYTES_PROGRAM, started);
     if (!f->linear) return g;
-    add (&g, PG_BYTES_PROGRAM, factoring);
+    add (&g, PG_BYTES_PROGRAM, loaded + factoring);
     add (&g, PG_BYTES_MATRIX, g.bytes[PG_BYTES_MATRIX]);
     add (&g, PG_BYTES_FACTOR, (of_factor / ranks - 1) * g.bytes[PG_BYTES_FACTOR]);
     return g;

@@ -13,7 +13,7 @@ equal() {
         ranks "$r" "$scene" -o "$work/some" "$@"; verdict "$name: $r ranks" $?
         grep -q '"division": "subdomains"' "$work/some/report.json"; verdict "$name: $r ranks divide the body" $?
         python3 fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
-        alike 1e-8 "$work/one" "$work/some" history.csv residual; verdict "$name: the same rows on $r ranks" $?
+        alike 1e-8 "$work/one" "$work/some" history.csv residual $left; verdict "$name: the same rows on $r ranks" $?
         alike 1e-7 "$work/one" "$work/some" events.csv; verdict "$name: the same bonds on $r ranks" $?
     done
 }
@@ -25,7 +25,7 @@ near = lambda x, y: abs (x - y) <= 1e-6 * max (abs (x), abs (y), 1e-9) if isinst
 sys.exit(not (len(a) == len(b) and all(near(x[k], y[k]) for x, y in zip(a, b) for k in x if k not in ("gauges", "energy")) and
     all(near(x["energy"]["external"], y["energy"]["external"]) for x, y in zip(a, b))))' "$work/one" "$work/some" > "$work/why" 2>&1
 }
-numbers=3
+numbers=3 left=
 long() { [ "$PERIGAL_TEST_SIZE" = long ]; }
 [ "$PERIGAL_TEST_SIZE" = long ] && numbers='1 2 3 4'
 # the half of a plate; a force at a place near the boundary of two parts, held against by a spring elsewhere
@@ -34,8 +34,10 @@ equal 'symmetry, places' 0 galerkin.yaml "${half[@]}" --set failure.tensile_stre
 equal 'the same by bonds' 0 rest.yaml "${half[@]}" --set lattice=nodes --set solver.steps=1
 # a hole that is dug where the parts meet
 dug=(--set spacing='1.25 m' --set 'solver={kind: static, stepping: fixed, steps: 3, division: subdomains}' --set output.at.levels=3)
+left=moment                                            # about the middle of the floor: little is left of much
 equal 'excavation' 0 ../../data/tunnel/scene.yaml "${dug[@]}"; stages; verdict "excavation: the stages end alike" $?
 equal 'excavation by bonds' 0 ../../data/tunnel/scene.yaml "${dug[@]}" --set 'method={force: bond, accept_inexact: yes}'
+left=
 # pressed, then pulled until a gauge has opened, then let go
 steps=(--set 'stages=[{name: press, boundary: {lid: 1}}, {name: pull, boundary: {left: 1, right: 1}, until: {gauge: g, opening: 3 um}}, {name: back, boundary: {left: 0, right: 0}}]')
 equal 'stages, fixed' 20 galerkin.yaml "${steps[@]}"; stages; verdict "stages, fixed: they end alike" $?
