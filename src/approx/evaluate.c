@@ -36,39 +36,44 @@ static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, 
 INLINE void stretched (size_t dim, const pg_kernel *kernel, const pg_cloud *cloud, const int *node,
                        pg_neighbourhood *s)
 {
-    for (size_t j = 0; j < s->n; j++) {
-        const double *A = cloud->metric + (size_t) node[s->entry[j]] * dim * dim, *z = s->z + j * dim;
+    const double *metric = cloud->metric, *z = s->z, *ratio = s->ratio;
+    const size_t *entry = s->entry;
+    double *slope = s->slope, *q = s->q, *dk = s->dk;
+    for (size_t j = 0; j < s->n; j++, z += dim) {
+        const double *A = metric + (size_t) node[entry[j]] * dim * dim;
         double sum = 0;
         for (size_t k = 0; k < dim; k++) {
             double row = 0;
             for (size_t l = 0; l < dim; l++) row += A[k * dim + l] * z[l];
-            s->slope[j * dim + k] = row;
+            slope[j * dim + k] = row;
             sum += z[k] * row;
         }
-        s->q[j] = sqrt (sum) * s->ratio[j];
+        q[j] = sqrt (sum) * ratio[j];
     }
-    kernel_at (kernel, s->n, s->q, s->k, s->sloped ? s->dk : NULL);
-    for (size_t j = 0; j < s->n; j++) s->w[j] = s->k[j];
+    kernel_at (kernel, s->n, q, s->k, s->sloped ? dk : NULL);
+    memcpy (s->w, s->k, s->n * sizeof *s->w);
     for (size_t j = 0; s->sloped && j < s->n; j++) {
-        double rate = s->q[j] > 0 ? -s->dk[j] / s->q[j] * s->ratio[j] * s->ratio[j] : 0;
-        for (size_t k = 0; k < dim; k++) s->slope[j * dim + k] *= rate;
+        double rate = q[j] > 0 ? -dk[j] / q[j] * ratio[j] * ratio[j] : 0;
+        for (size_t k = 0; k < dim; k++) slope[j * dim + k] *= rate;
     }
 }
 
 /* Weights w (|z_j| a / a_j) and slopes a dw/dx = - w' z / |z|. */
 INLINE void radial (size_t dim, const pg_kernel *kernel, pg_neighbourhood *s)
 {
+    const double *z = s->z, *ratio = s->ratio;
+    double *slope = s->slope, *q = s->q, *dk = s->dk;
     for (size_t j = 0; j < s->n; j++) {
         double sum = 0;
-        for (size_t k = 0; k < dim; k++) sum += s->z[j*dim + k] * s->z[j*dim + k];
-        s->q[j] = s->ratio ? sqrt (sum) * s->ratio[j] : sqrt (sum);
+        for (size_t k = 0; k < dim; k++) sum += z[j*dim + k] * z[j*dim + k];
+        q[j] = ratio ? sqrt (sum) * ratio[j] : sqrt (sum);
     }
-    kernel_at (kernel, s->n, s->q, s->k, s->sloped ? s->dk : NULL);
-    for (size_t j = 0; j < s->n; j++) s->w[j] = s->k[j];
+    kernel_at (kernel, s->n, q, s->k, s->sloped ? dk : NULL);
+    memcpy (s->w, s->k, s->n * sizeof *s->w);
     for (size_t j = 0; s->sloped && j < s->n; j++) {
-        double rate = s->q[j] > 0 ? -s->dk[j] / s->q[j] : 0;
-        if (s->ratio) rate *= s->ratio[j] * s->ratio[j];
-        for (size_t k = 0; k < dim; k++) s->slope[j*dim + k] = rate * s->z[j*dim + k];
+        double rate = q[j] > 0 ? -dk[j] / q[j] : 0;
+        if (ratio) rate *= ratio[j] * ratio[j];
+        for (size_t k = 0; k < dim; k++) slope[j*dim + k] = rate * z[j*dim + k];
     }
 }
 
@@ -96,15 +101,17 @@ static void tensor (const pg_kernel *kernel, pg_neighbourhood *s)
 INLINE int nearest_node (const evaluation *g, size_t i, size_t dim)
 {
     const pg_rows *rows = g->rows;
+    const double *x = g->cloud->x, *at = rows->x + i * dim;
+    const int *node = rows->family.node;
     int nearest = rows->own[i];
     double best = INFINITY;
     for (size_t e = rows->family.start[i]; rows->own[i] < 0 && e < rows->family.start[i + 1]; e++) {
         double sum = 0;
         for (size_t k = 0; k < dim; k++) {
-            double z = g->cloud->x[(size_t) rows->family.node[e] * dim + k] - rows->x[i*dim + k];
+            double z = x[(size_t) node[e] * dim + k] - at[k];
             sum += z * z;
         }
-        if (sum < best) best = sum, nearest = rows->family.node[e];
+        if (sum < best) best = sum, nearest = node[e];
     }
     return nearest;
 }
@@ -119,32 +126,28 @@ INLINE void measure_place (const evaluation *g, size_t i, size_t dim, pg_neighbo
     s->h = g->cloud->h * ratio / s->slender;
 }
 
-/* a / a_j of bond j, the kernel's radius at the place over that of its node. */
-INLINE double ratio_of (const evaluation *g, const pg_neighbourhood *s, int j)
-{
-    return s->a / (g->a->horizon * (g->cloud->size ? g->cloud->size[j] / g->cloud->h : 1));
-}
-
 /* Collects the live bonds of row i. A node that expands about its own value is not its own
- * neighbour. */
+ * neighbour. ratio: a / a_j, the kernel's radius at the place over that of the node. */
 INLINE void gather_those (const evaluation *g, size_t i, size_t dim, pg_neighbourhood *s)
 {
     const pg_rows *rows = g->rows;
-    size_t first = rows->family.start[i], last = rows->family.start[i + 1];
-    int own = g->formula->about_node ? rows->own[i] : -1, seen = 0;
-    s->constant = own < 0, s->lost = 0;
-    s->n = 0;
+    const double *x = g->cloud->x, *at = rows->x + i * dim, *size = g->cloud->size;
+    const int *node = rows->family.node;
+    const unsigned char *alive = g->alive;
+    size_t first = rows->family.start[i], last = rows->family.start[i + 1], n = 0, *entry = s->entry;
+    int own = g->formula->about_node ? rows->own[i] : -1, seen = 0, lost = 0;
     measure_place (g, i, dim, s);
+    double *z = s->z, *ratio = s->ratio, a = s->a, horizon = g->a->horizon, h = g->cloud->h;
     for (size_t e = first; e < last; e++) {
-        int j = rows->family.node[e];
+        int j = node[e], dead = alive && !alive[e];
         if (j == own) s->own = e - first, seen = 1;
-        if (g->alive && !g->alive[e]) s->lost = 1;
-        if (j == own || (g->alive && !g->alive[e])) continue;
-        for (size_t k = 0; k < dim; k++)
-            s->z[s->n * dim + k] = (g->cloud->x[(size_t) j * dim + k] - rows->x[i*dim + k]) / s->a;
-        if (s->ratio) s->ratio[s->n] = ratio_of (g, s, j);
-        s->entry[s->n++] = e - first;
+        lost |= dead;
+        if (j == own || dead) continue;
+        for (size_t k = 0; k < dim; k++) z[n * dim + k] = (x[(size_t) j * dim + k] - at[k]) / a;
+        if (ratio) ratio[n] = a / (horizon * (size ? size[j] / h : 1));
+        entry[n++] = e - first;
     }
+    s->constant = own < 0, s->lost = lost, s->n = n;
     if (own >= 0 && !seen) s->stray = 1;
 }
 
@@ -185,24 +188,28 @@ INLINE void weigh_those (const evaluation *g, size_t i, size_t dim, pg_neighbour
     if (g->cloud->metric) stretched (dim, g->a->kernel, g->cloud, g->rows->family.node + first, s);
     else if (g->a->shape == PG_TENSOR) tensor (g->a->kernel, s);
     else radial (dim, g->a->kernel, s);
-    double total = 0;
-    for (size_t j = 0; j < s->n; j++) {
-        size_t e = first + s->entry[j];
-        double V = g->cloud->volume[g->rows->family.node[e]], scale = g->a->use_volume ? V : 1,
-               w = s->w[j] * scale;
-        if (g->rows->w) g->rows->w[e] = s->w[j] * V;
-        if (!(w > 0)) continue;
-        s->entry[kept] = s->entry[j];
-        s->w[kept] = w;
-        for (size_t k = 0; k < dim; k++) s->z[kept*dim + k] = s->z[j*dim + k];
-        for (size_t k = 0; k < dim && s->sloped; k++)
-            s->slope[kept*dim + k] = s->slope[j*dim + k] * scale;
-        total += w;
+    const int *node = g->rows->family.node + first;
+    const double *volume = g->cloud->volume;
+    double total = 0, *influence = g->rows->w ? g->rows->w + first : NULL;
+    double *z = s->z, *slope = s->slope, *w = s->w;
+    size_t n = s->n, *entry = s->entry;
+    int by_volume = g->a->use_volume, sloped = s->sloped;
+    for (size_t j = 0; j < n; j++) {
+        size_t e = entry[j];
+        double V = volume[node[e]], scale = by_volume ? V : 1, weight = w[j] * scale;
+        if (influence) influence[e] = w[j] * V;
+        if (!(weight > 0)) continue;
+        w[kept] = weight, total += weight;
+        for (size_t k = 0; k < dim && sloped; k++) slope[kept*dim + k] = slope[j*dim + k] * scale;
+        if (kept < j) {
+            entry[kept] = e;
+            for (size_t k = 0; k < dim; k++) z[kept*dim + k] = z[j*dim + k];
+        }
         kept++;
     }
     s->n = kept;
-    for (size_t j = 0; j < kept; j++) s->w[j] /= total;
-    for (size_t j = 0; s->sloped && j < kept * dim; j++) s->slope[j] /= total;
+    for (size_t j = 0; j < kept; j++) w[j] /= total;
+    for (size_t j = 0; sloped && j < kept * dim; j++) slope[j] /= total;
 }
 
 /* Slopes where derivatives will be asked for (fill). */

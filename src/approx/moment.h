@@ -46,8 +46,8 @@ typedef struct {
     double *z;
     /* Weights (n). */
     double *w;
-    /* a dw/dx at the place, in the scale of the weights (n x dim); sloped = 0: not computed, since nobody asks
-     * for derivatives. */
+    /* a dw/dx at the place, in the scale of the weights (n x dim); sloped = 0: not computed, since nobody
+     * asks for derivatives. */
     double *slope;
     int     sloped;
     /* Basis at each z (n x size). */

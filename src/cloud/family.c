@@ -239,8 +239,8 @@ typedef struct {
     candidates *of;
 } finding;
 
-/* Centres of a group at most; members in a piece at least. */
-enum { GROUP = 256, PIECE = 1 << 14 };
+/* Centres of a group at most; members in a piece at least; points of a small cloud. */
+enum { GROUP = 256, PIECE = 1 << 14, FEW = 2048 };
 
 /* Ascending order by Shell's method with Knuth's steps: insertion sort, by steps that shrink. */
 static void shell_sort (size_t n, int *a)
@@ -280,17 +280,19 @@ static void ascend (size_t n, int *a, uint64_t *bits)
 
 /* The end of the group that begins with centre `first`: as many as lie within the width of a box along each
  * axis, within three tenths of it along the last one, since thin groups have fewer candidates; low, high: the
- * box around them, m. */
+ * box around them, m. Where the points have supports of their own the group may be twice as wide: whom nobody
+ * in the box around it sees is left out anyway. */
 static size_t group_of (const finding *f, size_t first, size_t last, double *low, double *high)
 {
     size_t dim = (size_t) f->s->cloud->dim, end = first;
+    double wide = f->s->half ? 2 : 1, thin = f->s->half || dim == 1 ? wide : 0.3;
     for (; end < last && end < first + GROUP; end++) {
         const double *x = f->centre + end * dim;
         int fits = 1;
         for (size_t k = 0; k < dim; k++) {
             double from = end == first ? x[k] : fmin (low[k], x[k]),
                    to = end == first ? x[k] : fmax (high[k], x[k]);
-            fits &= end == first || to - from <= (k + 1 == dim && dim > 1 ? 0.3 : 1) * f->s->width[k];
+            fits &= end == first || to - from <= (k + 1 == dim ? thin : wide) * f->s->width[k];
         }
         if (!fits) break;
         for (size_t k = 0; k < dim; k++) {
@@ -342,7 +344,9 @@ static pg_status look_around (const finding *f, const double *low, const double 
     const pg_family_search *s = f->s;
     size_t n = 0, dim = (size_t) s->cloud->dim, entries = s->cloud->metric ? dim * dim : 0;
     int ball = s->near.shape == PG_RADIAL;
-    for (size_t k = 0; k < s->n; k++) n += pg_boxes_near (&s->boxes[k], low, high, ball, NULL);
+    if (s->cloud->n <= FEW) n = s->cloud->n;           /* room for all costs less than to count them */
+    for (size_t k = 0; k < s->n && s->cloud->n > FEW; k++)
+        n += pg_boxes_near (&s->boxes[k], low, high, ball, NULL);
     PG_TRY (make_room (c, s->cloud, n));
     n = 0;
     for (size_t k = 0; k < s->n; k++) n += pg_boxes_near (&s->boxes[k], low, high, ball, c->item + n);

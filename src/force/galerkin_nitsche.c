@@ -217,14 +217,13 @@ static inline __attribute__ ((always_inline)) void add_nitsche (size_t dim, size
 /* Nitsche's terms of one facet point, between its node a and its first m nodes (blocks m x dim x dim):
  * -N_a (sigma (N_b) n) - (sigma (N_a) n) N_b + beta N_a N_b for the prescribed component. The second term
  * makes K symmetric and costs no accuracy, as it vanishes at the solution. */
-static void facet_terms (const galerkin *g, size_t p, size_t a, size_t m, size_t next, size_t row, double *out)
+static void facet_terms (const galerkin *g, size_t p, size_t a, size_t m, size_t next, size_t row,
+                         double *out)
 {
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim, first = r->family.start[p];
     const double *N = r->N + first, *dN = r->dN + first * dim;
-    double w = r->weight[p], QD[6], wt[3];
-    if (g->nitsche_start[p] == g->nitsche_start[p + 1]) return;
-    double press = w * beta (g, p) * N[a];
+    double w = r->weight[p], press = w * beta (g, p) * N[a], QD[6], wt[3];
     for (size_t i = g->nitsche_start[p]; i < g->nitsche_start[p + 1]; i++) {
         size_t k = (size_t) g->nitsche[i].component;
         traction_of_strain (g, p, (int) k, QD);

@@ -4,11 +4,12 @@
 #include "element.h"
 #include <math.h>
 
-/* x and J[axis][reference axis] = dx / dxi from the shape functions there and their derivatives. */
-static void combine (pg_element kind, int dim, const double *x, const double *N, const double *dN,
-                     double place[3], double J[3][3])
+/* x and J[axis][reference axis] = dx / dxi of `nodes` nodes from the shape functions there and their
+ * derivatives. */
+static inline __attribute__ ((always_inline)) void combine_those (int nodes, int dim, int d, const double *x,
+                                                                  const double *N, const double *dN,
+                                                                  double place[3], double J[3][3])
 {
-    int d = pg_element_types[kind].dim, nodes = pg_element_types[kind].nodes;
     for (int a = 0; a < dim; a++) {
         place[a] = 0;
         for (int r = 0; r < 3; r++) J[a][r] = 0;
@@ -18,6 +19,17 @@ static void combine (pg_element kind, int dim, const double *x, const double *N,
             place[a] += N[i] * x[i * dim + a];
             for (int r = 0; r < d; r++) J[a][r] += dN[i * d + r] * x[i * dim + a];
         }
+}
+
+/* The usual ones with their loops known. */
+static void combine (pg_element kind, int dim, const double *x, const double *N, const double *dN,
+                     double place[3], double J[3][3])
+{
+    int d = pg_element_types[kind].dim, nodes = pg_element_types[kind].nodes;
+    if (dim == 2 && d == 2) combine_those (nodes, 2, 2, x, N, dN, place, J);
+    else if (dim == 3 && d == 3) combine_those (nodes, 3, 3, x, N, dN, place, J);
+    else if (dim == 3 && d == 2) combine_those (nodes, 3, 2, x, N, dN, place, J);
+    else combine_those (nodes, dim, d, x, N, dN, place, J);
 }
 
 /* The same at xi. */

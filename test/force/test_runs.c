@@ -114,9 +114,9 @@ static void broken_bonds_are_no_longer_alike (void **state)
         }
 }
 
-/* Rows of K by products of derivatives, and rows of supports on facets, are those of blocks. On irregular points
- * both ways have the same shape functions. The two ways differ in some bit, with more than one material at the
- * supports alone. */
+/* Rows of K by products of derivatives, and rows of supports on facets, are those of blocks. On irregular
+ * points both ways have the same shape functions. The two ways differ in some bit, with more than one
+ * material at the supports alone. */
 static void rows_of_products_equal_blocks (void **state)
 {
     (void) state;
