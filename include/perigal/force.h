@@ -179,6 +179,9 @@ typedef struct {
     /* As balance, by one sweep that keeps no strains: for displacements of which nothing else will be asked.
      * NULL: balance does. */
     pg_status (*balance_lean) (void *self, double t, const double *d, double *residual, double *reference);
+    /* What the evaluation points of these bonds have of K x, N (ndof), before a refresh by these changes or
+     * after it. *can 0: forces depend on the changes by more than these points. NULL: never. */
+    pg_status (*share_of) (void *self, const double *x, const pg_changes *changes, double *y, int *can);
     /* As work_balance, where the whole residual at d, inertia and damping included, is known already, N
      * (ndof). NULL: work_balance finds it. */
     pg_status (*work_balance_of) (void *self, double t, const double *d, const double *residual,

@@ -162,6 +162,29 @@ done:
     return status;
 }
 
+/* Rows that more depends on than their own share of K x: of cells that are consistent as a whole, of patches
+ * and stabilised points; of supports and loads, which lean on shape functions too. */
+static int are_alone (const galerkin *g, const size_t *count)
+{
+    int loaded = 0;
+    for (int s = 0; s < PG_BOND_SETS; s++) loaded |= galerkin_boundary_loaded (g, s, count[s], g->list[s]);
+    return !loaded && !g->whole && !g->dilatation && !g->kept && !galerkin_eigen_pairs (g)
+           && !(g->nnitsche && count[PG_FACETS]) && !(g->npenalty && count[PG_NODES])
+           && !(g->has_T && galerkin_basis_touched (g, count[PG_NODES], g->list[PG_NODES]));
+}
+
+static pg_status galerkin_share_of (void *self, const double *x, const pg_changes *changes, double *y,
+                                    int *can)
+{
+    galerkin *g = self;
+    size_t count[PG_BOND_SETS];
+    touched_points (g, changes, count);
+    *can = are_alone (g, count);
+    memset (y, 0, g->n * (size_t) g->dim * sizeof *y);
+    if (*can) galerkin_sum_list (g, count[g->bulk], g->list[g->bulk], x, y);
+    return PG_OK;
+}
+
 /* ---- balance ------------------------------------------------------------------------------------------- */
 /* The largest of three forces, N, of which this rank knows its share of the squares. */
 static double largest_of (const galerkin *g, double inside, double external, double reaction)
@@ -382,6 +405,7 @@ const pg_force_type pg_force_galerkin = {
     .refresh = galerkin_refresh,
     .balance = galerkin_balance,
     .balance_lean = galerkin_balance_lean,
+    .share_of = galerkin_share_of,
     .mass = galerkin_mass,
     .operator_ = galerkin_operator,
     .matrix = galerkin_matrix,

@@ -177,6 +177,8 @@ void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count,
 /* f += sum w B' sigma of the last measure, which was at d */
 void galerkin_sum_stress  (galerkin *g, const double *d, double *f);
 void galerkin_sum_tangent (galerkin *g, const double *x, double *f);   /* f += sum w B' D B x */
+/* The same of some points, ascending. */
+void galerkin_sum_list (galerkin *g, size_t count, const size_t *list, const double *x, double *f);
 /* pg_force_type.spared: what runs have spared */
 int  galerkin_spared (const void *self, size_t k, char *what, char *why, double *seconds);
 /* eigenstrain: of time t for all that follows; the stress of a point by its strain; what the energy of its
@@ -207,20 +209,23 @@ double galerkin_silling_energy (const galerkin *g, size_t p, const double *d);
 /* Lanes of a vector: arrays of nodal values by components have room for so many numbers more. */
 enum { GALERKIN_LANES = 8 };
 /* A bond of the first group of a run: where it stands in a row of nodes that follow each other, its node, the
- * point within the group, and where its values are in N, dN and w. */
+ * point within the group, and its number in the family. */
 typedef struct { int place, node, point; size_t bond; } galerkin_entry;
 /* `count` groups of `points` points, the first from point `point` on; its bonds in the order of summation. */
 typedef struct { size_t point, points, count, entry, entries; } galerkin_run;
 /* Runs among the points first .. last - 1, ascending; to be found anew if stale. bonds: of all their
- * points. */
+ * points. known: of each point whether its row has changed, and whether it was left to itself. */
 typedef struct {
     size_t first, last, n, cap, nentry, cap_entry, bonds;
     int    stale;
+    unsigned char  *known;
     galerkin_run   *run;
     galerkin_entry *entry;
 } galerkin_run_list;
-void galerkin_runs_find  (const galerkin *g, galerkin_run_list *list);
-void galerkin_runs_clear (galerkin_run_list *list);
+void galerkin_runs_find   (const galerkin *g, galerkin_run_list *list);
+void galerkin_runs_change (galerkin_run_list *list, size_t p);         /* the row of point p has changed */
+void galerkin_runs_forget (galerkin_run_list *list);                   /* those of all points may have */
+void galerkin_runs_clear  (galerkin_run_list *list);
 /* f += sum w B' D B x of a run; x, f: an array for each component, f from node `low` on; active: blocks of
  * points that x is not zero at (NULL: all). */
 void galerkin_run_sum (const galerkin *g, const galerkin_run_list *list, const galerkin_run *run,

@@ -128,6 +128,5 @@ pg_status galerkin_own (galerkin *g, const pg_state *state, int set)
 done:
     if (!borrowed) pg_free (old.N), pg_free (old.dN), pg_free (old.w), pg_free (old.at);
     if (set == g->bulk) galerkin_follow (g);
-    if (set == g->bulk && old.at) galerkin_slices_stale (g, r->n, NULL);  /* runs know where values were */
     return status;
 }

@@ -103,7 +103,7 @@ pg_status galerkin_leaders_find (galerkin *g, const pg_state *state, int set)
     PG_ALLOC (table, slots);
     if (elect (r, l, at, table, slots) > r->family.start[r->n] / SHARE) goto done;
     g->leaders[set] = l, r->at = at, l = NULL, at = NULL;
-    if (set == g->bulk) galerkin_follow (g), galerkin_slices_stale (g, r->n, NULL);
+    if (set == g->bulk) galerkin_follow (g);
 done:
     if (l) pg_free (l->next), pg_free (l->leads);
     pg_free (l), pg_free (at), pg_free (table);
@@ -111,28 +111,25 @@ done:
 }
 
 /* The first point of the chain that still reads the row of p leads from here on. */
-static int hand_over (const pg_rows *r, galerkin_leaders *l, size_t p)
+static void hand_over (const pg_rows *r, galerkin_leaders *l, size_t p)
 {
     size_t old = r->family.start[p];
     int heir = l->next[p];
     l->leads[p] = 0;
     while (heir >= 0 && (r->at[heir] != old || l->leads[heir])) heir = l->next[heir];
-    if (heir < 0) return 0;
+    if (heir < 0) return;
     l->leads[heir] = 1;
     for (int q = heir; q >= 0; q = l->next[q])
         if (r->at[q] == old) r->at[q] = r->family.start[heir];
-    return 1;
 }
 
 void galerkin_leaders_leave (galerkin *g, int set, size_t count, const size_t *list)
 {
     pg_rows *r = &g->rows[set];
     galerkin_leaders *l = g->leaders[set];
-    int moved = 0;
     for (size_t k = 0; l && k < count; k++) {
         size_t p = list[k];
-        if (l->leads[p]) moved |= hand_over (r, l, p);
+        if (l->leads[p]) hand_over (r, l, p);
         r->at[p] = r->family.start[p];
     }
-    if (moved && set == g->bulk) galerkin_slices_stale (g, r->n, NULL);   /* runs know where values were */
 }

@@ -15,7 +15,11 @@
  * found by comparing their rows, number by number: bodies with holes, cracks, cut cells, broken bonds and
  * materials need no rule of their own, and what is like nothing else is summed point by point. Derivatives
  * may differ by 1e-11 of the largest of their point, which is what rounding of positions makes of them. The
- * runs are a function of the rows alone, so that a run that goes on from a checkpoint has the same ones. */
+ * runs are a function of the rows alone, so that a run that goes on from a checkpoint has the same ones.
+ *
+ * Where some rows have changed since, the search from left to right is the one of before wherever it comes to
+ * a group that it came to then, and no row has changed that was looked at from there: such runs are taken
+ * over, and such groups left to themselves again. */
 #include "galerkin.h"
 #include <math.h>
 #include <stdlib.h>
@@ -116,8 +120,7 @@ static pg_status list_entries (const galerkin *g, galerkin_run_list *l, galerkin
     galerkin_entry *e = l->entry + run->entry;
     for (size_t q = 0; q < run->points; q++)
         for (size_t k = f->start[run->point + q]; k < f->start[run->point + q + 1]; k++)
-            e[k - first] = (galerkin_entry) { 0, f->node[k], (int) q,
-                                                k + pg_rows_offset (&g->sums, run->point + q) };
+            e[k - first] = (galerkin_entry) { 0, f->node[k], (int) q, k };
     qsort (e, n, sizeof *e, compare);
     for (size_t k = 1; k < n; k++)
         e[k].place = e[k].node == e[k - 1].node ? e[k - 1].place
@@ -128,39 +131,101 @@ done:
     return status;
 }
 
-/* From left to right: the longest run that begins at a group, or the group is left to itself. */
-static pg_status find_runs (const galerkin *g, galerkin_run_list *l)
+/* What is known of a point of the list since runs were last found. */
+enum { CHANGED = 1, ALONE = 2 };
+
+/* Are the rows of points p .. end - 1, as far as they are of this list, those of the last search? */
+static int unchanged (const galerkin_run_list *l, size_t p, size_t end)
+{
+    int changed = 0;
+    end = end < l->last ? end : l->last;
+    for (size_t i = p; i < end; i++) changed |= l->known[i - l->first] & CHANGED;
+    return !changed;
+}
+
+/* A run of before and its entries. */
+static pg_status take_over (galerkin_run_list *l, const galerkin_run_list *old, const galerkin_run *run)
 {
     pg_status status = PG_OK;
+    PG_GROW (l->run, l->cap, l->n + 1);
+    PG_GROW (l->entry, l->cap_entry, l->nentry + run->entries);
+    memcpy (l->entry + l->nentry, old->entry + run->entry, run->entries * sizeof *l->entry);
+    l->run[l->n] = *run;
+    l->run[l->n++].entry = l->nentry;
+    l->nentry += run->entries, l->bonds += run->entries * run->count;
+done:
+    return status;
+}
+
+/* What an earlier search knew of its points says nothing of the rows that they have now. */
+static pg_status new_run (const galerkin *g, galerkin_run_list *l, galerkin_run run)
+{
+    pg_status status = PG_OK;
+    PG_GROW (l->run, l->cap, l->n + 1);
+    PG_TRY (list_entries (g, l, &run));
+    for (size_t i = 0; i < run.points * run.count; i++) l->known[run.point - l->first + i] &= CHANGED;
+    l->run[l->n++] = run, l->bonds += run.entries * run.count;
+done:
+    return status;
+}
+
+/* From left to right: the longest run that begins at a group, or the group is left to itself. A run ends
+ * where it does by the group behind it, and a group is alone by the LEAST groups from it on. */
+static pg_status find_runs (const galerkin *g, galerkin_run_list *l, const galerkin_run_list *old)
+{
+    pg_status status = PG_OK;
+    size_t next = 0;                                   /* run of before */
     for (size_t p = l->first; p < l->last; ) {
-        size_t end = group_end (&g->sums, l->first, l->last, p);
-        size_t count = end ? count_alike (g, p, end, l->last) : 0;
-        if (count < LEAST) {
-            p = end ? end : p + 1;
+        size_t end = group_end (&g->sums, l->first, l->last, p), m = end ? end - p : 1;
+        unsigned char *known = l->known + (p - l->first);
+        while (next < old->n && old->run[next].point < p) next++;
+        if (next < old->n && old->run[next].point == p
+            && unchanged (l, p, p + m * (old->run[next].count + 1))) {
+            PG_TRY (take_over (l, old, &old->run[next]));
+            p += m * old->run[next].count;
             continue;
         }
-        PG_GROW (l->run, l->cap, l->n + 1);
-        galerkin_run *run = &l->run[l->n];
-        *run = (galerkin_run) { .point = p, .points = end - p, .count = count };
-        PG_TRY (list_entries (g, l, run));
-        l->n++, l->bonds += run->entries * count;
-        p += run->points * count;
+        int again = (*known & ALONE) && unchanged (l, p, p + m * LEAST);
+        size_t count = end && !again ? count_alike (g, p, end, l->last) : 0;
+        if (count < LEAST) *known |= ALONE;
+        else PG_TRY (new_run (g, l, (galerkin_run) { .point = p, .points = m, .count = count }));
+        p += count < LEAST ? m : m * count;
     }
 done:
     return status;
 }
 
+void galerkin_runs_change (galerkin_run_list *l, size_t p)
+{
+    l->stale = 1;
+    if (l->known) l->known[p - l->first] |= CHANGED;
+}
+
+void galerkin_runs_forget (galerkin_run_list *l)
+{
+    l->stale = 1, l->n = l->nentry = l->bonds = 0;
+    if (l->known) memset (l->known, 0, l->last - l->first);
+}
+
 /* Without memory there are no runs, and all points are summed one by one. */
 void galerkin_runs_find (const galerkin *g, galerkin_run_list *l)
 {
+    pg_status status = PG_OK;
+    galerkin_run_list old = *l;
     if (!l->stale) return;
-    l->stale = 0, l->n = l->nentry = l->bonds = 0;
-    if (find_runs (g, l) != PG_OK) l->n = l->bonds = 0;
+    l->run = NULL, l->entry = NULL, l->stale = 0;
+    l->n = l->cap = l->nentry = l->cap_entry = l->bonds = 0;
+    if (!l->known) PG_ALLOC (l->known, l->last - l->first);
+    PG_TRY (find_runs (g, l, &old));
+    for (size_t i = 0; i < l->last - l->first; i++) l->known[i] &= ALONE;
+done:
+    if (status != PG_OK) galerkin_runs_forget (l), l->stale = 0;
+    pg_free (old.run), pg_free (old.entry);
 }
 
 void galerkin_runs_clear (galerkin_run_list *l)
 {
-    pg_free (l->run), pg_free (l->entry);
+    pg_free (l->run), pg_free (l->entry), pg_free (l->known);
     memset (l, 0, sizeof *l);
 }
 
@@ -227,14 +292,18 @@ INLINE void sum_bundle (int dim, const galerkin_bundle *b)
     size_t nv = dim == 3 ? 6 : 3;
     const galerkin_entry *e = b->entry, *end = e + b->run->entries;
     eight stress[6 * MOST];
-    for (size_t q = 0; q < b->run->points; q++) stress_of (dim, b, q, stress + nv * q);
+    const double *row[MOST];                           /* of the first group, wherever they are kept now */
+    for (size_t q = 0; q < b->run->points; q++) {
+        stress_of (dim, b, q, stress + nv * q);
+        row[q] = r->dN + pg_rows_offset (r, b->run->point + q) * (size_t) dim;
+    }
     while (e < end) {
         int node = e->node;
         size_t to = (size_t) node + b->lane - b->low;
         eight x = { 0 }, y = { 0 }, z = { 0 };
         for (; e < end && e->node == node; e++) {
             const eight *s = stress + nv * (size_t) e->point;
-            const double *q = r->dN + e->bond * (size_t) dim;
+            const double *q = row[e->point] + e->bond * (size_t) dim;
             if (dim == 3) {
                 x += q[0] * s[0] + q[1] * s[3] + q[2] * s[5];
                 y += q[0] * s[3] + q[1] * s[1] + q[2] * s[4];

@@ -23,6 +23,7 @@ struct galerkin_slices {
     int     has_runs;
     galerkin_run_list runs[SLICES];
     double *part[SLICES][3], *component[3];
+    int     quiet[SLICES];                             /* of the sum at hand: no block is active */
     /* Bonds of points that were alike, summed over the products so far. */
     double  alike;
 };
@@ -65,11 +66,11 @@ done:
 void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list)
 {
     galerkin_slices *s = g->slices;
-    for (size_t k = 0; k < SLICES && s && !list; k++) s->runs[k].stale = 1;
+    for (size_t k = 0; k < SLICES && s && !list; k++) galerkin_runs_forget (&s->runs[k]);
     for (size_t i = 0, k = 0; i < count && list; i++) {
         while (list[i] >= s->first[k + 1]) k++;
         while (list[i] < s->first[k]) k--;
-        s->runs[k].stale = 1;
+        galerkin_runs_change (&s->runs[k], list[i]);
     }
 }
 
@@ -292,6 +293,7 @@ typedef struct {
     const double *x, *at;
     double   *f;
     const unsigned char *active;                       /* blocks of points that x is not zero at; NULL: all */
+    int       single;                                  /* 1: without runs */
 } summing;
 
 /* s = D e in space; a loop of constant length. */
@@ -372,6 +374,15 @@ static void sum_points (const summing *m, size_t k, size_t first, size_t last)
                                                                          s->low[k]);
 }
 
+/* Is no block of a slice active? */
+static int is_quiet (const summing *m, size_t k)
+{
+    const galerkin_slices *s = m->g->slices;
+    size_t block = s->first[k] / GALERKIN_BLOCK,
+           end = (s->first[k + 1] + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
+    return m->active && (end == block || !memchr (m->active + block, 1, end - block));
+}
+
 /* Whole slices, each by one thread: runs, and the points between them. */
 static void sum_slices (void *context, size_t first, size_t last, int thread)
 {
@@ -381,6 +392,8 @@ static void sum_slices (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t k = first; k < last; k++) {
         size_t at = s->first[k], range = s->high[k] - s->low[k];
+        s->quiet[k] = is_quiet (m, k);
+        if (s->quiet[k]) continue;
         memset (s->sum[k], 0, range * stride * sizeof *s->sum[k]);
         if (m->x && s->has_runs) galerkin_runs_find (m->g, &s->runs[k]);
         if (m->x && s->runs[k].n)
@@ -405,9 +418,10 @@ static void add_slices (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t k = 0; k < SLICES; k++) {
         size_t low = s->low[k], from = first > low ? first : low, to = last < s->high[k] ? last : s->high[k];
+        if (s->quiet[k]) continue;
         for (size_t i = from; i < to; i++)
             for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->sum[k][(i - low) * stride + c];
-        if (!m->x || !s->runs[k].n) continue;
+        if (!m->x || m->single || !s->runs[k].n) continue;
         for (size_t i = from; i < to; i++)
             for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->part[k][c][i - low];
     }
@@ -421,10 +435,10 @@ static void split (galerkin *g, const double *x)
         for (size_t c = 0; c < dim; c++) g->slices->component[c][i] = x[i * dim + c];
 }
 
-/* x NULL: stresses as measured, at displacement d. */
-static void sum_all (galerkin *g, const double *x, const double *d, double *f)
+/* x NULL: stresses as measured, at displacement d. active: blocks of points; NULL: all. */
+static void sum_all (galerkin *g, const double *x, const double *d, double *f, const unsigned char *active)
 {
-    summing m = { g, x, NULL, f, x ? galerkin_active (g, g->bulk, x, NULL) : NULL };
+    summing m = { g, x, NULL, f, active, 0 };
     if (g->kept) m.at = four_a_node (g, d);
     else if (x) m.x = widened (g, x);
     if (x && g->slices->has_runs) split (g, x);
@@ -453,5 +467,22 @@ int galerkin_spared (const void *self, size_t k, char *what, char *why, double *
     return 1;
 }
 
-void galerkin_sum_stress (galerkin *g, const double *d, double *f) { sum_all (g, NULL, d, f); }
-void galerkin_sum_tangent (galerkin *g, const double *x, double *f) { sum_all (g, x, x, f); }
+void galerkin_sum_stress (galerkin *g, const double *d, double *f) { sum_all (g, NULL, d, f, NULL); }
+
+void galerkin_sum_tangent (galerkin *g, const double *x, double *f)
+{
+    sum_all (g, x, x, f, galerkin_active (g, g->bulk, x, NULL));
+}
+
+/* Point by point: in runs others would be summed with them. */
+void galerkin_sum_list (galerkin *g, size_t count, const size_t *list, const double *x, double *f)
+{
+    galerkin_slices *s = g->slices;
+    summing m = { g, widened (g, x), NULL, f, NULL, 1 };
+    for (size_t k = 0, i = 0; k < SLICES; k++) {
+        s->quiet[k] = i == count || list[i] >= s->first[k + 1];
+        if (!s->quiet[k]) memset (s->sum[k], 0, (s->high[k] - s->low[k]) * stride_of (g) * sizeof *s->sum[k]);
+        for (; i < count && list[i] < s->first[k + 1]; i++) sum_points (&m, k, list[i], list[i] + 1);
+    }
+    add_slices (&m, 0, g->n, 0);
+}

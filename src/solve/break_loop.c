@@ -256,7 +256,8 @@ double break_loop_cut (const break_loop *b, double top)
 }
 
 /* One round of breaking, of the bonds that the last look has found. */
-static pg_status break_worst (break_loop *b, pg_state *state, double t, const pg_step *step, double top)
+static pg_status break_worst (break_loop *b, pg_state *state, double t, const double *d, const dynamics *dyn,
+                              const pg_step *step, double top)
 {
     pg_status status = PG_OK;
     double cut = break_loop_cut (b, top);
@@ -268,7 +269,7 @@ static pg_status break_worst (break_loop *b, pg_state *state, double t, const pg
                  step->iterations, b->nbroken, top);
     if (judges_few (b)) PG_TRY (kill_listed (b, state, cut, t));
     else PG_TRY (break_loop_kill (b, state, b->utilisation, cut, 1, t));
-    PG_TRY (system_refresh (&b->system, state, &b->changes));
+    PG_TRY (system_break (&b->system, state, &b->changes, d, dyn));
 done:
     return status;
 }
@@ -339,7 +340,7 @@ pg_status equilibrate (break_loop *b, pg_state *state, double t, double *d, cons
                 s->report->bonds_over_limit += break_loop_over (b, state, 1, &step->utilisation);
             break;
         }
-        PG_TRY (break_worst (b, state, t, step, top));
+        PG_TRY (break_worst (b, state, t, d, dyn, step, top));
     }
     if (step->iterations > 0) PG_TRY (break_loop_account (b, t, d, dyn, 1));
     b->round = 0;

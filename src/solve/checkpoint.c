@@ -314,6 +314,7 @@ static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
     }
     PG_TRY (keep_preconditioner (s, solves, count[4], k));
     PG_TRY (system_guess_keep (s, k));
+    PG_TRY (system_keep_residual (s, k));
     PG_TRY (keep_following (s, k));
     PG_TRY (keep_ways (&s->ways, &s->rough, k));
     s->stale = (int) count[5];

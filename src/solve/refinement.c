@@ -223,8 +223,12 @@ pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamic
     if (!dyn || s->options->plain || (s->mode != SYSTEM_NO_FACTOR && s->mode != SYSTEM_DIAGONAL))
         return PG_OK;
     PG_TRY (rough_ready (rough, s->ndof));
-    if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
-    PG_TRY (system_residual (s, t, d, dyn, &r));
+    if (s->at_hand) r = system_take_residual (s);
+    else {
+        if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
+        PG_TRY (system_residual (s, t, d, dyn, &r));
+    }
+    s->at_hand = 0;
     if (rough->look) share = fmax (share, 10 * s->options->tolerance / r);
     if (rough->look ? share > 0.01 : !(0.1 * share * r > s->options->tolerance)) return PG_OK;
     s->carried = s->known = 0, rough->found = 0, rough->goal = rough->look ? 0 : share;
@@ -234,6 +238,7 @@ pg_status system_solve_roughly (pg_system *s, double t, double *d, const dynamic
     if (rough->found > 0) system_go_on (s, d, rough->earlier, rough->before);
     system_go_on (s, d, s->delta, d);
     *done = rough->look || rough->found > 0;
+    s->known = s->at_hand = s->carried;
 done:
     return status;
 }
@@ -247,6 +252,7 @@ pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double last = INFINITY, r = 0, restless = -1;
+    s->at_hand = 0;
     struct { double unbalanced, reference; } before = { 0, 0 };
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
     PG_TRY (system_exchange (s, d));

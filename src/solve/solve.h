@@ -120,6 +120,7 @@ typedef struct {
     pg_rough  rough;
     int       carried;  /* `residual` went with the last iterations to the state that they lead to */
     int       known;                                   /* `residual` is that of the state last solved for */
+    int       at_hand;  /* `residual` is that of the same displacements after the last round of breaking */
     long      unmeasured;                              /* states accepted by carried residuals */
     struct system_contact *contact;                    /* of crack faces (contact.h); NULL: none */
     const unsigned char *alive;                        /* of the last refresh, borrowed */
@@ -181,6 +182,12 @@ void      system_guess_learn (pg_system *s);
 void      system_guess_free  (pg_system *s);
 pg_status system_guess_ready (pg_system *s);
 pg_status system_guess_keep  (pg_system *s, const pg_keeper *k);
+/* break_residual.c: refreshes after a round of breaking at d; where it can the residual goes with it
+ * (at_hand). Takes that residual, relative to what the last one measured was divided by. */
+pg_status system_break (pg_system *s, const pg_state *state, const pg_changes *changes, const double *d,
+                        const dynamics *dyn);
+double    system_take_residual (pg_system *s);
+pg_status system_keep_residual (pg_system *s, const pg_keeper *k);
 /* Factors where K has changed, then solves. */
 pg_status system_solve_by_factor (pg_system *s, const dynamics *dyn);
 /* kept_factor.c: a factor that serves on while bonds break: solve with it; z = (that or the matrix of now)^-1

@@ -270,7 +270,8 @@ static void report_skips (pg_solver *s)
     pg_statistics_skip (&s->report,
                         8e-9 * (double) sys->unmeasured * (double) s->problem->first_bond[PG_BOND_SETS],
                         "measures of the residual",
-                        "in motion the iterations carried it along, and every sixteenth was measured");
+                        "in motion iterations and breaking change it by known sums; every sixteenth was "
+                        "measured");
 }
 
 /* What growing cracks dissipate along equilibria is what their area takes; said at the end. A few facets

@@ -33,6 +33,12 @@ static const char *const methods[] = {
 };
 enum { BODIES = 3, METHODS = 5 };
 
+static int ascending (const void *a, const void *b)
+{
+    size_t i = *(const size_t *) a, j = *(const size_t *) b;
+    return (i > j) - (i < j);
+}
+
 static run body_of (int threads, int body, int method, const char *more)
 {
     return scene_of (threads, "%s%ssolver: {kind: static%s}\n", bodies[body], methods[method], more);
@@ -114,6 +120,97 @@ static void broken_bonds_are_no_longer_alike (void **state)
         }
 }
 
+/* What breaking changes of K x is the share of the points that lost a bond, before less after, unless more
+ * depends on them: stabilised points, cells as a whole, patches, supported facets. */
+static void the_share_of_points_is_what_changes (void **state)
+{
+    (void) state;
+    for (int m = 0; m < METHODS; m++) {
+        run r = body_of (1, 1, m, "");
+        void *self;
+        const pg_force_type *force = pg_solver_force (r.solver, &self);
+        size_t n = r.state->ndof, known = 0, base = r.problem->first_bond[m == 2 ? PG_NODES : PG_POINTS];
+        double *x = pg_calloc (5 * n, sizeof *x), *y = x + n, *z = y + n, *before = z + n,
+               *after = before + n;
+        for (size_t i = 0; i < n; i++) x[i] = random_number ();
+        refresh (&r, NULL);
+        for (int round = 0; round < 6; round++) {
+            int can, still;
+            size_t bond[9], count = 0, last = base;
+            double top = 0;
+            for (int k = 0; k < 9; k++) {
+                size_t next = last + 1 + (size_t) (400 * (1 + random_number ()));
+                last = next;
+                if (next >= r.state->nbond || !r.state->alive[next]) continue;
+                r.state->alive[next] = 0, bond[count++] = next;
+            }
+            pg_changes changes = { count, 9, bond };
+            multiply (&r, x, y);
+            check_ok (force->share_of (self, x, &changes, before, &can));
+            refresh (&r, &changes);
+            check_ok (force->share_of (self, x, &changes, after, &still));
+            multiply (&r, x, z);
+            assert_int_equal (can, still);
+            known += (size_t) can;
+            for (size_t i = 0; i < n; i++) top = fmax (top, fabs (z[i]));
+            for (size_t i = 0; i < n && can; i++)
+                check_scaled (z[i] - y[i], after[i] - before[i], 1e-11, top);
+        }
+        if (m == 0 || m == 2) assert_true (known > 0);
+        else assert_int_equal (known, 0);
+        pg_free (x);
+        clear (&r);
+    }
+}
+
+/* A plate in which points become alike and unlike again: of rows of cells the same bond breaks, a few cells
+ * in a round, to the right of those before and to their left, and bonds here and there. Whatever is taken over
+ * from the round before, the product has the bits of a force that comes to the same bonds at once. */
+static void points_become_alike_by_breaking (void **state)
+{
+    (void) state;
+    enum { TRAINS = 12, ROUNDS = 14, MOST = TRAINS * 4 + 2 };
+    run r = body_of (1, 1, 0, "");
+    size_t n = r.state->ndof, first[TRAINS], last[TRAINS], number[TRAINS];
+    double *x = pg_calloc (3 * n, sizeof *x), *y = x + n, *z = x + 2 * n;
+    refresh (&r, NULL);
+    for (size_t i = 0; i < n; i++) x[i] = random_number ();
+    const pg_family *f = &r.problem->rows[PG_POINTS].family;
+    size_t base = r.problem->first_bond[PG_POINTS];
+    for (size_t k = 0; k < TRAINS; k++) {
+        first[k] = last[k] = (size_t) ((0.5 + 0.5 * random_number ()) * (double) (f->n - 1));
+        number[k] = (size_t) ((0.5 + 0.5 * random_number ()) * 9);
+    }
+    for (int round = 0; round < ROUNDS; round++) {
+        size_t bond[MOST], count = 0;
+        for (size_t k = 0; k < TRAINS; k++)
+            for (size_t i = 0; i < 3; i++) {
+                int left = (round + (int) k) % 3 == 0;
+                size_t point = left ? first[k] : last[k];
+                if (point >= f->n) continue;
+                bond[count++] = base + f->start[point] + number[k];
+                if (left) first[k] = point >= 4 ? point - 4 : SIZE_MAX;
+                else last[k] = point + 4;
+            }
+        bond[count++] = base + (size_t) ((0.5 + 0.5 * random_number ()) * (double) (f->start[f->n] - 1));
+        size_t kept = 0;
+        qsort (bond, count, sizeof *bond, ascending);
+        for (size_t i = 0; i < count; i++) {
+            if (!r.state->alive[bond[i]]) continue;
+            r.state->alive[bond[i]] = 0, bond[kept++] = bond[i];
+        }
+        refresh (&r, &(pg_changes) { kept, MOST, bond });
+        run fresh = body_of (1, 1, 0, "");
+        check_ok (pg_state_copy (fresh.state, r.state));
+        refresh (&fresh, NULL);
+        multiply (&r, x, y), multiply (&fresh, x, z);
+        assert_memory_equal (y, z, n * sizeof *y);
+        clear (&fresh);
+    }
+    pg_free (x);
+    clear (&r);
+}
+
 /* Rows of K by products of derivatives, and rows of supports on facets, are those of blocks. On irregular
  * points both ways have the same shape functions. The two ways differ in some bit, with more than one
  * material at the supports alone. */
@@ -155,6 +252,8 @@ int main (void)
         cmocka_unit_test (the_product_is_that_of_the_plain_sum),
         cmocka_unit_test (irregular_points_are_summed_one_by_one),
         cmocka_unit_test (broken_bonds_are_no_longer_alike),
+        cmocka_unit_test (the_share_of_points_is_what_changes),
+        cmocka_unit_test (points_become_alike_by_breaking),
     };
     return cmocka_run_group_tests_name ("force/runs", tests, NULL, NULL);
 }
