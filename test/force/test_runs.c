@@ -164,8 +164,8 @@ static void the_share_of_points_is_what_changes (void **state)
 }
 
 /* A plate in which points become alike and unlike again: of rows of cells the same bond breaks, a few cells
- * in a round, to the right of those before and to their left, and bonds here and there. Whatever is taken over
- * from the round before, the product has the bits of a force that comes to the same bonds at once. */
+ * in a round, to the right of those before and to their left, and bonds here and there. Whatever is taken
+ * over from the round before, the product has the bits of a force that comes to the same bonds at once. */
 static void points_become_alike_by_breaking (void **state)
 {
     (void) state;
