@@ -13,9 +13,13 @@ enum { SLICES = 16 };
 
 #define INLINE static inline __attribute__ ((always_inline))
 
+/* Nodes from .. to - 1. */
+typedef struct { size_t from, to; } interval;
+
 struct galerkin_slices {
     size_t  first[SLICES + 1];                         /* points of a slice */
-    size_t  low[SLICES], high[SLICES];                 /* nodes they see */
+    size_t  low[SLICES], high[SLICES];                 /* range of the nodes they see */
+    interval *seen[SLICES]; size_t nseen[SLICES];      /* these nodes themselves, without wide gaps */
     double *sum[SLICES];                               /* per node of the range, 4 numbers or dim */
     double *x;                                         /* nodal values, 4 numbers a node or dim */
     /* Points that are alike in each slice; what they add up to, and nodal values, an array for each
@@ -31,6 +35,31 @@ struct galerkin_slices {
 /* Numbers of a node in sums and widened values: four are one vector load. */
 static size_t stride_of (const galerkin *g) { return g->dim == 3 || g->kept ? 4 : (size_t) g->dim; }
 
+/* Nodes that no point of a slice sees are passed by where so many follow each other. */
+enum { GAP = 16 };
+
+/* A slice of a flat or a slender body sees parts of many layers of nodes, and not what lies between them.
+ * mark: zeros before and after (n). */
+static pg_status find_seen (const galerkin *g, galerkin_slices *s, size_t k, unsigned char *mark)
+{
+    pg_status status = PG_OK;
+    const pg_family *f = &g->sums.family;
+    size_t room = 0, *n = &s->nseen[k];
+    for (size_t e = f->start[s->first[k]]; e < f->start[s->first[k + 1]]; e++) mark[f->node[e]] = 1;
+    for (size_t i = s->low[k]; i < s->high[k]; i++) {
+        if (!mark[i]) continue;
+        mark[i] = 0;
+        if (*n && i < s->seen[k][*n - 1].to + GAP) {
+            s->seen[k][*n - 1].to = i + 1;
+            continue;
+        }
+        PG_GROW (s->seen[k], room, *n + 1);
+        s->seen[k][(*n)++] = (interval) { i, i + 1 };
+    }
+done:
+    return status;
+}
+
 /* Sixteen slices of the points whatever the number of threads, each with room for the nodes that its
  * points see. Points are numbered along the lattice, so that these ranges overlap little. */
 pg_status galerkin_slices_create (galerkin *g)
@@ -39,6 +68,8 @@ pg_status galerkin_slices_create (galerkin *g)
     const pg_family *f = &g->sums.family;
     galerkin_slices *s = NULL;
     size_t stride = stride_of (g);
+    unsigned char *mark = NULL;
+    PG_ALLOC (mark, g->n);
     PG_ALLOC (s, 1);
     g->slices = s;
     for (size_t k = 0; k <= SLICES; k++) s->first[k] = f->n * k / SLICES;
@@ -50,6 +81,7 @@ pg_status galerkin_slices_create (galerkin *g)
         }
         s->low[k] = low < high ? low : 0, s->high[k] = low < high ? high : 0;
         PG_ALLOC (s->sum[k], (s->high[k] - s->low[k]) * stride);
+        PG_TRY (find_seen (g, s, k, mark));
     }
     PG_ALLOC (s->x, g->n * stride);
     s->has_runs = g->dim > 1 && !g->problem->plain;
@@ -59,6 +91,7 @@ pg_status galerkin_slices_create (galerkin *g)
     }
     for (int c = 0; c < g->dim && s->has_runs; c++) PG_ALLOC (s->component[c], g->n + GALERKIN_LANES);
 done:
+    pg_free (mark);
     return status;
 }
 
@@ -79,7 +112,7 @@ void galerkin_slices_free (galerkin *g)
 {
     galerkin_slices *s = g->slices;
     for (size_t k = 0; s && k < SLICES; k++) {
-        pg_free (s->sum[k]);
+        pg_free (s->sum[k]), pg_free (s->seen[k]);
         for (int c = 0; c < 3; c++) pg_free (s->part[k][c]);
         galerkin_runs_clear (&s->runs[k]);
     }
@@ -383,21 +416,31 @@ static int is_quiet (const summing *m, size_t k)
     return m->active && (end == block || !memchr (m->active + block, 1, end - block));
 }
 
+/* The sums of a slice are zero at the nodes that its points see; runs: those of runs as well, whose lanes
+ * beyond their end add zeros to whatever stands elsewhere. */
+static void begin_sum (galerkin *g, size_t k, int runs)
+{
+    galerkin_slices *s = g->slices;
+    size_t dim = runs ? (size_t) g->dim : 0, stride = stride_of (g), low = s->low[k];
+    for (size_t i = 0; i < s->nseen[k]; i++) {
+        size_t from = s->seen[k][i].from - low, n = s->seen[k][i].to - low - from;
+        memset (s->sum[k] + from * stride, 0, n * stride * sizeof *s->sum[k]);
+        for (size_t c = 0; c < dim; c++) memset (s->part[k][c] + from, 0, n * sizeof *s->part[k][c]);
+    }
+}
+
 /* Whole slices, each by one thread: runs, and the points between them. */
 static void sum_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
     galerkin_slices *s = m->g->slices;
-    size_t dim = (size_t) m->g->dim, stride = stride_of (m->g);
     (void) thread;
     for (size_t k = first; k < last; k++) {
-        size_t at = s->first[k], range = s->high[k] - s->low[k];
+        size_t at = s->first[k];
         s->quiet[k] = is_quiet (m, k);
         if (s->quiet[k]) continue;
-        memset (s->sum[k], 0, range * stride * sizeof *s->sum[k]);
         if (m->x && s->has_runs) galerkin_runs_find (m->g, &s->runs[k]);
-        if (m->x && s->runs[k].n)
-            for (size_t c = 0; c < dim; c++) memset (s->part[k][c], 0, range * sizeof (double));
+        begin_sum (m->g, k, m->x && s->runs[k].n);
         for (size_t i = 0; m->x && i < s->runs[k].n; i++) {
             const galerkin_run *run = &s->runs[k].run[i];
             sum_points (m, k, at, run->point);
@@ -409,22 +452,45 @@ static void sum_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
+/* f += the sums of a slice for the nodes from .. to - 1, in space; runs: it has runs as well. */
+static void add_solid (const galerkin_slices *s, size_t k, int runs, size_t from, size_t to,
+                       double *restrict f)
+{
+    size_t low = s->low[k];
+    const double *restrict sum = s->sum[k], *restrict x = s->part[k][0], *restrict y = s->part[k][1],
+                 *restrict z = s->part[k][2];
+    for (size_t i = from; i < to; i++) {
+        const double *own = sum + 4 * (i - low);
+        f[3 * i] += own[0], f[3 * i + 1] += own[1], f[3 * i + 2] += own[2];
+    }
+    for (size_t i = from; i < to && runs; i++)
+        f[3 * i] += x[i - low], f[3 * i + 1] += y[i - low], f[3 * i + 2] += z[i - low];
+}
+
+/* What a slice has for the nodes from .. to - 1. */
+static void add_slice (const summing *m, size_t k, size_t from, size_t to)
+{
+    const galerkin_slices *s = m->g->slices;
+    size_t dim = (size_t) m->g->dim, stride = stride_of (m->g), low = s->low[k];
+    int runs = m->x && !m->single && s->runs[k].n;
+    if (dim == 3) add_solid (s, k, runs, from, to, m->f);
+    for (size_t i = from; i < to && dim < 3; i++)
+        for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->sum[k][(i - low) * stride + c];
+    for (size_t i = from; i < to && dim < 3 && runs; i++)
+        for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->part[k][c][i - low];
+}
+
 /* A range of nodes: what all slices have for them, slices in their order. */
 static void add_slices (void *context, size_t first, size_t last, int thread)
 {
     const summing *m = context;
     const galerkin_slices *s = m->g->slices;
-    size_t dim = (size_t) m->g->dim, stride = stride_of (m->g);
     (void) thread;
-    for (size_t k = 0; k < SLICES; k++) {
-        size_t low = s->low[k], from = first > low ? first : low, to = last < s->high[k] ? last : s->high[k];
-        if (s->quiet[k]) continue;
-        for (size_t i = from; i < to; i++)
-            for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->sum[k][(i - low) * stride + c];
-        if (!m->x || m->single || !s->runs[k].n) continue;
-        for (size_t i = from; i < to; i++)
-            for (size_t c = 0; c < dim; c++) m->f[i * dim + c] += s->part[k][c][i - low];
-    }
+    for (size_t k = 0; k < SLICES; k++)
+        for (size_t i = 0; i < s->nseen[k] && !s->quiet[k]; i++) {
+            const interval *seen = &s->seen[k][i];
+            add_slice (m, k, first > seen->from ? first : seen->from, last < seen->to ? last : seen->to);
+        }
 }
 
 /* Nodal values in an array for each component. */
@@ -481,7 +547,7 @@ void galerkin_sum_list (galerkin *g, size_t count, const size_t *list, const dou
     summing m = { g, widened (g, x), NULL, f, NULL, 1 };
     for (size_t k = 0, i = 0; k < SLICES; k++) {
         s->quiet[k] = i == count || list[i] >= s->first[k + 1];
-        if (!s->quiet[k]) memset (s->sum[k], 0, (s->high[k] - s->low[k]) * stride_of (g) * sizeof *s->sum[k]);
+        if (!s->quiet[k]) begin_sum (g, k, 0);
         for (; i < count && list[i] < s->first[k + 1]; i++) sum_points (&m, k, list[i], list[i] + 1);
     }
     add_slices (&m, 0, g->n, 0);
