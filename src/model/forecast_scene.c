@@ -288,9 +288,9 @@ static pg_status count_file (pg_forecast *f, const pg_scene *scene, const pg_bod
         PG_TRY (pg_mesh_body_cloud (&c, &part, scene));
     } else {
         PG_TRY (pg_cloud_build (&c, &l, body, scene));
-        /* its text, its points, and the list by which those that are there twice are found, sorted in a
-         * copy (cloud/points_file.c) */
-        f->reading = bytes_of_file (scene, "points") + (84 + 8 * (double) c.dim) * (double) c.n;
+        /* its text and its points, which grow up to twice their length, and the list by which those that are
+         * there twice are found, with a copy to sort it (cloud/points_file.c): measured on 8 ranks */
+        f->reading = 2 * bytes_of_file (scene, "points") + (132 + 16 * (double) c.dim) * (double) c.n;
     }
     PG_TRY (pg_method_approx (&a, f->method, scene, c.h));
     size_t stride = c.n / 20000 + 1, n = 0, dim = (size_t) c.dim;
