@@ -12,4 +12,4 @@ alone() { "$perigal" run "$@" "${bare[@]}" --quiet --threads 1 > "$work/out" 2> 
 counts() { grep -E '^  "(steps|events|iterations|broken)": [0-9]+' "$1/report.json"; }
 counted() { diff <(counts "$1") <(counts "$2") > "$work/why" && [ -s "$1/report.json" ]; }
 # alike SHARE DIR DIR TABLE [COLUMN...]: the same rows, see compare.py
-alike() { python3 compare.py "$1" "$2/$4" "$3/$4" "${@:5}" > "$work/why" 2>&1; }
+alike() { python3 -S compare.py "$1" "$2/$4" "$3/$4" "${@:5}" > "$work/why" 2>&1; }

@@ -14,13 +14,13 @@ equal() {
         ranks "$r" "$scene" -o "$work/some" "$@" && grep -q '"division": "subdomains"' "$work/some/report.json"; verdict "$name: $r ranks" $?
         alike "$share" "$work/one" "$work/some" events.csv; verdict "$name: the same bonds on $r ranks" $?
         alike "$share" "$work/one" "$work/some" history.csv $out; verdict "$name: the same rows on $r ranks" $?
-        python3 fields.py "$share" "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
+        python3 -S fields.py "$share" "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
     done
 }
 cp ./*.yaml "$work/"; here=$work least=20 share=1e-9 out=
 python3 scattered.py 2 32 > "$work/cloud.csv"
-some=3 all='2 3 4'
-[ "$PERIGAL_TEST_SIZE" = long ] && some='2 4 8'
+some=3 all='2 4'
+[ "$PERIGAL_TEST_SIZE" = long ] && some='2 4 8' all='2 3 4'
 equal "scattered points" "$here/cloud.yaml" "$all"
 equal "lps" "$here/cloud.yaml" "$some" --set method.force=lps --set materials.steel.poissons_ratio=0.2
 equal "gmpd" "$here/cloud.yaml" "$some" --set method.force=gmpd --set materials.steel.poissons_ratio=0.2 \
@@ -40,10 +40,10 @@ equal "scattered points at rest" "$here/cloud.yaml" "$some" --set 'solver={kind:
 
 # parts of a bar that are narrower than the horizon: ghosts reach beyond the next neighbours
 least=5 share=1e-9 out=
-bar=(--set 'body=[{add: {box: {low: [-25 mm, -2 mm], high: [25 mm, 2 mm]}}}]' --set spacing='1 mm' --set 'layers=[]' --set solver.dt='1e-7 s' --set solver.time_steps=300 --set lattice=cells --set method.accept_inexact=yes
+bar=(--set 'body=[{add: {box: {low: [-12 mm, -2 mm], high: [12 mm, 2 mm]}}}]' --set spacing='1 mm' --set 'layers=[]' --set solver.dt='1e-7 s' --set solver.time_steps=300 --set lattice=cells --set method.accept_inexact=yes
      --set 'cracks=[{from: [0, -3 mm], to: [0, 0.3 mm]}]' --set 'boundary=[{name: top, set: right, velocity: {x: 20 m/s}}, {name: bottom, set: left, velocity: {x: -20 m/s}}]')
 out='force_y moment'
-equal "parts narrower than the horizon" "$here/plate.yaml" 16 "${bar[@]}" --set 'output.gauges=[]'
+equal "parts narrower than the horizon" "$here/plate.yaml" 8 "${bar[@]}" --set 'output.gauges=[]'
 grep -q '"neighbours": [4-9]' "$work/some/report.json"; verdict "ghosts reach beyond the next neighbours" $?
 
 # the body is cut where its crack is: both halves are the same

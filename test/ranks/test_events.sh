@@ -13,18 +13,18 @@ equal() {
         verdict "$name: the same bonds at the same loads on $r ranks" $?
         # sums of forces that are zero but for rounding have no size of their own
         alike 1e-8 "$work/one" "$work/some" history.csv residual force_x displacement_x moment; verdict "$name: the same rows on $r ranks" $?
-        python3 fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
+        python3 -S fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
     done
 }
 events=(--set 'solver={kind: static, stepping: event, max_events: 16, division: subdomains}' --set output.at.levels=2)
-all='1 2 3 4' some=3
-[ "$PERIGAL_TEST_SIZE" = long ] && some=$all
+all='1 2 4' some=3
+[ "$PERIGAL_TEST_SIZE" = long ] && all='1 2 3 4' some=$all
 equal "bond" rest.yaml "$all" "${events[@]}"
 grep -q '"warnings"' "$work/some/report.json" && grep -q "no factor that serves many events" "$work/some/report.json"
 verdict "what ranks do without is said" $?
 grep -q '"preconditioners": [12],' "$work/some/report.json"; verdict "the preconditioner is kept from event to event" $?
 # two cracks that mirror each other, one on either side of the boundary of the parts; their ends break together
-equal "ties across the boundary" ties.yaml "$all"
+equal "ties across the boundary" ties.yaml "2 3"
 python3 - "$work/some/events.csv" > "$work/why" 2>&1 << 'PYTHON'
 import csv, sys
 rows = list(csv.DictReader(open(sys.argv[1])))

@@ -12,7 +12,7 @@ equal() {
         rm -rf "$work/some"
         ranks "$r" "$scene" -o "$work/some" "$@" && alike 1e-9 "$work/one" "$work/some" events.csv; verdict "$name: the same bonds on $r ranks" $?
         alike 1e-9 "$work/one" "$work/some" history.csv $out; verdict "$name: the same rows on $r ranks" $?
-        python3 fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
+        python3 -S fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
     done
 }
 steel=(--set 'materials.steel.youngs_modulus=192 GPa')
@@ -27,8 +27,8 @@ for correction in product volume; do
     done
 done
 equal "points that die by their energy, corrected" outputs.yaml 1000 "${steel[@]}" --set method.surface_correction=product "${energy[@]}"
-some=3 all='2 3 4'
-[ "$PERIGAL_TEST_SIZE" = long ] && some=$all
+some=3 all='2 4'
+[ "$PERIGAL_TEST_SIZE" = long ] && all='2 3 4' some=$all
 numbers=$all
 equal "fcbm" outputs.yaml 1000 "${steel[@]}" --set method.force=fcbm "${energy[@]}"
 numbers=$some

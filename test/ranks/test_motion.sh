@@ -14,7 +14,7 @@ equal() {
         verdict "$name: the same bonds on $r ranks" $?
         # sums of forces that are zero but for rounding have no size of their own
         alike 1e-8 "$work/one" "$work/some" history.csv residual force_x displacement_x moment; verdict "$name: the same rows on $r ranks" $?
-        python3 fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
+        python3 -S fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$name: the same fields on $r ranks" $?
         counted "$work/one" "$work/some"; verdict "$name: as many events and iterations on $r ranks" $?
     done
 }

@@ -26,7 +26,7 @@ equal() {
         ranks "$r" outputs.yaml -o "$work/some" "$@" && alike 1e-9 "$work/one" "$work/some" events.csv
         verdict "$name: the same bonds on $r ranks" $?
         alike 1e-9 "$work/one" "$work/some" history.csv; verdict "$name: the same rows on $r ranks" $?
-        python3 fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1
+        python3 -S fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1
         verdict "$name: the same fields on $r ranks" $?
         counted "$work/one" > "$work/counted" && counted "$work/some" | diff "$work/counted" - > "$work/why" 2>&1
         verdict "$name: the same report on $r ranks" $?

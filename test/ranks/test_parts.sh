@@ -20,7 +20,7 @@ ended() {
 ended "$work/some"; verdict "a run that was ended leaves parts" $?
 cp -r "$work/some" "$work/less"; cp -r "$work/some" "$work/other"
 
-for r in 0 1 2; do python3 fields.py --variables "$work/some/result.e.3.$r" > "$work/variables" && grep -q '^node_num_map [0-9]*$' "$work/variables" \
+for r in 0 1 2; do python3 -S fields.py --variables "$work/some/result.e.3.$r" > "$work/variables" && grep -q '^node_num_map [0-9]*$' "$work/variables" \
     && grep -q '^elem_num_map' "$work/variables" && grep -q '^nem_ftype$' "$work/variables" && grep -q '^node_mapi' "$work/variables"; done
 verdict "parts have what Nemesis asks for" $?
 python3 - "$work/some" > "$work/why" 2>&1 << 'PYTHON'
@@ -62,6 +62,6 @@ verdict "and as a result" $?
 # two materials, one of which a part has nothing of
 two=(--set 'materials={steel: {youngs_modulus: 192 GPa, poissons_ratio: 0.333333333333, density: 8000 kg/m3}, lead: {youngs_modulus: 16 GPa, poissons_ratio: 0.333333333333, density: 11000 kg/m3}}'
      --set 'blocks=[{material: steel, where: "x < 0.02"}, {material: lead, where: "x >= 0.02"}]' --set solver.time_steps=40)
-alone plate.yaml -o "$work/one" --force "${two[@]}" && ranks 4 plate.yaml -o "$work/two" "${two[@]}" && python3 fields.py 1e-9 "$work/one/result.e" "$work/two/result.e" > "$work/why" 2>&1
+alone plate.yaml -o "$work/one" --force "${two[@]}" && ranks 4 plate.yaml -o "$work/two" "${two[@]}" && python3 -S fields.py 1e-9 "$work/one/result.e" "$work/two/result.e" > "$work/why" 2>&1
 verdict "a rank without a point of a material" $?
 finish

@@ -21,7 +21,7 @@ same() {
         for f in history.csv events.csv result.e; do cmp "$work/$name/$f" "$dir/$f" > "$work/why" 2>&1 || return 1; done
     else
         alike 1e-7 "$work/$name" "$dir" events.csv && alike 1e-8 "$work/$name" "$dir" history.csv residual force_x displacement_x moment || return 1
-        python3 fields.py 1e-8 "$work/$name/result.e" "$dir/result.e" > "$work/why" 2>&1 || return 1
+        python3 -S fields.py 1e-8 "$work/$name/result.e" "$dir/result.e" > "$work/why" 2>&1 || return 1
     fi
     counted "$work/$name" "$dir" && [ ! -e "$dir/ranks" ] && [ ! -e "$dir/checkpoint.nc" ] && [ ! -e "$dir/result.e.3.0" ]
 }
@@ -62,7 +62,7 @@ moved() {
     if [ "$r" = 0 ]; then alone "${arguments[@]}" "${often[@]}" -o "$dir" --resume; else ranks "$r" "${arguments[@]}" "${often[@]}" -o "$dir" --resume; fi || return 1
     grep -q 'the checkpoint was written by .* the last digits may differ' "$work/err" || return 1
     alike 1e-7 "$work/$name" "$dir" events.csv && alike $share "$work/$name" "$dir" history.csv $left || return 1
-    python3 fields.py $share "$work/$name/result.e" "$dir/result.e" > "$work/why" 2>&1 || return 1
+    python3 -S fields.py $share "$work/$name/result.e" "$dir/result.e" > "$work/why" 2>&1 || return 1
     [ ! -e "$dir/ranks" ] && [ ! -e "$dir/checkpoint.nc" ] && ! ls "$dir"/result.e.* > /dev/null 2>&1
 }
 for r in 4 0; do

@@ -19,7 +19,7 @@ goes_on() {
         rm -rf "$work/moved"; cp -r "$work/some" "$work/moved"
         ranks "$r" "$@" "${often[@]}" -o "$work/moved" --resume && alike 1e-7 "$work/one" "$work/moved" events.csv $rough \
             && alike 1e-8 "$work/one" "$work/moved" history.csv residual force_x displacement_x moment && counted "$work/one" "$work/moved" \
-            && python3 fields.py 1e-8 "$work/one/result.e" "$work/moved/result.e" > "$work/why" 2>&1
+            && python3 -S fields.py 1e-8 "$work/one/result.e" "$work/moved/result.e" > "$work/why" 2>&1
         verdict "$name: $r go on" $?
     done
 }
