@@ -23,7 +23,7 @@ a, b = (json.load(open(d + "/report.json"))["stages"] for d in sys.argv[1:])
 print(a, b)
 near = lambda x, y: abs (x - y) <= 1e-6 * max (abs (x), abs (y), 1e-9) if isinstance (x, float) else x == y
 sys.exit(not (len(a) == len(b) and all(near(x[k], y[k]) for x, y in zip(a, b) for k in x if k not in ("gauges", "energy")) and
-    all(near(x["energy"]["external"], y["energy"]["external"]) for x, y in zip(a, b))))' "$work/one" "$work/some" > "$work/why" 2>&1
+    all(near(x["energy"]["external"], y["energy"]["external"]) for x, y in zip(a, b) if "energy" in x)))' "$work/one" "$work/some" > "$work/why" 2>&1
 }
 numbers=3 left=
 long() { [ "$PERIGAL_TEST_SIZE" = long ]; }
