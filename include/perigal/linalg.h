@@ -62,9 +62,9 @@ typedef struct {
      * written one behind the other to out, which is zero on entry. Called by several threads. */
     void (*blocks) (void *context, size_t p, size_t a, size_t m, double *out);
     /* Instead (blocks NULL): block rows of m block numbers, row i that of unknown i of node a, entry
-     * b block + j for unknown j of node b; out is zero on entry. They are summed over all points of the source
-     * first, many numbers at a time. finish: the rows of K, in place of sums for m nodes, where these are
-     * other numbers of which the blocks follow; NULL: they are rows of K. */
+     * b block + j for unknown j of node b; out is zero on entry. They are summed over all points of the
+     * source first, many numbers at a time. finish: the rows of K, in place of sums for m nodes, where these
+     * are other numbers of which the blocks follow; NULL: they are rows of K. */
     void (*rows)   (void *context, size_t p, size_t a, size_t m, double *out);
     void (*finish) (void *context, size_t m, double *rows);
     /* What another assembly of this source alone has come to: taken once, when all rows are first computed,
