@@ -164,7 +164,7 @@ void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list);
  * zero) are marked, block by block. NULL: most of them do, or there is no table (galerkin_sight_ready: makes
  * those of sets that have been measured, and with `products` that of the bulk). Valid until the next call
  * for this set. */
-enum { GALERKIN_BLOCK = 64 };
+enum { GALERKIN_BLOCK = 16 };
 const unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other);
 pg_status galerkin_sight_ready (galerkin *g, int products);
 void galerkin_sight_free (galerkin *g);

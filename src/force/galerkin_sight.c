@@ -6,7 +6,7 @@
 #include "galerkin.h"
 #include <string.h>
 
-enum { NODES = 8, POINTS = GALERKIN_BLOCK };
+enum { NODES = 2, POINTS = GALERKIN_BLOCK };
 
 /* Block b of points sees the blocks of nodes seen[start[b]] .. seen[start[b + 1] - 1]. */
 struct galerkin_sight {
