@@ -123,6 +123,8 @@ typedef struct {
     /* Brings the matrix in line with the last refresh; before it, or after another refresh, matrix is not
      * asked for. NULL: refresh does it. */
     pg_status (*assemble) (void *self);
+    /* Frees the matrix; the next assemble makes it anew. NULL: it stays. */
+    void      (*forget_matrix) (void *self);
     /* Consistent mass, kg: one number for each pair of nodes (upper triangle, n x n), the same for every
      * component. It is that of the bonds alive when it is first asked for, and stays: breaking moves no mass.
      * NULL: lumped mass only. */

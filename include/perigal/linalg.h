@@ -147,6 +147,10 @@ typedef struct pg_linear_type {
     /* Fills in the report; frees the state. */
     void      (*info)    (const void *self, pg_linear_info *info);
     void      (*free)    (void **self);
+    /* As factor; `taken` hears once A has been read, before the factor is made: whoever needs A no longer can
+     * free it there, so that both are never in memory together. May be called once or not at all. NULL: not
+     * known. */
+    pg_status (*factor_taking) (void *self, const pg_sparse *A, void (*taken) (void *context), void *context);
 } pg_linear_type;
 /* The entry of that name, NULL: there is none. */
 const pg_linear_type *pg_linear_find  (const char *name);

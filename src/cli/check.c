@@ -61,7 +61,7 @@ int pg_cli_check (int argc, char **argv)
     PG_TRY (pg_network_read (&cracks, scene));
     PG_TRY (pg_crack_statistics_measure (&network, &cracks, scene));
     PG_TRY (matrix_write (p, &o, c.matrix));
-    plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from, &network };
+    plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from, &network, solver };
     if (c.json) PG_TRY (plan_print_json (&all));
     else printf ("%s: the scene is valid\n", c.scene);
     if (!c.quiet && !c.json) plan_print_long (&all);

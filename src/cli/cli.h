@@ -141,6 +141,7 @@ typedef struct {
     double stable;
     const char *from;
     const pg_crack_statistics *network;
+    const pg_solver *solver;                           /* of explicit and staged methods, else NULL */
 } plan;
 /* Largest frequency (rad/s), stable time step (s), c_p dt / h of Newmark steps. measured: 0:
  * an estimate, 1: by --solve, 2: by the solver itself. */

@@ -36,19 +36,22 @@ static void describe (const pg_problem *p, int width)
     }
 }
 
-/* The choices of the method, and what the force says of its constants: the force is created
- * for that and freed again. */
-static void print_method (const pg_problem *p)
+/* The choices of the method, and what the force says of its constants: that of the solver; where
+ * there is none one is created and freed again. */
+static void print_method (const plan *all)
 {
+    const pg_problem *p = all->problem;
     const pg_force_type *force = pg_force_of (p);
     void *self = NULL;
     char text[400];
     p->method->words (p, text, sizeof text);
     printf ("  %-18s  %s\n", "method", text);
-    if (!force || !force->describe || force->create (&self, p) != PG_OK) return;
+    if (!force || !force->describe) return;
+    if (all->solver) pg_solver_force (all->solver, &self);
+    else if (force->create (&self, p) != PG_OK) return;
     for (size_t line = 0; force->describe (self, line, text, sizeof text); line++)
         printf ("  %-18s  %s\n", line ? "" : "bonds", text);
-    force->free (&self);
+    if (!all->solver) force->free (&self);
 }
 
 /* The box of the body, and thickness or cross section, with a remark if the scene gives none.
@@ -193,6 +196,9 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
           "conjugate gradients need neither" },
         { matrix && !quasi_static && !fails, "all factorizations but one",
           "the time step is constant and nothing breaks" },
+        { matrix && quasi_static && !fails && !o->plain && !p->forecast->pressed
+          && p->forecast->linear->factor_taking, "memory for K beside its factor",
+          "nothing breaks: one factor serves the whole run" },
         { matrix && fails && !p->forecast->nodal, "factorization where only node-node bonds broke",
           "they do not enter K under Gauss integration" },
     };
@@ -531,7 +537,7 @@ void plan_print_long (const plan *p)
     print_counts (p);
     plan_mesh (q);
     plan_network (p->network);
-    print_method (q);
+    print_method (p);
     print_patch (q);
     describe (q, 19);
     print_materials (q);

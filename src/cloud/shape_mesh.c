@@ -42,7 +42,7 @@ double shape_mesh_distance (const pg_shape *s, int dim, const double *x, double 
         double depth = pg_mesh_locator_depth (s->solid->locator, x, fmax (near, 1e-8));
         if (fabs (depth) >= fmax (near, 1e-8)) return depth > 0 ? -HUGE_VAL : HUGE_VAL;
     }
-    double d = pg_skin_distance (s->solid->skin, x, reach, NULL);
+    double d = pg_skin_distance (s->solid->skin, x, fabs (reach), NULL);
     return pg_mesh_locator_find (s->solid->locator, x, xi, NULL) >= 0 ? -d : d;
 }
 

@@ -122,6 +122,7 @@ void bond_force_diagonal (void *context, double *d);
 /* forces by the linear stretch */
 pg_status bond_force_tangent_loop (bond_force *b, pg_bond_loop **out);
 pg_status bond_force_assemble (void *self);
+void bond_force_forget_matrix (void *self);
 const pg_sparse *bond_force_matrix (void *self);
 int       bond_force_matrix_free (const void *self);  /* 1: dilatations reach further than bonds do */
 pg_status bond_force_row_sums (void *self, double *sum);
@@ -161,7 +162,7 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
 /* Entries of pg_force_type but for `create`; BOND_FORCE_COMMON: without a matrix. */
 #define BOND_FORCE_ENTRIES \
     BOND_FORCE_COMMON, .matrix = bond_force_matrix, .assemble = bond_force_assemble, \
-    .matrix_free = bond_force_matrix_free
+    .forget_matrix = bond_force_forget_matrix, .matrix_free = bond_force_matrix_free
 #define BOND_FORCE_COMMON \
     .free = bond_force_free, .fields = bond_force_fields, .refresh = bond_force_refresh, \
     .balance = bond_force_balance, .mass = bond_force_mass, .operator_ = bond_force_operator, \

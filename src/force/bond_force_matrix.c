@@ -103,13 +103,18 @@ static void find_whole (bond_force *b)
     if (b->whole) row_of_bonds (b, i, &s, 1, NULL, b->whole);
 }
 
-/* Has the point all its bonds, so that the shared row is its own? */
-static int is_whole (const bond_force *b, size_t i)
+/* Had the point all its bonds at the start, and holds no spring it, so that the shared row was its own? */
+static int was_whole (const bond_force *b, size_t i)
 {
-    size_t first = b->family->start[i], m = family_size (b, i);
     for (size_t k = 0; b->boundary.hold && k < (size_t) b->stride; k++)
         if (b->boundary.hold[i * (size_t) b->stride + k] > 0) return 0;
-    return b->whole && m == b->problem->sums->stencil.n && !(b->alive && memchr (b->alive + first, 0, m));
+    return b->whole && family_size (b, i) == b->problem->sums->stencil.n;
+}
+
+/* Has it all of them now? */
+static int is_whole (const bond_force *b, size_t i)
+{
+    return was_whole (b, i) && !(b->alive && memchr (b->alive + b->family->start[i], 0, family_size (b, i)));
 }
 
 /* The same for pg_couplings.alike. */
@@ -269,6 +274,23 @@ done:
     return status;
 }
 
+/* Largest eigenvalue of M^-1/2 P M^-1/2 of a point, in units of its mass. The last one is kept: points in a
+ * row are mostly alike, to the bit. */
+typedef struct { double block[MOST], mass[6], top; } last_block;
+static double top_of (const bond_force *b, const double *mass, const double *block, last_block *last)
+{
+    size_t m = (size_t) b->stride;
+    double P[MOST], lambda[6];
+    if (memcmp (last->block, block, m * m * sizeof *block) == 0
+        && memcmp (last->mass, mass, m * sizeof *mass) == 0) return last->top;
+    memcpy (last->block, block, m * m * sizeof *block), memcpy (last->mass, mass, m * sizeof *mass);
+    memcpy (P, block, m * m * sizeof *P);
+    for (size_t k = 0; b->stride > b->dim && k < m * m; k++)
+        P[k] *= mass[0] / sqrt (mass[k / m] * mass[k % m]);
+    pg_dense_eigen ((int) m, P, lambda, NULL);
+    return last->top = lambda[0];
+}
+
 /* Of every bond d.K d <= 2 (d_i.own d_i + d_j.own d_j), for none has negative energy: M^-1/2 D M^-1/2 of
  * every point alone */
 static void bound_points (void *context, size_t first, size_t last, int thread)
@@ -276,11 +298,13 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
     const job *w = context;
     const pg_problem *p = w->b->problem;
     size_t m = (size_t) w->b->stride;
-    point_bonds s;
-    double P[MOST], lambda[6];
+    point_bonds s = { 0 };
+    double sum[MOST];
+    last_block before = { .mass = { NAN } };
     for (size_t i = first; i < last; i++) {
-        const double *mass = w->mass + i * m;
-        point_bonds_at (w->b, i, thread, &s);
+        const double *mass = w->mass + i * m, *P = sum;
+        int shared = !p->plain && was_whole (w->b, i);
+        if (!shared) point_bonds_at (w->b, i, thread, &s);
         int grows = w->b->dilatation && p->sums->rule.follow && (w->b->limit || w->b->critical);
         double state = grows ? dilatation_bound (w->b, i, &s) * p->cloud.volume[i] / mass[0] : 0;
         double hold = 0;                               /* springs, where no own block has them */
@@ -289,11 +313,9 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
         state += 2 * hold;
         w->out[i] = state;
         if (grows && !w->b->theory->alone) continue;
-        own_block (w->b, i, &s, 1, grows, P);
-        for (size_t k = 0; w->b->stride > w->b->dim
-             && k < m * m; k++) P[k] *= mass[0] / sqrt (mass[k / m] * mass[k % m]);
-        pg_dense_eigen ((int) m, P, lambda, NULL);
-        w->out[i] = state + 2 * lambda[0] / mass[0];
+        if (shared) P = w->b->whole + p->sums->stencil.n * m * m;
+        else own_block (w->b, i, &s, 1, grows, sum);
+        w->out[i] = state + 2 * top_of (w->b, mass, P, &before) / mass[0];
     }
 }
 
@@ -316,7 +338,12 @@ done:
     return status;
 }
 
-pg_status bond_force_bound (void *self, double *omega) { return bond_force_omega (self, omega); }
+pg_status bond_force_bound (void *self, double *omega)
+{
+    bond_force *b = self;
+    if (!b->problem->plain) find_whole (b);
+    return bond_force_omega (b, omega);
+}
 
 /* ---- the matrix ---------------------------------------------------------------------------------------- */
 /* How many bonds of point i lead to points before it: the upper triangle by columns needs these. */
@@ -393,6 +420,8 @@ pg_status bond_force_assemble (void *self)
 done:
     return status;
 }
+
+void bond_force_forget_matrix (void *self) { pg_sparse_clear (&((bond_force *) self)->K); }
 
 int bond_force_matrix_free (const void *self) { return ((const bond_force *) self)->dilatation != NULL; }
 

@@ -427,6 +427,7 @@ const pg_force_type pg_force_galerkin = {
     .unended = galerkin_unended,
     .revision = galerkin_revision,
     .assemble = galerkin_assemble,
+    .forget_matrix = galerkin_forget_matrix,
     .mass_matrix = galerkin_mass_matrix,
     .sample = galerkin_sample,
     .spared = spared,

@@ -248,6 +248,7 @@ pg_status galerkin_operator_create (galerkin *g);
 void galerkin_apply (void *context, const double *x, double *y);
 void galerkin_diagonal (void *context, double *d);
 pg_status galerkin_assemble (void *self);
+void galerkin_forget_matrix (void *self);
 const pg_sparse *galerkin_matrix (void *self);
 pg_status galerkin_mass_matrix (void *self, const pg_sparse **M);
 /* rows that the touched points of each set enter */

@@ -185,6 +185,13 @@ done:
     return status;
 }
 
+/* With its lists. */
+void galerkin_forget_matrix (void *self)
+{
+    galerkin *g = self;
+    pg_assembly_free (&g->K);
+}
+
 /* NULL until it has been assembled. */
 const pg_sparse *galerkin_matrix (void *self)
 {

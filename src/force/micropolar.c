@@ -72,13 +72,19 @@ static pg_status create (bond_force *b)
     PG_ALLOC (own->shear, b->n);
     PG_ALLOC (own->bending, b->n);
     PG_ALLOC (b->idle, b->n);
+    const pg_material *before = NULL;                  /* of the point before, which mostly has the same */
+    double axial = 0, shear = 0, dilation = 0;
     for (size_t i = 0; i < b->n; i++) {
-        double E, nu, dilation;
-        micropolar_split (p, pg_problem_law (p, PG_NODES, i), &E, &nu, &dilation);
+        const pg_material *law = pg_problem_law (p, PG_NODES, i);
+        double E, nu;
+        if (law != before) {
+            micropolar_split (p, law, &E, &nu, &dilation);
+            PG_TRY (pg_beam_moduli (&axial, &shear, p->mode, rule->kernel, rule->horizon, E, nu,
+                                    p->cloud.thickness));
+            before = law;
+        }
         if (b->dilatation) b->dilatation->A[i] = dilation;
-        PG_TRY (pg_beam_moduli (&own->modulus[i], &own->shear[i], p->mode, rule->kernel, rule->horizon, E, nu,
-                                p->cloud.thickness));
-        own->modulus[i] *= p->sums->calibration, own->shear[i] *= sums.calibration;
+        own->modulus[i] = axial * p->sums->calibration, own->shear[i] = shear * sums.calibration;
         own->bending[i] = options_of (p)->bending * own->shear[i];
         b->idle[i] = own->shear[i] == 0;
     }

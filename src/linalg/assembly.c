@@ -9,10 +9,12 @@
  * price is that the blocks of a point are asked for row by row. */
 #include "perigal/linalg.h"
 #include "wide.h"
+#include <stdint.h>
 #include <string.h>
 
-/* The inverse of a list of points: for each node the points that see it, and its local number in each. */
-typedef struct { size_t *start; size_t *point, *local; } inverse;
+/* The inverse of a list of points: for each node the points that see it, and its local number in each. In 32
+ * bits, as nodes are: these lists are as long as all bonds together. */
+typedef struct { size_t *start; uint32_t *point, *local; } inverse;
 
 struct pg_assembly {
     /* Numbers of nodes and sources; the most nodes that one point sees. */
@@ -33,6 +35,7 @@ static pg_status invert (inverse *out, const pg_adjacency *seen, size_t n)
 {
     pg_status status = PG_OK;
     size_t nnz = seen->start[seen->n], *fill = NULL;
+    if (seen->n > UINT32_MAX) PG_FAIL (PG_E_LIMIT, "%zu points are too many for a matrix", seen->n);
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (out->point, nnz);
     PG_ALLOC (out->local, nnz);
@@ -42,7 +45,7 @@ static pg_status invert (inverse *out, const pg_adjacency *seen, size_t n)
     for (size_t p = 0; p < seen->n; p++)
         for (size_t e = seen->start[p]; e < seen->start[p + 1]; e++) {
             size_t k = fill[seen->node[e]]++;
-            out->point[k] = p, out->local[k] = e - seen->start[p];
+            out->point[k] = (uint32_t) p, out->local[k] = (uint32_t) (e - seen->start[p]);
         }
 done:
     pg_free (fill);

@@ -214,25 +214,51 @@ done:
     return status;
 }
 
-/* A pivot that is not positive is reported with its unknown in the numbering of A. */
-static pg_status chol_factor (void *self, const pg_sparse *A)
+/* What has come of a factorization of n unknowns. A pivot that is not positive is reported with its unknown
+ * in the numbering of the matrix. */
+static pg_status judge (chol *c, size_t n)
 {
     pg_status status = PG_OK;
-    chol *c = self;
-    cholmod_sparse S = view (A);
-    cholmod_l_factorize (&S, c->L, &c->common);
     /* minor: the first column that could not be factored, in the permuted numbering. */
-    if (c->common.status == CHOLMOD_NOT_POSDEF || (c->common.status >= 0 && c->L->minor < A->ncol)) {
+    if (c->common.status == CHOLMOD_NOT_POSDEF || (c->common.status >= 0 && c->L->minor < n)) {
         SuiteSparse_long *perm = c->L->Perm;
-        long failed_row = (long) (c->L->minor < A->ncol ? perm[c->L->minor] : 0);
+        long failed_row = (long) (c->L->minor < n ? perm[c->L->minor] : 0);
         linear_failed_at (failed_row);
         PG_FAIL (PG_E_NOT_SPD, "the stiffness matrix is not positive definite at unknown %ld of %zu",
-                 failed_row, A->ncol);
+                 failed_row, n);
     }
     if (c->common.status < 0)
         PG_FAIL (PG_E_MEMORY, "the factorization needs %.3g MB and failed (CHOLMOD status %d)",
                  c->entries * 8e-6, c->common.status);
     c->pivots = cholmod_l_rcond (c->L, &c->common);
+done:
+    return status;
+}
+
+static pg_status chol_factor (void *self, const pg_sparse *A)
+{
+    chol *c = self;
+    cholmod_sparse S = view (A);
+    cholmod_l_factorize (&S, c->L, &c->common);
+    return judge (c, A->ncol);
+}
+
+/* The two steps of cholmod_l_factorize one by one, so that A can go between them: a copy in the order of the
+ * factor, lower triangle, then the factor of that. */
+static pg_status chol_factor_taking (void *self, const pg_sparse *A, void (*taken) (void *), void *context)
+{
+    pg_status status = PG_OK;
+    chol *c = self;
+    size_t n = A->ncol;
+    cholmod_sparse S = view (A), *own = NULL;
+    double none[2] = { 0, 0 };                         /* is added to the diagonal */
+    if (!c->L->is_super) return chol_factor (self, A);
+    own = cholmod_l_ptranspose (&S, 2, c->L->Perm, NULL, 0, &c->common);
+    if (!own) PG_FAIL (PG_E_MEMORY, "no memory for a matrix of %zu entries", S.nzmax);
+    taken (context);
+    cholmod_l_super_numeric (own, NULL, none, c->L, &c->common);
+    cholmod_l_free_sparse (&own, &c->common);
+    status = judge (c, n);
 done:
     return status;
 }
@@ -282,5 +308,5 @@ static void chol_info (const void *self, pg_linear_info *info)
 const pg_linear_type pg_linear_cholmod = {
     "cholmod", "supernodal Cholesky factorization (SuiteSparse CHOLMOD)", 1, 1,
     chol_analyse, chol_factor, chol_solve, chol_solve_few, chol_half_few,
-    chol_info, chol_free
+    chol_info, chol_free, chol_factor_taking
 };

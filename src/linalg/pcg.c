@@ -283,5 +283,5 @@ static void pcg_info (const void *self, pg_linear_info *info)
 
 const pg_linear_type pg_linear_pcg = {
     "pcg", "conjugate gradients with diagonal preconditioning", 1, 0,
-    pcg_analyse, pcg_factor, pcg_solve, NULL, NULL, pcg_info, pcg_free
+    pcg_analyse, pcg_factor, pcg_solve, NULL, NULL, pcg_info, pcg_free, NULL
 };

@@ -357,5 +357,5 @@ static pg_status skyline_solve (void *self, size_t nrhs, const double *b, double
 const pg_linear_type pg_linear_skyline = {
     "skyline", "Cholesky factorization within an envelope, for small systems; needs no library", 1, 1,
     skyline_analyse, skyline_factor, skyline_solve, NULL, NULL,
-    skyline_info, skyline_free
+    skyline_info, skyline_free, NULL
 };

@@ -173,6 +173,60 @@ static void sort_ascending (long *a, long n)
     }
 }
 
+/* T selects unknowns in their order: one entry 1 in each column, rows ascending. */
+static int selects (const pg_sparse *T)
+{
+    int yes = (size_t) T->start[T->ncol] == T->ncol;
+    for (size_t k = 0; k < T->ncol && yes; k++)
+        yes = T->start[k] == (long) k && T->value[k] == 1 && (k == 0 || T->row[k] > T->row[k - 1]);
+    return yes;
+}
+
+/* Do the rows of each column ascend? */
+static int ascends (const pg_sparse *A)
+{
+    for (size_t j = 0; j < A->ncol; j++)
+        for (long p = A->start[j] + 1; p < A->start[j + 1]; p++) if (A->row[p] <= A->row[p - 1]) return 0;
+    return 1;
+}
+
+/* B by such a selection: entries of A in rows and columns that stay. `kept`: new number of each row and 1, or
+ * 0. */
+static pg_status select_entries (pg_sparse *B, const pg_sparse *A, const pg_sparse *T)
+{
+    pg_status status = PG_OK;
+    long *kept = NULL;
+    size_t nnz = 0;
+    PG_ALLOC (kept, A->nrow);
+    for (size_t k = 0; k < T->ncol; k++) kept[T->row[k]] = (long) k + 1;
+    for (size_t k = 0; k < T->ncol; k++)
+        for (long p = A->start[T->row[k]]; p < A->start[T->row[k] + 1]; p++) nnz += kept[A->row[p]] > 0;
+    PG_TRY (pg_sparse_create (B, T->ncol, T->ncol, nnz, 1));
+    nnz = 0;
+    for (size_t k = 0; k < T->ncol; k++) {
+        for (long p = A->start[T->row[k]]; p < A->start[T->row[k] + 1]; p++)
+            if (kept[A->row[p]]) B->row[nnz] = kept[A->row[p]] - 1, B->value[nnz++] = A->value[p];
+        B->start[k + 1] = (long) nnz;
+    }
+done:
+    pg_free (kept);
+    return status;
+}
+
+/* Gives back what growing has taken too much. */
+static pg_status fit (pg_sparse *B, size_t nnz)
+{
+    pg_status status = PG_OK;
+    long *row = pg_resize (B->row, nnz, sizeof *row);
+    double *value;
+    if (row) B->row = row;
+    value = row ? pg_resize (B->value, nnz, sizeof *value) : NULL;
+    if (value) B->value = value;
+    else PG_FAIL (PG_E_MEMORY, "no memory for %zu entries", nnz);
+done:
+    return status;
+}
+
 /* Dense vectors with lists of used indices make the cost proportional to the products, not to the size. */
 pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_sparse *T)
 {
@@ -182,6 +236,7 @@ pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_spars
     work w = { &F, T, &R, NULL, NULL, NULL, NULL, 0, 0, NULL, NULL };
     size_t cap = 0, nnz = 0, cap_value = 0;
     memset (B, 0, sizeof *B);
+    if (selects (T) && ascends (A)) return select_entries (B, A, T);
     B->nrow = B->ncol = T->ncol, B->symmetric = 1;
     PG_TRY (by_rows (&R, T));
     PG_TRY (both_triangles (&F, A));
@@ -201,6 +256,7 @@ pg_status pg_sparse_congruence (pg_sparse *B, const pg_sparse *A, const pg_spars
         for (long h = 0; h < w.nb; h++, nnz++) B->row[nnz] = w.hit_b[h], B->value[nnz] = w.b[w.hit_b[h]];
         B->start[k + 1] = (long) nnz;
     }
+    PG_TRY (fit (B, nnz));
 done:
     pg_free (R.start), pg_free (R.row), pg_free (R.value);
     pg_sparse_clear (&F);

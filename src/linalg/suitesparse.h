@@ -70,8 +70,9 @@ pg_status pg_blas_load (void);
 /* CHOLMOD. */
 #define PG_CHOLMOD_CALLS(X) \
     X (cholmod_l_amd) X (cholmod_l_analyze_p) X (cholmod_l_factorize) X (cholmod_l_finish) \
-    X (cholmod_l_free_dense) X (cholmod_l_free_factor) X (cholmod_l_metis) X (cholmod_l_solve2) \
-    X (cholmod_l_rcond) X (cholmod_l_solve) X (cholmod_l_start) X (cholmod_l_updown) PG_SUITESPARSE_MEMORY (X)
+    X (cholmod_l_free_dense) X (cholmod_l_free_factor) X (cholmod_l_free_sparse) X (cholmod_l_metis) \
+    X (cholmod_l_ptranspose) X (cholmod_l_rcond) X (cholmod_l_solve) X (cholmod_l_solve2) \
+    X (cholmod_l_start) X (cholmod_l_super_numeric) X (cholmod_l_updown) PG_SUITESPARSE_MEMORY (X)
 struct pg_cholmod_calls {
 #define X(name) __typeof__ (name) *name;
     PG_CHOLMOD_CALLS (X)
@@ -81,18 +82,21 @@ extern struct pg_cholmod_calls pg_cholmod;
 /* BLAS is loaded before it. PG_E_FILE as above. */
 pg_status pg_cholmod_load (void);
 
-#define cholmod_l_amd(...)         pg_cholmod.cholmod_l_amd (__VA_ARGS__)
-#define cholmod_l_analyze_p(...)   pg_cholmod.cholmod_l_analyze_p (__VA_ARGS__)
-#define cholmod_l_factorize(...)   pg_cholmod.cholmod_l_factorize (__VA_ARGS__)
-#define cholmod_l_finish(...)      pg_cholmod.cholmod_l_finish (__VA_ARGS__)
-#define cholmod_l_free_dense(...)  pg_cholmod.cholmod_l_free_dense (__VA_ARGS__)
-#define cholmod_l_free_factor(...) pg_cholmod.cholmod_l_free_factor (__VA_ARGS__)
-#define cholmod_l_metis(...)       pg_cholmod.cholmod_l_metis (__VA_ARGS__)
-#define cholmod_l_solve2(...)      pg_cholmod.cholmod_l_solve2 (__VA_ARGS__)
-#define cholmod_l_start(...)       pg_cholmod.cholmod_l_start (__VA_ARGS__)
-#define cholmod_l_updown(...)      pg_cholmod.cholmod_l_updown (__VA_ARGS__)
-#define cholmod_l_rcond(...)       pg_cholmod.cholmod_l_rcond (__VA_ARGS__)
-#define cholmod_l_solve(...)       pg_cholmod.cholmod_l_solve (__VA_ARGS__)
+#define cholmod_l_amd(...)           pg_cholmod.cholmod_l_amd (__VA_ARGS__)
+#define cholmod_l_analyze_p(...)     pg_cholmod.cholmod_l_analyze_p (__VA_ARGS__)
+#define cholmod_l_factorize(...)     pg_cholmod.cholmod_l_factorize (__VA_ARGS__)
+#define cholmod_l_finish(...)        pg_cholmod.cholmod_l_finish (__VA_ARGS__)
+#define cholmod_l_free_dense(...)    pg_cholmod.cholmod_l_free_dense (__VA_ARGS__)
+#define cholmod_l_free_factor(...)   pg_cholmod.cholmod_l_free_factor (__VA_ARGS__)
+#define cholmod_l_free_sparse(...)   pg_cholmod.cholmod_l_free_sparse (__VA_ARGS__)
+#define cholmod_l_metis(...)         pg_cholmod.cholmod_l_metis (__VA_ARGS__)
+#define cholmod_l_ptranspose(...)    pg_cholmod.cholmod_l_ptranspose (__VA_ARGS__)
+#define cholmod_l_solve2(...)        pg_cholmod.cholmod_l_solve2 (__VA_ARGS__)
+#define cholmod_l_start(...)         pg_cholmod.cholmod_l_start (__VA_ARGS__)
+#define cholmod_l_super_numeric(...) pg_cholmod.cholmod_l_super_numeric (__VA_ARGS__)
+#define cholmod_l_updown(...)        pg_cholmod.cholmod_l_updown (__VA_ARGS__)
+#define cholmod_l_rcond(...)         pg_cholmod.cholmod_l_rcond (__VA_ARGS__)
+#define cholmod_l_solve(...)         pg_cholmod.cholmod_l_solve (__VA_ARGS__)
 
 /* UMFPACK. */
 #define PG_UMFPACK_CALLS(X) \

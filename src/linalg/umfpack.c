@@ -130,5 +130,5 @@ static void lu_info (const void *self, pg_linear_info *info)
 
 const pg_linear_type pg_linear_umfpack = {
     "umfpack", "sparse LU factorization (SuiteSparse UMFPACK), for unsymmetric or indefinite matrices", 0, 1,
-    lu_analyse, lu_factor, lu_solve, NULL, NULL, lu_info, lu_free
+    lu_analyse, lu_factor, lu_solve, NULL, NULL, lu_info, lu_free, NULL
 };

@@ -315,6 +315,24 @@ static uint32_t pixel_of (const pg_sheet *p, const pg_screen *s, size_t at, cons
     return pixel;
 }
 
+/* All pixels, in rows of `stride` bytes. One that shows the same point as bright as the one before has its
+ * colour, unless pixels have values of their own. */
+static void paint_pixels (const pg_sheet *p, const pg_screen *s, const double *value, unsigned char *bytes,
+                          size_t stride)
+{
+    uint32_t pixel = 0;
+    size_t before = 0;
+    for (int j = 0; j < s->height; j++)
+        for (int i = 0; i < s->width; i++) {
+            size_t at = (size_t) j * (size_t) s->width + (size_t) i;
+            int same = at > 0 && !s->value && s->owner[at] == s->owner[before]
+                       && memcmp (&s->shade[at], &s->shade[before], sizeof *s->shade) == 0;
+            if (!same) pixel = pixel_of (p, s, at, value);
+            memcpy (bytes + (size_t) j * stride + 4 * (size_t) i, &pixel, 4);
+            before = at;
+        }
+}
+
 pg_status pg_panel_paint (const pg_sheet *p, cairo_t *cr, size_t panel, const pg_screen *s,
                           const double *value, int fine)
 {
@@ -324,13 +342,8 @@ pg_status pg_panel_paint (const pg_sheet *p, cairo_t *cr, size_t panel, const pg
     cairo_surface_t *image = cairo_image_surface_create (CAIRO_FORMAT_ARGB32, s->width, s->height);
     if (cairo_surface_status (image) != CAIRO_STATUS_SUCCESS)
         PG_FAIL (PG_E_MEMORY, "no memory for %d x %d pixels", s->width, s->height);
-    unsigned char *bytes = cairo_image_surface_get_data (image);
-    for (int j = 0; j < s->height; j++)
-        for (int i = 0; i < s->width; i++) {
-            uint32_t pixel = pixel_of (p, s, (size_t) j * (size_t) s->width + (size_t) i, value);
-            memcpy (bytes + (size_t) j * (size_t) cairo_image_surface_get_stride (image) + 4 * (size_t) i,
-                    &pixel, 4);
-        }
+    paint_pixels (p, s, value, cairo_image_surface_get_data (image),
+                  (size_t) cairo_image_surface_get_stride (image));
     cairo_surface_mark_dirty (image);
     cairo_save (cr);
     cairo_translate (cr, x, y);

@@ -249,12 +249,48 @@ int pg_tiles_inside (const pg_tiles *t, const double *at)
                                          : pg_body_inside (o->body, x, 1e-6 * t->widest);
 }
 
+/* Pixels first[0] .. last[0] - 1 of the rows first[1] .. last[1] - 1. */
+typedef struct { int first[2], last[2]; } pixels;
+
+/* Sets the mask of pixels by the shapes of a body. All pixels of a rectangle are in it where its middle is by
+ * more than half of its diagonal, and none is where the middle is not within that distance; else it is
+ * halved. */
+static void mask_by_shapes (const pg_tiles *t, const pg_screen *s, pixels p, unsigned char *mask)
+{
+    enum { SMALL = 3 };
+    int wide = p.last[0] - p.first[0], high = p.last[1] - p.first[1], axis = high > wide, in = -1;
+    double at[2] = { s->left + 0.5 * (p.first[0] + p.last[0]) / s->scale,
+                     s->top - 0.5 * (p.first[1] + p.last[1]) / s->scale }, x[3];
+    double tolerance = 1e-6 * t->widest, half = 0.5 * hypot (wide, high) / s->scale;
+    if (wide > SMALL || high > SMALL) {
+        pg_tiles_space (t, at[0], at[1], x);
+        if (!pg_body_inside (t->outline->body, x, tolerance + half)) in = 0;
+        else if (pg_body_inside (t->outline->body, x, tolerance - half)) in = 1;
+    }
+    if (in < 0 && (wide > SMALL || high > SMALL)) {
+        pixels part[2] = { p, p };
+        part[0].last[axis] = part[1].first[axis] = p.first[axis] + (axis ? high : wide) / 2;
+        for (int k = 0; k < 2; k++) mask_by_shapes (t, s, part[k], mask);
+        return;
+    }
+    for (int j = p.first[1]; j < p.last[1]; j++)
+        for (int i = p.first[0]; i < p.last[0]; i++) {
+            double centre[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale };
+            mask[(size_t) j * (size_t) s->width + (size_t) i] =
+                (unsigned char) (in >= 0 ? in : pg_tiles_inside (t, centre));
+        }
+}
+
 /* mask = 1 for each pixel whose centre lies in the body (width x height). */
-static pg_status mask_of (const pg_tiles *t, const pg_screen *s, unsigned char *mask)
+pg_status pg_tiles_mask (const pg_tiles *t, const pg_screen *s, unsigned char *mask)
 {
     pg_status status = PG_OK;
     const pg_outline *o = t->outline;
     pg_screen m = { .left = s->left, .top = s->top, .scale = s->scale };
+    if (!o->mesh && !(o->lattice && o->lattice->dim)) {
+        mask_by_shapes (t, s, (pixels) { { 0, 0 }, { s->width, s->height } }, mask);
+        return PG_OK;
+    }
     if (o->mesh) {
         PG_TRY (pg_screen_open (&m, s->width, s->height));
         for (size_t e = 0; e < o->mesh->n; e++) fill_element (o->mesh, e, &m);
@@ -284,10 +320,36 @@ static double distance_to (const pg_tiles *t, size_t k, double a, double b)
  * both, one of them to a float, allowed for. */
 static const double sure = 1 + 1e-6;
 
+/* May one of eight pixels of a row go to a point that is `dx` (m, of the first; the next ones `step` further
+ * each) and `dy` away? Of most the answer is no by the square of the distance alone: it is above those of the
+ * points they have (squared `far`: none yet). */
+enum { LANES = 8 };
+static inline __attribute__ ((always_inline)) int some_nearer (const float *has, double dx, double step,
+                                                               double dy, double far)
+{
+    int some = 0;
+    for (int l = 0; l < LANES; l++) {
+        double x = dx + l * step, limit = has[l] < far ? (double) has[l] : far;
+        some |= x * x + dy * dy <= sure * limit * limit;
+    }
+    return some;
+}
+
+/* Offers point k to pixel (i, j). */
+static void offer (const pg_tiles *t, size_t k, double far, int i, int j, pg_screen *s)
+{
+    size_t p = (size_t) j * (size_t) s->width + (size_t) i;
+    double place[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale },
+           d = distance_to (t, k, place[0], place[1]);
+    if (d > far || (s->owner[p] >= 0 && d >= s->depth[p])) return;
+    if (t->cracked[k] == NEAR_CRACK && pg_tiles_cut (t, t->place + 2 * k, place)) d += 1e3 * t->widest;
+    if (s->owner[p] < 0 || d < s->depth[p]) s->owner[p] = (int) k, s->depth[p] = (float) d;
+}
+
 /* Offers point k to the pixels within `reach` spacings: the nearest point owns a pixel, and one across a
- * pre-crack only where there is no other. What lies on a crack is on both sides of it. Most pixels are out of
- * the question by the square of their distance alone. */
-static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
+ * pre-crack only where there is no other. What lies on a crack is on both sides of it. Pixels without an
+ * owner have an infinite depth. */
+PG_WIDE static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
 {
     const double *at = t->place + 2 * k;
     int from[2], to[2], most[2] = { s->width, s->height };
@@ -300,15 +362,12 @@ static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
     double far = reach * t->spacing[k], step = 1 / s->scale, ratio = t->loose ? 1 : t->step[0] / t->step[1];
     for (int j = from[1]; j < to[1]; j++) {
         double dy = (s->top - (j + 0.5) * step - at[1]) * ratio;
-        for (int i = from[0]; i < to[0]; i++) {
-            size_t p = (size_t) j * (size_t) s->width + (size_t) i;
-            double dx = s->left + (i + 0.5) * step - at[0], limit = s->owner[p] < 0 ? far : s->depth[p];
-            if (dx * dx + dy * dy > sure * limit * limit) continue;
-            double place[2] = { s->left + (i + 0.5) / s->scale, s->top - (j + 0.5) / s->scale },
-                   d = distance_to (t, k, place[0], place[1]);
-            if (d > far || (s->owner[p] >= 0 && d >= s->depth[p])) continue;
-            if (t->cracked[k] == NEAR_CRACK && pg_tiles_cut (t, at, place)) d += 1e3 * t->widest;
-            if (s->owner[p] < 0 || d < s->depth[p]) s->owner[p] = (int) k, s->depth[p] = (float) d;
+        const float *row = s->depth + (size_t) j * (size_t) s->width;
+        for (int i = from[0], end; i < to[0]; i = end) {
+            end = i + LANES < to[0] ? i + LANES : to[0];
+            double dx = s->left + (i + 0.5) * step - at[0];
+            if (end - i == LANES && !some_nearer (row + i, dx, step, dy, far)) continue;
+            for (int c = i; c < end; c++) offer (t, k, far, c, j, s);
         }
     }
 }
@@ -437,13 +496,14 @@ pg_status pg_tiles_rest (const pg_tiles *t, pg_screen *s)
     pg_status status = PG_OK;
     unsigned char *mask = NULL;
     if (!t->outline && !t->loose) return lay_cells (t, s);
+    for (size_t p = 0; p < (size_t) s->width * (size_t) s->height; p++) s->depth[p] = INFINITY;
     for (size_t k = 0; k < t->n; k++) stamp (t, k, t->outline ? 1.5 : 0.25 * GROWN, s);
     if (!t->outline) {
         PG_TRY (close_gaps (t, s));
         goto done;
     }
     PG_ALLOC (mask, (size_t) s->width * (size_t) s->height);
-    PG_TRY (mask_of (t, s, mask));
+    PG_TRY (pg_tiles_mask (t, s, mask));
     PG_TRY (adopt (t, mask, s));
 done:
     pg_free (mask);

@@ -60,6 +60,8 @@ pg_status pg_tiles_draw  (pg_tiles *t, pg_screen *screen);
 enum { PG_FACE = 129 };
 pg_status pg_tiles_faces (const pg_tiles *t, double **face, size_t *n, size_t *cap);
 
+/* Of a body with an outline: 1 for each pixel whose centre lies in it (width x height). PG_E_MEMORY. */
+pg_status pg_tiles_mask   (const pg_tiles *t, const pg_screen *screen, unsigned char *mask);
 /* 1 if a place lies in the body; also 1 where there is no outline, or one that is a mesh. */
 int       pg_tiles_inside (const pg_tiles *t, const double *at);
 /* Points within `reach` (m) of a place, in no particular order; writes at most `most` of them

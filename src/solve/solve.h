@@ -84,8 +84,11 @@ typedef struct {
     size_t    ndof, nred;
     const pg_linear_type *linear;
     void     *factor;
-    pg_sparse A;  /* the factored matrix: values owned; pattern of K or reduced */
-    double   *copy;  /* with elimination: values of k K + m M before the reduction */
+    /* What is factored, until it has been: K itself, its pattern with the values `copy`, or (owned) what
+     * constraints leave of it; the diagonal of K, while that of A stands in its place; else NULL. */
+    pg_sparse A; int owned;
+    double   *copy, *own_diagonal;
+    int       forgotten;  /* 1: K was given up for its factor */
     double   *diagonal0, mean_diagonal;                /* of the first K */
     unsigned char *touched; int marked;                /* nodes that the pre-cracks touched (n); 1: found */
     double   *mass;                                    /* lumped, per unknown, kg */

@@ -266,6 +266,9 @@ static void report_skips (pg_solver *s)
                             "nothing of them is kept but which bonds break, and rougher ones left no doubt "
                             "of it");
     }
+    if (sys->forgotten)
+        pg_statistics_skip (&s->report, NAN, "memory for K beside its factor",
+                            "nothing breaks: one factor serves the whole run");
     if (!sys->unmeasured) return;
     pg_statistics_skip (&s->report,
                         8e-9 * (double) sys->unmeasured * (double) s->problem->first_bond[PG_BOND_SETS],

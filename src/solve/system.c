@@ -10,18 +10,31 @@
 #include <stdio.h>
 #include <string.h>
 
+/* The matrix that was made for a factor is not needed any more: K has its own diagonal again, copies and what
+ * constraints left of it go. */
+static void let_go (pg_system *s)
+{
+    if (s->own_diagonal) {
+        const pg_sparse *K = s->force->matrix (s->self);
+        for (size_t j = 0; j < s->ndof; j++) K->value[K->start[j + 1] - 1] = s->own_diagonal[j];
+    }
+    if (s->owned) pg_sparse_clear (&s->A);
+    pg_free (s->own_diagonal), pg_free (s->copy);
+    s->A = (pg_sparse) { 0 };
+    s->own_diagonal = s->copy = NULL, s->owned = 0;
+}
+
 /* Also of a system that was made in part only. */
 void system_free (pg_system *s)
 {
+    let_go (s);
     if (s->factor) s->linear->free (&s->factor);
     event_solver_free (&s->following);
     contact_free (s);
     system_guess_free (s);
     system_forget_preconditioner (s);
     if (s->force && s->self) s->force->free (&s->self);
-    if (s->copy) pg_sparse_clear (&s->A);
-    else pg_free (s->A.value);
-    pg_free (s->copy), pg_free (s->diagonal0), pg_free (s->mass), pg_free (s->whole),
+    pg_free (s->diagonal0), pg_free (s->mass), pg_free (s->whole),
         pg_free (s->bare);
     pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best),
         pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
@@ -167,13 +180,31 @@ void system_remember_diagonal (pg_system *s, const pg_sparse *K)
     s->mean_diagonal = system_sum (s, sum) / number;
 }
 
+/* The values that a matrix is made in: of K at rest those of K itself, whose diagonal is kept meanwhile, else
+ * a copy. Solvers without a factor keep looking at what they were given. */
+static pg_status take_values (pg_system *s, const pg_sparse *K, const dynamics *dyn, double **value)
+{
+    pg_status status = PG_OK;
+    int copies = dyn || s->options->plain || !s->linear->factors;
+    *value = K->value;
+    if (copies) {
+        PG_ALLOC (s->copy, (size_t) K->start[s->ndof]);
+        *value = s->copy;
+        goto done;
+    }
+    PG_ALLOC (s->own_diagonal, s->ndof);
+    for (size_t j = 0; j < s->ndof; j++) s->own_diagonal[j] = K->value[K->start[j + 1] - 1];
+done:
+    return status;
+}
+
 /* value = k K + m M, and a shift on weak unknowns: those of touched nodes, those without stiffness from
  * the start, and those whose diagonal has changed. With a mass nothing is singular but what has no mass
  * either. */
 static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, double *value)
 {
     double k = dyn ? dyn->k : 1, m = dyn ? dyn->m : 0;
-    for (long q = 0; q < K->start[s->ndof]; q++) value[q] = k * K->value[q];
+    for (long q = 0; value != K->value && q < K->start[s->ndof]; q++) value[q] = k * K->value[q];
     for (size_t j = 0; j < s->ndof; j++) {
         long q = K->start[j + 1] - 1;
         double now = K->value[q], first = s->diagonal0[j];
@@ -193,30 +224,57 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
     }
 }
 
-/* Assembles K, adds mass and shift, and takes out what constraints eliminate (T' K T). Without
- * constraints the pattern is that of K, which is borrowed, and only the values are of the system's own. */
+/* The same of K: at rest, where nothing breaks, one factor serves the whole run. */
+static void let_all_go (pg_system *s, const dynamics *dyn)
+{
+    let_go (s);
+    if (dyn || s->problem->criterion->type || s->options->plain || s->contact || !s->force->forget_matrix
+        || !operator_of (s))
+        return;
+    s->force->forget_matrix (s->self);
+    s->forgotten = 1;
+}
+
+/* Assembles K, adds mass and shift, and takes out what constraints eliminate (T' K T). Without constraints
+ * the pattern is that of K, which is borrowed. */
 static pg_status build_matrix (pg_system *s, const dynamics *dyn)
 {
     pg_status status = PG_OK;
     if (s->force->assemble) PG_TRY (s->force->assemble (s->self));
     const pg_sparse *K = s->force->matrix (s->self), *T = s->force->basis ? s->force->basis (s->self) : NULL;
+    pg_sparse full = *K;
     system_remember_diagonal (s, K);
-    if (!T) {
-        if (!s->A.value) {
-            s->A = *K;
-            s->A.value = NULL;
-            PG_ALLOC (s->A.value, (size_t) K->start[s->ndof]);
-        }
-        combine (s, K, dyn, s->A.value);
-    } else {
-        pg_sparse full = *K;
-        if (!s->copy) PG_ALLOC (s->copy, (size_t) K->start[s->ndof]);
-        combine (s, K, dyn, s->copy);
-        full.value = s->copy;
-        pg_sparse_clear (&s->A);
-        PG_TRY (pg_sparse_congruence (&s->A, &full, T));
+    let_go (s);
+    PG_TRY (take_values (s, K, dyn, &full.value));
+    combine (s, K, dyn, full.value);
+    if (!T) s->A = full;
+    else {
+        pg_sparse reduced;
+        PG_TRY (pg_sparse_congruence (&reduced, &full, T));
+        let_all_go (s, dyn);
+        s->A = reduced, s->owned = 1;
     }
 done:
+    return status;
+}
+
+/* For solvers that tell when they have read the matrix. */
+typedef struct { pg_system *s; const dynamics *dyn; } matrix_owner;
+static void taken (void *context)
+{
+    const matrix_owner *o = context;
+    let_all_go (o->s, o->dyn);
+}
+
+/* The values of A go as soon as the solver has them, if it has a factor of its own. */
+static pg_status make_factor (pg_system *s, const dynamics *dyn)
+{
+    matrix_owner owner = { s, dyn };
+    if (!s->linear->factors) return s->linear->factor (s->factor, &s->A);
+    pg_status status = s->linear->factor_taking && !s->options->plain
+                           ? s->linear->factor_taking (s->factor, &s->A, taken, &owner)
+                           : s->linear->factor (s->factor, &s->A);
+    let_go (s);
     return status;
 }
 
@@ -282,7 +340,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
         s->report->seconds[PG_SECONDS_ASSEMBLE] += pg_seconds () - t0;
         if (!s->factor) PG_TRY (analyse (s));
         t0 = pg_seconds ();
-        pg_status now = s->linear->factor (s->factor, &s->A);
+        pg_status now = make_factor (s, dyn);
         s->report->factorizations++;
         s->report->seconds[PG_SECONDS_FACTOR] += pg_seconds () - t0;
         if (now == PG_OK && !(s->shift == 0 && pivots (s) < least_pivot)) break;
@@ -318,6 +376,7 @@ pg_status system_factorize (pg_system *s, const dynamics *dyn)
     s->unshifted = s->shift < 1e-10;
     PG_TRY (system_remember_alive (s));
 done:
+    if (status != PG_OK) let_go (s);
     return status;
 }
 

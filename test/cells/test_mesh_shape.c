@@ -19,6 +19,11 @@ static void distances_are_those_of_the_surface (void **state)
         check_absolute (d, fmin (fabs (r - 0.4), fabs (r - 1)), 1e-3);
         if (d > 1e-3) assert_int_equal (pg_body_inside (&m.body, x, 0), r > 0.4 && r < 1);
         assert_true (pg_body_inside (&m.body, x, d + 1e-9) == 1);
+        /* inside by more than a distance, of either sign */
+        if (d > 1e-3 && r > 0.4 && r < 1) {
+            assert_false (pg_body_inside (&m.body, x, -(d + 1e-9)));
+            assert_true (pg_body_inside (&m.body, x, -(d - 1e-9)));
+        }
     }
     for (int k = 0; k < 2; k++)
         check_absolute (m.body.low[k], -1, 1e-9), check_absolute (m.body.high[k], 1, 1e-9);

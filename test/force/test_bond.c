@@ -266,6 +266,23 @@ static void test_bound (void **unused)
     }
 }
 
+/* Points that have all their bonds share a block, and those in a row an eigenvalue: the bound of every point
+ * for itself, to the bit. */
+static void test_shared_bound (void **unused)
+{
+    (void) unused;
+    for (size_t k = 0; k < BODIES; k++) {
+        double omega[2];
+        for (int plain = 0; plain < 2; plain++) {
+            bonded b = bonded_of (bodies[k]);
+            b.problem->plain = plain;
+            check_ok (b.force->bound (b.self, &omega[plain]));
+            unbonded (&b);
+        }
+        assert_true (omega[0] > 0 && omega[0] == omega[1]);
+    }
+}
+
 /* The answer does not depend on threads. */
 static void test_threads (void **unused)
 {
@@ -332,7 +349,7 @@ int main (void)
                                         cmocka_unit_test (test_hydrostatic),
                                         cmocka_unit_test (test_cut),
                                         cmocka_unit_test (test_reactions),
-                                        cmocka_unit_test (test_bound),
+                                        cmocka_unit_test (test_bound), cmocka_unit_test (test_shared_bound),
                                         cmocka_unit_test (test_threads),
                                         cmocka_unit_test (test_products_after_breaking) };
     return cmocka_run_group_tests (tests, NULL, NULL);

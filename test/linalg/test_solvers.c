@@ -483,6 +483,46 @@ static void a_new_factor_takes_the_place_of_the_old_one (void **state)
     dense_free (&D);
 }
 
+/* The matrix goes while it is being factored: the same factor, to the bit. */
+static void forget_entries (void *context)
+{
+    pg_sparse *A = context;
+    memset (A->value, 0xff, (size_t) A->start[A->ncol] * sizeof *A->value);
+    memset (A->row, 0xff, (size_t) A->start[A->ncol] * sizeof *A->row);
+    A->symmetric = 2;
+}
+
+static void a_matrix_may_go_before_its_factor_is_made (void **state)
+{
+    (void) state;
+    for (int wrong = 0; wrong < 2; wrong++) {
+        dense D = random_laplacian (9, 3, 3);
+        pg_sparse A = sparse_of (&D, 1);
+        size_t n = D.nrow;
+        const pg_linear_type *type = pg_linear_find ("cholmod");
+        double *b = pg_calloc (n, sizeof *b), *x = pg_calloc (n, sizeof *x), *y = pg_calloc (n, sizeof *y);
+        void *solver = NULL;
+        for (size_t i = 0; i < n; i++) b[i] = random_number ();
+        check_ok (type->analyse (&solver, &A, &(pg_linear_options) { 3, 3, 1, 1e-13, 0 }));
+        if (wrong) A.value[A.start[n / 2 + 1] - 1] *= -1;
+        pg_status whole = type->factor (solver, &A);
+        long row = pg_linear_failed_row ();
+        if (!wrong) check_ok (type->solve (solver, 1, b, x));
+        assert_int_equal (type->factor_taking (solver, &A, forget_entries, &A), whole);
+        assert_int_equal (A.symmetric, 2);
+        assert_int_equal (whole, wrong ? PG_E_NOT_SPD : PG_OK);
+        if (wrong) assert_int_equal (pg_linear_failed_row (), row);
+        else {
+            check_ok (type->solve (solver, 1, b, y));
+            assert_memory_equal (x, y, n * sizeof *x);
+        }
+        type->free (&solver);
+        pg_free (b), pg_free (x), pg_free (y);
+        pg_sparse_clear (&A);
+        dense_free (&D);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -502,6 +542,7 @@ int main (void)
         cmocka_unit_test (lu_solves_indefinite_and_unsymmetric_systems),
         cmocka_unit_test (each_failed_allocation_is_reported),
         cmocka_unit_test (a_new_factor_takes_the_place_of_the_old_one),
+        cmocka_unit_test (a_matrix_may_go_before_its_factor_is_made),
     };
     return cmocka_run_group_tests_name ("linalg/solvers", tests, NULL, NULL);
 }

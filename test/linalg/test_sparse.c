@@ -116,6 +116,28 @@ static void the_pattern_of_a_congruence_ignores_values (void **state)
     dense_free (&A), dense_free (&T);
 }
 
+/* A selection of unknowns, and the same with twos in place of ones, which goes the general way: all numbers
+ * are four times as large, to the bit. */
+static void a_selection_takes_entries_over (void **state)
+{
+    (void) state;
+    for (int ascending = 0; ascending < 2; ascending++) {
+        dense A = random_dense (40, 40, 0.2, 1), T = dense_new (40, 20);
+        for (size_t k = 0; k < 20; k++) dense_set (&T, ascending ? 2 * k + k % 2 : 39 - 2 * k, k, 1);
+        pg_sparse a = sparse_of (&A, 1), t = sparse_of (&T, 0), chosen, general;
+        check_ok (pg_sparse_congruence (&chosen, &a, &t));
+        for (int k = 0; k < 20; k++) t.value[k] = 2;
+        check_ok (pg_sparse_congruence (&general, &a, &t));
+        size_t nnz = (size_t) general.start[20];
+        assert_true (nnz > 40);
+        assert_memory_equal (chosen.start, general.start, 21 * sizeof *general.start);
+        assert_memory_equal (chosen.row, general.row, nnz * sizeof *general.row);
+        for (size_t p = 0; p < nnz; p++) assert_true (4 * chosen.value[p] == general.value[p]);
+        pg_sparse_clear (&a), pg_sparse_clear (&t), pg_sparse_clear (&chosen), pg_sparse_clear (&general);
+        dense_free (&A), dense_free (&T);
+    }
+}
+
 static void each_failed_allocation_is_reported (void **state)
 {
     (void) state;
@@ -145,6 +167,7 @@ int main (void)
         cmocka_unit_test (the_operator_of_a_matrix_is_the_matrix),
         cmocka_unit_test (congruence_equals_the_dense_one),
         cmocka_unit_test (the_pattern_of_a_congruence_ignores_values),
+        cmocka_unit_test (a_selection_takes_entries_over),
         cmocka_unit_test (each_failed_allocation_is_reported),
     };
     return cmocka_run_group_tests_name ("linalg/sparse", tests, NULL, NULL);

@@ -7,6 +7,7 @@
 #include "output/sample.h"
 #include "meshes.h"
 #include "perigal/picture.h"
+#include "picture/tiles.h"
 #include <cairo.h>
 
 enum { FILL = 0xfbec6e };                              /* value 1 of 0 to 1 */
@@ -135,6 +136,42 @@ static void the_body_ends_where_its_shapes_do (void **state)
                 if (hole && r < 0.15 * size - 2) assert_int_equal (m.on[y * m.width + x], 0);
             }
         pg_free (m.on);
+        drop (&t);
+    }
+}
+
+/* Which pixels are in the body and which point each belongs to, found by halves of the frame and eight pixels
+ * at a time, beside a search over all points for every pixel. Points on their lattice, and moved off it. */
+static void pixels_are_those_of_a_plain_search (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 16; k++) {
+        thing t;
+        double unit = k & 8 ? 1e-6 : 1e3, part = 0;
+        make (&t, k & 1, 1, k >> 1 & 1, unit);
+        for (size_t i = 0; k & 4 && i < 2 * t.cloud.n; i++)
+            t.cloud.x[i] += 0.3 * t.cloud.h * sin (12.9898 * (double) (i + 1));
+        t.outline = (pg_outline) { .body = &t.body };
+        pg_tiles tiles = { .n = t.cloud.n, .dim = 2, .loose = k >> 2 & 1, .place = t.cloud.x,
+                           .step = { t.cloud.h, t.cloud.h }, .outline = &t.outline };
+        pg_screen s = { .left = -1.13 * unit, .top = 1.07 * unit, .scale = 131 / unit };
+        check_ok (pg_tiles_open (&tiles));
+        check_ok (pg_screen_open (&s, 301, 263));
+        check_ok (pg_tiles_rest (&tiles, &s));
+        for (int p = 0; p < s.width * s.height; p++) {
+            double at[2] = { s.left + (p % s.width + 0.5) / s.scale, s.top - (p / s.width + 0.5) / s.scale },
+                   least = INFINITY;
+            int in = pg_body_inside (&t.body, at, 1e-6 * tiles.widest);
+            part += in;
+            assert_int_equal (s.owner[p] >= 0, in);
+            for (size_t i = 0; in && i < t.cloud.n; i++)
+                least = fmin (least, hypot (at[0] - t.cloud.x[2 * i], at[1] - t.cloud.x[2 * i + 1]));
+            const double *own = t.cloud.x + 2 * (in ? s.owner[p] : 0);
+            if (in) check_relative (hypot (at[0] - own[0], at[1] - own[1]), least, 1e-6);
+        }
+        assert_true (part > 0.3 * 301 * 263 && part < 0.9 * 301 * 263);
+        pg_screen_close (&s);
+        pg_tiles_close (&tiles);
         drop (&t);
     }
 }
@@ -330,6 +367,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (points_on_a_crack_are_shown),
         cmocka_unit_test (the_body_ends_where_its_shapes_do),
+        cmocka_unit_test (pixels_are_those_of_a_plain_search),
         cmocka_unit_test (stairs_and_meshes_are_outlines_too),
         cmocka_unit_test (magnified_bodies_have_no_holes),
         cmocka_unit_test (only_cracks_open),

@@ -242,9 +242,67 @@ static void a_refused_step_restores_all_bonds (void **state)
     clear (&r);
 }
 
+#define SHEET \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [3, 2]}}}]\nspacing: 0.1\n" \
+    "materials: {rock: {youngs_modulus: 30 GPa, poissons_ratio: 0.25}}\n" \
+    "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: top, displacement: {y: 0.4 mm}}]\n" \
+    "solver: {stepping: fixed, steps: 3, linear: cholmod%s}\nmethod: {%s}\n"
+
+/* Three load steps by one factor, K being gone after the first: supports by Nitsche's terms, by elimination
+ * of unknowns that others join, and of those of points. */
+static void one_factor_needs_no_matrix_beside_it (void **state)
+{
+    (void) state;
+    static const char *const methods[] = { "essential: nitsche", "essential: transformation", "force: bond" };
+    for (int k = 0; k < 3; k++) {
+        size_t start = pg_memory_used (), held[2];
+        run a = scene_of (1, SHEET, "", methods[k]);
+        advance (&a);
+        held[0] = pg_memory_used () - start, start = pg_memory_used ();
+        run b = scene_of (1, SHEET, ", plain: true", methods[k]);
+        advance (&b);
+        held[1] = pg_memory_used () - start;
+        compare (&a, &b, 2, 1e-9);
+        const pg_statistics *r = pg_solver_report (a.solver, a.state);
+        int told = 0;
+        for (size_t i = 0; i < r->nskipped; i++) told |= strstr (r->skipped[i].what, "memory for K") != NULL;
+        print_message ("%s: %zu bytes after the first step, plain %zu\n", methods[k], held[0], held[1]);
+        assert_true (told && r->factorizations == 1);
+        assert_true (held[0] < 0.8 * held[1]);
+        clear (&a), clear (&b);
+    }
+}
+
+/* What was added to the diagonal of K for its factor is gone again: weak unknowns along a crack, a bond of
+ * which may break later, so that K stays. */
+static void the_diagonal_is_put_back (void **state)
+{
+    (void) state;
+    static const char *const methods[] = { "essential: nitsche", "essential: transformation", "force: bond" };
+    for (int k = 0; k < 3; k++) {
+        run r = scene_of (1, SHEET "cracks: [{from: [-0.1, 1.03], to: [1.2, 1.03]}]\n"
+                             "failure: {criterion: stretch, critical_stretch: 1}\n", "", methods[k]);
+        advance (&r);
+        void *self, *fresh = NULL;
+        const pg_force_type *force = pg_solver_force (r.solver, &self);
+        check_ok (force->create (&fresh, r.problem));
+        check_ok (force->refresh (fresh, r.state, NULL));
+        check_ok (force->assemble (fresh));
+        const pg_sparse *K = force->matrix (self), *same = force->matrix (fresh);
+        assert_non_null (K);
+        size_t n = r.state->ndof;
+        assert_memory_equal (K->start, same->start, (n + 1) * sizeof *K->start);
+        assert_memory_equal (K->value, same->value, (size_t) K->start[n] * sizeof *K->value);
+        force->free (&fresh);
+        clear (&r);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (one_factor_needs_no_matrix_beside_it),
+        cmocka_unit_test (the_diagonal_is_put_back),
         cmocka_unit_test (a_small_step_factors_nothing_and_says_so),
         cmocka_unit_test (a_large_step_factors),
         cmocka_unit_test (a_kept_factor_gives_the_same_crack),
