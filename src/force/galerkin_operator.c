@@ -146,8 +146,8 @@ static pg_status create_matrix (galerkin *g, const pg_assembly *known)
         source[n].finish = galerkin_finish_rows;
     else source[n].blocks = cells ? galerkin_cell_blocks : galerkin_bulk_blocks;
     n++;
-    /* a run in which bonds break keeps the sums of before: summed first, a stage that pulled a crack through
-     * gave reactions that are no numbers (solve/test_stages, by one of OpenBLAS's kernels; why is not found) */
+    /* Where bonds break, blocks: summed first, a stage after growth had reactions that are no numbers
+     * (solve/test_stages with one kernel of OpenBLAS; why was not found). */
     if (g->nnitsche) {
         source[n] = (pg_assembly_source) { .seen = &g->rows[PG_FACETS].family, .context = g };
         int breaks = g->problem->criterion && g->problem->criterion->type;
