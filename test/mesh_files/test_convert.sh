@@ -66,7 +66,7 @@ expect "no such folder"               1 "" "nowhere/o.msh: cannot be written"   
 expect "name of the output"           2 "" "must end in .msh"                                  plate.geo o.txt
 expect "order 3"                      2 "" "--order needs 1 or 2"                              plate.geo o.msh --order 3
 expect "size 0"                       2 "" "--size needs a positive length"                    plate.geo o.msh --size 0
-expect "unknown option"               2 "" "what is '--fine'?"                                 plate.geo o.msh --fine
+expect "unknown option"               2 "" "unknown argument '--fine'"                           plate.geo o.msh --fine
 expect "no output"                    2 "" "give a file to read and one to write"              plate.geo
 expect "help"                         0 "usage: perigal-mesh" ""                               --help
 exit $bad
