@@ -111,7 +111,7 @@ pg_status pg_file_text (char **text, size_t *size, const char *path);
 
 /* ---- tables -------------------------------------------------------------------------------------------- */
 /* CSV (RFC 4180): a header with "name [unit]" per column, then rows of numbers with 17 digits,
- * which give the same double back. Each row reaches the file in the call that writes it. */
+ * which give the same double back. Rows reach the file in the call that writes them. */
 typedef struct pg_table pg_table;
 /* Creates a table with n columns of these names. */
 pg_status pg_table_create (pg_table **out, const char *path, size_t n, const char *const *columns);
@@ -126,6 +126,10 @@ pg_status pg_table_sync   (const pg_table *table);
 pg_status pg_table_row    (pg_table *table, const double *values);
 /* Appends a row of n texts, quoted where necessary; NULL leaves its cell empty. */
 pg_status pg_table_line   (pg_table *table, const char *const *values);
+/* The same for one of many rows: it may wait for those behind it. pg_table_write writes what waits, as does
+ * the next row or line; pg_table_close drops it, and a failure all that was not written. */
+pg_status pg_table_line_later (pg_table *table, const char *const *values);
+pg_status pg_table_write  (pg_table *table);
 void      pg_table_close  (pg_table **table);
 /* A CSV table that was read back whole. To be freed with pg_csv_clear. */
 typedef struct {

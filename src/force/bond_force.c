@@ -280,12 +280,14 @@ done:
 /* Strain energy -1/2 f . d of forces that are linear in d, from the residual f + P; the loads P are the pairs
  * of `out` behind those of the supports, springs the last of them. Summed in eight lanes, which serve vector
  * instructions. */
-static double strain_of (const bond_force *b, const double *d, const double *residual,
-                         const pg_work_balance *out)
+PG_WIDEST static double strain_of (const bond_force *b, const double *d, const double *residual,
+                                   const pg_work_balance *out)
 {
-    double lane[8] = { 0 }, sum = 0;
+    pg_eight lane = { 0 };
+    double sum = 0;
     size_t i = 0;
-    for (; i + 8 <= ndof (b); i += 8) for (size_t k = 0; k < 8; k++) lane[k] += residual[i + k] * d[i + k];
+    for (; i + 8 <= ndof (b); i += 8)
+        lane += *(const pg_eight *) (residual + i) * *(const pg_eight *) (d + i);
     for (; i < ndof (b); i++) lane[0] += residual[i] * d[i];
     size_t springs = out->npair - b->boundary.nspring;
     for (size_t k = b->boundary.nsupport; k < springs; k++) sum += out->force[k] * out->displacement[k];

@@ -153,38 +153,35 @@ static void paint_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Share of the partial volumes of the family whose bonds are dead. */
-static void damage_at (const bond_force *b, const unsigned char *alive, const double *d, size_t i,
-                       const point_bonds *s, double *out)
+/* Share of the partial volumes of the family of point i whose bonds are dead. beta: workspace. */
+static double damage_at (const bond_force *b, const unsigned char *alive, size_t i, double *beta)
 {
+    const pg_family *f = b->family;
     double all = 0, dead = 0;
-    (void) d, (void) i;
-    for (size_t e = 0; e < s->m; e++) {
-        double share = s->beta[e] * b->problem->cloud.volume[s->node[e]];
+    pg_sums_bonds (b->problem->sums, f, i, NULL, NULL, beta);
+    for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
+        double share = beta[e - f->start[i]] * b->problem->cloud.volume[f->node[e]];
         all += share;
-        if (!alive[s->first + e]) dead += share;
+        if (!alive[e]) dead += share;
     }
-    *out = all > 0 ? dead / all : 0;
+    return all > 0 ? dead / all : 0;
 }
 
-/* The same for damage: most points have all their bonds, which one look at the bits of many points shows, and
- * histories ask for this at every row. */
+/* Most points have all their bonds, which one look at the bits of many points shows; histories ask for this
+ * at every row. */
 static void paint_damage (void *context, size_t first, size_t last, int thread)
 {
     enum { AT_ONCE = 128 };
     const painting *p = context;
     const size_t *start = p->b->family->start;
-    point_bonds s;
-    for (size_t i = first, whole = first; i < last; i++) {
-        p->value[i] = 0;
-        if (i >= whole && (i - first) % AT_ONCE == 0) {    /* whole: no bond of points before it is broken */
-            size_t end = i + AT_ONCE < last ? i + AT_ONCE : last;
-            if (!memchr (p->alive + start[i], 0, start[end] - start[i])) whole = end;
-        }
-        if (i < whole) continue;
-        if (start[i + 1] == start[i] || !memchr (p->alive + start[i], 0, start[i + 1] - start[i])) continue;
-        point_bonds_at (p->b, i, thread, &s);
-        damage_at (p->b, p->alive, p->d, i, &s, p->value + i);
+    double *beta = p->b->workspace + (size_t) thread * p->b->widest * (size_t) (p->b->dim + 2);
+    for (size_t i = first, end; i < last; i = end) {
+        end = i + AT_ONCE < last ? i + AT_ONCE : last;
+        memset (p->value + i, 0, (end - i) * sizeof *p->value);
+        if (start[end] == start[i] || !memchr (p->alive + start[i], 0, start[end] - start[i])) continue;
+        for (size_t k = i; k < end; k++)
+            if (start[k + 1] > start[k] && memchr (p->alive + start[k], 0, start[k + 1] - start[k]))
+                p->value[k] = damage_at (p->b, p->alive, k, beta);
     }
 }
 
@@ -241,10 +238,15 @@ static void stress_at (const bond_force *b, const unsigned char *alive, const do
         out[5] = 0.5 * (T[2] + T[6]);
 }
 
-/* Copies `count` unknowns of every point from the `first` on, times a scale. */
+/* Copies `count` unknowns of every point from the `first` on, times a scale. Rows of history.csv ask for the
+ * displacements each time. */
 static void take_parts (const bond_force *b, const double *d, int first, int count, double scale,
                         double *value)
 {
+    if (count == b->stride && scale == 1) {
+        memcpy (value, d, b->n * (size_t) count * sizeof *value);
+        return;
+    }
     for (size_t i = 0; i < b->n; i++)
         for (size_t k = 0; k < (size_t) count; k++)
             value[i * (size_t) count + k] = scale * d[i * (size_t) b->stride + (size_t) first + k];
@@ -279,14 +281,18 @@ pg_status bond_force_field (void *self, const pg_state *state, const double *d, 
         if (status == PG_OK) take_parts (b, b->work, 0, b->dim, -1, value);
         return status;
     }
-    if (strcmp (name, "damage") == 0) *components = 1, p.at = damage_at;
-    else if (strcmp (name, "strain") == 0) *components = pg_voigt_size (b->dim), p.at = strain_at;
+    if (strcmp (name, "damage") == 0) {
+        *components = 1;
+        pg_parallel (b->threads, b->n, paint_damage, &p);
+        return PG_OK;
+    }
+    if (strcmp (name, "strain") == 0) *components = pg_voigt_size (b->dim), p.at = strain_at;
     else if (strcmp (name, "stress") == 0)
         *components = pg_voigt_size (b->dim), *unit = "Pa", p.at = stress_at;
     else return PG_OK;
     p.components = (size_t) *components;
     if (p.at == stress_at && dilatation_weigh (b) != PG_OK) return PG_E_MEMORY;
-    pg_parallel (b->threads, b->n, p.at == damage_at ? paint_damage : paint_points, &p);
+    pg_parallel (b->threads, b->n, paint_points, &p);
     return PG_OK;
 }
 
@@ -402,6 +408,19 @@ double bond_force_overlap (void *self, const pg_state *state, const double *d)
     return worst;
 }
 
+/* Joins point i with those before it that live bonds hold it to. Most of them lead to its root at once. */
+static void join_before (const bond_force *b, size_t i, int *parent)
+{
+    const pg_subdomain *s = b->problem->cloud.subdomain;
+    const pg_family *f = b->family;
+    int root = (int) i;
+    for (size_t e = f->start[i]; e < f->start[i + 1] && (size_t) f->node[e] < i; e++) {
+        int j = f->node[e];
+        if (parent[j] == root || !bond_force_lives (b, e)) continue;
+        if (pg_owns (s, i) || pg_owns (s, (size_t) j)) root = pg_disjoint_join (parent, root, j);
+    }
+}
+
 /* Parts of the body that live bonds hold together, by union of their ends: points alone, and parts of
  * several points beside the largest one. Without memory all are 0: a census is worth no failure. */
 void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
@@ -413,11 +432,7 @@ void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t
     *degenerate = *isolated = *fragments = 0;
     if (parent) {
         pg_disjoint_start (parent, b->n);
-        for (size_t i = 0; i < b->n; i++)
-            for (size_t e = b->family->start[i];
-                 e < b->family->start[i + 1] && (size_t) b->family->node[e] < i; e++)
-                if (bond_force_lives (b, e) && (pg_owns (s, i) || pg_owns (s, (size_t) b->family->node[e])))
-                    pg_disjoint_join (parent, b->family->node[e], (int) i);
+        for (size_t i = 0; i < b->n; i++) join_before (b, i, parent);
         if (pg_subdomain_count (s, b->n, parent, parts) != PG_OK) parts[0] = parts[1] = 0;
         *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
         if (*fragments) --*fragments;                  /* the body itself is none */

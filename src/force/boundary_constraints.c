@@ -49,6 +49,10 @@ pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle)
     for (size_t i = 0; i < ndof; i++) s->nsupport += by[i] != FREE;
     PG_ALLOC (s->support, s->nsupport);
     PG_ALLOC (s->goal, s->nsupport);
+    PG_ALLOC (s->factor, p->nload);
+    PG_ALLOC (s->separates, p->nload);
+    for (size_t l = 0; l < p->nload; l++)
+        s->separates[l] = pg_load_prescribes (&p->load[l]) && pg_load_separates (&p->load[l]);
     size_t at = 0;
     for (size_t i = 0; i < ndof; i++) {
         if (by[i] == FREE) continue;
@@ -74,26 +78,33 @@ done:
     return status;
 }
 
-/* What support k prescribes at t, m (rotations over the unit of their unknowns). Separable loads are a
- * stored pattern times a factor of t, others are evaluated anew; an idle rotation is 0. */
-double boundary_goal (const point_boundary *s, size_t k, double t)
+/* What all supports prescribe at t, m (rotations over the unit of their unknowns), at out[k] or, with dof, at
+ * the unknown of support k. Separable loads are a stored pattern times a factor of t, which all supports of
+ * the load share; others are evaluated anew; an idle rotation is 0. */
+static void find_goals (const point_boundary *s, double t, int dof, double *out)
 {
-    if (s->support[k].load < 0) return 0;
-    const pg_load *load = &s->problem->load[s->support[k].load];
-    if (pg_load_separates (load)) return s->goal[k] * pg_load_factor (load, t);
-    return pg_load_value (load, s->support[k].component, s->dim,
-                          s->problem->cloud.x + s->support[k].point * (size_t) s->dim, t)
-           * boundary_unit (s, load);
+    const pg_problem *p = s->problem;
+    for (size_t l = 0; l < p->nload; l++)
+        if (s->separates[l]) s->factor[l] = pg_load_factor (&p->load[l], t);
+    for (size_t k = 0; k < s->nsupport; k++) {
+        const boundary_support *q = &s->support[k];
+        double *goal = out + (dof ? q->dof : k);
+        if (q->load < 0) *goal = 0;
+        else if (s->separates[q->load]) *goal = s->goal[k] * s->factor[q->load];
+        else
+            *goal = pg_load_value (&p->load[q->load], q->component, s->dim,
+                                   p->cloud.x + q->point * (size_t) s->dim, t)
+                    * boundary_unit (s, &p->load[q->load]);
+    }
 }
+
+void boundary_goals (const point_boundary *s, double t, double *out) { find_goals (s, t, 0, out); }
 
 /* NULL: all unknowns are free. */
 const pg_sparse *boundary_basis (const point_boundary *s) { return s->nsupport ? &s->T : NULL; }
 
 /* d at prescribed unknowns; the others stay as they are. */
-void boundary_impose (const point_boundary *s, double t, double *d)
-{
-    for (size_t k = 0; k < s->nsupport; k++) d[s->support[k].dof] = boundary_goal (s, k, t);
-}
+void boundary_impose (const point_boundary *s, double t, double *d) { find_goals (s, t, 1, d); }
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
 /* Supports first, then a list of the loads that are none. */
@@ -119,7 +130,8 @@ void boundary_free (point_boundary *s)
 {
     for (size_t k = 0; k < s->nload; k++)
         pg_free (s->load[k].point), pg_free (s->load[k].part), pg_free (s->load[k].pattern);
-    pg_free (s->load), pg_free (s->support), pg_free (s->goal), pg_free (s->spring), pg_free (s->hold);
+    pg_free (s->load), pg_free (s->support), pg_free (s->goal), pg_free (s->spring), pg_free (s->hold),
+        pg_free (s->factor), pg_free (s->separates);
     pg_nearest_free (&s->near);
     pg_sparse_clear (&s->T);
     *s = (point_boundary) { 0 };

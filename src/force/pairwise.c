@@ -29,29 +29,37 @@ static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t 
     for (size_t k = 0; other && k < dim * dim; k++) other[k] = -own[k];
 }
 
-/* Of one bond, over V_i: force on i times 1/2 xi; T[a * dim + c] += f_a xi_c */
-static void add_virial (const bond_force *b, size_t i, const point_bonds *s, size_t e, const double *d,
-                        double *T)
+/* Force on i of one bond, N. */
+static inline void pull_of (const bond_force *b, size_t i, const point_bonds *s, size_t e, const double *d,
+                            double *f)
 {
     size_t dim = (size_t) b->dim, j = (size_t) s->node[e];
     const double *xi = s->xi + e * dim;
-    double r, kappa = pairwise_kappa (b, i, s, e, &r), f[3], along = 0, length = 0;
+    double r, kappa = pairwise_kappa (b, i, s, e, &r), along = 0, length = 0;
     for (size_t a = 0; a < dim; a++) {
         double eta = d[j * dim + a] - d[i * dim + a];
         f[a] = xi[a] + eta, along += xi[a] * eta, length += f[a] * f[a];
     }
+    if (!b->problem->sums->rule.finite) {
+        for (size_t a = 0; a < dim; a++) f[a] = kappa * along * xi[a];
+        return;
+    }
     length = sqrt (length);
-    if (!b->problem->sums->rule.finite) for (size_t a = 0; a < dim; a++) f[a] = kappa * along * xi[a];
-    else for (size_t a = 0; a < dim; a++) f[a] *= length > 0 ? kappa * r * r * (length - r) / length : 0;
-    for (size_t a = 0; a < dim; a++)
-        for (size_t c = 0; c < dim; c++) T[a * dim + c] += 0.5 / b->problem->cloud.volume[i] * f[a] * xi[c];
+    for (size_t a = 0; a < dim; a++) f[a] *= length > 0 ? kappa * r * r * (length - r) / length : 0;
 }
 
-/* Sum over live bonds. */
+/* Sum over live bonds of the force on i times 1/2 xi, over V_i: T[a * dim + c] += f_a xi_c. */
 static void virial (const bond_force *b, size_t i, const point_bonds *s, const unsigned char *alive,
                     const double *d, double *T)
 {
-    for (size_t e = 0; e < s->m; e++) if (!alive || alive[s->first + e]) add_virial (b, i, s, e, d, T);
+    size_t dim = (size_t) b->dim;
+    double f[3], half = 0.5 / b->problem->cloud.volume[i];
+    for (size_t e = 0; e < s->m; e++) {
+        if (alive && !alive[s->first + e]) continue;
+        pull_of (b, i, s, e, d, f);
+        for (size_t a = 0; a < dim; a++)
+            for (size_t c = 0; c < dim; c++) T[a * dim + c] += half * f[a] * s->xi[e * dim + c];
+    }
 }
 
 /* ---- energy of a point --------------------------------------------------------------------------------- */

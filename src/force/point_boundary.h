@@ -33,6 +33,9 @@ typedef struct {
     /* ascending by unknown, each once: the first entry that prescribes it */
     boundary_support *support;  size_t nsupport;
     double    *goal;  /* m, of factor 1 where its load separates (nsupport) */
+    /* Of each load: 1: a support that is a pattern times a factor of t; that factor at the last t */
+    unsigned char *separates;
+    double    *factor;
     boundary_load *load;  size_t nload;
     boundary_spring *spring;  size_t nspring;
     double    *hold;  /* stiffness of the springs at every unknown, N/m; NULL: there are none (n x stride) */
@@ -70,8 +73,8 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
  * --------------------------------------------------------------------------------- */
 pg_status boundary_make_supports (point_boundary *s, const unsigned char *idle);
 pg_status boundary_make_load (point_boundary *s, boundary_load *l, int load);
-/* what support k prescribes at t, m */
-double    boundary_goal (const point_boundary *s, size_t k, double t);
+/* what the supports prescribe at t, m (nsupport) */
+void      boundary_goals (const point_boundary *s, double t, double *out);
 /* factor of its pattern at t */
 double    boundary_bring_to (const point_boundary *s, boundary_load *l, double t);
 /* First of the unknowns of a point that a load is about, and a unit of its values in theirs */

@@ -35,10 +35,10 @@ pg_status boundary_work_balance (point_boundary *s, double t, const double *d, c
         PG_ALLOC (out->reaction, PG_REACTIONS * s->problem->nload);
     }
     memset (out->reaction, 0, PG_REACTIONS * s->problem->nload * sizeof *out->reaction);
+    boundary_goals (s, t, out->displacement);
     for (size_t k = 0; k < s->nsupport; k++) {
         const boundary_support *q = &s->support[k];
         out->force[k] = pg_owns (owners, q->point) ? -residual[q->dof] : 0;
-        out->displacement[k] = boundary_goal (s, k, t);
         if (q->load >= 0) add_reaction (s, out->reaction, q->load, q->component, q->point, out->force[k]);
     }
     for (size_t k = 0; k < s->nload; k++) {

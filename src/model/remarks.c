@@ -96,13 +96,15 @@ static void join_points (const pg_problem *p, int *parent)
     const pg_subdomain *s = p->cloud.subdomain;
     size_t n = p->cloud.n;
     pg_disjoint_start (parent, n);
-    for (size_t i = 0; i < n; i++)
+    for (size_t i = 0; i < n; i++) {
+        int root = (int) i;                            /* of point i; most others lead to it at one look */
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++) {
             size_t j = (size_t) f->node[e];
-            if (j >= i || pg_disjoint_root (parent, (int) i) == pg_disjoint_root (parent, (int) j)) continue;
+            if (j >= i || parent[j] == root || pg_disjoint_root (parent, (int) j) == root) continue;
             if (!pg_owns (s, i) && !pg_owns (s, j)) continue;
-            if (!is_cut (p, i, j)) pg_disjoint_join (parent, (int) i, (int) j);
+            if (!is_cut (p, i, j)) root = pg_disjoint_join (parent, root, (int) j);
         }
+    }
 }
 
 /* A part of the body: its label, how many points it has, the first of them and its place, m; on: it lies on a

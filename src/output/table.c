@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Tables as CSV (RFC 4180). A row is collected in memory and goes to the file in one write; if
- * that fails half-way, the file is cut back to the rows before, so that it always ends with a
- * whole row. */
+ * Tables as CSV (RFC 4180). A row, or several, is collected in memory and goes to the file in
+ * one write; if that fails half-way, the file is cut back to the rows before, so that it always
+ * ends with a whole row. */
 #include "disk.h"
 #include <errno.h>
 #include <fcntl.h>
@@ -16,12 +16,16 @@ struct pg_table {
     size_t n;
     /* Rows without the header, and the bytes of all whole rows. */
     long   rows, bytes;
-    /* The row that is being collected. */
+    /* Rows that have been collected, whole ones of them, and one that is being collected. */
     char  *text;
     size_t length, cap;
+    long   waiting;
 };
 
-/* Appends text to the current row. */
+/* Bytes of rows that wait at most. */
+enum { ENOUGH = 1 << 16 };
+
+/* Appends text to the rows that are being collected. */
 static pg_status append (pg_table *t, const char *text, size_t length)
 {
     pg_status status = PG_OK;
@@ -49,13 +53,20 @@ done:
     return status;
 }
 
-/* Writes the row in as few system calls as the system allows; if not all of it can be written,
- * the file is shortened to what it was. */
+/* Ends the row that is being collected. */
 static pg_status end_row (pg_table *t)
+{
+    pg_status status = append (t, "\n", 1);
+    if (status == PG_OK) t->waiting++;
+    return status;
+}
+
+/* As few system calls as the system allows; if not all of it can be written, the file is shortened to what it
+ * was. Afterwards nothing waits. */
+pg_status pg_table_write (pg_table *t)
 {
     pg_status status = PG_OK;
     size_t written = 0;
-    PG_TRY (append (t, "\n", 1));
     while (written < t->length) {
         ssize_t n = write (t->file, t->text + written, t->length - written);
         if (n < 0 && errno == EINTR) continue;
@@ -63,11 +74,19 @@ static pg_status end_row (pg_table *t)
             PG_FAIL (PG_E_FILE, "%s: %s", t->path, n < 0 ? strerror (errno) : "nothing could be written");
         written += (size_t) n;
     }
-    t->bytes += (long) t->length;
+    t->bytes += (long) t->length, t->rows += t->waiting;
 done:
     if (status != PG_OK && written > 0 && ftruncate (t->file, t->bytes) == 0)
         lseek (t->file, t->bytes, SEEK_SET);
-    t->length = 0;
+    t->length = 0, t->waiting = 0;
+    return status;
+}
+
+/* Writes what has been collected, or drops it where that has failed. */
+static pg_status conclude (pg_table *t, pg_status status)
+{
+    if (status == PG_OK) return pg_table_write (t);
+    t->length = 0, t->waiting = 0;
     return status;
 }
 
@@ -137,6 +156,7 @@ static pg_status collect (pg_table *t, const char *const *values)
         if (k) PG_TRY (append (t, ",", 1));
         PG_TRY (append_cell (t, values[k]));
     }
+    PG_TRY (end_row (t));
 done:
     return status;
 }
@@ -150,7 +170,6 @@ static pg_status check_header (pg_table *t, const char *const *columns)
     size_t n = 0;
     ssize_t got;
     PG_TRY (collect (t, columns));
-    PG_TRY (append (t, "\n", 1));
     PG_ALLOC (found, t->length);
     while (n < t->length && (got = pread (t->file, found + n, t->length - n, (off_t) n)) > 0)
         n += (size_t) got;
@@ -159,7 +178,7 @@ static pg_status check_header (pg_table *t, const char *const *columns)
                             "was changed since, or is of another run", t->path, t->n, columns[0]);
 done:
     pg_free (found);
-    t->length = 0;
+    t->length = 0, t->waiting = 0;
     return status;
 }
 
@@ -195,27 +214,23 @@ pg_status pg_table_row (pg_table *t, const double *values)
             PG_TRY (append (t, cell, (size_t) snprintf (cell, sizeof cell, "%.17g", values[k])));
     }
     PG_TRY (end_row (t));
-    t->rows++;
 done:
-    t->length = 0;
-    return status;
+    return conclude (t, status);
 }
 
 /* The same for texts; NULL is an empty cell. */
-pg_status pg_table_line (pg_table *t, const char *const *values)
+pg_status pg_table_line (pg_table *t, const char *const *values) { return conclude (t, collect (t, values)); }
+
+/* A system call costs more than the text of a row. */
+pg_status pg_table_line_later (pg_table *t, const char *const *values)
 {
-    pg_status status = PG_OK;
-    PG_TRY (collect (t, values));
-    PG_TRY (end_row (t));
-    t->rows++;
-done:
-    t->length = 0;
-    return status;
+    pg_status status = collect (t, values);
+    return status != PG_OK || t->length > ENOUGH ? conclude (t, status) : PG_OK;
 }
 
 pg_status pg_table_sync (const pg_table *t) { return pg_disk_sync (t->path); }
 
-/* Nothing is left to write: rows are complete when they are written. */
+/* Rows that wait belong to something that has failed: what is whole has been written. */
 void pg_table_close (pg_table **table)
 {
     if (!table || !*table) return;

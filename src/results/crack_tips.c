@@ -117,7 +117,7 @@ void pg_result_tips_free (pg_result *r)
 {
     for (size_t i = 0; r->tip && i < r->ntip; i++) pg_free (r->tip[i].along), pg_free (r->tip[i].length);
     pg_free (r->tip), pg_free (r->tip_time);
-    pg_free (r->tip_seen), pg_free (r->tip_known), pg_free (r->tip_queue);
+    pg_free (r->tip_seen), pg_free (r->tip_known), pg_free (r->tip_queue), pg_free (r->tip_damaged);
 }
 
 /* ---- rows ---------------------------------------------------------------------------------------------- */
@@ -135,6 +135,23 @@ static pg_status share_damage (const pg_subdomain *s, double *damage)
 {
     for (size_t i = 0; s && i < s->n; i++) if (!s->owned[i]) damage[i] = NAN;
     return pg_subdomain_exchange (s, 1, damage);
+}
+
+/* Lists the points that are damaged enough for any of the tips, which are few of a body: the search for each
+ * tip begins with them. */
+static pg_status list_damaged (pg_result *r, const double *damage)
+{
+    pg_status status = PG_OK;
+    double least = INFINITY;
+    for (size_t i = 0; i < r->ntip; i++) least = fmin (least, r->tip[i].damage);
+    r->ntip_damaged = 0;
+    for (size_t i = 0; i < r->problem->cloud.n; i++) {
+        if (!(damage[i] >= least)) continue;
+        PG_GROW (r->tip_damaged, r->cap_tip_damaged, r->ntip_damaged + 1);
+        r->tip_damaged[r->ntip_damaged++] = (int) i;
+    }
+done:
+    return status;
 }
 
 /* Goes from the points of the queue from *at on to all damaged ones that are connected with them by steps of
@@ -169,13 +186,17 @@ static pg_status follow (pg_result *r, const result_tip *tip, const double *dama
     double nearest = -INFINITY, more = 1, *seen = r->tip_seen, *known = r->tip_known;
     int *queue = r->tip_queue;
     size_t n = 0, at = 0, before;
-    for (size_t i = 0; i < p->cloud.n; i++)
+    for (size_t k = 0; k < r->ntip_damaged; k++) {
+        size_t i = (size_t) r->tip_damaged[k];
         if (damage[i] >= tip->damage) nearest = fmax (nearest, -distance (p, i, tip->from));
+    }
     PG_TRY (pg_ranks_most (1, &nearest));
-    for (size_t i = 0; i < p->cloud.n; i++)
+    for (size_t k = 0; k < r->ntip_damaged; k++) {
+        size_t i = (size_t) r->tip_damaged[k];
         if (damage[i] >= tip->damage
             && distance (p, i, tip->from) <= pg_problem_spacing (p, PG_NODES, i) - nearest)
             seen[i] = 1, queue[n++] = (int) i;
+    }
     spread (tip, p, damage, queue, &n, &at, seen);
     while (s && more > 0) {
         before = n;
@@ -236,6 +257,7 @@ pg_status pg_result_tips_row (pg_result *r, const pg_state *state, const pg_step
     PG_TRY (pg_ranks_most (1, &fresh));
     if (fresh > 0) PG_TRY (force->field (self, state, state->d, "damage", &components, &unit, work));
     if (components == 1) PG_TRY (share_damage (r->problem->cloud.subdomain, work));
+    if (components == 1) PG_TRY (list_damaged (r, work));
     for (size_t i = 0; i < r->ntip; i++) {
         result_tip *tip = &r->tip[i];
         PG_GROW (tip->length, tip->capacity, n + 1);

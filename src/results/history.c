@@ -141,7 +141,8 @@ static double mean_of (const pg_problem *p, const pg_load *load, const double *u
 
 /* One row per bond that broke in the step. Numbers come first, so that readers of numbers can
  * read all of a row but its last two names. In static runs with fixed steps the load factor at
- * the break follows from its time within the step. */
+ * the break follows from its time within the step. Most numbers of a row are those of the row
+ * before, whose text stays. */
 static pg_status event_rows (pg_result *r, const pg_step *step, size_t n, const pg_broken *list,
                              double dissipated)
 {
@@ -149,9 +150,10 @@ static pg_status event_rows (pg_result *r, const pg_step *step, size_t n, const 
     static const char *const set_name[] = { "node-node", "point-node", "facet-node" }, *const kind_name[] = {
         "tension", "shear", "bending", "energy", "facet"
     };
+    char text[EVENT_NUMBERS][40];
+    double before[EVENT_NUMBERS];
     for (size_t i = 0; i < n; i++) {
         const pg_broken *b = &list[i];
-        char text[EVENT_NUMBERS][40];
         int kind = b->kind == 's' ? 1 : b->kind == 'b' ? 2 : b->kind == 'e' ? 3 : b->kind == 'f' ? 4 : 0;
         const char *cell[EVENT_COLUMNS];
         double factor = b->time == step->time || !(step->time > 0) ? step->factor
@@ -169,11 +171,14 @@ static pg_status event_rows (pg_result *r, const pg_step *step, size_t n, const 
         cell[EVENT_NUMBERS] = set_name[b->set], cell[EVENT_NUMBERS + 1] = kind_name[kind];
         for (int k = 0; k < EVENT_NUMBERS; k++) {
             cell[k] = text[k];
+            if (i > 0 && memcmp (&number[k], &before[k], sizeof *number) == 0) continue;
             text[k][0] = '\0';                         /* empty: not known */
             if (!isnan (number[k])) snprintf (text[k], sizeof text[k], "%.10g", number[k]);
         }
-        PG_TRY (pg_table_line (r->events, cell));
+        memcpy (before, number, sizeof before);
+        PG_TRY (pg_table_line_later (r->events, cell));
     }
+    PG_TRY (pg_table_write (r->events));
 done:
     return status;
 }
@@ -198,35 +203,51 @@ done:
     return status;
 }
 
+/* Displacements of the points, *u, and rotations, *turn: those in r->u, 3 n values apart. Without shape
+ * functions unknowns are the values of the points, and where these are displacements alone nothing is
+ * copied. */
+static pg_status move_points (pg_result *r, const pg_state *state, const double **u, const double **turn)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    const char *unit;
+    int components, rotations = pg_problem_rotations (p);
+    *u = r->u, *turn = r->u + 3 * p->cloud.n;
+    if (!force->field) return PG_OK;
+    if (!p->method->shape_functions && !rotations) *u = state->d;
+    else PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
+    if (rotations)
+        PG_TRY (force->field (self, state, state->d, "rotation", &components, &unit, r->u + 3 * p->cloud.n));
+done:
+    return status;
+}
+
 /* Writes the row of a step and the rows of its bonds. Displacements are those of the body, u
  * (x) = sum N_j d_j, not coefficients. Gauges are empty if the force knows no field between
- * the points. r->u holds two fields: displacements and, 3 n values behind, rotations. Ranks
+ * the points. Ranks
  * fill in what their own points contribute; their sum is the row. What they do together comes before
  * anything is written, which may fail on one of them. */
 pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_step *step)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
-    void *self;
-    const pg_force_type *force = pg_solver_force (r->solver, &self);
     const pg_statistics *report = pg_solver_report_now (r->solver);
     size_t n = 0, platens;
     size_t x = 0, y = 0;                               /* columns of the load-displacement curve */
     double shared = step->dissipated;
     pg_broken *collected = NULL;
     size_t nbroken = step->nbroken;
-    int components;
-    const char *unit;
+    const double *moved, *turned;
     r->row[n++] = pg_result_once ((double) step->number), r->row[n++] = pg_result_once (step->time),
     r->row[n++] = pg_result_once (step->factor);
-    if (force->field) PG_TRY (force->field (self, state, state->d, "displacement", &components, &unit, r->u));
-    if (force->field && pg_problem_rotations (p))
-        PG_TRY (force->field (self, state, state->d, "rotation", &components, &unit, r->u + 3 * p->cloud.n));
+    PG_TRY (move_points (r, state, &moved, &turned));
     for (size_t l = 0; l < p->nload; l++) {
         for (int k = 0; k < columns_of (p, l); k++) {
             int turns = pg_load_rotates (&p->load[l]);
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
-            double u = mean_of (p, &p->load[l], turns ? r->u + 3 * p->cloud.n : r->u,
+            double u = mean_of (p, &p->load[l], turns ? turned : moved,
                                 turns ? pg_problem_rotations (p) : p->dim, k);
             if ((int) l == r->curve_load && k == r->curve_component) x = n + 1, y = n;
             r->row[n++] = f, r->row[n++] = u;

@@ -120,6 +120,8 @@ struct pg_result {
      * longer than the search. */
     double   *tip_seen, *tip_known;
     int      *tip_queue;
+    /* Points of the row with damage enough for any of the tips, ascending. */
+    int      *tip_damaged;  size_t ntip_damaged, cap_tip_damaged;
     /* Broken bonds when the lengths were measured last; -1: they must be measured. */
     long      tip_broken;
     /* Steps in result.e. */

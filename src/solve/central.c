@@ -8,41 +8,40 @@
 /* The two half kicks of a block. Where both are due in one pass the loop is cut into groups of LANES
  * unknowns, which the compiler turns into vector instructions; sums are kept in eight lanes so that they
  * round alike. */
-static void range (const half_kicks *w, size_t first, size_t last, double *sum)
+PG_WIDEST static void range (const half_kicks *w, size_t first, size_t last, double *sum)
 {
-    double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), keep = (1 - h * c) * less,
-           push = dt * less, rate = 1 / dt;
-    double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a, before[8] = { 0 }, after[8] = { 0 },
-                     kinetic[8] = { 0 };
-    const double *restrict f = w->f, *restrict inverse = w->inverse;
-    if (w->closing) {
-        for (size_t i = first; c > 0 && i < last; i++) {
-            double vn = 0.5 * (v[i] + (keep * v[i] + push * (f[i] * inverse[i])));
-            before[i & 7] += w->mass[i] * vn * v[i];
-            after[i & 7] += w->mass[i] * vn * (2 * vn - v[i]);
-        }
-        sum[SUM_C] = lane_sum (before), sum[SUM_D] = lane_sum (after);
-    }
-#define BOTH(i, per_mass) \
-    do { v[i] = keep * v[i] + push * (f[i] * (per_mass)); d[i] += dt * v[i]; } while (0)
-    size_t at = first;
-    if (w->closing && w->opening) {
-        const double only = w->only;
-        for (; only > 0 && at + LANES <= last; at += LANES)
-            for (size_t k = at; k < at + LANES; k++) BOTH (k, only);
-        for (; at + LANES <= last; at += LANES)
-            for (size_t k = at; k < at + LANES; k++) BOTH (k, inverse[k]);
-        for (; at < last; at++) BOTH (at, inverse[at]);
-    }
-    else if (w->opening) for (size_t i = first; i < last; i++) d[i] += dt * v[i];
+    const double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), only = w->only,
+                 keep = (1 - h * c) * less, push = dt * less, rate = 1 / dt;
+    double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a;
+    double *restrict f = w->f, *restrict inverse = w->inverse, *restrict mass = w->mass;
+    pg_eight before = { 0 }, after = { 0 }, kinetic = { 0 };
+/* the velocity half a step ahead */
+#define NEXT(T, i, per_mass) (keep * OF (T, v, i) + push * (OF (T, f, i) * (per_mass)))
+#define RESIST(T, i, lane) \
+    do { \
+        const T vn = 0.5 * (OF (T, v, i) + NEXT (T, i, OF (T, inverse, i))); \
+        before lane += OF (T, mass, i) * vn * OF (T, v, i); \
+        after lane += OF (T, mass, i) * vn * (2 * vn - OF (T, v, i)); \
+    } while (0)
+#define MOVE(T, i, per_mass) \
+    do { OF (T, v, i) = NEXT (T, i, per_mass); OF (T, d, i) += dt * OF (T, v, i); } while (0)
+#define BOTH(T, i, lane) MOVE (T, i, OF (T, inverse, i))
+#define BOTH_ALIKE(T, i, lane) MOVE (T, i, only)
+#define OPEN(T, i, lane) OF (T, d, i) += dt * OF (T, v, i)
+#define CLOSE(T, i, lane) \
+    do { \
+        const T old = OF (T, v, i), now = NEXT (T, i, OF (T, inverse, i)); \
+        kinetic lane += OF (T, mass, i) * old * now; \
+        OF (T, a, i) = (now - old) * rate, OF (T, v, i) = now; \
+    } while (0)
+    if (w->closing && c > 0) EACH_OF (first, last, RESIST);
+    if (w->closing) sum[SUM_C] = lane_sum (&before), sum[SUM_D] = lane_sum (&after);
+    if (w->closing && w->opening && only > 0) EACH_OF (first, last, BOTH_ALIKE);
+    else if (w->closing && w->opening) EACH_OF (first, last, BOTH);
+    else if (w->opening) EACH_OF (first, last, OPEN);
     else {
-        for (size_t i = first; i < last; i++) {
-            double now = keep * v[i] + push * (f[i] * inverse[i]);
-            kinetic[i & 7] += w->mass[i] * v[i] * now;
-            a[i] = (now - v[i]) * rate;
-            v[i] = now;
-        }
-        sum[SUM_K] = lane_sum (kinetic);
+        EACH_OF (first, last, CLOSE);
+        sum[SUM_K] = lane_sum (&kinetic);
     }
 }
 

@@ -105,7 +105,7 @@ double    explicit_bound   (const pg_solver *s, const char **from);    /* the st
  * other. Of `sum` the pass fills C, D (closing) and K (closing alone). */
 typedef struct {
     double *d, *v, *a;
-    const double *f, *inverse, *mass, *P;              /* P: or NULL */
+    double *f, *inverse, *mass, *P;                    /* read only; P: or NULL */
     double only;                                       /* as motion.only */
     double dt, damping;                                /* s, 1/s */
     int    closing, opening;
@@ -127,7 +127,16 @@ double    explicit_progress (const pg_solver *s, const pg_state *state);
     .read = explicit_read, .prepare = explicit_prepare, .start = explicit_start, .done = explicit_done, \
     .refused = explicit_refused, .free = explicit_free, .keep = explicit_keep, .move = explicit_moved, \
     .own_size = sizeof (motion), .stable = explicit_bound, .progress = explicit_progress
-double    lane_sum     (const double *s);             /* of 8 lanes */
+/* ONE (T, i, lane) for the unknowns of a range that begins at a multiple of LANES: eight at a time, of type
+ * T, in all lanes of what is summed; those left over one by one, each in its lane. OF: of a vector. */
+#define OF(T, x, i) (*(T *) (void *) ((x) + (i)))
+#define EACH_OF(first, last, ONE) \
+    do { \
+        size_t at_ = (first); \
+        for (; at_ + LANES <= (last); at_ += LANES) ONE (pg_eight, at_, ); \
+        for (; at_ < (last); at_++) ONE (double, at_, [at_ % LANES]); \
+    } while (0)
+double    lane_sum     (const pg_eight *s);
 double    lane_dot     (const double *a, const double *b, size_t first, size_t last);
 /* 0, or NaN when one is not finite */
 double    lane_not_finite     (const double *d, size_t first, size_t last);

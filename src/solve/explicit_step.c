@@ -12,29 +12,30 @@
 enum { BLOCK = 2048, LOOK = 8 };                      /* unknowns; time steps */
 
 /* Always in the same order: sums round alike with every instruction set. */
-double lane_sum (const double *s)
+double lane_sum (const pg_eight *lanes)
 {
+    const pg_eight s = *lanes;
     return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
 }
 
 /* a . b over a range, in eight lanes. */
-double lane_dot (const double *a, const double *b, size_t first, size_t last)
+PG_WIDEST double lane_dot (const double *a, const double *b, size_t first, size_t last)
 {
-    double s[8] = { 0 };
+    pg_eight s = { 0 };
     size_t i = first;
-    for (; i + 8 <= last; i += 8) for (size_t k = 0; k < 8; k++) s[k] += a[i + k] * b[i + k];
+    for (; i + 8 <= last; i += 8) s += *(const pg_eight *) (a + i) * *(const pg_eight *) (b + i);
     for (; i < last; i++) s[0] += a[i] * b[i];
-    return lane_sum (s);
+    return lane_sum (&s);
 }
 
 /* 0 * x is 0 for every finite x and NaN otherwise: a sum tells all at once, without a branch. */
-double lane_not_finite (const double *d, size_t first, size_t last)
+PG_WIDEST double lane_not_finite (const double *d, size_t first, size_t last)
 {
-    double s[8] = { 0 };
+    pg_eight s = { 0 };
     size_t i = first;
-    for (; i + 8 <= last; i += 8) for (size_t k = 0; k < 8; k++) s[k] += 0 * d[i + k];
+    for (; i + 8 <= last; i += 8) s += 0 * *(const pg_eight *) (d + i);
     for (; i < last; i++) s[0] += 0 * d[i];
-    return lane_sum (s);
+    return lane_sum (&s);
 }
 
 /* The largest size of what is compared; NaN is passed by. */

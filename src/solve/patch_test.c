@@ -92,19 +92,28 @@ static void add_motion (motion *a, double c, const motion *b)
     }
 }
 
-/* f += d at all points, `stride` numbers a point. */
-static void add_field (const probe *t, const motion *d, size_t stride, double *f)
+#define INLINE static inline __attribute__ ((always_inline))
+
+/* f += d at all points, `stride` numbers a point. Of most bodies the compiler knows both numbers. */
+INLINE void add_points (const probe *t, const motion *d, const size_t dim, const size_t stride, double *f)
 {
-    size_t dim = t->dim;
+    const double *place = t->p->cloud.x, *middle = t->middle;
     for (size_t i = 0; i < t->n; i++) {
         double x[3] = { 0 };
-        for (size_t l = 0; l < dim; l++) x[l] = t->p->cloud.x[i * dim + l] - t->middle[l];
+        for (size_t l = 0; l < dim; l++) x[l] = place[i * dim + l] - middle[l];
         for (size_t k = 0; k < stride; k++) {
             double s = d->p[k];
             for (size_t l = 0; l < dim; l++) s += d->R[k][l] * x[l];
             f[i * stride + k] += s;
         }
     }
+}
+
+static void add_field (const probe *t, const motion *d, size_t stride, double *f)
+{
+    if (t->dim == 2 && stride == 2) add_points (t, d, 2, 2, f);
+    else if (t->dim == 3 && stride == 3) add_points (t, d, 3, 3, f);
+    else add_points (t, d, t->dim, stride, f);
 }
 
 /* out = sum of strains times their fields, `stride` numbers a point. */
@@ -123,18 +132,28 @@ static void linear_field (const probe *t, const double *strain, size_t stride, d
  * with the numbers of a field (6 x 4). Products of fields with motions, and of motions, follow from them. */
 typedef struct { double square[4][4], field[6][4]; } moments;
 
-static moments moments_of (const probe *t, size_t stride, int volumes, const double *f)
+INLINE void add_moments (const probe *t, const size_t dim, const size_t stride, int volumes, const double *f,
+                         moments *out)
 {
     moments s = { 0 };
-    size_t m = t->dim + 1;
+    const size_t m = dim + 1;
     for (size_t i = 0; i < t->n; i++) {
         double w = volumes ? t->p->cloud.volume[i] : 1, x[4] = { 1 };
-        for (size_t l = 1; l < m; l++) x[l] = t->p->cloud.x[i * t->dim + l - 1] - t->middle[l - 1];
+        for (size_t l = 1; l < m; l++) x[l] = t->p->cloud.x[i * dim + l - 1] - t->middle[l - 1];
         for (size_t a = 0; a < m; a++) for (size_t b = 0; b <= a; b++) s.square[a][b] += w * x[a] * x[b];
         for (size_t k = 0; k < stride; k++)
             for (size_t b = 0; b < m; b++) s.field[k][b] += w * f[i * stride + k] * x[b];
     }
     for (size_t a = 0; a < m; a++) for (size_t b = 0; b < a; b++) s.square[b][a] = s.square[a][b];
+    *out = s;
+}
+
+static moments moments_of (const probe *t, size_t stride, int volumes, const double *f)
+{
+    moments s;
+    if (t->dim == 2 && stride == 2) add_moments (t, 2, 2, volumes, f, &s);
+    else if (t->dim == 3 && stride == 3) add_moments (t, 3, 3, volumes, f, &s);
+    else add_moments (t, t->dim, stride, volumes, f, &s);
     return s;
 }
 

@@ -60,7 +60,7 @@ static double factor_at (const pg_solver *s, long stage)
 typedef struct {
     const struct relaxation *x;
     double *d, *v, *a;
-    const double *r, *inverse;
+    double *r;  const double *inverse;
     double *sum, c;
     size_t ndof;
     int resting;
@@ -69,22 +69,25 @@ typedef struct {
 /* Sums of a range of blocks: r.r; the Rayleigh quotient's parts v K v dt = v (r' - r), r' being the last
  * residual, and v M v; whether all is finite. Eight lanes each, added in one order, so that instruction
  * sets do not show. */
-static void measure (void *context, size_t first, size_t last, int thread)
+PG_WIDEST static void measure (void *context, size_t first, size_t last, int thread)
 {
     const iterating *w = context;
-    const double *d = w->d, *v = w->v, *a = w->a, *r = w->r, *mass = w->x->mass;
+    double *d = w->d, *v = w->v, *a = w->a, *r = w->r, *mass = w->x->mass;
     (void) thread;
     for (size_t b = first; b < last; b++) {
         size_t i = b * BLOCK, end = i + BLOCK < w->ndof ? i + BLOCK : w->ndof;
-        double stiff[8] = { 0 }, heavy[8] = { 0 }, *sum = w->sum + b * SUMS;
+        double *sum = w->sum + b * SUMS;
+        pg_eight stiff = { 0 }, heavy = { 0 };
         sum[SUM_R] = lane_dot (r, r, i, end);
         sum[SUM_BAD] = lane_not_finite (d, i, end);
-        for (; i < end; i++) {
-            size_t k = i & 7;
-            stiff[k] += v[i] * (a[i] - r[i]);
-            heavy[k] += v[i] * (v[i] * mass[i]);
-        }
-        sum[SUM_STIFF] = lane_sum (stiff), sum[SUM_MASS] = lane_sum (heavy);
+#define QUOTIENT(T, k, lane) \
+    do { \
+        const T speed = OF (T, v, k); \
+        stiff lane += speed * (OF (T, a, k) - OF (T, r, k)); \
+        heavy lane += speed * (speed * OF (T, mass, k)); \
+    } while (0)
+        EACH_OF (i, end, QUOTIENT);
+        sum[SUM_STIFF] = lane_sum (&stiff), sum[SUM_MASS] = lane_sum (&heavy);
     }
 }
 

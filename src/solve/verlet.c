@@ -5,47 +5,42 @@
 #include "explicit.h"
 
 /* The two halves of a step round alike, whether they come at once or one by one. */
-static void range (const half_kicks *w, size_t first, size_t last, double *sum)
+PG_WIDEST static void range (const half_kicks *w, size_t first, size_t last, double *sum)
 {
-    double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), before[8] = { 0 },
-           after[8] = { 0 }, kinetic[8] = { 0 };
+    const double h = 0.5 * w->dt, dt = w->dt, c = w->damping, less = 1 / (1 + h * c), only = w->only;
     double *restrict d = w->d, *restrict v = w->v, *restrict a = w->a;
-    const double *restrict f = w->f, *restrict inverse = w->inverse;
-    if (w->closing) {
-        for (size_t i = first; c > 0 && i < last; i++) {
-            double vn = (v[i] + h * (f[i] * inverse[i])) * less;
-            before[i & 7] += w->mass[i] * vn * v[i];
-            after[i & 7] += w->mass[i] * vn * (2 * vn - v[i]);
-        }
-        sum[SUM_C] = lane_sum (before), sum[SUM_D] = lane_sum (after);
-    }
-#define BOTH(i, per_mass) \
+    double *restrict f = w->f, *restrict inverse = w->inverse, *restrict mass = w->mass;
+    pg_eight before = { 0 }, after = { 0 }, kinetic = { 0 };
+#define RESIST(T, i, lane) \
     do { \
-        double acc = f[i] * (per_mass), vn = (v[i] + h * acc) * less; \
-        v[i] = vn + h * (acc - c * vn); \
-        d[i] += dt * v[i]; \
+        const T vn = (OF (T, v, i) + h * (OF (T, f, i) * OF (T, inverse, i))) * less; \
+        before lane += OF (T, mass, i) * vn * OF (T, v, i); \
+        after lane += OF (T, mass, i) * vn * (2 * vn - OF (T, v, i)); \
     } while (0)
-    size_t at = first;
-    if (w->closing && w->opening) {
-        const double only = w->only;
-        for (; only > 0 && at + LANES <= last; at += LANES)
-            for (size_t k = at; k < at + LANES; k++) BOTH (k, only);
-        for (; at + LANES <= last; at += LANES)
-            for (size_t k = at; k < at + LANES; k++) BOTH (k, inverse[k]);
-        for (; at < last; at++) BOTH (at, inverse[at]);
-    }
-    else if (w->opening)
-        for (size_t i = first; i < last; i++) {
-            v[i] = v[i] + h * a[i];
-            d[i] += dt * v[i];
-        }
+#define MOVE(T, i, per_mass) \
+    do { \
+        const T acc = OF (T, f, i) * (per_mass), vn = (OF (T, v, i) + h * acc) * less; \
+        OF (T, v, i) = vn + h * (acc - c * vn); \
+        OF (T, d, i) += dt * OF (T, v, i); \
+    } while (0)
+#define BOTH(T, i, lane) MOVE (T, i, OF (T, inverse, i))
+#define BOTH_ALIKE(T, i, lane) MOVE (T, i, only)
+#define OPEN(T, i, lane) \
+    do { OF (T, v, i) += h * OF (T, a, i); OF (T, d, i) += dt * OF (T, v, i); } while (0)
+#define CLOSE(T, i, lane) \
+    do { \
+        const T acc = OF (T, f, i) * OF (T, inverse, i), old = OF (T, v, i), vn = (old + h * acc) * less; \
+        OF (T, v, i) = vn, OF (T, a, i) = acc - c * vn; \
+        kinetic lane += OF (T, mass, i) * old * (vn + h * OF (T, a, i)); \
+    } while (0)
+    if (w->closing && c > 0) EACH_OF (first, last, RESIST);
+    if (w->closing) sum[SUM_C] = lane_sum (&before), sum[SUM_D] = lane_sum (&after);
+    if (w->closing && w->opening && only > 0) EACH_OF (first, last, BOTH_ALIKE);
+    else if (w->closing && w->opening) EACH_OF (first, last, BOTH);
+    else if (w->opening) EACH_OF (first, last, OPEN);
     else {
-        for (size_t i = first; i < last; i++) {
-            double acc = f[i] * inverse[i], vn = (v[i] + h * acc) * less, old = v[i];
-            v[i] = vn, a[i] = acc - c * vn;
-            kinetic[i & 7] += w->mass[i] * old * (vn + h * a[i]);
-        }
-        sum[SUM_K] = lane_sum (kinetic);
+        EACH_OF (first, last, CLOSE);
+        sum[SUM_K] = lane_sum (&kinetic);
     }
 }
 

@@ -28,7 +28,7 @@ typedef struct {
     size_t   pitch;                                    /* padded places of a row */
     double   own[2];                                   /* K_xx, K_yy of a point with all bonds, N/m */
     const double *pull;  /* a x^2, a x y, a y^2 of column x and row y, N/m (columns x PG_FOLD_ROWS x 3) */
-    const double *inverse;                             /* 1 / r^2 of each bond, 1/m^2 */
+    const double *slope;                               /* xi / r^2 of each bond, 1/m (x 2) */
     double  *low, *high;                               /* least, largest change of u of a block, m (x 2) */
 } pg_fold;
 typedef struct {

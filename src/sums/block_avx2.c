@@ -36,6 +36,17 @@ static const long long lanes[16][4] __attribute__ ((aligned (32))) = {
     ((hits) = (vec) _mm256_or_pd ((__m256d) (hits), _mm256_and_pd (OVER (v, limit), OF (bits))))
 #define HITS_ANY(hits) (_mm256_movemask_pd ((__m256d) (hits)) != 0)
 
+static inline __attribute__ ((always_inline)) TARGET double vec_lowest (vec v)
+{
+    __m128d half = _mm_min_pd (_mm256_castpd256_pd128 ((__m256d) v), _mm256_extractf128_pd ((__m256d) v, 1));
+    return _mm_cvtsd_f64 (_mm_min_sd (half, _mm_unpackhi_pd (half, half)));
+}
+static inline __attribute__ ((always_inline)) TARGET double vec_highest (vec v)
+{
+    __m128d half = _mm_max_pd (_mm256_castpd256_pd128 ((__m256d) v), _mm256_extractf128_pd ((__m256d) v, 1));
+    return _mm_cvtsd_f64 (_mm_max_sd (half, _mm_unpackhi_pd (half, half)));
+}
+
 /* out = a0 b0 a1 b1 ...: components x and y of LANES points, as vectors of forces have them. */
 static inline __attribute__ ((always_inline)) TARGET void zip (double *out, vec a, vec b)
 {

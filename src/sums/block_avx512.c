@@ -19,6 +19,8 @@ typedef unsigned hits;
 #define vec_fuse(a, b, c) ((vec) _mm512_fmadd_pd ((__m512d) (a), (__m512d) (b), (__m512d) (c)))
 #define vec_least(a, b) ((vec) _mm512_min_pd ((__m512d) (a), (__m512d) (b)))
 #define vec_most(a, b) ((vec) _mm512_max_pd ((__m512d) (a), (__m512d) (b)))
+#define vec_lowest(v) _mm512_reduce_min_pd ((__m512d) (v))
+#define vec_highest(v) _mm512_reduce_max_pd ((__m512d) (v))
 #define vec_root(v) ((vec) _mm512_sqrt_pd ((__m512d) (v)))
 #define vec_keep(v, bits) ((v) = (vec) _mm512_maskz_mov_pd ((__mmask8) (bits), (__m512d) (v)))
 #define HITS_OVER(hits, v, limit) \

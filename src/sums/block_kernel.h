@@ -5,6 +5,7 @@
  *       table,
  *   vec           typedef, and vec_root (vec), vec_fuse (a, b, c): a b + c, FUSED: 1 if rounded once,
  *   vec_least (a, b), vec_most (a, b): the smaller, the larger one,
+ *   vec_lowest (v), vec_highest (v): the smallest, the largest of its lanes, none of which is NAN,
  *   vec_keep (v, bits): 0 in lanes whose bit is not set,
  *   hits, HITS_OVER (hits, v, limit), HITS_OVER_OF (hits, v, limit, bits), HITS_ANY (hits): lanes with v >=
  *     limit (of those in bits),

@@ -26,6 +26,8 @@ static const lane_bits lanes[4] = { { 0, 0 }, { -1, 0 }, { 0, -1 }, { -1, -1 } }
 #endif
 #define vec_least(a, b) ((vec) { (a)[0] < (b)[0] ? (a)[0] : (b)[0], (a)[1] < (b)[1] ? (a)[1] : (b)[1] })
 #define vec_most(a, b) ((vec) { (a)[0] > (b)[0] ? (a)[0] : (b)[0], (a)[1] > (b)[1] ? (a)[1] : (b)[1] })
+#define vec_lowest(v) ((v)[0] < (v)[1] ? (v)[0] : (v)[1])
+#define vec_highest(v) ((v)[0] > (v)[1] ? (v)[0] : (v)[1])
 #define vec_root(v) ((vec) { sqrt ((v)[0]), sqrt ((v)[1]) })
 #define vec_keep(v, bits) ((v) = (vec) ((lane_bits) (v) & lanes[(bits) & 3]))
 #define HITS_OVER(hits, v, limit) ((hits) |= (lane_bits) ((v) >= (limit)))

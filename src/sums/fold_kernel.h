@@ -95,23 +95,20 @@ static TARGET double most_stretch (const pg_block_job *job, size_t k)
 {
     const size_t base = job->block[k].base;
     const uint32_t *may = job->may ? job->may + k * job->n : NULL;
-    double lane[LANES], most = 0;
     vec top = { 0 };
     for (size_t at = 0; at < PG_BLOCK; at += LANES) {
         const double *u = job->u[0] + base + at, *v = job->u[1] + base + at;
         const vec x = LOAD (u), y = LOAD (v);
         for (size_t j = 0; j < job->n; j++) {
-            const double *t = job->term + j * PG_TERMS;
+            const double *slope = job->fold->slope + 2 * j;
             const ptrdiff_t jump = job->jump[j];
-            vec s = ALL (t[PG_AT_XI]) * (LOAD (u + jump) - x);
-            s = vec_fuse (ALL (t[PG_AT_XI + 1]), LOAD (v + jump) - y, s) * ALL (job->fold->inverse[j]);
+            vec s = ALL (slope[0]) * (LOAD (u + jump) - x);
+            s = vec_fuse (ALL (slope[1]), LOAD (v + jump) - y, s);
             if (may) vec_keep (s, may[j] >> at);
             top = vec_most (s, top);
         }
     }
-    STORE (lane, top);
-    for (int l = 0; l < LANES; l++) most = lane[l] > most ? lane[l] : most;
-    return most;
+    return vec_highest (top);
 }
 
 /* As spread, and how far each component of the displacements of a block has moved since the last time: the
@@ -134,10 +131,8 @@ static TARGET void spread_and_measure (const pg_block_job *job, const double *u,
                     STORE (to, now[d]);
                 }
             }
-            for (int d = 0; d < 2; d++)
-                for (int l = 0; l < LANES; l++)
-                    low[d] = least[d][l] < low[d] ? least[d][l] : low[d],
-                    high[d] = most[d][l] > high[d] ? most[d][l] : high[d];
+            UNROLL for (int d = 0; d < 2; d++)
+                low[d] = vec_lowest (least[d]), high[d] = vec_highest (most[d]);
         }
         else
             for (uint32_t left = b->present; left; left &= left - 1) {

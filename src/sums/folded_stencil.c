@@ -15,15 +15,20 @@
 #include <math.h>
 #include <string.h>
 
+enum { LANES = 8 };                                    /* blocks at once, a number the compiler knows */
+
 struct folding {
     pg_fold   fold;                                    /* what the loops read */
-    double   *pull, *inverse, *low, *high;             /* ... owned */
+    double   *pull, *slope, *low, *high;             /* ... owned */
     size_t    rows;                                    /* of sites */
     double    limit, shortest;                         /* s0 less a little for rounding; r_min, m */
     unsigned char *whole;                              /* of each block: all its bonds live */
     unsigned *from;  /* of each block: place whose displacement is taken off in its group of blocks */
     double   *most, *drift;                            /* of each block: e; the sum since, m */
-    double   *span;  /* low, high of x, y: of each place of a block, then along x (8 x rows x blocks) */
+    /* low, high of x, y of each block and of those beside it in its row (4 x rows x wide); wide: blocks of a
+     * row, up to a multiple of LANES */
+    double   *span;
+    size_t    wide;
     size_t    looks[MAX_THREADS], folded[MAX_THREADS];
     size_t    sums;
 };
@@ -66,12 +71,15 @@ static pg_status set_pulls (struct folding *g, stencil *s)
     const pg_stencil *st = &s->setting.sums->stencil;
     g->shortest = INFINITY;
     PG_ALLOC (g->pull, 3 * PG_FOLD_ROWS * (size_t) (PG_FOLD_HALO + 1));
-    PG_ALLOC (g->inverse, st->n);
+    PG_ALLOC (g->slope, 2 * st->n);
     for (size_t j = 0; j < st->n; j++) {
         const double *t = s->term + j * PG_TERMS;
         int x = st->offset[3 * j], y = st->offset[3 * j + 1];
-        g->inverse[j] = 1 / t[PG_AT_R2], g->shortest = fmin (g->shortest, t[PG_AT_R]);
-        for (int d = 0; d < 2; d++) g->fold.own[d] += t[PG_AT_PULL + d] * t[PG_AT_XI + d];
+        g->shortest = fmin (g->shortest, t[PG_AT_R]);
+        for (size_t d = 0; d < 2; d++) {
+            g->slope[2 * j + d] = t[PG_AT_XI + d] / t[PG_AT_R2];
+            g->fold.own[d] += t[PG_AT_PULL + d] * t[PG_AT_XI + d];
+        }
         if (x < 0 || y < 0) continue;
         double *a = g->pull + 3 * ((size_t) x * PG_FOLD_ROWS + (size_t) y);
         a[0] = t[PG_AT_PULL] * t[PG_AT_XI], a[1] = t[PG_AT_PULL] * t[PG_AT_XI + 1],
@@ -79,7 +87,7 @@ static pg_status set_pulls (struct folding *g, stencil *s)
         g->fold.reach = x > g->fold.reach ? x : g->fold.reach;
         g->fold.reach = y > g->fold.reach ? y : g->fold.reach;
     }
-    g->fold.pitch = s->pitch, g->fold.pull = g->pull, g->fold.inverse = g->inverse;
+    g->fold.pitch = s->pitch, g->fold.pull = g->pull, g->fold.slope = g->slope;
 done:
     return status;
 }
@@ -121,7 +129,8 @@ pg_status folding_create (struct folding **out, stencil *s)
     PG_ALLOC (g->from, s->nblock);
     PG_ALLOC (g->most, s->nblock);
     PG_ALLOC (g->drift, s->nblock);
-    PG_ALLOC (g->span, 8 * g->rows * s->row_blocks);
+    g->wide = (s->row_blocks + LANES - 1) / LANES * LANES;
+    PG_ALLOC (g->span, 4 * g->rows * g->wide);
     g->fold.low = g->low, g->fold.high = g->high, s->job.fold = &g->fold;
     set_groups (g, s);
 done:
@@ -132,7 +141,7 @@ void folding_free (struct folding **folding)
 {
     struct folding *g = *folding;
     if (!g) return;
-    void *blocks[] = { g->pull, g->inverse, g->low, g->high, g->whole, g->from, g->most, g->drift, g->span };
+    void *blocks[] = { g->pull, g->slope, g->low, g->high, g->whole, g->from, g->most, g->drift, g->span };
     for (size_t k = 0; k < sizeof blocks / sizeof *blocks; k++) pg_free (blocks[k]);
     pg_free (g);
     *folding = NULL;
@@ -152,9 +161,17 @@ void folding_lose (stencil *s, size_t k) { s->fold->whole[k] = 0; }
 
 /* ---- the bound ----------------------------------------------------------------------------------------- */
 enum { LOW = 0, HIGH = 1 };                            /* of component d: span number 2 d and 2 d + 1 */
-static double *span_of (const stencil *s, int which, size_t row)
+static double *span_of (const struct folding *g, int which, size_t row)
 {
-    return s->fold->span + ((size_t) which * s->fold->rows + row) * s->row_blocks;
+    return g->span + ((size_t) which * g->rows + row) * g->wide;
+}
+
+/* Extreme of a block whose number is k, as a maximum (that of -u for the least); -1: no block, and none. */
+static double extreme_of (const struct folding *g, int which, int k)
+{
+    if (k < 0) return -INFINITY;
+    size_t at = 2 * (size_t) k + (size_t) which / 2;
+    return which & HIGH ? g->high[at] : -g->low[at];
 }
 
 /* Along a row: the extremes of a block and of those beside it, as bonds reach less than a block. */
@@ -166,19 +183,28 @@ static void widen_rows (void *context, size_t first, size_t last, int thread)
     for (size_t row = first; row < last; row++) {
         const int *at = s->block_at + (row + (size_t) s->reach[1]) * s->row_blocks;
         for (int w = 0; w < 4; w++) {
-            double *to = span_of (s, w, row), sign = w & HIGH ? 1 : -1;
+            double *to = span_of (g, w, row), sign = w & HIGH ? 1 : -1, before = -INFINITY,
+                   own = extreme_of (g, w, at[0]);
             for (size_t j = 0; j < s->row_blocks; j++) {
-                double most = -INFINITY;
-                for (size_t i = j ? j - 1 : 0; i <= j + 1 && i < s->row_blocks; i++) {
-                    if (at[i] < 0) continue;
-                    size_t k = 2 * (size_t) at[i] + (size_t) w / 2;
-                    double value = w & HIGH ? g->high[k] : -g->low[k];
-                    most = value > most ? value : most;
-                }
-                to[j] = sign * most;
+                double behind = j + 1 < s->row_blocks ? extreme_of (g, w, at[j + 1]) : -INFINITY,
+                       most = before > own ? before : own;
+                to[j] = sign * (behind > most ? behind : most);
+                before = own, own = behind;
             }
         }
     }
+}
+
+/* How far apart the least of `low` and the largest of `high` are over some rows, for LANES blocks. */
+PG_WIDE static void spread_of_rows (const double *low, const double *high, size_t wide, size_t rows,
+                                    double *out)
+{
+    double least[LANES], most[LANES];
+    for (size_t l = 0; l < LANES; l++) least[l] = INFINITY, most[l] = -INFINITY;
+    for (size_t r = 0; r < rows; r++, low += wide, high += wide)
+        for (size_t l = 0; l < LANES; l++)
+            least[l] = low[l] < least[l] ? low[l] : least[l], most[l] = high[l] > most[l] ? high[l] : most[l];
+    for (size_t l = 0; l < LANES; l++) out[l] += most[l] - least[l];
 }
 
 /* Across rows, and the sum of what the extremes of this step allow. */
@@ -186,23 +212,18 @@ static void widen_columns (void *context, size_t first, size_t last, int thread)
 {
     const stencil *s = context;
     const struct folding *g = s->fold;
-    size_t far = (size_t) s->reach[1], n = s->row_blocks;
+    size_t far = (size_t) s->reach[1];
     (void) thread;
     for (size_t row = first; row < last; row++) {
-        const int *at = s->block_at + (row + far) * n;
+        const int *at = s->block_at + (row + far) * s->row_blocks;
         size_t low = row > far ? row - far : 0, high = row + far < g->rows ? row + far : g->rows - 1;
-        for (size_t j = 0; j < n; j++) {
-            double moved = 0;
-            if (at[j] < 0) continue;
-            for (int d = 0; d < 2; d++) {
-                double least = INFINITY, most = -INFINITY;
-                for (size_t r = low; r <= high; r++) {
-                    double a = span_of (s, 2 * d + LOW, r)[j], b = span_of (s, 2 * d + HIGH, r)[j];
-                    least = a < least ? a : least, most = b > most ? b : most;
-                }
-                moved += most - least;
-            }
-            g->drift[at[j]] += moved;
+        for (size_t j = 0; j < s->row_blocks; j += LANES) {
+            double moved[LANES] = { 0 };
+            for (int d = 0; d < 2; d++)
+                spread_of_rows (span_of (g, 2 * d + LOW, low) + j, span_of (g, 2 * d + HIGH, low) + j,
+                                g->wide, high + 1 - low, moved);
+            for (size_t l = 0; l < LANES && j + l < s->row_blocks; l++)
+                if (at[j + l] >= 0) g->drift[at[j + l]] += moved[l];
         }
     }
 }

@@ -124,71 +124,7 @@ done:
     return status;
 }
 
-/* ---- bonds --------------------------------------------------------------------------------------------- */
-/* Bond of the stencil that jumps so far; looked for from `from` on, as families ascend like the stencil
- * mostly, then by bisection; n: none. */
-static size_t bond_of (const stencil *s, ptrdiff_t jump, size_t from)
-{
-    size_t n = s->job.n, low = 0, high = n;
-    for (size_t j = from; j < n && s->jump[j] <= jump; j++) if (s->jump[j] == jump) return j;
-    while (low < high) {
-        size_t middle = (low + high) / 2;
-        if (s->jump[middle] < jump) low = middle + 1;
-        else high = middle;
-    }
-    return low < n && s->jump[low] == jump ? low : n;
-}
-
-/* How many padded places lie between the ends of an entry of the family */
-static ptrdiff_t jump_of (const stencil *s, size_t i, size_t entry)
-{
-    return (ptrdiff_t) s->place[s->setting.family->node[entry]] - (ptrdiff_t) s->place[i];
-}
-
-/* Sets the bits of live bonds of point i; live NULL: all live. exempt: bits of those that may break are
- * set as well. PG_E_USAGE: a bond that the stencil has not, so that the family is of other points. */
-static pg_status set_bits (stencil *s, size_t i, const unsigned char *live, const unsigned char *exempt)
-{
-    pg_status status = PG_OK;
-    const pg_family *family = s->setting.family;
-    unsigned bit;
-    size_t k = pg_stencil_loop_block (s, s->place[i], &bit), b = 0;
-    for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
-        if (live && !live[e]) continue;
-        b = bond_of (s, jump_of (s, i, e), b);
-        if (b == s->job.n)
-            PG_FAIL (
-                PG_E_USAGE,
-                "points %zu and %d: their bond is not one of the lattice's stencil; try evaluation: list", i,
-                family->node[e]);
-        s->alive[k * s->job.n + b] |= 1u << bit;
-        if (exempt && !exempt[i] && !exempt[family->node[e]]) s->may[k * s->job.n + b] |= 1u << bit;
-    }
-done:
-    return status;
-}
-
-typedef struct {
-    stencil *s;
-    const unsigned char *live, *exempt;
-    pg_status status[MAX_THREADS];
-    size_t lost[MAX_THREADS];
-} renewal;
-
-/* All bits of some blocks, from the live bonds of the family */
-static void renew_blocks (void *context, size_t first, size_t last, int thread)
-{
-    renewal *r = context;
-    stencil *s = r->s;
-    memset (s->alive + first * s->job.n, 0, (last - first) * s->job.n * sizeof *s->alive);
-    for (size_t k = first; k < last; k++)
-        for (uint32_t left = s->block[k].present; left; left &= left - 1) {
-            int i = s->job.point[s->block[k].site + (size_t) __builtin_ctz (left)];
-            pg_status now = set_bits (s, (size_t) i, r->live, r->exempt);
-            if (now != PG_OK) r->status[thread] = now, r->lost[thread] = (size_t) i;
-        }
-}
-
+/* ---- bonds -------------------------------------------------------------------------------------------- */
 /* Small bodies are done by one thread: starting others costs more than they save. */
 int pg_stencil_loop_threads (const stencil *s)
 {
@@ -208,25 +144,6 @@ size_t pg_stencil_loop_owner (const stencil *s, size_t entry)
         else high = middle;
     }
     return low;
-}
-
-/* changes NULL: all bits anew, from the live bonds of the family; else the bits of these bonds alone. */
-void pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_changes *changes)
-{
-    stencil *s = self;
-    if (!changes) {
-        renewal r = { .s = s, .live = alive };         /* every bond was found when this was created */
-        pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, renew_blocks, &r);
-        if (s->fold) folding_renew (s);
-        return;
-    }
-    for (size_t c = 0; c < changes->n; c++) {
-        size_t e = changes->bond[c], low = pg_stencil_loop_owner (s, e);
-        unsigned bit;
-        size_t k = pg_stencil_loop_block (s, s->place[low], &bit), b = bond_of (s, jump_of (s, low, e), 0);
-        if (b < s->job.n) s->alive[k * s->job.n + b] &= ~(1u << bit);
-        if (s->fold) folding_lose (s, k);
-    }
 }
 
 /* The numbers of each bond of the stencil, the same for all points (pg_block_job): xi, the pull a xi or a
@@ -278,8 +195,15 @@ done:
     return status;
 }
 
-/* The steps in the order in which each needs the former ones. A bond of the family that the stencil has
- * not is found by some thread; its message is made again on this one, as messages belong to threads. */
+/* Is no point marked? */
+static int none_of (const unsigned char *mark, size_t n)
+{
+    size_t i = 0;
+    while (i < n && !mark[i]) i++;
+    return i == n;
+}
+
+/* The steps in the order in which each needs the former ones. */
 pg_status pg_stencil_loop_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
                                   size_t bytes)
 {
@@ -287,10 +211,11 @@ pg_status pg_stencil_loop_create (void **self, const pg_bond_loop_setting *setti
     pg_status status = PG_OK;
     stencil *s = NULL;
     const unsigned char *exempt = setting->limit ? setting->exempt : NULL;
+    size_t n = setting->sums->cloud->n;
+    if (exempt && none_of (exempt, n)) exempt = NULL;  /* all may break */
     *self = s = pg_calloc (1, bytes);
     if (!s) PG_FAIL (PG_E_MEMORY, "%zu bytes for a stencil", bytes);
     s->setting = *setting, s->kernels = kernels[set];
-    size_t n = setting->sums->cloud->n;
     s->nbond = n ? setting->family->start[n] : 0;
     PG_TRY (lay_out (s));
     PG_TRY (find_blocks (s));
@@ -306,11 +231,7 @@ pg_status pg_stencil_loop_create (void **self, const pg_bond_loop_setting *setti
     s->job.block = s->block, s->job.point = setting->sums->sites.point, s->job.alive = s->alive,
     s->job.may = s->may, s->job.p = s->p;
     s->job.hit = s->hit, s->job.energy = s->energy;
-    renewal r = { .s = s, .exempt = exempt };
-    pg_parallel_heavy (pg_stencil_loop_threads (s), s->nblock, renew_blocks, &r);
-    /* says it on this thread */
-    for (int t = 0; t < MAX_THREADS; t++)
-        if (r.status[t] != PG_OK) PG_TRY (set_bits (s, r.lost[t], NULL, exempt));
+    PG_TRY (pg_stencil_bits_renew (s, NULL, exempt));
 done:
     return status;
 }

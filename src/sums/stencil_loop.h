@@ -35,6 +35,10 @@ const char *pg_stencil_loop_refusal (const pg_bond_loop_setting *setting);
 pg_status pg_stencil_loop_create (void **self, const pg_bond_loop_setting *setting, pg_instructions set,
                           size_t bytes);
 void      pg_stencil_loop_free   (void *self);
+/* stencil_bits.c: all bits from the live bonds of the family (NULL: all live). exempt: points whose bonds
+ * never break, NULL: none; then those of bonds that may break as well. PG_E_USAGE: a bond that the stencil
+ * has not. */
+pg_status pg_stencil_bits_renew  (stencil *s, const unsigned char *live, const unsigned char *exempt);
 void      pg_stencil_loop_update (void *self, const unsigned char *alive, const pg_changes *changes);
 void      pg_stencil_loop_bytes  (const void *self, double *per_bond, double *per_point);
 int       pg_stencil_loop_threads (const stencil *s);

@@ -240,6 +240,44 @@ static void test_reactions (void **unused)
     }
 }
 
+/* What all supports prescribe at once is what each does by itself, bit by bit: loads that are a pattern times
+ * a factor of t, a ramp by a table, one that is no such product, and two loads that prescribe a component of
+ * the same points each. */
+static void test_prescribed (void **unused)
+{
+    (void) unused;
+    bonded b = bonded_of (
+        BODY2 "method: {force: bond}\nboundary: [{set: bottom, displacement: {x: 1e-3 * y + 2e-3 * x}, ramp: "
+              "t^2}, {set: bottom, displacement: {y: 3e-3}, table: [[0, 0], [0.5, 1], [1, 0.2]]}, {set: top, "
+              "displacement: {x: 1e-3 * x * t, y: 1e-3 * sin (3 * t)}}]\n");
+    const pg_problem *p = b.problem;
+    double *d = pg_calloc (b.ndof, sizeof *d), *r = pg_calloc (b.ndof, sizeof *r);
+    pg_work_balance out = { 0 };
+    for (int step = 0; step <= 7; step++) {
+        double t = step / 7.0;
+        size_t pair = 0, prescribed = 0;
+        for (size_t i = 0; i < b.ndof; i++) d[i] = NAN;
+        b.force->impose (b.self, t, d);
+        check_ok (b.force->work_balance (b.self, t, r, NULL, &out));
+        for (size_t i = 0; i < b.ndof; i++) {
+            const double *x = p->cloud.x + i / 2 * 2;
+            int load = x[1] < 1e-6 ? (int) (i % 2) : x[1] > 0.7 - 1e-6 ? 2 : -1;
+            if (load < 0) {
+                assert_true (isnan (d[i]));
+                continue;
+            }
+            double one = pg_load_value (&p->load[load], (int) (i % 2), 2, x, t);
+            assert_memory_equal (&d[i], &one, sizeof one);
+            assert_memory_equal (&out.displacement[pair], &one, sizeof one);
+            pair++, prescribed += one != 0;
+        }
+        assert_true (pair == 4 * 11 && (step == 0 || prescribed > 30));
+    }
+    pg_work_balance_clear (&out);
+    pg_free (d), pg_free (r);
+    unbonded (&b);
+}
+
 /* omega_max^2 is not above the bound, and Gershgorin's row sums are above it too. */
 static void test_bound (void **unused)
 {
@@ -349,6 +387,7 @@ int main (void)
                                         cmocka_unit_test (test_hydrostatic),
                                         cmocka_unit_test (test_cut),
                                         cmocka_unit_test (test_reactions),
+                                        cmocka_unit_test (test_prescribed),
                                         cmocka_unit_test (test_bound), cmocka_unit_test (test_shared_bound),
                                         cmocka_unit_test (test_threads),
                                         cmocka_unit_test (test_products_after_breaking) };

@@ -70,6 +70,38 @@ static void texts_are_quoted_where_they_must_be (void **state)
                                "\"\"x\"\"\",\"two\nlines\",\n");
 }
 
+/* Rows that wait are in the file when they are written, or when there are many of them; with others, and in
+ * the same order. */
+static void rows_that_wait_are_those_written_at_once (void **state)
+{
+    (void) state;
+    static char at_once[200000], later[200000];
+    char cell[30];
+    pg_table *t;
+    for (int wait = 0; wait < 2; wait++) {
+        const char *path = file_at (wait ? "waiting.csv" : "at_once.csv");
+        size_t n;
+        check_ok (pg_table_create (&t, path, 2, columns));
+        for (int k = 0; k < 5000; k++) {
+            snprintf (cell, sizeof cell, "row, \"%d\"", k);
+            const char *const row[] = { cell, k % 2 ? NULL : "x" };
+            check_ok (wait ? pg_table_line_later (t, row) : pg_table_line (t, row));
+            if (wait && k == 0) assert_int_equal (pg_table_rows (t), 0);
+        }
+        if (wait) assert_true (pg_table_rows (t) > 0 && pg_table_rows (t) < 5000);
+        check_ok (pg_table_row (t, (double[]) { 1, 2 }));
+        assert_int_equal (pg_table_rows (t), 5001);
+        if (wait) check_ok (pg_table_line_later (t, (const char *const[]) { "last", NULL }));
+        else check_ok (pg_table_line (t, (const char *const[]) { "last", NULL }));
+        check_ok (pg_table_write (t));
+        check_ok (pg_table_write (t));                 /* nothing waits any more */
+        assert_int_equal (pg_table_rows (t), 5002);
+        n = slurp (path, wait ? later : at_once, sizeof later);
+        if (wait) assert_memory_equal (later, at_once, n + 1);
+        pg_table_close (&t);
+    }
+}
+
 static void a_folder_that_is_missing_is_named (void **state)
 {
     (void) state;
@@ -110,6 +142,33 @@ static void a_row_that_does_not_fit_is_reported (void **state)
     check_ok (pg_table_row (t, (double[]) { 4, 5, 6 }));                           /* there is room again */
     slurp (file_at ("limited.csv"), text, sizeof text);
     check_contains (text, "0.29999999999999999\n4,5,6\n");
+    pg_table_close (&t);
+}
+
+/* Rows that wait reach the file together or not at all, and none of them counts. */
+static void rows_that_wait_and_do_not_fit_are_dropped (void **state)
+{
+    (void) state;
+    struct rlimit old, tight = { 0 };
+    char text[1000];
+    pg_table *t;
+    const char *path = file_at ("dropped.csv");
+    const char *const row[] = { "a", "b", "0123456789012345678901234567890123456789" };
+    signal (SIGXFSZ, SIG_IGN);
+    check_ok (pg_table_create (&t, path, 3, columns));
+    check_ok (pg_table_row (t, (double[]) { 1, 2, 3 }));
+    for (int k = 0; k < 6; k++) check_ok (pg_table_line_later (t, row));
+    getrlimit (RLIMIT_FSIZE, &old);
+    tight.rlim_cur = 200, tight.rlim_max = old.rlim_max;
+    setrlimit (RLIMIT_FSIZE, &tight);
+    pg_status status = pg_table_write (t);
+    setrlimit (RLIMIT_FSIZE, &old);
+    assert_int_equal (status, PG_E_FILE);
+    assert_int_equal (pg_table_rows (t), 1);
+    check_ok (pg_table_write (t));                     /* what failed does not come later */
+    check_ok (pg_table_line (t, (const char *const[]) { "4", "5", "6" }));
+    slurp (path, text, sizeof text);
+    check_contains (text, "\n1,2,3\n4,5,6\n");
     pg_table_close (&t);
 }
 
@@ -175,6 +234,8 @@ int main (void)
         cmocka_unit_test (numbers_come_back_exactly),
         cmocka_unit_test (a_row_is_on_disk_at_once),
         cmocka_unit_test (texts_are_quoted_where_they_must_be),
+        cmocka_unit_test (rows_that_wait_are_those_written_at_once),
+        cmocka_unit_test (rows_that_wait_and_do_not_fit_are_dropped),
         cmocka_unit_test (a_folder_that_is_missing_is_named),
         cmocka_unit_test (a_full_disk_is_reported),
         cmocka_unit_test (an_opened_table_goes_on_after_the_rows_kept),

@@ -263,6 +263,41 @@ static void the_range_leaves_out_few_values_far_away (void **state)
     assert_true (!found && low == 0 && high == 1);
 }
 
+static int by_size (const void *a, const void *b)
+{
+    double p = *(const double *) a, q = *(const double *) b;
+    return (p > q) - (p < q);
+}
+
+/* Of values in any order, many of them equal, the ends are those of all values in ascending order. */
+static void the_range_is_that_of_sorted_values (void **state)
+{
+    (void) state;
+    enum { MOST = 700 };
+    double v[MOST], sorted[MOST], low, high;
+    unsigned seed = 3;
+    int found;
+    for (size_t n = 1; n <= MOST; n++) {
+        size_t m = 0;
+        for (size_t i = 0; i < n; i++) {
+            seed = seed * 1664525u + 1013904223u;
+            double x = (double) (seed >> 8) / 16777216.0;
+            v[i] = n % 5 == 0   ? floor (4 * x)
+                   : n % 5 == 1 ? (double) i
+                   : n % 5 == 2 ? -(double) i
+                                : pow (x, 9);
+            if (n % 7 == 0 && i % 11 == 3) v[i] = NAN;
+            else sorted[m++] = v[i];
+        }
+        qsort (sorted, m, sizeof *sorted, by_size);
+        size_t cut = m / 100 ? m / 100 : m >= 50;
+        double from = sorted[cut], to = sorted[m - 1 - cut];
+        check_ok (pg_picture_range (n, v, 1e-9, &low, &high, &found));
+        assert_true (found);
+        if (to > from) assert_true (low == from && high == to);
+    }
+}
+
 static void sections_are_read_as_written (void **state)
 {
     (void) state;
@@ -334,6 +369,7 @@ int main (void)
         cmocka_unit_test (panels_share_one_range),
         cmocka_unit_test (a_fragment_that_flies_does_not_shrink_the_body),
         cmocka_unit_test (the_range_leaves_out_few_values_far_away),
+        cmocka_unit_test (the_range_is_that_of_sorted_values),
         cmocka_unit_test (sections_are_read_as_written),
         cmocka_unit_test (directions_are_three_numbers),
         cmocka_unit_test (svg_holds_the_view),

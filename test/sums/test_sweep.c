@@ -14,6 +14,8 @@ static const body_wish wishes[] = {
     { { 150, 1, 1 }, 0.05, 0, 0, 1, 4.2, PG_SURFACE_NONE, PG_PARTIAL_LINEAR, 1, PG_EVALUATE_STENCIL },
     { { 17, 9, 8 }, 0.1, 0, 0, 3, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_STENCIL },
     { { 35, 5, 6 }, 0.1, 1, 1, 3, 3.015, PG_SURFACE_PRODUCT, PG_PARTIAL_NONE, 1, PG_EVALUATE_STENCIL },
+    /* blocks of 32 points that have all their bonds */
+    { { 130, 9, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_STENCIL },
     /* thin ones */
     { { 40, 1, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_NONE, 0, PG_EVALUATE_STENCIL },
     { { 2, 40, 1 }, 0, 0, 0, 2, 3.015, PG_SURFACE_NONE, PG_PARTIAL_OVERLAP, 0, PG_EVALUATE_STENCIL },
