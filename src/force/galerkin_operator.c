@@ -146,12 +146,9 @@ static pg_status create_matrix (galerkin *g, const pg_assembly *known)
         source[n].finish = galerkin_finish_rows;
     else source[n].blocks = cells ? galerkin_cell_blocks : galerkin_bulk_blocks;
     n++;
-    /* Where bonds break, blocks: summed first, a stage after growth had reactions that are no numbers
-     * (solve/test_stages with one kernel of OpenBLAS; why was not found). */
     if (g->nnitsche) {
         source[n] = (pg_assembly_source) { .seen = &g->rows[PG_FACETS].family, .context = g };
-        int breaks = g->problem->criterion && g->problem->criterion->type;
-        if (g->problem->plain || breaks) source[n++].blocks = galerkin_facet_blocks;
+        if (g->problem->plain) source[n++].blocks = galerkin_facet_blocks;
         else source[n++].rows = galerkin_facet_rows;
     }
     if (g->dilatation) source[n++] = (pg_assembly_source) { .seen = galerkin_dilatation_family (g),

@@ -67,6 +67,7 @@ typedef struct {
     double *gap, *rate;                                /* without contact: gap + s rate, m (dim n each) */
     int     touches, ready;  /* some piece closes; the stretch at hand leads on from where it stands */
     pg_contact_track track;                            /* force, gap and status are those of the contact */
+    double *force_from;                                /* by the line at hand at s = 0, N (dim n) */
     double *mark;  size_t nmark, cap_mark;             /* places to which it may return */
 } contact_route;
 

@@ -20,8 +20,8 @@ static void add_force (const struct system_contact *c, size_t k, int nfield, dou
     for (int a = 0; a < nfield; a++) {
         double force[3], along[3];
         for (size_t i = 0; i < 3; i++) {
-            double rate = nfield == 2 ? c->route.track.force_rate[3*k + i] : 0;
-            force[i] = a ? rate : c->force[3*k + i] - rate * c->route.track.s;
+            const double *of = nfield == 1 ? c->force : a ? c->route.track.force_rate : c->route.force_from;
+            force[i] = of[3*k + i];
         }
         contact_vector (&c->pieces, k, force + 1, side < 0 ? -weight : weight, along);
         out->pressure[a] += weight * force[0];

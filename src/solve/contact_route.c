@@ -27,9 +27,10 @@ static pg_contact_path path_of (const struct system_contact *c, const double *sl
 void contact_route_clear (struct system_contact *c)
 {
     contact_route *r = &c->route;
-    pg_free (r->gap), pg_free (r->rate), pg_free (r->track.force_rate), pg_free (r->track.gap_rate);
+    pg_free (r->gap), pg_free (r->rate), pg_free (r->force_from);
+    pg_free (r->track.force_rate), pg_free (r->track.gap_rate);
     pg_free (r->track.due), pg_free (r->mark);
-    r->gap = r->rate = r->mark = NULL, r->track = (pg_contact_track){ 0 };
+    r->gap = r->rate = r->force_from = r->mark = NULL, r->track = (pg_contact_track){ 0 };
     r->ready = r->touches = 0, r->nmark = r->cap_mark = 0;
 }
 
@@ -51,6 +52,7 @@ static pg_status make_room (pg_system *s)
     if (!r->track.force_rate) PG_ALLOC (r->track.force_rate, n + 1);
     if (!r->track.gap_rate) PG_ALLOC (r->track.gap_rate, n + 1);
     if (!r->track.due) PG_ALLOC (r->track.due, c->pieces.n + 1);
+    if (!r->force_from) PG_ALLOC (r->force_from, n + 1);
     r->track.force = c->force, r->track.gap = c->gap, r->track.status = c->status;
 done:
     return status;
@@ -77,6 +79,16 @@ static void show_forces (pg_system *s)
     c->now.at = c->route.from + c->route.track.s;
 }
 
+/* What forces at s = 0 would be by the line at hand: noted once for each line, so that what is measured by
+ * it does not depend on where along it the state stands. */
+static void note_line (pg_system *s)
+{
+    struct system_contact *c = s->contact;
+    contact_route *r = &c->route;
+    for (size_t i = 0; i < rows_of (c); i++)
+        r->force_from[i] = c->force[i] - r->track.force_rate[i] * r->track.s;
+}
+
 /* The solution at share `at`, slips counting from those of the last accepted state. */
 static pg_status begin_at (pg_system *s, double at)
 {
@@ -89,12 +101,14 @@ static pg_status begin_at (pg_system *s, double at)
     if (r->touches) {
         pg_status status = pg_contact_begin (&r->track, &path, at, c->before);
         count_work (s, &before, t0);
+        note_line (s);
         return status;
     }
     memset (c->force, 0, rows_of (c) * sizeof *c->force);
     memset (c->status, PG_CONTACT_OPEN, c->pieces.n);
     for (size_t i = 0; i < rows_of (c); i++) c->gap[i] = r->gap[i] + at * r->rate[i];
     r->track.s = r->track.end = at;
+    note_line (s);
     return PG_OK;
 }
 
@@ -251,7 +265,7 @@ static pg_status find_stretch (pg_system *s, double until, const double *slip, d
     r->track.leapt = leapt;
     count_work (s, &before, t0);
 done:
-    if (status == PG_OK) show_forces (s);
+    if (status == PG_OK) note_line (s), show_forces (s);
     return status;
 }
 
@@ -356,6 +370,7 @@ void contact_route_return (pg_system *s, size_t k, double *d)
     memcpy (c->gap, at + 1 + rows, rows * sizeof *at);
     for (size_t i = 0; i < n; i++) c->status[i] = (unsigned char) at[1 + 2*rows + i];
     memset (r->track.due, 0, n);
+    note_line (s);
     show_forces (s);
     if (d) displacement_of (s, r->track.s, c->force, d);
 }
@@ -386,6 +401,7 @@ pg_status contact_route_keep (pg_system *s, const pg_keeper *k)
     if (n) PG_TRY (k->numbers (k->context, "contact.route.rate", n, r->rate));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.force_rate", n, t->force_rate));
     if (n) PG_TRY (k->numbers (k->context, "contact.route.gap_rate", n, t->gap_rate));
+    if (n) PG_TRY (k->numbers (k->context, "contact.route.force_from", n, r->force_from));
     if (n) PG_TRY (k->bytes (k->context, "contact.route.due", c->pieces.n, t->due));
     r->touches = (int) count[0], r->ready = (int) count[1], t->changes = (int) count[2];
     t->leapt = (int) count[3], t->total = count[4], t->solves = count[5], t->sweeps = count[6];

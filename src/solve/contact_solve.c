@@ -377,9 +377,9 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
         double weight = pow (sin (3.14159265358979323846 * place), 2);
         area += weight * p->area, out->closed |= presses;
         for (size_t i = 0; i < 2; i++) {
-            double rate = nfield == 2 ? c->route.track.force_rate[2*k + i] : 0;
-            force[0][i] += weight * (c->force[2*k + i] / c->weight - rate * c->route.track.s);
-            force[1][i] += weight * rate;
+            force[0][i] += weight * (nfield == 2 ? c->route.force_from[2*k + i]
+                                                 : c->force[2*k + i] / c->weight);
+            if (nfield == 2) force[1][i] += weight * c->route.track.force_rate[2*k + i];
         }
     }
     /* A branch that leaves a crack which presses elsewhere: beyond the kink its faces are those of another

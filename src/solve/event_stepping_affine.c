@@ -51,8 +51,8 @@ static double first_chord (const pg_solver *s, const pg_state *state, double in,
     return in - system_most (&b->system, -share) * (out - in);
 }
 
-/* The way out between a factor that all bonds admit and one that some do not; b->utilisation is that of
- * *factor. Regula falsi after Illinois. */
+/* The way out between a factor that all bonds admit (but for rounding) and one that some do not;
+ * b->utilisation is that of *factor. Regula falsi after Illinois. */
 static pg_status way_out (pg_solver *s, pg_state *state, double in, double out, double *factor)
 {
     pg_status status = PG_OK;
@@ -60,7 +60,7 @@ static pg_status way_out (pg_solver *s, pg_state *state, double in, double out, 
     double low, high, top;
     PG_TRY (look (s, state, in, b->factor, &low));
     PG_TRY (look (s, state, out, b->utilisation, &high));
-    low -= 1, high -= 1;
+    low = fmin (low - 1, 0), high -= 1;
     double at = b->growth ? in - low / (high - low) * (out - in) : first_chord (s, state, in, out);
     for (int k = 0, side = 0; k < MOST_LOOKS; k++) {
         *factor = at;
@@ -284,7 +284,7 @@ static pg_status choose (pg_solver *s, pg_state *state, double level, int arrive
     if (top <= 1 + close) {
         if (state->step == 0) goto done;
         PG_TRY (look (s, state, level, b->utilisation, &there));
-        if (there <= 1) goto done;
+        if (there <= fmax (top, 1) + close) goto done;     /* rounding alone drives no crack */
         *breaks = 1;
         status = way_out (s, state, now, level, factor);
         goto done;

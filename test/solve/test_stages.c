@@ -229,6 +229,35 @@ static void unloading_returns_to_the_origin (void **state)
     }
 }
 
+/* A stage that ends with a crack at its limit is followed by one that changes no load: rounding alone, by
+ * which that limit may be passed, drives nothing, whatever state the stage before has ended in. */
+static void a_stage_without_new_loads_leaves_the_crack (void **state)
+{
+    (void) state;
+    static const int drops[] = { 8, 12, 16, 20, 25, 30 };
+    for (int l = 0; l < LAWS; l++)
+        for (size_t c = 0; c < sizeof drops / sizeof *drops; c++) {
+            run r = scene_of (1,
+                              PLATE "%sboundary:\n" HELD
+                                    " - {name: platen, set: top, displacement: {y: 20 um}}\n"
+                                    "stages: [{name: pull, boundary: {platen: 1}, until: {load: platen, "
+                                    "drop: %d %%}}, {name: hold}]\nsolver: {stepping: event}\n"
+                                    "output: {at: {levels: 3}}\n",
+                              laws[l].keys, drops[c]);
+            size_t n;
+            const pg_stage_record *record = pg_solver_stages (r.solver, &n);
+            while (!record[0].done) advance (&r);
+            long events = r.state->events;
+            double before = r.step.reaction[4], share = r.state->factor;
+            assert_true (events > 0 && record[0].share < 1);
+            to_the_end (&r);
+            assert_int_equal (r.state->events, events);
+            check_relative (r.step.reaction[4], before, 1e-9);
+            assert_true (isfinite (r.state->factor) && r.state->factor >= share);
+            clear (&r);
+        }
+}
+
 /* Growth and a fall of force end a stage in a state that bears its load; the rest of the path is that of the
  * loads that were reached. */
 static void growth_and_a_drop_of_force_end_a_stage (void **state)
@@ -455,6 +484,7 @@ int main (void)
         cmocka_unit_test (confinement_and_a_ramp_is_an_affine_run),
         cmocka_unit_test (unloading_returns_to_the_origin),
         cmocka_unit_test (growth_and_a_drop_of_force_end_a_stage),
+        cmocka_unit_test (a_stage_without_new_loads_leaves_the_crack),
         cmocka_unit_test (a_resumed_run_goes_on_bit_by_bit),
         cmocka_unit_test (excavation_ends_where_a_body_with_the_hole_is),
         cmocka_unit_test (a_resumed_excavation_goes_on_bit_by_bit),
