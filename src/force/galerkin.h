@@ -2,8 +2,8 @@
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
  * blocks, energy), galerkin_gradients.c (rows of K),
  * galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
- * galerkin_sum.c (loops over points), galerkin_runs.c (points that are alike), galerkin_silling.c
- * (stabilisation), galerkin_operator.c (K x, K),
+ * galerkin_sum.c (forces of all points), galerkin_measure.c (their strains),
+ * galerkin_runs.c (points that are alike), galerkin_silling.c (stabilisation), galerkin_operator.c (K x, K),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_worst.c (the worst bonds),
  * galerkin_stretch.c (those by their elongation), galerkin_groups.c (bonds outside of a group),
  * galerkin_sight.c (which points see which nodes),
@@ -165,7 +165,7 @@ void galerkin_slices_stale (galerkin *g, size_t count, const size_t *list);
  * those of sets that have been measured, and with `products` that of the bulk). Valid until the next call
  * for this set. */
 enum { GALERKIN_BLOCK = 16 };
-const unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other);
+unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other);
 pg_status galerkin_sight_ready (galerkin *g, int products);
 void galerkin_sight_free (galerkin *g);
 /* u, strain, stress, zz of every point, unless known */
@@ -211,8 +211,9 @@ enum { GALERKIN_LANES = 8 };
 /* A bond of the first group of a run: where it stands in a row of nodes that follow each other, its node, the
  * point within the group, and its number in the family. */
 typedef struct { int place, node, point; size_t bond; } galerkin_entry;
-/* `count` groups of `points` points, the first from point `point` on; its bonds in the order of summation. */
-typedef struct { size_t point, points, count, entry, entries; } galerkin_run;
+/* `count` groups of `points` points, the first from point `point` on; its bonds in the order of summation.
+ * same: all groups have the rows of the first to the last bit. */
+typedef struct { size_t point, points, count, entry, entries; int same; } galerkin_run;
 /* Runs among the points first .. last - 1, ascending; to be found anew if stale. bonds: of all their
  * points. known: of each point whether its row has changed, and whether it was left to itself. */
 typedef struct {
@@ -231,6 +232,9 @@ void galerkin_runs_clear  (galerkin_run_list *list);
 void galerkin_run_sum (const galerkin *g, const galerkin_run_list *list, const galerkin_run *run,
                        const double *const x[3], double *const f[3], size_t low,
                        const unsigned char *active);
+/* u and strain of the points of a run that is the same, where blocks are active (NULL: all). */
+void galerkin_run_strain (const galerkin *g, const galerkin_run *run, const double *const x[3],
+                          const unsigned char *active, double *u, double *strain);
 /* Eight groups of a run: the first of them is number `lane` of the run, `left` of them exist; x, f: nodal
  * values and forces, one array a component, f from node `low` on. */
 typedef struct {

@@ -143,6 +143,17 @@ static int unchanged (const galerkin_run_list *l, size_t p, size_t end)
     return !changed;
 }
 
+/* Do all groups read the rows of the first, so that N, dN and weights have the same bits? Rows that move
+ * later keep their bits as long as the run is not stale. */
+static int reads_one_place (const pg_rows *r, const galerkin_run *run)
+{
+    size_t last = run->point + run->points * run->count, same = 1;
+    for (size_t p = run->point + run->points; p < last && same; p++)
+        same = r->family.start[p] + pg_rows_offset (r, p)
+               == r->family.start[p - run->points] + pg_rows_offset (r, p - run->points);
+    return (int) same;
+}
+
 /* A run of before and its entries. */
 static pg_status take_over (galerkin_run_list *l, const galerkin_run_list *old, const galerkin_run *run)
 {
@@ -163,6 +174,7 @@ static pg_status new_run (const galerkin *g, galerkin_run_list *l, galerkin_run 
     pg_status status = PG_OK;
     PG_GROW (l->run, l->cap, l->n + 1);
     PG_TRY (list_entries (g, l, &run));
+    run.same = reads_one_place (&g->sums, &run);
     for (size_t i = 0; i < run.points * run.count; i++) l->known[run.point - l->first + i] &= CHANGED;
     l->run[l->n++] = run, l->bonds += run.entries * run.count;
 done:
@@ -230,15 +242,17 @@ void galerkin_runs_clear (galerkin_run_list *l)
 }
 
 /* ---- sums ---------------------------------------------------------------------------------------------- */
-/* Strains of eight cells at their point p: xx yy zz xy yz zx, shears twice the tensor's. */
-INLINE void strain_solid (const galerkin_bundle *b, size_t p, eight *e)
+/* Strains of eight cells at their point p: xx yy zz xy yz zx, shears twice the tensor's; u: displacements
+ * (NULL: not wanted). The operations of each are those of the point by itself (galerkin_slices.h), in their
+ * order. */
+INLINE void strain_solid (const galerkin_bundle *b, size_t p, eight *e, eight *u)
 {
     const pg_rows *r = &b->g->sums;
     const int *node = r->family.node;
     const double *x = b->x[0] + b->lane, *y = b->x[1] + b->lane, *z = b->x[2] + b->lane;
     size_t offset = pg_rows_offset (r, p);
     eight xx = { 0 }, xy = { 0 }, xz = { 0 }, yx = { 0 }, yy = { 0 }, yz = { 0 }, zx = { 0 }, zy = { 0 },
-          zz = { 0 };
+          zz = { 0 }, ux = { 0 }, uy = { 0 }, uz = { 0 };
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         size_t j = (size_t) node[k];
         const double *q = r->dN + (k + offset) * 3;
@@ -246,25 +260,29 @@ INLINE void strain_solid (const galerkin_bundle *b, size_t p, eight *e)
         xx += q[0] * dx, xy += q[1] * dx, xz += q[2] * dx;
         yx += q[0] * dy, yy += q[1] * dy, yz += q[2] * dy;
         zx += q[0] * dz, zy += q[1] * dz, zz += q[2] * dz;
+        if (u) ux += r->N[k + offset] * dx, uy += r->N[k + offset] * dy, uz += r->N[k + offset] * dz;
     }
     e[0] = xx, e[1] = yy, e[2] = zz, e[3] = xy + yx, e[4] = yz + zy, e[5] = zx + xz;
+    if (u) u[0] = ux, u[1] = uy, u[2] = uz;
 }
 
 /* The same in the plane: xx yy xy. */
-INLINE void strain_plane (const galerkin_bundle *b, size_t p, eight *e)
+INLINE void strain_plane (const galerkin_bundle *b, size_t p, eight *e, eight *u)
 {
     const pg_rows *r = &b->g->sums;
     const int *node = r->family.node;
     const double *x = b->x[0] + b->lane, *y = b->x[1] + b->lane;
     size_t offset = pg_rows_offset (r, p);
-    eight xx = { 0 }, xy = { 0 }, yx = { 0 }, yy = { 0 };
+    eight xx = { 0 }, xy = { 0 }, yy = { 0 }, ux = { 0 }, uy = { 0 };
     for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
         size_t j = (size_t) node[k];
         const double *q = r->dN + (k + offset) * 2;
         eight dx = *(const eight *) (x + j), dy = *(const eight *) (y + j);
-        xx += q[0] * dx, xy += q[1] * dx, yx += q[0] * dy, yy += q[1] * dy;
+        xx += q[0] * dx, yy += q[1] * dy, xy += q[1] * dx + q[0] * dy;
+        if (u) ux += r->N[k + offset] * dx, uy += r->N[k + offset] * dy;
     }
-    e[0] = xx, e[1] = yy, e[2] = xy + yx;
+    e[0] = xx, e[1] = yy, e[2] = xy;
+    if (u) u[0] = ux, u[1] = uy;
 }
 
 /* Stress times weight of point q of eight cells (nv, as the strain). Lanes beyond the run have weight 0. */
@@ -275,8 +293,8 @@ INLINE void stress_of (int dim, const galerkin_bundle *b, size_t q, eight *s)
     double w[LANES] = { 0 };
     const double *D = galerkin_plain (b->g, b->g->bulk, p)->D;
     eight e[6];
-    if (dim == 3) strain_solid (b, p, e);
-    else strain_plane (b, p, e);
+    if (dim == 3) strain_solid (b, p, e, NULL);
+    else strain_plane (b, p, e, NULL);
     for (size_t k = 0; k < b->left; k++) w[k] = r->weight[p + (b->lane + k) * b->run->points];
     for (size_t v = 0; v < nv; v++, D += nv) {
         eight sum = D[0] * e[0] + D[1] * e[1] + D[2] * e[2];
@@ -336,5 +354,45 @@ void galerkin_run_sum (const galerkin *g, const galerkin_run_list *l, const gale
         if (active && !is_active (&b, active)) continue;
         if (g->kept) galerkin_silling_bundle (&b);
         else (g->dim == 3 ? sum_solid : sum_plane) (&b);
+    }
+}
+
+/* Of `left` points, `points` apart from the first on: n numbers of each. */
+INLINE void scatter (const galerkin_bundle *b, size_t n, const eight *from, size_t p, double *to)
+{
+    for (size_t k = 0; k < b->left; k++, p += b->run->points)
+        for (size_t i = 0; i < n; i++) to[p * n + i] = from[i][k];
+}
+
+/* u and strain of one bundle. */
+INLINE void strain_bundle (int dim, const galerkin_bundle *b, double *u, double *strain)
+{
+    for (size_t q = b->run->point, p = q + b->lane * b->run->points; q < b->run->point + b->run->points;
+         q++, p++) {
+        eight e[6], v[3];
+        if (dim == 3) strain_solid (b, q, e, v);
+        else strain_plane (b, q, e, v);
+        scatter (b, dim == 3 ? 6 : 3, e, p, strain), scatter (b, (size_t) dim, v, p, u);
+    }
+}
+
+PG_WIDEST static void strain_bundle_solid (const galerkin_bundle *b, double *u, double *strain)
+{
+    strain_bundle (3, b, u, strain);
+}
+
+PG_WIDEST static void strain_bundle_plane (const galerkin_bundle *b, double *u, double *strain)
+{
+    strain_bundle (2, b, u, strain);
+}
+
+void galerkin_run_strain (const galerkin *g, const galerkin_run *run, const double *const x[3],
+                          const unsigned char *active, double *u, double *strain)
+{
+    galerkin_bundle b = { g, run, NULL, x, NULL, 0, 0, 0 };
+    for (; b.lane < run->count; b.lane += LANES) {
+        b.left = run->count - b.lane < LANES ? run->count - b.lane : LANES;
+        if (active && !is_active (&b, active)) continue;
+        (g->dim == 3 ? strain_bundle_solid : strain_bundle_plane) (&b, u, strain);
     }
 }

@@ -91,7 +91,7 @@ static size_t mark_nodes (const galerkin *g, const double *x, const double *othe
     return marked;
 }
 
-const unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other)
+unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other)
 {
     galerkin_sight *s = g->sight[set];
     if (!s || !s->seen) return NULL;

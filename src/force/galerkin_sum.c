@@ -5,32 +5,9 @@
  * over its own range of nodes, and the slices in their order: the answer does not depend on the number of
  * threads. Points that are like others, most of those of a lattice, are summed many at a time
  * (galerkin_runs.c), unless the scene wants the plain way. */
-#include "galerkin.h"
+#include "galerkin_slices.h"
 #include <stdio.h>
 #include <string.h>
-
-enum { SLICES = 16 };
-
-#define INLINE static inline __attribute__ ((always_inline))
-
-/* Nodes from .. to - 1. */
-typedef struct { size_t from, to; } interval;
-
-struct galerkin_slices {
-    size_t  first[SLICES + 1];                         /* points of a slice */
-    size_t  low[SLICES], high[SLICES];                 /* range of the nodes they see */
-    interval *seen[SLICES]; size_t nseen[SLICES];      /* these nodes themselves, without wide gaps */
-    double *sum[SLICES];                               /* per node of the range, 4 numbers or dim */
-    double *x;                                         /* nodal values, 4 numbers a node or dim */
-    /* Points that are alike in each slice; what they add up to, and nodal values, an array for each
-     * component. has_runs: not in one dimension, and not where the plain way is wanted. */
-    int     has_runs;
-    galerkin_run_list runs[SLICES];
-    double *part[SLICES][3], *component[3];
-    int     quiet[SLICES];                             /* of the sum at hand: no block is active */
-    /* Bonds of points that were alike, summed over the products so far. */
-    double  alike;
-};
 
 /* Numbers of a node in sums and widened values: four are one vector load. */
 static size_t stride_of (const galerkin *g) { return g->dim == 3 || g->kept ? 4 : (size_t) g->dim; }
@@ -123,23 +100,6 @@ void galerkin_slices_free (galerkin *g)
 }
 
 /* ---- one point ----------------------------------------------------------------------------------------- */
-/* u (optional) and strain of a point in 3D, x having 4 numbers a node */
-INLINE void strain_solid (const pg_rows *r, size_t p, const double *x, double *u, double *e)
-{
-    four h0 = { 0 }, h1 = { 0 }, h2 = { 0 }, s = { 0 };
-    const int *node = r->family.node;
-    size_t offset = pg_rows_offset (r, p);
-    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
-        four d = *(const four *) (x + 4 * (size_t) node[k]);
-        const double *q = r->dN + 3 * (k + offset);
-        h0 += q[0] * d, h1 += q[1] * d, h2 += q[2] * d;
-        if (u) s += r->N[k + offset] * d;
-    }
-    e[0] = h0[0], e[1] = h1[1], e[2] = h2[2], e[3] = h1[0] + h0[1], e[4] = h2[1] + h1[2],
-    e[5] = h2[0] + h0[2];
-    for (int c = 0; u && c < 3; c++) u[c] = s[c];
-}
-
 /* f (4 numbers a node, from node `low` on) += w B' sigma */
 INLINE void force_solid (const pg_rows *r, size_t p, const double *s, double *f, size_t low)
 {
@@ -153,27 +113,6 @@ INLINE void force_solid (const pg_rows *r, size_t p, const double *s, double *f,
         const double *q = r->dN + 3 * (k + offset);
         *to += q[0] * s0 + q[1] * s1 + q[2] * s2;
     }
-}
-
-/* The same in one and two dimensions: e is (xx) or (xx, yy, 2 xy). */
-INLINE void strain_flat (int dim, const pg_rows *r, size_t p, const double *x, double *u, double *e)
-{
-    size_t offset = pg_rows_offset (r, p);
-    double u0 = 0, u1 = 0, e0 = 0, e1 = 0, e2 = 0;
-    for (size_t k = r->family.start[p]; k < r->family.start[p + 1]; k++) {
-        if (dim == 1) {
-            double d = x[r->family.node[k]];
-            u0 += r->N[k + offset] * d, e0 += r->dN[k + offset] * d;
-        } else {
-            const double *d = x + 2 * (size_t) r->family.node[k], *q = r->dN + 2 * (k + offset);
-            u0 += r->N[k + offset] * d[0], u1 += r->N[k + offset] * d[1];
-            e0 += q[0] * d[0], e1 += q[1] * d[1], e2 += q[1] * d[0] + q[0] * d[1];
-        }
-    }
-    e[0] = e0;
-    if (dim == 2) e[1] = e1, e[2] = e2;
-    if (u) u[0] = u0;
-    if (u && dim == 2) u[1] = u1;
 }
 
 /* f (dim numbers a node, from node `low` on) += w B' sigma. */
@@ -191,48 +130,7 @@ INLINE void force_flat (int dim, const pg_rows *r, size_t p, const double *s, do
     }
 }
 
-/* ---- measures ------------------------------------------------------------------------------------------ */
-typedef struct {
-    galerkin *g;
-    int       set;
-    const pg_rows *rows;
-    const double  *x;
-    const size_t  *list;
-    const unsigned char *active;                       /* blocks of points; NULL: all */
-} measuring;
-
-PG_WIDE static void measure_solid (const measuring *m, size_t first, size_t last)
-{
-    galerkin *g = m->g;
-    for (size_t i = first; i < last; i++) {
-        size_t p = m->list ? m->list[i] : i;
-        strain_solid (m->rows, p, m->x, g->u[m->set] + 3 * p, g->strain[m->set] + 6 * p);
-    }
-}
-
-/* Displacement, strain and stress at a range of points, or of entries of a list. In space strains come
- * first, in a loop of their own that the compiler can widen. */
-static void measure_points (void *context, size_t first, size_t last, int thread)
-{
-    const measuring *m = context;
-    galerkin *g = m->g;
-    size_t dim = (size_t) g->dim, nv = (size_t) g->nv;
-    (void) thread;
-    if (dim == 3) measure_solid (m, first, last);
-    for (size_t i = first; i < last; i++) {
-        size_t p = m->list ? m->list[i] : i;
-        double *e = g->strain[m->set] + p * nv;
-        if (dim == 2) strain_flat (2, m->rows, p, m->x, g->u[m->set] + p * dim, e);
-        if (dim == 1) strain_flat (1, m->rows, p, m->x, g->u[m->set] + p * dim, e);
-        if (g->eigen[m->set]) {
-            galerkin_eigen_stress (g, m->set, p, e);
-            continue;
-        }
-        const pg_material *mat = galerkin_plain (g, m->set, p);
-        mat->type->stress (mat, 1, e, g->stress[m->set] + p * nv, g->zz[m->set] + p);
-    }
-}
-
+/* ---- nodal values ------------------------------------------------------------------------------------ */
 /* Nodal values with four numbers a node. */
 static const double *four_a_node (galerkin *g, const double *d)
 {
@@ -244,78 +142,14 @@ static const double *four_a_node (galerkin *g, const double *d)
 }
 
 /* Nodal values as the loops over points take them. */
-static const double *widened (galerkin *g, const double *d) { return g->dim == 3 ? four_a_node (g, d) : d; }
+const double *galerkin_widened (galerkin *g, const double *d) { return g->dim == 3 ? four_a_node (g, d) : d; }
 
-/* What is derived of the stress of a block of points is to be derived anew. */
-static void forget_bounds (galerkin *g, int set, size_t block)
+/* Nodal values in an array for each component. */
+void galerkin_split (galerkin *g, const double *x)
 {
-    if (g->bounded[set]) g->bounded[set][block] = 0;
-}
-
-static size_t blocks_of (const galerkin *g, int set)
-{
-    return (g->rows[set].n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK;
-}
-
-/* Points in those of some blocks that are active. */
-static void measure_blocks (void *context, size_t first, size_t last, int thread)
-{
-    const measuring *m = context;
-    size_t n = m->g->rows[m->set].n;
-    for (size_t b = first; b < last; b++) {
-        size_t end = (b + 1) * GALERKIN_BLOCK < n ? (b + 1) * GALERKIN_BLOCK : n;
-        const unsigned char *disturbed = m->g->disturbed[m->set];
-        if (m->active && !m->active[b] && !(disturbed && disturbed[b])) continue;
-        measure_points (context, b * GALERKIN_BLOCK, end, thread);
-        forget_bounds (m->g, m->set, b);
-    }
-}
-
-/* All points of a set, unless they were measured at the same displacement already: balances, fields and
- * criteria ask for the same one several times a step. Where only some nodes have moved since, the points that
- * see them. */
-void galerkin_measure (galerkin *g, int set, const double *d)
-{
-    size_t bytes = g->n * (size_t) g->dim * sizeof *d;
-    const unsigned char *active = NULL;
-    int whole = g->fresh[set] && (!g->disturbed[set] || !memchr (g->disturbed[set], 1, blocks_of (g, set)));
-    if (whole && memcmp (g->seen[set], d, bytes) == 0) return;
-    if (g->fresh[set]) active = galerkin_active (g, set, d, g->seen[set]);
-    memcpy (g->seen[set], d, bytes);
-    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, d), NULL, active };
-    pg_parallel (g->threads, blocks_of (g, set), measure_blocks, &m);
-    if (g->disturbed[set]) memset (g->disturbed[set], 0, blocks_of (g, set));
-    if (g->dilatation) galerkin_dilatation_measure (g, set, d);
-    g->fresh[set] = 1;
-}
-
-/* Some points anew at the displacement measured last, after their shape functions have changed. */
-void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *list)
-{
-    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], widened (g, g->seen[set]), list,
-                    NULL };
-    measure_points (&m, 0, count, 0);
-    for (size_t k = 0; k < count; k++) forget_bounds (g, set, list[k] / GALERKIN_BLOCK);
-}
-
-/* What was measured at these points belongs to another displacement than what was at all others. */
-static void disturb (galerkin *g, int set, size_t count, const size_t *list)
-{
-    if (!g->disturbed[set]) g->disturbed[set] = pg_calloc (blocks_of (g, set), 1);
-    if (!g->disturbed[set]) g->fresh[set] = 0;         /* without memory nothing is known any more */
-    for (size_t k = 0; k < count && g->disturbed[set]; k++) g->disturbed[set][list[k] / GALERKIN_BLOCK] = 1;
-}
-
-/* Some points at a displacement that is known at some nodes only, all that these points see. */
-void galerkin_measure_some (galerkin *g, int set, const double *d, size_t count, const size_t *list,
-                            size_t nnode, const int *node)
-{
-    double *x = g->slices->x;
-    for (size_t k = 0; g->dim == 3 && k < nnode; k++)
-        for (size_t c = 0, i = (size_t) node[k]; c < 3; c++) x[4 * i + c] = d[3 * i + c];
-    measuring m = { g, set, set == g->bulk ? &g->sums : &g->rows[set], g->dim == 3 ? x : d, list, NULL };
-    disturb (g, set, count, list);
-    measure_points (&m, 0, count, 0);
+    size_t dim = (size_t) g->dim;
+    for (size_t i = 0; i < g->n; i++)
+        for (size_t c = 0; c < dim; c++) g->slices->component[c][i] = x[i * dim + c];
 }
 
 /* ---- forces -------------------------------------------------------------------------------------------- */
@@ -493,21 +327,13 @@ static void add_slices (void *context, size_t first, size_t last, int thread)
         }
 }
 
-/* Nodal values in an array for each component. */
-static void split (galerkin *g, const double *x)
-{
-    size_t dim = (size_t) g->dim;
-    for (size_t i = 0; i < g->n; i++)
-        for (size_t c = 0; c < dim; c++) g->slices->component[c][i] = x[i * dim + c];
-}
-
 /* x NULL: stresses as measured, at displacement d. active: blocks of points; NULL: all. */
 static void sum_all (galerkin *g, const double *x, const double *d, double *f, const unsigned char *active)
 {
     summing m = { g, x, NULL, f, active, 0 };
     if (g->kept) m.at = four_a_node (g, d);
-    else if (x) m.x = widened (g, x);
-    if (x && g->slices->has_runs) split (g, x);
+    else if (x) m.x = galerkin_widened (g, x);
+    if (x && g->slices->has_runs) galerkin_split (g, x);
     pg_parallel_heavy (g->threads, SLICES, sum_slices, &m);
     pg_parallel (g->threads, g->n, add_slices, &m);
     for (size_t k = 0; x && k < SLICES; k++) g->slices->alike += (double) g->slices->runs[k].bonds;
@@ -544,7 +370,7 @@ void galerkin_sum_tangent (galerkin *g, const double *x, double *f)
 void galerkin_sum_list (galerkin *g, size_t count, const size_t *list, const double *x, double *f)
 {
     galerkin_slices *s = g->slices;
-    summing m = { g, widened (g, x), NULL, f, NULL, 1 };
+    summing m = { g, galerkin_widened (g, x), NULL, f, NULL, 1 };
     for (size_t k = 0, i = 0; k < SLICES; k++) {
         s->quiet[k] = i == count || list[i] >= s->first[k + 1];
         if (!s->quiet[k]) begin_sum (g, k, 0);
