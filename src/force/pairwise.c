@@ -29,13 +29,22 @@ static void blocks (const bond_force *b, size_t i, const point_bonds *s, size_t 
     for (size_t k = 0; other && k < dim * dim; k++) other[k] = -own[k];
 }
 
+/* kappa of all bonds of a point, where it has all those of the lattice and shares them with others; else
+ * NULL. Forces of finite stretch ask for lengths as well. */
+static const double *known_kappas (const bond_force *b, const point_bonds *s)
+{
+    const pg_sums *sums = b->problem->sums;
+    return s->m == sums->stencil.n && !sums->rule.finite ? pairwise_of (b)->kappa : NULL;
+}
+
 /* Force on i of one bond, N. */
 static inline void pull_of (const bond_force *b, size_t i, const point_bonds *s, size_t e, const double *d,
                             double *f)
 {
     size_t dim = (size_t) b->dim, j = (size_t) s->node[e];
     const double *xi = s->xi + e * dim;
-    double r, kappa = pairwise_kappa (b, i, s, e, &r), along = 0, length = 0;
+    const double *known = known_kappas (b, s);
+    double r, kappa = known ? known[e] : pairwise_kappa (b, i, s, e, &r), along = 0, length = 0;
     for (size_t a = 0; a < dim; a++) {
         double eta = d[j * dim + a] - d[i * dim + a];
         f[a] = xi[a] + eta, along += xi[a] * eta, length += f[a] * f[a];
@@ -72,10 +81,11 @@ double pairwise_energy_at (const bond_force *b, size_t i, int thread, const doub
     double sum = 0, r;
     point_bonds s;
     point_bonds_at (b, i, thread, &s);
+    const double *known = known_kappas (b, &s);
     for (size_t e = 0; e < s.m; e++) {
         if (!bond_force_lives (b, s.first + e)) continue;
         const double *xi = s.xi + e * dim, *far = d + (size_t) s.node[e] * dim;
-        double kappa = pairwise_kappa (b, i, &s, e, &r), along = 0, square = 0;
+        double kappa = known ? known[e] : pairwise_kappa (b, i, &s, e, &r), along = 0, square = 0;
         for (size_t a = 0; a < dim; a++) {
             double eta = far[a] - d[i * dim + a];
             along += xi[a] * eta, square += eta * eta;
@@ -88,6 +98,28 @@ double pairwise_energy_at (const bond_force *b, size_t i, int thread, const doub
 }
 
 /* ---- constants ----------------------------------------------------------------------------------------- */
+/* Are the points numbered as the sites of a lattice, and their bonds alike to the bit? Then kappa is found
+ * once. Without a point that has all bonds there is nothing to be shared. */
+static pg_status find_kappa (bond_force *b)
+{
+    pg_status status = PG_OK;
+    pairwise *own = (pairwise *) b;
+    const pg_problem *p = b->problem;
+    const pg_sums *sums = p->sums;
+    size_t i = 0, n = sums->stencil.n;
+    if (p->plain || !n || !sums->ordered || sums->family_volume) return PG_OK;
+    for (size_t k = 1; k < b->n; k++)
+        if (own->modulus[k] != own->modulus[0] || p->cloud.volume[k] != p->cloud.volume[0]) return PG_OK;
+    while (i < b->n && b->family->start[i + 1] - b->family->start[i] != n) i++;
+    if (i == b->n) return PG_OK;
+    point_bonds s;
+    point_bonds_at (b, i, 0, &s);
+    PG_ALLOC (own->kappa, n);
+    for (size_t e = 0; e < n; e++) own->kappa[e] = pairwise_kappa (b, i, &s, e, NULL);
+done:
+    return status;
+}
+
 /* Constants of points; neighbours in the list are often of one material. */
 static pg_status create (bond_force *b)
 {
@@ -105,6 +137,7 @@ static pg_status create (bond_force *b)
                               * pg_bond_modulus (p->mode, rule->kernel, rule->horizon, E, p->cloud.thickness);
     }
     b->setting.modulus = own->modulus;
+    PG_TRY (find_kappa (b));
 done:
     return status;
 }
@@ -113,7 +146,7 @@ done:
 static void destroy (bond_force *b)
 {
     pairwise *own = (pairwise *) b;
-    pg_free (own->modulus);
+    pg_free (own->modulus), pg_free (own->kappa);
     pairwise_tiles_free (&own->tiles);
 }
 

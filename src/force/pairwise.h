@@ -10,6 +10,8 @@ typedef struct pairwise_tiles pairwise_tiles;          /* pairwise_tiles.c */
 typedef struct {
     bond_force base;
     double *modulus;                                   /* c of each point, N/m^6 (n) */
+    /* kappa of the bonds of a point that has all those of the stencil; NULL: points differ in some bit */
+    double *kappa;
     pairwise_tiles *tiles;                             /* NULL until points are looked at in motion */
 } pairwise;
 static inline const pairwise *pairwise_of (const bond_force *b) { return (const pairwise *) b; }

@@ -346,9 +346,27 @@ static void offer (const pg_tiles *t, size_t k, double far, int i, int j, pg_scr
     if (s->owner[p] < 0 || d < s->depth[p]) s->owner[p] = (int) k, s->depth[p] = (float) d;
 }
 
+/* Offers point k, with no crack near it, to eight pixels of a row from (i, j) on, as `offer` does one by one:
+ * a pixel without an owner has an infinite depth. dy: from the point, in steps, m. */
+static inline __attribute__ ((always_inline)) void offer_eight (const double *at, size_t k, double far, int i,
+                                                                double dy, double left, double scale,
+                                                                int *owner, float *depth)
+{
+    double d[LANES];
+    for (int l = 0; l < LANES; l++) {
+        double dx = left + (i + l + 0.5) / scale - at[0];
+        d[l] = sqrt (dx * dx + dy * dy);
+    }
+    for (int l = 0; l < LANES; l++) {
+        int takes = d[l] <= far && d[l] < depth[l];
+        owner[l] = takes ? (int) k : owner[l], depth[l] = takes ? (float) d[l] : depth[l];
+    }
+}
+
 /* Offers point k to the pixels within `reach` spacings: the nearest point owns a pixel, and one across a
  * pre-crack only where there is no other. What lies on a crack is on both sides of it. Pixels without an
- * owner have an infinite depth. */
+ * owner have an infinite depth. Groups of eight may end behind the range: pixels there are too far away by
+ * half a pixel or more. */
 PG_WIDE static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen *s)
 {
     const double *at = t->place + 2 * k;
@@ -362,12 +380,15 @@ PG_WIDE static void stamp (const pg_tiles *t, size_t k, double reach, pg_screen 
     double far = reach * t->spacing[k], step = 1 / s->scale, ratio = t->loose ? 1 : t->step[0] / t->step[1];
     for (int j = from[1]; j < to[1]; j++) {
         double dy = (s->top - (j + 0.5) * step - at[1]) * ratio;
-        const float *row = s->depth + (size_t) j * (size_t) s->width;
-        for (int i = from[0], end; i < to[0]; i = end) {
-            end = i + LANES < to[0] ? i + LANES : to[0];
+        size_t row = (size_t) j * (size_t) s->width;
+        double exact = (s->top - (j + 0.5) / s->scale - at[1]) * ratio;
+        for (int i = from[0]; i < to[0]; i += LANES) {
             double dx = s->left + (i + 0.5) * step - at[0];
-            if (end - i == LANES && !some_nearer (row + i, dx, step, dy, far)) continue;
-            for (int c = i; c < end; c++) offer (t, k, far, c, j, s);
+            int whole = i + LANES <= s->width, end = i + LANES < to[0] ? i + LANES : to[0];
+            if (whole && !some_nearer (s->depth + row + i, dx, step, dy, far)) continue;
+            if (whole && t->cracked[k] != NEAR_CRACK)
+                offer_eight (at, k, far, i, exact, s->left, s->scale, s->owner + row + i, s->depth + row + i);
+            else for (int c = i; c < end; c++) offer (t, k, far, c, j, s);
         }
     }
 }

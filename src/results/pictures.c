@@ -118,23 +118,24 @@ done:
     return status;
 }
 
-/* Draws all pictures into FOLDER/within; `suffix` follows their names. listed: they belong to
+/* Fields have at most three values a point in the plane and six in space: r->u has room for two of these and
+ * for one. Draws all pictures into FOLDER/within; `suffix` follows their names. listed: they belong to
  * those that the run names at its end. Forces that show no fields have no pictures. */
 static pg_status draw_all (pg_result *r, const pg_state *state, const char *within, const char *suffix,
                            int listed)
 {
     pg_status status = PG_OK;
-    double *work = NULL, *u = NULL;
+    double *more = NULL, *work = r->u, *u = r->u + 3 * r->problem->cloud.n;
     char path[4096];
-    PG_ALLOC (work, 6 * r->problem->cloud.n);
-    PG_ALLOC (u, 6 * r->problem->cloud.n);
+    if (r->problem->dim == 3) PG_ALLOC (more, 6 * r->problem->cloud.n);
+    if (more) work = more, u = r->u;
     for (size_t k = 0; pg_solver_force (r->solver, NULL)->field && k < r->npicture; k++) {
         snprintf (path, sizeof path, "%s/%s%s%s.png", r->folder, within, r->picture[k].name, suffix);
         PG_TRY (one_picture (r, state, &r->picture[k], path, work, u));
         if (listed) memcpy (r->written[r->nwritten++], path, sizeof path);
     }
 done:
-    pg_free (work), pg_free (u);
+    pg_free (more);
     return status;
 }
 

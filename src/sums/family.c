@@ -229,14 +229,21 @@ static void take (const pg_sums *sums, size_t i, size_t j, size_t b, size_t e, d
 }
 
 /* Bonds of point i from the stencil. node lists its n neighbours as the family has them, which may be
- * fewer than the stencil has: entries are found by their number, in line where both ascend. */
+ * fewer than the stencil has: entries are found by their number, in line where both ascend. Where the family
+ * is the whole stencil, and no factor is the point's own, they are copies of the stencil's. */
 static void lattice_bonds (const pg_sums *sums, const int *node, size_t n, size_t i, double *xi,
                            double *weight, double *beta)
 {
     const pg_stencil *t = &sums->stencil;
     size_t next = 0;
+    int whole = sums->ordered && n == t->n;
+    if (whole && !sums->family_volume) {
+        if (xi) memcpy (xi, t->xi, n * (size_t) t->dim * sizeof *xi);
+        if (weight) memcpy (weight, t->weight, n * sizeof *weight);
+        if (beta) memcpy (beta, t->beta, n * sizeof *beta);
+        return;
+    }
     for (size_t b = 0; b < t->n; b++) {
-        int whole = sums->ordered && n == t->n;
         int j = whole ? node[b] : pg_sums_neighbour (&sums->sites, sums->sites.site[i], t->offset + 3*b);
         if (j < 0) continue;
         size_t e = whole ? b : sums->ordered && next < n && node[next] == j ? next : find (node, n, j);

@@ -278,6 +278,43 @@ static void test_prescribed (void **unused)
     unbonded (&b);
 }
 
+/* Constants of bonds that points with all their bonds share are those of each point by itself: the same
+ * stress and damage with and without, bit by bit, also after bonds have broken. */
+static void test_shared_constants (void **unused)
+{
+    (void) unused;
+    static const char *const volumes[] = { "overlap", "none" };
+    for (int k = 0; k < 2; k++) {
+        char text[1000];
+        double *value[2], *damage[2];
+        for (int plain = 0; plain < 2; plain++) {
+            snprintf (text, sizeof text,
+                      BODY2 "lattice: cells\nmethod: {force: bond, horizon: 3.015 spacing, "
+                            "partial_volume: %s}\n"
+                            "solver: {plain: %s}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}]\n",
+                      volumes[k], plain ? "yes" : "no");
+            bonded b = bonded_of (text);
+            double *d = random_vector (b.ndof, 5);
+            const char *unit;
+            int components;
+            assert_int_equal (b.problem->plain, plain);
+            for (size_t e = 0; e < b.state->nbond; e += 37) b.state->alive[e] = 0;
+            check_ok (b.force->refresh (b.self, b.state, NULL));
+            value[plain] = pg_calloc (3 * b.n, sizeof **value);
+            damage[plain] = pg_calloc (b.n, sizeof **damage);
+            check_ok (b.force->field (b.self, b.state, d, "stress", &components, &unit, value[plain]));
+            check_ok (b.force->field (b.self, b.state, d, "damage", &components, &unit, damage[plain]));
+            if (plain) {
+                assert_memory_equal (value[0], value[1], 3 * b.n * sizeof **value);
+                assert_memory_equal (damage[0], damage[1], b.n * sizeof **damage);
+            }
+            pg_free (d);
+            unbonded (&b);
+        }
+        pg_free (value[0]), pg_free (value[1]), pg_free (damage[0]), pg_free (damage[1]);
+    }
+}
+
 /* omega_max^2 is not above the bound, and Gershgorin's row sums are above it too. */
 static void test_bound (void **unused)
 {
@@ -388,6 +425,7 @@ int main (void)
                                         cmocka_unit_test (test_cut),
                                         cmocka_unit_test (test_reactions),
                                         cmocka_unit_test (test_prescribed),
+                                        cmocka_unit_test (test_shared_constants),
                                         cmocka_unit_test (test_bound), cmocka_unit_test (test_shared_bound),
                                         cmocka_unit_test (test_threads),
                                         cmocka_unit_test (test_products_after_breaking) };
