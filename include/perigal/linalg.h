@@ -198,6 +198,8 @@ typedef struct {
 /* The same with a preconditioner of the caller's; P NULL: the diagonal. */
 pg_status pg_conjugate_gradients_with (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                        double *x, double tolerance, size_t limit, size_t *iterations);
+/* `n` numbers; begins as zero, cleared by pg_free (room.v). */
+typedef struct { double *v; size_t n; } pg_cg_room;
 /* The same, and who watches: `stepped` (NULL: nobody) hears after every iteration that x has gone on by alpha
  * times the vector that A was applied to last. Whoever keeps more of that product than the n rows solved for,
  * such as those of prescribed unknowns, can keep b - A x of all rows that way. `residual` is |b - A x| / |b|.
@@ -212,6 +214,8 @@ typedef struct {
      * other ranks have the entry 0 wherever sums are taken (b, A x): sums go over all ranks, and all ranks
      * make the same calls. */
     int    shared;
+    /* Room for the vectors, kept by the caller from one solve to the next; NULL: own room. */
+    pg_cg_room *room;
 } pg_cg_watch;
 pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_preconditioner *P, const double *b,
                                           double *x, double tolerance, size_t limit, size_t *iterations,

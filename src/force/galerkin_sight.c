@@ -8,10 +8,10 @@
 
 enum { NODES = 2, POINTS = GALERKIN_BLOCK };
 
-/* Block b of points sees the blocks of nodes seen[start[b]] .. seen[start[b + 1] - 1]. */
+/* Block b of nodes is seen by the blocks of points sees[start[b]] .. sees[start[b + 1] - 1], of n. */
 struct galerkin_sight {
-    size_t  n, *start;                                 /* blocks of points */
-    int    *seen;
+    size_t  n, nodes, *start;                          /* nodes: blocks of nodes */
+    int    *sees;
     unsigned char *node, *active;                      /* scratch: marks of blocks */
 };
 
@@ -20,7 +20,7 @@ static size_t blocks_of (size_t n, size_t size) { return (n + size - 1) / size; 
 static void free_one (galerkin_sight *s)
 {
     if (!s) return;
-    pg_free (s->start), pg_free (s->seen), pg_free (s->node), pg_free (s->active);
+    pg_free (s->start), pg_free (s->sees), pg_free (s->node), pg_free (s->active);
     pg_free (s);
 }
 
@@ -29,23 +29,22 @@ void galerkin_sight_free (galerkin *g)
     for (int set = 0; set < PG_BOND_SETS; set++) free_one (g->sight[set]), g->sight[set] = NULL;
 }
 
-/* The blocks of nodes that a block of points sees, appended to the table; mark: zeros before and after. */
-static pg_status list_seen (galerkin_sight *s, const pg_family *f, size_t b, size_t *room,
-                            unsigned char *mark)
+/* Visits the pairs of blocks that see each other, in the order of the blocks of points: counts them in
+ * start[b + 1] of the block of nodes (sees NULL), or enters them from start[b] on, which then is where the
+ * next one would be. last: of every block of nodes the last block of points + 1 that saw it. */
+static void visit_pairs (galerkin_sight *s, const pg_family *f, size_t *last, int *sees)
 {
-    pg_status status = PG_OK;
-    size_t last = (b + 1) * POINTS < f->n ? (b + 1) * POINTS : f->n, at = s->start[b];
-    for (size_t e = f->start[b * POINTS]; e < f->start[last]; e++) {
-        int block = f->node[e] / NODES;
-        if (mark[block]) continue;
-        mark[block] = 1;
-        PG_GROW (s->seen, *room, at + 1);
-        s->seen[at++] = block;
+    memset (last, 0, s->nodes * sizeof *last);
+    for (size_t b = 0; b < s->n; b++) {
+        size_t end = (b + 1) * POINTS < f->n ? (b + 1) * POINTS : f->n;
+        for (size_t e = f->start[b * POINTS]; e < f->start[end]; e++) {
+            size_t node = (size_t) f->node[e] / NODES;
+            if (last[node] == b + 1) continue;
+            last[node] = b + 1;
+            if (sees) sees[s->start[node]++] = (int) b;
+            else s->start[node + 1]++;
+        }
     }
-    for (size_t k = s->start[b]; k < at; k++) mark[s->seen[k]] = 0;
-    s->start[b + 1] = at;
-done:
-    return status;
 }
 
 static pg_status create (galerkin *g, int set)
@@ -53,15 +52,22 @@ static pg_status create (galerkin *g, int set)
     pg_status status = PG_OK;
     const pg_family *f = set == g->bulk ? &g->sums.family : &g->rows[set].family;
     galerkin_sight *s = NULL;
-    size_t room = 0;
+    size_t *last = NULL;
     PG_ALLOC (s, 1);
-    s->n = blocks_of (f->n, POINTS);
-    PG_ALLOC (s->start, s->n + 1);
+    s->n = blocks_of (f->n, POINTS), s->nodes = blocks_of (g->n, NODES);
+    PG_ALLOC (s->start, s->nodes + 1);
     PG_ALLOC (s->active, s->n);
-    PG_ALLOC (s->node, blocks_of (g->n, NODES));
-    for (size_t b = 0; b < s->n; b++) PG_TRY (list_seen (s, f, b, &room, s->node));
+    PG_ALLOC (s->node, s->nodes);
+    PG_ALLOC (last, s->nodes);
+    visit_pairs (s, f, last, NULL);
+    for (size_t b = 0; b < s->nodes; b++) s->start[b + 1] += s->start[b];
+    PG_ALLOC (s->sees, s->start[s->nodes]);
+    visit_pairs (s, f, last, s->sees);
+    for (size_t b = s->nodes; b > 0; b--) s->start[b] = s->start[b - 1];
+    s->start[0] = 0;
     g->sight[set] = s, s = NULL;
 done:
+    pg_free (last);
     if (s) free_one (s);
     return status;
 }
@@ -94,13 +100,11 @@ static size_t mark_nodes (const galerkin *g, const double *x, const double *othe
 unsigned char *galerkin_active (galerkin *g, int set, const double *x, const double *other)
 {
     galerkin_sight *s = g->sight[set];
-    if (!s || !s->seen) return NULL;
+    if (!s || !s->sees) return NULL;
     /* where much has changed all is looked at */
-    if (2 * mark_nodes (g, x, other, s->node) > blocks_of (g->n, NODES)) return NULL;
-    for (size_t b = 0; b < s->n; b++) {
-        unsigned char active = 0;
-        for (size_t k = s->start[b]; k < s->start[b + 1] && !active; k++) active = s->node[s->seen[k]];
-        s->active[b] = active;
-    }
+    if (2 * mark_nodes (g, x, other, s->node) > s->nodes) return NULL;
+    memset (s->active, 0, s->n);
+    for (size_t b = 0; b < s->nodes; b++)
+        for (size_t k = s->start[b]; s->node[b] && k < s->start[b + 1]; k++) s->active[s->sees[k]] = 1;
     return s->active;
 }

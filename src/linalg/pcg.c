@@ -123,17 +123,23 @@ static void first_residual (const pg_operator *A, const double *b, vectors *v)
     for (size_t i = 0; i < n && !zero; i++) v->r[i] = b[i] - v->q[i];
 }
 
-/* Allocates the vectors. Rows without a positive diagonal get 1. */
-static pg_status make_vectors (vectors *v, const pg_operator *A, const pg_preconditioner *P, double *x)
+/* Places for the vectors. Memory that is taken and given back by every solve is cleared by the system each
+ * time, which short solves feel. Rows without a positive diagonal get 1. */
+static pg_status make_vectors (vectors *v, pg_cg_room *room, const pg_operator *A, const pg_preconditioner *P,
+                               double *x)
 {
     pg_status status = PG_OK;
-    v->n = A->n, v->nchunk = (A->n + CHUNK - 1) / CHUNK, v->threads = P ? P->threads : 1, v->x = x;
-    PG_ALLOC (v->r, v->n);
-    PG_ALLOC (v->z, v->n);
-    PG_ALLOC (v->p, v->n);
-    PG_ALLOC (v->q, v->n);
-    PG_ALLOC (v->d, P ? 0 : v->n);
-    PG_ALLOC (v->sum, v->nchunk);
+    size_t n = A->n;
+    v->n = n, v->nchunk = (n + CHUNK - 1) / CHUNK, v->threads = P ? P->threads : 1, v->x = x;
+    size_t need = (P ? 4 : 5) * n + v->nchunk;
+    if (room->n < need) {
+        pg_free (room->v), room->v = NULL, room->n = 0;
+        PG_ALLOC (room->v, need);
+        room->n = need;
+    }
+    v->r = room->v, v->z = v->r + n, v->p = v->z + n, v->q = v->p + n, v->sum = v->q + n;
+    if (!P) v->d = v->sum + v->nchunk;
+    memset (v->p, 0, n * sizeof *v->p);
     if (!P) A->diagonal (A->context, v->d);
     for (size_t i = 0; i < v->n && !P; i++) v->d[i] = v->d[i] > 0 ? 1 / v->d[i] : 1;
 done:
@@ -184,9 +190,10 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
 {
     pg_status status = PG_OK;
     vectors v = { 0 };
+    pg_cg_room own = { 0 };
     size_t k = 0;
     v.shared = watch && watch->shared;
-    PG_TRY (make_vectors (&v, A, P, x));
+    PG_TRY (make_vectors (&v, watch && watch->room ? watch->room : &own, A, P, x));
     first_residual (A, b, &v);
     double size = sqrt (dot (&v, b, b)), goal = tolerance * size, rz = 0, rr = sqrt (dot (&v, v.r, v.r));
     int stop = 0;
@@ -216,7 +223,7 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
                  rr, goal);
 done:
     if (iterations) *iterations = k;
-    pg_free (v.r), pg_free (v.z), pg_free (v.p), pg_free (v.q), pg_free (v.d), pg_free (v.sum);
+    pg_free (own.v);
     return status;
 }
 

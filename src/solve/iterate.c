@@ -55,9 +55,10 @@ static void diagonal_combined (void *context, double *d)
 static void keep_earlier (combined *c)
 {
     pg_system *s = c->s;
+    if (s->rough.found) return;
     if (c->T) pg_sparse_multiply_transposed (c->T, s->residual, s->scratch);
     double size = system_norm (s, c->T ? s->scratch : s->residual, s->nred);
-    if (size > c->keep || s->rough.found) return;
+    if (size > c->keep) return;
     memcpy (s->rough.earlier, s->delta, s->nred * sizeof *s->delta);
     s->rough.found = size > c->keep / ROUGHER ? 1 : -1;            /* the last one is no earlier one */
 }
@@ -130,7 +131,7 @@ pg_status system_iterate (pg_system *s, const dynamics *dyn, int by, double tole
     s->fell = tolerance, s->rough.nview = 0;
     if (carries && s->rough.goal > 0) c.keep = ROUGHER * s->rough.goal * s->unbalanced;
     pg_cg_watch watch = { carries ? carry_residual : NULL, &c, is_local (s, dyn),
-                          system_is_shared (s) };
+                          system_is_shared (s), &s->cg_room };
     pg_status status = pg_conjugate_gradients_watched (&op, by == BY_DIAGONAL ? NULL : &P, s->reduced,
                                                        s->delta, tolerance, limit, used, &watch);
     s->carried = carries && status == PG_OK;

@@ -110,6 +110,7 @@ typedef struct {
     double   *whole;  /* ranks that share the body: x of K x with its ghosts (ndof); else NULL */
     double    made[2];                                 /* k and m of the preconditioner */
     pg_operator  inertia; pg_couplings stiffness;      /* of ranks in motion: its matrix, rows of K */
+    pg_cg_room cg_room;                                /* of conjugate gradients, from solve to solve */
     int      *own_row;  /* unknown that each reduced one is (nred); with elements only */
     unsigned char *fixed;  /* unknowns that T leaves out (ndof); NULL: not asked for */
     int       precondition;  /* with `fixed`: the constraints allow a preconditioner of several levels */

@@ -40,7 +40,7 @@ void system_free (pg_system *s)
         pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
     pg_free (s->rough.earlier), pg_free (s->rough.before), pg_free (s->rough.earlier_u);
     for (int k = 0; k < ROUGH_VIEWS; k++) pg_free (s->rough.view[k].delta), pg_free (s->rough.view[k].u);
-    pg_free (s->fixed), pg_free (s->own_row);
+    pg_free (s->fixed), pg_free (s->own_row), pg_free (s->cg_room.v);
 }
 
 /* A force may have a matrix in general, yet none for the options of this problem: dilatations reach

@@ -365,6 +365,30 @@ static void local_right_hand_sides_are_solved_where_they_are (void **state)
     }
 }
 
+/* Room that the caller keeps: one solve after the other, smaller, larger, and after numbers that were none,
+ * has the bits of a solve with room of its own. */
+static void solves_in_kept_room_are_the_same (void **state)
+{
+    (void) state;
+    static const size_t size[] = { 300, 9000, 40, 9000 };
+    pg_cg_room room = { 0 };
+    pg_cg_watch watch = { .room = &room };
+    for (size_t k = 0; k < sizeof size / sizeof *size; k++) {
+        size_t n = size[k], used, other;
+        heavy_chain chain = { n, 0 };
+        pg_operator op = { n, &chain, apply_chain, chain_diagonal };
+        double *b = calloc (3 * n, sizeof *b), *x = b + n, *y = x + n;
+        for (size_t i = 0; i < n; i++) b[i] = random_number ();
+        check_ok (pg_conjugate_gradients_watched (&op, NULL, b, x, 1e-10, 500, &used, &watch));
+        check_ok (pg_conjugate_gradients (&op, b, y, 1e-10, 500, &other));
+        assert_int_equal (used, other);
+        assert_memory_equal (x, y, n * sizeof *x);
+        for (size_t i = 0; i < room.n; i++) room.v[i] = NAN;
+        free (b);
+    }
+    pg_free (room.v);
+}
+
 static void lu_sees_a_singular_matrix (void **state)
 {
     (void) state;
@@ -538,6 +562,7 @@ int main (void)
         cmocka_unit_test (conjugate_gradients_refuse_what_is_not_positive_definite),
         cmocka_unit_test (conjugate_gradients_say_when_they_do_not_arrive),
         cmocka_unit_test (local_right_hand_sides_are_solved_where_they_are),
+        cmocka_unit_test (solves_in_kept_room_are_the_same),
         cmocka_unit_test (lu_sees_a_singular_matrix),
         cmocka_unit_test (lu_solves_indefinite_and_unsymmetric_systems),
         cmocka_unit_test (each_failed_allocation_is_reported),
