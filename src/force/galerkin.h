@@ -212,7 +212,7 @@ enum { GALERKIN_LANES = 8 };
  * point within the group, and its number in the family. */
 typedef struct { int place, node, point; size_t bond; } galerkin_entry;
 /* `count` groups of `points` points, the first from point `point` on; its bonds in the order of summation.
- * same: all groups have the rows of the first to the last bit. */
+ * same: all groups have the N and dN of the first to the last bit. */
 typedef struct { size_t point, points, count, entry, entries; int same; } galerkin_run;
 /* Runs among the points first .. last - 1, ascending; to be found anew if stale. bonds: of all their
  * points. known: of each point whether its row has changed, and whether it was left to itself. */

@@ -2,8 +2,8 @@
  * Displacement, strain and stress of evaluation points, from nodal values. Where only some nodes have moved
  * since the last measure, points that see them are measured anew, in blocks.
  *
- * Points of the bulk that read their shape functions from one place, most of those of a lattice, are measured
- * eight at a time (galerkin_runs.c), by the same operations in the same order as one by one: what a point
+ * Points of the bulk that have the same shape functions, most of those of a lattice, are measured eight at a
+ * time (galerkin_runs.c), by the same operations in the same order as one by one: what a point
  * shows has the same bits whatever it was measured with. */
 #include "galerkin_slices.h"
 #include <string.h>

@@ -143,15 +143,19 @@ static int unchanged (const galerkin_run_list *l, size_t p, size_t end)
     return !changed;
 }
 
-/* Do all groups read the rows of the first, so that N, dN and weights have the same bits? Rows that move
- * later keep their bits as long as the run is not stale. */
-static int reads_one_place (const pg_rows *r, const galerkin_run *run)
+/* Have N and dN of all groups the bits of the group before? Rows that move later keep their bits as long as
+ * the run is not stale. */
+static int has_one_row (const pg_rows *r, const galerkin_run *run)
 {
-    size_t last = run->point + run->points * run->count, same = 1;
-    for (size_t p = run->point + run->points; p < last && same; p++)
-        same = r->family.start[p] + pg_rows_offset (r, p)
-               == r->family.start[p - run->points] + pg_rows_offset (r, p - run->points);
-    return (int) same;
+    size_t last = run->point + run->points * run->count, dim = (size_t) r->dim;
+    int same = 1;
+    for (size_t p = run->point + run->points; p < last && same; p++) {
+        size_t q = p - run->points, m = r->family.start[p + 1] - r->family.start[p],
+               a = r->family.start[q] + pg_rows_offset (r, q), b = r->family.start[p] + pg_rows_offset (r, p);
+        same = a == b || (memcmp (r->dN + a * dim, r->dN + b * dim, m * dim * sizeof *r->dN) == 0
+                          && memcmp (r->N + a, r->N + b, m * sizeof *r->N) == 0);
+    }
+    return same;
 }
 
 /* A run of before and its entries. */
@@ -174,7 +178,7 @@ static pg_status new_run (const galerkin *g, galerkin_run_list *l, galerkin_run 
     pg_status status = PG_OK;
     PG_GROW (l->run, l->cap, l->n + 1);
     PG_TRY (list_entries (g, l, &run));
-    run.same = reads_one_place (&g->sums, &run);
+    run.same = has_one_row (&g->sums, &run);
     for (size_t i = 0; i < run.points * run.count; i++) l->known[run.point - l->first + i] &= CHANGED;
     l->run[l->n++] = run, l->bonds += run.entries * run.count;
 done:

@@ -119,6 +119,10 @@ static void in_space (void **state)
     }
 }
 
+#define LATTICE "sets: {held: {where: x < 1 mm}}\n" \
+    "boundary: [{set: held, displacement: {x: 0, y: 0}}]\nsolver: {kind: static, stepping: event}\n" \
+    "failure: {criterion: %s}\nmethod: {%s}\n"
+
 /* On lattices a look at all measures points of equal rows many at a time, one at the group one by one: the
  * same bits, whole and with some broken bonds, for laws of stretch, which displacements of points enter, and
  * of stress. */
@@ -126,19 +130,23 @@ static void in_a_lattice (void **state)
 {
     (void) state;
     static const char *const body[] = {
-        "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [41, 19]}}}]\nspacing: 1\n"
+        "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [4.1, 1.9]}}}]\nspacing: 0.1\n"
         "materials: {a: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n",
-        "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [19, 6, 5]}}}]\nspacing: 1\n"
+        "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1.9, 0.6, 0.5]}}}]\nspacing: 0.1\n"
+        "materials: {a: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n",
+        "dimension: 3\nbody: [{add: {cylinder: {center: [0, 0, 0], axis: [0, 0, 1], length: 10 mm, diameter: "
+        "40 mm}}}]\nspacing: 2 mm\ncells: staircase\n"
         "materials: {a: {youngs_modulus: 10 GPa, poissons_ratio: 0.25}}\n",
     };
     static const char *const law[] = { "stretch, critical_stretch: 1e-3",
                                        "principal_stress, tensile_strength: 3 MPa" };
+    static const char *const way[] = { "approximation: rkpm, integration: gauss, horizon: 2 spacing",
+                                       "approximation: pddo, integration: nodal, horizon: 2 spacing" };
     static const double dead[] = { 2, 0.99999 };
     char text[4096];
-    for (size_t i = 0; i < 2; i++)
+    for (size_t i = 0; i < 6; i++)
         for (size_t k = 0; k < 4; k++) {
-            snprintf (text, sizeof text, "%s" REST, body[i], law[k % 2],
-                      "approximation: rkpm, integration: gauss, horizon: 2 spacing");
+            snprintf (text, sizeof text, "%s" LATTICE, body[i % 3], law[k % 2], way[i / 3]);
             compare (text, dead[k / 2]);
         }
 }
