@@ -46,13 +46,16 @@ typedef struct {
 /* The options of that type in `own`: constant where the options are (a pointer to const gives a pointer to
  * const). A type that does not fit in `own` does not compile. The inner choice only gives each branch a
  * pointer of its own kind, as both must be valid C whichever is taken. */
-static inline void *pg_own_bytes (pg_solver_options *o) { return o->own.byte; }
-static inline const void *pg_own_const (const pg_solver_options *o) { return o->own.byte; }
+static inline void *pg_own_bytes (pg_solver_options *o, size_t fits) { return (void) fits, o->own.byte; }
+static inline const void *pg_own_const (const pg_solver_options *o, size_t fits)
+{
+    return (void) fits, o->own.byte;
+}
 #define PG_OWN(type, options) _Generic ((options), \
     pg_solver_options *: (type *) pg_own_bytes (_Generic ((options), pg_solver_options *: (options), \
-        default: (pg_solver_options *) 0) + 0 * sizeof (char[sizeof (type) <= PG_SOLVER_OWN ? 1 : -1])), \
-    const pg_solver_options *: (const type *) pg_own_const ((options) \
-        + 0 * sizeof (char[sizeof (type) <= PG_SOLVER_OWN ? 1 : -1])))
+        default: (pg_solver_options *) 0), sizeof (char[sizeof (type) <= PG_SOLVER_OWN ? 1 : -1])), \
+    const pg_solver_options *: (const type *) pg_own_const ((options), \
+        sizeof (char[sizeof (type) <= PG_SOLVER_OWN ? 1 : -1])))
 #define PG_ALIAS __attribute__ ((may_alias))
 typedef struct {                                       /* Newmark's method; 1, 1, 1, 1/s, s */
     int    consistent;                                 /* consistent mass, not lumped */

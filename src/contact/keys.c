@@ -39,16 +39,17 @@ static void read_search (pg_contact_setting *out, const pg_scene *scene)
 {
     static const char *const own[3] = { "contact.distance", "contact.stiffness", "contact.enforcement" };
     const char *search = pg_scene_text (scene, "contact.search"),
-               *enforcement = pg_scene_text (scene, own[2]);
+               *enforcement = pg_scene_text (scene, "%s", own[2]);
     if (search && strcmp (search, "short_range") == 0) out->search = PG_CONTACT_SHORT_RANGE;
-    out->distance = pg_scene_number (scene, own[0]), out->stiffness = pg_scene_number (scene, own[1]);
+    out->distance = pg_scene_number (scene, "%s", own[0]);
+    out->stiffness = pg_scene_number (scene, "%s", own[1]);
     out->impulses = enforcement && strcmp (enforcement, "impulses") == 0;
     for (int k = 0; k < 3 && out->search != PG_CONTACT_SHORT_RANGE; k++)
         if (pg_scene_given (scene, "%s", own[k]))
             pg_scene_fault (scene, own[k],
                             "has a meaning with contact.search: short_range alone: leave it out, or set the "
                             "search");
-    if (out->impulses && pg_scene_given (scene, own[1]))
+    if (out->impulses && pg_scene_given (scene, "%s", own[1]))
         pg_scene_fault (scene, own[1], "is that of springs: leave it out, or set contact.enforcement: "
                                        "springs");
     if (out->search == PG_CONTACT_SHORT_RANGE && pg_scene_given (scene, "contact.cohesion"))

@@ -220,7 +220,6 @@ pg_status facet_hold_keep (break_loop *b, const pg_keeper *k)
         PG_ALLOC (g->held, b->system.ndof);
         g->hold = NULL, g->cap_hold = 0;
         PG_GROW (g->hold, g->cap_hold, (size_t) count);
-        memset (g->hold, 0, (size_t) count * sizeof *g->hold);
         g->nhold = (size_t) count;
     }
     for (size_t i = 0; i < g->nhold; i++) PG_TRY (keep_one (b, i, k));

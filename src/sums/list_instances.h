@@ -66,6 +66,9 @@ typedef struct { V own[MOST_COLUMNS], sum[MOST_SUMS]; } lanes;
 #define LEAST_DIMENSION 2
 #include "list_kernel.h"
 
+/* A loop, or the 0 of one that there is not, which is no null pointer by itself to every compiler. */
+#define THE(loop) (list_kernel) (loop)
 #define LOOPS(law) \
-    [LIST_##law] = { { law##_10, law##_11 }, { law##_20, law##_21 }, { law##_30, law##_31 } },
+    [LIST_##law] = { { THE (law##_10), THE (law##_11) }, { THE (law##_20), THE (law##_21) }, \
+                     { THE (law##_30), THE (law##_31) } },
 const list_kernels TABLE = { { LIST_LAWS (LOOPS) } };
