@@ -111,7 +111,8 @@ static void strain_range (const measuring *m, size_t first, size_t last)
     }
 }
 
-/* Strains of whole slices, each by one thread: runs, and the points between them. */
+/* Strains of whole slices, each by one thread: runs that products K x have found, and the points between
+ * them. A measure looks for none: with a factor of K there are no products, and a look costs more. */
 static void strain_slices (void *context, size_t first, size_t last, int thread)
 {
     const measuring *m = context;
@@ -120,8 +121,7 @@ static void strain_slices (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t k = first; k < last; k++) {
         size_t at = s->first[k];
-        galerkin_runs_find (g, &s->runs[k]);
-        for (size_t i = 0; i < s->runs[k].n; i++) {
+        for (size_t i = 0; !s->runs[k].stale && i < s->runs[k].n; i++) {
             const galerkin_run *run = &s->runs[k].run[i];
             if (!run->same) continue;
             strain_range (m, at, run->point);

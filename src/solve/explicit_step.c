@@ -18,8 +18,9 @@ double lane_sum (const pg_eight *lanes)
     return ((s[0] + s[4]) + (s[1] + s[5])) + ((s[2] + s[6]) + (s[3] + s[7]));
 }
 
-/* a . b over a range, in eight lanes. */
-PG_WIDEST double lane_dot (const double *a, const double *b, size_t first, size_t last)
+/* a . b over a range, in eight lanes. Copies for several processors are of functions of one file: GCC gives
+ * those of others names that leave the library. */
+PG_WIDEST static double dot (const double *a, const double *b, size_t first, size_t last)
 {
     pg_eight s = { 0 };
     size_t i = first;
@@ -28,8 +29,13 @@ PG_WIDEST double lane_dot (const double *a, const double *b, size_t first, size_
     return lane_sum (&s);
 }
 
+double lane_dot (const double *a, const double *b, size_t first, size_t last)
+{
+    return dot (a, b, first, last);
+}
+
 /* 0 * x is 0 for every finite x and NaN otherwise: a sum tells all at once, without a branch. */
-PG_WIDEST double lane_not_finite (const double *d, size_t first, size_t last)
+PG_WIDEST static double not_finite (const double *d, size_t first, size_t last)
 {
     pg_eight s = { 0 };
     size_t i = first;
@@ -37,6 +43,8 @@ PG_WIDEST double lane_not_finite (const double *d, size_t first, size_t last)
     for (; i < last; i++) s[0] += 0 * d[i];
     return lane_sum (&s);
 }
+
+double lane_not_finite (const double *d, size_t first, size_t last) { return not_finite (d, first, last); }
 
 /* The largest size of what is compared; NaN is passed by. */
 static double lane_most (const double *a, size_t first, size_t last)

@@ -39,6 +39,8 @@ static void compare (const char *text, double dead)
     char *kind = pg_calloc (nbond, 1), *kind_of = pg_calloc (nbond, 1);
     for (size_t i = 0; i < nbond; i++) if (some (i) > dead) r.state->alive[i] = 0;
     check_ok (f->refresh (self, r.state, NULL));
+    const pg_operator *op = f->operator_ (self);       /* a product finds the points that are alike */
+    op->apply (op->context, d, block);
     for (size_t i = 0; i < n; i++)
         for (size_t k = 0; k < COUNT; k++)
             block[i * COUNT + k] = 1e-3 * (r.problem->cloud.x[i] * (i % dim == k % dim) + some (i + 7 * k));
