@@ -393,12 +393,28 @@ done:
     return status;
 }
 
+/* Checkpoints are numbered within a run: in a folder that was put together from two runs ranks may have those
+ * of two moments under one number, and would wait for each other for ever. All ranks call. */
+static pg_status one_moment (const resumed *m)
+{
+    pg_status status = PG_OK;
+    double step = (double) m->state->step, rounds = (double) m->rounds, time = m->state->time,
+           most[6] = { step, -step, rounds, -rounds, time, -time };
+    PG_TRY (pg_ranks_ask (6, most));                   /* the largest of all ranks, and minus the least */
+    if (most[0] != -most[1] || most[2] != -most[3] || most[4] != -most[5])
+        PG_FAIL (PG_E_FILE, "%s: the ranks have no checkpoint of one moment: start anew with --force",
+                 m->path);
+done:
+    return status;
+}
+
 /* From the checkpoint that this process wrote. */
 static pg_status resume_own (pg_result *r, resumed *m)
 {
     pg_status status = pg_result_lock (r->folder, &r->lock);
     if (status == PG_OK) status = pg_checkpoint_read (m->path, resumed_all, m);
     PG_TRY (pg_ranks_agree (status));
+    PG_TRY (one_moment (m));
     PG_TRY (resumed_go_on (r, m));
 done:
     return status;

@@ -88,8 +88,9 @@ moved explicit 3 "$work/moved"; verdict "killed while the checkpoints of two ran
 rm -rf "$work/moved" "$work/rest3"
 same explicit "$work/some"; verdict "the folder was left as it was" $?
 
-# killed between the renames of two ranks: one has the newer checkpoint under its name, the other one beside it
-begin $soon "$work/later" "${explicit[@]}"; kill -USR1 $run; ended
+# killed between the renames of two ranks: one has the newer checkpoint under its name, the other one beside it. The newer one is of the same run, as
+# checkpoints are numbered within a run
+cp -r "$work/half" "$work/later"; begin $soon "$work/later" "${explicit[@]}" --resume; kill -USR1 $run; ended
 cp -r "$work/later" "$work/some1"; mv "$work/some1/ranks/1/checkpoint.nc" "$work/some1/ranks/1/checkpoint.nc.new"
 cp "$work/half/ranks/1/checkpoint.nc" "$work/some1/ranks/1/"
 same explicit "$work/some1"; verdict "killed while checkpoints were renamed: all ranks take the newer one" $?
@@ -101,6 +102,16 @@ cp "$work/half/ranks/1/checkpoint.nc" "$work/later/ranks/1/"
 ranks 3 "${explicit[@]}" "${often[@]}" -o "$work/later" --resume; [ $? -eq 70 ] && grep -q 'no checkpoint of one moment' "$work/err"
 verdict "checkpoints of two moments are refused" $?
 rm -rf "$work/later" "$work/half" "$work"/some*
+# the first checkpoints of two runs have one number
+for rows in 10 30; do
+    "${launch[@]}" -n 3 "$mpi" run "${explicit[@]}" "${bare[@]}" -o "$work/first$rows" --quiet > "$work/out" 2> "$work/err" & run=$!
+    for k in $(seq 3000); do [ "$(wc -l 2> /dev/null < "$work/first$rows/history.csv" || echo 0)" -gt $rows ] && break; sleep 0.02; done
+    kill -USR1 $run; ended
+done
+cp "$work/first10/ranks/1/checkpoint.nc" "$work/first30/ranks/1/"
+ranks 3 "${explicit[@]}" -o "$work/first30" --resume; [ $? -eq 70 ] && grep -q 'no checkpoint of one moment' "$work/err"
+verdict "two moments under one number are refused" $?
+rm -rf "$work"/first*
 
 begin 20 "$work/some" "${explicit[@]}"; kill -KILL "$(pid "$work/some" 1)"; ended
 [ $code -ne 0 ] && grep -q 'rank 1' "$work/err"; verdict "a rank that is killed ends the run, said which" $?
