@@ -87,16 +87,25 @@ static size_t block_end (const galerkin *g, int set, size_t block)
     return end < n ? end : n;
 }
 
-/* Points in those of some blocks that are active. */
-static void measure_blocks (void *context, size_t first, size_t last, int thread)
+/* Stresses of blocks whose strains are known. */
+static void stress_blocks (void *context, size_t first, size_t last, int thread)
 {
     const measuring *m = context;
     (void) thread;
     for (size_t b = first; b < last; b++) {
         if (!is_active (m, b)) continue;
-        strain_points (m, b * GALERKIN_BLOCK, block_end (m->g, m->set, b));
         stress_points (m, b * GALERKIN_BLOCK, block_end (m->g, m->set, b));
         forget_bounds (m->g, m->set, b);
+    }
+}
+
+/* Points in those of some blocks that are active. */
+static void measure_blocks (void *context, size_t first, size_t last, int thread)
+{
+    const measuring *m = context;
+    for (size_t b = first; b < last; b++) {
+        if (is_active (m, b)) strain_points (m, b * GALERKIN_BLOCK, block_end (m->g, m->set, b));
+        stress_blocks (context, b, b + 1, thread);
     }
 }
 
@@ -109,6 +118,14 @@ static void strain_range (const measuring *m, size_t first, size_t last)
         end = (block + 1) * GALERKIN_BLOCK < last ? (block + 1) * GALERKIN_BLOCK : last;
         if (is_active (m, block)) strain_points (m, from, end);
     }
+}
+
+/* Have products found points that are alike, in any slice? */
+static int knows_runs (const galerkin_slices *s)
+{
+    int some = 0;
+    for (size_t k = 0; s->has_runs && k < SLICES; k++) some |= !s->runs[k].stale && s->runs[k].n > 0;
+    return some;
 }
 
 /* Strains of whole slices, each by one thread: runs that products K x have found, and the points between
@@ -133,18 +150,6 @@ static void strain_slices (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* Stresses of blocks whose strains are known. */
-static void stress_blocks (void *context, size_t first, size_t last, int thread)
-{
-    const measuring *m = context;
-    (void) thread;
-    for (size_t b = first; b < last; b++) {
-        if (!is_active (m, b)) continue;
-        stress_points (m, b * GALERKIN_BLOCK, block_end (m->g, m->set, b));
-        forget_bounds (m->g, m->set, b);
-    }
-}
-
 /* Blocks whose points are to be measured at displacement d: those that see a node which has moved, and those
  * measured at another displacement meanwhile. NULL: all. */
 static const unsigned char *to_measure (galerkin *g, int set, const double *d)
@@ -165,7 +170,7 @@ void galerkin_measure (galerkin *g, int set, const double *d)
     const unsigned char *active = to_measure (g, set, d);
     memcpy (g->seen[set], d, bytes);
     measuring m = { g, set, rows_of (g, set), galerkin_widened (g, d), NULL, active };
-    if (set == g->bulk && g->slices->has_runs) {
+    if (set == g->bulk && knows_runs (g->slices)) {
         galerkin_split (g, d);
         pg_parallel_heavy (g->threads, SLICES, strain_slices, &m);
         pg_parallel (g->threads, blocks, stress_blocks, &m);

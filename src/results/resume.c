@@ -354,6 +354,12 @@ static double number_of (const char *path)
     return own ? who.number : -1;
 }
 
+static pg_status of_other_moments (const char *path)
+{
+    return pg_error (PG_E_FILE, PG_HERE, "%s: the ranks have no checkpoint of one moment: start anew with "
+                     "--force", path);
+}
+
 /* A run that was killed while it wrote checkpoints may have left those of one moment under two names: some
  * ranks have renamed theirs already (then all have written them), or some have no new one yet (then nobody
  * has renamed his). The newest that all ranks have gets the name that is read. All ranks call. */
@@ -369,8 +375,7 @@ static pg_status choose_checkpoint (const char *path)
         PG_TRY (pg_ranks_ask (1, &common));            /* minus the least of the newest of all ranks */
         if (common <= 0 && next == -common) status = pg_checkpoint_commit (path);
         else if (common <= 0 && present != -common)
-            status = pg_error (PG_E_FILE, PG_HERE, "%s: the ranks have no checkpoint of one moment: start "
-                               "anew with --force", path);
+            status = of_other_moments (path);
         PG_TRY (pg_ranks_agree (status));
         pg_checkpoint_drop (path);                     /* of another moment, or half a file */
     }
@@ -402,8 +407,7 @@ static pg_status one_moment (const resumed *m)
            most[6] = { step, -step, rounds, -rounds, time, -time };
     PG_TRY (pg_ranks_ask (6, most));                   /* the largest of all ranks, and minus the least */
     if (most[0] != -most[1] || most[2] != -most[3] || most[4] != -most[5])
-        PG_FAIL (PG_E_FILE, "%s: the ranks have no checkpoint of one moment: start anew with --force",
-                 m->path);
+        status = of_other_moments (m->path);
 done:
     return status;
 }
