@@ -198,7 +198,8 @@ INLINE void weigh_those (const evaluation *g, size_t i, size_t dim, pg_neighbour
         size_t e = entry[j];
         double V = volume[node[e]], scale = by_volume ? V : 1, weight = w[j] * scale;
         if (influence) influence[e] = w[j] * V;
-        if (!(weight > 0)) continue;
+        /* what is not finite stays, and shows in the total */
+        if (weight <= 0 && weight > -INFINITY) continue;
         w[kept] = weight, total += weight;
         for (size_t k = 0; k < dim && sloped; k++) slope[kept*dim + k] = slope[j*dim + k] * scale;
         if (kept < j) {
@@ -208,6 +209,7 @@ INLINE void weigh_those (const evaluation *g, size_t i, size_t dim, pg_neighbour
         kept++;
     }
     s->n = kept;
+    if (!isfinite (total) && !s->strange) s->strange = i + 1;
     for (size_t j = 0; j < kept; j++) w[j] /= total;
     for (size_t j = 0; sloped && j < kept * dim; j++) slope[j] /= total;
 }
@@ -319,6 +321,25 @@ done:
     return status;
 }
 
+/* Weights that are no number, or infinite, end the evaluation: left out they would be bonds that are missing
+ * without a word. */
+static pg_status refuse_strange (const evaluation *g, size_t slots)
+{
+    pg_status status = PG_OK;
+    size_t row = SIZE_MAX;
+    double x[3] = { 0 };
+    for (size_t t = 0; t < slots; t++)
+        if (g->around[t].strange && g->around[t].strange - 1 < row) row = g->around[t].strange - 1;
+    if (row == SIZE_MAX) return PG_OK;
+    memcpy (x, g->rows->x + row * (size_t) g->rows->dim, (size_t) g->rows->dim * sizeof *x);
+    PG_FAIL (PG_E_USAGE,
+             "the weights of the bonds at (%.6g, %.6g, %.6g) m are not finite: kernel %s at a horizon of %g "
+             "m, by volume of the points: %s; look at method.kernel and the volumes there",
+             x[0], x[1], x[2], g->a->kernel->name, g->a->horizon, g->a->use_volume ? "yes" : "no");
+done:
+    return status;
+}
+
 /* A stray node is noted by its thread and reported after the loop, since threads cannot fail. */
 pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, const pg_cloud *cloud,
                            pg_rows *rows, const unsigned char *alive, size_t count, const size_t *list,
@@ -344,6 +365,7 @@ pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, con
     pg_parallel (threads, count, work, &g);
     for (size_t t = 0; t < slots; t++)
         if (g.around[t].stray) PG_FAIL (PG_E_USAGE, "%s: a node is missing in its own family", a->type->name);
+    PG_TRY (refuse_strange (&g, slots));
 done:
     for (size_t t = 0; g.around && t < slots; t++) {
         pg_free (g.around[t].z);

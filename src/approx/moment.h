@@ -35,6 +35,8 @@ typedef struct {
     size_t  own;
     /* 1: a node that must be in its own family is not. */
     int     stray;
+    /* A row with a weight that is not finite, plus 1; 0: none. */
+    size_t  strange;
     /* 1: a bond of the family is dead. */
     int     lost;
     /* 1: as long as no bond is lost the neighbours may spread as little as the factor of A

@@ -142,10 +142,10 @@ sums_bond pg_sums_bond_between (const pg_sum_rule *rule, const pg_cloud *cloud, 
     double ratio = 0.5 * (pg_cloud_ratio (cloud, i) + pg_cloud_ratio (cloud, j)),
            horizon = rule->horizon * ratio;
     b.beta = pg_sums_partial (rule->partial, b.r, horizon, cloud->h * ratio);
-    if (!(b.beta > 0)) return b;
+    if (b.beta <= 0) return b;
     b.weight = b.beta * pg_sums_kernel (rule, b.r, horizon);
     if (ratio != 1) b.weight /= pow (ratio, cloud->dim + 1);
-    if (!(b.weight > 0)) b.beta = 0;
+    if (b.weight <= 0) b.beta = 0;
     return b;
 }
 
@@ -169,7 +169,12 @@ static pg_status spread (const pg_sums *sums, const pg_family *near, size_t *nex
                          "remove one of them",
                          i < j ? i : j, i < j ? j : i, x[0], x[1], x[2]);
             }
-            if (!(b.beta > 0)) continue;
+            if (!isfinite (b.beta) || !isfinite (b.weight))
+                PG_FAIL (PG_E_USAGE,
+                         "the bond of points %zu and %zu, %.17g m long, has partial volume %g and weight %g "
+                         "by kernel %s: choose another method.kernel or method.partial_volume",
+                         i + 1, j + 1, b.r, b.beta, b.weight, sums->rule.kernel->name);
+            if (b.beta <= 0) continue;
             int alone = sums->cloud->size && find (near->node + first, m, (int) i) == m;
             if (node) node[next[i]] = (int) j;
             next[i + (node ? 0 : 1)]++;

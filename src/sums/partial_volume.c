@@ -80,7 +80,8 @@ static double volume (const box *b, double R)
     int n = 0;
     for (int k = 0; k < 3; k++) low2 += square (b->low[k]);
     if (low2 >= R * R) return 0;
-    double first = b->low[0], last = fmin (b->high[0], sqrt (R * R - low2 + square (b->low[0])));
+    /* rounding may carry the end of the slices beyond the ball */
+    double first = b->low[0], last = fmin (fmin (b->high[0], R), sqrt (R * R - low2 + square (b->low[0])));
     n = insert (kink, n, first);
     n = insert (kink, n, last);
     for (int c = 0; c < 4; c++) {

@@ -61,11 +61,11 @@ static shell shell_at (const shells *s, const int *n)
     } else
         out.beta = pg_sums_partial (rule->partial, out.r, rule->horizon,
                                  even ? s->step[0] : sqrt (spread) / out.r);
-    if (!(out.beta > 0)) return out;
+    if (out.beta <= 0) return out;
     if (rule->partial == PG_PARTIAL_OVERLAP && !rule->kernel->closed)
         out.weight = pg_sums_overlap_mean (s->dim, n, s->step, rule->horizon, rule->kernel);
     else out.weight = out.beta * pg_sums_kernel (rule, out.r, rule->horizon);
-    if (!(out.weight > 0)) out.beta = 0;
+    if (out.weight <= 0) out.beta = 0;
     return out;
 }
 
@@ -112,7 +112,8 @@ done:
     return status;
 }
 
-/* Computes each canonical offset once; the rest of the table is never read. */
+/* Computes each canonical offset once; the rest of the table is never read. What is no number is no reason
+ * to leave a bond out: it is a fault. */
 static pg_status fill (shells *s)
 {
     pg_status status = PG_OK;
@@ -122,7 +123,16 @@ static pg_status fill (shells *s)
         for (n[1] = 0; n[1] <= s->reach[1]; n[1]++)
             for (n[0] = 0; n[0] <= s->reach[0]; n[0]++) {
                 canonical (s, n, c);
-                if (!memcmp (n, c, sizeof n)) s->of[place (s, n)] = shell_at (s, n);
+                if (memcmp (n, c, sizeof n)) continue;
+                shell *of = &s->of[place (s, n)];
+                *of = shell_at (s, n);
+                if (!isfinite (of->beta) || !isfinite (of->weight))
+                    PG_FAIL (PG_E_USAGE,
+                             "the bond to the neighbour (%d, %d, %d) steps away has partial volume %g and "
+                             "weight %g by kernel %s, at a horizon of %.17g m and steps of %.17g m: choose "
+                             "another method.kernel or method.partial_volume",
+                             n[0], n[1], n[2], of->beta, of->weight, s->rule->kernel->name, s->rule->horizon,
+                             s->step[0]);
             }
 done:
     return status;

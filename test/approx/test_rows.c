@@ -489,6 +489,27 @@ static void no_points_are_no_error (void **state)
     lattice_clear (&c);
 }
 
+/* Infinite or no number at all: neither is a bond that is missing. */
+static void weights_that_are_not_finite_are_an_error (void **state)
+{
+    (void) state;
+    static const double bad[] = { NAN, INFINITY, -INFINITY };
+    for (int k = 0; k < 3; k++)
+        for (int shape = PG_RADIAL; shape <= PG_TENSOR; shape++) {
+            pg_cloud c = lattice (2, 5, 1, 0);
+            pg_approx a = make ("rkpm", "cubic_spline", 1, shape, 2);
+            pg_rows r;
+            double at[2] = { 2.3, 2.4 };
+            a.use_volume = 1;
+            c.volume[12] = bad[k];
+            check_ok (pg_rows_create (&r, &a, &c, 1, at, NULL, NULL, NULL));
+            check_fails (a.type->evaluate (&a, &c, &r, NULL, 1, NULL, 1), PG_E_USAGE);
+            check_contains (pg_last_error (), "at (2.3, 2.4, 0) m are not finite");
+            pg_rows_clear (&r);
+            lattice_clear (&c);
+        }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -511,6 +532,7 @@ int main (void)
         cmocka_unit_test (a_node_outside_its_own_family_is_an_error_of_nosb),
         cmocka_unit_test (an_order_beyond_two_is_an_error),
         cmocka_unit_test (no_points_are_no_error),
+        cmocka_unit_test (weights_that_are_not_finite_are_an_error),
         cmocka_unit_test (grades_say_what_is_reproduced),  /* last: the others keep their random numbers */
     };
     return cmocka_run_group_tests_name ("approx/rows", tests, NULL, NULL);

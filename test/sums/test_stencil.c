@@ -416,6 +416,69 @@ static void wrong_rules_are_refused (void **state)
     }
 }
 
+/* The last bit of the spacing decides nothing: as many neighbours, of the same weights to rounding, at any
+ * spacing. 250 of a cone in space at 3.015 spacings, by overlap: the six nearest among them. */
+static void every_spacing_has_the_same_bonds (void **state)
+{
+    (void) state;
+    static const char *const kernels[] = { "conical", "constant", "quartic_spline" };
+    unsigned seed = 12345;
+    for (int dim = 1; dim <= 3; dim++)
+        for (int p = 0; p < 3; p++)
+            for (size_t k = 0; k < sizeof kernels / sizeof *kernels; k++) {
+                pg_sum_rule rule = rule_of (dim, kernels[k], 3.015, (pg_partial) p);
+                pg_stencil one, s;
+                build (&one, &rule, dim, 1);
+                if (dim == 3 && k == 0 && p == PG_PARTIAL_OVERLAP) assert_int_equal (one.n, 250);
+                for (int n = 0; n < 40; n++) {
+                    seed = 1664525 * seed + 1013904223;
+                    double h = pow (10, -6 + 9 * (seed / 4294967296.0));
+                    rule.horizon = 3.015 * h;
+                    build (&s, &rule, dim, h);
+                    assert_int_equal (s.n, one.n);
+                    for (size_t b = 0; b < s.n; b++) check_absolute (s.weight[b], one.weight[b], 1e-9);
+                    pg_stencil_clear (&s);
+                }
+                pg_stencil_clear (&one);
+            }
+}
+
+/* A kernel that is no number somewhere */
+static void no_number (size_t n, const double *q, double *w, double *dw)
+{
+    for (size_t i = 0; i < n; i++) w[i] = q[i] > 0.4 && q[i] < 0.6 ? NAN : 1;
+    for (size_t i = 0; dw && i < n; i++) dw[i] = 0;
+}
+
+static void infinite (size_t n, const double *q, double *w, double *dw)
+{
+    for (size_t i = 0; i < n; i++) w[i] = q[i] > 0.4 && q[i] < 0.6 ? INFINITY : 1;
+    for (size_t i = 0; dw && i < n; i++) dw[i] = 0;
+}
+
+/* What is no number is refused, with the bond that has it: it is no bond that is missing. */
+static void weights_that_are_no_numbers_are_refused (void **state)
+{
+    (void) state;
+    const pg_kernel bad[] = { { "bad", "", 1, no_number }, { "bad", "", 1, infinite } };
+    const double step[3] = { 1, 1, 1 };
+    double x[] = { 0, 0, 1, 0, 2, 0.1, 3, 0.31415, 4, 0.0271 }, volume[] = { 1, 1, 1, 1, 1 };
+    pg_cloud cloud = { .dim = 2, .n = 5, .x = x, .volume = volume, .h = 1, .step = { 1, 1, 1 },
+                       .thickness = 1 };
+    pg_sums *sums;
+    for (int k = 0; k < 2; k++)
+        for (int p = 0; p < 3; p++) {
+            pg_sum_rule rule = rule_of (2, "constant", 2.015, (pg_partial) p);
+            pg_stencil s;
+            rule.kernel = &bad[k];
+            check_fails (pg_stencil_build (&s, &rule, 2, step), PG_E_USAGE);
+            check_contains (pg_last_error (), "the bond to the neighbour (1, 0, 0)");
+            if (p == PG_PARTIAL_OVERLAP) continue;
+            check_fails (pg_sums_create (&sums, &rule, &cloud, NULL), PG_E_USAGE);
+            check_contains (pg_last_error (), "the bond of points 1 and 2");
+        }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -431,6 +494,8 @@ int main (void)
         cmocka_unit_test (calibration_makes_the_hydrostatic_energy_exact),
         cmocka_unit_test (the_highest_frequency_is_the_printed_one),
         cmocka_unit_test (wrong_rules_are_refused),
+        cmocka_unit_test (every_spacing_has_the_same_bonds),
+        cmocka_unit_test (weights_that_are_no_numbers_are_refused),
     };
     return cmocka_run_group_tests_name ("stencil of a lattice", tests, NULL, NULL);
 }
