@@ -40,6 +40,9 @@ void      pg_crack_statistics_json (pg_json *j, const char *name, const pg_crack
 /* Mean direction of cracks in the plane, degrees from the x axis, 0 to 180. */
 double    pg_network_direction (const pg_network *n);
 
+/* All that pg_result_open does before it touches a file: fields, views, averages, tips, reference.
+ * PG_E_SCENE: what the scene asks for cannot be had. */
+pg_status pg_result_plan (const pg_scene *scene, const pg_problem *problem, pg_solver *solver);
 /* An open result folder. */
 typedef struct pg_result pg_result;
 /* The folder in which this process keeps its tables and its checkpoint: `folder`, or where ranks share a run

@@ -147,6 +147,9 @@ pg_status   pg_scene_verdict (const pg_scene *s);
 void        pg_scene_pass    (const pg_scene *s);
 /* As pg_scene_verdict, but fails also for faults that were passed. */
 pg_status   pg_scene_conclude (const pg_scene *s);
+/* PG_E_USAGE from a folder that knows no keys, its message being the last one, becomes a fault of the scene
+ * at this key; any other status is returned as it is. */
+pg_status   pg_scene_blame   (const pg_scene *s, const char *key, pg_status status);
 /* The path as given; the text that was read, without overrides. */
 const char *pg_scene_file    (const pg_scene *s);
 const char *pg_scene_source  (const pg_scene *s);

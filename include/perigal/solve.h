@@ -215,7 +215,9 @@ typedef struct {
      * already. */
     void      (*read)    (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
     pg_status (*prepare) (pg_solver *s);  /* when the solver is made: fills in what options leave open */
-    pg_status (*start)   (pg_solver *s, pg_state *state);              /* before the first step */
+    /* Before the first step, shape functions being made: what can be refused is, and nothing is solved. */
+    pg_status (*begin)   (pg_solver *s, const pg_state *state);
+    pg_status (*start)   (pg_solver *s, pg_state *state);              /* then: what it takes to solve */
     pg_status (*step)    (pg_solver *s, pg_state *state, pg_step *step);
     int       (*done)    (const pg_solver *s, const pg_state *state);
     void      (*refused) (pg_solver *s);  /* a step failed: the state goes back to the last accepted one */
@@ -244,6 +246,11 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
                                  const pg_force_type *force);
 void      pg_solver_free   (pg_solver **solver);
 int       pg_solver_components (const pg_solver *solver);  /* dofs per node, for pg_state_create */
+/* Everything that a run does before its first step and that can be refused: shape functions, faces of cracks
+ * and platens, masses. With a scene, which must live for this call only, faults are placed in it
+ * (PG_E_SCENE); NULL: messages name keys alone. The state is the one that the first step starts from; a
+ * second call does nothing, and pg_solver_step makes up for a missing one. */
+pg_status pg_solver_begin  (pg_solver *solver, const pg_state *state, const pg_scene *scene);
 /* Advances by one step. On a numerical failure the state is that of the last accepted step. */
 pg_status pg_solver_step   (pg_solver *solver, pg_state *state, pg_step *step);
 /* The potential energy, J, that n stages of a cut would set free at fixed loads: stage k cuts the bonds

@@ -23,56 +23,66 @@ done:
     return pg_exit_code (status);
 }
 
-/* For explicit and relaxation solvers the solver itself is created, because only it knows its
- * time step. --solve and --spectrum come last, since they take the longest and everything else
- * must be right for them. */
+/* The start of the run, of bodies up to a size; an explicit or relaxing solver is made of any, because only
+ * it knows its time step. */
+static pg_status try_start (preparation *r, plan *all, pg_statistics *warned)
+{
+    pg_status status = PG_OK;
+    int fits = !((double) r->problem->cloud.n > PLAN_MOST_TRIED),
+        steps = (r->options.flags & (PG_SOLVER_EXPLICIT | PG_SOLVER_STAGED)) != 0;
+    if (!fits && !steps) {
+        PG_TRY (pg_patch_refuse (r->problem, r->scene));
+        pg_solver_doubts (warned, r->problem, &r->options);
+        goto done;
+    }
+    PG_TRY (prepare_solver (r));
+    if (fits) PG_TRY (prepare_start (r));
+    all->solver = r->solver, all->begun = fits;
+    *warned = *pg_solver_report_now (r->solver);
+    if (!steps) goto done;
+    r->options = *pg_solver_settled (r->solver);
+    all->stable = pg_solver_stable (r->solver, &all->from);
+done:
+    return status;
+}
+
+/* --solve and --spectrum come last, since they take the longest and everything else must be right for
+ * them. */
 int pg_cli_check (int argc, char **argv)
 {
     pg_status status = PG_OK;
     command c;
-    pg_scene *scene = NULL;
-    pg_problem *p = NULL;
-    pg_solver_options o;
-    pg_forecast f;
+    preparation r = { .scene = NULL };
     pg_first_break first = { 0 };
     spectrum waves = { 0 };
-    pg_solver *solver = NULL;
+    pg_statistics warned = { 0 };
     pg_cracks cracks = { 0 };
     pg_crack_statistics network = { 0 };
-    const char *from = "";
-    double stable = NAN;
     int wrong = command_parse (&c, argc, argv);
     if (wrong >= 0) return wrong;
     if (c.echo) return echo (&c);
     if (c.ranks) return check_ranks (&c);
-    PG_TRY (command_scene (&c, &scene));
-    PG_TRY (afford_scene (&c, &f));
-    PG_TRY (command_problem (&c, scene, &p, &o));
-    PG_TRY (afford_problem (&c, &f, p, 1));
-    PG_TRY (pg_patch_probe (p));
-    if ((o.flags & PG_SOLVER_EXPLICIT) || (o.flags & PG_SOLVER_STAGED)) {
-        PG_TRY (pg_solver_create (&solver, p, &o));
-        o = *pg_solver_settled (solver);
-        stable = pg_solver_stable (solver, &from);
-    }
-    PG_TRY (pg_patch_refuse (p, scene));
-    if (c.solve) PG_TRY (pg_first_break_find (&first, p, &o));
-    if (c.spectrum) PG_TRY (spectrum_find (&waves, scene, p));
-    PG_TRY (pg_network_read (&cracks, scene));
-    PG_TRY (pg_crack_statistics_measure (&network, &cracks, scene));
-    PG_TRY (matrix_write (p, &o, c.matrix));
-    plan all = { p, &o, &f, afford_available (&c), &first, &waves, stable, from, &network, solver };
+    PG_TRY (command_scene (&c, &r.scene));
+    PG_TRY (prepare_problem (&r, &c, 1));
+    plan all = { .problem = r.problem, .options = &r.options, .forecast = &r.forecast,
+                 .available = afford_available (&c), .first = &first, .waves = &waves, .stable = NAN,
+                 .from = "", .network = &network,
+                 .warned = &warned };
+    PG_TRY (try_start (&r, &all, &warned));
+    if (c.solve) PG_TRY (pg_first_break_find (&first, r.problem, &r.options));
+    if (c.spectrum) PG_TRY (spectrum_find (&waves, r.scene, r.problem));
+    PG_TRY (pg_network_read (&cracks, r.scene));
+    PG_TRY (pg_crack_statistics_measure (&network, &cracks, r.scene));
+    PG_TRY (matrix_write (r.problem, &r.options, c.matrix));
     if (c.json) PG_TRY (plan_print_json (&all));
     else printf ("%s: the scene is valid\n", c.scene);
     if (!c.quiet && !c.json) plan_print_long (&all);
-    if (c.spectrum && !c.json) spectrum_print (&waves, p);
-    if (c.spectrum && c.folder) PG_TRY (spectrum_write (&waves, p, c.folder));
+    if (c.spectrum && !c.json) spectrum_print (&waves, r.problem);
+    if (c.spectrum && c.folder) PG_TRY (spectrum_write (&waves, r.problem, c.folder));
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
     pg_cracks_clear (&cracks);
     spectrum_free (&waves);
-    pg_solver_free (&solver);
-    pg_problem_free (&p);
-    pg_scene_free (&scene);
+    prepare_free (&r);
     return pg_exit_code (status);
 }

@@ -98,6 +98,24 @@ void      command_complain (pg_status status, const char *text);
 /* Prints to stderr the command that goes on with this run. */
 void      command_again (const command *c);
 
+/* A run up to its first step (prepare.c). */
+typedef struct {
+    pg_scene   *scene;
+    pg_forecast forecast;
+    pg_problem *problem;
+    pg_solver_options options;
+    pg_solver  *solver;
+    pg_state   *state;
+} preparation;
+/* From the scene, which the caller has loaded, to the problem and its patch test; refused where memory is
+ * short. thorough: afford_problem. Of ranks that share the body the forecast stays empty. */
+pg_status prepare_problem (preparation *r, const command *c, int thorough);
+/* The solver, which settles what the options leave open. */
+pg_status prepare_solver  (preparation *r);
+/* The state it starts from, all that it does before the first step, and what results are asked for. */
+pg_status prepare_start   (preparation *r);
+void      prepare_free    (preparation *r);
+
 /* Bytes that the run may use: --memory, or what the machine grants (afford.c). */
 double    afford_available (const command *c);
 /* 1 for a mesh file so small that the run fits any machine: not worth reading twice. */
@@ -127,8 +145,8 @@ pg_status matrix_write (const pg_problem *p, const pg_solver_options *o, const c
 /* check --ranks (check_ranks.c): what that many processes would do with the scene; returns the exit code. */
 int       check_ranks (const command *c);
 
-/* What a scene amounts to (plan.c): in short, before a run. */
-void plan_print      (const pg_problem *p, const pg_solver_options *o);
+/* What a scene amounts to (plan.c): in short, before a run; doubts, empty before, gets the warnings. */
+void plan_print      (const pg_problem *p, const pg_solver_options *o, pg_statistics *doubts);
 /* Everything that check has found out. stable: time step of an explicit method, s, and where
  * it comes from; NAN for others. available: bytes. */
 typedef struct {
@@ -141,8 +159,13 @@ typedef struct {
     double stable;
     const char *from;
     const pg_crack_statistics *network;
-    const pg_solver *solver;                           /* of explicit and staged methods, else NULL */
+    const pg_solver *solver;                           /* NULL: the body is too large to try */
+    int begun;                                         /* 1: all was done that comes before its first step */
+    const pg_statistics *warned;                       /* what a run warns of before its first step */
 } plan;
+/* Beyond so many points check leaves out what it names here. */
+#define PLAN_MOST_TRIED 3e5
+#define plan_untried "shape functions, contact and the solver at the start"
 /* Largest frequency (rad/s), stable time step (s), c_p dt / h of Newmark steps. measured: 0:
  * an estimate, 1: by --solve, 2: by the solver itself. */
 typedef struct { double omega, dt, courant; int measured; } plan_times;
@@ -163,6 +186,6 @@ void plan_mesh_json  (pg_json *j, const pg_problem *p);
 void plan_network      (const pg_crack_statistics *network);
 /* What the solver has settled: time steps, stages. */
 void plan_settled     (const pg_solver *solver);
-/* Warnings and notes of the scene. */
-void plan_doubts     (const pg_problem *p, const pg_solver_options *o);
+/* Warnings of a report but for those told before (NULL: none). */
+void plan_warnings   (const pg_statistics *report, const pg_statistics *before);
 #endif

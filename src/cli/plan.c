@@ -69,19 +69,24 @@ static void print_box (const pg_problem *q, int width)
     printf ("\n");
 }
 
-/* Warnings that are known before the run; a run adds those that come up on the way. */
-void plan_doubts (const pg_problem *p, const pg_solver_options *o)
+void plan_warnings (const pg_statistics *report, const pg_statistics *before)
 {
-    pg_statistics doubts = { 0 };
+    for (size_t k = 0; k < report->nwarning; k++) {
+        size_t i = 0;
+        while (before && i < before->nwarning && strcmp (before->warning[i], report->warning[k]) != 0) i++;
+        if (!before || i == before->nwarning) printf ("  warning: %s\n", report->warning[k]);
+    }
+}
+
+static void print_notes (const pg_problem *p, const pg_solver_options *o)
+{
     char note[400];
-    pg_solver_doubts (&doubts, p, o);
-    for (size_t k = 0; k < doubts.nwarning; k++) printf ("  warning: %s\n", doubts.warning[k]);
     for (size_t k = 0; pg_solver_note (p, o, k, note, sizeof note); k++) printf ("  %s\n", note);
 }
 
 /* The short form, before the progress of a run begins; flushed, because progress goes to the
- * other stream. */
-void plan_print (const pg_problem *p, const pg_solver_options *o)
+ * other stream. Warnings that need no solver come now, for they help where it is refused. */
+void plan_print (const pg_problem *p, const pg_solver_options *o, pg_statistics *doubts)
 {
     char text[400];
     printf ("%s\n", p->title);
@@ -93,7 +98,9 @@ void plan_print (const pg_problem *p, const pg_solver_options *o)
     printf ("  %s; horizon %.6g m\n", text, p->approx.horizon);
     describe (p, 9);
     printf ("  solver %s%s\n", o->kind, stepping (o));
-    plan_doubts (p, o);
+    pg_solver_doubts (doubts, p, o);
+    plan_warnings (doubts, NULL);
+    print_notes (p, o);
     fflush (stdout);                                   /* progress goes to the other stream */
 }
 
@@ -527,6 +534,14 @@ static void print_patch (const pg_problem *p)
             p->patch.held ? "outermost points constrained" : "tractions on the whole surface");
 }
 
+/* Of a large body the start of the run costs as much as the run's first minutes. */
+static void print_untried (const plan *p)
+{
+    if (!p->begun)
+        printf ("  %-18s  %s of more than %g points: what a run may refuse there\n", "not tried",
+                plan_untried, PLAN_MOST_TRIED);
+}
+
 /* All that check says, in the order geometry, method, materials, solver, memory, warnings,
  * first break. */
 void plan_print_long (const plan *p)
@@ -560,7 +575,9 @@ void plan_print_long (const plan *p)
                 q->eroded);
     for (size_t k = 0; k < nskip; k++) printf ("  %-18s  %s (%s)\n", "skipped", skip[k].what, skip[k].why);
     print_memory (p);
-    plan_doubts (q, p->options);
+    print_untried (p);
+    plan_warnings (p->warned, NULL);
+    print_notes (q, p->options);
     print_first_break (p);
     print_tips (p);
     print_fronts (p);

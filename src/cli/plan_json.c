@@ -207,11 +207,11 @@ static void fronts (pg_json *j, const plan *p)
  * report cannot differ. */
 static void doubts (pg_json *j, const plan *p)
 {
-    pg_statistics report = { 0 };
     char note[400];
-    pg_solver_doubts (&report, p->problem, p->options);
+    const pg_statistics *report = p->warned;
+    if (!p->begun) pg_json_text (j, "not_tried", plan_untried);
     pg_json_open (j, "warnings", '[');
-    for (size_t k = 0; k < report.nwarning; k++) pg_json_text (j, NULL, report.warning[k]);
+    for (size_t k = 0; k < report->nwarning; k++) pg_json_text (j, NULL, report->warning[k]);
     pg_json_shut (j);
     pg_json_open (j, "notes", '[');
     for (size_t k = 0; pg_solver_note (p->problem, p->options, k, note, sizeof note); k++)

@@ -8,7 +8,7 @@
  * checkpoint and all complete steps are there.
  *
  * Where ranks share the run (perigal-mpi) each passes through here; rank 0 speaks. What one of them meets
- * between steps is told to all, so that they go on or end together. */
+ * between steps is early to all, so that they go on or end together. */
 #include "cli.h"
 #include <signal.h>
 #include <stdlib.h>
@@ -78,23 +78,10 @@ static void print_instabilities (const pg_statistics *r, const pg_solver_options
                 r->instabilities, r->unstable_steps, r->motion_time, r->energy_damping, r->switch_jump);
 }
 
-/* Warnings that came during the run; those known before stand above the progress, so they are
- * worked out again and left out here. */
-static void print_warnings (const pg_statistics *r, const pg_problem *problem, const pg_solver_options *o)
-{
-    pg_statistics before = { 0 };
-    pg_solver_doubts (&before, problem, o);
-    for (size_t k = 0; k < r->nwarning; k++) {
-        size_t i = 0;
-        while (i < before.nwarning && strcmp (before.warning[i], r->warning[k]) != 0) i++;
-        if (i == before.nwarning) printf ("  warning: %s\n", r->warning[k]);
-    }
-}
-
 /* The last lines of a run: work, peak and crack, estimated error, times, reference, what was
  * skipped, warnings, files. */
 static void print_summary (const pg_result *result, const pg_statistics *r, const pg_solver_options *o,
-                           const pg_problem *problem, double total)
+                           const pg_problem *problem, const pg_statistics *early, double total)
 {
     int nodal = problem->integration->at_nodes;
     print_counts (r, o);
@@ -120,7 +107,7 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
     for (size_t k = 0; pg_result_tip (result, k, row, sizeof row); k++) printf ("  crack %s\n", row);
     for (size_t k = 0; k < r->nskipped; k++)
         printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
-    print_warnings (r, problem, o);
+    plan_warnings (r, early);
     if (pg_rank_count () > 1 && !pg_ranks_now () && !r->factorizations)
         printf ("  warning: no matrix was factored: all %d ranks did the same work, one would do; "
                 "solver.linear: petsc factors on all of them\n", pg_rank_count ());
@@ -138,6 +125,7 @@ typedef struct {
     const pg_problem *problem;
     const pg_solver *solver;
     progress shown;
+    pg_statistics early;                               /* of before the first step: its warnings are told */
     int within;
     int alone;                                         /* 1: it failed where other ranks do not know of it */
 } watched;
@@ -258,21 +246,7 @@ done:
     return status;
 }
 
-/* Two BLAS threads gain 7 % of a factorization with 4 000 unknowns on an idle machine, and
- * lose half the speed on a busy one: below 50 000 unknowns in 2D and 10 000 in 3D one thread
- * is used. By the environment where BLAS is not loaded yet, which then starts no threads that nobody needs:
- * each of them would wait awake for some 20 ms. */
-static void settle_blas (const pg_problem *p)
-{
-    size_t unknowns = p->cloud.n * (size_t) pg_problem_unknowns (p), enough = p->dim == 3 ? 10000 : 50000;
-    int threads = unknowns < enough ? 1 : p->threads;
-    char count[16];
-    snprintf (count, sizeof count, "%d", threads);
-    setenv ("OPENBLAS_NUM_THREADS", count, 1);
-    pg_linear_threads (threads);
-}
-
-/* What a person is told on stderr at the end, whatever ended the run: the reasons, each once,
+/* What a person is early on stderr at the end, whatever ended the run: the reasons, each once,
  * and how to go on where that is possible. */
 static void tell_outcome (const command *c, pg_status outcome, const char *failure, pg_status written,
                           const char *fault, int kept)
@@ -307,7 +281,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     if (status != PG_OK && !failed) kept = keep_for_later (w);
     if (status == PG_OK && !c->quiet)
         print_summary (w->result, pg_solver_report_now (solver), pg_solver_settled (solver), w->problem,
-                       pg_seconds () - start);
+                       &w->early, pg_seconds () - start);
     tell_outcome (c, outcome, failure, status, fault, kept);
     return failed ? outcome : status;
 }
@@ -315,10 +289,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
 /* Everything that a run is made of; freed in the reverse order of its making. */
 typedef struct {
     command    c;
-    pg_scene  *scene;
-    pg_problem *problem;
-    pg_solver *solver;
-    pg_solver_options options;
+    preparation p;
     char       folder[4096];                           /* of the results */
     watched    w;
     int        finished;                               /* --resume of a run that is whole already */
@@ -343,21 +314,17 @@ static pg_status prepare (run *r)
 {
     pg_status status = PG_OK;
     command *c = &r->c;
+    preparation *p = &r->p;
     int fresh = !c->resume && !c->force;
-    pg_forecast forecast;
-    PG_TRY (command_scene (c, &r->scene));
-    PG_TRY (divide (c, r->scene));
-    if (c->folder && fresh && pg_rank () == 0) PG_TRY (pg_result_may_open (c->folder, r->scene));
-    if (!pg_ranks_now ()) PG_TRY (afford_scene (c, &forecast));
-    PG_TRY (command_problem (c, r->scene, &r->problem, &r->options));
-    settle_blas (r->problem);
-    if (!pg_ranks_now ()) PG_TRY (afford_problem (c, &forecast, r->problem, 0));
-    if (!pg_ranks_now ()) PG_TRY (pg_patch_probe (r->problem));
+    PG_TRY (command_scene (c, &p->scene));
+    PG_TRY (divide (c, p->scene));
+    if (c->folder && fresh && pg_rank () == 0) PG_TRY (pg_result_may_open (c->folder, p->scene));
+    PG_TRY (prepare_problem (p, c, 0));
     char own[2048];
-    snprintf (own, sizeof own, "out/%s", r->problem->name);
+    snprintf (own, sizeof own, "out/%s", p->problem->name);
     pg_result_rank_folder (r->folder, sizeof r->folder, c->folder ? c->folder : own);
-    if (!c->folder && fresh) PG_TRY (pg_result_may_open (r->folder, r->scene));
-    double finished = c->resume && pg_rank () == 0 && pg_result_finished (r->folder, r->scene);
+    if (!c->folder && fresh) PG_TRY (pg_result_may_open (r->folder, p->scene));
+    double finished = c->resume && pg_rank () == 0 && pg_result_finished (r->folder, p->scene);
     PG_TRY (pg_ranks_ask (1, &finished));
     r->finished = finished > 0;
 done:
@@ -368,13 +335,17 @@ done:
 static pg_status open_run (run *r)
 {
     pg_status status = PG_OK;
-    if (!r->c.quiet) plan_print (r->problem, &r->options);
-    PG_TRY (pg_solver_create (&r->solver, r->problem, &r->options));
-    PG_TRY (pg_patch_refuse (r->problem, r->scene));
-    if (!r->c.quiet) plan_settled (r->solver);
-    PG_TRY (pg_state_create (&r->w.state, r->problem, pg_solver_components (r->solver)));
-    PG_TRY (open_result (&r->c, r->folder, r->scene, r->problem, r->solver, &r->w));
-    r->w.problem = r->problem;
+    preparation *p = &r->p;
+    pg_statistics doubts = { 0 };
+    if (!r->c.quiet) plan_print (p->problem, &p->options, &doubts);
+    PG_TRY (prepare_solver (p));
+    if (!r->c.quiet) plan_settled (p->solver);
+    PG_TRY (prepare_start (p));
+    r->w.early = *pg_solver_report_now (p->solver);
+    if (!r->c.quiet) plan_warnings (&r->w.early, &doubts);
+    fflush (stdout);                                   /* progress goes to the other stream */
+    r->w.state = p->state, r->w.problem = p->problem;
+    PG_TRY (open_result (&r->c, r->folder, p->scene, p->problem, p->solver, &r->w));
 done:
     return status;
 }
@@ -401,7 +372,7 @@ int pg_cli_run (int argc, char **argv)
     return pg_cli_run_ranks (argc, argv, &together);
 }
 
-/* Ranks begin on a processor each, unless they are told otherwise. */
+/* Ranks begin on a processor each, unless they are early otherwise. */
 int pg_cli_run_ranks (int argc, char **argv, int *together)
 {
     pg_status status = PG_OK;
@@ -421,15 +392,12 @@ int pg_cli_run_ranks (int argc, char **argv, int *together)
     }
     PG_TRY (pg_ranks_agree (open_run (&r)));
     complained = 1;                                    /* by run_to_the_end, whatever comes */
-    status = run_to_the_end (&r.c, r.solver, &r.w, pg_seconds () - start, start);
+    status = run_to_the_end (&r.c, r.p.solver, &r.w, pg_seconds () - start, start);
     if (!r.w.alone) pg_result_free (&r.w.result), drop_rank_folder (&r, status);
 done:
     if (status != PG_OK && !complained && pg_rank () == 0) command_complain (status, pg_last_error ());
     *together = !r.w.alone;
     pg_result_free (&r.w.result);
-    pg_state_free (&r.w.state);
-    pg_solver_free (&r.solver);
-    pg_problem_free (&r.problem);
-    pg_scene_free (&r.scene);
+    prepare_free (&r.p);
     return pg_exit_code (status);
 }

@@ -430,7 +430,7 @@ pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, c
         /* where single bonds break faces may crumble away: there is nothing to touch any more */
         if (!(weight > 0) && !pg_criterion_of_bonds (p->criterion))
             PG_FAIL (PG_E_USAGE,
-                     "contact: within %g spacings of (%.6g, %.6g%s) m the body sees too little on one side "
+                     "within %g spacings of (%.6g, %.6g%s) m the body sees too little on one side "
                      "of the surface for a gap: take a smaller spacing, or keep cracks and surfaces further "
                      "apart",
                      PG_CONTACT_RADIUS, pieces->piece[k].x[0], pieces->piece[k].x[1], third);

@@ -102,6 +102,26 @@ done:
     return status;
 }
 
+/* A result of which no file is open yet; what was made is there on failure too. */
+static pg_status ready (pg_result **r, const char *folder, const pg_scene *scene, const pg_problem *problem,
+                        pg_solver *solver)
+{
+    pg_status status = PG_OK;
+    PG_TRY (pg_result_check (scene, problem));
+    PG_ALLOC (*r, 1);
+    PG_TRY (pg_scene_blame (scene, "output", pg_result_prepare (*r, folder, scene, problem, solver)));
+done:
+    return status;
+}
+
+pg_status pg_result_plan (const pg_scene *scene, const pg_problem *problem, pg_solver *solver)
+{
+    pg_result *r = NULL;
+    pg_status status = ready (&r, "", scene, problem, solver);
+    pg_result_free (&r);
+    return status;
+}
+
 /* The order matters: checks first, then the lock, and the report of an earlier run is removed
  * before anything new is written, so that nothing of it is mistaken for the new run. */
 pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *scene,
@@ -110,9 +130,7 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     pg_status status = PG_OK;
     pg_result *r = NULL;
     double t0 = pg_seconds ();
-    PG_TRY (pg_result_check (scene, problem));
-    PG_ALLOC (r, 1);
-    PG_TRY (pg_result_prepare (r, folder, scene, problem, solver));
+    PG_TRY (ready (&r, folder, scene, problem, solver));
     PG_TRY (pg_folder_make (folder));
     PG_TRY (pg_result_lock (folder, &r->lock));
     PG_TRY (pg_result_may_open (folder, scene));

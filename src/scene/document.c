@@ -222,6 +222,15 @@ pg_status pg_scene_verdict (const pg_scene *s)
     return s->faults->n > s->faults->passed || s->faults->lost ? pg_faults_verdict (s->faults) : PG_OK;
 }
 
+pg_status pg_scene_blame (const pg_scene *s, const char *key, pg_status status)
+{
+    char text[1024];
+    if (status != PG_E_USAGE) return status;
+    snprintf (text, sizeof text, "%s", pg_last_error ());
+    pg_scene_fault (s, key, "%s", text);
+    return pg_scene_verdict (s);
+}
+
 pg_status pg_scene_conclude (const pg_scene *s) { return pg_faults_verdict (s->faults); }
 void pg_scene_pass (const pg_scene *s) { s->faults->passed = s->faults->n; }
 int pg_scene_partial (const pg_scene *s) { return s->partial; }

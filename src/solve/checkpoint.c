@@ -431,7 +431,7 @@ static pg_status keep_shares (const pg_solver *s, const pg_state *state, const p
 pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    if (k->reading && !s->started) PG_TRY (s->type->start (s, state));
+    if (k->reading) PG_TRY (solver_start (s, state));
     s->started = 1;
     PG_TRY (keep_state (state, s->problem, "state", k));
     PG_TRY (keep_state (s->backup, s->problem, "backup", k));

@@ -117,6 +117,8 @@ void      contact_free    (pg_system *s);
 /* After the force was refreshed: pieces and rows of the cracks of the state. changes: what it was refreshed
  * by; NULL: all. */
 pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes *changes);
+/* Before the first step, pieces being at hand: what equilibria with contact need and do not have. */
+pg_status contact_check   (const pg_system *s);
 /* As system_solve. */
 pg_status contact_solve   (pg_system *s, double t, double *d, const dynamics *dyn, double *residual);
 /* Gaps of a displacement under the forces at hand, without what the layer between the faces gives way by. */

@@ -51,6 +51,7 @@ pg_status platens_create (pg_system *s)
     const pg_problem *p = s->problem;
     pg_contact_pieces one = { 0 };
     double *gap = NULL;
+    char key[32];
     size_t dim = (size_t) p->dim, room = 0;
     w->n = p->nplaten;
     PG_ALLOC (w->motion, w->n);
@@ -58,15 +59,18 @@ pg_status platens_create (pg_system *s)
     PG_ALLOC (w->shown, w->n);
     for (size_t i = 0; i < w->n; i++) {
         PG_TRY (pg_platen_pieces_create (&one, &gap, p, i));
+        snprintf (key, sizeof key, "platens[%zu]", i);
         if (!one.n)
-            PG_FAIL (PG_E_USAGE, "nothing of the body's surface faces the platen %s: turn its normal, or "
-                     "move it", p->platen[i].name);
+            PG_TRY (options_fault (s->options, key,
+                                   "nothing of the body's surface faces the platen %s: turn its normal, or "
+                                   "move it", p->platen[i].name));
         for (size_t k = 0; k < one.n; k++)
             if (gap[k] < -PG_NO_LENGTH * pg_problem_spacing_at (p, one.piece[k].x))
-                PG_FAIL (PG_E_USAGE, "the platen %s overlaps the body by %.3g m at (%.6g, %.6g, %.6g) m "
-                         "before anything moves: put it where it touches at most (a body of whole cells "
-                         "has a surface of steps: cells: cut)", p->platen[i].name, -gap[k],
-                         one.piece[k].x[0], one.piece[k].x[1], one.piece[k].x[2]);
+                PG_TRY (options_fault (s->options, key,
+                                       "the platen %s overlaps the body by %.3g m at (%.6g, %.6g, %.6g) m "
+                                       "before anything moves: put it where it touches at most (a body of "
+                                       "whole cells has a surface of steps: cells: cut)", p->platen[i].name,
+                                       -gap[k], one.piece[k].x[0], one.piece[k].x[1], one.piece[k].x[2]));
         size_t before = w->all.n;
         PG_TRY (append (&w->all, &one, NULL));
         PG_GROW (w->distance, room, w->all.n);

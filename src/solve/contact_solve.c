@@ -141,6 +141,49 @@ static int grows_in_step (const pg_system *s, const pg_changes *changes)
            && pg_criterion_of_tips (s->problem->criterion);
 }
 
+/* Of the faces of cracks, and how nodes take part in their gaps. */
+static pg_status find_pieces (pg_system *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    struct system_contact *c = s->contact;
+    PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
+    if (finds_broken (s)) PG_TRY (pg_contact_add_broken (&c->pieces, s->problem, state));
+    PG_ALLOC (c->soft, c->pieces.dim * c->pieces.n);
+    if (s->force->faces)
+        PG_TRY (pg_contact_layer (&c->G, c->soft, &c->stiffer, &c->pieces, s->force, s->self, state));
+    else PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
+done:
+    return status;
+}
+
+/* A factor of K itself, which elimination of prescribed values has not. */
+static int has_factor (const pg_system *s)
+{
+    return system_has_matrix (s) && s->linear->factors;
+}
+
+pg_status contact_check (const pg_system *s)
+{
+    pg_status status = PG_OK;
+    const struct system_contact *c = s->contact;
+    int rests = (s->options->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC;
+    if (!c || !rests) return PG_OK;
+    if (c->loose.n && !has_factor (s))
+        PG_TRY (options_fault (s->options, "solver.linear",
+                               "parts of the body that contact alone holds need a factor of K: use auto"));
+    if (!contact_of_faces (c) || !options_begin_cracks (s->problem)) goto done;
+    if (!has_factor (s))
+        PG_TRY (options_fault (s->options, "solver.linear",
+                               "with contact.kind new cracks are tried by a factor of K, which %s has not: "
+                               "use auto, or leave the strengths out", s->linear->name));
+    if (s->force->basis && s->force->basis (s->self))
+        PG_TRY (options_fault (s->options, "method.essential",
+                               "with contact.kind new cracks are tried by a factor of K itself, which "
+                               "transformation has not: use nitsche or penalty, or leave the strengths out"));
+done:
+    return status;
+}
+
 pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes *changes)
 {
     pg_status status = PG_OK;
@@ -152,20 +195,16 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
     clear (c);
     c->stiffer = 1;
     if (contact_of_faces (c)) {
-        PG_TRY (pg_contact_pieces_create (&c->pieces, s->problem, state));
-        if (finds_broken (s)) PG_TRY (pg_contact_add_broken (&c->pieces, s->problem, state));
-        PG_ALLOC (c->soft, c->pieces.dim * c->pieces.n);
-        if (s->force->faces)
-            PG_TRY (pg_contact_layer (&c->G, c->soft, &c->stiffer, &c->pieces, s->force, s->self, state));
-        else PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
+        status = find_pieces (s, state);
+        PG_TRY (options_blame (status, s->options, "contact"));
     }
     c->pieces.dim = (size_t) s->problem->dim, c->ncrack = c->pieces.n;
-    PG_TRY (platens_refresh (s, state));
+    PG_TRY (options_blame (platens_refresh (s, state), s->options, "platens"));
     PG_TRY (make_pairs (s));
     c->began = 1;
     /* in motion their mass holds them */
     if ((s->options->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC)
-        PG_TRY (loose_refresh (&c->loose, s, state));
+        PG_TRY (options_blame (loose_refresh (&c->loose, s, state), s->options, "boundary"));
     s->report->contact_seconds += pg_seconds () - t0;
 done:
     return status;
@@ -283,9 +322,7 @@ static pg_status solve_pairs (pg_system *s, double t, double *d, const dynamics 
     platens_place (s, t);
     for (size_t j = 0; j < c->loose.n; j++) c->loose.amount[j] = c->loose.target[j] = 0;
     if (c->loose.n && (s->stale || !s->factor)) {
-        if (!system_has_matrix (s) || !s->linear->factors)
-            PG_FAIL (PG_E_USAGE, "parts of the body that contact alone holds need a factor of K: set "
-                     "solver.linear: auto");
+        PG_TRY (contact_check (s));
         s->mode = SYSTEM_FACTOR;
         PG_TRY (system_factorize (s, NULL));
     }

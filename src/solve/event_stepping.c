@@ -20,7 +20,6 @@ pg_status event_start (pg_solver *s, const pg_state *state)
     pg_status status = PG_OK;
     event_stepping *e = events_of (s);
     int affine = PG_OWN (pg_static_options, &s->options)->affine;
-    PG_TRY (instability_start (s, &e->unstable));
     if (!e->unit) PG_ALLOC (e->unit, state->ndof);
     if (affine && !e->base) PG_ALLOC (e->base, state->ndof);
     if (affine) {

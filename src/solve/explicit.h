@@ -113,7 +113,6 @@ typedef struct {
 typedef void (*kick_range) (const half_kicks *w, size_t first, size_t last, double *sum);
 void      explicit_read    (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
 pg_status explicit_prepare (pg_solver *s);
-pg_status explicit_start   (pg_solver *s, pg_state *state);
 pg_status explicit_step    (pg_solver *s, pg_state *state, pg_step *step, kick_range range, int staggered);
 int       explicit_done    (const pg_solver *s, const pg_state *state);
 void      explicit_refused (pg_solver *s);
@@ -124,7 +123,7 @@ double    explicit_progress (const pg_solver *s, const pg_state *state);
     .flags = PG_SOLVER_EXPLICIT | PG_SOLVER_NEEDS_DENSITY | PG_SOLVER_FACETS | PG_SOLVER_CONTACT \
              | PG_SOLVER_RANKS, \
     .keys = { &solver_keys_facets, &solver_keys_step, &solver_keys_time }, \
-    .read = explicit_read, .prepare = explicit_prepare, .start = explicit_start, .done = explicit_done, \
+    .read = explicit_read, .prepare = explicit_prepare, .done = explicit_done, \
     .refused = explicit_refused, .free = explicit_free, .keep = explicit_keep, .move = explicit_moved, \
     .own_size = sizeof (motion), .stable = explicit_bound, .progress = explicit_progress
 /* ONE (T, i, lane) for the unknowns of a range that begins at a multiple of LANES: eight at a time, of type

@@ -71,7 +71,7 @@ static pg_status count_steps (pg_solver *s)
     if (o->end > 0) {
         double steps = o->time_steps > 0 ? (double) o->time_steps : ceil (o->end / o->dt * (1 - 1e-12));
         if (steps > 1e9)
-            PG_TRY (solver_fault (s, "solver.end", "%g time steps of %.4g s are too many", steps, o->dt));
+            PG_TRY (options_fault (o, "solver.end", "%g time steps of %.4g s are too many", steps, o->dt));
         o->time_steps = (long) steps;
         o->dt = o->end / steps;
     } else o->end = o->dt * (double) o->time_steps;
@@ -92,13 +92,6 @@ pg_status explicit_prepare (pg_solver *s)
     PG_TRY (count_steps (s));
 done:
     return status;
-}
-
-/* Brings the caches of the force in line with the state. */
-pg_status explicit_start (pg_solver *s, pg_state *state)
-{
-    s->next_level = 1;
-    return system_refresh (&s->break_loop.system, state, NULL);
 }
 
 /* The last step ends exactly at solver.end. */

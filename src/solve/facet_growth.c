@@ -57,7 +57,7 @@ pg_status facet_create (break_loop *b)
     facet_growth *g = NULL;
     if (b->growth || !pg_criterion_of_tips (p->criterion)) return PG_OK;
     const char *why = pg_tip_refuses (p, b->system.force);
-    if (why) PG_FAIL (PG_E_USAGE, "%s", why);
+    if (why) PG_TRY (options_fault (b->system.options, "failure.criterion", "%s", why));
     PG_ALLOC (g, 1);
     b->growth = g;
     g->length = b->system.options->facet;

@@ -42,7 +42,8 @@ static pg_status choose_times (const pg_solver *s, instability *u)
     for (size_t k = 0; k < p->nmaterial; k++)
         fastest = fmax (fastest, pg_material_waves (&p->material[k]).pressure);
     if (!(fastest > 0))
-        PG_FAIL (PG_E_USAGE, "on_instability: dynamic needs the density of every material");
+        PG_TRY (options_fault (&s->options, "solver.on_instability",
+                               "dynamic needs the density of every material"));
     pg_problem_box (p, low, high);
     for (int k = 0; k < p->dim; k++) across += (high[k] - low[k]) * (high[k] - low[k]);
     u->dt = own->dt > 0 ? own->dt : 0.5 * p->cloud.h / fastest;

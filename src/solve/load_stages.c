@@ -46,7 +46,7 @@ static pg_status limit_stages (pg_solver *s)
     PG_TRY (pg_ranks_most (1, &most));
     double needed = ceil (most * x->dt * x->dt / (2 * s0 * s->problem->cloud.h) * (1 - 1e-12));
     if (needed > 1e9)
-        PG_TRY (solver_fault (s, "solver.stages",
+        PG_TRY (options_fault (&s->options, "solver.stages",
                               "the load would need %g stages so that its mere arrival breaks no bond: it is "
                               "too large for these limits",
                               needed));

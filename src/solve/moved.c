@@ -107,8 +107,7 @@ pg_status pg_solver_move (pg_solver *s, pg_state *state, const pg_moved *m)
                                   : sys->contact       ? " with contact"
                                   : pg_problem_removes (s->problem) ? " with stages that remove"
                                                        : "");
-    if (!s->started) PG_TRY (s->type->start (s, state));
-    s->started = 1;
+    PG_TRY (solver_start (s, state));
     PG_TRY (take_counts (s, m, &within));
     PG_TRY (take_state (s, state, m, within ? "backup" : "state"));
     PG_TRY (take_report (s, state, m));

@@ -167,16 +167,27 @@ static newmark *newmark_of (const pg_solver *s) { return s->own; }
 
 /* Starts from the state as it is: the energy that it has counts as work done before. A run that goes on has
  * its acceleration already. */
+static pg_status newmark_begin (pg_solver *s, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    newmark *n = newmark_of (s);
+    double none = 0;
+    n->system = &s->break_loop.system;
+    n->setting = *PG_OWN (pg_newmark_options, &s->options), n->dt = s->options.dt;
+    if (s->break_loop.growth) facet_doubt_step (&s->break_loop, n->dt);
+    for (size_t i = 0; i < state->ndof; i++) none = fmax (none, !(n->system->mass[i] > 0));
+    if (system_most (n->system, none) > 0)
+        PG_TRY (options_fault (&s->options, "materials", "%s needs mass at every point: give each material a "
+                                                         "density", s->options.kind));
+    PG_TRY (newmark_open (n));
+done:
+    return status;
+}
+
 static pg_status newmark_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
     newmark *n = newmark_of (s);
-    n->system = &s->break_loop.system;
-    n->setting = *PG_OWN (pg_newmark_options, &s->options), n->dt = s->options.dt;
-    PG_TRY (system_refresh (n->system, state, NULL));
-    s->next_level = 1;
-    if (s->break_loop.growth) facet_doubt_step (&s->break_loop, n->dt);
-    PG_TRY (newmark_open (n));
     if (state->step > 0) goto done;
     PG_TRY (newmark_launch (n, state, state->time));
     PG_TRY (newmark_account (n, &s->break_loop, state, state->time));
@@ -307,6 +318,7 @@ const pg_solver_type pg_solver_newmark = {
     .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear,
               &solver_keys_step, &solver_keys_time },
     .read = newmark_read,
+    .begin = newmark_begin,
     .start = newmark_start,
     .step = newmark_step,
     .free = newmark_free,

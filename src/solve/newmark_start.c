@@ -211,7 +211,8 @@ pg_status newmark_open (newmark *n)
     if (!n->work2) PG_ALLOC (n->work2, ndof);
     if (!n->work3) PG_ALLOC (n->work3, ndof);
     if (!n->work4) PG_ALLOC (n->work4, 3 * ndof);
-    PG_TRY (system_mass (n->system, n->setting.consistent));
+    PG_TRY (options_blame (system_mass (n->system, n->setting.consistent), n->system->options,
+                           "solver.mass"));
     if (!n->support) PG_ALLOC (n->support, 3 * ndof);
     if (n->setting.alpha != 0 && !n->force0) PG_ALLOC (n->force0, ndof);
 done:
@@ -231,10 +232,6 @@ pg_status newmark_launch (newmark *n, pg_state *state, double t)
     pg_system *sys = n->system;
     size_t ndof = sys->ndof;
     double reference;
-    double none = 0;
-    for (size_t i = 0; i < ndof; i++) none = fmax (none, !(sys->mass[i] > 0));
-    if (system_most (sys, none) > 0)
-        PG_FAIL (PG_E_USAGE, "newmark needs mass at every point: give the material a density");
     memset (state->a, 0, ndof * sizeof *state->a);
     if (elimination (sys)) {
         PG_TRY (sys->force->impose (sys->self, t, state->d));

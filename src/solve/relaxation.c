@@ -36,16 +36,12 @@ void relaxation_free (pg_solver *s)
 }
 
 /* From rest: the first iteration takes half a step of velocity. */
-pg_status relaxation_start (pg_solver *s, pg_state *state)
+pg_status relaxation_begin (pg_solver *s, const pg_state *state)
 {
-    pg_status status = PG_OK;
     struct relaxation *x = motion_of (s)->relaxation;
-    s->next_level = 1;
+    (void) state;
     x->resting = 1;
-    PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
-    if (x->weigh) PG_TRY (x->weigh (s));
-done:
-    return status;
+    return x->weigh ? x->weigh (s) : PG_OK;
 }
 
 /* Load factor of a stage. The last one has exactly the full load, whatever rounding makes of the

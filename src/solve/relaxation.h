@@ -34,7 +34,7 @@ static inline const pg_stages_options *stages_of (const pg_solver *s)
 /* ---- relaxation.c: the motion -------------------------------------------------------------------------- */
 pg_status relaxation_create  (pg_solver *s);  /* motion_of (s)->relaxation; masses and dt are the caller's */
 void      relaxation_free    (pg_solver *s);
-pg_status relaxation_start   (pg_solver *s, pg_state *state);
+pg_status relaxation_begin   (pg_solver *s, const pg_state *state);
 pg_status relaxation_step    (pg_solver *s, pg_state *state, pg_step *step);
 int       relaxation_done    (const pg_solver *s, const pg_state *state);
 double    relaxation_progress (const pg_solver *s, const pg_state *state);
@@ -55,7 +55,7 @@ void      relaxation_read    (pg_solver_options *o, const pg_problem *problem, c
 const char *relaxation_manner (const pg_solver_options *o);
 /* What both methods of relaxation share; name, summary, flags, keys, read and prepare are their own. */
 #define RELAXATION_ENTRIES \
-    .start = relaxation_start, .step = relaxation_step, .done = relaxation_done, \
+    .begin = relaxation_begin, .step = relaxation_step, .done = relaxation_done, \
     .refused = relaxation_refused, .free = relaxation_free, .keep = relaxation_keep, \
     .move = relaxation_moved, \
     .own_size = sizeof (motion), .stable = explicit_bound, .progress = relaxation_progress, \

@@ -320,10 +320,12 @@ int    options_begin_cracks (const pg_problem *problem);   /* new cracks begin w
 /* solver.dt, end and time_steps. The caller says whether the step may be left to the solver: then one of the
  * last two is enough; else two of the three are needed. */
 void   options_read_times (pg_solver_options *o, const pg_problem *problem, const pg_scene *scene);
-/* PG_E_SCENE: what is found wrong with a key while the solver is made, placed in the scene if options.scene
- * knows it. */
-pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)
+/* PG_E_SCENE: what is found wrong with a key while the solver is made or begins, placed in the scene if
+ * options.scene knows it. */
+pg_status options_fault (const pg_solver_options *o, const char *key, const char *format, ...)
     __attribute__ ((format (printf, 3, 4)));
+/* The same of PG_E_USAGE from a folder that knows no keys, its message being the last one; else `status`. */
+pg_status options_blame (pg_status status, const pg_solver_options *o, const char *key);
 
 /* ---- stage_path.c: stages of loading (problem->stage) -------------------------------------------------- */
 /* Why a stage ends. */
@@ -355,7 +357,7 @@ struct pg_solver {
     break_loop   break_loop;
     pg_statistics report;
     int shared;                                        /* the report is that of all ranks */
-    int started, finished, warned_overlap, warned_energy, warned_facets;
+    int begun, started, finished, warned_overlap, warned_energy, warned_facets;
     long      next_level;                              /* next level to report: next_level / levels */
     pg_state *backup;                                  /* last accepted state, for refused steps */
     long      evaluations, spared;                     /* of forces by explicit steps; for rows: not made */
@@ -369,6 +371,8 @@ struct pg_solver {
     void     *own;  /* what the method alone knows (type->own_size bytes), or NULL */
 };
 
+/* What every way to a first step has in common: pg_solver_begin, then what the method starts with. */
+pg_status solver_start  (pg_solver *s, pg_state *state);
 /* Before the system is made: the problem becomes the solver's own where it has stages. */
 pg_status stages_create (pg_solver *s);
 void      stages_free   (pg_solver *s);

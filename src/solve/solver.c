@@ -6,17 +6,23 @@
 #include <stdio.h>
 #include <string.h>
 
-/* While a scene is read a fault is placed at its key; a program that sets options by itself gets an error. */
-pg_status solver_fault (const pg_solver *s, const char *key, const char *format, ...)
+/* While a scene is at hand a fault is placed at its key; a program that sets options by itself gets an
+ * error. */
+pg_status options_fault (const pg_solver_options *o, const char *key, const char *format, ...)
 {
     char text[512];
     va_list args;
     va_start (args, format);
     vsnprintf (text, sizeof text, format, args);
     va_end (args);
-    if (!s->options.scene) return pg_error (PG_E_SCENE, PG_HERE, "%s: %s", key, text);
-    pg_scene_fault (s->options.scene, key, "%s", text);
-    return pg_scene_verdict (s->options.scene);
+    if (!o->scene) return pg_error (PG_E_SCENE, PG_HERE, "%s: %s", key, text);
+    pg_scene_fault (o->scene, key, "%s", text);
+    return pg_scene_verdict (o->scene);
+}
+
+pg_status options_blame (pg_status status, const pg_solver_options *o, const char *key)
+{
+    return o->scene ? pg_scene_blame (o->scene, key, status) : status;
 }
 
 /* The force is that of the problem; pg_solver_create_with is for tests that bring one of their own. */
@@ -55,7 +61,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     PG_ALLOC (s->reaction, PG_REACTIONS * problem->nload);
     PG_TRY (pg_state_create (&s->backup, problem, sys->components));
     if (s->type->prepare) PG_TRY (s->type->prepare (s));
-    s->options.scene = NULL;                               /* may be gone from here on */
+    s->options.scene = NULL;                               /* pg_solver_begin gets it anew */
     if (options->break_mode == PG_BREAK_ALL && problem->criterion->type)
         pg_statistics_warn (
             &s->report,
@@ -63,6 +69,7 @@ pg_status pg_solver_create_with (pg_solver **out, const pg_problem *problem, con
     *out = s;
     s = NULL;
 done:
+    status = options_blame (status, options, "solver");
     pg_solver_free (&s);
     return status;
 }
@@ -81,6 +88,33 @@ void pg_solver_free (pg_solver **solver)
     stages_free (s);
     pg_free (s);
     *solver = NULL;
+}
+
+pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    if (s->begun) return PG_OK;
+    s->options.scene = scene;
+    PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
+    PG_TRY (contact_check (&s->break_loop.system));
+    if (s->type->begin) PG_TRY (s->type->begin (s, state));
+    s->begun = 1;
+done:
+    status = options_blame (status, &s->options, "solver");
+    s->options.scene = NULL;                               /* may be gone from here on */
+    return status;
+}
+
+pg_status solver_start (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    if (s->started) return PG_OK;
+    PG_TRY (pg_solver_begin (s, state, NULL));
+    s->next_level = 1;
+    if (s->type->start) PG_TRY (s->type->start (s, state));
+    s->started = 1;
+done:
+    return status;
 }
 
 /* The largest stable time step, s, and in `from` what it was derived from; NAN where the method has no
@@ -146,8 +180,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
 {
     pg_status status = PG_OK;
     memset (step, 0, sizeof *step);
-    if (!s->started) PG_TRY (s->type->start (s, state));
-    s->started = 1;
+    PG_TRY (solver_start (s, state));
     break_loop *b = &s->break_loop;
     b->began = b->round, b->stopped = 0;
     if (b->round == 0) {                               /* else the step goes on where it was stopped */

@@ -50,7 +50,7 @@ static pg_status check_dt (pg_solver *s)
     double omega;
     if (s->options.dt <= m->stable) goto done;
     if (pg_ranks_now ())
-        PG_TRY (solver_fault (s, "solver.dt",
+        PG_TRY (options_fault (&s->options, "solver.dt",
                               "%.6g s is too large: steps up to %.4g s are stable for certain, and ranks do "
                               "not measure how much longer they may be",
                               s->options.dt, m->stable));
@@ -60,12 +60,12 @@ static pg_status check_dt (pg_solver *s)
     if (s->options.dt <= limit) goto done;
     const pg_scene *scene = s->options.scene;
     if (scene && !pg_scene_given (scene, "solver.dt"))     /* by solver.end / solver.time_steps */
-        PG_TRY (solver_fault (s, "solver.time_steps",
+        PG_TRY (options_fault (&s->options, "solver.time_steps",
                               "steps of %.6g s are too large: explicit steps are stable up to %.4g s (2 / "
                               "largest frequency); take at least %.0f, "
                               "or leave solver.time_steps out",
                               s->options.dt, limit, ceil (s->options.end / limit)));
-    PG_TRY (solver_fault (s, "solver.dt",
+    PG_TRY (options_fault (&s->options, "solver.dt",
                           "%.6g s is too large: explicit steps are stable up to %.4g s (2 / largest "
                           "frequency); take at most that, or leave "
                           "solver.dt out",
@@ -88,7 +88,7 @@ pg_status explicit_stable (pg_solver *s)
     motion *m = motion_of (s);
     for (size_t i = 0; i < sys->ndof; i++) {
         if (!(sys->mass[i] > 0))
-            PG_TRY (solver_fault (s, "solver.kind",
+            PG_TRY (options_fault (&s->options, "solver.kind",
                                   "%s needs mass at every point: give the material a density",
                                   s->type->name));
         m->inverse[i] = 1 / sys->mass[i];
@@ -102,7 +102,7 @@ pg_status explicit_stable (pg_solver *s)
                                                                                                   : 0.9)
                         * m->stable;
     else
-        PG_TRY (solver_fault (s, "solver.dt",
+        PG_TRY (options_fault (&s->options, "solver.dt",
                               "nothing resists, so that any time step is stable: give solver.dt"));
 done:
     return status;

@@ -8,12 +8,16 @@
 #include <stdio.h>
 #include <string.h>
 
+static pg_status static_begin (pg_solver *s, const pg_state *state)
+{
+    (void) state;
+    return s->options.event ? instability_start (s, &events_of (s)->unstable) : PG_OK;
+}
+
 static pg_status static_start (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
-    PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
     PG_TRY (contact_settle_tips (&s->break_loop.system, state));
-    s->next_level = 1;
     if (s->stage.now.number) PG_TRY (stage_remove (s, state));         /* in the first stage */
     if (s->options.event) PG_TRY (event_start (s, state));
 done:
@@ -185,6 +189,7 @@ const pg_solver_type pg_solver_static_ = {
     .keys = { &table, &solver_keys_breaking, &solver_keys_facets, &solver_keys_linear,
               &instability_keys },
     .read = static_read,
+    .begin = static_begin,
     .start = static_start,
     .step = static_step,
     .refused = event_refused,

@@ -325,9 +325,9 @@ static void doubtful_platens_are_told (void **state)
     (void) state;
     static const struct { const char *platen, *words; pg_status status; } cases[] = {
         { "shape: cylinder, radius: 1, point: [0.5, 1.9], displacement: {y: -0.1}", "overlaps the body by",
-          PG_E_USAGE },
-        { "point: [0.5, 1], normal: [0, 1]", "overlaps the body by 1", PG_E_USAGE },
-        { "point: [5, 1], normal: [0, -1], width: 1", "nothing of the body's surface faces", PG_E_USAGE },
+          PG_E_SCENE },
+        { "point: [0.5, 1], normal: [0, 1]", "overlaps the body by 1", PG_E_SCENE },
+        { "point: [5, 1], normal: [0, -1], width: 1", "nothing of the body's surface faces", PG_E_SCENE },
         { "shape: cylinder, radius: 1, point: [0.5, 2], displacement: {x: 0.3, y: -0.02}",
           "slides along the curved platen", PG_OK },
     };

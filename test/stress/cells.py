@@ -40,6 +40,16 @@ class Run:
         except (OSError, ValueError):
             self.report = None
 
+    def disagreement(self, program):
+        """What check says of the scene against the run: the same refusal, or none of a run that began; '' where they agree."""
+        path = os.path.join(os.path.dirname(self.folder), 'scene.yaml')
+        said = subprocess.run([program, 'check', path, '--quiet', *self.options], capture_output=True, stdin=subprocess.DEVNULL, text=True, timeout=600)
+        if said.returncode != (EXIT_SCENE if self.code == EXIT_SCENE else EXIT_DONE):
+            return f'run ends with {self.code}, check with {said.returncode}: {first_line(self.error)} | {first_line(said.stderr)}'
+        if self.code == EXIT_SCENE and said.stderr != self.error:
+            return f'run and check refuse it in other words: {first_line(self.error)} | {first_line(said.stderr)}'
+        return ''
+
     def call(self, command, limit, interrupt):
         child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
         try:
@@ -79,10 +89,15 @@ class Cell:
     def name(self):
         return f'{self.condition}|{self.value}|{self.method}'
 
-    def judge(self, program, folder):
-        """(number or None, verdict, reason): ok, refused (it says why), inexact (it warned) or defect."""
+    def judge(self, program, folder, asks_check=True):
+        """(number or None, verdict, reason): ok, refused (it says why), inexact (it warned) or defect. What a run refuses at its start check
+        refuses as well; asks_check: of runs that began it is asked, too."""
         for k, run in enumerate(self.runs):
             run.go(program, os.path.join(folder, str(k)), self.seconds)
+            if run.code == EXIT_SCENE or (asks_check and k == 0 and run.code is not None):
+                wrong = run.disagreement(program)
+                if wrong:
+                    return None, 'defect', wrong
         for run in self.runs:
             if run.code not in (EXIT_DONE, EXIT_SCENE, EXIT_FAILED):
                 return None, 'defect', f'exit code {run.code}: {first_line(run.error)}'
