@@ -547,9 +547,12 @@ def text(body, lattice, n, method="gauss linear", single=False, events=None):
         lines += ["sets:", '  pin: {where: "hypot (x - %.12g, y - %.12g) < %.12g"}' % (*frame.place(body.pin), 1.1 * h)]
     lines += ["boundary:"]
     for k, (edge, kind, vector) in enumerate(body.loads):
-        size = math.hypot(*vector)
-        x, y = (component(v, size) for v in frame.vector(vector))
-        lines += ["  - {name: load_%d, set: polygon.edge %d, %s: {x: %.12g, y: %.12g}}" % (k + 1, edge + 1, kind, x, y)]
+        if None in vector:                                 # a component alone: bodies that are never turned
+            which = ", ".join("%s: %.12g" % (n, v) for n, v in zip("xy", vector) if v is not None)
+        else:
+            size = math.hypot(*vector)
+            which = "x: %.12g, y: %.12g" % tuple(component(v, size) for v in frame.vector(vector))
+        lines += ["  - {name: load_%d, set: polygon.edge %d, %s: {%s}}" % (k + 1, edge + 1, kind, which)]
     if body.pin:
         lines += ["  - {name: pin, set: pin, displacement: {x: 0, y: 0}, essential: penalty}"]
     lines += ["method: {%s}" % METHODS[method]]
@@ -558,6 +561,46 @@ def text(body, lattice, n, method="gauss linear", single=False, events=None):
     lines += ["solver: {kind: static, max_events: %d}" % events]
     lines += ["output: {at: {levels: 1}, pictures: [damage]}", ""]
     return "\n".join(lines)
+
+
+class ShearNotch(Body):
+    """A square whose notch of half the width is sheared, its sides held across: the crack kinks."""
+    name, title = "shear_notch", "Notch in shear, sides held"
+
+    def build(self):
+        self.start, self.growth = 0.5 + self.dx, 0.3
+        self.outline = [(0, -0.5), (1, -0.5), (1, 0.5), (0, 0.5)]
+        self.cracks = [((-0.2, self.dy), (self.start, self.dy))]
+        u = FULL * self.width * math.sqrt(self.material.energy / (self.material.prime() * self.width))
+        self.loads = [(0, "displacement", (0, 0)), (2, "displacement", (u, 0)), (1, "displacement", (None, 0)), (3, "displacement", (None, 0))]
+
+    def theory(self, a):
+        return 1 / FULL
+
+
+class CrackedDisk(Body):
+    """A disk (a polygon of 120 edges) between two platens, with a centre crack of three tenths of the diameter."""
+    degrees, tips, edges = 27.2, 2, 120
+
+    def build(self):
+        self.name, self.title = "disk_%g" % self.degrees, "Disk, crack at %g degrees to the load" % self.degrees
+        self.start, self.growth = 0.3, 0.2
+        turn = [2 * math.pi * k / self.edges for k in range(self.edges)]
+        self.outline = [(0.5 * math.cos(t), 0.5 * math.sin(t)) for t in turn]
+        c, s = 0.15 * math.cos(math.radians(90 - self.degrees)), 0.15 * math.sin(math.radians(90 - self.degrees))
+        self.cracks = [((self.dx - c, self.dy - s), (self.dx + c, self.dy + s))]
+        stress = FULL * 6 * self.material.toughness() / math.sqrt(self.width)
+        quarter = self.edges // 4
+        self.loads = [(k, "traction", (0, -stress)) for k in range(quarter - 2, quarter + 2)]
+        self.loads += [(k, "traction", (0, stress)) for k in range(3 * quarter - 2, 3 * quarter + 2)]
+        self.pin = (0.5 * math.cos(turn[1]), 0)
+
+    def theory(self, a):
+        return 1 / FULL
+
+
+class CrackedDisk15(CrackedDisk):
+    degrees = 15
 
 
 class HalfNotch(EdgeNotch):

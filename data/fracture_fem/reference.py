@@ -163,8 +163,9 @@ def side(crack, x):
 
 
 # ---- solution ------------------------------------------------------------------------------------------------------------
-def solve(nodes, triangles, sides, loads, pins):
-    """Displacements {node: (x, y)} by CalculiX under tractions (edge from 1: (x, y)); pins: three (place, component) that stop rigid motion."""
+def solve(nodes, triangles, sides, loads, pins, held=()):
+    """Displacements {node: (x, y)} by CalculiX under tractions (edge from 1: (x, y)); pins: three (place, component) that stop rigid motion;
+    held: (edge, (x, y)) of displacements of whole edges, None: free."""
     thick = 0.01
     force = {}
     for edge, (tx, ty) in loads.items():
@@ -180,6 +181,11 @@ def solve(nodes, triangles, sides, loads, pins):
     for place, k in pins:
         n = min(nodes, key=lambda n: math.hypot(nodes[n][0] - place[0], nodes[n][1] - place[1]))
         text.append("%d, %d, %d" % (n, k, k))
+    given = {}
+    for edge, vector in held:
+        for n in {n for s in sides[edge] for n in s}:
+            given.update({(n, k): v for k, v in enumerate(vector) if v is not None and (n, k) not in given})
+    text += ["%d, %d, %d, %.12g" % (n, k + 1, k + 1, v) for (n, k), v in sorted(given.items())]
     text.append("*CLOAD")
     for n, f in sorted(force.items()):
         text += ["%d, %d, %.9g" % (n, k + 1, f[k]) for k in (0, 1) if f[k]]
@@ -290,10 +296,10 @@ def hoop_stress(k1, k2, t):
 
 
 # ---- the bodies --------------------------------------------------------------------------------------------------------------
-def measure(outline, holes, cracks, loads, pins, outer, fine, coarse, crack=0, start=False):
+def measure(outline, holes, cracks, loads, pins, outer, fine, coarse, crack=0, start=False, held=()):
     """K of one tip: the end of the crack (start: its first point)."""
     nodes, triangles, sides = mesh(outline, holes, cracks, fine, coarse)
-    u = solve(nodes, triangles, sides, loads, pins)
+    u = solve(nodes, triangles, sides, loads, pins, held)
     line = cracks[crack][::-1] if start else cracks[crack]
     a, b = line[-2], line[-1]
     length = math.hypot(b[0] - a[0], b[1] - a[1])

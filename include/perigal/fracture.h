@@ -12,6 +12,8 @@
 
 PG_API_BEGIN
 
+enum { PG_TIP_TRIALS = 7 };                            /* directions of trial facets behind a kink */
+
 /* The tip of a crack under the displacement sum_a l_a d_a of one or two fields (affine loads: the constant
  * part and the part that grows with the load factor). */
 typedef struct {
@@ -41,6 +43,14 @@ typedef struct {
     int    interface;
     /* 1: its faces press on each other behind it: K_I is 0, J that of K_II, T is not known */
     int    closed;
+    /* 1: the crack has turned within the rings. They are then around the turn, r1 .. wide and the outer half
+     * near .. wide; K is by reciprocity with the weight functions of the polyline, J = (K_I^2 + K_II^2) / E',
+     * T is not known, and e runs along the last piece. */
+    int    kinked;
+    double kink[2];                                    /* m */
+    /* Of facets of that length (m; 0: none) that do not exist yet, at those angles from e: K_I and K_II at
+     * their end, sum_a l_a trial_K[i][m][a]. */
+    double trial, trial_angle[PG_TIP_TRIALS], trial_K[PG_TIP_TRIALS][2][2];
 } pg_tip_field;
 
 /* What the faces behind a tip do to each other, in equilibria with contact (perigal/contact.h). */
@@ -63,12 +73,14 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
                           const double *t);
 
-/* The same where faces may touch (NULL: they do not). The uniform field that carries the same stress across
+/* The same where faces may touch (NULL: they do not), and the next facet will be so long (m; 0: it is not
+ * asked for). The uniform field that carries the same stress across
  * the faces is subtracted: what is left has free faces behind the tip, and its K_II is that of the tip; rings
  * of an open tip end before the next closed piece, whose tractions are in no integral. */
 pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
                                 void *self, const pg_state *state, size_t tip, int nfield,
-                                const double *const *d, const double *t, const pg_tip_faces *faces);
+                                const double *const *d, const double *t, const pg_tip_faces *faces,
+                                double facet);
 
 /* Measures a front in space, number `front` of those of the state (pg_fronts_of_state): out has a field for
  * each of its vertices, smoothed once along the front. d, t as above. near = NAN at a vertex without room for
@@ -108,6 +120,10 @@ double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l);
  * closed cracks have it, turns the direction; NAN: it is not known. 0: no direction is in tension. */
 int pg_kink (double J, double K_I, double K_II, double T, double l, double *angle, double *K_theta,
              double *G_theta);
+
+/* The direction of the next facet behind a kink (angle from e, rad), so that K_II vanishes along it in the
+ * mean of its two ends. start: a first guess. 0: not known (pg_tip_field.trial), or beyond the trials. */
+int pg_kink_ahead (const pg_tip_field *f, int nfield, const double *l, double start, double *angle);
 
 /* The field around a tip, in its frame: displacement u (2, m) and its gradient H[2 c + k] = du_c/dx_k, stress
  * (11, 22, 12, Pa), at radius r (m) and angle theta (-pi .. pi) from e. mode 0, 1: the singular field of K_I,

@@ -533,6 +533,9 @@ void      pg_tip_draw_back (pg_state *state, const pg_problem *problem, size_t t
 void      pg_tip_chord    (const pg_state *state, size_t tip, double back, double *from, double *direction);
 /* Distance along the path behind a tip to the first turn by more than `angle` (rad), m; INFINITY: none. */
 double    pg_tip_straight (const pg_state *state, size_t tip, double angle);
+/* The vertices of the path of a tip, from the tip to its other end, without those at which it runs straight
+ * on (*x: *n x 2, m; the caller frees). */
+pg_status pg_tip_vertices (const pg_state *state, size_t tip, size_t *n, double **x);
 /* Length of the path behind a tip up to its other end, or `limit` if that is less, m. */
 double    pg_tip_behind   (const pg_state *state, size_t tip, double limit);
 /* Points per spacing at which the faces of a crack are sampled, and the parts of equal length of so much of a
@@ -560,6 +563,11 @@ double    pg_tip_ahead (const pg_problem *problem, const pg_state *state, size_t
 double    pg_tip_nearest (const pg_problem *problem, const pg_state *state, size_t tip, double limit,
                           double *place, int *what);
 double    pg_tip_room  (const pg_problem *problem, const pg_state *state, size_t tip, double limit);
+/* The same about another place of the path of that tip (2, m); branches of the path count, too. */
+double    pg_path_room (const pg_problem *problem, const pg_state *state, size_t tip, const double *x,
+                        double limit);
+/* Is a piece passed on the way from the tip along its path to the other end? */
+int       pg_tip_passes (const pg_state *state, size_t tip, size_t piece);
 
 /* The fronts that exist in a state (NULL: at the start). */
 const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *state, size_t *n);

@@ -33,3 +33,50 @@ int pg_kink (double J, double K_I, double K_II, double T, double l, double *angl
     *angle = theta, *K_theta = K, *G_theta = J * K * K / size;
     return 1;
 }
+
+/* ---- behind a kink ------------------------------------------------------------------------------------- */
+/* K at the end of a trial facet at `theta`, between the angles of the trials by the polynomial through them
+ * (Lagrange). */
+static void at_end (const pg_tip_field *f, int nfield, const double *l, double theta, double K[2])
+{
+    K[0] = K[1] = 0;
+    for (int i = 0; i < PG_TIP_TRIALS; i++) {
+        double share = 1;
+        for (int j = 0; j < PG_TIP_TRIALS; j++)
+            if (j != i) share *= (theta - f->trial_angle[j]) / (f->trial_angle[i] - f->trial_angle[j]);
+        for (int a = 0; a < nfield; a++)
+            for (int m = 0; m < 2; m++) K[m] += share * l[a] * f->trial_K[i][m][a];
+    }
+}
+
+/* Three times the mean of K_II / K_I along a facet. Behind a turn it changes with the root of the length, so
+ * that the end has two thirds of the mean and the begin, known to first order in the angle, one. NAN: the end
+ * does not open. */
+static double shear (const pg_tip_field *f, int nfield, const double *l, const double K[3], double theta)
+{
+    double end[2];
+    at_end (f, nfield, l, theta, end);
+    return end[0] > 0 && K[0] > 0 ? 2 * end[1] / end[0] + (K[1] + 0.5 * theta * K[0]) / K[0] : NAN;
+}
+
+int pg_kink_ahead (const pg_tip_field *f, int nfield, const double *l, double start, double *angle)
+{
+    enum { HALVINGS = 40, STEPS = 24 };
+    double K[3], step = (f->trial_angle[PG_TIP_TRIALS - 1] - f->trial_angle[0]) / STEPS, found = NAN;
+    if (!(f->trial > 0)) return 0;
+    pg_tip_combine (f, nfield, l, NULL, K, NULL);
+    for (int i = 0; i < STEPS; i++) {                  /* the root next to the first guess */
+        double a = f->trial_angle[0] + i * step, b = a + step, fa = shear (f, nfield, l, K, a),
+               fb = shear (f, nfield, l, K, b);
+        if (!(fa <= 0) || !(fb >= 0)) continue;
+        for (int k = 0; k < HALVINGS; k++) {
+            double c = 0.5 * (a + b);
+            if (shear (f, nfield, l, K, c) <= 0) a = c;
+            else b = c;
+        }
+        if (isnan (found) || fabs (a - start) < fabs (found - start)) found = a;
+    }
+    if (isnan (found)) return 0;
+    *angle = found;
+    return 1;
+}

@@ -2,7 +2,7 @@
  * tip.h: the parts of the measurement of a tip. Files: tip_domain.c (frame, rings and the room for them),
  * tip_grid.c (places of the integrals, and the fields there), tip_integrals.c (the integrals), tip_faces.c
  * (faces that turn inside the rings), tip_measure.c (all of it for one tip), williams.c (exact fields),
- * kink.c (direction). */
+ * kinked_tip.c (tips with a turn behind them), kink.c (direction). */
 #ifndef PG_FRACTURE_TIP_H
 #define PG_FRACTURE_TIP_H
 #include "perigal/fracture.h"
@@ -22,6 +22,7 @@ typedef struct {
 
 /* One displacement field at the places of a grid, in the frame of the tip. */
 typedef struct {
+    double *u;                                         /* displacement, m (n x 2) */
     double *H;                                         /* H[2 c + k] = du_c/dx_k (n x 4) */
     double *stress;                                    /* 11, 22, 12, Pa (n x 3) */
     double *excess;                                    /* stress above that of the strain, Pa (n); NULL: 0 */
@@ -43,6 +44,12 @@ typedef struct {
 pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip,
                       size_t *node);
 
+/* Distance from a place of the tip's path, next to `node`, to what a ring must not hold, m: at most
+ * `limit`. */
+double    tip_room_about (const pg_problem *p, const pg_state *state, size_t tip, const double *x,
+                          size_t node, double limit);
+size_t    tip_node_at (const pg_problem *p, const double *x);          /* the nearest one */
+
 /* core: 1: places within r1 too, where terms without derivatives of the weight are to be summed. */
 pg_status tip_grid_create (tip_grid *out, const pg_tip_field *tip, int core);
 void      tip_grid_clear  (tip_grid *grid);
@@ -53,8 +60,26 @@ pg_status tip_faces_create (tip_grid *out, const pg_tip_field *tip, const pg_cra
 pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, const tip_material *material,
                            const pg_problem *p, const pg_force_type *force, void *self,
                            const pg_state *state, const double *d);
+/* Adds the body force b of field `at`, that of factor t[at], less that of t[0] for the second, to its load.
+ * node: at the tip. */
+pg_status tip_add_body_force (tip_grid *grid, int at, const pg_tip_field *tip, const pg_problem *p,
+                              size_t node, const double *t);
+int       tip_has_body_force (const pg_problem *p, size_t node);
+/* Pressure in the cracks in field `at`: of t[at], less that of t[0] for the second, Pa. */
+double    tip_pressure (const pg_problem *p, int at, const double *t);
 /* A vector in the frame of the tip. */
 void      tip_turn (const double *e, const double *v, double *out);
+
+/* Weight of the rings, 1 within r1 and 0 beyond r2, and its slope, 1/m. */
+double    tip_weight (double r, double r1, double r2, double *slope);
+
+/* K, J and the K at the end of trial facets of a tip that has a turn behind it, by reciprocity; x, h and
+ * room of `out` are known. facet: length of the trial facets, m; 0: none. *done 0: the crack is straight
+ * where rings lie, or there is no room around its turns. */
+pg_status kinked_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
+                              const pg_state *state, size_t tip, int nfield, const double *const *d,
+                              const double *t, double facet, const tip_material *material,
+                              const pg_tip_faces *touch, int *done);
 
 /* J of two fields, J/m^2, and for each the interaction integrals with the exact fields of
  * pg_tip_near_field, of which K_I, K_II and T follow. */

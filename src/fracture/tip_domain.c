@@ -24,7 +24,7 @@ static double distance (const pg_problem *p, size_t node, const double *x)
     return hypot (p->cloud.x[2 * node] - x[0], p->cloud.x[2 * node + 1] - x[1]);
 }
 
-static size_t nearest_node (const pg_problem *p, const double *x)
+size_t tip_node_at (const pg_problem *p, const double *x)
 {
     size_t nearest = 0;
     double least = INFINITY;
@@ -88,6 +88,12 @@ static double room_of_interfaces (const pg_problem *p, const double *x, size_t h
     return room;
 }
 
+double tip_room_about (const pg_problem *p, const pg_state *state, size_t tip, const double *x, size_t node,
+                       double limit)
+{
+    return room_of_interfaces (p, x, node, room_of_loads (p, x, pg_path_room (p, state, tip, x, limit)));
+}
+
 pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip, size_t *node)
 {
     pg_status status = PG_OK;
@@ -96,7 +102,7 @@ pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *st
     if (!state->paths || tip >= state->paths->ntip)
         PG_FAIL (PG_E_USAGE, "tip %zu of %zu is asked for", tip, state->paths ? state->paths->ntip : 0);
     memcpy (out->x, state->paths->tip[tip].x, 2 * sizeof *out->x);
-    *node = nearest_node (p, out->x);
+    *node = tip_node_at (p, out->x);
     double h = out->h = pg_problem_spacing (p, PG_NODES, *node), room;
     pg_tip_chord (state, tip, CHORD * h, from, out->e);
     room = pg_tip_room (p, state, tip, WIDE * h);

@@ -70,8 +70,8 @@ done:
 void tip_grid_clear (tip_grid *grid)
 {
     for (int a = 0; a < TIP_FIELDS; a++)
-        pg_free (grid->field[a].H), pg_free (grid->field[a].stress), pg_free (grid->field[a].excess),
-            pg_free (grid->field[a].load), pg_free (grid->field[a].kinetic),
+        pg_free (grid->field[a].u), pg_free (grid->field[a].H), pg_free (grid->field[a].stress),
+            pg_free (grid->field[a].excess), pg_free (grid->field[a].load), pg_free (grid->field[a].kinetic),
             pg_free (grid->field[a].moving);
     pg_free (grid->r), pg_free (grid->theta), pg_free (grid->area), pg_free (grid->x);
     memset (grid, 0, sizeof *grid);
@@ -108,12 +108,14 @@ pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, cons
     PG_ALLOC (u, 3 * n);
     PG_ALLOC (stress, 6 * n);
     PG_ALLOC (gradient, 9 * n);
+    PG_ALLOC (f->u, 2 * n);
     PG_ALLOC (f->H, 4 * n);
     PG_ALLOC (f->stress, 3 * n);
     if (material->lambda > 0) PG_ALLOC (f->excess, n);
     PG_TRY (gradient_sample (p, force, self, state, d, n, grid->x, u, stress, gradient));
     for (size_t k = 0; k < n; k++) {
         double full[6];
+        tip_turn (tip->e, u + 3*k, f->u + 2*k);
         turn_gradient (tip->e, gradient + 9*k, f->H + 4*k);
         turn_stress (tip->e, stress + 6*k, f->stress + 3*k);
         if (!f->excess) continue;

@@ -23,8 +23,8 @@
 #include <math.h>
 #include <string.h>
 
-/* The weight at r, and its slope, 1/m: q = 1 - z^2 (3 - 2 z). */
-static double weight (double r, double r1, double r2, double *slope)
+/* q = 1 - z^2 (3 - 2 z). */
+double tip_weight (double r, double r1, double r2, double *slope)
 {
     double z = (r - r1) / (r2 - r1);
     *slope = z > 0 && z < 1 ? -6 * z * (1 - z) / (r2 - r1) : 0;
@@ -81,7 +81,7 @@ void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *m, 
 {
     memset (out, 0, sizeof *out);
     for (size_t k = 0; k < grid->n; k++) {
-        double slope, q = weight (grid->r[k], r1, r2, &slope),
+        double slope, q = tip_weight (grid->r[k], r1, r2, &slope),
                       g[2] = { slope * cos (grid->theta[k]), slope * sin (grid->theta[k]) };
         if (q <= 0) continue;
         for (size_t a = 0; a < grid->nfield; a++)
@@ -100,7 +100,7 @@ void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *m, 
 void tip_face_integrals (tip_sums *out, const tip_grid *faces, const tip_material *m, double r1, double r2)
 {
     for (size_t k = 0; k < faces->n; k++) {
-        double slope, q = weight (faces->r[k], r1, r2, &slope);
+        double slope, q = tip_weight (faces->r[k], r1, r2, &slope);
         for (size_t a = 0; a < faces->nfield; a++)
             for (size_t b = 0; b <= a; b++) out->J[a][b] += faces->area[k] * q * energy (faces, m, a, b, k);
     }

@@ -39,15 +39,15 @@ static int acts (const pg_load *load, size_t node)
     return 0;
 }
 
-static int any_body_force (const pg_problem *p, size_t node)
+int tip_has_body_force (const pg_problem *p, size_t node)
 {
     for (size_t l = 0; l < p->nload; l++) if (acts (&p->load[l], node)) return 1;
     return 0;
 }
 
 /* b of field `at`: that of factor t[at], less that of t[0] for the second. */
-static pg_status add_body_force (tip_grid *grid, int at, const pg_tip_field *tip, const pg_problem *p,
-                                 size_t node, const double *t)
+pg_status tip_add_body_force (tip_grid *grid, int at, const pg_tip_field *tip, const pg_problem *p,
+                              size_t node, const double *t)
 {
     pg_status status = PG_OK;
     tip_sample *f = &grid->field[at];
@@ -71,7 +71,7 @@ done:
 }
 
 /* Pressure in the cracks in field `at`: of t[at], less that of t[0] for the second. */
-static double pressure_in (const pg_problem *p, int at, const double *t)
+double tip_pressure (const pg_problem *p, int at, const double *t)
 {
     static const double anywhere[3] = { 0 };
     double sum = 0;
@@ -205,12 +205,13 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
                           const pg_state *state, size_t tip, int nfield, const double *const *d,
                           const double *t)
 {
-    return pg_tip_measure_faces (out, p, force, self, state, tip, nfield, d, t, NULL);
+    return pg_tip_measure_faces (out, p, force, self, state, tip, nfield, d, t, NULL, 0);
 }
 
 pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
                                 void *self, const pg_state *state, size_t tip, int nfield,
-                                const double *const *d, const double *t, const pg_tip_faces *touch)
+                                const double *const *d, const double *t, const pg_tip_faces *touch,
+                                double facet)
 {
     pg_status status = PG_OK;
     tip_grid grid = { 0 }, faces = { 0 };
@@ -223,13 +224,15 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
         PG_FAIL (PG_E_USAGE, "%d displacement fields at a tip: 1 or 2 can be measured", nfield);
     PG_TRY (tip_domain (out, p, state, tip, &node));
     tip_material m = material_at (p, node);
-    int closed = touch && touch->closed;
+    int closed = touch && touch->closed, kinked = 0, forced = tip_has_body_force (p, node),
+        moving = nfield == 1 && d[0] == state->d && m.density > 0 && moves (state);
     out->modulus = m.modulus;
     if (touch && !closed) limit_rings (out, touch);
     unknown (out);
-    if (isnan (out->near)) goto done;
-    int forced = any_body_force (p, node),
-        moving = nfield == 1 && d[0] == state->d && m.density > 0 && moves (state);
+    if (!closed && !moving)
+        PG_TRY (kinked_tip_measure (out, p, force, self, state, tip, nfield, d, t, facet, &m, touch,
+                                    &kinked));
+    if (kinked || isnan (out->near)) goto done;
     /* What moves needs no places within the rings: where a field goes along with its tip, v = - c u,1, rho a
      * u,1 and rho v v,1 are the same, and what is sampled there is the lattice. */
     PG_TRY (tip_grid_create (&grid, out, forced));
@@ -238,8 +241,8 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
     for (int a = 0; a < nfield; a++) {
         PG_TRY (tip_grid_sample (&grid, a, out, &m, p, force, self, state, d[a]));
         if (faces.n) PG_TRY (tip_grid_sample (&faces, a, out, &m, p, force, self, state, d[a]));
-        if (forced) PG_TRY (add_body_force (&grid, a, out, p, node, t));
-        pressure[a] = pressure_in (p, a, t);
+        if (forced) PG_TRY (tip_add_body_force (&grid, a, out, p, node, t));
+        pressure[a] = tip_pressure (p, a, t);
         if (closed) part_faces (&grid, a, &m, touch->stress[a]), part_faces (&faces, a, &m, touch->stress[a]);
         if (pressure[a] != 0) free_faces (&grid, a, &m, pressure[a]), free_faces (&faces, a, &m, pressure[a]);
     }

@@ -108,6 +108,39 @@ double pg_tip_straight (const pg_state *state, size_t tip, double angle)
     return INFINITY;
 }
 
+pg_status pg_tip_vertices (const pg_state *state, size_t tip, size_t *n, double **x)
+{
+    static const double turn = 1e-6;                   /* rad: not a turn */
+    pg_status status = PG_OK;
+    const pg_crack_paths *w = state->paths;
+    walk at = walk_from (w, &w->tip[tip]);
+    double e[2], f[2];
+    *n = 0, *x = NULL;
+    PG_ALLOC (*x, 2 * (w->cracks.n + 1));
+    memcpy (*x, vertex_of (w, at.piece, at.end), 2 * sizeof **x);
+    for (size_t left = w->cracks.n; left > 0; left--) {
+        const double *v = vertex_of (w, at.piece, 1 - at.end);
+        heading (&at, e);
+        if (*n == 0 || fabs (e[0] * f[1] - e[1] * f[0]) > turn || e[0] * f[0] + e[1] * f[1] < 0) ++*n;
+        memcpy (*x + 2 * *n, v, 2 * sizeof **x), memcpy (f, e, sizeof f);
+        if (!walk_on (&at)) break;
+    }
+    ++*n;
+done:
+    return status;
+}
+
+int pg_tip_passes (const pg_state *state, size_t tip, size_t piece)
+{
+    const pg_crack_paths *w = state->paths;
+    walk at = walk_from (w, &w->tip[tip]);
+    for (size_t left = w->cracks.n; left > 0; left--) {
+        if (at.piece == piece) return 1;
+        if (!walk_on (&at)) break;
+    }
+    return 0;
+}
+
 double pg_tip_behind (const pg_state *state, size_t tip, double limit)
 {
     const pg_crack_paths *w = state->paths;

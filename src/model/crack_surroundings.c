@@ -105,32 +105,55 @@ static double nearest_of_surface (const pg_problem *p, const double *x, const do
     return best;
 }
 
-/* Other paths, other open tips, the surface. Of the tip's own path what lies behind does not count. */
-double pg_tip_nearest (const pg_problem *p, const pg_state *s, size_t tip, double limit, double *place,
-                       int *what)
+/* What is found around a place. */
+typedef struct { double distance, place[2]; int what; } found;
+
+static void keep_nearer (found *f, double distance, const double *place, int what)
+{
+    if (!(distance < f->distance)) return;
+    *f = (found) { distance, { place[0], place[1] }, what };
+}
+
+/* Other paths, other open tips, the surface. Of the tip's own path what lies behind does not count, and
+ * branches of it as asked. */
+static found nearest_about (const pg_problem *p, const pg_state *s, size_t tip, const double *x, double limit,
+                            int branches)
 {
     const pg_crack_paths *w = s->paths;
     const pg_tip *t = &w->tip[tip];
-    double best = limit, at[2] = { t->x[0], t->x[1] }, try[2] = { 0 }, from[2], e[2];
-    int met = PG_MEETS_NOTHING;
+    found best = { limit, { x[0], x[1] }, PG_MEETS_NOTHING };
+    double q[2] = { 0 }, from[2], e[2], d;
     for (size_t c = 0; c < w->cracks.n; c++) {
         const double *a = w->cracks.crack[c].vertex;
-        if (w->path[c] == w->path[t->segment]) continue;
-        double d;
-        pg_segment_nearest (a, a + 2, t->x, try, &d);
-        if (d < best) best = d, met = PG_MEETS_CRACK, at[0] = try[0], at[1] = try[1];
+        int own = w->path[c] == w->path[t->segment];
+        if (own && !branches) continue;
+        pg_segment_nearest (a, a + 2, x, q, &d);
+        if (own && (!(d < best.distance) || pg_tip_passes (s, tip, c))) continue;
+        keep_nearer (&best, d, q, PG_MEETS_CRACK);
     }
     for (size_t i = 0; i < w->ntip; i++) {
         const pg_tip *o = &w->tip[i];
-        double d = hypot (o->x[0] - t->x[0], o->x[1] - t->x[1]);
-        if (i != tip && o->open && d < best) best = d, met = PG_MEETS_CRACK, at[0] = o->x[0], at[1] = o->x[1];
+        if (i != tip && o->open)
+            keep_nearer (&best, hypot (o->x[0] - x[0], o->x[1] - x[1]), o->x, PG_MEETS_CRACK);
     }
     pg_tip_chord (s, tip, w->nothing, from, e);
-    double d = nearest_of_surface (p, t->x, e, best, try);
-    if (d < best) best = d, met = PG_MEETS_SURFACE, at[0] = try[0], at[1] = try[1];
-    if (place) place[0] = at[0], place[1] = at[1];
-    if (what) *what = met;
+    d = nearest_of_surface (p, x, e, best.distance, q);
+    keep_nearer (&best, d, q, PG_MEETS_SURFACE);
     return best;
+}
+
+double pg_tip_nearest (const pg_problem *p, const pg_state *s, size_t tip, double limit, double *place,
+                       int *what)
+{
+    found f = nearest_about (p, s, tip, s->paths->tip[tip].x, limit, 0);
+    if (place) place[0] = f.place[0], place[1] = f.place[1];
+    if (what) *what = f.what;
+    return f.distance;
+}
+
+double pg_path_room (const pg_problem *p, const pg_state *s, size_t tip, const double *x, double limit)
+{
+    return nearest_about (p, s, tip, x, limit, 1).distance;
 }
 
 double pg_tip_room (const pg_problem *p, const pg_state *s, size_t tip, double limit)

@@ -89,7 +89,7 @@ static pg_status values_of (pg_result *r, const pg_state *state, size_t tip, pg_
     pg_tip_faces faces;
     int touch = pg_solver_tip_faces (r->solver, state, tip, &faces);
     PG_TRY (pg_tip_measure_faces (&field, r->problem, force, self, state, tip, 1, &d, &time,
-                                  touch ? &faces : NULL));
+                                  touch ? &faces : NULL, 0));
     if (isnan (field.near)) goto done;
     pg_tip_combine (&field, 1, &one, &out->J, NULL, &out->T);
     pg_tip_intensities (&field, 1, &one, out->K);

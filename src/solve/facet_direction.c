@@ -172,6 +172,7 @@ static double judge (const break_loop *b, const pg_state *state, size_t tip, dou
     pg_tip_combine (f, facet_factors (g, factor, l), l, &v.J, v.K, &T);
     if (path) return along_path (&v, path, n, angle);
     double top = opening (&v, T, &theta);
+    if (top > 0 && !is_uneven (p)) pg_kink_ahead (f, g->nfield, l, theta, &theta);
     v.sliding = 1;
     double sliding = slides (p, f->x) ? best (&v, &slip) : 0;
     if (sliding > top) top = sliding, theta = slip, *slide = 1;

@@ -198,9 +198,10 @@ static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, co
     pg_system *s = &b->system;
     pg_tip_field *f = &g->field[i];
     pg_tip_faces faces;
+    double facet = g->length > 0 ? g->length : pg_problem_spacing_at (s->problem, state->paths->tip[i].x);
     if (s->contact) contact_at_tip (s, state, i, g->nfield, &faces);
     PG_TRY (pg_tip_measure_faces (f, s->problem, s->force, s->self, state, i, g->nfield, d, times,
-                                  s->contact ? &faces : NULL));
+                                  s->contact ? &faces : NULL, facet));
     if (s->contact) facet_settle_energy (f, g->nfield);
 done:
     return status;

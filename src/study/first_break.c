@@ -66,7 +66,7 @@ static pg_status measure_tips (pg_first_break *b, const pg_problem *p, pg_solver
             pg_tip_faces faces;
             int touch = pg_solver_tip_faces (solver, state, t, &faces);
             PG_TRY (pg_tip_measure_faces (&b->tip[b->ntip], p, force, self, state, t, 1, &d, &one,
-                                          touch ? &faces : NULL));
+                                          touch ? &faces : NULL, 0));
         }
         b->ntip++;
     }

@@ -86,7 +86,10 @@ static void and_behind_turns (void **state)
     pg_tip_field f;
     check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one));
     check_relative (f.e[0], c, 1e-9), check_relative (f.e[1], s, 1e-9);
-    check_relative (f.near, 3, 1e-9), check_relative (f.wide, 5, 1e-6);
+    /* around the turn: from 0.75 beyond the tip to 12, and the outer half of that */
+    check_relative (f.r1, 5.75, 1e-9), check_relative (f.near, 8.875, 1e-9);
+    check_relative (f.wide, 12, 1e-9);
+    check_absolute (f.kink[0], 20, 1e-9), check_absolute (f.kink[1], 0, 1e-9);
     pg_free (cut.bond);
     clear (&r);
 }

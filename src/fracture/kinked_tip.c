@@ -1,0 +1,304 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Stress intensity factors of a tip behind a kink. No ring around the tip itself is good for them: the fields
+ * of a straight crack are not those of a crack that turns inside the ring, and what lies within two spacings
+ * of a kink is a property of the points. So the ring lies around the kink, outside of all that has turned.
+ * With free faces and without body force Betti's integral of two fields is the same around every path,
+ * whatever the crack does inside: with the field h, s of a weight function of the polyline (kinked_weights.c)
+ *
+ *   K = - int (sigma_ij h_i - s_ij u_i) q,j dA.
+ *
+ * Outside of the kink a field is a sum of terms that grow from it (what loads it) and of terms that decay
+ * (what the kink answers). The weight functions decay, and decaying terms have no such integral with each
+ * other: what the points make of the kink drops out, and what loads it is resolved. For the same reason the
+ * ring tells K at the end of a facet that does not exist yet.
+ *
+ * Body force and tractions of the faces. A stress that bears the body force b at the kink and leaves the
+ * straight faces free, sigma_11 = - b_1 x_1, sigma_22 = - b_2 x_2, is subtracted, and the uniform stress of
+ * a pressure on all faces. What is left has tractions on the new pieces alone, whose K at the end is that of
+ * the same system of dislocations (kinked_faces); body force beyond that of the kink adds
+ * int (b - b (kink)) . h q dA over the ring. */
+#include "gradient_fit.h"
+#include "kinked_crack.h"
+#include "tip.h"
+#include <math.h>
+#include <string.h>
+
+#define BESIDE  0.75                                   /* spacings from what has turned to the ring */
+#define FAR     12.0                                   /* spacings: outer radius at most */
+#define STRAIGHT 0.03                                  /* rad: turns below are none */
+
+/* Vertices behind a tip, tip first, and the turn that rings are laid around. */
+typedef struct {
+    size_t n, kink;                                    /* vertices; number of the kink */
+    double *x;                                         /* n x 2, m */
+    double e[2], ahead[2];  /* unit vectors: along the straight crack to the kink, along the last piece */
+    double extent, r1, r2;                             /* of what has turned; of the ring, m */
+} turned;
+
+/* ---- the kink ------------------------------------------------------------------------------------------ */
+static void heading (const double *from, const double *to, double *e)
+{
+    double t[2] = { to[0] - from[0], to[1] - from[1] }, length = hypot (t[0], t[1]);
+    e[0] = t[0] / length, e[1] = t[1] / length;
+}
+
+static double turn_between (const double *e, const double *f)
+{
+    return atan2 (e[0] * f[1] - e[1] * f[0], e[0] * f[0] + e[1] * f[1]);
+}
+
+/* How far the crack runs straight behind vertex j, m. */
+static double straight_behind (const turned *t, size_t j)
+{
+    double e[2], f[2];
+    heading (t->x + 2*j + 2, t->x + 2*j, e);
+    size_t end = j + 1;
+    for (; end + 1 < t->n; end++) {
+        heading (t->x + 2*end + 2, t->x + 2*end, f);
+        if (fabs (turn_between (e, f)) > STRAIGHT) break;
+    }
+    return hypot (t->x[2*end] - t->x[2*j], t->x[2*end + 1] - t->x[2*j + 1]);
+}
+
+/* The widest ring around a vertex behind which the crack runs straight, and before which it has turned; one
+ * of full size around the first of them is not improved. 0: none. */
+static pg_status find_kink (turned *out, const pg_problem *p, const pg_state *state, size_t tip, double h,
+                            size_t node, const pg_tip_faces *touch, int *any)
+{
+    pg_status status = PG_OK;
+    double e[2], f[2], extent = 0, best = TIP_LEAST * h;
+    int turns = 0;
+    *any = 0;
+    PG_TRY (pg_tip_vertices (state, tip, &out->n, &out->x));
+    for (size_t j = 1; j + 1 < out->n; j++) {
+        const double *x = out->x + 2*j;
+        extent = 0;
+        for (size_t i = 0; i < j; i++)
+            extent = fmax (extent, hypot (out->x[2*i] - x[0], out->x[2*i + 1] - x[1]));
+        double r1 = extent + BESIDE * h, r2 = fmin (FAR * h, straight_behind (out, j));
+        heading (x, x - 2, e), heading (x + 2, x, f);
+        turns |= fabs (turn_between (f, e)) > STRAIGHT;
+        if (FAR * h - r1 < best) break;
+        if (touch) r2 = fmin (r2, touch->nearest - hypot (out->x[0] - x[0], out->x[1] - x[1]));
+        if (!turns || r2 - r1 <= best) continue;
+        size_t here = tip_node_at (p, x);
+        if (p->block[PG_NODES] && p->block[PG_NODES][here] != p->block[PG_NODES][node]) continue;
+        r2 = tip_room_about (p, state, tip, x, here, r2);
+        if (r2 - r1 <= best) continue;
+        best = r2 - r1, *any = 1, out->kink = j, out->extent = extent, out->r1 = r1, out->r2 = r2;
+        memcpy (out->e, f, sizeof f);
+    }
+    heading (out->x + 2, out->x, out->ahead);
+done:
+    return status;
+}
+
+/* A place of the scene in the frame of the kink, in units of r1. */
+static double complex frame_of (const turned *t, const double *x)
+{
+    double v[2] = { x[0] - t->x[2 * t->kink], x[1] - t->x[2 * t->kink + 1] }, w[2];
+    tip_turn (t->e, v, w);
+    return (w[0] + _Complex_I * w[1]) / t->r1;
+}
+
+/* ---- the field in the ring ----------------------------------------------------------------------------- */
+/* Subtracts the stress S (11, 22, 12, uniform) and the stress that bears the body force b at the kink, with
+ * their displacements. */
+static void subtract (tip_grid *grid, int at, const tip_material *m, const kinked_faces *f)
+{
+    double modulus = m->modulus, nu = (3 - m->kappa) / (1 + m->kappa), *u = grid->field[at].u,
+           *s = grid->field[at].stress, *load = grid->field[at].load;
+    double e11 = (f->S[0] - nu * f->S[1]) / modulus, e22 = (f->S[1] - nu * f->S[0]) / modulus,
+           e12 = f->S[2] / (2 * m->mu), b1 = f->b[0] / modulus, b2 = f->b[1] / modulus;
+    for (size_t k = 0; k < grid->n; k++) {
+        double x = grid->r[k] * cos (grid->theta[k]), y = grid->r[k] * sin (grid->theta[k]);
+        u[2*k] -= e11 * x + e12 * y - 0.5 * b1 * (x * x + nu * y * y) + nu * b2 * x * y;
+        u[2*k + 1] -= e12 * x + e22 * y - 0.5 * b2 * (y * y + nu * x * x) + nu * b1 * x * y;
+        s[3*k] -= f->S[0] - f->b[0] * x, s[3*k + 1] -= f->S[1] - f->b[1] * y, s[3*k + 2] -= f->S[2];
+        if (load) load[2*k] -= f->b[0], load[2*k + 1] -= f->b[1];
+    }
+}
+
+/* The mean displacement and rotation of the ring have no integral but for rounding and quadrature, which
+ * would see them: off. */
+static void take_rigid_motion_off (tip_grid *grid, int at)
+{
+    double sum[3] = { 0 }, area = 0, *u = grid->field[at].u;
+    for (size_t k = 0; k < grid->n; k++) {
+        const double *H = grid->field[at].H + 4*k;
+        double w = grid->area[k];
+        area += w, sum[0] += w * u[2*k], sum[1] += w * u[2*k + 1], sum[2] += 0.5 * w * (H[2] - H[1]);
+    }
+    for (int i = 0; i < 3; i++) sum[i] /= area;
+    for (size_t k = 0; k < grid->n; k++) {
+        double x = grid->r[k] * cos (grid->theta[k]), y = grid->r[k] * sin (grid->theta[k]);
+        u[2*k] -= sum[0] - sum[2] * y, u[2*k + 1] -= sum[1] + sum[2] * x;
+    }
+}
+
+/* Body force at the kink: the mean over the ring. */
+static void mean_load (const tip_grid *grid, int at, double *b)
+{
+    double area = 0;
+    b[0] = b[1] = 0;
+    for (size_t k = 0; grid->field[at].load && k < grid->n; k++) {
+        area += grid->area[k];
+        for (int i = 0; i < 2; i++) b[i] += grid->area[k] * grid->field[at].load[2*k + i];
+    }
+    for (int i = 0; i < 2; i++) b[i] = area > 0 ? b[i] / area : 0;
+}
+
+/* Moments of one field over the ring r1 .. r2. */
+static void add_ring (kinked_moments *out, const tip_grid *grid, int at, const tip_material *m,
+                      const turned *t, double r1, double r2, double extent)
+{
+    double unit = t->r1;
+    const tip_sample *f = &grid->field[at];
+    for (size_t k = 0; k < grid->n; k++) {
+        double slope, q = tip_weight (grid->r[k], r1, r2, &slope), c = cos (grid->theta[k]),
+                      s = sin (grid->theta[k]), g[2] = { slope * c * unit, slope * s * unit },
+                      w = grid->area[k] / (unit * unit);
+        const double *S = f->stress + 3*k, u[2] = { w * f->u[2*k] / unit, w * f->u[2*k + 1] / unit };
+        if (q <= 0) continue;
+        kinked_place at_k = { .z = grid->r[k] / unit * (c + _Complex_I * s),
+                              .t = w * (S[0] * g[0] + S[2] * g[1] + _Complex_I * (S[2] * g[0] + S[1] * g[1])),
+                              .M = { u[0] * g[0], u[1] * g[1], 0.5 * (u[0] * g[1] + u[1] * g[0]) } };
+        if (f->load) at_k.t -= w * q * unit * (f->load[2*k] + _Complex_I * f->load[2*k + 1]);
+        if (slope != 0 || f->load) kinked_moments_add (out, &at_k, m->mu, m->kappa, extent / unit);
+    }
+}
+
+/* Samples the ring and leaves in it fields with free straight faces and without body force at the kink. */
+static pg_status sample_ring (tip_grid *grid, kinked_faces *faces, const pg_tip_field *ring,
+                              const tip_material *m, const pg_problem *p, const pg_force_type *force,
+                              void *self, const pg_state *state, int nfield, const double *const *d,
+                              const double *t, size_t node)
+{
+    pg_status status = PG_OK;
+    int forced = tip_has_body_force (p, node);
+    PG_TRY (tip_grid_create (grid, ring, 0));
+    grid->nfield = (size_t) nfield;
+    for (int a = 0; a < nfield; a++) {
+        PG_TRY (tip_grid_sample (grid, a, ring, m, p, force, self, state, d[a]));
+        if (forced) PG_TRY (tip_add_body_force (grid, a, ring, p, node, t));
+        double pressure = tip_pressure (p, a, t);
+        take_rigid_motion_off (grid, a);
+        kinked_faces all = { .S = { -pressure, -pressure, 0 } };
+        mean_load (grid, a, all.b);
+        subtract (grid, a, m, &all);
+        faces[a] = (kinked_faces) { .b = { all.b[0] * ring->r1, all.b[1] * ring->r1 } };
+    }
+done:
+    return status;
+}
+
+/* ---- intensities --------------------------------------------------------------------------------------- */
+/* Weight functions of the polyline, with a trial facet at `theta` from its end where it has a length. */
+static pg_status weights_of (kinked_weights *out, const turned *t, double facet, double theta, int nfield,
+                             const kinked_faces *faces)
+{
+    pg_status status = PG_OK;
+    size_t n = t->kink;
+    double complex *vertex = NULL;
+    PG_ALLOC (vertex, n + 1);
+    for (size_t i = 0; i < n; i++) vertex[i] = frame_of (t, t->x + 2 * (n - 1 - i));
+    if (facet > 0) {
+        double c = facet * cos (theta), s = facet * sin (theta), to[2];
+        to[0] = t->x[0] + c * t->ahead[0] - s * t->ahead[1];
+        to[1] = t->x[1] + c * t->ahead[1] + s * t->ahead[0];
+        vertex[n++] = frame_of (t, to);
+    }
+    PG_TRY (kinked_weights_of (out, n, vertex, (size_t) nfield, faces));
+done:
+    pg_free (vertex);
+    return status;
+}
+
+static const double trial_angles[PG_TIP_TRIALS] = { -0.9, -0.6, -0.3, 0, 0.3, 0.6, 0.9 };
+
+/* K at the end of the trial facets. */
+static pg_status measure_trials (pg_tip_field *out, const turned *t, const tip_grid *grid, int nfield,
+                                 const tip_material *m, const kinked_faces *faces, double facet)
+{
+    pg_status status = PG_OK;
+    kinked_moments moments[TIP_FIELDS];
+    kinked_weights w;
+    double r1 = t->r1 + facet, K[2];
+    memset (moments, 0, sizeof moments);
+    out->trial = 0;
+    if (!(facet > 0) || t->r2 - r1 < TIP_LEAST * out->h) return PG_OK;
+    for (int a = 0; a < nfield; a++) add_ring (&moments[a], grid, a, m, t, r1, t->r2, t->extent + facet);
+    for (int i = 0; i < PG_TIP_TRIALS; i++) {
+        out->trial_angle[i] = trial_angles[i];
+        PG_TRY (weights_of (&w, t, facet, trial_angles[i], nfield, faces));
+        for (int a = 0; a < nfield; a++) {
+            if (!kinked_intensities (&w, &moments[a], m->modulus, (size_t) a, K)) goto done;
+            for (int k = 0; k < 2; k++) out->trial_K[i][k][a] = K[k] * sqrt (t->r1);
+        }
+    }
+    out->trial = facet;
+done:
+    return status;
+}
+
+/* K and J at the tip by the ring, J also by the outer half of it. */
+static pg_status measure_tip (pg_tip_field *out, const turned *t, const tip_grid *grid, int nfield,
+                              const tip_material *m, const kinked_faces *faces, int *done)
+{
+    pg_status status = PG_OK;
+    kinked_weights w;
+    double half = 0.5 * (t->r1 + t->r2), near[2][TIP_FIELDS], K[2];
+    *done = 0;
+    PG_TRY (weights_of (&w, t, 0, 0, nfield, faces));
+    for (int a = 0; a < nfield; a++)
+        for (int outer = 0; outer < 2; outer++) {
+            kinked_moments moments;
+            memset (&moments, 0, sizeof moments);
+            add_ring (&moments, grid, a, m, t, outer ? half : t->r1, t->r2, t->extent);
+            if (!kinked_intensities (&w, &moments, m->modulus, (size_t) a, K)) goto done;
+            for (int k = 0; k < 2; k++)
+                if (outer) near[k][a] = K[k] * sqrt (t->r1);
+                else out->K[k][a] = out->K_wide[k][a] = K[k] * sqrt (t->r1);
+        }
+    for (int a = 0; a < nfield; a++) {
+        for (int b = 0; b < nfield; b++) {
+            out->J[a][b] = out->J_near[a][b] = 0;
+            for (int k = 0; k < 2; k++)
+                out->J[a][b] += out->K[k][a] * out->K[k][b] / m->modulus,
+                    out->J_near[a][b] += near[k][a] * near[k][b] / m->modulus;
+        }
+        out->K[2][a] = out->K_wide[2][a] = 0, out->T[a] = NAN;
+    }
+    *done = 1;
+done:
+    return status;
+}
+
+pg_status kinked_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
+                              const pg_state *state, size_t tip, int nfield, const double *const *d,
+                              const double *times, double facet, const tip_material *material,
+                              const pg_tip_faces *touch, int *done)
+{
+    pg_status status = PG_OK;
+    turned t = { 0 };
+    tip_grid grid = { 0 };
+    kinked_faces faces[TIP_FIELDS];
+    size_t node = tip_node_at (p, out->x);
+    *done = 0;
+    PG_TRY (find_kink (&t, p, state, tip, out->h, node, touch, done));
+    if (!*done) goto done;
+    const double *kink = t.x + 2 * t.kink;
+    pg_tip_field ring = { .x = { kink[0], kink[1] }, .e = { t.e[0], t.e[1] }, .h = out->h, .r1 = t.r1,
+                          .near = 0.5 * (t.r1 + t.r2), .wide = t.r2 };
+    PG_TRY (sample_ring (&grid, faces, &ring, material, p, force, self, state, nfield, d, times,
+                         tip_node_at (p, kink)));
+    PG_TRY (measure_tip (out, &t, &grid, nfield, material, faces, done));
+    if (!*done) goto done;
+    out->r1 = ring.r1, out->near = ring.near, out->wide = ring.wide, out->kinked = 1;
+    for (int k = 0; k < 2; k++) out->kink[k] = kink[k], out->e[k] = t.ahead[k];
+    PG_TRY (measure_trials (out, &t, &grid, nfield, material, faces, facet));
+done:
+    tip_grid_clear (&grid);
+    pg_free (t.x);
+    return status;
+}

@@ -1,0 +1,256 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * The weight functions of a kinked crack (Bueckner 1970, Rice 1972): how the field of a crack changes when
+ * its last piece grows, which is what the stress intensity factors at its end answer to.
+ *
+ * The straight part is the negative axis 1 and has free faces. Each further piece is a line of dislocations
+ * in its presence, of density B along it (the way of Lo 1978). Stresses and displacements by the potentials
+ * of Muskhelishvili,
+ *
+ *   sigma_11 + sigma_22 = 4 Re Phi,   sigma_22 - i sigma_12 = Phi (z) + Omega (z') + (z - z') conj Phi' (z),
+ *   2 mu (u_1 + i u_2) = kappa phi (z) - omega (z') - (z - z') conj Phi (z),   z' = conj z, phi' = Phi, ...
+ *
+ * and Phi = E + O, Omega = O - E of one dislocation at s, with c = conj s and E even, O odd around the
+ * origin, from the Hilbert problem of the free straight faces:
+ *
+ *   E = 1/2 [B (1/(z-s) - 1/(z-c)) - conj B (s-c)/(z-c)^2]
+ *   O = 1/(2 sqrt z) [B (sqrt s/(z-s) + sqrt c/(z-c))
+ *                     + conj B (s-c) (sqrt c/(z-c)^2 + 1/(2 sqrt c (z-c)))].
+ *
+ * The densities make the faces of the pieces free of traction, sigma_nn - i sigma_nt = 0, under the singular
+ * field of the straight crack, Phi = Omega = (K_I - i K_II) / (2 sqrt (2 pi z)): singular integral equations,
+ * which Gauss-Chebyshev quadrature turns into a dense linear system (Erdogan and Gupta 1972). At a corner the
+ * density has a power of its own, which no polynomial follows; the places of quadrature are therefore graded
+ * towards corners, s = ((1 + t) / 2)^GRADE along the first half of a piece, after which the density times the
+ * Jacobian is as smooth as the quadrature asks for. */
+#include "kinked_crack.h"
+#include "perigal/linalg.h"
+#include <math.h>
+#include <string.h>
+
+enum { NODES = 16, GRADE = 3, LOADS = 2 + KINKED_FIELDS };
+static const double pi = 3.14159265358979323846;
+static const double step = 0.01;                       /* of the last piece, for the change with its length */
+
+/* One straight piece: begin, vector to its end; last: it ends in the tip. */
+typedef struct { double complex from, way; int last; } piece;
+
+/* Shares of the way of a piece at t in (-1, 1), and its derivative: graded towards corners. */
+static double graded (const piece *p, double t, double *slope)
+{
+    double v = 0.5 * (1 + t), a = pow (v, GRADE), b = pow (1 - v, GRADE);
+    if (p->last) {
+        *slope = 0.5 * GRADE * pow (v, GRADE - 1);
+        return a;
+    }
+    *slope = 0.5 * GRADE * pow (v * (1 - v), GRADE - 1) / ((a + b) * (a + b));
+    return a / (a + b);
+}
+
+/* ---- potentials ---------------------------------------------------------------------------------------- */
+/* E and O of a dislocation at s with B = b, and their derivatives. */
+static void potentials (double complex z, double complex s, double complex b, double complex value[2],
+                        double complex slope[2])
+{
+    double complex c = conj (s), rs = csqrt (s), rc = conj (rs), rz = csqrt (z), d = 1 / (z - s),
+                   f = 1 / (z - c), a = conj (b) * (s - c);
+    value[0] = 0.5 * (b * (d - f) - a * f * f);
+    slope[0] = 0.5 * (b * (f * f - d * d) + 2 * a * f * f * f);
+    value[1] = (b * (rs * d + rc * f) + a * (rc * f * f + 0.5 * f / rc)) / (2 * rz);
+    slope[1] = -value[1] / (2 * z)
+               - (b * (rs * d * d + rc * f * f) + a * (2 * rc * f * f * f + 0.5 * f * f / rc)) / (2 * rz);
+}
+
+/* sigma_nn - i sigma_nt across a piece along `way`, from Phi at z, Phi' there and Omega at conj z. */
+static double complex traction (double complex z, double complex way, double complex Phi,
+                                double complex slope, double complex Omega)
+{
+    double complex across = Phi + Omega + (z - conj (z)) * conj (slope), mean = Phi + conj (Phi);
+    return mean + conj (way) / way * (across - mean);
+}
+
+/* That of a dislocation. */
+static double complex of_dislocation (double complex z, double complex way, double complex s,
+                                      double complex b)
+{
+    double complex value[2], slope[2], other[2], unused[2];
+    potentials (z, s, b, value, slope);
+    potentials (conj (z), s, b, other, unused);
+    return traction (z, way, value[0] + value[1], slope[0] + slope[1], other[1] - other[0]);
+}
+
+/* That of load number `which`: the singular field of the straight crack, or what acts on the pieces. */
+static double complex of_load (double complex z, double complex way, size_t which, const kinked_faces *load)
+{
+    if (which < 2) {
+        double complex K = which ? -_Complex_I : 1, Phi = K / (2 * csqrt (2 * pi * z));
+        return traction (z, way, Phi, -Phi / (2 * z), K / (2 * csqrt (2 * pi * conj (z))));
+    }
+    const kinked_faces *f = &load[which - 2];
+    double s11 = f->S[0] - f->b[0] * creal (z), s22 = f->S[1] - f->b[1] * cimag (z);
+    double complex mean = 0.5 * (s11 + s22);
+    return mean + conj (way) / way * (s22 - _Complex_I * f->S[2] - mean);
+}
+
+/* ---- the system ---------------------------------------------------------------------------------------- */
+static double node_at (int k) { return cos ((2 * k - 1) * pi / (2 * NODES)); }          /* k = 1 .. NODES */
+
+/* What node k counts in the value of the density at the end t = 1 (or, from the other side, -1). */
+static double end_share (int k)
+{
+    double half = (2 * k - 1) * pi / (4 * NODES);
+    return sin ((2 * NODES - 1) * half) / sin (half) / NODES;
+}
+
+/* Rows of piece p: no traction at NODES - 1 places, and no density where the piece begins. A: 2 N x 2 N by
+ * columns; unknowns of node j: real and imaginary part. */
+static void fill_rows (const piece *all, size_t n, size_t p, size_t nload, const kinked_faces *load,
+                       double *A, double *b)
+{
+    size_t rows = 2 * NODES * n;
+    double slope;
+    for (int i = 1; i < NODES; i++) {
+        double complex z = all[p].from + graded (&all[p], cos (i * pi / NODES), &slope) * all[p].way;
+        size_t row = 2 * (p * NODES + (size_t) i - 1);
+        for (size_t q = 0; q < n; q++)
+            for (int k = 1; k <= NODES; k++) {
+                double complex s = all[q].from + graded (&all[q], node_at (k), &slope) * all[q].way;
+                for (size_t part = 0; part < 2; part++) {
+                    double complex T = pi / NODES * of_dislocation (z, all[p].way, s, part ? _Complex_I : 1);
+                    double *column = A + (2 * (q * NODES + (size_t) k - 1) + part) * rows;
+                    column[row] = creal (T), column[row + 1] = cimag (T);
+                }
+            }
+        for (size_t l = 0; l < 2 + nload; l++) {
+            double complex T = of_load (z, all[p].way, l, load);
+            b[l * rows + row] = -creal (T), b[l * rows + row + 1] = -cimag (T);
+        }
+    }
+    size_t row = 2 * (p * NODES + NODES - 1);
+    for (int k = 1; k <= NODES; k++)
+        for (size_t part = 0; part < 2; part++)
+            A[(2 * (p * NODES + (size_t) k - 1) + part) * rows + row + part] = end_share (NODES + 1 - k);
+}
+
+/* Adds `times` the densities of a load to the potentials outside of the polyline: the coefficients of E and O
+ * in powers of 1 / z. */
+static void add_series (const piece *all, size_t n, const double *b, double times, double complex *even,
+                        double complex *odd)
+{
+    double slope;
+    for (size_t q = 0; q < n; q++)
+        for (int k = 1; k <= NODES; k++) {
+            double complex s = all[q].from + graded (&all[q], node_at (k), &slope) * all[q].way,
+                           c = conj (s), rs = csqrt (s), rc = conj (rs), sk = 1, ck = 1;
+            const double *d = b + 2 * (q * NODES + (size_t) k - 1);
+            double complex B = times * pi / NODES * (d[0] + _Complex_I * d[1]), a = conj (B) * (s - c);
+            for (int m = 0; m < KINKED_TERMS; m++) {
+                even[m] += 0.5 * (B * (sk - ck) - (m ? a * m * ck / c : 0));
+                odd[m] += 0.5 * (B * (rs * sk + rc * ck) + a * (m * rc * ck / c + 0.5 * ck / rc));
+                sk *= s, ck *= c;
+            }
+        }
+}
+
+/* Solves for all loads with the last piece `longer` times as long, and adds the end's K, half of it, and the
+ * potentials over the change of length (that of both signs). */
+static pg_status add_change (kinked_weights *out, piece *all, size_t n, double longer, size_t nload,
+                             const kinked_faces *load)
+{
+    pg_status status = PG_OK;
+    size_t rows = 2 * NODES * n;
+    double *A = NULL, *b = NULL, slope;
+    piece *last = &all[n - 1];
+    double complex way = last->way;
+    PG_ALLOC (A, rows * rows);
+    PG_ALLOC (b, rows * (2 + nload));
+    last->way *= longer;
+    for (size_t p = 0; p < n; p++) fill_rows (all, n, p, nload, load, A, b);
+    PG_TRY (pg_dense_lu (rows, A, 2 + nload, b));
+    graded (last, 1, &slope);
+    double length = cabs (last->way), change = (longer > 1 ? 1 : -1) / (2 * step * cabs (way));
+    for (size_t l = 0; l < 2 + nload; l++) {
+        double complex end = 0;
+        const double *d = b + l * rows;
+        for (int k = 1; k <= NODES; k++) {
+            size_t at = 2 * ((n - 1) * NODES + (size_t) k - 1);
+            end += end_share (k) * (d[at] + _Complex_I * d[at + 1]);
+        }
+        end *= pi * sqrt (2 * pi) * sqrt (2 / (length * slope)) * conj (last->way) / length;
+        double *K = l < 2 ? out->k[l] : out->own[l - 2];
+        K[0] += 0.5 * creal (end), K[1] -= 0.5 * cimag (end);
+        if (l < 2) add_series (all, n, d, change, out->even[l], out->odd[l]);
+    }
+done:
+    last->way = way;
+    pg_free (A), pg_free (b);
+    return status;
+}
+
+pg_status kinked_weights_of (kinked_weights *out, size_t n, const double complex *vertex, size_t nload,
+                             const kinked_faces *load)
+{
+    pg_status status = PG_OK;
+    piece *all = NULL;
+    memset (out, 0, sizeof *out);
+    PG_ALLOC (all, n);
+    for (size_t p = 0; p < n; p++) {
+        double complex from = p ? vertex[p - 1] : 0;
+        all[p] = (piece) { from, vertex[p] - from, p + 1 == n };
+    }
+    PG_TRY (add_change (out, all, n, 1 + step, nload, load));
+    PG_TRY (add_change (out, all, n, 1 - step, nload, load));
+    if (!isfinite (out->k[0][0] + out->k[0][1] + out->k[1][0] + out->k[1][1]))
+        PG_FAIL (PG_E_SINGULAR, "a crack of %zu pieces behind a kink runs into itself", n);
+done:
+    pg_free (all);
+    return status;
+}
+
+/* ---- reciprocity --------------------------------------------------------------------------------------- */
+/* Terms that count at a distance from the kink. */
+static int terms_at (double r, double extent)
+{
+    static const double least = -18;                   /* ln of what is left out */
+    double n = extent < r ? least / log (extent / r) : KINKED_TERMS;
+    return n < KINKED_TERMS ? (int) n + 1 : KINKED_TERMS;
+}
+
+/* The integrand t . h - s_ij u_i q,j of a weight function with the displacement h and the stress s, as
+ * Re (a_0 phi + a_1 omega (z') + a_2 Phi + a_3 Omega (z') + a_4 Phi'). */
+void kinked_moments_add (kinked_moments *out, const kinked_place *at, double mu, double kappa, double extent)
+{
+    double complex z = at->z, w = conj (z), t = at->t / (2 * mu),
+                   m = at->M[1] - at->M[0] + 2 * _Complex_I * at->M[2];
+    double complex a[5] = { kappa * conj (t), -conj (t), t * (z - w) - 4 * at->M[0] - m, -m,
+                            conj (m) * (z - w) };
+    int n = terms_at (cabs (z), extent);
+    double complex ze = 1, we = 1, zo = 1 / csqrt (z), wo = conj (zo);
+    for (int k = 0; k < n; k++) {
+        double even = k + 1, odd = k + 1.5;
+        /* ze = z^(-k), zo = z^(-k-1/2); even[0] has no field outside: its logarithm drops out */
+        if (k)
+            out->even[k] += a[0] * ze / (1 - even) - a[1] * we / (1 - even) + a[2] * ze / z - a[3] * we / w
+                            - a[4] * even * ze / (z * z);
+        out->odd[k] += a[0] * zo / (1 - odd) + a[1] * wo / (1 - odd) + a[2] * zo / z + a[3] * wo / w
+                       - a[4] * odd * zo / (z * z);
+        ze /= z, we /= w, zo /= z, wo /= w;
+    }
+}
+
+/* Of Rice: the change of load l's field with the length is 2 / E' (k_I h_I + k_II h_II) of the weight
+ * functions h, whose integrals are K_I and K_II. */
+int kinked_intensities (const kinked_weights *w, const kinked_moments *m, double modulus, size_t load,
+                        double K[2])
+{
+    double integral[2], det = w->k[0][0] * w->k[1][1] - w->k[0][1] * w->k[1][0], size = 0;
+    for (int l = 0; l < 2; l++) {
+        double complex sum = 0;
+        for (int k = 0; k < KINKED_TERMS; k++)
+            sum += w->even[l][k] * m->even[k] + w->odd[l][k] * m->odd[k];
+        integral[l] = -0.5 * modulus * creal (sum);
+        size = fmax (size, fmax (fabs (w->k[l][0]), fabs (w->k[l][1])));
+    }
+    K[0] = w->own[load][0] + (integral[0] * w->k[1][1] - integral[1] * w->k[0][1]) / det;
+    K[1] = w->own[load][1] + (w->k[0][0] * integral[1] - w->k[1][0] * integral[0]) / det;
+    return fabs (det) > 1e-3 * size * size && isfinite (K[0]) && isfinite (K[1]);
+}
