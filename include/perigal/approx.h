@@ -57,6 +57,9 @@ typedef struct {
     /* Where N, dN and w of each place begin, counted in bonds (n): places that see their nodes alike share
      * them. NULL: at the first bond of the place (read by pg_rows_offset). */
     size_t *at;
+    /* How much wider than that of other places the support of each place is (n); NULL: none is wider
+     * (pg_rows_widen). */
+    double *wide;
     /* PG_GRADE_... (n). */
     unsigned char *grade;
     /* Places so far whose values were copied from others that see their nodes alike, and their bonds. */
@@ -84,6 +87,9 @@ typedef struct {
     /* 1: places with all their bonds that see their nodes alike, to 2^-40 horizons, have the same values to
      * the last bit, and each kind is evaluated once: for points on a lattice, where there are few kinds. */
     int    congruent;
+    /* 1: N and dN are improved by residuals of what they reproduce, to 1e-14, and belong to bonds that are
+     * not rounded, each place for itself (consistent integration); places with wider supports always are. */
+    int    refined;
 } pg_approx;
 
 /* The descriptor of an approximation. */
@@ -136,6 +142,20 @@ pg_status pg_rows_search (pg_family_search **out, const pg_approx *a, const pg_c
 pg_status pg_rows_place  (pg_rows *out, const pg_family_search *search, int dim, size_t n, const double *x,
                           const double *weight, const int *own, const int *cell, int threads);
 pg_status pg_rows_values (pg_rows *rows);
+/* What pg_rows_widen did: number of places whose support is wider now, and the widest, over the usual one;
+ * places that still see too little, ascending (nblind; whoever asked frees them). */
+typedef struct { size_t widened, nblind, *blind; double widest; } pg_widened;
+/* Says whether a node is seen from a place (its number in the rows): 0: a crack lies between. Called by
+ * several threads. */
+typedef int (*pg_sight) (void *context, size_t place, int node);
+/* Gives places that see too little, such as those in the corner of a cut cell or beside a crack, the first
+ * support of PG_WIDEST_SUPPORT at most that shows them enough: for the basis that was asked for, without
+ * extrapolation (sum |N| at most 6, sum |dN| h at most 25, of a quadratic basis 20 and 60). Other places keep
+ * families and bits. Pairs of places and wider families come from pg_family_search, as all others, so that
+ * what lies between two points is asked there. sees: NULL: all nodes of a family are seen. Before values. */
+#define PG_WIDEST_SUPPORT 2.5
+pg_status pg_rows_widen (pg_rows *rows, const pg_approx *a, const pg_cloud *cloud, pg_sight sees,
+                         void *context, int threads, pg_widened *out);
 /* Values of entry e of place i are entries e + offset of N, dN and w (unsigned numbers, which may wrap
  * around). */
 static inline size_t pg_rows_offset (const pg_rows *rows, size_t i)

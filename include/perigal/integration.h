@@ -107,12 +107,31 @@ typedef struct {
     pg_family family;
     /* Evaluation points of cell c: first[c] .. first[c + 1] - 1 (cells + 1). */
     size_t   *first;
+    /* The points of the cloud, borrowed; order of the basis. */
+    const pg_cloud *cloud;
+    int       order;
+    /* Faces whose fluxes were changed so that their cells close (faces); cells whose quadrature misses the
+     * divergence theorem without that, or could for products (cells). */
+    unsigned char *amended, *uneven;
+    /* A small cell keeps its direct derivatives, and its host obeys the identity of both: the host of each
+     * cell, -1: it has none (cells), and the small cells of each host. */
+    int      *host;
+    pg_family guests;
+    /* The cells that must have all their bonds for the derivatives of a cell to be corrected: it and those
+     * beside it, and the same of its guests; the other way round, the cells that are no longer corrected
+     * when a cell loses a bond. */
+    pg_family needs, opens;
+    /* Points of faces with wider supports (face.wide), and those that still see too little. */
+    pg_widened widened;
 } pg_consistency;
 /* Finds the faces (face_order Gauss points per direction), their shape functions, and the lists of nodes.
  * points: the evaluation points with their families. PG_E_MEMORY, and whatever the approximation reports. */
 pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx,
                                  const pg_cloud *cloud, const pg_rows *points, int face_order, int threads);
 void      pg_consistency_free   (pg_consistency **c);
+/* Normals (rows of facets x dim) of points on facets whose fluxes were changed: flux over weight, not quite
+ * of unit length. Loads, supports and the identity then see the same surface. c NULL: nothing is changed. */
+void      pg_consistency_normals (const pg_consistency *c, const pg_rows *facets, double *normal);
 /* Writes wide->N and wide->dN (in the layout of c->family) for the cells list[0..count), or for all cells
  * where list is NULL, from the direct values in `points`: corrected in cells with whole[cell] set, copied
  * in others. face: N at the points of faces, in the layout of c->face (NULL: those of the intact body). Each

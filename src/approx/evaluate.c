@@ -121,7 +121,9 @@ INLINE void measure_place (const evaluation *g, size_t i, size_t dim, pg_neighbo
 {
     int nearest = g->cloud->size ? nearest_node (g, i, dim) : -1;
     double ratio = nearest < 0 ? 1 : pg_cloud_ratio (g->cloud, (size_t) nearest);
-    s->a = g->a->horizon * ratio;
+    s->wide = g->rows->wide ? g->rows->wide[i] : 1;
+    s->refined = g->a->refined || s->wide > 1;
+    s->a = g->a->horizon * ratio * s->wide;
     s->slender = nearest < 0 ? 1 : pg_cloud_slender (g->cloud, (size_t) nearest);
     s->h = g->cloud->h * ratio / s->slender;
 }
@@ -137,7 +139,7 @@ INLINE void gather_those (const evaluation *g, size_t i, size_t dim, pg_neighbou
     size_t first = rows->family.start[i], last = rows->family.start[i + 1], n = 0, *entry = s->entry;
     int own = g->formula->about_node ? rows->own[i] : -1, seen = 0, lost = 0;
     measure_place (g, i, dim, s);
-    double *z = s->z, *ratio = s->ratio, a = s->a, horizon = g->a->horizon, h = g->cloud->h;
+    double *z = s->z, *ratio = s->ratio, a = s->a, horizon = g->a->horizon * s->wide, h = g->cloud->h;
     for (size_t e = first; e < last; e++) {
         int j = node[e], dead = alive && !alive[e];
         if (j == own) s->own = e - first, seen = 1;
@@ -166,10 +168,12 @@ static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
     size_t dim = (size_t) s->dim, first = rows->family.start[i], n = rows->family.start[i + 1] - first;
     const int *node = rows->family.node + first;
     double per_horizon = 1 / g->a->horizon;
-    if (g->cloud->size || (g->formula->about_node && rows->own[i] >= 0)
+    if (g->cloud->size || g->a->refined || (rows->wide && rows->wide[i] > 1)
+        || (g->formula->about_node && rows->own[i] >= 0)
         || (g->alive && memchr (g->alive + first, 0, n)))
         return 0;
     s->constant = 1, s->lost = 0, s->n = n, s->a = g->a->horizon, s->h = g->cloud->h, s->slender = 1;
+    s->wide = 1, s->refined = 0;
     for (size_t k = 0; k < n; k++) s->entry[k] = k;
     for (size_t k = 0; k < dim; k++) {
         double at = rows->x[i * dim + k];
@@ -230,7 +234,7 @@ static void weigh (const evaluation *g, size_t i, pg_neighbourhood *s)
  * instead of taking it out. */
 static int wild (const pg_neighbourhood *s, const double *dN)
 {
-    double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a * s->slender;
+    double bound = (s->order == 2 ? PG_STEEPEST_QUADRATIC : PG_STEEPEST) / s->a * s->wide * s->slender;
     for (size_t j = 0; s->lost && j < s->n; j++) {
         double sum = 0;
         for (size_t k = 0; k < (size_t) s->dim; k++)
@@ -260,6 +264,7 @@ static int fill (const evaluation *g, pg_neighbourhood *s, pg_rows *rows, size_t
         if (grade > PG_GRADE_PROJECTED) return grade;
         if (s->sloped) g->formula->fill (s, N, dN);
         else if (rows->N) g->formula->values (s, N);
+        if (s->refined) pg_neighbourhood_refine (s, rows->N ? N : NULL, s->sloped ? dN : NULL);
         if (!wild (s, dN)) return order < g->a->order && grade == PG_GRADE_FULL ? PG_GRADE_LOWERED : grade;
         clear (rows, first, last);
     }

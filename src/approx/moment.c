@@ -10,6 +10,7 @@
  * whether the neighbours can carry the basis: a pivot below 1e-8 (quadratic: 1e-10) of the
  * diagonal counts as zero. */
 #include "moment.h"
+#include <math.h>
 #include <string.h>
 
 /* Number of functions: [1] + dim + dim (dim + 1) / 2. */
@@ -187,4 +188,31 @@ void pg_neighbourhood_differential (const pg_neighbourhood *s, double *dN)
             dN[s->entry[j] * dim + (size_t) k] = s->w[j] * dot (s->size, b, s->p + j * (size_t) s->size)
                                                  / s->a;
     }
+}
+
+/* One column of values (stride numbers apart), whose sums of the basis should be `target` at place `row` and
+ * 0 elsewhere. */
+static void refine (const pg_neighbourhood *s, double *value, size_t stride, int row, double target)
+{
+    for (int pass = 0; pass < 2; pass++) {
+        double r[PG_BASIS_MAX] = { 0 }, most = 0;
+        for (size_t j = 0; j < s->n; j++) {
+            double v = value[s->entry[j] * stride];
+            const double *p = s->p + j * (size_t) s->size;
+            for (int k = 0; k < s->size; k++) r[k] += p[k] * v;
+        }
+        r[row] -= target;
+        for (int k = 0; k < s->size; k++) most = fmax (most, fabs (r[k]));
+        if (most <= 1e-14 * target) return;
+        pg_neighbourhood_invert (s, r);
+        for (size_t j = 0; j < s->n; j++)
+            value[s->entry[j] * stride] -= s->w[j] * dot (s->size, r, s->p + j * (size_t) s->size);
+    }
+}
+
+void pg_neighbourhood_refine (const pg_neighbourhood *s, double *N, double *dN)
+{
+    if (s->projected || !s->constant) return;
+    if (N) refine (s, N, 1, 0, 1);
+    for (int k = 0; dN && k < s->dim; k++) refine (s, dN + k, (size_t) s->dim, 1 + k, 1 / s->a);
 }

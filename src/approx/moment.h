@@ -27,6 +27,9 @@ typedef struct {
     /* Support radius and spacing at the place, m; of a stretched support along and across it, and how much
      * longer than wide it is (1: a ball). */
     double  a, h, slender;
+    /* How much wider than others this support is; 1: N and dN are refined. */
+    double  wide;
+    int     refined;
     /* a / a_j of each bond (n); NULL: all are 1. */
     double *ratio;
     /* Number of live bonds with a weight above zero. */
@@ -105,6 +108,10 @@ void pg_neighbourhood_shape   (const pg_neighbourhood *around, const double *b, 
 /* dN_j / dx_k = (1/a) e_k' A^-1 p_j w_j, where e_k is the row of z_k: E1 with the constant, D1
  * without it. */
 void pg_neighbourhood_differential (const pg_neighbourhood *around, double *dN);
+/* Iterative refinement of N and dN (NULL: of which there are none): where sums of the basis, in which linear
+ * fields are reproduced, miss by more than 1e-14, the residual is taken off by the moment matrix that is
+ * there, at most twice. */
+void pg_neighbourhood_refine  (const pg_neighbourhood *around, double *N, double *dN);
 /* p (z): the constant, if there is one, then z_k, then the products z_k z_l with l >= k. Inlined where the
  * compiler knows the numbers. */
 static inline __attribute__ ((always_inline)) void pg_basis (int dim, int order, int constant,

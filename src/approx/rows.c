@@ -71,6 +71,7 @@ void pg_rows_clear (pg_rows *rows)
     pg_free (rows->dN);
     pg_free (rows->w);
     pg_free (rows->at);
+    pg_free (rows->wide);
     pg_free (rows->grade);
     *rows = (pg_rows) { 0 };
 }

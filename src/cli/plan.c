@@ -175,7 +175,7 @@ size_t plan_skips (const plan *p, pg_skip *skip, size_t most)
     int quasi_static = (o->flags & PG_SOLVER_QUASI_STATIC) != 0;
     const reason reasons[] = {
         { !fails, "bond failure", "there is no failure criterion" },
-        { p->problem->approx.congruent && p->problem->method->shape_functions,
+        { p->problem->approx.congruent && !p->problem->approx.refined && p->problem->method->shape_functions,
           "shape functions of most places",
           "places of a lattice that see their nodes alike have the same ones: evaluated once" },
         { p->problem->approx.congruent && p->forecast->shared && !p->forecast->interpolates

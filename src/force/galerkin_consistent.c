@@ -56,43 +56,34 @@ static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell
     return 1;
 }
 
-/* The cell and those beside it are no longer whole. */
+/* The cell, those beside it and hosts of these are no longer whole. */
 static void open_around (galerkin *g, size_t cell)
 {
-    const pg_faces *f = &g->problem->consistency->faces;
-    for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++)
-        for (int side = 0; side < 2; side++) {
-            int beside = f->cell[2 * f->face[k] + side];
-            if (beside >= 0) g->whole[beside] = 0;
-        }
+    const pg_family *f = &g->problem->consistency->opens;
+    for (size_t k = f->start[cell]; k < f->start[cell + 1]; k++) g->whole[f->node[k]] = 0;
 }
 
-/* Are the cell and all beside it complete? */
+/* Are all cells complete that a cell needs to be whole? */
 static int complete_around (const galerkin *g, const pg_state *state, size_t cell)
 {
-    const pg_faces *f = &g->problem->consistency->faces;
-    for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++)
-        for (int side = 0; side < 2; side++) {
-            int beside = f->cell[2 * f->face[k] + side];
-            if (beside >= 0 && !bonds_complete (g, state, (size_t) beside)) return 0;
-        }
+    const pg_family *f = &g->problem->consistency->needs;
+    for (size_t k = f->start[cell]; k < f->start[cell + 1]; k++)
+        if (!bonds_complete (g, state, (size_t) f->node[k])) return 0;
     return 1;
 }
 
-/* The cell has changed: it and those beside it are whole, or no longer whole, by the bonds that live now
+/* The cell has changed: it and those that need it are whole, or no longer whole, by the bonds that live now
  * (those of a trial live again afterwards). Those that change are appended to list. */
 static size_t judge_around (galerkin *g, const pg_state *state, size_t cell, size_t *list, size_t n)
 {
-    const pg_faces *f = &g->problem->consistency->faces;
-    for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++)
-        for (int side = 0; side < 2; side++) {
-            int beside = f->cell[2 * f->face[k] + side];
-            if (beside < 0) continue;
-            int now = complete_around (g, state, (size_t) beside);
-            if (now == g->whole[beside]) continue;
-            g->whole[beside] = (unsigned char) now;
-            list[n++] = (size_t) beside;
-        }
+    const pg_consistency *c = g->problem->consistency;
+    for (size_t k = c->opens.start[cell]; k < c->opens.start[cell + 1]; k++) {
+        size_t other = (size_t) c->opens.node[k];
+        int now = complete_around (g, state, other);
+        if (now == g->whole[other]) continue;
+        g->whole[other] = (unsigned char) now;
+        list[n++] = other;
+    }
     return n;
 }
 
@@ -230,6 +221,28 @@ done:
     return status;
 }
 
+/* The list grows by the hosts and guests of its cells: what a host obeys depends on which of these are
+ * whole. */
+static pg_status add_hosts (const galerkin *g, size_t **list, size_t *n)
+{
+    pg_status status = PG_OK;
+    const pg_consistency *c = g->problem->consistency;
+    size_t cap = 0, count = *n, kept = 0;
+    for (size_t k = 0; k < *n; k++) {
+        size_t cell = (*list)[k], from = c->guests.start[cell], more = c->guests.start[cell + 1] - from + 1;
+        PG_GROW (*list, cap, count + more);
+        if (c->host[cell] >= 0) (*list)[count++] = (size_t) c->host[cell];
+        for (size_t e = 0; e + 1 < more; e++) (*list)[count++] = (size_t) c->guests.node[from + e];
+    }
+    if (count == *n) return PG_OK;
+    qsort (*list, count, sizeof **list, compare);
+    for (size_t k = 0; k < count; k++)
+        if (kept == 0 || (*list)[k] != (*list)[kept - 1]) (*list)[kept++] = (*list)[k];
+    *n = kept;
+done:
+    return status;
+}
+
 /* Values of these cells as they are to be now. */
 static pg_status renew (galerkin *g, size_t n, const size_t *cell)
 {
@@ -268,6 +281,7 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
     PG_TRY (changed_cells (g, state, *count, &cells, &n));
     PG_TRY (near_cells (g, state, &cells, &n));
     if (n == 0) goto done;
+    PG_TRY (add_hosts (g, &cells, &n));
     PG_TRY (keep_rows (g, n, cells, &old));
     PG_TRY (renew (g, n, cells));
     n = different (g, n, cells, &old);

@@ -240,6 +240,8 @@ static pg_status make_rows (sampling *s, size_t n, const double *x, int *own)
     pg_status status = PG_OK;
     const pg_problem *p = s->g->problem;
     size_t bonds, dim = (size_t) s->g->dim;
+    pg_approx a = p->approx;
+    a.refined = 0;                                     /* places that are alike have the same field */
     int about_nodes = p->approx.type->interpolates || !s->intact;
     if (about_nodes) find_nodes (s->g, n, x, own);
     PG_TRY (pg_rows_place (&s->rows, s->g->search, s->g->dim, n, x, NULL, about_nodes ? own : NULL, NULL,
@@ -251,7 +253,7 @@ static pg_status make_rows (sampling *s, size_t n, const double *x, int *own)
     if (!s->intact) PG_ALLOC (s->alive, bonds);
     if (!s->intact) pg_parallel (s->g->threads, n, find_bonds, s);
     else if (!s->uniform) pg_parallel (s->g->threads, n, find_points, s);
-    PG_TRY (p->approx.type->evaluate (&p->approx, &p->cloud, &s->rows, s->alive, n, NULL, s->g->threads));
+    PG_TRY (a.type->evaluate (&a, &p->cloud, &s->rows, s->alive, n, NULL, s->g->threads));
 done:
     pg_free (s->alive), s->alive = NULL;
     return status;

@@ -44,7 +44,7 @@ pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
     PG_ALLOC (o, 1);
     p->options = o;
     p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
-    p->approx.extrapolates = p->integration->consistent;
+    p->approx.extrapolates = p->approx.refined = p->integration->consistent;
     if (!p->integration->at_nodes && p->cells.n == 0)
         pg_scene_fault (scene, "method.integration",
                         "a body of explicit points has no background cells: use nodal, or give shapes as its "

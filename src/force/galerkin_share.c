@@ -109,6 +109,7 @@ static pg_rows part_of (const pg_rows *r, size_t first, size_t last, size_t *sta
     part.n = last - first, part.family.start = start, part.family.node = r->family.node + from;
     part.x = r->x + first * dim, part.grade = r->grade + first;
     part.weight = r->weight ? r->weight + first : NULL;
+    part.wide = r->wide ? r->wide + first : NULL;
     part.own = r->own ? r->own + first : NULL, part.cell = r->cell ? r->cell + first : NULL;
     part.at = NULL, part.copied = part.copied_bonds = 0;
     return part;

@@ -5,7 +5,7 @@
  * In one cell, with polynomials p_a, M = sum_g w_g p p' and the residual R_a = oint p_a N n dS - sum_g w_g
  * (p_a,k N + p_a dN,k) of each node, the smallest change in the norm weighted by w_g is dN (g) += p (g)'
  * M^-1 R. The solve is done once per point, not per node: c = M^-1 p (g), then dN += sum_a c_a R_a. */
-#include "perigal/integration.h"
+#include "consistent.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,9 +36,21 @@ static size_t collect (const pg_family *f, size_t first, size_t last, int *seen,
     return n;
 }
 
+/* Of one cell: what its points and those of its faces see. */
+static size_t collect_cell (const pg_consistency *c, const pg_rows *points, size_t cell, int *seen, int stamp,
+                            int *list, size_t n)
+{
+    n = collect (&points->family, c->first[cell], c->first[cell + 1], seen, stamp, list, n);
+    for (size_t k = c->faces.of[cell]; k < c->faces.of[cell + 1]; k++) {
+        size_t f = (size_t) c->faces.face[k];
+        n = collect (&c->face.family, c->faces.start[f], c->faces.start[f + 1], seen, stamp, list, n);
+    }
+    return n;
+}
+
 /* One list of nodes, ascending, for all points of a cell: those that its points or the points of its faces
- * see. The identity must hold for each of these nodes, so that every point of the cell needs a derivative
- * for them. */
+ * see, and of a host those of its guests. The identity must hold for each of these nodes, so that every point
+ * of the cell needs a derivative for them. */
 static pg_status unite (pg_consistency *c, const pg_rows *points, size_t nodes)
 {
     pg_status status = PG_OK;
@@ -50,13 +62,9 @@ static pg_status unite (pg_consistency *c, const pg_rows *points, size_t nodes)
     PG_ALLOC (c->cell_family.start, c->cells->n + 1);
     c->family.n = points->n, c->cell_family.n = c->cells->n;
     for (size_t cell = 0; cell < c->cells->n; cell++) {
-        size_t n = collect (&points->family, c->first[cell], c->first[cell + 1], seen, (int) cell + 1, list,
-                            0);
-        for (size_t k = c->faces.of[cell]; k < c->faces.of[cell + 1]; k++) {
-            size_t f = (size_t) c->faces.face[k];
-            n = collect (&c->face.family, c->faces.start[f], c->faces.start[f + 1], seen, (int) cell + 1,
-                         list, n);
-        }
+        size_t n = collect_cell (c, points, cell, seen, (int) cell + 1, list, 0);
+        for (size_t k = c->guests.start[cell]; k < c->guests.start[cell + 1]; k++)
+            n = collect_cell (c, points, (size_t) c->guests.node[k], seen, (int) cell + 1, list, n);
         size_t own = c->cell_family.start[cell];
         qsort (list, n, sizeof *list, compare_nodes);
         PG_GROW (c->cell_family.node, cap_cell, own + n);
@@ -83,14 +91,17 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
     pg_consistency *c = NULL;
     pg_family_search *search = NULL;
     PG_ALLOC (c, 1);
-    c->cells = cells;
+    c->cells = cells, c->cloud = cloud, c->order = approx->order;
     PG_ALLOC (c->first, cells->n + 1);
     for (size_t p = 0; p < points->n; p++) c->first[points->cell[p] + 1]++;
     for (size_t cell = 0; cell < cells->n; cell++) c->first[cell + 1] += c->first[cell];
     PG_TRY (pg_faces_build (&c->faces, cells, face_order));
+    PG_TRY (consistent_close (c, points));
+    PG_TRY (consistent_hosts (c));
     PG_TRY (pg_rows_search (&search, approx, cloud));
     PG_TRY (pg_rows_place (&c->face, search, cloud->dim, c->faces.npoint, c->faces.x, NULL, NULL, NULL,
                            threads));
+    PG_TRY (pg_rows_widen (&c->face, approx, cloud, NULL, NULL, threads, &c->widened));
     PG_ALLOC (c->face.N, c->face.family.start[c->face.n]);             /* values only */
     PG_ALLOC (c->face.grade, c->face.n);
     PG_TRY (approx->type->evaluate (approx, cloud, &c->face, NULL, c->face.n, NULL, threads));
@@ -110,7 +121,11 @@ void pg_consistency_free (pg_consistency **out)
     pg_rows_clear (&c->face);
     pg_family_clear (&c->family);
     pg_family_clear (&c->cell_family);
-    pg_free (c->first);
+    pg_family_clear (&c->guests);
+    pg_family_clear (&c->needs);
+    pg_family_clear (&c->opens);
+    pg_free (c->first), pg_free (c->amended), pg_free (c->uneven), pg_free (c->host);
+    pg_free (c->widened.blind);
     pg_free (c);
     *out = NULL;
 }
@@ -204,8 +219,8 @@ typedef struct {
     const unsigned char *whole;
     const double *face;  /* N at the points of faces */
     const size_t *list;
-    /* Per thread: the residual of the identity (POLYNOMIALS x nodes x dim) and N at one point of a face
-     * (nodes). */
+    /* Per thread: the residual of the identity (POLYNOMIALS x nodes x dim), N at one point (nodes) and dN at
+     * one point (nodes x dim). */
     double **workspace;
 } job;
 
@@ -254,22 +269,39 @@ static void add_rate (size_t m, size_t dim, const double *rate, const double *N,
     else add_value (m, *rate, N, rest);
 }
 
-/* Adds the volume terms of the residual, - sum w (p,k N + p dN,k), into rest (polynomials x nodes x dim). */
+/* Adds the volume terms of one point to the residual, - w (p,k N + p dN,k), into rest (polynomials x nodes x
+ * dim). */
+static void add_point (const job *j, const space *s, size_t q, size_t m, const double *N, const double *dN,
+                       double *rest)
+{
+    size_t dim = (size_t) s->dim, n = (size_t) s->n;
+    double p[POLYNOMIALS], slope[3 * POLYNOMIALS], weight = j->points->weight[q];
+    polynomials (s, j->points->x + q * dim, p, slope);
+    for (size_t k = 0; k < n * dim; k++) slope[k] *= -weight;
+    for (size_t a = 0; a < n; a++) {
+        if (a > 0) add_rate (m, dim, slope + a * dim, N, rest + a * m * dim);
+        add_value (m * dim, -weight * p[a], dN, rest + a * m * dim);
+    }
+}
+
+/* The points of the cell itself. */
 static void add_points (const job *j, const space *s, size_t cell, size_t m, double *rest)
 {
     const pg_rows *w = j->wide;
-    size_t dim = (size_t) s->dim, n = (size_t) s->n;
-    double p[POLYNOMIALS], slope[3 * POLYNOMIALS];
-    for (size_t q = j->c->first[cell]; q < j->c->first[cell + 1]; q++) {
-        const double *N = w->N + j->c->family.start[q], *dN = w->dN + j->c->family.start[q] * dim;
-        double weight = j->points->weight[q];
-        polynomials (s, j->points->x + q * dim, p, slope);
-        for (size_t k = 0; k < n * dim; k++) slope[k] *= -weight;
-        for (size_t a = 0; a < n; a++) {
-            if (a > 0) add_rate (m, dim, slope + a * dim, N, rest + a * m * dim);
-            add_value (m * dim, -weight * p[a], dN, rest + a * m * dim);
-        }
-    }
+    size_t dim = (size_t) s->dim;
+    for (size_t q = j->c->first[cell]; q < j->c->first[cell + 1]; q++)
+        add_point (j, s, q, m, w->N + j->c->family.start[q], w->dN + j->c->family.start[q] * dim, rest);
+}
+
+/* Writes the direct values of a point into a longer list of nodes. */
+static void widen (const job *j, size_t q, size_t m, const int *node, double *N, double *dN)
+{
+    const pg_rows *r = j->points;
+    size_t dim = (size_t) r->dim, from = r->family.start[q], n = r->family.start[q + 1] - from;
+    memset (N, 0, m * sizeof *N);
+    memset (dN, 0, m * dim * sizeof *dN);
+    spread (n, r->family.node + from, 1, r->N + from, node, N);
+    spread (n, r->family.node + from, dim, r->dN + from * dim, node, dN);
 }
 
 /* Adds the surface term, oint p N n dS, over all faces of the cell; flux points out of the first cell of a
@@ -311,7 +343,116 @@ static void correct (const job *j, const space *s, size_t cell, size_t m, const 
     }
 }
 
-/* One cell: copies the direct values into the wider lists, then corrects them if the cell is whole. */
+/* ---- what no derivatives can give ---------------------------------------------------------------------- */
+/* Functions of the projection: 1, z, and with a quadratic basis their products, which N reproduces. */
+enum { REPRODUCED = 10 };
+
+static int reproduced (const space *s, int quadratic, const double *x, double *b)
+{
+    double z[3] = { 0 };
+    int n = 0;
+    b[n++] = 1;
+    for (int k = 0; k < s->dim; k++) b[n++] = z[k] = (x[k] - s->centre[k]) / s->size;
+    for (int k = 0; quadratic && k < s->dim; k++) for (int l = k; l < s->dim; l++) b[n++] = z[k] * z[l];
+    return n;
+}
+
+/* The matrix sum w b b' as its factor. Returns the number of functions, 0 if the points cannot tell them
+ * apart. */
+static int find_projection (const job *j, const space *s, size_t cell, int quadratic, double *L)
+{
+    const pg_consistency *c = j->c;
+    double b[REPRODUCED];
+    int n = reproduced (s, quadratic, s->centre, b);
+    memset (L, 0, REPRODUCED * REPRODUCED * sizeof *L);
+    for (size_t q = c->first[cell]; q < c->first[cell + 1]; q++) {
+        reproduced (s, quadratic, j->points->x + q * (size_t) s->dim, b);
+        for (int k = 0; k < n; k++)
+            for (int l = 0; l <= k; l++) L[k * n + l] += j->points->weight[q] * b[k] * b[l];
+    }
+    return pg_dense_cholesky (n, L, 1e-8) == 0 ? n : 0;
+}
+
+/* Do all points of the cell have the whole quadratic basis? */
+static int has_quadratic (const job *j, size_t cell)
+{
+    if (j->c->order < 2) return 0;
+    for (size_t q = j->c->first[cell]; q < j->c->first[cell + 1]; q++)
+        if (j->points->grade[q] != PG_GRADE_FULL) return 0;
+    return 1;
+}
+
+/* The quadrature of the cell, or of a host with its guests, misses the divergence theorem for p_a q, a > 0,
+ * q reproduced by N: sum_I R_aI q_I should be zero, since no derivatives that reproduce q give anything else.
+ * What it is comes off as a force spread over the volume. Not for a = 0: the patch test needs each R_0I as it
+ * is, and the fluxes obey the theorem for 1 and x. */
+static void project (const job *j, const space *s, size_t cell, size_t m, const int *node, double *rest)
+{
+    const pg_consistency *c = j->c;
+    size_t dim = (size_t) s->dim;
+    double L[REPRODUCED * REPRODUCED], b[REPRODUCED], sum[3][REPRODUCED], rate[3];
+    int quadratic = has_quadratic (j, cell), n = find_projection (j, s, cell, quadratic, L);
+    if (n == 0 && quadratic) n = find_projection (j, s, cell, quadratic = 0, L);
+    for (int a = 1; a < s->n && n > 0; a++) {
+        double *R = rest + (size_t) a * m * dim;
+        memset (sum, 0, sizeof sum);
+        for (size_t i = 0; i < m; i++) {
+            reproduced (s, quadratic, c->cloud->x + (size_t) node[i] * dim, b);
+            for (size_t k = 0; k < dim; k++) for (int l = 0; l < n; l++) sum[k][l] += R[i * dim + k] * b[l];
+        }
+        for (size_t k = 0; k < dim; k++) pg_dense_solve (n, L, sum[k]);
+        for (size_t q = c->first[cell]; q < c->first[cell + 1]; q++) {
+            reproduced (s, quadratic, j->points->x + q * dim, b);
+            for (size_t k = 0; k < dim; k++) {
+                rate[k] = 0;
+                for (int l = 0; l < n; l++) rate[k] -= j->points->weight[q] * sum[k][l] * b[l];
+            }
+            add_rate (m, dim, rate, j->wide->N + c->family.start[q], R);
+        }
+    }
+}
+
+/* Takes off what is left of sum_I dN_I at each point, in shares of N. */
+static void remove_sums (const job *j, size_t cell, size_t m)
+{
+    size_t dim = (size_t) j->points->dim;
+    for (size_t q = j->c->first[cell]; q < j->c->first[cell + 1]; q++) {
+        double *dN = j->wide->dN + j->c->family.start[q] * dim, sum[3] = { 0 };
+        for (size_t i = 0; i < m; i++) for (size_t k = 0; k < dim; k++) sum[k] -= dN[i * dim + k];
+        add_rate (m, dim, sum, j->wide->N + j->c->family.start[q], dN);
+    }
+}
+
+/* ---- one cell ------------------------------------------------------------------------------------------ */
+/* Derivatives of a cell that obey the identity of the cell and its guests. */
+static void obey (const job *j, size_t cell, size_t m, const int *node, double *workspace)
+{
+    const pg_consistency *c = j->c;
+    size_t dim = (size_t) j->points->dim, guests = 0;
+    space s;
+    find_space (&s, j->points, c->first[cell], c->first[cell + 1]);
+    if (s.n == 0) return;
+    double *rest = workspace, *N = workspace + m * dim * POLYNOMIALS, *dN = N + m;
+    memset (rest, 0, m * dim * POLYNOMIALS * sizeof *rest);
+    add_points (j, &s, cell, m, rest);
+    add_faces (j, &s, cell, m, node, rest, N);
+    for (size_t k = c->guests.start[cell]; k < c->guests.start[cell + 1]; k++) {
+        size_t guest = (size_t) c->guests.node[k];
+        if (!j->whole[guest]) continue;
+        guests++;
+        for (size_t q = c->first[guest]; q < c->first[guest + 1]; q++) {
+            widen (j, q, m, node, N, dN);
+            add_point (j, &s, q, m, N, dN, rest);
+        }
+        add_faces (j, &s, guest, m, node, rest, N);
+    }
+    for (int pass = 0; pass < 2 && (guests || c->uneven[cell]); pass++) project (j, &s, cell, m, node, rest);
+    correct (j, &s, cell, m, rest);
+    remove_sums (j, cell, m);
+}
+
+/* One cell: copies the direct values into the wider lists, then corrects them if the cell is whole, and no
+ * guest of a cell that is. */
 static void treat (const job *j, size_t cell, double *workspace)
 {
     const pg_consistency *c = j->c;
@@ -319,24 +460,9 @@ static void treat (const job *j, size_t cell, double *workspace)
     if (first == last) return;
     const int *node = c->family.node + c->family.start[first];
     size_t m = c->family.start[first + 1] - c->family.start[first];
-    for (size_t q = first; q < last; q++) {
-        size_t from = j->points->family.start[q], n = j->points->family.start[q + 1] - from,
-               to = c->family.start[q];
-        memset (j->wide->N + to, 0, m * sizeof (double));
-        memset (j->wide->dN + to * dim, 0, m * dim * sizeof (double));
-        spread (n, j->points->family.node + from, 1, j->points->N + from, node, j->wide->N + to);
-        spread (n, j->points->family.node + from, dim, j->points->dN + from * dim, node,
-                j->wide->dN + to * dim);
-    }
-    space s;
-    if (!j->whole[cell]) return;
-    find_space (&s, j->points, first, last);
-    if (s.n == 0) return;
-    double *rest = workspace, *N = workspace + m * dim * POLYNOMIALS;
-    memset (rest, 0, m * dim * POLYNOMIALS * sizeof *rest);
-    add_points (j, &s, cell, m, rest);
-    add_faces (j, &s, cell, m, node, rest, N);
-    correct (j, &s, cell, m, rest);
+    for (size_t q = first; q < last; q++)
+        widen (j, q, m, node, j->wide->N + c->family.start[q], j->wide->dN + c->family.start[q] * dim);
+    if (j->whole[cell] && c->host[cell] < 0) obey (j, cell, m, node, workspace);
 }
 
 /* The cells first .. last - 1 of a thread. */
@@ -359,7 +485,7 @@ pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, 
             most = c->family.start[p + 1] - c->family.start[p];
     PG_ALLOC (j.workspace, slots);
     for (size_t t = 0; t < slots; t++)
-        PG_ALLOC (j.workspace[t], most * ((size_t) points->dim * POLYNOMIALS + 1));
+        PG_ALLOC (j.workspace[t], most * ((size_t) points->dim * (POLYNOMIALS + 1) + 1));
     pg_parallel (threads, list ? count : c->cells->n, work, &j);
 done:
     for (size_t t = 0; j.workspace && t < slots; t++) pg_free (j.workspace[t]);

@@ -21,13 +21,17 @@ static pg_status make_surface (pg_problem *out, const pg_problem *p)
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
     pg_family_search *search = NULL;
+    pg_widened w = { 0 };
     out->rows[PG_FACETS] = (pg_rows) { 0 }, out->facet_normal = NULL;
     PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
     PG_TRY (pg_rows_search (&search, &p->approx, &p->cloud));
     PG_TRY (pg_rows_place (&out->rows[PG_FACETS], search, p->dim, q.n, q.x, q.weight, NULL, q.cell,
                            p->threads));
+    PG_TRY (pg_rows_widen (&out->rows[PG_FACETS], &p->approx, &p->cloud, NULL, NULL, p->threads, &w));
+    pg_consistency_normals (p->consistency, &out->rows[PG_FACETS], q.normal);
     out->facet_normal = q.normal, q.normal = NULL;
 done:
+    pg_free (w.blind);
     pg_family_search_free (&search);
     pg_quadrature_clear (&q);
     return status;

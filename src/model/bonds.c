@@ -63,6 +63,33 @@ static size_t number_of (const pg_problem *p, int set, size_t point)
     return set == PG_NODES && p->held[set].number ? (size_t) p->held[set].number[point] : point;
 }
 
+/* Wider supports for the places of a set that see too little; the first one of this rank that still does is
+ * named. */
+static pg_status widen (pg_problem *p, int set)
+{
+    static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
+    pg_status status = PG_OK;
+    const pg_rows *r = &p->rows[set];
+    pg_widened w = { 0 };
+    size_t own = 0, first = 0, dim = (size_t) p->dim;
+    char at[100] = "";
+    int used = 0;
+    PG_TRY (pg_rows_widen (&p->rows[set], &p->approx, &p->cloud, NULL, NULL, p->threads, &w));
+    for (size_t k = w.nblind; k-- > 0;)
+        if (!p->held[set].owned || p->held[set].owned[w.blind[k]]) own++, first = w.blind[k];
+    for (size_t k = 0; own && k < dim; k++)
+        used += snprintf (at + used, sizeof at - (size_t) used, k ? ", %.6g" : "%.6g", r->x[first * dim + k]);
+    if (own)
+        pg_problem_note (p,
+                         PG_WARNING "%zu %s%s, such as that at (%s) m, see%s too little for a strain even "
+                                    "within %g horizons: the body is thinner there than the spacing; use a "
+                                    "smaller spacing",
+                         own, what[set], own == 1 ? "" : "s", at, own == 1 ? "s" : "", PG_WIDEST_SUPPORT);
+done:
+    pg_free (w.blind);
+    return status;
+}
+
 /* Points that are no lattice: every point of the whole body must see enough others, and these not too
  * flat a set, to carry a strain. Moments are evaluated once for the grades of linear shape functions, which
  * all others fall back on; the first point with none is a fault that says where it is. */
@@ -110,6 +137,7 @@ static pg_status make_nodes (pg_problem *p, const pg_family_search *search, cons
     PG_TRY (pg_rows_place (&p->rows[PG_NODES], search, p->dim, p->cloud.n, p->cloud.x, p->cloud.volume, own,
                            NULL, p->threads));
     PG_TRY (number_held (p, PG_NODES));
+    PG_TRY (widen (p, PG_NODES));
     PG_TRY (check_support (p, scene, PG_NODES));
 done:
     pg_free (own);
@@ -153,6 +181,7 @@ static pg_status make_points (pg_problem *p, const pg_family_search *search, con
     PG_TRY (pg_rows_place (&p->rows[PG_POINTS], search, p->dim, q.n, q.x, q.weight, NULL, q.cell,
                            p->threads));
     PG_TRY (number_held (p, PG_POINTS));
+    PG_TRY (widen (p, PG_POINTS));
     PG_TRY (check_support (p, scene, PG_POINTS));
     if (p->integration->consistent)
         PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS],
@@ -188,7 +217,9 @@ static pg_status make_facets (pg_problem *p, const pg_family_search *search, con
     PG_TRY (pg_rows_place (&p->rows[PG_FACETS], search, p->dim, keep, q.x, q.weight, NULL, q.cell,
                            p->threads));
     PG_TRY (number_held (p, PG_FACETS));
+    PG_TRY (widen (p, PG_FACETS));
     PG_TRY (check_support (p, scene, PG_FACETS));
+    pg_consistency_normals (p->consistency, &p->rows[PG_FACETS], q.normal);
     p->facet_normal = q.normal, q.normal = NULL;
 done:
     pg_quadrature_clear (&q);

@@ -46,7 +46,7 @@ static inline void lattice_clear (pg_cloud *c)
 static inline pg_approx make (const char *type, const char *kernel, int order, int shape, double horizon)
 {
     const pg_approx_type *t = pg_approx_find (type);
-    return (pg_approx) { t, pg_kernel_find (kernel), order, shape, t->use_volume, horizon, 0, 0, 0 };
+    return (pg_approx) { t, pg_kernel_find (kernel), order, shape, t->use_volume, horizon, 0, 0, 0, 0 };
 }
 
 /* Rows at n points, all evaluated with every bond alive. */

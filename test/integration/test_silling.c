@@ -29,7 +29,7 @@ static body make (int dim, int side)
         own[i] = (int) i;
     }
     pg_approx nosb = { pg_approx_find ("nosb"), pg_kernel_find ("quadratic"), 1, PG_RADIAL, 1, 0.25, 0, 0,
-                       0 };
+                       0, 0 };
     check_ok (pg_rows_create (&b.rows, &nosb, &b.cloud, n, b.cloud.x, b.cloud.volume, own, NULL));
     size_t nnz = b.rows.family.start[n];
     unsigned char *alive = pg_calloc (nnz, 1);

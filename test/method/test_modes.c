@@ -37,7 +37,7 @@ static periodic wrap (int dim, size_t n, double h, double horizon)
         own[at++] = (int) i;
     }
     pg_approx approx = {
-        pg_approx_find ("nosb"), pg_kernel_find ("constant"), 1, PG_RADIAL, 1, horizon, 0, 0, 0
+        pg_approx_find ("nosb"), pg_kernel_find ("constant"), 1, PG_RADIAL, 1, horizon, 0, 0, 0, 0
     };
     check_ok (pg_rows_create (&p.rows, &approx, &p.images, at, x, NULL, own, NULL));
     check_ok (approx.type->evaluate (&approx, &p.images, &p.rows, NULL, at, NULL, 1));

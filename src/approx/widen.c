@@ -1,0 +1,308 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Wider supports for places that see too little. In the corner of a cut cell, beside a crack, or where points
+ * are sparse a place may see so few nodes, or nodes so nearly on a line, that its basis is lowered to a
+ * constant, or that N and dN are large multiples of what they are elsewhere. Only values at places enter the
+ * weak form, so that N need not be continuous from place to place: each may have a support of its own. */
+#include "perigal/approx.h"
+#include <math.h>
+#include <string.h>
+
+/* The supports that are tried, over the usual one; up to FOR_FULL of them a quadratic basis is sought before
+ * a linear one is taken. */
+static const double factors[] = { 1.15, 1.3, 1.45, 1.6, 1.8, 2, 2.25, PG_WIDEST_SUPPORT };
+static const double for_full = 1.6;
+/* Places at a time, which bounds the memory. On a lattice a place is looked at if it sees fewer nodes than
+ * this share of those in a whole support. */
+enum { CHUNK = 16384 };
+static const double complete = 0.85;
+/* More lowered places than this share, or more of those in the midst of others: the horizon is too small for
+ * the basis everywhere, which is no fault of these places. */
+static const double usual = 0.1;
+/* A place this near to the middle of what it sees, over its reach, is in the midst of it. */
+static const double MIDST = 0.1;
+/* How well a place sees. */
+enum { POOR, LOWERED, GOOD };
+
+typedef struct {
+    pg_approx a;
+    const pg_rows *rows;
+    const pg_cloud *cloud;
+    pg_sight sees;
+    void *context;
+    int threads;
+    /* What is left to do: places (n), what the best support so far shows to each, that support (0: none), and
+     * where its nodes are in `node`. */
+    size_t n, *place, *at, *count;
+    unsigned char *best;
+    double *factor;
+    int *node;  size_t used, cap;
+} work;
+
+/* The places at hand as rows of their own; `place`: which they are. */
+typedef struct { const work *w; const size_t *place; pg_rows rows; unsigned char *alive, *sight; } lot;
+
+static void lot_clear (lot *l)
+{
+    pg_rows_clear (&l->rows);
+    pg_free (l->alive), pg_free (l->sight);
+}
+
+static double spacing_at (const pg_cloud *c, const pg_rows *r, size_t i)
+{
+    double least = INFINITY, h = c->h;
+    for (size_t e = r->family.start[i]; c->size && e < r->family.start[i + 1]; e++) {
+        double away = 0;
+        size_t j = (size_t) r->family.node[e], dim = (size_t) c->dim;
+        for (size_t k = 0; k < dim; k++) away += pow (c->x[j * dim + k] - r->x[i * dim + k], 2);
+        if (away < least) least = away, h = c->size[j] / pg_cloud_slender (c, j);
+    }
+    return h;
+}
+
+/* By the basis that the place has, and by how much a node counts there. */
+static int judge (const work *w, const pg_rows *r, size_t i)
+{
+    double value = 0, slope = 0, h = spacing_at (w->cloud, r, i);
+    size_t dim = (size_t) r->dim;
+    if (r->grade[i] > PG_GRADE_LOWERED) return POOR;
+    for (size_t e = r->family.start[i]; e < r->family.start[i + 1]; e++) {
+        double square = 0;
+        for (size_t k = 0; k < dim; k++) square += r->dN[e * dim + k] * r->dN[e * dim + k];
+        value += fabs (r->N[e]), slope += sqrt (square);
+    }
+    int quadratic = w->a.order == 2 && r->grade[i] == PG_GRADE_FULL;
+    if (!(value <= (quadratic ? 20 : 6) && slope * h <= (quadratic ? 60 : 25))) return POOR;
+    return r->grade[i] == PG_GRADE_LOWERED ? LOWERED : GOOD;
+}
+
+static void look (void *context, size_t first, size_t last, int thread)
+{
+    const lot *l = context;
+    const pg_family *f = &l->rows.family;
+    (void) thread;
+    for (size_t i = first; i < last; i++)
+        for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
+            l->alive[e] = l->w->sees (l->w->context, l->place[i], f->node[e]) != 0;
+}
+
+static void judge_those (void *context, size_t first, size_t last, int thread)
+{
+    const lot *l = context;
+    (void) thread;
+    for (size_t i = first; i < last; i++) l->sight[i] = (unsigned char) judge (l->w, &l->rows, i);
+}
+
+/* Values of the places of a lot, whose families are there, and how well each sees. */
+static pg_status measure (lot *l)
+{
+    pg_status status = PG_OK;
+    const work *w = l->w;
+    PG_TRY (pg_rows_values (&l->rows));
+    PG_ALLOC (l->sight, l->rows.n);
+    if (w->sees) {
+        PG_ALLOC (l->alive, l->rows.family.start[l->rows.n]);
+        pg_parallel (w->threads, l->rows.n, look, l);
+    }
+    PG_TRY (w->a.type->evaluate (&w->a, w->cloud, &l->rows, l->alive, l->rows.n, NULL, w->threads));
+    pg_parallel (w->threads, l->rows.n, judge_those, l);
+done:
+    return status;
+}
+
+/* Could the place be poor? Away from a lattice each one; on a lattice those that see part of the nodes that a
+ * whole support has. */
+static int suspect (const work *w, size_t i)
+{
+    const pg_cloud *c = w->cloud;
+    const pg_family *f = &w->rows->family;
+    double r = w->a.horizon / c->h, whole = 2 * r;
+    if (!c->regular || c->size || w->sees) return 1;
+    if (c->dim == 2) whole = w->a.shape == PG_TENSOR ? 4 * r * r : M_PI * r * r;
+    if (c->dim == 3) whole = w->a.shape == PG_TENSOR ? 8 * r * r * r : 4 * M_PI / 3 * r * r * r;
+    return (double) (f->start[i + 1] - f->start[i]) < complete * whole;
+}
+
+/* Rows of the places of a lot with the families that they have. */
+static pg_status take (lot *l, size_t n)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = l->w->rows;
+    size_t dim = (size_t) r->dim, bonds = 0;
+    l->rows = (pg_rows) { .dim = r->dim, .n = n };
+    l->rows.family.n = n;
+    PG_ALLOC (l->rows.x, n * dim);
+    PG_ALLOC (l->rows.own, n);
+    PG_ALLOC (l->rows.family.start, n + 1);
+    for (size_t i = 0; i < n; i++) {
+        size_t p = l->place[i];
+        memcpy (l->rows.x + i * dim, r->x + p * dim, dim * sizeof *r->x);
+        l->rows.own[i] = r->own[p];
+        bonds += r->family.start[p + 1] - r->family.start[p];
+        l->rows.family.start[i + 1] = bonds;
+    }
+    PG_ALLOC (l->rows.family.node, bonds);
+    for (size_t i = 0; i < n; i++) {
+        size_t p = l->place[i], from = r->family.start[p];
+        memcpy (l->rows.family.node + l->rows.family.start[i], r->family.node + from,
+                (r->family.start[p + 1] - from) * sizeof *r->family.node);
+    }
+done:
+    return status;
+}
+
+/* The first look, at the supports that places have: those that see less than well. */
+static pg_status find_poor (work *w)
+{
+    pg_status status = PG_OK;
+    size_t *list = NULL, n = 0, looked = 0, lowered = 0, cap = 0, cap_best = 0;
+    lot l = { .w = w };
+    PG_ALLOC (list, w->rows->n < CHUNK ? w->rows->n : CHUNK);
+    for (size_t i = 0; i < w->rows->n; i++) {
+        if (suspect (w, i)) list[n++] = i;
+        if (n == 0 || (n < CHUNK && i + 1 < w->rows->n)) continue;
+        l.place = list;
+        PG_TRY (take (&l, n));
+        PG_TRY (measure (&l));
+        for (size_t k = 0; k < n; k++) {
+            if (l.sight[k] == GOOD) continue;
+            PG_GROW (w->place, cap, w->n + 1);
+            PG_GROW (w->best, cap_best, w->n + 1);
+            lowered += l.sight[k] == LOWERED;
+            w->place[w->n] = list[k], w->best[w->n++] = l.sight[k];
+        }
+        looked += n, n = 0;
+        lot_clear (&l);
+        l = (lot) { .w = w };
+    }
+    if (!w->cloud->regular && (double) lowered > usual * (double) looked) {
+        size_t kept = 0;
+        for (size_t k = 0; k < w->n; k++)
+            if (w->best[k] == POOR) w->place[kept] = w->place[k], w->best[kept++] = POOR;
+        w->n = kept;
+    }
+done:
+    lot_clear (&l);
+    pg_free (list);
+    return status;
+}
+
+/* Tries one support at all places that want a better one. */
+static pg_status attempt (work *w, double factor)
+{
+    pg_status status = PG_OK;
+    pg_family_search *search = NULL;
+    size_t *list = NULL, *which = NULL, n = 0, dim = (size_t) w->rows->dim;
+    double *x = NULL;
+    int *own = NULL, worst = factor > for_full ? LOWERED : GOOD;
+    lot l = { .w = w };
+    PG_ALLOC (list, w->n);
+    PG_ALLOC (which, w->n);
+    PG_ALLOC (x, w->n * dim);
+    PG_ALLOC (own, w->n);
+    for (size_t k = 0; k < w->n; k++) {
+        if (w->best[k] >= worst) continue;
+        memcpy (x + n * dim, w->rows->x + w->place[k] * dim, dim * sizeof *x);
+        own[n] = w->rows->own[w->place[k]];
+        list[n] = w->place[k], which[n++] = k;
+    }
+    if (n == 0) goto done;
+    l.place = list;
+    PG_TRY (pg_family_search_create (&search, w->cloud, factor * w->a.horizon, w->a.shape,
+                                     w->a.kernel->closed));
+    PG_TRY (pg_rows_place (&l.rows, search, (int) dim, n, x, NULL, own, NULL, w->threads));
+    PG_ALLOC (l.rows.wide, n);
+    for (size_t i = 0; i < n; i++) l.rows.wide[i] = factor;
+    PG_TRY (measure (&l));
+    for (size_t i = 0; i < n; i++) {
+        size_t k = which[i], from = l.rows.family.start[i], bonds = l.rows.family.start[i + 1] - from;
+        if (l.sight[i] <= w->best[k]) continue;
+        PG_GROW (w->node, w->cap, w->used + bonds);
+        memcpy (w->node + w->used, l.rows.family.node + from, bonds * sizeof *w->node);
+        w->best[k] = l.sight[i], w->factor[k] = factor, w->at[k] = w->used, w->count[k] = bonds;
+        w->used += bonds;
+    }
+done:
+    lot_clear (&l);
+    pg_family_search_free (&search);
+    pg_free (list), pg_free (which), pg_free (x), pg_free (own);
+    return status;
+}
+
+/* Places in the midst of the nodes that they see now: what they saw before was little because the horizon is
+ * small, not because they are at the surface. */
+static size_t inner_places (const work *w)
+{
+    size_t n = 0, dim = (size_t) w->rows->dim;
+    for (size_t k = 0; k < w->n; k++) {
+        double square = 0, reach = w->factor[k] * w->a.horizon;
+        for (size_t c = 0; c < dim; c++) {
+            double mean = 0;
+            for (size_t e = 0; e < w->count[k]; e++)
+                mean += w->cloud->x[(size_t) w->node[w->at[k] + e] * dim + c]
+                        - w->rows->x[w->place[k] * dim + c];
+            square += mean * mean / (double) (w->count[k] * w->count[k]);
+        }
+        n += w->factor[k] > 0 && square < MIDST * MIDST * reach * reach;
+    }
+    return n;
+}
+
+/* Families of the rows, with those that have been found for some of them. */
+static pg_status replace (const work *w, pg_rows *rows)
+{
+    pg_status status = PG_OK;
+    pg_family f = { .n = rows->n };
+    size_t bonds = 0;
+    PG_ALLOC (f.start, rows->n + 1);
+    if (!rows->wide) {
+        PG_ALLOC (rows->wide, rows->n);
+        for (size_t i = 0; i < rows->n; i++) rows->wide[i] = 1;
+    }
+    for (size_t i = 0, k = 0; i < rows->n; i++) {
+        int wider = k < w->n && w->place[k] == i && w->factor[k] > 0;
+        bonds += wider ? w->count[k] : rows->family.start[i + 1] - rows->family.start[i];
+        f.start[i + 1] = bonds;
+        k += k < w->n && w->place[k] == i;
+    }
+    PG_ALLOC (f.node, bonds);
+    for (size_t i = 0, k = 0; i < rows->n; i++) {
+        int wider = k < w->n && w->place[k] == i && w->factor[k] > 0;
+        memcpy (f.node + f.start[i], wider ? w->node + w->at[k] : rows->family.node + rows->family.start[i],
+                (f.start[i + 1] - f.start[i]) * sizeof *f.node);
+        if (wider) rows->wide[i] = w->factor[k];
+        k += k < w->n && w->place[k] == i;
+    }
+    pg_family_clear (&rows->family);
+    rows->family = f, f = (pg_family) { 0 };
+done:
+    pg_family_clear (&f);
+    return status;
+}
+
+pg_status pg_rows_widen (pg_rows *rows, const pg_approx *a, const pg_cloud *cloud, pg_sight sees,
+                         void *context, int threads, pg_widened *out)
+{
+    pg_status status = PG_OK;
+    work w = { .a = *a, .rows = rows, .cloud = cloud, .sees = sees, .context = context, .threads = threads };
+    *out = (pg_widened) { .widest = 1 };
+    w.a.extrapolates = w.a.projected = 0;
+    if (rows->n == 0) return PG_OK;
+    PG_TRY (find_poor (&w));
+    if (w.n == 0) goto done;
+    PG_ALLOC (w.at, w.n);
+    PG_ALLOC (w.count, w.n);
+    PG_ALLOC (w.factor, w.n);
+    for (size_t k = 0; k < sizeof factors / sizeof *factors; k++) PG_TRY (attempt (&w, factors[k]));
+    if ((double) inner_places (&w) > usual * (double) rows->n) goto done;
+    PG_ALLOC (out->blind, w.n);
+    for (size_t k = 0; k < w.n; k++) {
+        out->widened += w.factor[k] > 0;
+        out->widest = fmax (out->widest, w.factor[k]);
+        if (w.best[k] == POOR) out->blind[out->nblind++] = w.place[k];
+    }
+    if (out->widened) PG_TRY (replace (&w, rows));
+done:
+    pg_free (w.place), pg_free (w.at), pg_free (w.count), pg_free (w.best), pg_free (w.factor),
+        pg_free (w.node);
+    return status;
+}
