@@ -171,6 +171,19 @@ static size_t face_of_edge (const galerkin *g, size_t cell, const pg_cell_part *
     return face_on (g, cell, a, b, other);
 }
 
+/* Does a side of the cell have no face? Of ranks that share the body, one at the end of the cells that this
+ * rank holds: nothing that it owns depends on it. */
+static int is_open (const galerkin *g, const ended_cell *c)
+{
+    int other, whole;
+    for (int p = 0; p < c->parts.n; p++)
+        for (int i = 0; i < c->parts.part[p].n; i++)
+            if (!c->parts.part[p].crack[i] && c->parts.part[p].side[i] >= 0
+                && face_of_edge (g, c->cell, &c->parts.part[p], i, &other, &whole) == SIZE_MAX)
+                return 1;
+    return 0;
+}
+
 /* The part of a cell of the list that lies beyond the middle of an edge. */
 static int part_beyond (const ended_cell *beyond, const double *u, const double *v)
 {
@@ -394,7 +407,7 @@ pg_status ended_plan (galerkin *g, const pg_state *state)
         c->blocked = !explained (g, state, cracks, c->cell)
                      || !pg_cell_divide (&c->parts, &g->problem->cells, c->cell, cracks,
                                          ENDED_NOTHING * g->problem->cloud.h);
-        c->failed = c->blocked;
+        c->failed = c->blocked || (g->problem->cloud.subdomain && is_open (g, c));
     }
     for (int again = 1; again;) {
         e->nextra = e->nside = 0;

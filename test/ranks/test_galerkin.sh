@@ -65,4 +65,13 @@ equal 'in space' "$all" 30
 equal 'in space, events' "$all" 5 "${events[@]}"
 equal 'in space, lps' "$all" 30 "${bonds[@]}" --set method.force=lps
 long && equal 'in space, bond' "$all" 30 "${bonds[@]}" --set method.force=bond
+
+# consistent integration in cut cells, and in cells that end at a crack: fields of one process on three ranks; the same cells held or not
+one=(--set solver.linear=pcg)
+for scene in cut_cells crack_through; do
+    alone $scene.yaml -o "$work/one" --force "${one[@]}" --set solver.division=auto; verdict "$scene: one process" $?
+    rm -rf "$work/some"
+    ranks 3 $scene.yaml -o "$work/some"; verdict "$scene: 3 ranks" $?
+    python3 -S fields.py 1e-9 "$work/one/result.e" "$work/some/result.e" > "$work/why" 2>&1; verdict "$scene: the same fields on 3 ranks" $?
+done
 finish
