@@ -136,8 +136,8 @@ static int projects (const pg_scene *scene)
     return yes;
 }
 
-/* Spacings by which wider supports (pg_rows_widen) reach beyond a horizon: at most 1.6 in 130 random bodies at
- * horizons of 1.5 to 3.5; cells between a host and its small guests and what these need, twice. */
+/* Spacings by which wider supports (pg_rows_widen) reach beyond a horizon (at most 1.6 in 130 random bodies
+ * at horizons of 1.5 to 3.5); cells between a host and its small guests and what these need, twice. */
 enum { WIDER = 2, HOSTS = 2 };
 
 /* Of ranks that share the body. The row of an owned node is made of the points within one horizon of it,
