@@ -239,9 +239,9 @@ typedef struct {
 void pg_stress_of_gradient (const pg_material *material, int dim, const double *H, double *stress);
 /* The upper bound of the largest eigenfrequency that explicit methods take, rad/s: the force's own, or from
  * row sums at its last refresh (workspace: one number for each dof, as mass is). NAN: the force has neither.
- * *from: which, in words. */
-pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass,
-                          double *workspace, double *omega, const char **from);
+ * Of a rank that of its own points. *from: which, in words. */
+pg_status pg_force_bound (const pg_force_type *force, void *self, const pg_cloud *cloud, size_t ndof,
+                          const double *mass, double *workspace, double *omega, const char **from);
 const pg_force_type *pg_force_find  (const char *name);
 /* the one that the problem was built for */
 const pg_force_type *pg_force_of    (const pg_problem *problem);

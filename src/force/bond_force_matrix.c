@@ -321,7 +321,9 @@ static void bound_points (void *context, size_t first, size_t last, int thread)
     }
 }
 
-/* In closed form from the intact body: breaking bonds never raises it, but where weighted volumes follow. */
+/* In closed form from the intact body: breaking bonds never raises it, but where weighted volumes follow. Of
+ * a rank that of its own points: ghosts at the rim lack bonds, which would make the bound that of a body with
+ * more corners. */
 pg_status bond_force_omega (const bond_force *b, double *omega)
 {
     pg_status status = PG_OK;
@@ -333,7 +335,8 @@ pg_status bond_force_omega (const bond_force *b, double *omega)
     PG_ALLOC (mass, b->n * (size_t) b->stride);
     bond_force_masses (b, mass);
     pg_parallel (b->threads, b->n, bound_points, &(job) { b, b->work, mass });
-    for (size_t i = 0; i < b->n; i++) top = fmax (top, b->work[i]);
+    for (size_t i = 0; i < b->n; i++)
+        if (pg_owns (b->problem->cloud.subdomain, i)) top = fmax (top, b->work[i]);
     *omega = sqrt (top);
 done:
     pg_free (mass);

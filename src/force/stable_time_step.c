@@ -4,8 +4,8 @@
 #include <math.h>
 
 /* Explicit steps are stable up to 2 over this frequency. */
-pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, const double *mass,
-                          double *workspace, double *omega, const char **from)
+pg_status pg_force_bound (const pg_force_type *force, void *self, const pg_cloud *cloud, size_t ndof,
+                          const double *mass, double *workspace, double *omega, const char **from)
 {
     pg_status status = PG_OK;
     double top = 0;
@@ -16,7 +16,8 @@ pg_status pg_force_bound (const pg_force_type *force, void *self, size_t ndof, c
     } else if (force->row_sums) {
         *from = "bound by row sums";
         PG_TRY (force->row_sums (self, workspace));
-        for (size_t i = 0; i < ndof; i++) top = fmax (top, workspace[i] / mass[i]);
+        for (size_t i = 0; i < ndof; i++)
+            if (pg_owns (cloud->subdomain, i / (ndof / cloud->n))) top = fmax (top, workspace[i] / mass[i]);
         *omega = sqrt (top);
     }
 done:

@@ -28,14 +28,16 @@ static pg_status find_bound (pg_solver *s)
     pg_system *sys = &s->break_loop.system;
     int exact = !sys->force->bound && !sys->force->row_sums;
     if (!sys->force->bound || sys->contact) PG_TRY (system_refresh (sys, s->backup, NULL));
-    PG_TRY (pg_force_bound (sys->force, sys->self, sys->ndof, sys->mass, sys->full, &m->omega, &m->from));
+    PG_TRY (pg_force_bound (sys->force, sys->self, &s->problem->cloud, sys->ndof, sys->mass, sys->full,
+                            &m->omega, &m->from));
     if (exact) PG_TRY (pg_solver_fastest (s, s->backup, &m->omega));
     PG_TRY (pg_ranks_most (1, &m->omega));
     /* closed faces stand in for bonds that are among those of the bound */
     m->omega *= sqrt (contact_stiffer (sys));
     if (!isfinite (m->omega))
         PG_FAIL (PG_E_SCENE, "the largest frequency of the body is not finite: check stiffness and density");
-    double whole = with_contact (s, m->omega);
+    double whole = with_contact (s, m->omega);         /* each rank knows the contact of its own points */
+    PG_TRY (pg_ranks_most (1, &whole));
     m->stable = whole > 0 ? (exact ? 0.99 : 1) * 2 / whole : INFINITY;
 done:
     return status;

@@ -243,7 +243,8 @@ static pg_status weigh (pg_symbol *s, box *b)
     PG_ALLOC (workspace, ndof);
     PG_TRY (b->force->mass (b->self, mass));
     for (size_t c = 0; c < m; c++) s->mass[c] = mass[b->middle * m + c];
-    PG_TRY (pg_force_bound (b->force, b->self, ndof, mass, workspace, &s->bound, &s->from));
+    PG_TRY (pg_force_bound (b->force, b->self, &b->problem->cloud, ndof, mass, workspace, &s->bound,
+                            &s->from));
 done:
     pg_free (mass), pg_free (workspace);
     return status;

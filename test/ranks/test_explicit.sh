@@ -29,6 +29,13 @@ equal "gmpd" plate.yaml "${small[@]}" --set method.force=gmpd --set materials.st
 digits=last
 equal "plane strain, volumes of surfaces corrected" plate.yaml "${small[@]}" --set plane=strain --set method.surface_correction=volume
 
+# the stable step is that of the body, not that of a part with ghosts whose families end
+times() { awk -F, 'NR == 1 { for (i = 1; i <= NF; i++) if ($i == "time [s]") at = i } NR > 1 { printf "%.13e\n", $at }' "$1/history.csv"; }
+alone round.yaml -o "$work/round"; verdict "a stable time step: one process" $?
+for r in 3 4; do
+    rm -rf "$work/some"; ranks "$r" round.yaml -o "$work/some" && cmp <(times "$work/round") <(times "$work/some") > "$work/why" 2>&1
+    verdict "the same stable time step on $r ranks" $?
+done
 ranks 2 plate.yaml -o "$work/no" --set contact.kind=normal; [ $? -eq 65 ] && grep -q "2 ranks: contact is for one process only" "$work/err"
 verdict "what cannot be shared so far is refused, with the key" $?
 finish
