@@ -14,6 +14,12 @@ PG_API_BEGIN
 
 enum { PG_TIP_TRIALS = 7 };                            /* directions of trial facets behind a kink */
 
+/* What a ring around a tip must not hold: the surface, another crack, points with a load or support other
+ * than springs and body forces, another material, a body force that acts on one side only, closed faces. */
+enum {
+    PG_ROOM_FREE, PG_ROOM_SURFACE, PG_ROOM_CRACK, PG_ROOM_LOAD, PG_ROOM_MATERIAL, PG_ROOM_FORCE, PG_ROOM_FACES
+};
+
 /* The tip of a crack under the displacement sum_a l_a d_a of one or two fields (affine loads: the constant
  * part and the part that grows with the load factor). */
 typedef struct {
@@ -33,6 +39,8 @@ typedef struct {
      * belongs to the vertex, m. */
     double normal[3], tangent[3], length;
     double room;                                       /* distance to what a ring must not hold, m */
+    int    limit;                                      /* PG_ROOM_...: what that is */
+    int    load;                                       /* number of the load that it is, else -1 */
     double modulus;                                    /* E' = E, in plane strain E / (1 - nu^2), Pa */
     /* E' J = K_I^2 + K_II^2 + antiplane K_III^2: 1 / (1 - nu); 0 in the plane */
     double antiplane;
@@ -64,6 +72,12 @@ typedef struct {
 
 /* Why tips of this problem have no K and J by integrals: a sentence, static text; NULL: they have. */
 const char *pg_tip_refuses (const pg_problem *p, const pg_force_type *force);
+
+/* Where tip number `tip` of the state is and what room it has, without fields: x, e, h, room, limit, load,
+ * r1, near, wide. */
+pg_status pg_tip_find (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip);
+/* What ends the room of a tip in words: "the support top", "the surface", ... */
+void      pg_tip_limit_words (const pg_problem *p, const pg_tip_field *f, char *out, size_t size);
 
 /* Measures tip number `tip` of the state. d: nfield fields of coefficients (ndof each). t: load factor, or
  * time (s), of each, for body forces; the second field has those of t[1] less those of t[0], as it has with

@@ -142,7 +142,12 @@ typedef struct {                                       /* of the run so far */
     char   ordering[16], solver[16], preconditioner[128];
     pg_skip skipped[16];  size_t nskipped;
     char   warning[16][256]; size_t nwarning;
+    /* what ended the run before its loads were reached, static text; NULL: see warnings */
+    const char *ended_by;
 } pg_statistics;
+/* The same, but not if these words are there already. */
+void pg_statistics_warn_once (pg_statistics *report, const char *format, ...)
+    __attribute__ ((format (printf, 2, 3)));
 void pg_statistics_warn (pg_statistics *report, const char *format, ...)
     __attribute__ ((format (printf, 2, 3)));
 /* Adds the warnings that a run has before its first step: what is legal, yet hardly meant, such as a body
@@ -179,6 +184,8 @@ typedef struct {  /* of one step: a user level, a time step or an event */
     /* event stepping: number of the instability that the step is part of, 0: none; s in motion so far */
     long   instability; double motion;
     long   stage;  /* of loading, from 1; 0: the run has none */
+    /* with growth by facets: open tips, in space fronts, that nothing judged at this load */
+    long   unjudged;
 } pg_step;
 
 /* What was measured last at a tip, in the state of the last step. NAN: not measured. */

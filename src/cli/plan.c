@@ -456,6 +456,15 @@ static void print_toughness (const pg_problem *p)
     }
 }
 
+/* Is J known at all tips, in space around all fronts? */
+static int knows_tips (const pg_first_break *b)
+{
+    if (b->refused) return 0;
+    for (size_t t = 0; t < b->ntip && t < PG_FIRST_TIPS; t++) if (isnan (b->tip[t].near)) return 0;
+    for (size_t t = 0; t < b->nfront && t < PG_FIRST_TIPS; t++) if (b->front[t].measured == 0) return 0;
+    return 1;
+}
+
 /* Of a criterion that judges tips: when and where the first facet grows. */
 static void print_first_growth (const plan *p)
 {
@@ -467,7 +476,8 @@ static void print_first_growth (const plan *p)
     }
     if (!isfinite (b->factor)) {
         printf ("  warning: no crack grows under these loads up to load factor 1%s\n",
-                b->proportional ? ", and none would under larger ones" : "");
+                !knows_tips (b) ? "; J is not known at every tip, and nothing is said of larger ones"
+                : b->proportional ? ", and none would under larger ones" : "");
         return;
     }
     printf ("  %-18s  at load factor %.5g", "first growth", b->factor);

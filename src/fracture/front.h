@@ -2,7 +2,8 @@
  * front.h: the parts of the measurement of a front in space. Files: front_curve.c (the curve through the
  * vertices and its frame), front_fields.c (exact fields of a straight front), front_tube.c (how thick a tube
  * around the front may be, and the places in it), front_integrals.c (integrals over one cross section),
- * front_faces.c (faces that touch), front_measure.c (all of it, and the sums for the vertices). */
+ * front_faces.c (faces that touch), front_springs.c (springs in the tube), front_measure.c (all of it, and
+ * the sums for the vertices). */
 #ifndef PG_FRACTURE_FRONT_H
 #define PG_FRACTURE_FRONT_H
 #include "tip.h"
@@ -36,10 +37,11 @@ void front_near_field (int field, const tip_material *m, double r, double theta,
 typedef struct { double r[FRONT_PLACES], theta[FRONT_PLACES], area[FRONT_PLACES]; } front_section;
 void front_section_make (front_section *out, double h);
 /* How far from the front, in the plane across it at `at`, there is nothing but one material and the faces of
- * the crack, at most `limit`, m. offset: so far behind the front nothing is cut, m. tail: whether the surface
+ * the crack, at most `limit`, m; *load: number of the load that ends it there, else -1. offset: so far
+ * behind the front nothing is cut, m. tail: whether the surface
  * ends the front so near that it does not count. */
 double front_room (const pg_problem *p, const pg_state *state, const front_place *at, double h, double offset,
-                   double limit, int tail);
+                   double limit, int tail, int *load);
 
 /* Do materials of unlike stiffness meet within the distance (m) of x? */
 int front_at_interface (const pg_problem *p, const double *x, double distance);
@@ -64,6 +66,36 @@ void front_integrals (front_sums *out, const front_section *section, const front
 /* The part of J along the front within the core, from K_II K_III of two fields, and of I: times K_III, K_II;
  * m^2/N times m. */
 double front_core_along (const tip_material *m, double h);
+
+/* The weight at r, which falls from 1 at r1 to 0 at r2, and its slope, 1/m (NULL: not asked for). */
+double front_weight (double r, double r1, double r2, double *slope);
+
+/* ---- front_springs.c ----------------------------------------------------------------------------------- */
+/* What the springs need of a measurement: the cross sections and their sums, to which they are added;
+ * material at a place; part: takes the uniform strain of faces that bear something from the gradient of a
+ * field, in the frame of a section. */
+typedef struct {
+    const pg_problem *p;
+    const pg_force_type *force;
+    void *self;
+    const pg_state *state;
+    int nfield;
+    const double *const *d, *t;
+    double h;
+    size_t n;
+    const front_place *place;
+    const int *radii;
+    front_sums *sums;
+    const void *context;
+    tip_material (*material) (const void *context, const double *x);
+    void (*part) (const void *context, int field, size_t section, const tip_material *m, double *H);
+} front_springs;
+pg_status front_springs_add (const front_springs *s);
+
+/* ---- front_measure.c ----------------------------------------------------------------------------------- */
+/* A vector, a tensor in the frame (rows e, n, t). */
+void front_turn_vector (const double *frame, const double *v, double *out);
+void front_turn_tensor (const double *frame, const double *T, double *out);
 
 /* ---- front_faces.c ------------------------------------------------------------------------------------- */
 /* The uniform stress that faces carry at u in a field, linear between the vertices beside it, in that frame:

@@ -122,11 +122,10 @@ static terms terms_of_I (const front_sample *f, const exact *x, size_t k, const 
     return out;
 }
 
-/* Q at r for a radius, and its slope, 1/m. */
-static double weight (double r, double r1, double r2, double *slope)
+double front_weight (double r, double r1, double r2, double *slope)
 {
     double z = (r - r1) / (r2 - r1);
-    *slope = z > 0 && z < 1 ? -6 * z * (1 - z) / (r2 - r1) : 0;
+    if (slope) *slope = z > 0 && z < 1 ? -6 * z * (1 - z) / (r2 - r1) : 0;
     return z <= 0 ? 1 : z >= 1 ? 0 : 1 - z * z * (3 - 2 * z);
 }
 
@@ -154,7 +153,7 @@ void front_integrals (front_sums *out, const front_section *section, const front
         if (!in[k] || radii == 0 || r >= front_radius[radii - 1] * h) continue;
         double L = 1 - at->turn[1] * r * cos (theta) + at->turn[0] * r * sin (theta);
         int core = r < front_core * h;
-        for (int i = 0; i < radii; i++) Q[i] = weight (r, h, front_radius[i] * h, &slope[i]);
+        for (int i = 0; i < radii; i++) Q[i] = front_weight (r, h, front_radius[i] * h, &slope[i]);
         for (int a = 0; a < nfield; a++)
             for (int b = 0; b <= a; b++) {
                 terms t = terms_of_J (&field[a], &field[b], m, k, at, theta, L);

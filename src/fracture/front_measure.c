@@ -27,7 +27,7 @@ typedef struct {
     size_t n;                                          /* cross sections */
     double *u, *room;                                  /* of each: where on the front; m */
     double *width;                                     /* of the hat of each vertex, in vertices */
-    int *radii;                                        /* for how many radii there is room */
+    int *radii, *load;  /* for how many radii there is room; number of the load that ends it, -1: none does */
     front_place *place;
     front_sums *sums;
 } measuring;
@@ -89,13 +89,12 @@ static int moves (const measuring *m)
 }
 
 /* ---- frames -------------------------------------------------------------------------------------------- */
-/* A vector, a tensor in the frame (rows e, n, t). */
-static void turn_vector (const double *frame, const double *v, double *out)
+void front_turn_vector (const double *frame, const double *v, double *out)
 {
     for (int i = 0; i < 3; i++) out[i] = frame[3*i] * v[0] + frame[3*i + 1] * v[1] + frame[3*i + 2] * v[2];
 }
 
-static void turn_tensor (const double *frame, const double *T, double *out)
+void front_turn_tensor (const double *frame, const double *T, double *out)
 {
     double rows[9];
     for (int i = 0; i < 3; i++)
@@ -188,7 +187,7 @@ static void add_body_force (const measuring *m, int a, const double *x, const fr
             if (a > 0) b[c] -= density * pg_load_value (&m->p->load[l], c, 3, x, m->t[0]);
         }
     }
-    turn_vector (at->frame, b, load);
+    front_turn_vector (at->frame, b, load);
 }
 
 /* Place number `from` of the sampled ones, as place k of the arrays of field a. */
@@ -198,7 +197,7 @@ static void take_place (const measuring *m, chunk *c, int a, size_t from, size_t
     front_sample *f = &c->field[a];
     const double *s = c->stress + 6 * from, *G = c->gradient + 9 * from;
     double full[9] = { s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2] };
-    turn_tensor (at->frame, G, f->H + 9*k), turn_tensor (at->frame, full, f->S + 9*k);
+    front_turn_tensor (at->frame, G, f->H + 9*k), front_turn_tensor (at->frame, full, f->S + 9*k);
     if (f->excess) {
         double strained[6];
         pg_stress_of_gradient (material->law, 3, G, strained);
@@ -209,8 +208,9 @@ static void take_place (const measuring *m, chunk *c, int a, size_t from, size_t
     if (f->load) add_body_force (m, a, c->x + 3 * from, at, f->load + 3*k);
     if (!f->kinetic) return;
     double v[3], acceleration[3], H[9];
-    turn_vector (at->frame, c->v + 3 * from, v), turn_vector (at->frame, c->a + 3 * from, acceleration);
-    turn_tensor (at->frame, c->vgradient + 9 * from, H);
+    front_turn_vector (at->frame, c->v + 3 * from, v), front_turn_vector (at->frame, c->a + 3 * from,
+                                                                          acceleration);
+    front_turn_tensor (at->frame, c->vgradient + 9 * from, H);
     f->kinetic[k] = material->density * (v[0] * H[0] + v[1] * H[3] + v[2] * H[6]);
     f->moving[k] = 0.5 * material->density * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
     for (size_t i = 0; i < 3; i++) f->load[3*k + i] -= material->density * acceleration[i];
@@ -264,6 +264,28 @@ done:
     return status;
 }
 
+static tip_material material_of (const void *context, const double *x) { return material_at (context, x); }
+
+/* The strain of uniform stresses that are subtracted, from the gradient of field a in a section. */
+static void part (const void *context, int a, size_t section, const tip_material *material, double *H)
+{
+    const measuring *m = context;
+    double S[9] = { 0 }, stress[3], pressure = pressure_in (m, a);
+    front_sample one = { .H = H, .S = S };
+    if (pressure != 0) free_faces (&one, 0, material, pressure);
+    if (front_faces_at (m->front, m->faces, a, m->u[section], m->place[section].frame, stress))
+        front_faces_part (&one, 0, material, stress);
+}
+
+static pg_status add_springs (measuring *m)
+{
+    const front_springs s = { .p = m->p, .force = m->force, .self = m->self, .state = m->state,
+                              .nfield = m->nfield, .d = m->d, .t = m->t, .h = m->h, .n = m->n,
+                              .place = m->place, .radii = m->radii, .sums = m->sums, .context = m,
+                              .material = material_of, .part = part };
+    return front_springs_add (&s);
+}
+
 /* Where the cross sections are, and how much room each has. */
 static void place_sections (measuring *m)
 {
@@ -280,7 +302,7 @@ static void place_sections (measuring *m)
             tail |= f->meets[end] != PG_MEETS_NOTHING && d < limit;
         }
         double offset = f->offset[(size_t) m->u[j] % f->n];
-        m->room[j] = front_room (m->p, m->state, at, m->h, offset, limit, tail);
+        m->room[j] = front_room (m->p, m->state, at, m->h, offset, limit, tail, &m->load[j]);
         if (m->faces) m->room[j] = fmin (m->room[j], front_faces_clear (f, m->faces, m->u[j]));
         while (m->radii[j] < FRONT_RADII && front_radius[m->radii[j]] * m->h <= m->room[j] * (1 + 1e-9))
             m->radii[j]++;
@@ -336,12 +358,16 @@ static int begin_vertex (const measuring *m, size_t i, pg_tip_field *out)
     memcpy (out->normal, at.frame + 3, sizeof out->normal);
     memcpy (out->tangent, at.frame + 6, sizeof out->tangent);
     material = material_at (m, out->x);
+    out->load = -1;
     out->h = out->r1 = m->h, out->room = front_radius[FRONT_RADII - 1] * m->h;
     out->modulus = material.modulus, out->antiplane = material.modulus / (2 * material.mu);
     for (size_t j = 0; j < m->n; j++) {
         if (!hat_at (m, i, j, &hat, &slope)) continue;
         if (m->radii[j] < radii) radii = m->radii[j];
-        out->room = fmin (out->room, m->room[j]);
+        if (m->room[j] < out->room) {
+            out->room = m->room[j], out->load = m->load[j];
+            out->limit = out->load < 0 ? PG_ROOM_FREE : PG_ROOM_LOAD;
+        }
         if (front_gap (m->front, m->u[j], i) < 0.5) out->length += m->place[j].speed / FRONT_SECTIONS;
     }
     unknown (out);
@@ -510,6 +536,7 @@ static pg_status prepare (measuring *m)
     PG_ALLOC (m->u, m->n);
     PG_ALLOC (m->room, m->n);
     PG_ALLOC (m->radii, m->n);
+    PG_ALLOC (m->load, m->n);
     PG_ALLOC (m->width, f->n);
     PG_ALLOC (m->place, m->n);
     PG_ALLOC (m->sums, m->n);
@@ -550,6 +577,7 @@ pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const 
     front_section_make (&section, m.h);
     for (size_t j = 0; j < m.n; j += CHUNK)
         PG_TRY (measure_sections (&m, &section, j, j + CHUNK < m.n ? j + CHUNK : m.n, &c, moving));
+    PG_TRY (add_springs (&m));
     for (size_t i = 0; i < m.front->n; i++) {
         int radii = begin_vertex (&m, i, &out[i]);
         if (radii) fill_vertex (&m, i, radii, &out[i]);
@@ -563,7 +591,8 @@ pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const 
 done:
     chunk_clear (&c);
     pg_nearest_free (&m.near);
-    pg_free (m.u), pg_free (m.room), pg_free (m.radii), pg_free (m.width);
+    pg_free (m.u), pg_free (m.room), pg_free (m.radii), pg_free (m.load);
+    pg_free (m.width);
     pg_free (m.place), pg_free (m.sums);
     return status;
 }

@@ -2,8 +2,9 @@
  * The tube around a front: the places of its cross sections, and how thick it may be. It must hold nothing
  * but one material and the two faces of its own crack: rays in the plane across the front find where the body
  * ends (16 of them), where another crack passes (those that do not lead back), and behind the front where the
- * crack ends that the faces belong to (a slim front, or one that has turned). Loads and supports on points,
- * and points of another material, count where they lie in the slice that the cross section stands for.
+ * crack ends that the faces belong to (a slim front, or one that has turned). Supports and loads on points,
+ * but springs, and points of another material, count where they lie in the slice that the cross section
+ * stands for.
  *
  * Places: Gauss points on pieces of the radius that end where a radius ends, four on each of eight arcs; none
  * lies on the crack, at theta = +-pi. */
@@ -116,15 +117,17 @@ static double across (const view *v, const double *x)
     return fabs (along) > 0.75 * v->h ? INFINITY : sqrt (fmax (0, square - along * along));
 }
 
-/* To points with a support or a force on them. */
-static double room_of_loads (const view *v, double room)
+/* To points with a support on them, or a force that is in no integral. */
+static double room_of_loads (const view *v, double room, int *load)
 {
     const pg_problem *p = v->p;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_set *set = p->load[l].set;
-        if (p->load[l].kind == PG_BODY_FORCE || !set) continue;
-        for (size_t i = 0; i < set->npoint; i++)
-            room = fmin (room, across (v, p->cloud.x + 3 * (size_t) set->point[i]));
+        if (p->load[l].kind == PG_BODY_FORCE || p->load[l].kind == PG_SPRING || !set) continue;
+        for (size_t i = 0; i < set->npoint; i++) {
+            double away = across (v, p->cloud.x + 3 * (size_t) set->point[i]);
+            if (away < room) room = away, *load = (int) l;
+        }
     }
     return room;
 }
@@ -175,14 +178,18 @@ static double room_of_interfaces (const view *v, double room)
 }
 
 double front_room (const pg_problem *p, const pg_state *state, const front_place *at, double h, double offset,
-                   double limit, int tail)
+                   double limit, int tail, int *load)
 {
     view v = { p, pg_state_cracks (p, state), at, h };
-    double room = limit, away = 0, x[3] = { at->x[0], at->x[1], at->x[2] };
+    double room = limit, loads, away = 0, x[3] = { at->x[0], at->x[1], at->x[2] };
     if (!tail && !(p->body.n && (pg_body_nearest (&p->body, x, &away), away >= limit)))
         for (int i = 0; i < RAYS; i++) room = reach (&v, free_of_surface, 2 * pi * i / RAYS, 0, room);
-    if (!tail) room = room_of_loads (&v, room);
+    *load = -1;
+    if (!tail) room = room_of_loads (&v, room, load);
+    loads = room;
     for (int i = -5; i <= 5; i++) room = reach (&v, free_of_cracks, pi * i / 8, open_from * h, room);
     room = reach (&v, has_faces, 0, fmax (behind_from * h, 1.2 * offset), room);
-    return room_of_interfaces (&v, room);
+    room = room_of_interfaces (&v, room);
+    if (room < loads) *load = -1;
+    return room;
 }

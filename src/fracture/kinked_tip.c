@@ -16,7 +16,7 @@
  * straight faces free, sigma_11 = - b_1 x_1, sigma_22 = - b_2 x_2, is subtracted, and the uniform stress of
  * a pressure on all faces. What is left has tractions on the new pieces alone, whose K at the end is that of
  * the same system of dislocations (kinked_faces); body force beyond that of the kink adds
- * int (b - b (kink)) . h q dA over the ring. */
+ * int (b - b (kink)) . h q dA over the ring. Springs count as the body force that they are in the mean. */
 #include "gradient_fit.h"
 #include "kinked_crack.h"
 #include "tip.h"
@@ -181,6 +181,7 @@ static pg_status sample_ring (tip_grid *grid, kinked_faces *faces, const pg_tip_
     for (int a = 0; a < nfield; a++) {
         PG_TRY (tip_grid_sample (grid, a, ring, m, p, force, self, state, d[a]));
         if (forced) PG_TRY (tip_add_body_force (grid, a, ring, p, node, t));
+        PG_TRY (tip_springs_spread (grid, a, ring, p, t));
         double pressure = tip_pressure (p, a, t);
         take_rigid_motion_off (grid, a);
         kinked_faces all = { .S = { -pressure, -pressure, 0 } };

@@ -2,7 +2,8 @@
  * tip.h: the parts of the measurement of a tip. Files: tip_domain.c (frame, rings and the room for them),
  * tip_grid.c (places of the integrals, and the fields there), tip_integrals.c (the integrals), tip_faces.c
  * (faces that turn inside the rings), tip_measure.c (all of it for one tip), williams.c (exact fields),
- * kinked_tip.c (tips with a turn behind them), kink.c (direction). */
+ * kinked_tip.c (tips with a turn behind them), tip_springs.c (springs on points within the rings), kink.c
+ * (direction). */
 #ifndef PG_FRACTURE_TIP_H
 #define PG_FRACTURE_TIP_H
 #include "perigal/fracture.h"
@@ -67,6 +68,24 @@ pg_status tip_add_body_force (tip_grid *grid, int at, const pg_tip_field *tip, c
 int       tip_has_body_force (const pg_problem *p, size_t node);
 /* Pressure in the cracks in field `at`: of t[at], less that of t[0] for the second, Pa. */
 double    tip_pressure (const pg_problem *p, int at, const double *t);
+/* The points within the wide ring on which springs act, as places of a grid: area: one over the thickness,
+ * 1/m; size: radius of a disc as large as what belongs to the point, m. None: n = 0. */
+typedef struct { tip_grid grid; double *size; } tip_springs;
+pg_status tip_springs_create (tip_springs *out, const pg_tip_field *tip, const pg_problem *p);
+/* Fields at those points, and what the springs do to the body there, N, as grid.field[at].load; t as in
+ * pg_tip_measure. */
+pg_status tip_springs_sample (tip_springs *s, int at, const pg_tip_field *tip, const tip_material *material,
+                              const pg_problem *p, const pg_force_type *force, void *self,
+                              const pg_state *state, const double *d, const double *t);
+void      tip_springs_clear  (tip_springs *s);
+/* The same springs as a body force at the places of a grid, added to its load: each node's springs over its
+ * volume. For rings that do not reach all the way in. */
+pg_status tip_springs_spread (tip_grid *grid, int at, const pg_tip_field *tip, const pg_problem *p,
+                              const double *t);
+/* The mean of the gradient of an exact field over a disc of radius `size` around the place r, theta: 4 terms
+ * in the frame of the tip, finite at the tip as well. */
+void      tip_mean_gradient  (int mode, const tip_material *m, double r, double theta, double size,
+                              double *A);
 /* A vector in the frame of the tip. */
 void      tip_turn (const double *e, const double *v, double *out);
 
@@ -86,6 +105,9 @@ pg_status kinked_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_f
 typedef struct { double J[2][2], I[PG_TIP_FIELDS][2]; } tip_sums;
 /* Over the ring r1 .. r2. */
 void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *material, double r1, double r2);
+/* What the springs add to both. */
+void tip_spring_integrals (tip_sums *out, const tip_springs *s, const tip_material *material, double r1,
+                           double r2);
 /* What the faces of tip_faces_create add to J. */
 void tip_face_integrals (tip_sums *out, const tip_grid *faces, const tip_material *material, double r1,
                          double r2);

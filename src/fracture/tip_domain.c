@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * How large a ring around a tip may be. It must hold nothing but one material and the two faces of its
- * own crack: no surface of the body, no other crack or tip (pg_tip_room), no support or load on points and no
- * interface. Body forces may act in it, if they do everywhere.
+ * own crack: no surface of the body, no other crack or tip (pg_tip_nearest), no interface, no support or
+ * load on points but springs. Body forces may act in it, if they do everywhere.
  *
  * Radii, in local spacings h: both rings begin at 1, where the shape functions see the tip no more. The
  * near one, which gives the ratio of K_II to K_I and with it the direction, ends at 3: behind a kink the
@@ -10,6 +10,7 @@
  * straight. Measured on cracks that grew (doc/accuracy.md); below 1.5 a ring knows nothing. */
 #include "tip.h"
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #define INNER 1.0                                      /* all in local spacings */
@@ -47,26 +48,32 @@ static int member (const pg_set *set, size_t node)
     return low < set->npoint && (size_t) set->point[low] == node;
 }
 
-/* Least distance to a node on which a support or a force acts. */
-static double room_of_loads (const pg_problem *p, const double *x, double room)
+static void end_room (pg_tip_field *out, double room, int limit, int load)
+{
+    if (room < out->room) out->room = room, out->limit = limit, out->load = load;
+}
+
+/* Up to the nearest node on which a support or a force acts whose force is in no integral. */
+static void end_at_loads (pg_tip_field *out, const pg_problem *p)
 {
     for (size_t l = 0; l < p->nload; l++) {
         const pg_set *set = p->load[l].set;
-        if (p->load[l].kind == PG_BODY_FORCE) continue;
-        for (size_t i = 0; i < set->npoint; i++) room = fmin (room, distance (p, (size_t) set->point[i], x));
+        if (p->load[l].kind == PG_BODY_FORCE || p->load[l].kind == PG_SPRING) continue;
+        for (size_t i = 0; i < set->npoint; i++)
+            end_room (out, distance (p, (size_t) set->point[i], out->x), PG_ROOM_LOAD, (int) l);
     }
-    return room;
 }
 
-/* Does another material than at `here` fill node i, or another body force act on it? */
+/* Does another material than at `here` fill node i, or another body force act on it? PG_ROOM_FREE:
+ * neither. */
 static int differs (const pg_problem *p, size_t i, size_t here)
 {
-    if (p->block[PG_NODES][i] != p->block[PG_NODES][here]) return 1;
+    if (p->block[PG_NODES][i] != p->block[PG_NODES][here]) return PG_ROOM_MATERIAL;
     for (size_t l = 0; l < p->nload; l++)
         if (p->load[l].kind == PG_BODY_FORCE
             && member (p->load[l].set, i) != member (p->load[l].set, here))
-            return 1;
-    return 0;
+            return PG_ROOM_FORCE;
+    return PG_ROOM_FREE;
 }
 
 /* Is there but one material, and are all body forces everywhere? */
@@ -77,21 +84,24 @@ static int is_uniform (const pg_problem *p)
     return p->nmaterial == 1;
 }
 
-/* To the interface, which lies in the middle between nodes of the two sides. */
-static double room_of_interfaces (const pg_problem *p, const double *x, size_t here, double room)
+/* Up to the interface, which lies in the middle between nodes of the two sides. */
+static void end_at_interfaces (pg_tip_field *out, const pg_problem *p, size_t here)
 {
-    if (is_uniform (p)) return room;
+    if (is_uniform (p)) return;
     for (size_t i = 0; i < p->cloud.n; i++) {
-        double away = distance (p, i, x) - 0.5 * pg_problem_spacing (p, PG_NODES, i);
-        if (away < room && differs (p, i, here)) room = fmax (0, away);
+        double away = distance (p, i, out->x) - 0.5 * pg_problem_spacing (p, PG_NODES, i);
+        int what = away < out->room ? differs (p, i, here) : PG_ROOM_FREE;
+        if (what != PG_ROOM_FREE) end_room (out, fmax (0, away), what, -1);
     }
-    return room;
 }
 
 double tip_room_about (const pg_problem *p, const pg_state *state, size_t tip, const double *x, size_t node,
                        double limit)
 {
-    return room_of_interfaces (p, x, node, room_of_loads (p, x, pg_path_room (p, state, tip, x, limit)));
+    pg_tip_field at = { .x = { x[0], x[1] }, .room = pg_path_room (p, state, tip, x, limit), .load = -1 };
+    end_at_loads (&at, p);
+    end_at_interfaces (&at, p, node);
+    return at.room;
 }
 
 pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip, size_t *node)
@@ -103,15 +113,38 @@ pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *st
         PG_FAIL (PG_E_USAGE, "tip %zu of %zu is asked for", tip, state->paths ? state->paths->ntip : 0);
     memcpy (out->x, state->paths->tip[tip].x, 2 * sizeof *out->x);
     *node = tip_node_at (p, out->x);
-    double h = out->h = pg_problem_spacing (p, PG_NODES, *node), room;
+    double h = out->h = pg_problem_spacing (p, PG_NODES, *node);
+    int what;
     pg_tip_chord (state, tip, CHORD * h, from, out->e);
-    room = pg_tip_room (p, state, tip, WIDE * h);
-    room = room_of_loads (p, out->x, room);
-    out->room = room = room_of_interfaces (p, out->x, *node, room);
+    out->room = pg_tip_nearest (p, state, tip, WIDE * h, NULL, &what), out->load = -1;
+    out->limit = what == PG_MEETS_SURFACE ? PG_ROOM_SURFACE : what == PG_MEETS_CRACK ? PG_ROOM_CRACK
+                                                                                     : PG_ROOM_FREE;
+    end_at_loads (out, p);
+    end_at_interfaces (out, p, *node);
+    double room = out->room;
     out->r1 = INNER * h;
     out->near = room < LEAST * h ? NAN : fmin (NEAR * h, room);
     out->wide = fmin (fmin (WIDE * h, room), fmax (NEAR * h, pg_tip_straight (state, tip, TURN)));
     if (isnan (out->near)) out->wide = NAN;
 done:
     return status;
+}
+
+pg_status pg_tip_find (pg_tip_field *out, const pg_problem *p, const pg_state *state, size_t tip)
+{
+    size_t node;
+    return tip_domain (out, p, state, tip, &node);
+}
+
+void pg_tip_limit_words (const pg_problem *p, const pg_tip_field *f, char *out, size_t size)
+{
+    static const char *const words[] = {
+        [PG_ROOM_FREE] = "nothing", [PG_ROOM_SURFACE] = "the surface", [PG_ROOM_CRACK] = "another crack",
+        [PG_ROOM_LOAD] = "a load", [PG_ROOM_MATERIAL] = "another material",
+        [PG_ROOM_FORCE] = "the border of a body force", [PG_ROOM_FACES] = "crack faces that touch"
+    };
+    if (f->limit == PG_ROOM_LOAD && f->load >= 0 && (size_t) f->load < p->nload) {
+        const pg_load *load = &p->load[f->load];
+        snprintf (out, size, "the %s %.40s", pg_load_prescribes (load) ? "support" : "load", load->name);
+    } else snprintf (out, size, "%s", words[f->limit]);
 }

@@ -77,6 +77,9 @@ static double interaction (const tip_sample *f, size_t k, const double *A, const
     return sum;
 }
 
+/* J of two fields is the same in both orders. */
+static void mirror (tip_sums *sums) { sums->J[0][1] = sums->J[1][0]; }
+
 void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *m, double r1, double r2)
 {
     memset (out, 0, sizeof *out);
@@ -94,7 +97,28 @@ void tip_integrals (tip_sums *out, const tip_grid *grid, const tip_material *m, 
                 out->I[i][a] += grid->area[k] * interaction (&grid->field[a], k, A, s, g, q);
         }
     }
-    out->J[0][1] = out->J[1][0];
+    mirror (out);
+}
+
+/* A spring is a force F on the body at one place: - F_i u_i,1 q over the thickness instead of an integral. */
+void tip_spring_integrals (tip_sums *out, const tip_springs *s, const tip_material *m, double r1, double r2)
+{
+    static const double nothing[3] = { 0 };
+    const tip_grid *grid = &s->grid;
+    for (size_t k = 0; k < grid->n; k++) {
+        double slope, q = tip_weight (grid->r[k], r1, r2, &slope);
+        if (q <= 0) continue;
+        for (size_t a = 0; a < grid->nfield; a++)
+            for (size_t b = 0; b <= a; b++)
+                out->J[a][b] += grid->area[k] * energy_release (grid, m, a, b, k, nothing, q);
+        for (int i = 0; i < PG_TIP_FIELDS; i++) {
+            double A[4];
+            tip_mean_gradient (i, m, grid->r[k], grid->theta[k], s->size[k], A);
+            for (size_t a = 0; a < grid->nfield; a++)
+                out->I[i][a] += grid->area[k] * interaction (&grid->field[a], k, A, nothing, nothing, q);
+        }
+    }
+    mirror (out);
 }
 
 void tip_face_integrals (tip_sums *out, const tip_grid *faces, const tip_material *m, double r1, double r2)
@@ -104,5 +128,5 @@ void tip_face_integrals (tip_sums *out, const tip_grid *faces, const tip_materia
         for (size_t a = 0; a < faces->nfield; a++)
             for (size_t b = 0; b <= a; b++) out->J[a][b] += faces->area[k] * q * energy (faces, m, a, b, k);
     }
-    out->J[0][1] = out->J[1][0];
+    mirror (out);
 }

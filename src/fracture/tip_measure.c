@@ -126,6 +126,7 @@ static void close_tip (pg_tip_field *out, int nfield)
 /* Rings of an open tip hold no closed face. */
 static void limit_rings (pg_tip_field *out, const pg_tip_faces *faces)
 {
+    if (faces->nearest < out->room) out->room = faces->nearest, out->limit = PG_ROOM_FACES, out->load = -1;
     if (!(faces->nearest < out->wide)) return;
     out->wide = faces->nearest, out->near = fmin (out->near, faces->nearest);
     if (out->near < TIP_LEAST * out->h) out->near = out->wide = NAN;
@@ -183,14 +184,16 @@ static void unknown (pg_tip_field *out)
 
 /* The integrals of both rings into the numbers of the tip. The direction comes from the near one, but for a
  * tip that has not grown: behind it there is no new kink, and the wide ring hears less of the lattice. */
-static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_grid *faces, const tip_material *m,
-                       int grown)
+static void integrate (pg_tip_field *out, const tip_grid *grid, const tip_grid *faces,
+                       const tip_springs *springs, const tip_material *m, int grown)
 {
     tip_sums near, wide;
     tip_integrals (&near, grid, m, out->r1, out->near);
     tip_integrals (&wide, grid, m, out->r1, out->wide);
     tip_face_integrals (&near, faces, m, out->r1, out->near);
     tip_face_integrals (&wide, faces, m, out->r1, out->wide);
+    tip_spring_integrals (&near, springs, m, out->r1, out->near);
+    tip_spring_integrals (&wide, springs, m, out->r1, out->wide);
     for (int a = 0; a < 2; a++) {
         for (int b = 0; b < 2; b++) out->J_near[a][b] = near.J[a][b], out->J[a][b] = wide.J[a][b];
         for (int k = 0; k < 2; k++)
@@ -215,6 +218,7 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
 {
     pg_status status = PG_OK;
     tip_grid grid = { 0 }, faces = { 0 };
+    tip_springs springs = { 0 };
     double pressure[TIP_FIELDS] = { 0 };
     size_t node;
     const char *refused = pg_tip_refuses (p, force);
@@ -237,21 +241,26 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
      * u,1 and rho v v,1 are the same, and what is sampled there is the lattice. */
     PG_TRY (tip_grid_create (&grid, out, forced));
     PG_TRY (tip_faces_create (&faces, out, pg_state_cracks (p, state)));
-    grid.nfield = faces.nfield = (size_t) nfield;
+    PG_TRY (tip_springs_create (&springs, out, p));
+    grid.nfield = faces.nfield = springs.grid.nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {
         PG_TRY (tip_grid_sample (&grid, a, out, &m, p, force, self, state, d[a]));
         if (faces.n) PG_TRY (tip_grid_sample (&faces, a, out, &m, p, force, self, state, d[a]));
+        PG_TRY (tip_springs_sample (&springs, a, out, &m, p, force, self, state, d[a], t));
         if (forced) PG_TRY (tip_add_body_force (&grid, a, out, p, node, t));
         pressure[a] = tip_pressure (p, a, t);
-        if (closed) part_faces (&grid, a, &m, touch->stress[a]), part_faces (&faces, a, &m, touch->stress[a]);
-        if (pressure[a] != 0) free_faces (&grid, a, &m, pressure[a]), free_faces (&faces, a, &m, pressure[a]);
+        tip_grid *all[] = { &grid, &faces, &springs.grid };
+        for (int k = 0; k < 3; k++) {
+            if (closed) part_faces (all[k], a, &m, touch->stress[a]);
+            if (pressure[a] != 0) free_faces (all[k], a, &m, pressure[a]);
+        }
     }
     if (moving) PG_TRY (add_inertia (&grid, out, &m, p, force, self, state));
-    integrate (out, &grid, &faces, &m, state->paths->tip[tip].grown > 0);
+    integrate (out, &grid, &faces, &springs, &m, state->paths->tip[tip].grown > 0);
     for (int a = 0; a < nfield; a++) out->T[a] -= pressure[a];
     if (closed) close_tip (out, nfield);
 done:
-    tip_grid_clear (&grid), tip_grid_clear (&faces);
+    tip_grid_clear (&grid), tip_grid_clear (&faces), tip_springs_clear (&springs);
     return status;
 }
 

@@ -8,7 +8,7 @@
 #include <string.h>
 
 /* Columns of curve_more. */
-enum { STEP, TIME, FACTOR, FIRST_GAUGE };
+enum { STEP, TIME, FACTOR, UNJUDGED, FIRST_GAUGE };
 
 /* A message that is lost shows where the next one fails. */
 static double most_of_ranks (double value) { return pg_ranks_most (1, &value) == PG_OK ? value : NAN; }
@@ -116,6 +116,7 @@ pg_status pg_result_curve_row (pg_result *r, double x, double y, const double *g
     double *more = r->curve_more + i * width;
     r->curve_x[i] = x, r->curve_y[i] = y;
     more[STEP] = (double) step->number, more[TIME] = step->time, more[FACTOR] = step->factor;
+    more[UNJUDGED] = (double) step->unjudged;
     for (size_t g = 0; g < r->problem->ngauge; g++) more[FIRST_GAUGE + g] = gauges[g];
     r->npoint++;
 done:
@@ -172,30 +173,31 @@ static double initial_stiffness (const pg_result *r, size_t peak)
     return r->curve_x[0] != 0 ? r->curve_y[0] / r->curve_x[0] : NAN;
 }
 
-/* The peak is the row of largest |force|; with event stepping only rows on the envelope count. */
-pg_status pg_result_curve_read (pg_result *r)
+static const double *more_of (const pg_result *r, size_t row)
 {
-    pg_status status = PG_OK;
-    double *x = NULL, *y = NULL;
-    size_t n = r->npoint, row = 0, top = 0;
+    return r->curve_more + row * (FIRST_GAUGE + r->problem->ngauge);
+}
+
+/* The peak is the row of largest |force| of all rows in which every tip of a crack was judged; of all rows
+ * where there is no such row, which `judged` tells. */
+void pg_result_curve_read (pg_result *r)
+{
+    size_t n = r->npoint, row = 0, judged = 0;
     r->peak = (result_peak) { 0 };
-    if (r->curve_load < 0 || n == 0) return PG_OK;
-    for (size_t i = 0; i < n; i++) if (fabs (r->curve_y[i]) > fabs (r->curve_y[row])) row = i;
-    if (by_events (r)) {
-        PG_ALLOC (x, 2 * n + 2);
-        PG_ALLOC (y, 2 * n + 2);
-        pg_envelope (n, r->curve_x, r->curve_y, 0, x, y, &top);
-        for (row = 0; row + 1 < n && (r->curve_x[row] != x[top] || r->curve_y[row] != y[top]); row++);
+    if (r->curve_load < 0 || n == 0) return;
+    for (size_t i = 0; i < n; i++) judged += !(more_of (r, i)[UNJUDGED] > 0);
+    for (size_t i = 0, any = 0; i < n; i++) {
+        if (judged && more_of (r, i)[UNJUDGED] > 0) continue;
+        if (!any || fabs (r->curve_y[i]) > fabs (r->curve_y[row])) row = i, any = 1;
     }
-    const double *more = r->curve_more + row * (FIRST_GAUGE + r->problem->ngauge);
-    r->peak = (result_peak){ 1,   row, r->curve_y[row], r->curve_x[row], more[STEP], more[TIME], more[FACTOR],
-                             NAN, NAN };
-    if (!from_rest (r->problem)) goto done;
+    const double *more = more_of (r, row);
+    r->peak = (result_peak){ .found = 1, .row = row, .force = r->curve_y[row],
+        .displacement = r->curve_x[row],
+                             .step = more[STEP], .time = more[TIME], .factor = more[FACTOR], .initial = NAN,
+                             .secant = NAN, .judged = judged > 0, .left_out = judged ? n - judged : 0 };
+    if (!from_rest (r->problem)) return;
     r->peak.initial = initial_stiffness (r, row);
     if (r->peak.displacement != 0) r->peak.secant = r->peak.force / r->peak.displacement;
-done:
-    pg_free (x), pg_free (y);
-    return status;
 }
 
 /* Writes the load and component that the curve follows, the peak, the gauges at the peak and
@@ -218,6 +220,7 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     for (size_t g = 0; g < p->ngauge; g++) pg_json_number (j, p->gauge[g].name, gauge[g]);
     pg_json_shut (j);
     pg_json_shut (j);
+    pg_json_count (j, "rows_not_judged", k->judged ? k->left_out : r->npoint);
     pg_json_number (j, "stiffness_initial", k->initial);
     pg_json_number (j, "stiffness_at_peak", k->secant);
     pg_json_shut (j);
@@ -241,6 +244,11 @@ static void tell_peak (const pg_result *r, char *out, size_t size)
         pg_picture_quantity (gauge[g], "m", place, sizeof place);
         n += snprintf (out + n, size - (size_t) n, ", %s %s", p->gauge[g].name, place);
     }
+    if ((size_t) n >= size) return;
+    if (!k->judged) snprintf (out + n, size - (size_t) n, "; in no row was every crack tip judged");
+    else if (k->left_out)
+        snprintf (out + n, size - (size_t) n, "; %zu rows in which a crack tip was not judged left out",
+                  k->left_out);
 }
 
 /* The new crack in words: its length in 2D, else its area, and the dissipated energy per area. */

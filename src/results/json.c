@@ -306,6 +306,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     pg_json_text (j, "scene_sha256", res->hash);
     files_block (j, res);
     pg_json_text (j, "outcome", failure ? failure : "done");
+    if (!failure && r->ended_by) pg_json_text (j, "ended_by", r->ended_by);
     if (pg_rank_count () > 1) {
         pg_json_count (j, "ranks", (size_t) pg_rank_count ());
         pg_json_text (j, "division", pg_ranks_now () ? "subdomains" : "matrices");

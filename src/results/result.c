@@ -311,7 +311,7 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     if (!r->last_written)
         PG_TRY (pg_ranks_agree (write_fields (r, state, r->rounds > 0 ? time_within (r) : r->stamp)));
     r->last_written = 1;
-    PG_TRY (pg_result_curve_read (r));
+    pg_result_curve_read (r);
     PG_TRY (pg_result_crack_measure (r, state));
     if (!nothing && !pg_ranks_now ()) PG_TRY (pg_result_draw (r, state));
     PG_TRY (pg_result_measure (r, state));

@@ -58,11 +58,13 @@ typedef struct {
 /* The peak of the load-displacement curve. found = 0: there is no curve. */
 typedef struct {
     int found;
-    /* Row of history.csv with the largest |force|. */
+    /* Row of history.csv with the largest |force| of those that count. */
     size_t row;
     /* N, m, number of the step, s, load factor there; initial and secant stiffness in N/m, NAN
      * if unknown. */
     double force, displacement, step, time, factor, initial, secant;
+    /* 1: there are rows in which every tip of a crack was judged; how many others were left out */
+    int    judged;  size_t left_out;
 } result_peak;
 /* What the broken bonds amount to: area of new crack in m2, in 2D its length in m (else NAN),
  * and the dissipated energy per area in J/m2 (NAN if unknown). */
@@ -259,7 +261,7 @@ pg_status pg_result_curve_keep     (pg_result *r, size_t n, const pg_keeper *kee
 /* Writes load_displacement.png. */
 pg_status pg_result_curve_picture  (pg_result *r);
 /* Finds the peak. */
-pg_status pg_result_curve_read     (pg_result *r);
+void      pg_result_curve_read     (pg_result *r);
 void      pg_result_curve_json     (pg_json *j, const pg_result *r);
 /* Measures the new crack. */
 pg_status pg_result_crack_measure  (pg_result *r, const pg_state *state);

@@ -322,6 +322,7 @@ static pg_status look_over (pg_solver *s, const pg_state *state, double factor, 
     PG_TRY (contact_show (&b->system, factor));
     if (b->growth) {
         step->utilisation = facet_utilisation (b, state, factor);
+        step->unjudged = facet_unjudged (b, state, factor);
         return facet_show (s, state, factor);
     }
     if (!break_loop_judges (b)) return PG_OK;

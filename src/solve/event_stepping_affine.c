@@ -480,6 +480,7 @@ static pg_status judge (pg_solver *s, const pg_state *state, double factor, int 
     PG_TRY (contact_show (&b->system, 1));
     if (b->growth) {
         step->utilisation = facet_utilisation (b, state, factor - stage_start (s));
+        step->unjudged = facet_unjudged (b, state, factor - stage_start (s));
         return facet_show (s, state, factor - stage_start (s));
     }
     if (!break_loop_judges (b)) return PG_OK;

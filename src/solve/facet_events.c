@@ -140,6 +140,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     PG_TRY (event_secant (s, &now));
     memcpy (state->d, g->before, bytes);
     PG_TRY (event_stops (s, state, factor, now));
+    if (!s->finished) s->finished = facet_measure_ends (s, state, factor);
     event_apart (s, work, strain, step);
 done:
     if (g->before) memcpy (state->d, g->before, bytes);

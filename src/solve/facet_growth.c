@@ -130,26 +130,13 @@ static void tell (break_loop *b, const pg_state *state)
 {
     facet_growth *g = b->growth;
     double l[2], K[3];
-    facet_candidate out;
     size_t open = 0;
+    facet_tell_lost (b, state);
     for (size_t i = 0; i < g->ntip; i++) {
         const pg_tip_field *f = &g->field[i];
         if (!state->paths->tip[i].open) continue;
         open++;
-        if (isnan (f->near) && i < g->nrun && g->run[i].straight > 0) continue;        /* a new branch */
-        if (isnan (f->near)) {
-            int goes_out = state->paths->tip[i].grown > 0 && facet_way_out (b, state, i, &out);
-            if (!is_tried (g, i) && !goes_out && state->events == 0 && !(g->said & FACET_SAID_ROOM)) {
-                pg_statistics_warn (
-                    b->system.report,
-                    "no room for integrals around crack tip %ld at (%.6g, %.6g) m: %.3g spacings to "
-                    "the surface, a load or another crack, 1.5 are needed; it does not grow "
-                    "unless it can go straight out",
-                    state->paths->tip[i].id, f->x[0], f->x[1], f->room / f->h);
-                g->said |= FACET_SAID_ROOM;
-            }
-            continue;
-        }
+        if (isnan (f->near)) continue;
         pg_tip_combine (f, facet_factors (g, 1, l), l, NULL, K, NULL);
         if (!b->system.contact && closes (b, f, K) && !(g->said & FACET_SAID_CLOSED)) {
             pg_statistics_warn (

@@ -126,6 +126,15 @@ pg_status facet_show    (pg_solver *s, const pg_state *state, double factor);
 pg_status facet_round   (break_loop *b, pg_state *state, double t, const double *d, pg_step *step,
                          int *over);
 
+/* ---- facet_ends.c -------------------------------------------------------------------------------------- */
+/* How many open tips nothing judges at a load factor, by the last measurement; where none is open and none
+ * can begin: 1. */
+long      facet_unjudged (const break_loop *b, const pg_state *state, double factor);
+/* Warns once of every tip that has grown and that nothing judges any more. */
+void      facet_tell_lost (break_loop *b, const pg_state *state);
+/* After an event, at that load: there is such a tip and nothing else grows up to full load: the run ends. */
+int       facet_measure_ends (pg_solver *s, const pg_state *state, double factor);
+
 /* ---- facet_motion.c ------------------------------------------------------------------------------------ */
 /* Warns where a time step is too long for facets. */
 void      facet_doubt_step (break_loop *b, double dt);

@@ -8,6 +8,7 @@
  * those of facet_events.c. */
 #include "contact.h"
 #include "front_growth.h"
+#include "trial_facet.h"
 #include <math.h>
 #include <string.h>
 
@@ -118,10 +119,14 @@ static void tell (const break_loop *b, const pg_front *front, size_t nfront, lon
         if (!front[k].open) continue;
         const double *x = front[k].x;
         if (f->blind[k] && !at_interface (f, k) && events == 0 && !(g->said & FACET_SAID_ROOM)) {
+            char what[80];
+            pg_tip_limit_words (b->system.problem, &f->field[f->first[k]], what, sizeof what);
             pg_statistics_warn (b->system.report,
                                 "no room for integrals around any vertex of crack front %ld at (%.6g, %.6g, "
-                                "%.6g) m: it does not grow; take a smaller spacing",
-                                front[k].id, x[0], x[1], x[2]);
+                                "%.6g) m (%s is within 1.5 spacings): it does not grow; take a smaller "
+                                "spacing",
+                                front[k].id, x[0], x[1], x[2],
+                                f->field[f->first[k]].limit == PG_ROOM_LOAD ? what : "a surface or a crack");
             g->said |= FACET_SAID_ROOM;
         }
         const pg_tip_field *held = at_interface (f, k);
@@ -192,6 +197,19 @@ done:
 double fronts_utilisation (const break_loop *b, const pg_state *state, double factor)
 {
     return fronts_plan (b, state, factor);
+}
+
+long fronts_unjudged (const break_loop *b, const pg_state *state)
+{
+    const front_growth *f = b->growth->fronts;
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
+    long n = 0, open = 0;
+    for (size_t k = 0; f && k < nfront; k++) {
+        open += front[k].open != 0;
+        n += k < f->nfront && front[k].open && f->blind[k];
+    }
+    return n ? n : f && !open && !trial_has_strength (b->system.problem);
 }
 
 /* ---- growing ------------------------------------------------------------------------------------------- */

@@ -51,6 +51,9 @@ pg_status fronts_offer_starts (break_loop *b, const pg_state *state, const doubl
 /* Such a crack comes into being. */
 pg_status fronts_start   (break_loop *b, pg_state *state, const facet_candidate *c);
 
+/* Open fronts that show nothing anywhere; where none is open and none can begin: 1. */
+long      fronts_unjudged (const break_loop *b, const pg_state *state);
+
 /* ---- front_growth.c, results --------------------------------------------------------------------------- */
 /* Values at the vertices for results. */
 pg_status fronts_show    (pg_solver *s, const pg_state *state, double factor);

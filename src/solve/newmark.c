@@ -215,6 +215,7 @@ static pg_status newmark_step (pg_solver *s, pg_state *state, pg_step *step)
     if (b->work_balance.reaction)
         memcpy (s->reaction, b->work_balance.reaction,
                 PG_REACTIONS * s->problem->nload * sizeof *s->reaction);
+    step->unjudged = facet_unjudged (b, state, 1);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     PG_TRY (contact_show (&b->system, 1));
     contact_accept (&b->system);

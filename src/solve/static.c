@@ -35,6 +35,7 @@ static pg_status step_fixed (pg_solver *s, pg_state *state, pg_step *step)
     double t = stage_start (s) + (double) made / (double) all;
     stage_bear (s, t);
     PG_TRY (equilibrate (b, state, t, state->d, NULL, step));
+    step->unjudged = facet_unjudged (b, state, 1);
     if (b->growth) PG_TRY (facet_show (s, state, 1));
     b->system.borne = fmax (b->system.borne, b->system.reference);
     contact_accept (&b->system);

@@ -15,6 +15,17 @@ void pg_statistics_warn (pg_statistics *report, const char *format, ...)
     va_end (args);
 }
 
+void pg_statistics_warn_once (pg_statistics *report, const char *format, ...)
+{
+    char text[sizeof *report->warning];
+    va_list args;
+    va_start (args, format);
+    vsnprintf (text, sizeof text, format, args);
+    va_end (args);
+    for (size_t k = 0; k < report->nwarning; k++) if (strcmp (report->warning[k], text) == 0) return;
+    pg_statistics_warn (report, "%s", text);
+}
+
 /* The same reason told again takes the place of what was told before: counts grow while a run goes on. */
 void pg_statistics_skip (pg_statistics *report, double seconds, const char *what, const char *why)
 {

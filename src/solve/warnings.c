@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What a scene asks for that is legal, yet hardly meant: the warnings that a run has before its first
  * step. */
+#include "perigal/fracture.h"
 #include "solve.h"
 #include <math.h>
 #include <stdio.h>
@@ -217,6 +218,36 @@ static void doubt_shear (pg_statistics *report, const pg_problem *p)
     }
 }
 
+/* Tips without room for a ring, each with what stands in the way, before the first step. Where there is no
+ * memory for the state of the start, the run that follows says so. */
+static pg_status doubt_tips (pg_statistics *report, const pg_problem *p)
+{
+    enum { MOST = 5 };
+    pg_status status = PG_OK;
+    pg_state *state = NULL;
+    size_t blind = 0;
+    if (p->dim != 2 || !p->ntip || !pg_criterion_of_tips (p->criterion)) return PG_OK;
+    PG_TRY (pg_state_create (&state, p, pg_problem_unknowns (p)));
+    for (size_t i = 0; i < state->paths->ntip; i++) {
+        pg_tip_field f;
+        char what[80];
+        if (!state->paths->tip[i].open) continue;
+        PG_TRY (pg_tip_find (&f, p, state, i));
+        if (!isnan (f.near) || blind++ >= MOST) continue;
+        pg_tip_limit_words (p, &f, what, sizeof what);
+        pg_statistics_warn (report,
+                            "no room for a ring around crack tip %ld at (%.6g, %.6g) m: %s is %.3g spacings "
+                            "away, 1.5 are needed: J and K are not known; it grows by trial facets, if at "
+                            "all",
+                            state->paths->tip[i].id, f.x[0], f.x[1], what, f.room / f.h);
+    }
+    if (blind > MOST)
+        pg_statistics_warn (report, "no room for a ring around %zu more crack tips", blind - MOST);
+done:
+    pg_state_free (&state);
+    return status;
+}
+
 /* Can one leave point i in direction e and come back into the body within two spacings? */
 static int crosses_void (const pg_problem *p, size_t i, const double *e)
 {
@@ -267,6 +298,7 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
     doubt_single_bonds (report, p, o);
     doubt_shear (report, p);
     doubt_voids (report, p);
+    doubt_tips (report, p);
     for (size_t k = 0; k < p->nnote; k++)
         if (warns (p->note[k])) pg_statistics_warn (report, "%s", p->note[k] + strlen (PG_WARNING));
     if (p->part.mesh.n && p->part.quality < 0.1)

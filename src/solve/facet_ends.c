@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Where the measure of a tip ends. A tip without room for a ring is judged by trial facets, or goes straight
+ * out; where neither can be (a support or a load on points stands in the way, or the last ligament is pressed
+ * together) nothing tells at which load it goes on. Rows of a run in which that is so have no say in its
+ * peak, and where nothing else grows up to full load the run ends. */
+#include "event_stepping.h"
+#include "facet_growth.h"
+#include "front_growth.h"
+#include "trial_facet.h"
+#include <math.h>
+
+/* 1: nothing judges tip i, which takes energy. What closed faces hide may come back, and does not count. */
+static int is_lost (const break_loop *b, const pg_state *state, size_t i)
+{
+    const facet_growth *g = b->growth;
+    const pg_tip_field *f = &g->field[i];
+    pg_fracture_limits limits;
+    if (!state->paths->tip[i].open || !isnan (f->near) || f->limit == PG_ROOM_FACES) return 0;
+    if (i < g->nrun && g->run[i].straight > 0) return 0;                   /* a new branch */
+    for (size_t k = 0; k < g->ntrial; k++)
+        if (g->trial[k].tip == (long) i && facet_trial_utilisation (g, &g->trial[k], 1) > 0) return 0;
+    return facet_limits (b, f->x, atan2 (f->e[1], f->e[0]), &limits);
+}
+
+/* Faces that overlap where contact is not modelled: J says nothing. */
+static int overlaps (const break_loop *b, size_t i, double factor)
+{
+    const facet_growth *g = b->growth;
+    const pg_tip_field *f = &g->field[i];
+    double l[2], K[3];
+    if (b->system.contact || g->moving || isnan (f->near) || f->closed) return 0;
+    pg_tip_combine (f, facet_factors (g, factor, l), l, NULL, K, NULL);
+    return K[0] < 0 && fabs (K[0]) > 1e-3 * fabs (K[1]);
+}
+
+long facet_unjudged (const break_loop *b, const pg_state *state, double factor)
+{
+    const facet_growth *g = b->growth;
+    long n = 0, open = 0;
+    if (!g) return 0;
+    if (b->system.problem->dim == 3) return fronts_unjudged (b, state);
+    if (!state->paths) return 0;
+    for (size_t i = 0; i < state->paths->ntip; i++) {
+        open += state->paths->tip[i].open != 0;
+        if (i < g->ntip && state->paths->tip[i].open && (is_lost (b, state, i) || overlaps (b, i,
+                                                                                            factor))) n++;
+    }
+    /* where cracks have ended and none can begin nobody looks at what is left of the body */
+    return n ? n : !open && !trial_has_strength (b->system.problem);
+}
+
+void facet_tell_lost (break_loop *b, const pg_state *state)
+{
+    const facet_growth *g = b->growth;
+    for (size_t i = 0; i < g->ntip; i++) {
+        const pg_tip_field *f = &g->field[i];
+        char what[80];
+        if (!(state->paths->tip[i].grown > 0) || !is_lost (b, state, i)) continue;
+        pg_tip_limit_words (b->system.problem, f, what, sizeof what);
+        pg_statistics_warn_once (b->system.report,
+                                 "crack tip %ld at (%.6g, %.6g) m has no ring any more: %s is %.3g spacings "
+                                 "away, 1.5 are needed; J is not known there",
+                                 state->paths->tip[i].id, f->x[0], f->x[1], what, f->room / f->h);
+    }
+}
+
+int facet_measure_ends (pg_solver *s, const pg_state *state, double factor)
+{
+    break_loop *b = &s->break_loop;
+    const facet_growth *g = b->growth;
+    size_t lost = 0;
+    if (b->system.problem->dim == 3) return 0;
+    while (lost < g->ntip && !(state->paths->tip[lost].grown > 0 && is_lost (b, state, lost))) lost++;
+    if (lost == g->ntip || facet_utilisation (b, state, 1) >= 1) return 0;
+    s->report.ended_by = "the measure of a crack tip ended";
+    pg_statistics_warn (&s->report,
+                        "the measure of crack tip %ld has ended and nothing else grows up to full load: "
+                        "the run "
+                        "ends at event %ld, load factor %.6g; under which load it goes on is not known. A "
+                        "smaller spacing leads nearer",
+                        state->paths->tip[lost].id, state->events, factor);
+    return 1;
+}
