@@ -93,7 +93,8 @@ static void pull_of (const pg_load *load, size_t i, const double *x, const doubl
     double moved[2] = { e[0] * u[0] - e[1] * u[1], e[1] * u[0] + e[0] * u[1] };
     for (int c = 0; c < 2; c++)
         pull[c] = load->stiffness[c] > 0
-                      ? -load->stiffness[c] * pg_load_share (load, i) * (moved[c] - goal (load, c, x, at, t)) : 0;
+                      ? -load->stiffness[c] * pg_load_share (load, i) * (moved[c] - goal (load, c, x, at,
+                                                                                          t)) : 0;
 }
 
 pg_status tip_springs_sample (tip_springs *s, int at, const pg_tip_field *tip, const tip_material *material,
