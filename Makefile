@@ -54,6 +54,8 @@ TOOLS   := $(wildcard bench/*.c)
 OBJECTS := $(SOURCES:src/%.c=$(BUILD)/src/%.o)
 CLIOBJ  := $(CLI:src/%.c=$(BUILD)/src/%.o)
 TESTBIN := $(TESTS:test/%.c=$(BUILD)/test/%)
+# tests that replace a function of the C library, which the other tests of their folder must not see
+ALONE   := $(BUILD)/test/results/test_durable $(BUILD)/test/scene/test_locale
 BENCHBIN:= $(TOOLS:bench/%.c=$(BUILD)/bench/%)
 RANKSBIN = $(if $(PETSC),$(patsubst bench/%.c,$(BUILD)/bench/%,$(wildcard bench/ranks/*.c)))
 LIB     := $(BUILD)/libperigal.a
@@ -117,10 +119,27 @@ $(BUILD)/perigal-mesh: $(BUILD)/src/convert/perigal_mesh.o $(LIB)
 	$(if $(V),,@echo "  LD   $@")
 	$(Q)$(CC) $(LDFLAGS) $^ -lgmsh $(LIBS) -o $@
 
-$(BUILD)/test/%: test/%.c $(BEHIND)
+# The tests of a folder are one program, which runs the test that it is called by (test/main.c): one link instead of one a test.
+$(BUILD)/test/%.o: test/%.c Makefile
 	@mkdir -p $(@D)
 	$(if $(V),,@echo "  TEST $<")
-	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< $(LDFLAGS) $(LINKED) $(LIBS) $(TESTLIBS) -o $@
+	$(Q)$(CC) $(CFLAGS) -Itest $(if $(filter $(@:.o=),$(ALONE)),,-Dmain=main_of_$(*F)) -MMD -MP -c $< -o $@
+
+$(ALONE): %: %.o $(BEHIND)
+	$(Q)$(CC) $< $(LDFLAGS) $(LINKED) $(LIBS) $(TESTLIBS) -o $@
+
+# of a folder of test
+define folder_tests
+$(BUILD)/test/$(1)/tests: $(patsubst %,%.o,$(2)) test/main.c $(BEHIND)
+	$$(if $$(V),,@echo "  LD   $$@")
+	$$(Q)seen=$$$$(nm -A --defined-only -g $(patsubst %,%.o,$(2)) | grep ' T ' | grep -vE ' T (main_of_test|fuzz)_'); [ -z "$$$$seen" ] || \
+	    { echo "the other tests of the folder see this function; make it static, or add the test to ALONE of the Makefile:"; echo "$$$$seen"; exit 1; } >&2
+	$$(Q)$$(CC) $$(CFLAGS) -DTESTS="$(patsubst %,TEST (%),$(notdir $(2)))" test/main.c $(patsubst %,%.o,$(2)) $$(LDFLAGS) $$(LINKED) $$(LIBS) $$(TESTLIBS) -o $$@
+
+$(2): $(BUILD)/test/$(1)/tests
+	$$(Q)ln -sf tests $$@
+endef
+$(foreach f,$(sort $(patsubst $(BUILD)/test/%/,%,$(dir $(TESTBIN)))),$(eval $(call folder_tests,$(f),$(filter-out $(ALONE),$(filter $(BUILD)/test/$(f)/%,$(TESTBIN))))))
 
 $(BUILD)/bench/%: bench/%.c $(LIB)
 	@mkdir -p $(@D)

@@ -13,6 +13,9 @@
 #include <string.h>
 #include "perigal/base.h"
 
+/* it has another name in the program of a folder: test/main.c */
+int main (void);
+
 /* |a - b| <= tolerance * max (|b|, scale); never true for NaN */
 static inline void check_near_at (double a, double b, double tolerance, double scale, const char *what,
                                   const char *file, int line)
