@@ -44,18 +44,20 @@ static double used_facets (const pg_scene *scene, const pg_tally *t, int dim)
     return fmin (used, all);
 }
 
-/* Largest speed of a pressure wave, sqrt (M / rho), m/s, M the modulus of the mode; 0 without densities. */
+/* Largest speed of a pressure wave, m/s, by the materials themselves; 0 without densities. Moduli that are
+ * expressions of place count as none. */
 static double fastest_wave (const pg_scene *scene, int dim)
 {
     const char *name;
-    int strain = dim == 3 || is (pg_scene_text (scene, "plane"), "strain");
+    pg_mode mode = dim == 3                                          ? PG_SOLID
+                   : dim == 1                                        ? PG_LINE
+                   : is (pg_scene_text (scene, "plane"), "strain") ? PG_PLANE_STRAIN
+                                                                     : PG_PLANE_STRESS;
     double top = 0;
     for (size_t i = 0; (name = pg_scene_name (scene, i, "materials")); i++) {
-        double E = pg_scene_number (scene, "materials.%s.youngs_modulus", name),
-               nu = pg_scene_number (scene, "materials.%s.poissons_ratio", name);
-        double rho = pg_scene_number (scene, "materials.%s.density", name);
-        double M = dim == 1 ? E : strain ? E * (1 - nu) / ((1 + nu) * (1 - 2 * nu)) : E / (1 - nu * nu);
-        if (rho > 0 && M > 0) top = fmax (top, sqrt (M / rho));
+        pg_material m = { 0 };
+        if (pg_material_read_graded (&m, scene, name, mode, 1) == PG_OK)
+            top = fmax (top, pg_material_waves (&m).pressure);
     }
     return top;
 }

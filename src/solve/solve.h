@@ -415,6 +415,9 @@ int supports_leave_free (const pg_problem *p);
 /* For messages: the probable cause of forces that find no balance, and what to do. Borrowed. */
 const char *why_out_of_balance (const pg_problem *p, const pg_solver_options *o);
 
+/* loaded_rows.c: warns of tractions that tear off the points they act on; the force is refreshed. */
+pg_status doubt_loaded_rows (pg_solver *s);
+
 /* ---- progress.c ---------------------------------------------------------------------------------------- */
 /* One of the ends that a run may come to, and how far it has come towards it: the nearest counts. */
 void progress_offer (pg_progress *p, double share, const char *end, int even);

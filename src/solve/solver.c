@@ -98,6 +98,7 @@ pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *
     PG_TRY (system_refresh (&s->break_loop.system, state, NULL));
     PG_TRY (contact_check (&s->break_loop.system));
     if (s->type->begin) PG_TRY (s->type->begin (s, state));
+    PG_TRY (doubt_loaded_rows (s));
     s->begun = 1;
 done:
     status = options_blame (status, &s->options, "solver");

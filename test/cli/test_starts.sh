@@ -19,4 +19,27 @@ refused "new cracks without a factor" '^--set solver.linear=pcg: solver.linear =
     solver.linear=pcg method.essential=nitsche
 refused "a platen in the body" '^--set platens=.*: platens\[0\]: the platen head overlaps the body by 0.5 m' nothing_holds.yaml \
     'platens=[{name: head, point: [0.5, 0.5], normal: [0, -1]}]' solver.stepping=fixed "$column"
+
+# ---- warnings before the first step --------------------------------------------------------------------------------------
+# warned NAME PATTERN SCENE SETTINGS...: by check, and by run above its first step
+warned() {
+    local name=$1 words=$2 scene=$3 set=(); shift 3
+    for s in "$@"; do set+=(--set "$s"); done
+    expect "$name: check warns" 0 "warning: $words" '' check "$scene" "${set[@]}"
+    "$perigal" run "$scene" -o "$work/result" --force "${set[@]}" > "$work/out" 2> "$work/err"
+    awk '/ time steps in |break rounds/ { exit } 1' "$work/out" | grep -q "warning: $words"; verdict "$name: run warns before its first step" $?
+}
+# silent NAME PATTERN SCENE SETTINGS...
+silent() {
+    local name=$1 words=$2 scene=$3 set=(); shift 3
+    for s in "$@"; do set+=(--set "$s"); done
+    "$perigal" check "$scene" "${set[@]}" > "$work/out" 2> "$work/err" && ! grep -q "warning: $words" "$work/out"; verdict "$name: no word of it" $?
+}
+tears='top pulls with 1.2e+07 Pa at points that bear about [3-6]'
+warned "loaded rows that tear off" "$tears" glass_rows.yaml
+[ "$(wc -l < "$work/result/events.csv")" -gt 100 ]; verdict "they do" $?
+pull() { echo "boundary=[{set: top, traction: {y: $1 MPa}, ramp: constant}, {set: bottom, traction: {y: -$1 MPa}, ramp: constant}]"; }
+silent "a load that they bear" 'top pulls' glass_rows.yaml "$(pull 2)"
+silent "a load that presses" 'top pulls' glass_rows.yaml "$(pull -12)"
+silent "rows that never break" 'top pulls' glass_rows.yaml 'failure.exclude=[top, bottom]'
 finish

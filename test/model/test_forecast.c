@@ -255,6 +255,26 @@ static void test_small_time_steps_factor_nothing (void **state)
     assert_string_equal (pg_forecast_linear (&lu), "umfpack");
 }
 
+/* The same stiffness is the same wave, whatever model says it. */
+static void test_waves_of_any_material (void **state)
+{
+    (void) state;
+    static const char *const material[2] = {
+        "{youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}",
+        "{model: orthotropic, youngs_modulus_1: 10 GPa, youngs_modulus_2: 10 GPa, poissons_ratio_12: 0.25, "
+        "shear_modulus_12: 4 GPa, density: 2500 kg/m3}"
+    };
+    for (int k = 0; k < 2; k++) {
+        char text[900];
+        snprintf (text, sizeof text,
+                  "dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\n"
+                  "spacing: 0.02\nmaterials: {m: %s}\nsolver: {kind: newmark, dt: 40 us, end: 400 us}\n",
+                  material[k]);
+        pg_forecast f = forecast (text);
+        assert_string_equal (pg_forecast_linear (&f), "cholmod");
+    }
+}
+
 /* Large solids at rest are forecast as they are solved, by the same costs: without a factor; small ones, and
  * plain runs, with one. */
 static void test_solids_are_forecast_as_they_are_solved (void **state)
@@ -449,6 +469,7 @@ int main (void)
         cmocka_unit_test (test_law_of_wide_bonds),
         cmocka_unit_test (test_analysis_is_that_of_a_run),
         cmocka_unit_test (test_small_time_steps_factor_nothing),
+        cmocka_unit_test (test_waves_of_any_material),
         cmocka_unit_test (test_solids_are_forecast_as_they_are_solved),
         cmocka_unit_test (test_what_fits_is_no_error),
         cmocka_unit_test (test_refusal_has_the_numbers),
