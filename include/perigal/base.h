@@ -5,6 +5,7 @@
 #define PERIGAL_BASE_H
 #include <stddef.h>
 #include <stdint.h>
+#include <stdlib.h>
 
 /* The shared library exports what the headers of include/perigal declare between PG_API_BEGIN and PG_API_END.
  * Everything else is compiled with -fvisibility=hidden: it can be neither called nor replaced from
@@ -157,6 +158,25 @@ typedef void (*pg_work) (void *context, size_t first, size_t last, int thread);
 void pg_parallel (int threads, size_t n, pg_work work, void *context);
 /* For few items, each worth a thread. */
 void pg_parallel_heavy (int threads, size_t n, pg_work work, void *context);
+
+/* Holds back all signals that somebody else sends to this thread, and to threads that it starts from now on,
+ * until they are let through again; *before is what was held back already (a sigset_t). Faults of the
+ * thread itself are not held back. */
+typedef struct { unsigned long set[16]; } pg_signals;
+void pg_signals_hold    (pg_signals *before);
+void pg_signals_release (const pg_signals *before);
+
+/* ---- sorting, searching -------------------------------------------------------------------------------- */
+/* qsort and bsearch for lists that may be empty, whose address may then be NULL, which those forbid. */
+typedef int (*pg_order) (const void *a, const void *b);
+static inline void pg_sort (void *list, size_t n, size_t size, pg_order order)
+{
+    if (n > 1) qsort (list, n, size, order);
+}
+static inline void *pg_search (const void *key, const void *list, size_t n, size_t size, pg_order order)
+{
+    return n ? bsearch (key, list, n, size, order) : NULL;
+}
 
 /* ---- libraries that are loaded when they are needed ---------------------------------------------------- */
 /* A function of such a library, and where its pointer goes: the offset in the table, bytes. */

@@ -44,7 +44,10 @@ pg_status pg_library_load (pg_library *library)
     if (__atomic_load_n (&library->ready, __ATOMIC_ACQUIRE)) return PG_OK;
     pthread_mutex_lock (&loading);
     if (library->ready) goto done;
+    pg_signals before;
+    pg_signals_hold (&before);                         /* in threads that it starts */
     void *handle = dlopen (library->file, RTLD_LAZY | (library->shared ? RTLD_GLOBAL : RTLD_LOCAL));
+    pg_signals_release (&before);
     if (!handle) {
         const char *reason = dlerror ();
         PG_FAIL (PG_E_FILE, "%s need the library %s, which cannot be loaded (%s): install the Debian package "

@@ -161,7 +161,9 @@ __attribute__ ((destructor)) static void dismiss (void)
 /* Starts helpers until there are as many as wanted, or the system gives no more. */
 static void hire (int threads)
 {
+    pg_signals before;
     pthread_once (&pool.once, prepare);
+    pg_signals_hold (&before);                         /* a thread takes this from the one that starts it */
     for (; pool.started < threads; pool.started++) {
         helper *h = &pool.helper[pool.started];
         atomic_store (&h->turn, 0);
@@ -169,8 +171,9 @@ static void hire (int threads)
         h->quit = 0;
         pthread_mutex_init (&h->lock, NULL);
         pthread_cond_init (&h->wake, NULL);
-        if (pthread_create (&h->id, NULL, serve, h) != 0) return;
+        if (pthread_create (&h->id, NULL, serve, h) != 0) break;
     }
+    pg_signals_release (&before);
 }
 
 /* Gives a part to each helper, runs its own, takes back those that no helper has begun, and waits for the
@@ -202,7 +205,10 @@ static void run_with_own (int threads, job *jobs)
 {
     pthread_t id[MAX_THREADS];
     int running[MAX_THREADS] = { 0 };
+    pg_signals before;
+    pg_signals_hold (&before);
     for (int k = 1; k < threads; k++) running[k] = pthread_create (&id[k], NULL, run, &jobs[k]) == 0;
+    pg_signals_release (&before);
     run (&jobs[0]);
     for (int k = 1; k < threads; k++) {
         if (running[k]) pthread_join (id[k], NULL);

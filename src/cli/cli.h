@@ -55,6 +55,10 @@ void progress_show (progress *p, const pg_progress *at, const pg_step *step, con
 /* Removes the line from the terminal. */
 void progress_end   (progress *p);
 
+/* From now on a signal that asks this process to stop is noted: its number, 0 while there was none; the
+ * second one of its kind ends the process (signals.c). */
+void run_listen        (void);
+int  run_asked_to_stop (void);
 /* From now on SIGINT, SIGTERM and SIGHUP are counted, for studies of many runs (stops.c). */
 const volatile sig_atomic_t *command_stops (void);
 /* usage.c: prints what a command says of itself; 0: there is no such command. */

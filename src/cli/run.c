@@ -10,33 +10,9 @@
  * Where ranks share the run (perigal-mpi) each passes through here; rank 0 speaks. What one of them meets
  * between steps is early to all, so that they go on or end together. */
 #include "cli.h"
-#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-/* Number of the signal that asked the run to stop; 0: none. Signal handlers can reach nothing
- * but a global. */
-static volatile sig_atomic_t asked_to_stop;
-static void on_signal (int number) { asked_to_stop = number; }
-
-/* The first SIGINT, SIGTERM, SIGHUP or SIGUSR1 (which mpirun passes on to its ranks and batch
- * systems send ahead of their limit) asks for a checkpoint, the second one of its kind ends the
- * program (SA_RESETHAND). Signals that the caller ignores (nohup) stay ignored, SIGINT excepted.
- * A file that grows beyond its limit is an error of writing, not a signal. */
-static void settle_signals (void)
-{
-    static const int asking[] = { SIGINT, SIGTERM, SIGHUP, SIGUSR1 };
-    struct sigaction act = { 0 }, before;
-    act.sa_handler = on_signal;
-    /* SA_RESTART: system calls go on after the signal, so that no write is cut short. */
-    act.sa_flags = SA_RESTART | (int) SA_RESETHAND;
-    for (size_t k = 0; k < sizeof asking / sizeof *asking; k++)
-        if (sigaction (asking[k], NULL, &before) == 0
-            && (before.sa_handler != SIG_IGN || asking[k] == SIGINT))
-            sigaction (asking[k], &act, NULL);
-    signal (SIGXFSZ, SIG_IGN);
-}
 
 /* What the solver did, in the terms of its kind: time steps, stages, or steps with solves;
  * explicit runs with their energy balance. */
@@ -150,7 +126,7 @@ static void show (watched *w, const pg_step *step)
 static pg_status ask_all (const watched *w, int *stop, int *due)
 {
     pg_status status = PG_OK;
-    double any[2] = { asked_to_stop != 0, pg_result_due (w->result) };
+    double any[2] = { run_asked_to_stop () != 0, pg_result_due (w->result) };
     PG_TRY (pg_ranks_ask (2, any));
     *stop = any[0] > 0, *due = any[1] > 0;
 done:
@@ -327,6 +303,7 @@ static pg_status prepare (run *r)
     double finished = c->resume && pg_rank () == 0 && pg_result_finished (r->folder, p->scene);
     PG_TRY (pg_ranks_ask (1, &finished));
     r->finished = finished > 0;
+    if (r->finished && pg_rank () == 0) PG_TRY (pg_result_complete (r->folder));
 done:
     return status;
 }
@@ -384,7 +361,7 @@ int pg_cli_run_ranks (int argc, char **argv, int *together)
     if (pg_rank_count () > 1 && !r.c.given) r.c.threads = 1;
     r.c.quiet |= pg_rank () > 0;
     if (r.c.seeds) return command_seeds (&r.c);
-    settle_signals ();
+    run_listen ();
     PG_TRY (pg_ranks_agree (prepare (&r)));
     if (r.finished) {
         if (!r.c.quiet) printf ("%s: this run is finished\n", r.folder);

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Signals that ask a command of many runs to stop: they are counted, and the runs are asked as often. The
  * first one lets them write checkpoints, the second one ends them at once; this process lives on to say
- * what there is. A single run has a handler of its own (run.c). */
+ * what there is. A single run listens in its own way (signals.c). */
 #include "cli.h"
 #include <string.h>
 

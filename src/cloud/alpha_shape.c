@@ -67,7 +67,7 @@ static pg_status drop_twins (double **out, long **from, size_t *left, size_t dim
         p[i].i = i;
         for (size_t k = 0; k < dim; k++) p[i].x[k] = grain > 0 ? rint ((x[i * dim + k] - x[k]) / grain) : 0;
     }
-    qsort (p, n, sizeof *p, by_place);
+    pg_sort (p, n, sizeof *p, by_place);
     for (size_t i = 1; i < n; i++) twin[p[i].i] = !memcmp (p[i].x, p[i - 1].x, sizeof p->x);
     for (size_t i = 0; i < n; i++) {
         if (twin[i]) continue;
@@ -144,7 +144,7 @@ static pg_status choose_alpha (const work *w, pg_alpha_shape *out, size_t n, con
     }
     for (size_t i = 1; i < n; i++) if (radius[i] > radius[worst]) worst = i;
     largest = radius[worst];
-    qsort (radius, n, sizeof *radius, by_value);
+    pg_sort (radius, n, sizeof *radius, by_value);
     out->uneven = largest / radius[n / 2];
     if (!(out->uneven < most_uneven)) {
         const double *x = w->x + worst * (size_t) w->dim;

@@ -68,7 +68,7 @@ static pg_status median (size_t n, const double *value, double *out, int *regula
     double *sorted = NULL;
     PG_ALLOC (sorted, n);
     memcpy (sorted, value, n * sizeof *value);
-    qsort (sorted, n, sizeof *sorted, by_value);
+    pg_sort (sorted, n, sizeof *sorted, by_value);
     *out = sorted[n / 2];
     *regular = sorted[n - 1 - n / 20] - sorted[n / 20] <= 0.01 * *out;
 done:

@@ -283,7 +283,7 @@ static pg_status find_neighbours (builder *b)
         all[i] = (edge){ p < q ? p : q, p < q ? q : p, (int) piece, (int) at };
         b->beside[i] = -1;
     }
-    qsort (all, n, sizeof *all, compare_edges);
+    pg_sort (all, n, sizeof *all, compare_edges);
     for (size_t i = 0, end = 0; i < n; i = end) {
         for (end = i; end < n && all[end].a == all[i].a && all[end].b == all[i].b; end++) continue;
         if (end - i != 2) continue;
@@ -434,7 +434,7 @@ static pg_status find_regions (builder *b)
     PG_ALLOC (f->piece, f->n);
     for (size_t i = 0; i < f->n; i++)
         order[i] = (seed){ normal_of (f->dim, f->x + i * dim * dim, n), (int) i }, f->region[i] = -1;
-    qsort (order, f->n, sizeof *order, compare_seeds);
+    pg_sort (order, f->n, sizeof *order, compare_seeds);
     for (size_t i = 0; i < f->n; i++) if (f->region[order[i].piece] < 0) grow (b, order[i].piece, stack);
     PG_ALLOC (f->first, f->nregion + 1);
     PG_ALLOC (f->edge_first, f->nregion + 1);

@@ -312,7 +312,7 @@ static pg_status find_twins (reader *r, const pg_cloud *c)
         for (size_t k = 0; k < dim; k++)
             p[i].x[k] = grain > 0 ? rint ((c->x[i * dim + k] - c->x[k]) / grain) : 0;
     }
-    qsort (p, c->n, sizeof *p, by_place);
+    pg_sort (p, c->n, sizeof *p, by_place);
     for (size_t i = 1; i < c->n; i++) {
         const double *x = p[i].x, *y = p[i - 1].x;
         if (x[0] != y[0] || x[1] != y[1] || x[2] != y[2]) continue;

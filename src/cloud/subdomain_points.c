@@ -50,7 +50,7 @@ static void bisect (place *list, size_t n, const pg_cloud *c, int first, int ran
     int axis = longest (c, list, n), half = ranks / 2;
     size_t cut = (size_t) (((double) n * half) / ranks + 0.5);
     for (size_t i = 0; i < n; i++) list[i].at = coordinate (c, list[i].point, axis);
-    qsort (list, n, sizeof *list, ascending);
+    pg_sort (list, n, sizeof *list, ascending);
     bisect (list, cut, c, first, half, owner);
     bisect (list + cut, n - cut, c, first + half, ranks - half, owner);
 }

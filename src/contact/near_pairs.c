@@ -199,7 +199,7 @@ static pg_status sort_pairs (near_pairs *s, size_t npair, const found_pair *foun
     s->n = 2 * npair;
     for (size_t q = 0; q < s->n;) {
         size_t end = at[s->pair[q].i + 1];
-        qsort (s->pair + q, end - q, sizeof *s->pair, by_place);
+        pg_sort (s->pair + q, end - q, sizeof *s->pair, by_place);
         q = end;
     }
 done:
@@ -280,7 +280,7 @@ static pg_status add_broken (near_pairs *s, const pg_state *state, const pg_chan
     if (!nfresh) goto done;
     PG_TRY (near_collect (s));
     s->valid = 0;
-    qsort (fresh, nfresh, sizeof *fresh, by_place);
+    pg_sort (fresh, nfresh, sizeof *fresh, by_place);
     PG_ALLOC (all, s->n + nfresh);
     for (size_t a = 0; a < s->n || kept < nfresh;) {
         int old = a < s->n && (kept == nfresh || by_place (&s->pair[a], &fresh[kept]) <= 0);

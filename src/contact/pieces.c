@@ -109,7 +109,7 @@ static pg_status split_segments (division *d)
             share[met] = j == k ? NAN : met_at (d, k, j);
             met += isfinite (share[met]) != 0;
         }
-        qsort (share, met, sizeof *share, ascending);
+        pg_sort (share, met, sizeof *share, ascending);
         for (int m = 0; m < 2; m++) from[m] = rest.end[0][m], u[m] = rest.end[1][m] - from[m];
         PG_GROW (all, cap, n + met + 1);
         for (size_t i = 0; i < met; i++) {
@@ -434,7 +434,7 @@ pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, c
                      "of the surface for a gap: take a smaller spacing, or keep cracks and surfaces further "
                      "apart",
                      PG_CONTACT_RADIUS, pieces->piece[k].x[0], pieces->piece[k].x[1], third);
-        qsort (list, count, sizeof *list, compare_nodes);
+        pg_sort (list, count, sizeof *list, compare_nodes);
         for (size_t a = 0; a < d; a++)
             put_column (out, d*k + a, d, list, count, weight, row + a * d * n);
         for (size_t i = 0; i < count; i++) seen[list[i]] = 0;

@@ -117,7 +117,7 @@ static void drop_hidden (facing *f)
     for (size_t i = 0; i < f->n; i++)
         for (size_t a = 0; a < 2; a++)
             f->point[i].box[a] = a + 1 < dim ? lround (floor (f->point[i].s[a] / (BOX * f->p->cloud.h))) : 0;
-    qsort (f->point, f->n, sizeof *f->point, compare_boxes);
+    pg_sort (f->point, f->n, sizeof *f->point, compare_boxes);
     for (size_t i = 0; i < f->n; i++) {
         const candidate c = f->point[i];
         const long *last = kept ? f->point[kept - 1].box : NULL;
@@ -160,7 +160,7 @@ static long divide_line (facing *f)
 {
     long pieces = 0;
     double thick = f->p->cloud.thickness;
-    qsort (f->point, f->n, sizeof *f->point, compare_places);
+    pg_sort (f->point, f->n, sizeof *f->point, compare_places);
     for (size_t from = 0, to; from < f->n; from = to) {
         double whole = 0, passed = 0;
         for (to = from; to < f->n; to++) {
@@ -301,7 +301,7 @@ pg_status pg_platen_pieces_create (pg_contact_pieces *out, double **gap, const p
     PG_TRY (find_points (&f));
     if (p->dim == 2) divide_line (&f);
     else PG_TRY (join_small (&f, divide_grid (&f)));
-    qsort (f.point, f.n, sizeof *f.point, compare_pieces);
+    pg_sort (f.point, f.n, sizeof *f.point, compare_pieces);
     PG_TRY (collect (&f, out, gap));
     for (size_t k = 0; k < out->n; k++) out->piece[k].platen = platen + 1;
 done:

@@ -248,7 +248,7 @@ static void put_columns (const search *s, size_t from, size_t to, size_t k, cons
         }
         list[count++] = c->node[0], list[count++] = c->node[1];
     }
-    qsort (list, count, sizeof *list, compare_nodes);
+    pg_sort (list, count, sizeof *list, compare_nodes);
     for (size_t i = 0; i < count; i++) if (i == 0 || list[i] != list[kept - 1]) list[kept++] = list[i];
     for (size_t a = 0; a < d; a++) {
         long at = out->start[d * k + a];

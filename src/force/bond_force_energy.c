@@ -74,7 +74,7 @@ static pg_status collect (const bond_force *b, pg_changes *out)
             out->bond[out->n++] = e;
             if (!b->dying[j]) out->bond[out->n++] = back_of (f, i, j);
         }
-    if (out->n > before) qsort (out->bond + before, out->n - before, sizeof *out->bond, ascending);
+    if (out->n > before) pg_sort (out->bond + before, out->n - before, sizeof *out->bond, ascending);
 done:
     if (status != PG_OK) out->n = before;
     return status;

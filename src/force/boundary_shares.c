@@ -77,7 +77,7 @@ static size_t nearest_points (const point_boundary *s, const pg_nearest *grid, c
 /* Is value in the ascending list? */
 static int member (const int *list, size_t n, int value)
 {
-    return n && bsearch (&value, list, n, sizeof *list, ascending) != NULL;
+    return n && pg_search (&value, list, n, sizeof *list, ascending) != NULL;
 }
 
 /* ---- columns below facets ------------------------------------------------------------------------------ */
@@ -114,7 +114,7 @@ static pg_status column_parts (gathering *g, const point_boundary *s, const colu
 {
     pg_status status = PG_OK;
     const double *volume = s->problem->cloud.volume;
-    const int *at = bsearch (&facet, c->load->set->facet, c->load->set->nfacet, sizeof facet, ascending);
+    const int *at = pg_search (&facet, c->load->set->facet, c->load->set->nfacet, sizeof facet, ascending);
     double sum = 0, weight = part.weight;
     size_t first = c->near.start[at - c->load->set->facet],
            last = c->near.start[at - c->load->set->facet + 1];
@@ -236,7 +236,7 @@ pg_status boundary_shares (boundary_load *out, point_boundary *s, int load)
     for (size_t i = 0; i < s->n; i++) g.index[i] = -1;
     if (l->kind == PG_TRACTION || l->kind == PG_PRESSURE) PG_TRY (facet_parts (&g, s, l));
     else PG_TRY (point_parts (&g, s, l));
-    if (out->npoint) qsort (out->point, out->npoint, sizeof *out->point, ascending);
+    if (out->npoint) pg_sort (out->point, out->npoint, sizeof *out->point, ascending);
     for (size_t k = 0; k < out->npoint; k++) g.index[out->point[k]] = (int) k;
     for (size_t k = 0; k < out->npart; k++) out->part[k].at = (size_t) g.index[out->part[k].at];
 done:

@@ -107,7 +107,7 @@ static pg_status changed_cells (galerkin *g, const pg_state *state, size_t count
         *n = judge_around (g, state, cell, list, *n);
         list[(*n)++] = cell;
     }
-    qsort (list, *n, sizeof *list, compare);
+    pg_sort (list, *n, sizeof *list, compare);
     for (size_t k = 0; k < *n; k++) if (k == 0 || list[k] != list[k - 1]) list[kept++] = list[k];
     *n = kept, *out = list;
 done:
@@ -210,7 +210,7 @@ static pg_status near_cells (galerkin *g, const pg_state *state, size_t **list, 
     memcpy (grown + count, out, before * sizeof *out);
     galerkin_ended_near (g, grown + count + before);
     count += before + now;
-    qsort (grown, count, sizeof *grown, compare);
+    pg_sort (grown, count, sizeof *grown, compare);
     for (size_t k = 0; k < count; k++) if (kept == 0 || grown[k] != grown[kept - 1]) grown[kept++] = grown[k];
     *n = kept;
     for (size_t k = 0; k < kept; k++)

@@ -112,7 +112,7 @@ static pg_status unite (galerkin *g)
         PG_TRY (add_nodes (d, &p->family, c, (int) c, &cap, &n));
         for (size_t i = d->facet_start[c]; i < d->facet_start[c + 1]; i++)
             PG_TRY (add_nodes (d, &g->rows[PG_FACETS].family, d->facet[i], (int) c, &cap, &n));
-        qsort (d->family.node + d->family.start[c], n - d->family.start[c], sizeof (int), ascending);
+        pg_sort (d->family.node + d->family.start[c], n - d->family.start[c], sizeof (int), ascending);
         d->family.start[c + 1] = n;
     }
 done:

@@ -470,7 +470,7 @@ static pg_status width_of_supports (const pg_problem *p, double *width)
     for (size_t i = 0; i < c->n; i++)
         all[i] = p->approx.horizon * pg_cloud_ratio (c, i)
                  / pow (c->volume[i] / c->thickness, 1.0 / c->dim);
-    qsort (all, c->n, sizeof *all, ascending);
+    pg_sort (all, c->n, sizeof *all, ascending);
     *width = all[c->n / 4];
     if (c->subdomain) PG_TRY (pg_ranks_most (1, width));   /* one polynomial for all ranks */
 done:

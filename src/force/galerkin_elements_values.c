@@ -91,7 +91,7 @@ static pg_status find_shares (const galerkin *g, const pg_block_matrix *Q, doubl
     PG_ALLOC (sorted, g->n);
     compare_diagonals (g, Q, rho);
     memcpy (sorted, rho, g->n * sizeof *rho);
-    qsort (sorted, g->n, sizeof *sorted, ascending);
+    pg_sort (sorted, g->n, sizeof *sorted, ascending);
     double usual = on_surface * sorted[g->n / 2];
     for (size_t i = 0; i < g->n; i++)
         if (beside[i]) share[i] = fmax (0, 1 - sqrt (fmax (0, rho[i] - usual)));

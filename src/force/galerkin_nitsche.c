@@ -260,7 +260,7 @@ static double penalty (const galerkin *g, const constraint *q)
     double h = pg_problem_spacing (p, PG_NODES, node);
     const pg_load *load = &p->load[q->load];
     if (load->kind == PG_SPRING) {
-        const int own = (int) node, *at = bsearch (&own, load->set->point, load->set->npoint, sizeof own,
+        const int own = (int) node, *at = pg_search (&own, load->set->point, load->set->npoint, sizeof own,
                                                    ascending);
         return load->stiffness[q->component] * pg_load_share (load, (size_t) (at - load->set->point));
     }

@@ -121,11 +121,11 @@ static pg_status list_entries (const galerkin *g, galerkin_run_list *l, galerkin
     for (size_t q = 0; q < run->points; q++)
         for (size_t k = f->start[run->point + q]; k < f->start[run->point + q + 1]; k++)
             e[k - first] = (galerkin_entry) { 0, f->node[k], (int) q, k };
-    qsort (e, n, sizeof *e, compare);
+    pg_sort (e, n, sizeof *e, compare);
     for (size_t k = 1; k < n; k++)
         e[k].place = e[k].node == e[k - 1].node ? e[k - 1].place
                      : e[k].node == e[k - 1].node + 1 ? e[k - 1].place + 1 : 0;
-    qsort (e, n, sizeof *e, compare);
+    pg_sort (e, n, sizeof *e, compare);
     l->nentry += n;
 done:
     return status;

@@ -66,7 +66,7 @@ static pg_status unite (pg_consistency *c, const pg_rows *points, size_t nodes)
         for (size_t k = c->guests.start[cell]; k < c->guests.start[cell + 1]; k++)
             n = collect_cell (c, points, (size_t) c->guests.node[k], seen, (int) cell + 1, list, n);
         size_t own = c->cell_family.start[cell];
-        qsort (list, n, sizeof *list, compare_nodes);
+        pg_sort (list, n, sizeof *list, compare_nodes);
         PG_GROW (c->cell_family.node, cap_cell, own + n);
         memcpy (c->cell_family.node + own, list, n * sizeof *list);
         c->cell_family.start[cell + 1] = own + n;

@@ -63,7 +63,7 @@ static void describe (candidate *c, const pg_cells *cells, size_t at, int cell, 
     /* no -0 */
     for (int i = 0; i < c->corners; i++)
         for (size_t k = 0; k < dim; k++) c->corner[3 * i + (int) k] = x[(size_t) node[i] * dim + k] + 0.0;
-    qsort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
+    pg_sort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
 }
 
 /* partner[at]: the number of the same face of the other cell, or -1 on the boundary (n faces). */
@@ -75,7 +75,7 @@ static pg_status pair_up (long *partner, size_t n, const pg_cells *cells)
     PG_ALLOC (all, n);
     for (size_t c = 0; c < cells->n; c++)
         for (int f = 0; f < faces_of (cells, c); f++, at++) describe (&all[at], cells, at, (int) c, f);
-    qsort (all, n, sizeof *all, compare);
+    pg_sort (all, n, sizeof *all, compare);
     for (size_t i = 0; i < n; i++) partner[i] = -1;
     for (size_t i = 0; i + 1 < n; i++) {
         if (compare_corners (&all[i], &all[i + 1])) continue;

@@ -353,7 +353,7 @@ static pg_status see (pg_patches *out, const pg_family *f, size_t nodes)
                 PG_GROW (out->family.node, cap, n + 1);
                 out->family.node[n++] = j;
             }
-        qsort (out->family.node + out->family.start[c], n - out->family.start[c], sizeof (int), ascending);
+        pg_sort (out->family.node + out->family.start[c], n - out->family.start[c], sizeof (int), ascending);
         out->family.start[c + 1] = n;
     }
 done:

@@ -97,6 +97,17 @@ static double count_flops (chol *c, cholmod_sparse *graph, SuiteSparse_long *nod
     return flops;
 }
 
+/* METIS's order of the nodes. METIS takes SIGTERM for a failure of its own and leaves its work by a jump, for
+ * which it puts a handler in place of the caller's: signals from elsewhere wait until it is done. */
+static int metis (chol *c, cholmod_sparse *graph, SuiteSparse_long *node)
+{
+    pg_signals before;
+    pg_signals_hold (&before);
+    int done = cholmod_l_metis (graph, NULL, 0, 1, node, &c->common);
+    pg_signals_release (&before);
+    return done;
+}
+
 /* Fills the permutation of the nodes of G: AMD's, or METIS's where that saves operations. METIS costs about
  * as much as 6000 operations of a factorisation for each entry of the graph (0.3 us at 20 GFLOP/s) and rarely
  * saves more than a sixth of them below some ten thousand unknowns; in slender bodies, and with the wide rows
@@ -118,7 +129,7 @@ static pg_status order_nodes (chol *c, const pg_sparse *G, size_t unknowns, int 
     double flops = block * block * block * c->common.fl;
     if (flops / 6 * (many ? 20 : 1) < 6000 * (double) G->start[G->ncol]) goto done;
     PG_ALLOC (other, G->ncol);
-    if (!cholmod_l_metis (&S, NULL, 0, 1, other, &c->common)) {
+    if (!metis (c, &S, other)) {
         if (c->common.status == CHOLMOD_TOO_LARGE) goto done;
         PG_FAIL (PG_E_MEMORY, "metis could not order %zu nodes", G->ncol);
     }

@@ -136,7 +136,7 @@ static int by_vertex (const void *a, const void *b)
 static size_t number_further (further *list, size_t n, size_t *parts)
 {
     size_t last = 0;
-    if (n) qsort (list, n, sizeof *list, by_vertex);
+    if (n) pg_sort (list, n, sizeof *list, by_vertex);
     for (size_t k = 0; k < n; k++) {
         if (k > 0 && by_vertex (&list[k], &list[last - 1]) == 0) continue;
         list[last] = list[k];
@@ -175,7 +175,7 @@ static pg_status count_parts (level *l, size_t *parts)
     for (size_t e = 0; e < entries; e++) {
         if (!(l->weight[e] > 0) || !l->function[e]) continue;
         further one = { vertex_of (l, e), label[e], 0 };
-        l->function[e] = ((further *) bsearch (&one, list, n, sizeof *list, by_vertex))->part;
+        l->function[e] = ((further *) pg_search (&one, list, n, sizeof *list, by_vertex))->part;
     }
 done:
     pg_free (first), pg_free (list);
@@ -301,7 +301,7 @@ static pg_status make_halo (pg_halo *h, const named *list, size_t n, size_t n_al
         int asks = (int) all[3 * e], asked = (int) all[3 * e + 1];
         if (asked != me && asks != me) continue;
         named one = { (int64_t) all[3 * e + 2], 0 };
-        const named *p = bsearch (&one, list, n, sizeof *list, by_key);
+        const named *p = pg_search (&one, list, n, sizeof *list, by_key);
         if (!p) lost = 1;
         if (asked == me) h->send[at[asks]++] = p ? p->function : 0;
         if (asks == me) h->receive[at[(int) size + asked]++] = p ? p->function : 0;
@@ -329,7 +329,7 @@ static pg_status divide (level *c, const function_of_all *f)
         c->made->nowned += c->made->owned[p];
         list[p] = (named) { f[p].key, (int) p };
     }
-    if (c->n) qsort (list, c->n, sizeof *list, by_key);
+    if (c->n) pg_sort (list, c->n, sizeof *list, by_key);
     PG_TRY (ask (f, c->n, &n, &asked));
     PG_TRY (make_halo (&c->made->halo, list, c->n, n, asked));
     c->part = c->made;

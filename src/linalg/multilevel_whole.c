@@ -40,7 +40,7 @@ static pg_status list_functions (const function_of_all *held, size_t n, int dim,
         (*out)[q] = (function_of_all) { .key = (int64_t) from[0], .vertex = (int64_t) from[1] };
         memcpy ((*out)[q].place, from + NAME, (size_t) dim * sizeof *from);
     }
-    if (*count) qsort (*out, *count, sizeof **out, by_vertex);
+    if (*count) pg_sort (*out, *count, sizeof **out, by_vertex);
 done:
     pg_free (mine), pg_free (all);
     return status;
@@ -54,7 +54,7 @@ static pg_status find_held (pg_multilevel *m, const function_of_all *held, const
     double lost = 0;
     PG_ALLOC (m->whole, m->meet.n);
     for (size_t p = 0; p < m->meet.n; p++) {
-        const function_of_all *a = bsearch (&held[p], all, count, sizeof *all, by_vertex);
+        const function_of_all *a = pg_search (&held[p], all, count, sizeof *all, by_vertex);
         if (a) m->whole[p] = (int) (a - all);
         else lost = 1;
     }
@@ -140,7 +140,7 @@ static void add_row (level *l, size_t p, const double *all, const size_t *begin,
 {
     size_t bb = (size_t) (l->block * l->block), wide = 1 + bb, from = l->start[p],
            m = couplings_of (all, begin, end, wide, from, where, l->node + from);
-    if (m) qsort (l->node + from, m, sizeof *l->node, ascending);
+    if (m) pg_sort (l->node + from, m, sizeof *l->node, ascending);
     for (size_t e = from; e < from + m; e++) where[l->node[e]] = e + 1;
     for (const size_t *k = begin; k < end; k++)
         for (size_t e = 0; e < (size_t) all[*k + 1]; e++) {

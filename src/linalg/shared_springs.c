@@ -45,7 +45,7 @@ static pg_status list_rows (size_t n, const double *all, double **row, size_t *c
     PG_ALLOC (*row, n);
     for (size_t at = 0; at < n; at += HEAD + 2 * (size_t) all[at])
         for (size_t k = 0; k < (size_t) all[at]; k++) (*row)[m++] = all[at + HEAD + 2 * k];
-    if (m) qsort (*row, m, sizeof **row, ascending);
+    if (m) pg_sort (*row, m, sizeof **row, ascending);
     for (size_t k = 0; k < m; k++) if (k == 0 || (*row)[k] != (*row)[last - 1]) (*row)[last++] = (*row)[k];
     *count = last;
 done:
@@ -62,7 +62,7 @@ static int by_number (const void *a, const void *b)
 static long here (const pg_subdomain *part, size_t block, double row)
 {
     int64_t number = (int64_t) row / (int64_t) block;
-    const int64_t *found = bsearch (&number, part->number, part->n, sizeof number, by_number);
+    const int64_t *found = pg_search (&number, part->number, part->n, sizeof number, by_number);
     if (!found || !part->owned[found - part->number]) return -1;
     return (long) (found - part->number) * (long) block + (long) ((int64_t) row % (int64_t) block);
 }
@@ -87,7 +87,7 @@ pg_status springs_share (pg_elements *e, const pg_subdomain *part, pg_sparse *wh
     for (size_t at = 0; at < n; at += HEAD + 2 * (size_t) all[at], c++) {
         held[c] = all[at + 1];
         for (const double *q = all + at + HEAD; q < all + at + HEAD + 2 * (size_t) all[at]; q += 2) {
-            const double *found = bsearch (q, row, nrow, sizeof *row, ascending);
+            const double *found = pg_search (q, row, nrow, sizeof *row, ascending);
             long mine = here (part, block, q[0]);
             put (whole, &i, (size_t) (found - row), q[1]);
             if (mine >= 0) put (&own, &j, (size_t) mine, q[1]);

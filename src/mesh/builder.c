@@ -224,7 +224,7 @@ void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
 {
     snprintf (name, 64, "%ld", group);
     mesh_group key = { .dim = dim, .group = group },
-               *g = group && m->ngroup ? bsearch (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
+               *g = group && m->ngroup ? pg_search (&key, m->groups, m->ngroup, sizeof key, by_group) : NULL;
     /* bsearch may find any of several equal ones. */
     while (g && g > m->groups && by_group (g - 1, &key) == 0) g--;
     if (g) memcpy (name, g->name, 64);
@@ -236,7 +236,7 @@ pg_status pg_mesh_builder_finish (pg_mesh_builder *m, pg_mesh *out)
     pg_status status = PG_OK;
     memset (out, 0, sizeof *out);
     m->out = out;
-    if (m->ngroup) qsort (m->groups, m->ngroup, sizeof *m->groups, by_group_and_name);
+    if (m->ngroup) pg_sort (m->groups, m->ngroup, sizeof *m->groups, by_group_and_name);
     PG_TRY (builder_resolve (m));
     PG_TRY (builder_solids (m));
     PG_TRY (builder_sets (m));

@@ -106,7 +106,7 @@ static pg_status add_sources (builder *b)
         PG_GROW (b->source, b->source_cap, b->nsource + 1);
         b->source[b->nsource++] = s;
     }
-    if (b->nsource) qsort (b->source, b->nsource, sizeof *b->source, by_source);
+    if (b->nsource) pg_sort (b->source, b->nsource, sizeof *b->source, by_source);
     for (size_t k = 0; k < b->nsource; k++)
         if (n == 0 || by_source (&b->source[k], &b->source[n - 1]) != 0) b->source[n++] = b->source[k];
     b->nsource = n;
@@ -142,13 +142,13 @@ static pg_status unite (builder *b)
     size_t *first = NULL;
     PG_ALLOC (first, b->n);
     PG_ALLOC (b->final, b->n);
-    if (b->n) qsort (b->set, b->n, sizeof *b->set, by_name);
+    if (b->n) pg_sort (b->set, b->n, sizeof *b->set, by_name);
     for (size_t k = 0; k < b->n; k++)
         /* After sorting by name, equal ones are neighbours, the first to appear in front. */
         first[b->set[k].place] = k > 0 && !strcmp (b->set[k].name, b->set[k - 1].name)
                                      ? first[b->set[k - 1].place]
                                      : b->set[k].place;
-    if (b->n) qsort (b->set, b->n, sizeof *b->set, by_place);
+    if (b->n) pg_sort (b->set, b->n, sizeof *b->set, by_place);
     for (size_t k = 0; k < b->n; k++) {
         /* Numbers in the order of appearance. */
         b->final[k] = first[k] == k ? b->nfinal++ : b->final[first[k]];
@@ -236,7 +236,7 @@ done:
 static size_t set_of (const builder *b, size_t e)
 {
     source key = { pg_element_types[b->m->kind[e]].dim, b->m->group[e], 0 };
-    return ((source *) bsearch (&key, b->source, b->nsource, sizeof key, by_source))->set;
+    return ((source *) pg_search (&key, b->source, b->nsource, sizeof key, by_source))->set;
 }
 
 /* All nodes of these elements join their sets. */
@@ -298,7 +298,7 @@ static pg_status list_lower (const builder *b, size_t *n, lower **list, unsigned
         (*list)[(*n)++] = l;
         for (int k = 0; k < type->corners; k++) mark[l.key[k]] = 1;
     }
-    if (*n) qsort (*list, *n, sizeof **list, by_corners_and_set);
+    if (*n) pg_sort (*list, *n, sizeof **list, by_corners_and_set);
 done:
     return status;
 }
@@ -326,7 +326,7 @@ static pg_status add_lower_sides (builder *b)
             lower key = { { -1, -1, -1, -1 }, 0, 0 };
             mesh_face_key (out, e, f, key.key);
             if (!all_marked (mark, key.key)) continue;
-            lower *l = bsearch (&key, list, n, sizeof key, by_corners);
+            lower *l = pg_search (&key, list, n, sizeof key, by_corners);
             while (l && l > list && by_corners (l - 1, &key) == 0) l--;
             for (; l && l < list + n && by_corners (l, &key) == 0; l++) {
                 if (!l->found) PG_TRY (add_side (b, l->set, e, f));
@@ -349,7 +349,7 @@ static int by_pair (const void *p, const void *q)
 static void sort_pairs (pairs *p)
 {
     size_t n = 0;
-    if (p->n) qsort (p->pair, p->n, sizeof *p->pair, by_pair);
+    if (p->n) pg_sort (p->pair, p->n, sizeof *p->pair, by_pair);
     for (size_t k = 0; k < p->n; k++) if (n == 0 || p->pair[k] != p->pair[n - 1]) p->pair[n++] = p->pair[k];
     p->n = n;
 }

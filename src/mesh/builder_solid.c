@@ -64,7 +64,7 @@ static int same_nodes (const pg_mesh_builder *m, size_t e, size_t f)
     size_t n = length (m, e);
     if (m->kind[e] != m->kind[f]) return 0;
     memcpy (a, m->index + m->start[e], n * sizeof *a), memcpy (b, m->index + m->start[f], n * sizeof *b);
-    qsort (a, n, sizeof *a, by_int), qsort (b, n, sizeof *b, by_int);
+    pg_sort (a, n, sizeof *a, by_int), pg_sort (b, n, sizeof *b, by_int);
     return !memcmp (a, b, n * sizeof *a);
 }
 
@@ -261,7 +261,7 @@ static pg_status list_groups (const pg_mesh_builder *m, size_t *n, long **group)
         PG_GROW (*group, cap, *n + 1);
         (*group)[(*n)++] = m->group[e];
     }
-    qsort (*group, *n, sizeof **group, by_long);
+    pg_sort (*group, *n, sizeof **group, by_long);
     for (size_t i = 0; i < *n; i++) if (k == 0 || (*group)[i] != (*group)[k - 1]) (*group)[k++] = (*group)[i];
     *n = k;
 done:
@@ -285,7 +285,7 @@ static pg_status make_blocks (pg_mesh_builder *m)
     for (size_t e = 0, b = 0; e < m->n; e++) {
         if (m->solid[e] < 0) continue;
         if (group[b] != m->group[e])
-            b = (size_t) ((long *) bsearch (&m->group[e], group, n, sizeof *group, by_long) - group);
+            b = (size_t) ((long *) pg_search (&m->group[e], group, n, sizeof *group, by_long) - group);
         out->block[m->solid[e]] = (int) b;
         out->blocks[b].n++;
     }

@@ -54,7 +54,7 @@ static void open_faces (entry *b, size_t n, unsigned char *open)
 {
     /* Large buckets are sorted: equal faces become neighbours. */
     if (n > FEW) {
-        qsort (b, n, sizeof *b, by_key);
+        pg_sort (b, n, sizeof *b, by_key);
         for (size_t i = 0; i < n; i++)
             open[b[i].face] = !(i > 0 && same (&b[i], &b[i - 1])) && !(i + 1 < n && same (&b[i], &b[i + 1]));
         return;

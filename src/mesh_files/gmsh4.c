@@ -117,7 +117,7 @@ static pg_status read_entities (reader *r)
     for (int dim = 0; dim < 4; dim++)
         for (long k = 0; k < count[dim]; k++)
             PG_TRY (g->binary ? entity_of_bytes (r, dim) : entity_of_text (r, dim));
-    if (r->nentity) qsort (r->entities, r->nentity, sizeof *r->entities, by_entity);
+    if (r->nentity) pg_sort (r->entities, r->nentity, sizeof *r->entities, by_entity);
     PG_TRY (gmsh_end (g, "Entities"));
 done:
     return status;
@@ -281,7 +281,7 @@ static pg_status read_block (reader *r, long *left)
     PG_TRY (block_head (g, "a block of elements", head, left));
     /* An entity that is not listed belongs to no group. */
     entity key = { .dim = head[0], .tag = head[1] };
-    const entity *e = r->nentity ? bsearch (&key, r->entities, r->nentity, sizeof key, by_entity) : NULL;
+    const entity *e = r->nentity ? pg_search (&key, r->entities, r->nentity, sizeof key, by_entity) : NULL;
     if (head[3] == 0) return PG_OK;
     PG_TRY (gmsh_kind (g, head[2], first_number (g), &t));
     if (g->binary) PG_TRY (elements_of_bytes (r, e, &t, head[3]));

@@ -26,7 +26,7 @@ static int ascending (const void *a, const void *b)
 static void sort_changes (pg_changes *cut)
 {
     size_t n = 0;
-    qsort (cut->bond, cut->n, sizeof *cut->bond, ascending);
+    pg_sort (cut->bond, cut->n, sizeof *cut->bond, ascending);
     for (size_t i = 0; i < cut->n; i++)
         if (n == 0 || cut->bond[i] != cut->bond[n - 1]) cut->bond[n++] = cut->bond[i];
     cut->n = n;

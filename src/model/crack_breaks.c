@@ -24,7 +24,7 @@ pg_status pg_crack_breaks (const pg_problem *p, const double *a, const double *b
         PG_GROW (all, cap, count + 2);
         all[count++] = in[0], all[count++] = in[1];
     }
-    qsort (all, count, sizeof *all, ascending);
+    pg_sort (all, count, sizeof *all, ascending);
     for (size_t i = 0; i < count; i++)
         if (i == 0 || (all[i] - all[kept - 1]) * length > 8 * nothing) all[kept++] = all[i];
     all[kept - 1] = 1;

@@ -217,7 +217,7 @@ static pg_status group (const entry *all, size_t n, const int uses[MOST], int *o
         sorted[i] = all[i];
         for (int k = 0; k < MOST; k++) if (!uses[k]) sorted[i].value[k] = 0;
     }
-    qsort (sorted, n, sizeof *sorted, by_value);
+    pg_sort (sorted, n, sizeof *sorted, by_value);
     *count = 0;
     for (size_t i = 0; i < n; i++) {
         const entry *a = &sorted[i], *b = *count ? &sorted[*count - 1] : NULL;
@@ -227,7 +227,7 @@ static pg_status group (const entry *all, size_t n, const int uses[MOST], int *o
     }
     PG_ALLOC (*first, *count + 1);
     memcpy (*first, sorted, *count * sizeof **first);
-    qsort (*first, *count, sizeof **first, by_point);
+    pg_sort (*first, *count, sizeof **first, by_point);
     for (size_t g = 0; g < *count; g++) of[(*first)[g].at] = (int) g;
     for (size_t i = 0; i < n; i++) of[i] = of[leader[i]];
 done:

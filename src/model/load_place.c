@@ -294,7 +294,7 @@ static pg_status list_near (place *a)
     a->nnear = numbers / NEAR;
     PG_ALLOC (a->near, a->nnear);
     if (numbers) memcpy (a->near, all, numbers * sizeof *all);
-    qsort (a->near, a->nnear, sizeof *a->near, ascending);
+    pg_sort (a->near, a->nnear, sizeof *a->near, ascending);
 done:
     pg_free (mine), pg_free (all);
     return status;

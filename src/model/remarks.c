@@ -139,7 +139,7 @@ static size_t list_parts (const pg_problem *p, int *parent, const double *label,
 static size_t merge_parts (part *all, size_t n)
 {
     size_t last = 0;
-    qsort (all, n, sizeof *all, by_label);
+    pg_sort (all, n, sizeof *all, by_label);
     for (size_t k = 1; k < n; k++)
         if (all[k].label == all[last].label) all[last].count += all[k].count;
         else all[++last] = all[k];

@@ -51,7 +51,11 @@ int main (int argc, char **argv)
     }
     setenv ("OMP_THREAD_LIMIT", "1", 0);
     setenv ("OPENBLAS_NUM_THREADS", "1", 0);
-    if (MPI_Init (&argc, &argv) != MPI_SUCCESS) {
+    pg_signals before;
+    pg_signals_hold (&before);                         /* in the threads of MPI */
+    int joined = MPI_Init (&argc, &argv) == MPI_SUCCESS;
+    pg_signals_release (&before);
+    if (!joined) {
         fprintf (stderr, "perigal-mpi: MPI does not start\n");
         return PG_EXIT_FAILED;
     }

@@ -27,7 +27,7 @@ pg_status pg_draw_bars (const char *path, const pg_cloud *cloud, size_t npanel, 
         const double *u = panel[k].u;
         for (size_t i = 0; i < n; i++)
             pair[2 * i] = cloud->x[i] + (u ? style->magnify * u[i] : 0), pair[2 * i + 1] = panel[k].value[i];
-        qsort (pair, n, 2 * sizeof (double), by_place);
+        pg_sort (pair, n, 2 * sizeof (double), by_place);
         for (size_t i = 0; i < n; i++) x[k * n + i] = pair[2*i], y[k * n + i] = pair[2*i + 1];
         curve[k] = (pg_curve) { panel[k].title, n, x + k * n, y + k * n, n <= 60 };
     }

@@ -120,7 +120,7 @@ static int spreads (const pg_cloud *cloud, int axis, double *work)
         c += cos (6.283185307179586 * work[i] / step), s += sin (6.283185307179586 * work[i] / step);
     }
     if (hypot (c, s) >= 0.3 * (double) n) return 0;
-    qsort (work, n, sizeof *work, ascending);
+    pg_sort (work, n, sizeof *work, ascending);
     for (size_t i = 1; i < n; i++) own += work[i] - work[i - 1] > 1e-6 * step;
     return 3 * own > n;
 }
@@ -136,7 +136,7 @@ pg_status pg_loose_spacing (const pg_cloud *cloud, double **spacing)
     if (!spreads (cloud, 0, sorted) || !spreads (cloud, 1, sorted)) goto done;
     PG_ALLOC (*spacing, cloud->n);
     for (size_t i = 0; i < cloud->n; i++) sorted[i] = cloud->volume ? cloud->volume[i] : 1;
-    qsort (sorted, cloud->n, sizeof *sorted, ascending);
+    pg_sort (sorted, cloud->n, sizeof *sorted, ascending);
     double middle = sorted[cloud->n / 2];
     for (size_t i = 0; i < cloud->n; i++)
         (*spacing)[i] = cloud->h * sqrt (cloud->volume && middle > 0 ? cloud->volume[i] / middle : 1);

@@ -77,7 +77,7 @@ static pg_status find_limit (pg_tiles *t)
             strain[m++] = strain_of (t, i, j);
         }
     }
-    if (m) qsort (strain, m, sizeof *strain, ascending);
+    if (m) pg_sort (strain, m, sizeof *strain, ascending);
     double usual = m ? strain[(size_t) (0.95 * (double) (m - 1))] : 0;
     t->limit = t->damage ? fmax (3 * usual, 0.02) : fmax (6 * usual, 0.5);
 done:

@@ -52,7 +52,7 @@ static pg_status check_twins (const pg_cloud *c)
         p[i].point = i;
         memcpy (p[i].x, c->x + i * dim, dim * sizeof *c->x);
     }
-    qsort (p, c->n, sizeof *p, by_place);
+    pg_sort (p, c->n, sizeof *p, by_place);
     for (size_t i = 1; i < c->n; i++)
         if (!memcmp (p[i].x, p[i - 1].x, sizeof p[i].x))
             PG_FAIL (PG_E_USAGE, "points %zu and %zu are at the same place", p[i - 1].point + 1,

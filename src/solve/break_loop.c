@@ -141,7 +141,7 @@ static pg_status share_changes (break_loop *b, pg_state *state)
         PG_GROW (b->changes.bond, b->changes.cap, b->changes.n + 1);
         state->alive[bond] = 0, b->changes.bond[b->changes.n++] = bond;
     }
-    if (b->changes.n > own) qsort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, ascending);
+    if (b->changes.n > own) pg_sort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, ascending);
 done:
     pg_free (mine), pg_free (all);
     return status;

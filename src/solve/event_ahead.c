@@ -91,7 +91,7 @@ static pg_status revive (pg_solver *s, event_ahead *q, pg_state *state, size_t k
         q->undone.bond[q->undone.n++] = q->broken[i].bond;
     }
     if (q->undone.n == 0) return PG_OK;
-    qsort (q->undone.bond, q->undone.n, sizeof *q->undone.bond, ascending);
+    pg_sort (q->undone.bond, q->undone.n, sizeof *q->undone.bond, ascending);
     PG_TRY (refresh (s, state, &q->undone));
 done:
     return status;

@@ -375,7 +375,7 @@ done:
 static pg_status log_all (break_loop *b, pg_state *state, double utilisation, double t)
 {
     pg_status status = PG_OK;
-    qsort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, ascending);
+    pg_sort (b->changes.bond, b->changes.n, sizeof *b->changes.bond, ascending);
     for (size_t i = 0; i < b->changes.n; i++)
         PG_TRY (break_loop_log (b, b->changes.bond[i], 'f', utilisation, t));
     state->broken += (long) b->changes.n;

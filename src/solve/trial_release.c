@@ -102,7 +102,7 @@ static pg_status restore (trials *w, const pg_state *state, size_t n, const pg_c
         if (cut[k].n) memcpy (all.bond + all.n, cut[k].bond, cut[k].n * sizeof *all.bond);
         all.n += cut[k].n;
     }
-    qsort (all.bond, all.n, sizeof *all.bond, ascending);
+    pg_sort (all.bond, all.n, sizeof *all.bond, ascending);
     PG_TRY (s->force->refresh (s->self, state, &all));
 done:
     pg_free (all.bond);

@@ -34,7 +34,7 @@ void pg_bench_spread (const pg_bench_case *c, double *least, double *median, dou
     *least = *median = *largest = NAN;
     if (n == 0) return;
     memcpy (sorted, c->cpu, n * sizeof *sorted);
-    qsort (sorted, n, sizeof *sorted, ascending);
+    pg_sort (sorted, n, sizeof *sorted, ascending);
     *least = sorted[0], *largest = sorted[n - 1];
     *median = 0.5 * (sorted[(n - 1) / 2] + sorted[n / 2]);
 }

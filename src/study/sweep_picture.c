@@ -62,7 +62,7 @@ static size_t places_of (place *out, const sweep *s, const axes *a, size_t first
         if (same_curve (s, a, first, i) && s->result[i].code == PG_EXIT_DONE && isfinite (y))
             out[n++] = (place) { s->key[a->x].number[s->index[i * s->nkey + a->x]], factor * y };
     }
-    qsort (out, n, sizeof *out, by_x);
+    pg_sort (out, n, sizeof *out, by_x);
     return n;
 }
 

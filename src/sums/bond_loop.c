@@ -192,7 +192,7 @@ pg_status pg_changes_append (pg_changes *to, size_t n, size_t *bond)
 {
     pg_status status = PG_OK;
     if (n == 0) return PG_OK;
-    qsort (bond, n, sizeof *bond, ascending);
+    pg_sort (bond, n, sizeof *bond, ascending);
     PG_GROW (to->bond, to->cap, to->n + n);
     memcpy (to->bond + to->n, bond, n * sizeof *bond);
     to->n += n;

@@ -72,7 +72,7 @@ static size_t visit (const walk *w, size_t i, int *node)
         if (node) node[n] = j;
         n++;
     }
-    if (node && !w->sums->ordered) qsort (node, n, sizeof *node, ascending);
+    if (node && !w->sums->ordered) pg_sort (node, n, sizeof *node, ascending);
     return n;
 }
 
@@ -205,7 +205,7 @@ static pg_status by_search (pg_family *out, const pg_sums *sums)
     PG_ALLOC (out->node, out->start[n]);
     PG_TRY (spread (sums, &near, next, out->node));
     for (size_t i = 0; cloud->size && i < n; i++)
-        qsort (out->node + out->start[i], out->start[i + 1] - out->start[i], sizeof *out->node, ascending);
+        pg_sort (out->node + out->start[i], out->start[i + 1] - out->start[i], sizeof *out->node, ascending);
 done:
     pg_free (next);
     pg_family_clear (&near);

@@ -34,7 +34,7 @@ static void cut (item *items, size_t n, const pg_cloud *cloud, const double *wid
 {
     size_t dim = (size_t) cloud->dim, pieces = (n + chunk - 1) / chunk;
     for (size_t k = 0; k < n; k++) items[k].key = cloud->x[(size_t) items[k].point * dim + (size_t) axis];
-    qsort (items, n, sizeof *items, by_key);
+    pg_sort (items, n, sizeof *items, by_key);
     if (axis == 0 || pieces <= 1) return;
     double length = items[n - 1].key - items[0].key, space = (double) pieces;
     for (int k = 0; k < axis; k++) {
@@ -103,7 +103,7 @@ pg_status pg_list_order (bond_list *list)
         size_t last = list->n - first < list->chunk ? list->n : first + list->chunk;
         count_bonds (loads, list, first, last);
         for (size_t k = first; k < last; k += TILE)
-            qsort (loads + (k - first), last - k < TILE ? last - k : TILE, sizeof *loads, by_load);
+            pg_sort (loads + (k - first), last - k < TILE ? last - k : TILE, sizeof *loads, by_load);
         for (size_t p = first; p < last; p++) list->point[p] = loads[p - first].point;
     }
     for (size_t p = 0; p < list->n; p++) list->before[list->point[p]] = list->rank[list->point[p]];

@@ -50,7 +50,7 @@ static pg_status coordinates (const pg_cloud *cloud, int k, size_t *n, double **
         if (pg_owns (cloud->subdomain, i)) mine[m++] = cloud->x[i * (size_t) cloud->dim + (size_t) k];
     PG_TRY (pg_ranks_collect (m * sizeof *mine, mine, &bytes, &all));
     *x = all, *n = bytes / sizeof **x;
-    if (*n) qsort (*x, *n, sizeof **x, ascending);
+    if (*n) pg_sort (*x, *n, sizeof **x, ascending);
 done:
     pg_free (mine);
     return status;

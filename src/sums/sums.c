@@ -142,7 +142,7 @@ pg_status pg_sums_median (double *out, const pg_cloud *cloud, const double *volu
     PG_TRY (pg_ranks_collect (m * sizeof *mine, mine, &bytes, &collected));
     all = collected, m = bytes / sizeof *all;
     if (m) {
-        qsort (all, m, sizeof *all, ascending);
+        pg_sort (all, m, sizeof *all, ascending);
         *out = m % 2 ? all[m / 2] : 0.5 * (all[m / 2 - 1] + all[m / 2]);
     }
     PG_TRY (pg_ranks_sum (1, out));                    /* of one rank, which has collected them */

@@ -1,0 +1,58 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Signals that ask a run to stop. A thread of its own waits for them, and all others hold them back: they are
+ * noted whatever the run is in at that moment, no system call is cut short, and libraries that put handlers
+ * of their own in place (METIS for the time of an ordering, PETSc from its start on) do not get them.
+ * Commands of many runs count signals instead (stops.c). */
+#include "cli.h"
+#include <pthread.h>
+#include <signal.h>
+#include <stdatomic.h>
+
+/* Number of the first signal, 0: none yet; and the signals that are waited for. One set per process. */
+static atomic_int first;
+static sigset_t waited;
+
+int run_asked_to_stop (void) { return atomic_load (&first); }
+
+/* The second signal of its kind ends the process at once, as if nobody had listened. */
+static void *wait_for_signals (void *none)
+{
+    int number;
+    sigset_t seen;
+    pg_signals before;
+    pg_signals_hold (&before);
+    sigemptyset (&seen);
+    while (sigwait (&waited, &number) == 0) {
+        if (!sigismember (&seen, number)) {
+            sigaddset (&seen, number);
+            atomic_store (&first, number);
+            continue;
+        }
+        signal (number, SIG_DFL);
+        pthread_sigmask (SIG_UNBLOCK, &seen, NULL);
+        raise (number);
+    }
+    return none;
+}
+
+/* SIGINT, SIGTERM, SIGHUP and SIGUSR1 (which mpirun passes on to its ranks and batch systems send ahead of
+ * their limit). Those that the caller ignores (nohup) stay ignored, SIGINT excepted: a shell that starts a
+ * command in the background has it ignored. Where no thread can be had, signals end the run as they come.
+ * A file that grows beyond its limit is an error of writing, not a signal. */
+void run_listen (void)
+{
+    static const int asking[] = { SIGINT, SIGTERM, SIGHUP, SIGUSR1 };
+    struct sigaction before;
+    pthread_t thread;
+    sigemptyset (&waited);
+    for (size_t k = 0; k < sizeof asking / sizeof *asking; k++) {
+        if (sigaction (asking[k], NULL, &before) != 0) continue;
+        if (before.sa_handler == SIG_IGN && asking[k] != SIGINT) continue;
+        signal (asking[k], SIG_DFL);
+        sigaddset (&waited, asking[k]);
+    }
+    signal (SIGXFSZ, SIG_IGN);
+    pthread_sigmask (SIG_BLOCK, &waited, NULL);
+    if (pthread_create (&thread, NULL, wait_for_signals, NULL) == 0) pthread_detach (thread);
+    else pthread_sigmask (SIG_UNBLOCK, &waited, NULL);
+}
