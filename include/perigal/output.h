@@ -66,13 +66,17 @@ pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *clo
  * triangle of 3. Their places (m), the points whose values they take, and the time of the first step at which
  * it exists. */
 typedef struct { double x[3][3]; size_t point[3]; double since; } pg_exodus_piece;
-/* Adds n faces to a file that is complete, as a block of elements named "cracks" (BAR2, TRI3), and closes it.
- * Each takes the displacements of its own side, so that a crack is shown open. The element variable `exists`
- * is 1 from the `since` of a face on, else 0. The file is copied and takes the place of the old one when the
- * copy is whole; nothing can be appended to it any more. Cloud, title and fields are those of its creation.
- * */
-pg_status pg_exodus_add_pieces (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
-                                const pg_exodus_piece *piece);
+/* Adds n faces to a file that is complete, as a block of elements named "cracks" (BAR2, TRI3). Each takes the
+ * displacements of its own side, so that a crack is shown open. The element variable `exists` is 1 from the
+ * `since` of a face on, else 0. Cloud, title and fields are those of its creation. The result is a copy under
+ * the name PATH.new, which is on the disk when the call returns; the file itself stays, and can be appended
+ * to. n 0: there is no copy. */
+pg_status pg_exodus_prepare_pieces (const pg_exodus *file, const pg_cloud *cloud, const char *title, size_t n,
+                                    const pg_exodus_piece *piece);
+/* The copy, where there is one, takes the place of the file PATH, to which nothing more can be appended;
+ * drop: the copy is removed. */
+pg_status pg_exodus_commit_pieces (const char *path);
+void      pg_exodus_drop_pieces   (const char *path);
 /* Appends a step: the fields in the order of the creation, with values. `time` is in s (a load
  * factor in static runs). If it fails, the file is as it was before. */
 pg_status pg_exodus_write  (pg_exodus *file, double time, const pg_field_view *fields);
@@ -105,6 +109,8 @@ void      pg_folder_remove (const char *path);
 /* Creates a file for writing, to be closed with fclose. A file or a symbolic link in its place
  * is removed first, so that nothing is ever written through a link. PG_E_FILE. */
 pg_status pg_file_create (FILE **out, const char *path);
+/* Waits until the system has put a file or a folder on the disk. PG_E_FILE. */
+pg_status pg_file_sync (const char *path);
 /* Reads a whole file, also a pipe, into *text, which ends in a zero byte and is to be freed with pg_free;
  * *size (unless NULL): its bytes without that one. NULL on failure. PG_E_FILE. */
 pg_status pg_file_text (char **text, size_t *size, const char *path);

@@ -363,6 +363,8 @@ const pg_statistics *pg_solver_report (pg_solver *solver, const pg_state *state)
  * follows; nothing alone. */
 pg_status pg_solver_share_report (pg_solver *solver);
 const pg_statistics *pg_solver_report_now (const pg_solver *solver);  /* counts and energies only */
+/* Adds a warning to the report, of those who use the solver. */
+void pg_solver_warn (pg_solver *solver, const char *format, ...) __attribute__ ((format (printf, 2, 3)));
 /* The force behind it, for fields and gauges. */
 const pg_force_type *pg_solver_force (const pg_solver *solver, void **self);
 const char *pg_solver_names (void);

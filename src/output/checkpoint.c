@@ -181,7 +181,7 @@ static pg_status write_file (checkpoint *c, pg_keep walk, void *context)
     c->defining = 0;
     PG_TRY (make_walk (c, walk, context));
     PG_TRY (netcdf_finish (&c->to));
-    PG_TRY (pg_disk_sync (c->path));
+    PG_TRY (pg_file_sync (c->path));
 done:
     netcdf_abandon (&c->to);
     return status;
@@ -195,7 +195,7 @@ static pg_status sync_folder_of (const char *path, char *work)
     size_t n = slash == path ? 1 : slash ? (size_t) (slash - path) : 1;
     memcpy (work, slash ? path : ".", n);
     work[n] = 0;
-    return pg_disk_sync (work);
+    return pg_file_sync (work);
 }
 
 /* A run that is killed here leaves PATH.new at worst; the checkpoint before it stays valid.

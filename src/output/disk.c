@@ -96,7 +96,7 @@ done:
 }
 
 /* Syncing a folder is not supported everywhere; EINVAL and ENOTSUP therefore count as success. */
-pg_status pg_disk_sync (const char *path)
+pg_status pg_file_sync (const char *path)
 {
     int file = open (path, O_RDONLY);
     if (file < 0) return pg_error (PG_E_FILE, PG_HERE, "%s: %s", path, strerror (errno));

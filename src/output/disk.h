@@ -13,6 +13,4 @@ pg_status pg_disk_cut   (const char *path, int file, long bytes);
 /* Creates a file to be read and written. A regular file or a symbolic link in its place is
  * removed first, so that nothing is written through a link. */
 pg_status pg_disk_create (const char *path, int *file);
-/* Waits until a file or a folder, named by its path, is on the disk. */
-pg_status pg_disk_sync  (const char *path);
 #endif

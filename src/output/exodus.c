@@ -200,6 +200,7 @@ pg_status pg_exodus_open (pg_exodus **out, const char *path, const pg_cloud *clo
     f->step = (size_t) steps;
     PG_TRY (count_records (f, f->step));
     PG_TRY (pg_disk_cut (path, f->file, bytes));
+    pg_exodus_drop_pieces (path);                      /* of a run that was killed at its end */
     *out = f;
     f = NULL;
 done:
@@ -324,35 +325,42 @@ static pg_status copy_records (const pg_exodus *f, pg_exodus *wide, size_t m, co
     PG_ALLOC (new, (size_t) wide->record / sizeof *new);
     for (size_t k = 0; k < f->step; k++) PG_TRY (widen_record (f, wide, m, piece, old, new));
     PG_TRY (count_records (wide, wide->step));
-    PG_TRY (pg_disk_sync (wide->path));
+    PG_TRY (pg_file_sync (wide->path));
 done:
     pg_free (old), pg_free (new);
     return status;
 }
 
-pg_status pg_exodus_add_pieces (pg_exodus **file, const pg_cloud *cloud, const char *title, size_t n,
-                               const pg_exodus_piece *piece)
+/* PATH.new. */
+static pg_status name_fresh (char **out, const char *path)
 {
     pg_status status = PG_OK;
-    pg_exodus *f = *file, wide = { .file = -1 };
+    size_t size = strlen (path) + 5;
+    PG_ALLOC (*out, size);
+    snprintf (*out, size, "%s.new", path);
+done:
+    return status;
+}
+
+pg_status pg_exodus_prepare_pieces (const pg_exodus *f, const pg_cloud *cloud, const char *title, size_t n,
+                                    const pg_exodus_piece *piece)
+{
+    pg_status status = PG_OK;
+    pg_exodus wide = { .file = -1 };
     char *fresh = NULL;
-    size_t size = strlen (f->path) + 5;
     if (n == 0) return PG_OK;
     size_t each = (size_t) f->dim;
     for (size_t i = 0; i < each * n; i++)
         if (piece[i / each].point[i % each] >= f->n)
             PG_FAIL (PG_E_USAGE, "%s: a piece of a crack hangs on point %zu of %zu", f->path,
                      piece[i / each].point[i % each], f->n);
-    PG_ALLOC (fresh, size);
-    snprintf (fresh, size, "%s.new", f->path);
-    wide.path = fresh;
+    PG_TRY (name_fresh (&fresh, f->path));
+    wide = (pg_exodus) { .file = -1, .dim = f->dim, .path = fresh };
     exodus_layout layout = {
         fresh, cloud, title, f->nfield + (size_t) f->extra, f->nvar, f->field, f->volume, n, piece, NULL
     };
     PG_TRY (pg_exodus_layout_write (&layout));
     PG_TRY (copy_records (f, &wide, n, piece));
-    if (rename (fresh, f->path) != 0) PG_FAIL (PG_E_FILE, "%s: %s", f->path, strerror (errno));
-    pg_exodus_close (file);
 done:
     if (wide.file >= 0) close (wide.file);
     if (status != PG_OK && fresh) remove (fresh);
@@ -360,7 +368,25 @@ done:
     return status;
 }
 
-pg_status pg_exodus_sync (const pg_exodus *f) { return pg_disk_sync (f->path); }
+pg_status pg_exodus_commit_pieces (const char *path)
+{
+    pg_status status = PG_OK;
+    char *fresh = NULL;
+    PG_TRY (name_fresh (&fresh, path));
+    if (rename (fresh, path) != 0 && errno != ENOENT) PG_FAIL (PG_E_FILE, "%s: %s", fresh, strerror (errno));
+done:
+    pg_free (fresh);
+    return status;
+}
+
+void pg_exodus_drop_pieces (const char *path)
+{
+    char *fresh = NULL;
+    if (name_fresh (&fresh, path) == PG_OK) remove (fresh);
+    pg_free (fresh);
+}
+
+pg_status pg_exodus_sync (const pg_exodus *f) { return pg_file_sync (f->path); }
 
 /* Nothing is left to write: every step was complete when its call returned. */
 void pg_exodus_close (pg_exodus **file)

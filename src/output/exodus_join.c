@@ -178,7 +178,7 @@ static pg_status read_whole (parts *p)
     PG_ALLOC (all->block, n);
     PG_ALLOC (p->order, n);
     for (int k = 0; k < p->size; k++) PG_TRY (add_points (p, k, &at));
-    qsort (p->order, n, sizeof *p->order, ascending);
+    pg_sort (p->order, n, sizeof *p->order, ascending);
     for (size_t i = 1; i < n; i++)
         if (p->order[i].number == p->order[i - 1].number)
             PG_FAIL (PG_E_FILE, "%s: two parts have the same point", p->folder);

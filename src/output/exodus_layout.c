@@ -383,7 +383,7 @@ static pg_status find_blocks (writer *w)
     if (w->l->share) return find_blocks_of_whole (w);
     if (!w->l->cloud->block) goto done;
     memcpy (w->block, w->l->cloud->block, w->n * sizeof *w->block);
-    qsort (w->block, w->n, sizeof *w->block, ascending);
+    pg_sort (w->block, w->n, sizeof *w->block, ascending);
     for (size_t i = 1; i < w->n; i++)
         if (w->block[i] != w->block[w->nblock - 1]) w->block[w->nblock++] = w->block[i];
 done:

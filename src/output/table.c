@@ -228,7 +228,7 @@ pg_status pg_table_line_later (pg_table *t, const char *const *values)
     return status != PG_OK || t->length > ENOUGH ? conclude (t, status) : PG_OK;
 }
 
-pg_status pg_table_sync (const pg_table *t) { return pg_disk_sync (t->path); }
+pg_status pg_table_sync (const pg_table *t) { return pg_file_sync (t->path); }
 
 /* Rows that wait belong to something that has failed: what is whole has been written. */
 void pg_table_close (pg_table **table)

@@ -156,7 +156,7 @@ pg_status pg_result_paths_lines (pg_result *r, const pg_state *state)
         last = fmax (last, since[k]);
     }
     if (state->surfaces) PG_TRY (put_fronts (&all, &s, near, state->surfaces, last));
-    PG_TRY (pg_exodus_add_pieces (&r->file, &r->problem->cloud, r->problem->title, all.n, all.piece));
+    PG_TRY (pg_exodus_prepare_pieces (r->file, &r->problem->cloud, r->problem->title, all.n, all.piece));
 done:
     pg_nearest_free (&near);
     pg_free (all.piece), pg_free (since);

@@ -69,8 +69,7 @@ pg_status pg_result_join_fields (pg_result *r)
 {
     pg_status status = PG_OK;
     if (!r->problem->cloud.subdomain || r->in_parts) return PG_OK;
-    pg_exodus_close (&r->file);
-    PG_TRY (pg_ranks_agree (PG_OK));                   /* all parts are complete */
+    PG_TRY (pg_ranks_agree (PG_OK));                   /* all have written their last step */
     if (pg_rank () == 0) status = pg_exodus_join (r->folder, 1);
     PG_TRY (pg_ranks_agree (status));
 done:

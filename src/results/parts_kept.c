@@ -118,7 +118,7 @@ static pg_status sort_numbers (const pg_problem *p, int set, size_t *n, parts_nu
     PG_TRY (pg_problem_numbers (p, set, &number));
     PG_ALLOC (*out, *n);
     for (size_t i = 0; i < *n; i++) (*out)[i] = (parts_number) { number[i], i };
-    qsort (*out, *n, sizeof **out, ascending);
+    pg_sort (*out, *n, sizeof **out, ascending);
 done:
     pg_free (number);
     return status;

@@ -118,44 +118,58 @@ done:
     return status;
 }
 
+/* A picture that cannot be drawn is no reason for a run to fail: what it computed does not depend on it. The
+ * same reason is told once, with the first picture it keeps from being drawn. */
+static void miss_picture (pg_result *r, const char *path, pg_status status)
+{
+    const char *reason = pg_last_error (), *slash = strrchr (path, '/');
+    if (status == PG_OK || strncmp (r->undrawn, reason, sizeof r->undrawn - 1) == 0) return;
+    snprintf (r->undrawn, sizeof r->undrawn, "%s", reason);
+    pg_solver_warn (r->solver, "pictures could not be drawn, %s among them: %s", slash ? slash + 1 : path,
+                    reason);
+}
+
+/* Takes note of a picture that was drawn, or that was not. */
+static void list_picture (pg_result *r, const char *path, pg_status status, int listed)
+{
+    if (status != PG_OK) miss_picture (r, path, status);
+    else if (listed) snprintf (r->written[r->nwritten++], sizeof *r->written, "%s", path);
+}
+
 /* Fields have at most three values a point in the plane and six in space: r->u has room for two of these and
  * for one. Draws all pictures into FOLDER/within; `suffix` follows their names. listed: they belong to
  * those that the run names at its end. Forces that show no fields have no pictures. */
-static pg_status draw_all (pg_result *r, const pg_state *state, const char *within, const char *suffix,
-                           int listed)
+static void draw_all (pg_result *r, const pg_state *state, const char *within, const char *suffix, int listed)
 {
-    pg_status status = PG_OK;
-    double *more = NULL, *work = r->u, *u = r->u + 3 * r->problem->cloud.n;
+    size_t n = r->problem->cloud.n;
+    double *more = r->problem->dim == 3 ? pg_calloc (6 * n, sizeof *more) : NULL;
+    double *work = more ? more : r->u, *u = more ? r->u : r->u + 3 * n;
     char path[4096];
-    if (r->problem->dim == 3) PG_ALLOC (more, 6 * r->problem->cloud.n);
-    if (more) work = more, u = r->u;
     for (size_t k = 0; pg_solver_force (r->solver, NULL)->field && k < r->npicture; k++) {
         snprintf (path, sizeof path, "%s/%s%s%s.png", r->folder, within, r->picture[k].name, suffix);
-        PG_TRY (one_picture (r, state, &r->picture[k], path, work, u));
-        if (listed) memcpy (r->written[r->nwritten++], path, sizeof path);
+        pg_status status = r->problem->dim < 3 || more
+                               ? one_picture (r, state, &r->picture[k], path, work, u)
+                               : pg_error (PG_E_MEMORY, PG_HERE, "no memory for %zu values", 6 * n);
+        list_picture (r, path, status, listed);
     }
-done:
     pg_free (more);
-    return status;
 }
 
 /* The number in the name is that of the step that result.e has just got. */
-pg_status pg_result_draw_stage (pg_result *r, const pg_state *state)
+void pg_result_draw_stage (pg_result *r, const pg_state *state)
 {
-    pg_status status = PG_OK;
     char path[4096], suffix[32];
     snprintf (path, sizeof path, "%s/stages", r->folder);
-    PG_TRY (pg_folder_make (path));
+    pg_status status = pg_folder_make (path);
+    miss_picture (r, path, status);
+    if (status != PG_OK) return;
     snprintf (suffix, sizeof suffix, "_%04ld", r->exodus_steps - 1);
-    PG_TRY (draw_all (r, state, "stages/", suffix, 0));
-done:
-    return status;
+    draw_all (r, state, "stages/", suffix, 0);
 }
 
 /* The distance from the reference at the points, with both norms in the title. */
-static pg_status error_picture (pg_result *r, const pg_state *state)
+static void error_picture (pg_result *r, const pg_state *state)
 {
-    pg_status status = PG_OK;
     const pg_norms *n = &r->errors.norms;
     char path[4096], title[400];
     pg_outline outline = result_outline (r);
@@ -166,11 +180,9 @@ static pg_status error_picture (pg_result *r, const pg_state *state)
     snprintf (title, sizeof title, "%s: difference from the reference, L2 %.2e, largest %.2e",
               r->problem->title, n->l2.relative, n->maximum.relative);
     snprintf (path, sizeof path, "%s/error.png", r->folder);
-    PG_TRY (pg_picture_body (path, state->broken ? NULL : &r->problem->part, &r->problem->cloud,
-                             r->errors.difference, &style));
-    memcpy (r->written[r->nwritten++], path, sizeof path);
-done:
-    return status;
+    pg_status status = pg_picture_body (path, state->broken ? NULL : &r->problem->part, &r->problem->cloud,
+                                        r->errors.difference, &style);
+    list_picture (r, path, status, 1);
 }
 
 /* Expressions of the reference take the time, in static runs the load factor. */
@@ -186,7 +198,7 @@ pg_status pg_result_measure (pg_result *r, const pg_state *state)
                                r->dynamic ? state->time : state->factor));
     r->measured = 1;
     if (r->npicture && r->errors.difference && r->errors.norms.displacement)
-        PG_TRY (error_picture (r, state));
+        error_picture (r, state);
 done:
     pg_sampler_clear (&solution);
     return status;
@@ -194,13 +206,11 @@ done:
 
 /* A run that asks for no picture gets no charts either: cairo is not loaded, which takes longer than many a
  * small run. A curve needs two points at least. */
-pg_status pg_result_draw (pg_result *r, const pg_state *state)
+void pg_result_draw (pg_result *r, const pg_state *state)
 {
-    pg_status status = PG_OK;
-    if (r->npicture == 0) return PG_OK;
-    PG_TRY (draw_all (r, state, "", "", 1));
-    if (r->curve_load >= 0 && r->npoint > 1) PG_TRY (pg_result_curve_picture (r));
-    PG_TRY (pg_result_tips_pictures (r));
-done:
-    return status;
+    if (r->npicture == 0) return;
+    draw_all (r, state, "", "", 1);
+    if (r->curve_load >= 0 && r->npoint > 1)
+        miss_picture (r, "load_displacement.png", pg_result_curve_picture (r));
+    miss_picture (r, "tip.png", pg_result_tips_pictures (r));
 }

@@ -61,6 +61,12 @@ done:
     return status;
 }
 
+const char *pg_result_path (const pg_result *r, const char *name, char *out, size_t size)
+{
+    snprintf (out, size, "%s/%s", r->folder, name);
+    return out;
+}
+
 /* Removes a file of the folder; one that is missing is no failure. */
 pg_status pg_result_remove (const pg_result *r, const char *name)
 {
@@ -183,7 +189,7 @@ static pg_status write_fields (pg_result *r, const pg_state *state, double time)
     PG_TRY (pg_exodus_write (r->file, time, r->field));
     r->exodus_steps++;
     r->time = time;
-    if (r->stages && !pg_ranks_now ()) PG_TRY (pg_result_draw_stage (r, state));
+    if (r->stages && !pg_ranks_now ()) pg_result_draw_stage (r, state);
 done:
     return status;
 }
@@ -283,28 +289,62 @@ static pg_status estimate (pg_result *r, const pg_state *state)
 
 const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }
 
-/* The run is finished when that of rank 0 is gone; parts of fields, which going on would need, go with those
- * of the others. */
-static pg_status drop_checkpoints (const pg_result *r)
+/* Everything that the run leaves is on the disk before the checkpoint goes, from which it could be had again.
+ * A run that has none, since it was short, waits for no disk. */
+static pg_status sync_all (const pg_result *r)
 {
     pg_status status = PG_OK;
     char path[4096];
+    if (!pg_result_kept (r)) return PG_OK;
+    PG_TRY (pg_result_sync_rows (r));
+    PG_TRY (pg_exodus_sync (r->file));
+    if (pg_rank () == 0) PG_TRY (pg_file_sync (pg_result_path (r, "report.json", path, sizeof path)));
+    PG_TRY (pg_file_sync (r->folder));
+done:
+    return status;
+}
+
+/* The run is finished when the checkpoint of rank 0 is gone; parts of fields, which going on would need, go
+ * with those of the others. result.e gets the faces of its cracks after that, since nothing could be appended
+ * to it any more: where this did not come to pass, pg_result_complete does it. */
+static pg_status close_run (const pg_result *r)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    PG_TRY (pg_ranks_agree (sync_all (r)));
+    pg_checkpoint_drop (pg_result_path (r, "checkpoint.nc", path, sizeof path));
     if (pg_rank () == 0) status = pg_result_remove (r, "checkpoint.nc");
     PG_TRY (pg_ranks_agree (status));
     if (pg_rank () > 0) status = pg_result_remove (r, "checkpoint.nc");
-    if (pg_ranks_now () && !r->in_parts) pg_result_fields_path (r, path, sizeof path), remove (path);
+    pg_result_fields_path (r, path, sizeof path);
+    if (pg_ranks_now () && !r->in_parts) remove (path);
+    else if (status == PG_OK) status = pg_exodus_commit_pieces (path);
     PG_TRY (pg_ranks_agree (status));
 done:
     return status;
 }
 
-/* report.json is written even if pictures fail. The checkpoint goes last: until then the run
- * can be resumed. */
+pg_status pg_result_complete (const char *folder)
+{
+    pg_status status = PG_OK;
+    char path[4096];
+    int lock = 0;
+    PG_TRY (pg_result_lock (folder, &lock));
+    snprintf (path, sizeof path, "%s/result.e", folder);
+    PG_TRY (pg_exodus_commit_pieces (path));
+done:
+    pg_result_unlock (folder, &lock);
+    return status;
+}
+
+/* report.json is written even if something else fails. Until the checkpoint goes, last, nothing is changed
+ * that it counts on: a run that is killed at any moment before can be resumed, and after that it is whole. */
 pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *failure, double search,
                             double total)
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
+    char path[4096];
     /* ended before anything was done: pictures would only show the body as the scene describes it */
     int nothing = failure && state->step == 0 && r->rounds == 0;
     PG_TRY (pg_solver_share_report (r->solver));
@@ -313,18 +353,20 @@ pg_status pg_result_finish (pg_result *r, const pg_state *state, const char *fai
     r->last_written = 1;
     pg_result_curve_read (r);
     PG_TRY (pg_result_crack_measure (r, state));
-    if (!nothing && !pg_ranks_now ()) PG_TRY (pg_result_draw (r, state));
+    if (!nothing && !pg_ranks_now ()) pg_result_draw (r, state);
     PG_TRY (pg_result_measure (r, state));
     if (!failure) PG_TRY (pg_result_paths_lines (r, state));
     if (!failure) PG_TRY (estimate (r, state));
     if (!failure) PG_TRY (pg_result_join_fields (r));
 done:
     r->seconds += pg_seconds () - t0;
-    /* the report comes also without pictures */
     /* With what finishing took: fields, pictures, errors against the reference, the estimate. */
     pg_status written = pg_result_json (r, state, failure, search, r->earlier + total + pg_seconds () - t0);
     status = pg_ranks_agree (status == PG_OK ? written : status);
-    return status == PG_OK && !failure ? drop_checkpoints (r) : status;
+    if (status == PG_OK && !failure) return close_run (r);
+    pg_result_fields_path (r, path, sizeof path);
+    pg_exodus_drop_pieces (path);
+    return status;
 }
 
 /* The lock is given up after the files are closed. */

@@ -90,6 +90,7 @@ struct pg_result {
     double   *value[MOST_FIELDS];
     result_view picture[MOST_PICTURES];
     char      written[MOST_PICTURES + 3][4096];
+    char      undrawn[200];                            /* why the last missing picture was not drawn */
     /* stages: 1: all pictures also with every step of result.e. dynamic: time instead of load
      * factor. stairs: 1: whole lattice cells stand for the body (cells: staircase). */
     int       stages, dynamic, stairs;
@@ -191,6 +192,10 @@ pg_status pg_result_prepare (pg_result *r, const char *folder, const pg_scene *s
                              const pg_problem *problem, pg_solver *solver);
 /* The marks of the files as they are now. */
 result_marks pg_result_marks_now   (const pg_result *r);
+/* FOLDER/name into out, which is returned. */
+const char *pg_result_path         (const pg_result *r, const char *name, char *out, size_t size);
+/* Waits until the rows of all tables are on the disk. */
+pg_status pg_result_sync_rows      (const pg_result *r);
 /* Removes a file of the folder; it may be missing. */
 pg_status pg_result_remove         (const pg_result *r, const char *name);
 /* Creates history.csv and events.csv, or opens them and cuts them to the rows of `from`. */
@@ -271,10 +276,10 @@ void      pg_result_crack_column   (const pg_result *r, char *out, size_t size);
 pg_status pg_result_crack_row      (pg_result *r, const pg_state *state, double *row);
 /* Name of Voigt component k in a dimension: "xx", "yy" ... */
 const char *pg_result_voigt        (int dim, int k);
-/* Draws all pictures of the last state. */
-pg_status pg_result_draw       (pg_result *r, const pg_state *state);
+/* Draws all pictures of the last state; what cannot be drawn becomes a warning. */
+void      pg_result_draw       (pg_result *r, const pg_state *state);
 /* Draws them as stages/NAME_0007.png for the step 7 of result.e. */
-pg_status pg_result_draw_stage          (pg_result *r, const pg_state *state);
+void      pg_result_draw_stage          (pg_result *r, const pg_state *state);
 /* Reads entry i of output.views; all of output.pictures and output.views. */
 pg_status pg_result_view_read      (result_view *v, const pg_scene *scene, size_t i, int dim);
 pg_status pg_result_views_read     (pg_result *r, const pg_scene *scene);

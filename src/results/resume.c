@@ -256,6 +256,15 @@ pg_status pg_result_keep (pg_result *r, pg_state *state, const pg_keeper *keeper
     return status;
 }
 
+pg_status pg_result_sync_rows (const pg_result *r)
+{
+    pg_status status = PG_OK;
+    const pg_table *const all[] = { r->history, r->events, r->pieces, r->tip_rows, r->contact };
+    for (size_t k = 0; k < sizeof all / sizeof *all; k++) if (all[k]) PG_TRY (pg_table_sync (all[k]));
+done:
+    return status;
+}
+
 /* The files are synced first: marks on the disk must not be ahead of the rows that they count. */
 pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
 {
@@ -265,11 +274,7 @@ pg_status pg_result_checkpoint (pg_result *r, pg_state *state)
     snprintf (path, sizeof path, "%s/checkpoint.nc", r->folder);
     resumed m = memory_of (r, state, path);
     /* Rows first, then the marks that count them. */
-    PG_TRY (pg_table_sync (r->history));
-    PG_TRY (pg_table_sync (r->events));
-    if (r->pieces) PG_TRY (pg_table_sync (r->pieces));
-    if (r->tip_rows) PG_TRY (pg_table_sync (r->tip_rows));
-    if (r->contact) PG_TRY (pg_table_sync (r->contact));
+    PG_TRY (pg_result_sync_rows (r));
     PG_TRY (pg_exodus_sync (r->file));
     r->generation++;
     PG_TRY (pg_checkpoint_prepare (path, resumed_all, &m));

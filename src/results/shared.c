@@ -106,7 +106,7 @@ pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, siz
     PG_TRY (pg_ranks_collect (step->nbroken * sizeof *mine, mine, &bytes, &all));
     *n = bytes / sizeof *mine;
     event *list = all;
-    if (*n) qsort (list, *n, sizeof *list, earlier);
+    if (*n) pg_sort (list, *n, sizeof *list, earlier);
     PG_ALLOC (*broken, *n);
     for (size_t i = 0; i < *n; i++) (*broken)[i] = list[i].broken;
 done:

@@ -1,17 +1,30 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What a run tells about itself: warnings, and work it skipped. */
-#include "perigal/solve.h"
+#include "solve.h"
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
 /* Warnings beyond the room for them are dropped: the first are the ones that matter. */
-void pg_statistics_warn (pg_statistics *report, const char *format, ...)
+static void warn (pg_statistics *report, const char *format, va_list args)
 {
     if (report->nwarning >= sizeof report->warning / sizeof *report->warning) return;
+    vsnprintf (report->warning[report->nwarning++], sizeof *report->warning, format, args);
+}
+
+void pg_statistics_warn (pg_statistics *report, const char *format, ...)
+{
     va_list args;
     va_start (args, format);
-    vsnprintf (report->warning[report->nwarning++], sizeof *report->warning, format, args);
+    warn (report, format, args);
+    va_end (args);
+}
+
+void pg_solver_warn (pg_solver *s, const char *format, ...)
+{
+    va_list args;
+    va_start (args, format);
+    warn (&s->report, format, args);
     va_end (args);
 }
 

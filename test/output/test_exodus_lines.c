@@ -79,17 +79,23 @@ static void lines_come_behind_the_points (void **state)
         };
         begin (&s, dim);
         check_ok (pg_exodus_create (&file, path, &s.cloud, "a test", FIELDS, s.view));
-        for (int k = 0; k < 3; k++) {
+        for (int k = 0; k < 2; k++) {
             fill (&s, k);
             check_ok (pg_exodus_write (file, 0.1 * k, s.view));
         }
-        check_ok (pg_exodus_add_pieces (&file, &s.cloud, "a test", 0, NULL));
-        assert_non_null (file);
+        check_ok (pg_exodus_prepare_pieces (file, &s.cloud, "a test", 0, NULL));
+        check_ok (pg_exodus_commit_pieces (path));       /* none: the file stays as it is */
         const pg_exodus_piece wrong = { .point = { 0, s.cloud.n } };
-        check_fails (pg_exodus_add_pieces (&file, &s.cloud, "a test", 1, &wrong), PG_E_USAGE);
-        assert_non_null (file);                          /* and the file as it was */
-        check_ok (pg_exodus_add_pieces (&file, &s.cloud, "a test", 3, line));
-        assert_null (file);
+        check_fails (pg_exodus_prepare_pieces (file, &s.cloud, "a test", 1, &wrong), PG_E_USAGE);
+        /* a copy that never takes the place of the file leaves it open for more steps */
+        check_ok (pg_exodus_prepare_pieces (file, &s.cloud, "a test", 2, line));
+        pg_exodus_drop_pieces (path);
+        check_ok (pg_exodus_commit_pieces (path));
+        fill (&s, 2);
+        check_ok (pg_exodus_write (file, 0.2, s.view));
+        check_ok (pg_exodus_prepare_pieces (file, &s.cloud, "a test", 3, line));
+        pg_exodus_close (&file);
+        check_ok (pg_exodus_commit_pieces (path));
         check_lines (&s, path, 3, line);
         for (int step = 0; step < 3; step++) {
             fill (&s, step);
@@ -127,7 +133,7 @@ static void lines_on_a_full_disk_leave_the_file (void **state)
         check_ok (pg_exodus_write (file, 0, s.view));
         setrlimit (RLIMIT_FSIZE, &(struct rlimit) { limit, old.rlim_max });
         const pg_exodus_piece none = { .since = 0 };
-        pg_status status = pg_exodus_add_pieces (&file, &s.cloud, "a test", 1, &none);
+        pg_status status = pg_exodus_prepare_pieces (file, &s.cloud, "a test", 1, &none);
         setrlimit (RLIMIT_FSIZE, &old);
         assert_int_equal (status, PG_E_FILE);
         check_field (&s, path, 0, 0);

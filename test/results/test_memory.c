@@ -139,14 +139,14 @@ static void every_allocation_of_a_result_may_fail (void **state)
         pg_memory_fail_at (0);
         if (status != PG_OK && status != PG_E_MEMORY)
             print_error ("allocation %zu of %zu: '%s'\n", k, calls, pg_last_error ());
-        /* the census of the report is worth no failure */
+        /* the census of the report is worth no failure, nor are pictures */
         assert_true (status == PG_E_MEMORY || status == PG_OK);
         reported += status == PG_E_MEMORY;
         if (pg_memory_used () != used)
             print_error ("allocation %zu of %zu: %zu bytes lost\n", k, calls, pg_memory_used () - used);
         assert_int_equal (pg_memory_used (), used);
     }
-    assert_true (reported + 6 > tried);
+    assert_true (reported + 25 > tried && reported > opened / 2);
     clear (&r);
     remove_folder (where);
 }
