@@ -235,7 +235,7 @@ static pg_status add_hosts (const galerkin *g, size_t **list, size_t *n)
         for (size_t e = 0; e + 1 < more; e++) (*list)[count++] = (size_t) c->guests.node[from + e];
     }
     if (count == *n) return PG_OK;
-    qsort (*list, count, sizeof **list, compare);
+    pg_sort (*list, count, sizeof **list, compare);
     for (size_t k = 0; k < count; k++)
         if (kept == 0 || (*list)[k] != (*list)[kept - 1]) (*list)[kept++] = (*list)[k];
     *n = kept;
