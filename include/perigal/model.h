@@ -88,6 +88,8 @@ int    pg_problem_strained    (const pg_problem *problem);
 /* 1: whether a bond breaks follows from the displacements of its two ends alone, by the same limit for all
  * bonds (one criterion with pg_criterion_type.elongation, no free strains, no graded points). */
 int    pg_problem_breaks_by_elongation (const pg_problem *problem);
+/* 1: cracks of the scene grow by facets; known as soon as the force, the points and the materials are. */
+int    pg_problem_by_facets (const pg_problem *problem, const pg_scene *scene);
 /* The share of point i of its set in a total force or a spring; the place that its value is taken at: x, the
  * point's, or that of the load. */
 double pg_load_share (const pg_load *load, size_t i);

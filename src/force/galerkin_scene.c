@@ -6,8 +6,9 @@
 #include <string.h>
 
 static const pg_key keys[] = {
-    { "method.integration", PG_NAME, NULL, NULL, PG_FIRST_CHOICE, NULL, pg_integration_names, NULL,
-      "Where the weak form is evaluated." },
+    { "method.integration", PG_NAME, NULL, NULL, "", NULL, pg_integration_names, NULL,
+      "Where the weak form is evaluated; unless given consistent where cells are cut by the surface of the "
+      "body or cracks grow by facets (linear basis, not nosb), else gauss." },
     { "method.gauss_points", PG_INTEGER, NULL, "[1, 5]", "", NULL, NULL, NULL,
       "Gauss points per direction of a background cell; default 2 for the linear basis, 3 for the quadratic "
       "one (with 2 it converges slowly); "
@@ -43,7 +44,15 @@ pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
     const char *stabilization = pg_scene_text (scene, "method.stabilization");
     PG_ALLOC (o, 1);
     p->options = o;
-    p->integration = pg_integration_find (pg_scene_text (scene, "method.integration"));
+    double cut = p->cells.cut != NULL;                 /* on any rank */
+    PG_TRY (pg_ranks_most (1, &cut));
+    int needed = p->cells.n > 0 && (cut > 0 || pg_problem_by_facets (p, scene));
+    p->integration = pg_integration_of (scene, needed);
+    if (needed && p->approx.order > 1 && !pg_scene_given (scene, "method.integration"))
+        pg_problem_note (p,
+                         "method.integration: %s, as the basis is quadratic; consistent is exact in cut cells "
+                         "and along cracks and takes 3 to 7 times as long",
+                         p->integration->name);
     p->approx.extrapolates = p->approx.refined = p->integration->consistent;
     if (!p->integration->at_nodes && p->cells.n == 0)
         pg_scene_fault (scene, "method.integration",
@@ -149,7 +158,7 @@ enum { WIDER = 2, HOSTS = 2 };
 double galerkin_ghost_cells (const pg_scene *scene, double *beyond)
 {
     int patches = projects (scene),
-        consistent = pg_integration_find (pg_scene_text (scene, "method.integration"))->consistent;
+        consistent = pg_integration_of (scene, 1)->consistent;
     double cells = (patches ? 8 : 2) + WIDER + (consistent ? HOSTS : 0);
     *beyond = cells;
     return cells + 1 + WIDER;

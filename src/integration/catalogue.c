@@ -38,3 +38,15 @@ const char *pg_integration_names (void)
     ;
     return names + 1;
 }
+
+const pg_integration_type *pg_integration_of (const pg_scene *scene, int needed)
+{
+    if (pg_scene_given (scene, "method.integration"))
+        return pg_integration_find (pg_scene_text (scene, "method.integration"));
+    const char *basis = pg_scene_text (scene, "method.basis"),
+               *how = pg_scene_text (scene, "method.approximation");
+    const pg_approx_type *approx = how ? pg_approx_find (how) : NULL;
+    int simple = !(basis && strcmp (basis, "quadratic") == 0) && !(approx && approx->interpolates);
+    for (size_t i = 0; i < COUNT && needed && simple; i++) if (entries[i]->consistent) return entries[i];
+    return entries[0];
+}

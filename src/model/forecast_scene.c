@@ -96,8 +96,9 @@ static int shares_rows (const pg_forecast *f, const pg_scene *scene)
 /* What of the method changes counts or bytes. */
 static void read_method (pg_forecast *f, const pg_scene *scene)
 {
-    const pg_integration_type *integration = pg_integration_find (
-        pg_scene_text (scene, "method.integration"));
+    const char *criterion = pg_scene_text (scene, "failure.criterion");
+    const pg_criterion_type *type = criterion ? pg_criterion_find (criterion) : NULL;
+    const pg_integration_type *integration = pg_integration_of (scene, type && type->needs & PG_NEEDS_FACETS);
     f->matrixless = f->method->long_range && f->method->long_range (scene);
     f->rotations = f->method->rotations[f->dim];
     f->by_list = !f->method->shape_functions
@@ -160,6 +161,8 @@ static void take_tally (pg_forecast *f, const pg_scene *scene, const pg_tally *t
     f->pairs = t->pairs * more;
     f->bonds[PG_NODES] = t->node_bonds * more, f->bonds[PG_POINTS] = t->point_bonds * more;
     add_cut (f, t, finer);
+    if (f->method->shape_functions && t->crossed > 0 && pg_integration_of (scene, 1)->consistent)
+        f->summed = 1, f->shared = 0;
     f->facets = !f->method->shape_functions ? 0 : facets * per;
     widen (f, how->approx->horizon / lattice_step (l));
     f->bonds[PG_FACETS] = f->facets * 0.6 * t->node_bonds / t->points;

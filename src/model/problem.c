@@ -214,6 +214,14 @@ static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
                ? pg_criterion_by_need (PG_NEEDS_STRETCH) : NULL;
 }
 
+int pg_problem_by_facets (const pg_problem *p, const pg_scene *scene)
+{
+    const char *named = pg_scene_given (scene, "failure.criterion") ? pg_scene_text (scene, "failure.criterion")
+                                                                    : usual_criterion (p, scene);
+    const pg_criterion_type *type = named ? pg_criterion_find (named) : NULL;
+    return type && (type->needs & PG_NEEDS_FACETS);
+}
+
 /* Limits that differ from the formula of the literature, though the scene says nothing of it. */
 static void note_calibration (pg_problem *p, const pg_scene *scene)
 {
