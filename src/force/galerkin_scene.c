@@ -50,8 +50,8 @@ pg_status galerkin_read (pg_problem *p, const pg_scene *scene)
     p->integration = pg_integration_of (scene, needed);
     if (needed && p->approx.order > 1 && !pg_scene_given (scene, "method.integration"))
         pg_problem_note (p,
-                         "method.integration: %s, as the basis is quadratic; consistent is exact in cut cells "
-                         "and along cracks and takes 3 to 7 times as long",
+                         "method.integration: %s, as the basis is quadratic; consistent is exact in cut "
+                         "cells and along cracks and takes 3 to 7 times as long",
                          p->integration->name);
     p->approx.extrapolates = p->approx.refined = p->integration->consistent;
     if (!p->integration->at_nodes && p->cells.n == 0)

@@ -216,8 +216,8 @@ static const char *usual_criterion (const pg_problem *p, const pg_scene *scene)
 
 int pg_problem_by_facets (const pg_problem *p, const pg_scene *scene)
 {
-    const char *named = pg_scene_given (scene, "failure.criterion") ? pg_scene_text (scene, "failure.criterion")
-                                                                    : usual_criterion (p, scene);
+    int given = pg_scene_given (scene, "failure.criterion");
+    const char *named = given ? pg_scene_text (scene, "failure.criterion") : usual_criterion (p, scene);
     const pg_criterion_type *type = named ? pg_criterion_find (named) : NULL;
     return type && (type->needs & PG_NEEDS_FACETS);
 }
