@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long stress fresh fuzz mutate compilers lint doc accuracy fracture bench install clean
+# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long test-full stress fresh fuzz mutate compilers lint doc accuracy fracture bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -190,9 +190,13 @@ test: test-packages  ## everything; last line: N passed, N failed
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
 	$(Q).ci/test $(BUILD) "$(T)" short $(JOBS)
 
-test-long: test-packages
+test-long: test-packages  ## in full size those that have a larger one; test-full: those too that take hours
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
 	$(Q).ci/test $(BUILD) "$(T)" long $(JOBS)
+
+test-full: test-packages
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(if $(filter release,$(MODE)),$(SOLIB) $(if $(shell command -v mkoctfile),mex)) test-programs
+	$(Q).ci/test $(BUILD) "$(T)" full $(JOBS)
 
 test-programs: $(PROGRAM) $(CONVERT) $(MPI) $(if $(T),$(filter $(T:%=$(BUILD)/test/%/%),$(TESTBIN)),$(TESTBIN))
 
