@@ -123,7 +123,8 @@ pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const 
 void pg_tip_combine (const pg_tip_field *f, int nfield, const double *l, double *J, double *K, double *T);
 /* What to show of them: K_I, K_II, K_III in the ratio that K has, with the magnitude of J (E' J = K_I^2 +
  * K_II^2 + antiplane K_III^2), in space as far as the front opens: what slides or tears keeps the magnitude
- * that K has. As they are where J is not positive or K_I closes the crack. */
+ * that K has; whether K_I opens the crack or closes it does not matter. As they are where J is not
+ * positive. */
 void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, double *K);
 /* How well J is known, relative: by the two rings; NAN: there is only one. */
 double pg_tip_uncertainty (const pg_tip_field *f, int nfield, const double *l);

@@ -82,7 +82,7 @@ static pg_status find_kink (turned *out, const pg_problem *p, const pg_state *st
         if (touch) r2 = fmin (r2, touch->nearest - hypot (out->x[0] - x[0], out->x[1] - x[1]));
         if (!turns || r2 - r1 <= best) continue;
         size_t here = tip_node_at (p, x);
-        if (p->block[PG_NODES] && p->block[PG_NODES][here] != p->block[PG_NODES][node]) continue;
+        if (!tip_same_material (p, here, node)) continue;
         r2 = tip_room_about (p, state, tip, x, here, r2);
         if (r2 - r1 <= best) continue;
         best = r2 - r1, *any = 1, out->kink = j, out->extent = extent, out->r1 = r1, out->r2 = r2;

@@ -64,11 +64,18 @@ static void end_at_loads (pg_tip_field *out, const pg_problem *p)
     }
 }
 
+int tip_same_material (const pg_problem *p, size_t i, size_t k)
+{
+    const pg_material *a = pg_problem_law (p, PG_NODES, i), *b = pg_problem_law (p, PG_NODES, k);
+    return a == b || (a->type == b->type && a->mode == b->mode && a->mu == b->mu && a->nu == b->nu
+                      && a->density == b->density);
+}
+
 /* Does another material than at `here` fill node i, or another body force act on it? PG_ROOM_FREE:
  * neither. */
 static int differs (const pg_problem *p, size_t i, size_t here)
 {
-    if (p->block[PG_NODES][i] != p->block[PG_NODES][here]) return PG_ROOM_MATERIAL;
+    if (!tip_same_material (p, i, here)) return PG_ROOM_MATERIAL;
     for (size_t l = 0; l < p->nload; l++)
         if (p->load[l].kind == PG_BODY_FORCE
             && member (p->load[l].set, i) != member (p->load[l].set, here))

@@ -286,7 +286,7 @@ void pg_tip_intensities (const pg_tip_field *f, int nfield, const double *l, dou
     double J, size = 0, share = 0;
     pg_tip_combine (f, nfield, l, &J, K, NULL);
     size = K[0] * K[0] + K[1] * K[1] + f->antiplane * K[2] * K[2];
-    if (!(J > 0) || !(size > 0) || K[0] < 0) return;
+    if (!(J > 0) || !(size > 0)) return;
     if (f->antiplane > 0) share = 1 - K[0] * K[0] / size;
     double scale = sqrt ((1 - share) * f->modulus * J / size + share);
     for (int m = 0; m < 3; m++) K[m] *= scale;

@@ -53,11 +53,12 @@ static double share (const view *v, double theta)
 }
 
 enum { LOOKS = 81, THIRDS = 40 };
+static const double fan = 80.0 / 180 * 3.14159265358979323846;         /* rad, to both sides */
 
 /* The best of a fan of +- 80 degrees, refined between its neighbours by golden sections. */
 static double best (const view *v, double *theta)
 {
-    static const double fan = 80.0 / 180 * 3.14159265358979323846, golden = 0.61803398874989485;
+    static const double golden = 0.61803398874989485;
     double top = 0, step = 2 * fan / (LOOKS - 1);
     *theta = 0;
     for (int k = 0; k < LOOKS; k++) {
@@ -75,13 +76,32 @@ static double best (const view *v, double *theta)
     return top;
 }
 
-/* Do limits differ from direction to direction, by expressions or by materials? */
-static int is_uneven (const pg_problem *p)
+/* May limits differ from direction to direction, by expressions or by materials? */
+static int may_be_uneven (const pg_problem *p)
 {
     int uneven = p->nmaterial > 1;
     for (size_t m = 0; m < p->nmaterial; m++)
         uneven |= p->criterion[m].type && p->criterion[m].type->uneven (&p->criterion[m]);
     return uneven;
+}
+
+/* Do they around this tip? Two materials that meet elsewhere, or take the same, change no direction. */
+static int is_uneven (const view *v)
+{
+    enum { ANGLES = 17 };
+    double first = NAN;
+    if (!may_be_uneven (v->b->system.problem)) return 0;
+    for (int k = 0; k < ANGLES; k++) {
+        const double *e = v->field->e;
+        double angle = atan2 (e[1], e[0]) + fan * (2.0 * k / (ANGLES - 1) - 1);
+        double x[3] = { v->field->x[0] + 0.5 * v->length * cos (angle),
+                        v->field->x[1] + 0.5 * v->length * sin (angle), 0 };
+        pg_fracture_limits limits = { 0 };
+        double energy = facet_limits (v->b, x, angle, &limits) ? limits.energy : 0;
+        if (k == 0) first = energy;
+        if (fabs (energy - first) > 1e-12 * fabs (first)) return 1;
+    }
+    return 0;
 }
 
 /* Does a scene give the energy of sliding? Without it no direction is worth a look for it. */
@@ -98,14 +118,16 @@ static int slides (const pg_problem *p, const double *x)
     return any;
 }
 
-/* Opening: closed form, or a comparison of directions. T: stress along the crack. */
-static double opening (const view *v, double T, double *theta)
+/* Opening: closed form, or a comparison of directions. T: stress along the crack. Behind a kink the load is
+ * that of the largest hoop stress, and the direction that of the whole facet. */
+static double opening (const view *v, int nfield, const double *l, double T, double *theta)
 {
     double K_theta, G_theta;
     pg_fracture_limits limits;
-    if (is_uneven (v->b->system.problem)) return best (v, theta);
+    if (is_uneven (v)) return best (v, theta);
     if (!pg_kink (v->J, v->K[0], v->K[1], T, v->length, theta, &K_theta, &G_theta) || !(G_theta > 0))
         return 0;
+    pg_kink_ahead (v->field, nfield, l, *theta, theta);
     double angle = atan2 (v->field->e[1], v->field->e[0]) + *theta;
     double x[3] = { v->field->x[0] + 0.5 * v->length * cos (angle),
                     v->field->x[1] + 0.5 * v->length * sin (angle), 0 };
@@ -171,8 +193,7 @@ static double judge (const break_loop *b, const pg_state *state, size_t tip, dou
     if (!state->paths->tip[tip].open || isnan (f->near)) return 0;
     pg_tip_combine (f, facet_factors (g, factor, l), l, &v.J, v.K, &T);
     if (path) return along_path (&v, path, n, angle);
-    double top = opening (&v, T, &theta);
-    if (top > 0 && !is_uneven (p)) pg_kink_ahead (f, g->nfield, l, theta, &theta);
+    double top = opening (&v, g->nfield, l, T, &theta);
     v.sliding = 1;
     double sliding = slides (p, f->x) ? best (&v, &slip) : 0;
     if (sliding > top) top = sliding, theta = slip, *slide = 1;

@@ -125,6 +125,28 @@ static int closes (const break_loop *b, const pg_tip_field *f, const double *K)
     return K[0] * K[0] > 0.01 * f->modulus * limits.energy;
 }
 
+/* J of two rings that differ by more than a tenth: of a tip that may decide, not of one that is next to
+ * unloaded. */
+static void doubt_release (break_loop *b, const pg_state *state, size_t i, double top)
+{
+    static const double doubtful = 0.1, decisive = 0.5;
+    facet_growth *g = b->growth;
+    const pg_tip_field *f = &g->field[i];
+    double l[2], angle;
+    int n = facet_factors (g, 1, l);
+    double off = pg_tip_uncertainty (f, n, l);
+    if (g->said & FACET_SAID_UNKNOWN || g->moving || !(off > doubtful)
+        || !(facet_judge (b, state, i, 1, &angle) >= decisive * top))
+        return;
+    pg_statistics_warn (b->system.report,
+                        "the energy release rate of crack tip %ld at (%.6g, %.6g) m is known to +-%.2g %% only: "
+                        "rings of %.2g and %.2g spacings differ by that much; take a smaller spacing, and look "
+                        "for what lies within %.3g m of it",
+                        state->paths->tip[i].id, f->x[0], f->x[1], 100 * off, f->near / f->h, f->wide / f->h,
+                        f->wide);
+    g->said |= FACET_SAID_UNKNOWN;
+}
+
 /* What the user should know of tips that were measured, each said once. */
 static void tell (break_loop *b, const pg_state *state)
 {
@@ -132,11 +154,13 @@ static void tell (break_loop *b, const pg_state *state)
     double l[2], K[3];
     size_t open = 0;
     facet_tell_lost (b, state);
+    double top = g->said & FACET_SAID_UNKNOWN ? 0 : facet_utilisation (b, state, 1);
     for (size_t i = 0; i < g->ntip; i++) {
         const pg_tip_field *f = &g->field[i];
         if (!state->paths->tip[i].open) continue;
         open++;
         if (isnan (f->near)) continue;
+        doubt_release (b, state, i, top);
         pg_tip_combine (f, facet_factors (g, 1, l), l, NULL, K, NULL);
         if (!b->system.contact && closes (b, f, K) && !(g->said & FACET_SAID_CLOSED)) {
             pg_statistics_warn (

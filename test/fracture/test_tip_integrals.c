@@ -258,6 +258,23 @@ static void affine_fields (void **state)
     clear (&t);
 }
 
+/* A tip in pure shear whose K_I is what rounding makes it: what is shown does not hang on its sign, and has
+ * the magnitude of J. */
+static void a_sign_of_rounding_changes_nothing (void **state)
+{
+    (void) state;
+    pg_tip_field f = { .J = { { 8 } }, .K = { { 0 }, { 7e5 } }, .K_wide = { { 0 }, { 7e5 } }, .modulus = 70e9 };
+    double l = 1, shown[3][3];
+    for (int k = 0; k < 3; k++) {
+        f.K[0][0] = 1e-9 * (k - 1);
+        pg_tip_intensities (&f, 1, &l, shown[k]);
+        check_relative (shown[k][1], sqrt (70e9 * 8), 1e-12);
+    }
+    f.K[0][0] = -3e5, pg_tip_intensities (&f, 1, &l, shown[0]);
+    f.K[0][0] = 3e5, pg_tip_intensities (&f, 1, &l, shown[1]);
+    check_relative (shown[0][0], -shown[1][0], 1e-14), check_relative (shown[0][1], shown[1][1], 1e-14);
+}
+
 /* ---- exact fields -------------------------------------------------------------------------------------- */
 /* Gradient by differences, stress by Hooke's law, free faces, and the stress ahead. */
 static void fields_are_solutions (void **state)
@@ -340,6 +357,7 @@ int main (void)
                                         cmocka_unit_test (lengths_of_any_size),
                                         cmocka_unit_test (body_forces_do_not_count_as_energy),
                                         cmocka_unit_test (motion_does_not_count_as_release),
-                                        cmocka_unit_test (affine_fields) };
+                                        cmocka_unit_test (affine_fields),
+                                        cmocka_unit_test (a_sign_of_rounding_changes_nothing) };
     return cmocka_run_group_tests_name ("fracture/tip_integrals", tests, NULL, NULL);
 }
