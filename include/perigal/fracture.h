@@ -12,7 +12,7 @@
 
 PG_API_BEGIN
 
-enum { PG_TIP_TRIALS = 7 };                            /* directions of trial facets behind a kink */
+enum { PG_TIP_TRIALS = 5 };                            /* directions of trial facets behind a kink */
 
 /* What a ring around a tip must not hold: the surface, another crack, points with a load or support other
  * than springs and body forces, another material, a body force that acts on one side only, closed faces. */

@@ -215,7 +215,7 @@ done:
     return status;
 }
 
-static const double trial_angles[PG_TIP_TRIALS] = { -0.9, -0.6, -0.3, 0, 0.3, 0.6, 0.9 };
+static const double trial_angles[PG_TIP_TRIALS] = { -0.8, -0.4, 0, 0.4, 0.8 };
 
 /* K at the end of the trial facets. */
 static pg_status measure_trials (pg_tip_field *out, const turned *t, const tip_grid *grid, int nfield,

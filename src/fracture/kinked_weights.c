@@ -46,49 +46,68 @@ static double graded (const piece *p, double t, double *slope)
     return a / (a + b);
 }
 
-/* ---- potentials ---------------------------------------------------------------------------------------- */
-/* E and O of a dislocation at s with B = b, and their derivatives. */
-static void potentials (double complex z, double complex s, double complex b, double complex value[2],
-                        double complex slope[2])
+/* 1 / z, without the care for overflow that a division takes. */
+static double complex inverse_of (double complex z)
 {
-    double complex c = conj (s), rs = csqrt (s), rc = conj (rs), rz = csqrt (z), d = 1 / (z - s),
-                   f = 1 / (z - c), a = conj (b) * (s - c);
-    value[0] = 0.5 * (b * (d - f) - a * f * f);
-    slope[0] = 0.5 * (b * (f * f - d * d) + 2 * a * f * f * f);
-    value[1] = (b * (rs * d + rc * f) + a * (rc * f * f + 0.5 * f / rc)) / (2 * rz);
-    slope[1] = -value[1] / (2 * z)
-               - (b * (rs * d * d + rc * f * f) + a * (2 * rc * f * f * f + 0.5 * f * f / rc)) / (2 * rz);
+    return conj (z) * (1 / (creal (z) * creal (z) + cimag (z) * cimag (z)));
 }
 
-/* sigma_nn - i sigma_nt across a piece along `way`, from Phi at z, Phi' there and Omega at conj z. */
-static double complex traction (double complex z, double complex way, double complex Phi,
+/* ---- potentials ---------------------------------------------------------------------------------------- */
+/* Where a density sits on a piece, or where the traction is to vanish: z, sqrt z. */
+typedef struct { double complex z, root; } place;
+
+static place place_on (const piece *p, double t)
+{
+    double slope;
+    double complex z = p->from + graded (p, t, &slope) * p->way;
+    return (place){ z, csqrt (z) };
+}
+
+/* sigma_nn - i sigma_nt across a piece, turn = conj (way) / way, from Phi at z, Phi' there and Omega at conj
+ * z. */
+static double complex traction (double complex z, double complex turn, double complex Phi,
                                 double complex slope, double complex Omega)
 {
     double complex across = Phi + Omega + (z - conj (z)) * conj (slope), mean = Phi + conj (Phi);
-    return mean + conj (way) / way * (across - mean);
+    return mean + turn * (across - mean);
 }
 
-/* That of a dislocation. */
-static double complex of_dislocation (double complex z, double complex way, double complex s,
-                                      double complex b)
+/* That of a dislocation at s with B = 1 and with B = i. At conj z the two fractions are conjugate to each
+ * other's at z. */
+static void of_dislocation (const place *at, double complex turn, const place *s, double complex T[2])
 {
-    double complex value[2], slope[2], other[2], unused[2];
-    potentials (z, s, b, value, slope);
-    potentials (conj (z), s, b, other, unused);
-    return traction (z, way, value[0] + value[1], slope[0] + slope[1], other[1] - other[0]);
+    double complex z = at->z, rs = s->root, rc = conj (rs), c = conj (s->z), d = inverse_of (z - s->z),
+                   f = inverse_of (z - c), dw = conj (f), fw = conj (d), half = 0.5 * inverse_of (at->root),
+                   inverse = 0.5 * inverse_of (rc),
+                   over = half * half * 2;             /* 1 / (2 z) */
+    double complex even[2] = { 0.5 * (d - f), -0.5 * f * f },
+                   even_slope[2] = { 0.5 * (f * f - d * d), f * f * f },
+                   odd[2] = { half * (rs * d + rc * f), half * (rc * f * f + inverse * f) },
+                   odd_slope[2] = { -over * odd[0] - half * (rs * d * d + rc * f * f),
+                                    -over * odd[1] - half * (2 * rc * f * f * f + inverse * f * f) },
+                   half_w = conj (half),
+                   omega[2] = { half_w * (rs * dw + rc * fw) - 0.5 * (dw - fw),
+                                half_w * (rc * fw * fw + inverse * fw) + 0.5 * fw * fw };
+    for (int part = 0; part < 2; part++) {
+        double complex b = part ? _Complex_I : 1, a = conj (b) * (s->z - c);
+        T[part] = traction (z, turn, b * (even[0] + odd[0]) + a * (even[1] + odd[1]),
+                            b * (even_slope[0] + odd_slope[0]) + a * (even_slope[1] + odd_slope[1]),
+                            b * omega[0] + a * omega[1]);
+    }
 }
 
 /* That of load number `which`: the singular field of the straight crack, or what acts on the pieces. */
-static double complex of_load (double complex z, double complex way, size_t which, const kinked_faces *load)
+static double complex of_load (const place *at, double complex turn, size_t which, const kinked_faces *load)
 {
+    double complex z = at->z;
     if (which < 2) {
-        double complex K = which ? -_Complex_I : 1, Phi = K / (2 * csqrt (2 * pi * z));
-        return traction (z, way, Phi, -Phi / (2 * z), K / (2 * csqrt (2 * pi * conj (z))));
+        double complex K = which ? -_Complex_I : 1, Phi = K / (2 * sqrt (2 * pi) * at->root);
+        return traction (z, turn, Phi, -Phi / (2 * z), K / (2 * sqrt (2 * pi) * conj (at->root)));
     }
     const kinked_faces *f = &load[which - 2];
     double s11 = f->S[0] - f->b[0] * creal (z), s22 = f->S[1] - f->b[1] * cimag (z);
     double complex mean = 0.5 * (s11 + s22);
-    return mean + conj (way) / way * (s22 - _Complex_I * f->S[2] - mean);
+    return mean + turn * (s22 - _Complex_I * f->S[2] - mean);
 }
 
 /* ---- the system ---------------------------------------------------------------------------------------- */
@@ -102,26 +121,25 @@ static double end_share (int k)
 }
 
 /* Rows of piece p: no traction at NODES - 1 places, and no density where the piece begins. A: 2 N x 2 N by
- * columns; unknowns of node j: real and imaginary part. */
-static void fill_rows (const piece *all, size_t n, size_t p, size_t nload, const kinked_faces *load,
-                       double *A, double *b)
+ * columns; unknowns of node j: real and imaginary part. node: all of them, piece by piece. */
+static void fill_rows (const piece *all, const place *node, size_t n, size_t p, size_t nload,
+                       const kinked_faces *load, double *A, double *b)
 {
     size_t rows = 2 * NODES * n;
-    double slope;
+    double complex turn = conj (all[p].way) / all[p].way;
     for (int i = 1; i < NODES; i++) {
-        double complex z = all[p].from + graded (&all[p], cos (i * pi / NODES), &slope) * all[p].way;
+        place at = place_on (&all[p], cos (i * pi / NODES));
         size_t row = 2 * (p * NODES + (size_t) i - 1);
-        for (size_t q = 0; q < n; q++)
-            for (int k = 1; k <= NODES; k++) {
-                double complex s = all[q].from + graded (&all[q], node_at (k), &slope) * all[q].way;
-                for (size_t part = 0; part < 2; part++) {
-                    double complex T = pi / NODES * of_dislocation (z, all[p].way, s, part ? _Complex_I : 1);
-                    double *column = A + (2 * (q * NODES + (size_t) k - 1) + part) * rows;
-                    column[row] = creal (T), column[row + 1] = cimag (T);
-                }
+        for (size_t k = 0; k < n * NODES; k++) {
+            double complex T[2];
+            of_dislocation (&at, turn, &node[k], T);
+            for (size_t part = 0; part < 2; part++) {
+                double *entry = A + (2 * k + part) * rows + row;
+                entry[0] = pi / NODES * creal (T[part]), entry[1] = pi / NODES * cimag (T[part]);
             }
+        }
         for (size_t l = 0; l < 2 + nload; l++) {
-            double complex T = of_load (z, all[p].way, l, load);
+            double complex T = of_load (&at, turn, l, load);
             b[l * rows + row] = -creal (T), b[l * rows + row + 1] = -cimag (T);
         }
     }
@@ -131,24 +149,21 @@ static void fill_rows (const piece *all, size_t n, size_t p, size_t nload, const
             A[(2 * (p * NODES + (size_t) k - 1) + part) * rows + row + part] = end_share (NODES + 1 - k);
 }
 
-/* Adds `times` the densities of a load to the potentials outside of the polyline: the coefficients of E and O
- * in powers of 1 / z. */
-static void add_series (const piece *all, size_t n, const double *b, double times, double complex *even,
+/* Adds `times` the densities d of a load to the potentials outside of the polyline: the coefficients of E and
+ * O in powers of 1 / z. */
+static void add_series (const place *node, size_t n, const double *d, double times, double complex *even,
                         double complex *odd)
 {
-    double slope;
-    for (size_t q = 0; q < n; q++)
-        for (int k = 1; k <= NODES; k++) {
-            double complex s = all[q].from + graded (&all[q], node_at (k), &slope) * all[q].way,
-                           c = conj (s), rs = csqrt (s), rc = conj (rs), sk = 1, ck = 1;
-            const double *d = b + 2 * (q * NODES + (size_t) k - 1);
-            double complex B = times * pi / NODES * (d[0] + _Complex_I * d[1]), a = conj (B) * (s - c);
-            for (int m = 0; m < KINKED_TERMS; m++) {
-                even[m] += 0.5 * (B * (sk - ck) - (m ? a * m * ck / c : 0));
-                odd[m] += 0.5 * (B * (rs * sk + rc * ck) + a * (m * rc * ck / c + 0.5 * ck / rc));
-                sk *= s, ck *= c;
-            }
+    for (size_t k = 0; k < n * NODES; k++) {
+        double complex s = node[k].z, c = conj (s), rs = node[k].root, rc = conj (rs), sk = 1, ck = 1,
+                       before = 0, B = times * pi / NODES * (d[2*k] + _Complex_I * d[2*k + 1]), a = conj (B) * (s - c),
+                       inverse = 0.5 / rc;
+        for (int m = 0; m < KINKED_TERMS; m++) {       /* sk = s^m, ck = c^m, before = c^(m-1) */
+            even[m] += 0.5 * (B * (sk - ck) - a * m * before);
+            odd[m] += 0.5 * (B * (rs * sk + rc * ck) + a * (m * rc * before + inverse * ck));
+            before = ck, sk *= s, ck *= c;
         }
+    }
 }
 
 /* Solves for all loads with the last piece `longer` times as long, and adds the end's K, half of it, and the
@@ -159,12 +174,16 @@ static pg_status add_change (kinked_weights *out, piece *all, size_t n, double l
     pg_status status = PG_OK;
     size_t rows = 2 * NODES * n;
     double *A = NULL, *b = NULL, slope;
+    place *node = NULL;
     piece *last = &all[n - 1];
     double complex way = last->way;
     PG_ALLOC (A, rows * rows);
     PG_ALLOC (b, rows * (2 + nload));
+    PG_ALLOC (node, n * NODES);
     last->way *= longer;
-    for (size_t p = 0; p < n; p++) fill_rows (all, n, p, nload, load, A, b);
+    for (size_t k = 0; k < n * NODES; k++)
+        node[k] = place_on (&all[k / NODES], node_at ((int) (k % NODES) + 1));
+    for (size_t p = 0; p < n; p++) fill_rows (all, node, n, p, nload, load, A, b);
     PG_TRY (pg_dense_lu (rows, A, 2 + nload, b));
     graded (last, 1, &slope);
     double length = cabs (last->way), change = (longer > 1 ? 1 : -1) / (2 * step * cabs (way));
@@ -178,11 +197,11 @@ static pg_status add_change (kinked_weights *out, piece *all, size_t n, double l
         end *= pi * sqrt (2 * pi) * sqrt (2 / (length * slope)) * conj (last->way) / length;
         double *K = l < 2 ? out->k[l] : out->own[l - 2];
         K[0] += 0.5 * creal (end), K[1] -= 0.5 * cimag (end);
-        if (l < 2) add_series (all, n, d, change, out->even[l], out->odd[l]);
+        if (l < 2) add_series (node, n, d, change, out->even[l], out->odd[l]);
     }
 done:
     last->way = way;
-    pg_free (A), pg_free (b);
+    pg_free (A), pg_free (b), pg_free (node);
     return status;
 }
 
@@ -224,16 +243,17 @@ void kinked_moments_add (kinked_moments *out, const kinked_place *at, double mu,
     double complex a[5] = { kappa * conj (t), -conj (t), t * (z - w) - 4 * at->M[0] - m, -m,
                             conj (m) * (z - w) };
     int n = terms_at (cabs (z), extent);
-    double complex ze = 1, we = 1, zo = 1 / csqrt (z), wo = conj (zo);
+    double complex zi = inverse_of (z), wi = conj (zi), ze = 1, zo = 1 / csqrt (z);
     for (int k = 0; k < n; k++) {
-        double even = k + 1, odd = k + 1.5;
         /* ze = z^(-k), zo = z^(-k-1/2); even[0] has no field outside: its logarithm drops out */
+        double even = k + 1, odd = k + 1.5;
+        double complex we = conj (ze), wo = conj (zo);
         if (k)
-            out->even[k] += a[0] * ze / (1 - even) - a[1] * we / (1 - even) + a[2] * ze / z - a[3] * we / w
-                            - a[4] * even * ze / (z * z);
-        out->odd[k] += a[0] * zo / (1 - odd) + a[1] * wo / (1 - odd) + a[2] * zo / z + a[3] * wo / w
-                       - a[4] * odd * zo / (z * z);
-        ze /= z, we /= w, zo /= z, wo /= w;
+            out->even[k] += (a[0] * ze - a[1] * we) * (1 / (1 - even)) + a[2] * ze * zi - a[3] * we * wi
+                            - even * a[4] * ze * zi * zi;
+        out->odd[k] += (a[0] * zo + a[1] * wo) * (1 / (1 - odd)) + a[2] * zo * zi + a[3] * wo * wi
+                       - odd * a[4] * zo * zi * zi;
+        ze *= zi, zo *= zi;
     }
 }
 

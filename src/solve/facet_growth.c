@@ -126,22 +126,22 @@ static int closes (const break_loop *b, const pg_tip_field *f, const double *K)
 }
 
 /* J of two rings that differ by more than a tenth: of a tip that may decide, not of one that is next to
- * unloaded. */
+ * unloaded beside others, or beside what it takes to grow (rounding). */
 static void doubt_release (break_loop *b, const pg_state *state, size_t i, double top)
 {
-    static const double doubtful = 0.1, decisive = 0.5;
+    static const double doubtful = 0.1, decisive = 0.5, nothing = 1e-6;
     facet_growth *g = b->growth;
     const pg_tip_field *f = &g->field[i];
     double l[2], angle;
     int n = facet_factors (g, 1, l);
     double off = pg_tip_uncertainty (f, n, l);
-    if (g->said & FACET_SAID_UNKNOWN || g->moving || !(off > doubtful)
+    if (g->said & FACET_SAID_UNKNOWN || g->moving || !(off > doubtful) || !(top > nothing)
         || !(facet_judge (b, state, i, 1, &angle) >= decisive * top))
         return;
     pg_statistics_warn (b->system.report,
-                        "the energy release rate of crack tip %ld at (%.6g, %.6g) m is known to +-%.2g %% only: "
-                        "rings of %.2g and %.2g spacings differ by that much; take a smaller spacing, and look "
-                        "for what lies within %.3g m of it",
+                        "the energy release rate of crack tip %ld at (%.6g, %.6g) m is known to +-%.2g %% "
+                        "only: rings of %.2g and %.2g spacings differ by that much; take a smaller spacing, "
+                        "and look for what lies within %.3g m of it",
                         state->paths->tip[i].id, f->x[0], f->x[1], 100 * off, f->near / f->h, f->wide / f->h,
                         f->wide);
     g->said |= FACET_SAID_UNKNOWN;

@@ -3,6 +3,7 @@
  * the K_I, K_II and T that the fields were made of, and J = (K_I^2 + K_II^2) / E', for any direction of the
  * crack, in plane stress and plane strain, in any unit of length, with body forces and in motion. */
 #include "check.h"
+#include "fracture/kinked_crack.h"
 #include "perigal/fracture.h"
 #include <stdlib.h>
 
@@ -258,12 +259,68 @@ static void affine_fields (void **state)
     clear (&t);
 }
 
+/* Around a kink: the tip has grown by two facets, and the fields are still those of the straight crack, T and a
+ * body force along and across it among them. What they do to the end of the facets the weight functions say.
+ * The body force stays constant, the rest grows: two fields. */
+static void fields_around_a_kink (void **state)
+{
+    (void) state;
+    double angle = 0.3, b = 4e7, h = 0.05, c = cos (angle), s = sin (angle), turn[2] = { 0.9, 0.6 };
+    char more[300];
+    exact m = { .mode = PG_PLANE_STRAIN, .E = 3e9, .nu = 0.3, .K = { { 0 }, { 1e6, 4e5 } }, .T = { 0, 3e6 },
+                .b = { b, 0 }, .angle = angle, .x = { 0.5 * c, 0.5 * s } };
+    snprintf (more, sizeof more,
+              "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {set: all, body_force: {x: %.17g, y: "
+              "%.17g}, ramp: constant}]\n", b * c, b * s);
+    tested t = make (&m, 1, angle, more);
+    size_t tip = end_tip (&t, angle);
+    double complex vertex[2];
+    double to[3] = { m.x[0], m.x[1], 0 }, second[1] = { 0 }, factor[2] = { 0, 1 };
+    pg_changes cut = { 0 };
+    for (int k = 0; k < 2; k++) {
+        to[0] += h * cos (angle + turn[k]), to[1] += h * sin (angle + turn[k]);
+        vertex[k] = (k ? vertex[0] : 0) + h * cexp (_Complex_I * turn[k]);
+        check_ok (pg_crack_grow (t.state, t.problem, tip, to, 0, &cut));
+    }
+    const double *d[2] = { t.state->d, second };
+    pg_tip_field f;
+    m.d[0] = d[0], m.d[1] = d[1];
+    check_ok (pg_tip_measure_faces (&f, t.problem, &t.force, &m, t.state, tip, 2, d, factor, NULL, h));
+    assert_int_equal (f.kinked, 1);
+    check_scaled (f.e[0], cos (angle + turn[1]), 1e-9, 1);
+    kinked_weights w;
+    kinked_faces load[2] = { { .b = { b, 0 } }, { .S = { 3e6, 0, 0 } } };
+    check_ok (kinked_weights_of (&w, 2, vertex, 2, load));
+    for (int k = 0; k < 2; k++) {
+        check_scaled (f.K[k][0], w.own[0][k], 1e-3, 1e6 * 0.01);
+        check_scaled (f.K[k][1], 1e6 * w.k[0][k] + 4e5 * w.k[1][k] + w.own[1][k], 1e-3, 1e6);
+    }
+    check_relative (f.J[0][1], (f.K[0][0] * f.K[0][1] + f.K[1][0] * f.K[1][1]) / f.modulus, 1e-9);
+    check_below (fabs (f.J_near[1][1] / f.J[1][1] - 1), 3e-3);
+    /* the facet to come, and where it goes: K_II vanishes in the mean of its length */
+    double complex more_of[3] = { vertex[0], vertex[1], vertex[1] + h * cexp (_Complex_I * (turn[1] + 0.4)) };
+    check_ok (kinked_weights_of (&w, 3, more_of, 2, load));
+    check_absolute (f.trial, h, 1e-12), check_absolute (f.trial_angle[3], 0.4, 1e-12);
+    for (int k = 0; k < 2; k++)
+        check_scaled (f.trial_K[3][k][1], 1e6 * w.k[0][k] + 4e5 * w.k[1][k] + w.own[1][k], 2e-3, 1e6);
+    double l[2] = { 1, 1 }, theta, K[3];
+    assert_int_equal (pg_kink_ahead (&f, 2, l, 0, &theta), 1);
+    more_of[2] = vertex[1] + h * cexp (_Complex_I * (turn[1] + theta));
+    check_ok (kinked_weights_of (&w, 3, more_of, 2, load));
+    pg_tip_combine (&f, 2, l, NULL, K, NULL);
+    double end[2];
+    for (int k = 0; k < 2; k++) end[k] = 1e6 * w.k[0][k] + 4e5 * w.k[1][k] + w.own[1][k] + w.own[0][k];
+    check_absolute (2 * end[1] / end[0] + K[1] / K[0] + theta / 2, 0, 5e-3);
+    pg_free (cut.bond);
+    clear (&t);
+}
+
 /* A tip in pure shear whose K_I is what rounding makes it: what is shown does not hang on its sign, and has
  * the magnitude of J. */
 static void a_sign_of_rounding_changes_nothing (void **state)
 {
     (void) state;
-    pg_tip_field f = { .J = { { 8 } }, .K = { { 0 }, { 7e5 } }, .K_wide = { { 0 }, { 7e5 } }, .modulus = 70e9 };
+    pg_tip_field f = { .J = { { 8 } }, .K = { { 0 }, { 7e5 } }, .modulus = 70e9 };
     double l = 1, shown[3][3];
     for (int k = 0; k < 3; k++) {
         f.K[0][0] = 1e-9 * (k - 1);
@@ -358,6 +415,7 @@ int main (void)
                                         cmocka_unit_test (body_forces_do_not_count_as_energy),
                                         cmocka_unit_test (motion_does_not_count_as_release),
                                         cmocka_unit_test (affine_fields),
-                                        cmocka_unit_test (a_sign_of_rounding_changes_nothing) };
+                                        cmocka_unit_test (a_sign_of_rounding_changes_nothing),
+                                        cmocka_unit_test (fields_around_a_kink) };
     return cmocka_run_group_tests_name ("fracture/tip_integrals", tests, NULL, NULL);
 }
