@@ -156,7 +156,8 @@ static void add_series (const place *node, size_t n, const double *d, double tim
 {
     for (size_t k = 0; k < n * NODES; k++) {
         double complex s = node[k].z, c = conj (s), rs = node[k].root, rc = conj (rs), sk = 1, ck = 1,
-                       before = 0, B = times * pi / NODES * (d[2*k] + _Complex_I * d[2*k + 1]), a = conj (B) * (s - c),
+                       before = 0, B = times * pi / NODES * (d[2*k] + _Complex_I * d[2*k + 1]),
+                       a = conj (B) * (s - c),
                        inverse = 0.5 / rc;
         for (int m = 0; m < KINKED_TERMS; m++) {       /* sk = s^m, ck = c^m, before = c^(m-1) */
             even[m] += 0.5 * (B * (sk - ck) - a * m * before);

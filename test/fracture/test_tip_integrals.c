@@ -259,9 +259,9 @@ static void affine_fields (void **state)
     clear (&t);
 }
 
-/* Around a kink: the tip has grown by two facets, and the fields are still those of the straight crack, T and a
- * body force along and across it among them. What they do to the end of the facets the weight functions say.
- * The body force stays constant, the rest grows: two fields. */
+/* Around a kink: the tip has grown by two facets, and the fields are still those of the straight crack, T and
+ * a body force along it among them. What they do to the end of the facets the weight functions say. The body
+ * force stays constant, the rest grows: two fields. */
 static void fields_around_a_kink (void **state)
 {
     (void) state;
