@@ -260,6 +260,8 @@ int       pg_solver_components (const pg_solver *solver);  /* dofs per node, for
 pg_status pg_solver_begin  (pg_solver *solver, const pg_state *state, const pg_scene *scene);
 /* Advances by one step. On a numerical failure the state is that of the last accepted step. */
 pg_status pg_solver_step   (pg_solver *solver, pg_state *state, pg_step *step);
+/* The loads as the run has them: of stages that ended early so far as they came. */
+const pg_load *pg_solver_loads (const pg_solver *solver);
 /* The potential energy, J, that n stages of a cut would set free at fixed loads: stage k cuts the bonds
  * of the stages before it and those of cut[k], which live in the state, ascending, each once. d: one
  * displacement in equilibrium at load factor t, or two (affine loads); release (n x 3): of d[0], mixed,

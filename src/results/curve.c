@@ -220,7 +220,7 @@ void pg_result_curve_json (pg_json *j, const pg_result *r)
     for (size_t g = 0; g < p->ngauge; g++) pg_json_number (j, p->gauge[g].name, gauge[g]);
     pg_json_shut (j);
     pg_json_shut (j);
-    pg_json_count (j, "rows_not_judged", k->judged ? k->left_out : r->npoint);
+    if (r->grows) pg_json_count (j, "rows_not_judged", k->judged ? k->left_out : r->npoint);
     pg_json_number (j, "stiffness_initial", k->initial);
     pg_json_number (j, "stiffness_at_peak", k->secant);
     pg_json_shut (j);

@@ -125,6 +125,59 @@ done:
     return status;
 }
 
+/* 1: the conditions of a load act on facets, over which its displacement is then averaged: the points of a
+ * set may lie half a spacing behind them. */
+static int acts_on_facets (const pg_problem *p, const pg_load *load)
+{
+    int held = pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE,
+        pushed = load->kind == PG_TRACTION || load->kind == PG_PRESSURE;
+    return p->method->shape_functions && !load->own && !pg_load_rotates (load) && (held || pushed)
+           && load->set->nfacet > 0 && !p->cloud.subdomain;
+}
+
+/* Mean displacement of the facets of a load along every axis (dim). */
+static pg_status mean_on_facets (pg_result *r, const pg_state *state, const pg_load *load, double *mean)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = r->problem;
+    const pg_set *set = load->set;
+    size_t dim = (size_t) p->dim;
+    double *x = NULL, *u = NULL, area = 0;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
+    PG_ALLOC (x, dim * set->nfacet);
+    PG_ALLOC (u, 3 * set->nfacet);
+    for (size_t i = 0; i < set->nfacet; i++)
+        memcpy (x + dim * i, p->cells.facet_centre + dim * (size_t) set->facet[i], dim * sizeof *x);
+    PG_TRY (force->sample (self, state, state->d, set->nfacet, x, u, NULL, NULL));
+    for (size_t k = 0; k < dim; k++) mean[k] = 0;
+    for (size_t i = 0; i < set->nfacet; i++) {
+        double w = p->cells.area[set->facet[i]];
+        area += w;
+        for (size_t k = 0; k < dim; k++) mean[k] += w * u[3*i + k];
+    }
+    for (size_t k = 0; k < dim; k++) mean[k] /= area;
+done:
+    pg_free (x), pg_free (u);
+    return status;
+}
+
+/* What component k of a support prescribes at t, in the mean over its facets, or its points. */
+static double prescribed (const pg_problem *p, const pg_load *load, int k, double t)
+{
+    const pg_set *set = load->set;
+    int facets = acts_on_facets (p, load);
+    double sum = 0, weight = 0;
+    size_t dim = (size_t) p->dim, n = facets ? set->nfacet : set->npoint;
+    for (size_t i = 0; i < n; i++) {
+        const double *x = facets ? p->cells.facet_centre + dim * (size_t) set->facet[i]
+                                 : p->cloud.x + dim * (size_t) set->point[i];
+        double w = facets ? p->cells.area[set->facet[i]] : 1;
+        sum += w * pg_load_value (load, k, p->dim, x, t), weight += w;
+    }
+    return weight > 0 ? sum / weight : 0;
+}
+
 /* Mean of component k over the points of a load, at a place by their shares;
  * 0 for a set without points. Ranks: the share of this one. */
 static double mean_of (const pg_problem *p, const pg_load *load, const double *u, int dim, int k)
@@ -137,6 +190,23 @@ static double mean_of (const pg_problem *p, const pg_load *load, const double *u
         sum += share * u[(size_t) set->point[i] * (size_t) dim + (size_t) k];
     }
     return n > 0 ? sum / n : 0;
+}
+
+/* 1: a support prescribes this component as a displacement, and the body has no unknowns at the points that
+ * would show it. */
+static int holds (const pg_problem *p, const pg_load *load, int k)
+{
+    return p->method->shape_functions && pg_load_prescribes (load) && !pg_load_rotates (load)
+           && load->value[k] && !load->own && !p->cloud.subdomain;
+}
+
+/* Displacement of a load along its component k. turned: rotations; facets: means over them, or NULL. */
+static double moved_by (const pg_problem *p, const pg_load *load, int k, double t, const double *moved,
+                        const double *turned, const double *facets)
+{
+    if (pg_load_rotates (load)) return mean_of (p, load, turned, pg_problem_rotations (p), k);
+    if (holds (p, load, k)) return prescribed (p, load, k, t);
+    return facets ? facets[k] : mean_of (p, load, moved, p->dim, k);
 }
 
 /* One row per bond that broke in the step. Numbers come first, so that readers of numbers can
@@ -244,11 +314,14 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     r->row[n++] = pg_result_once (step->factor);
     PG_TRY (move_points (r, state, &moved, &turned));
     for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &pg_solver_loads (r->solver)[l];
+        double facets[3];
+        int on_facets = columns_of (p, l) && acts_on_facets (p, load);
+        if (on_facets) PG_TRY (mean_on_facets (r, state, load, facets));
         for (int k = 0; k < columns_of (p, l); k++) {
-            int turns = pg_load_rotates (&p->load[l]);
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
-            double u = mean_of (p, &p->load[l], turns ? turned : moved,
-                                turns ? pg_problem_rotations (p) : p->dim, k);
+            double u = moved_by (p, load, k, r->dynamic ? step->time : step->factor, moved, turned,
+                                 on_facets ? facets : NULL);
             if ((int) l == r->curve_load && k == r->curve_component) x = n + 1, y = n;
             r->row[n++] = f, r->row[n++] = u;
         }

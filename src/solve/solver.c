@@ -175,6 +175,8 @@ static int short_range (const pg_solver *s)
     return (c->kind != PG_CONTACT_NONE && c->search == PG_CONTACT_SHORT_RANGE) || s->moving;
 }
 
+const pg_load *pg_solver_loads (const pg_solver *s) { return s->problem->load; }
+
 /* The method advances the state. What fails leaves the last accepted state behind, and a message with the
  * step and the load it was at. */
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)

@@ -245,9 +245,71 @@ static void a_plane_of_broken_bonds_has_its_area (void **state)
     }
 }
 
+/* Points of `lattice: cells` lie half a spacing behind the facets that conditions act on: a support moves
+ * as far as is prescribed, a loaded face by the mean over its facets, so that half of force times
+ * displacement is the work. */
+static void displacements_are_those_of_the_facets (void **state)
+{
+    static const char bar[] =
+        "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 2]}}}]\nspacing: 0.1\n"
+        "lattice: cells\nlattice_offset: [0.3, %s]\n"
+        "materials: {a: {youngs_modulus: 50, poissons_ratio: 0}, b: {youngs_modulus: 1, poissons_ratio: 0}}\n"
+        "blocks: [{material: a, where: y < 1}, {material: b, where: y >= 1}]\noutput: {pictures: [], "
+        "estimate: "
+        "off, at: {levels: 1}}\nboundary: [{set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: "
+        "top, %s}]\n";
+    static const char *const head[] = { "displacement: {y: 0.02}", "displacement: {y: 0.02}, essential: "
+                                        "penalty",
+                                        "traction: {y: 0.02}" };
+    char text[1024];
+    (void) state;
+    for (int k = 0; k < 3; k++)
+        for (int shift = 0; shift < 2; shift++) {
+            snprintf (text, sizeof text, bar, shift ? "0.4" : "0", head[k]);
+            play (text, "");
+            double u = number_at (history, 1, "head.displacement_y [m]"), f = number_at (history, 1,
+                "head.force_y [N]"),
+                   work = json_number (report, "energy", "external");
+            print_message ("u %.6g, F u / 2 over the work %.8f\n", u, 0.5 * f * u / work);
+            if (k < 2) check_relative (u, 0.02, 1e-12);
+            check_relative (0.5 * f * u, work, k == 2 ? 1e-4 : 1e-9);
+            tidy ();
+        }
+}
+
+/* A beam bent by a force: the crack comes so near to where the force acts that no ring fits. The run ends
+ * there and says so, where its load went up to full load on an elastic body, which was the peak. */
+static void the_peak_is_one_of_judged_rows (void **state)
+{
+    (void) state;
+    play ("dimension: 2\nplane: strain\nthickness: 1\nbody: [{add: {box: {low: [-40, 0], high: [40, 20]}}}]\n"
+          "spacing: 1\nlattice: cells\ncracks: [{from: [0, 0], to: [0, 4]}]\n"
+          "materials: {m: {youngs_modulus: 20800, poissons_ratio: 0.3}}\n"
+          "failure: {criterion: energy_release, fracture_energy: 0.5}\n"
+          "sets: {l: {where: x < -38.8 and y < 1.2}, r: {where: x > 38.8 and y < 1.2}}\n"
+          "boundary: [{name: l, set: l, displacement: {x: 0, y: 0}}, {name: r, set: r, displacement: {y: "
+          "0}},\n"
+          "  {name: p, at: [0, 19.5], force: {y: -400}}]\noutput: {pictures: [], estimate: off}\n", "");
+    double peak = json_number (report, "peak", "force"), largest = 0, factor = json_number (report,
+        "peak", "load_factor");
+    long rows = -1;
+    for (const char *s = history; *s; s++) rows += *s == '\n';
+    for (long i = 1; i <= rows; i++) largest = fmax (largest, fabs (number_at (history, (size_t) i,
+        "p.force_y [N]")));
+    print_message ("peak %.6g at load factor %.4g, %ld rows, largest force %.6g\n", peak, factor, rows,
+        largest);
+    check_relative (-peak, largest, 1e-12);
+    check_below (factor, 0.9);
+    assert_non_null (strstr (report, "\"ended_by\": \"the measure of a crack tip ended\""));
+    assert_non_null (strstr (report, "has no ring any more: the load p is"));
+    tidy ();
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (displacements_are_those_of_the_facets),
+        cmocka_unit_test (the_peak_is_one_of_judged_rows),
         cmocka_unit_test (a_push_is_negative),
         cmocka_unit_test (the_axis_that_pulls_is_drawn),
         cmocka_unit_test (the_load_that_comes_last_is_drawn),
