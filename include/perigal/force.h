@@ -110,6 +110,12 @@ typedef struct {
     /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
     void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+    /* Joins the points that carry forces to each other at the last refresh: sets of points (pg_disjoint, n;
+     * of a rank by what its own points take part in). NULL: not known. */
+    void      (*join)    (void *self, int *parent);
+    /* As `external`, whether or not explicit methods are to use it. NULL: balance at d = 0 tells, and
+     * supports with it. */
+    pg_status (*loads)   (void *self, double t, double *P);
     /* Number of background cells near cracks, but not near tips, that cannot end at the cracks. NULL: none
      * do. */
     size_t    (*unended) (const void *self);

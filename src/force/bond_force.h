@@ -138,6 +138,7 @@ pg_status bond_force_field (void *self, const pg_state *state, const double *d, 
 pg_status bond_force_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
                              double *u, double *stress, double *gradient);
 double    bond_force_overlap (void *self, const pg_state *state, const double *d);
+void      bond_force_join   (void *self, int *parent);
 void      bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
 /* contact of crack faces by the bonds that crossed them (bond_faces.c) */
 pg_status bond_force_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
@@ -169,7 +170,8 @@ const char *bond_force_refuses  (const pg_problem *problem, unsigned solver);
     .basis = bond_force_basis, .impose = bond_force_impose, .utilisation = bond_force_utilisation, \
     .work_balance = bond_force_work_balance, .work_of_residual = bond_force_work_of_residual, \
     .field = bond_force_field, .overlap = bond_force_overlap, \
-    .census = bond_force_census, .revision = bond_force_revision, .sample = bond_force_sample, \
+    .census = bond_force_census, .join = bond_force_join, .loads = bond_force_external, \
+    .revision = bond_force_revision, .sample = bond_force_sample, \
     .balance_and_break = bond_force_balance_and_break, .external = bond_force_external, \
     .bound = bond_force_bound, \
     .row_sums = bond_force_row_sums, .describe = bond_force_describe, .refuses = bond_force_refuses, \

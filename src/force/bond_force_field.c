@@ -421,7 +421,15 @@ static void join_before (const bond_force *b, size_t i, int *parent)
     }
 }
 
-/* Parts of the body that live bonds hold together, by union of their ends: points alone, and parts of
+/* Union of the ends of live bonds. */
+void bond_force_join (void *self, int *parent)
+{
+    bond_force *b = self;
+    pg_disjoint_start (parent, b->n);
+    for (size_t i = 0; i < b->n; i++) join_before (b, i, parent);
+}
+
+/* Parts of the body that live bonds hold together: points alone, and parts of
  * several points beside the largest one. Without memory all are 0: a census is worth no failure. */
 void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
@@ -431,8 +439,7 @@ void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t
     double parts[2];
     *degenerate = *isolated = *fragments = 0;
     if (parent) {
-        pg_disjoint_start (parent, b->n);
-        for (size_t i = 0; i < b->n; i++) join_before (b, i, parent);
+        bond_force_join (b, parent);
         if (pg_subdomain_count (s, b->n, parent, parts) != PG_OK) parts[0] = parts[1] = 0;
         *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
         if (*fragments) --*fragments;                  /* the body itself is none */

@@ -186,6 +186,15 @@ static pg_status galerkin_share_of (void *self, const double *x, const pg_change
 }
 
 /* ---- balance ------------------------------------------------------------------------------------------- */
+double galerkin_squared (const galerkin *g, const double *force)
+{
+    const pg_subdomain *owners = g->problem->cloud.subdomain;
+    size_t dim = (size_t) g->dim;
+    double s = 0;
+    for (size_t i = 0; i < g->n * dim; i++) if (pg_owns (owners, i / dim)) s += force[i] * force[i];
+    return s;
+}
+
 /* The largest of three forces, N, of which this rank knows its share of the squares. */
 static double largest_of (const galerkin *g, double inside, double external, double reaction)
 {
@@ -250,6 +259,13 @@ static pg_status galerkin_mass (void *self, double *mass)
         for (int k = 0; k < g->dim; k++)
             mass[i * (size_t) g->dim + (size_t) k] = galerkin_material (g, PG_NODES, i)->density
                                                      * g->problem->cloud.volume[i];
+    return PG_OK;
+}
+
+static pg_status galerkin_loads_of (void *self, double t, double *P)
+{
+    galerkin *g = self;
+    galerkin_loads (g, t, P);
     return PG_OK;
 }
 
@@ -423,7 +439,7 @@ const pg_force_type pg_force_galerkin = {
     .at_nodes = galerkin_at_nodes,
     .from_nodes = galerkin_from_nodes,
     .overlap = galerkin_overlap,
-    .census = galerkin_census,
+    .census = galerkin_census, .join = galerkin_join, .loads = galerkin_loads_of,
     .unended = galerkin_unended,
     .revision = galerkin_revision,
     .assemble = galerkin_assemble,

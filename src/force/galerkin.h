@@ -344,6 +344,8 @@ void galerkin_facet_rows   (void *context, size_t p, size_t a, size_t m, double 
 void galerkin_penalty_blocks   (void *context, size_t p, size_t a, size_t m, double *out);
 /* y += what supports add to K x; facet points and constrained nodes only */
 void galerkin_boundary_apply (galerkin *g, const double *x, double *y);
+/* P: forces of all loads at t on the nodes, N, without supports */
+void galerkin_loads (galerkin *g, double t, double *P);
 /* residual += loads and boundary terms (after measure); external and reaction: squared norms for the
  * reference */
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external,
@@ -426,6 +428,7 @@ pg_status galerkin_judge_others (void *self, const pg_state *state, const unsign
                                  int of_unit, size_t count, const double *d, double *top);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
 void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+void galerkin_join (void *self, int *parent);
 /* The force's refresh, for who asks before the first one. */
 pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes);
 void galerkin_at_nodes   (void *self, const double *x, double *u);

@@ -321,8 +321,9 @@ double galerkin_overlap (void *self, const pg_state *state, const double *d)
 }
 
 /* Joins the nodes that evaluation points see together; of a rank by the points that see nodes of its own. */
-static void join_nodes (const galerkin *g, int *parent)
+void galerkin_join (void *self, int *parent)
 {
+    const galerkin *g = self;
     const pg_rows *r = &g->rows[g->bulk];
     const pg_subdomain *s = g->problem->cloud.subdomain;
     pg_disjoint_start (parent, g->n);
@@ -355,7 +356,7 @@ void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *
     if (g->problem->cloud.subdomain && pg_ranks_sum (1, &flat) != PG_OK) flat = 0;
     *degenerate = (size_t) flat;
     if (parent) {
-        join_nodes (g, parent);
+        galerkin_join (g, parent);
         if (pg_subdomain_count (g->problem->cloud.subdomain, g->n, parent, parts) != PG_OK)
             parts[0] = parts[1] = 0;
         *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];

@@ -470,15 +470,6 @@ void galerkin_boundary_apply (galerkin *g, const double *x, double *y)
     }
 }
 
-double galerkin_squared (const galerkin *g, const double *force)
-{
-    const pg_subdomain *owners = g->problem->cloud.subdomain;
-    size_t dim = (size_t) g->dim;
-    double s = 0;
-    for (size_t i = 0; i < g->n * dim; i++) if (pg_owns (owners, i / dim)) s += force[i] * force[i];
-    return s;
-}
-
 /* int (sigma (v) n)_k (u_k - g_k): the symmetric counterpart of the traction, which is no force on the
  * body and so no part of reactions. */
 static void add_adjoint (galerkin *g, double t, double *f)
@@ -499,6 +490,15 @@ static void add_adjoint (galerkin *g, double t, double *f)
     galerkin_dilatation_adjoint (g, f);
 }
 
+void galerkin_loads (galerkin *g, double t, double *P)
+{
+    spreading s = { g, P };
+    memset (P, 0, g->n * (size_t) g->dim * sizeof *P);
+    visit_loads (g, t, spread, &s);
+    for (size_t l = 0; l < g->problem->nload; l++)
+        if (g->problem->load[l].cracks) galerkin_crack_pressure (g, pressure_at (g, l, t), P);
+}
+
 /* Adds loads and supports to the residual, N; *external and *reaction: their sums of squares, by which
  * the residual is later judged. */
 void galerkin_boundary_force (galerkin *g, double t, const double *d, double *residual, double *external,
@@ -507,10 +507,7 @@ void galerkin_boundary_force (galerkin *g, double t, const double *d, double *re
     size_t ndof = g->n * (size_t) g->dim;
     spreading s = { g, g->work };
     (void) d;
-    memset (g->work, 0, ndof * sizeof *g->work);
-    visit_loads (g, t, spread, &s);
-    for (size_t l = 0; l < g->problem->nload; l++)
-        if (g->problem->load[l].cracks) galerkin_crack_pressure (g, pressure_at (g, l, t), g->work);
+    galerkin_loads (g, t, g->work);
     *external = galerkin_squared (g, g->work);
     for (size_t i = 0; i < ndof; i++) residual[i] += g->work[i];
     memset (g->work, 0, ndof * sizeof *g->work);

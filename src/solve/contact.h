@@ -7,7 +7,7 @@
  * friction; checkpoints). */
 #ifndef PG_SOLVE_CONTACT_H
 #define PG_SOLVE_CONTACT_H
-#include "solve.h"
+#include "body_parts.h"
 
 /* What pieces bore and how far they had slipped in a state: it outlives the pieces, which are others after a
  * crack has grown, and is then taken over place by place. */
@@ -35,11 +35,12 @@ static inline contact_layout contact_layout_of (size_t dim)
 /* Rigid motions of parts of the body that supports do not hold: K is singular along them (contact_loose.c).
  * */
 typedef struct {
-    size_t  n, cap_mode, cap_prop, cap_place, cap_amount, cap_target;
+    size_t  n, cap_mode, cap_prop, cap_part, cap_motion, cap_amount, cap_target;
     double *mode;                                      /* displacement of each, about 1 (ndof x n) */
     size_t *prop;                                      /* unknown on which a spring stands for each (n) */
-    double *place;                                     /* middle of its part, m (3 n) */
+    body_part *part;  size_t *motion;                  /* its part, and which of the motions of that (n) */
     double *amount, *target;  /* how far each has moved; where that puts the feet of the springs, m (n) */
+    double  noise;            /* forces along them that are none, N, in the state last solved for */
     size_t  unresisted;       /* ways to move that nothing resisted in the state last solved for */
 } contact_loose;
 
@@ -205,7 +206,7 @@ void      platens_check   (const pg_solver_options *o, const pg_problem *problem
 int       platens_touch   (const pg_problem *problem);
 
 /* ---- contact_loose.c ----------------------------------------------------------------------------------- */
-pg_status loose_refresh (contact_loose *l, const pg_system *s, const pg_state *state);
+pg_status loose_refresh (contact_loose *l, const pg_system *s);
 void      loose_free    (contact_loose *l);
 /* Springs on K's diagonal. */
 void      loose_matrix  (const pg_system *s, const pg_sparse *K, double *value);

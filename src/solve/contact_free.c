@@ -26,6 +26,8 @@ enum { MOST_ROUNDS = 80 };
 static const double RESISTED = 1e-12;
 /* Sums of terms that cancel to this share are rounding. */
 static const double ROUNDED = 1e-12;
+/* So are forces below this share of those that the body bears, or that would undo the overlap at hand. */
+static const double NOISE = 1e-15;
 
 /* A free motion: of a platen along an axis (3..5: about it), or of a part. */
 typedef struct { size_t platen; int axis; size_t mode; } motion;
@@ -36,6 +38,7 @@ typedef struct {
     struct system_contact *c;
     size_t  m, rows;
     double  size;                                      /* of the body, m: radius of arcs of rotations */
+    double  noise;                                     /* forces that are none, N */
     motion *motion;
     double *B, *Q, *S, *y, *C, *gap;
 } problem_of_motions;
@@ -158,11 +161,15 @@ static pg_status refuse (const problem_of_motions *w, size_t j, double left)
                          "presses it; prescribe its displacement, or hold the body",
                          p->platen[q->platen].name, q->axis < 3 ? "along" : "about", "xyz"[q->axis % 3],
                          left);
-    const double *x = w->c->loose.place + 3 * q->mode;
+    const contact_loose *l = &w->c->loose;
+    const body_part *part = &l->part[q->mode];
+    char place[BODY_PART_WORDS], way[BODY_PART_WORDS];
+    body_part_place (p, part, place, sizeof place);
+    body_part_way (p, part, part->motion[l->motion[q->mode]], way, sizeof way);
     return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
-                     "a part of the body is held neither by prescribed displacements nor by what it touches: "
-                     "the one around (%.6g, %.6g, %.6g) m, of whose loads %.3g N stay unbalanced; prescribe "
-                     "displacements of it, more friction, or use a solver of motion", x[0], x[1], x[2], left);
+                     "a part of the body, %s, is held neither by prescribed displacements nor by what it "
+                     "touches: it is free to move %s, and %.3g N of its loads stay unbalanced; prescribe "
+                     "displacements of it, more friction, or use a solver of motion", place, way, left);
 }
 
 /* ---- the rounds ---------------------------------------------------------------------------------------- */
@@ -219,7 +226,7 @@ static void find_balance (const problem_of_motions *w, const double *f, double *
 static size_t without_rows (const problem_of_motions *w, double size)
 {
     for (size_t j = 0; j < w->m; j++)
-        if (w->S[j] == 0 && fabs (w->Q[j]) > ACCEPTED * size) return j;
+        if (w->S[j] == 0 && fabs (w->Q[j]) > fmax (ACCEPTED * size, w->noise)) return j;
     return SIZE_MAX;
 }
 
@@ -227,8 +234,23 @@ static size_t without_rows (const problem_of_motions *w, double size)
 static size_t runs_away (const problem_of_motions *w, const double *left, double size)
 {
     for (size_t j = 0; j < w->m; j++)
-        if (!(fabs (w->y[j]) <= w->size) && fabs (left[j]) > ACCEPTED * size) return j;
+        if (!(fabs (w->y[j]) <= w->size) && fabs (left[j]) > fmax (ACCEPTED * size, w->noise)) return j;
     return SIZE_MAX;
+}
+
+/* Where a part only follows a platen, or bears nothing, forces of contact are rounding, and their own size is
+ * no measure: the loads and reactions of the body are, and what it would take to undo the overlap of pieces.
+ * */
+static void find_noise (problem_of_motions *w, const double *open)
+{
+    double most = fmax (w->s->reference, w->s->borne);
+    size_t dim = w->c->pieces.dim;
+    for (size_t i = 0; i < w->rows; i += dim) {
+        double gap = open[i], stiff = w->c->C[i * w->rows + i];
+        for (size_t j = 0; j < w->m; j++) gap += w->B[j * w->rows + i] * w->y[j];
+        if (gap < 0 && stiff > 0) most = fmax (most, -gap / stiff);
+    }
+    w->noise = w->c->loose.noise = NOISE * most;
 }
 
 /* The problem of contact with the springs where they stand. */
@@ -253,6 +275,7 @@ static pg_status iterate (problem_of_motions *w, pg_contact_solution *out, const
     size_t which = 0, bad;
     PG_ALLOC (left, 2 * w->m);
     before = left + w->m;
+    find_noise (w, open);
     find_springs (w), soften (w);
     for (size_t i = 0; i < w->rows; i++) out->force[i] = 0;
     find_balance (w, out->force, left, &worst, &which, &size);
@@ -263,12 +286,13 @@ static pg_status iterate (problem_of_motions *w, pg_contact_solution *out, const
         memcpy (before, left, w->m * sizeof *left);
         find_balance (w, out->force, left, &worst, &which, &size);
         for (size_t j = 0; j < w->m; j++) w->y[j] += w->S[j] * left[j];
-        if (worst <= BALANCED * size || (worst <= ACCEPTED * size && worst > 0.5 * last)) goto done;
+        if (worst <= fmax (BALANCED * size, w->noise) || (worst <= ACCEPTED * size && worst > 0.5 * last))
+            goto done;
         bad = runs_away (w, left, size);
-        if (round > 0 && soften_slow (w, left, before, ACCEPTED * size)) soften (w);
+        if (round > 0 && soften_slow (w, left, before, fmax (ACCEPTED * size, w->noise))) soften (w);
     }
     if (bad == SIZE_MAX) bad = which;
-    if (!(fabs (left[bad]) <= ACCEPTED * size)) status = refuse (w, bad, fabs (left[bad]));
+    if (!(fabs (left[bad]) <= fmax (ACCEPTED * size, w->noise))) status = refuse (w, bad, fabs (left[bad]));
 done:
     pg_free (left);
     return status;

@@ -204,7 +204,7 @@ pg_status contact_refresh (pg_system *s, const pg_state *state, const pg_changes
     c->began = 1;
     /* in motion their mass holds them */
     if ((s->options->flags & PG_SOLVER_STATIC) == PG_SOLVER_STATIC)
-        PG_TRY (options_blame (loose_refresh (&c->loose, s, state), s->options, "boundary"));
+        PG_TRY (options_blame (loose_refresh (&c->loose, s), s->options, "boundary"));
     s->report->contact_seconds += pg_seconds () - t0;
 done:
     return status;
@@ -299,11 +299,12 @@ static pg_status check_loose (const pg_system *s, const double *d)
 {
     const contact_loose *l = &s->contact->loose;
     double pull = loose_pull (s, d), size = fmax (s->reference, s->borne);
-    if (!l->n || pull <= s->options->tolerance * size) return PG_OK;
+    if (!l->n || pull <= fmax (s->options->tolerance * size, l->noise)) return PG_OK;
+    char place[BODY_PART_WORDS];
+    body_part_place (s->problem, &l->part[0], place, sizeof place);
     return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
-                     "a part of the body around (%.6g, %.6g, %.6g) m, which contact alone holds, is out of "
-                     "balance by %.3g N (reference force %.3g N): hold it by prescribed displacements",
-                     l->place[0], l->place[1], l->place[2], pull, size);
+                     "a part of the body, %s, which contact alone holds, is out of balance by %.3g N "
+                     "(reference force %.3g N): hold it by prescribed displacements", place, pull, size);
 }
 
 /* Equilibrium with the pairs at hand. */

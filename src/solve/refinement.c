@@ -2,6 +2,7 @@
  * Iterative refinement: solve, add, measure, until the out-of-balance force of the state is small. The
  * residual is taken from the force itself, not from K. How a state is judged that is not exactly in balance,
  * and the message for one that is refused. */
+#include "body_parts.h"
 #include "contact.h"
 #include <math.h>
 #include <stdio.h>
@@ -18,6 +19,46 @@ static double force_of_rounding (const pg_system *s, const double *d)
 {
     if (!(s->mean_diagonal > 0)) return 0;
     return 1e-14 / s->options->tolerance * system_norm_owned (s, s->diagonal0, d);
+}
+
+/* What a residual at rest may be compared with at most: the loads and the reactions that balance them, of
+ * this state or (unloaded) of one before. Where K is next to singular the forces of a state may be many times
+ * larger, and cancel each other but for rounding. Prescribed displacements are loads by the forces that they
+ * exert on a body that is held everywhere else, which bound their reactions; those of a load are larger by
+ * the ratio of lever arms, at most the length of the body over the spacing. */
+static double largest_reference (pg_system *s)
+{
+    const double *contact = contact_forces (s);
+    double sum = s->loaded;
+    if (contact) sum += system_norm (s, contact, s->ndof);
+    if (s->excavated) sum += system_norm (s, s->excavated, s->ndof);
+    return fmax (s->lever * sum, s->borne);
+}
+
+/* The loads of t are known from now on: by the force on points at rest but for prescribed displacements.
+ * `best` and `scratch` are free before a solve. */
+static pg_status know_loads (pg_system *s, double t)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
+    double *d = s->best, low[3], high[3], length = 0, reference;
+    if (s->lever > 0 && t == s->loaded_at) return PG_OK;
+    if (s->lever > 0 && s->loaded_at != 0 && pg_problem_proportional (p)) {
+        s->loaded *= fabs (t / s->loaded_at), s->loaded_at = t;
+        return PG_OK;
+    }
+    pg_problem_box (p, low, high);
+    for (int k = 0; k < p->dim; k++) length = fmax (length, high[k] - low[k]);
+    memset (d, 0, s->ndof * sizeof *d);
+    if (s->force->basis && s->force->basis (s->self) && s->force->impose)
+        PG_TRY (s->force->impose (s->self, t, d));
+    PG_TRY (system_exchange (s, d));
+    PG_TRY (s->force->balance (s->self, t, d, s->scratch, &reference));
+    system_clear_ghosts (s, s->scratch);
+    s->loaded = system_norm (s, s->scratch, s->ndof), s->loaded_at = t;
+    s->lever = fmax (1, system_most (s, length) / p->cloud.h);
+done:
+    return status;
 }
 
 /* The out-of-balance force of the state, from the force itself, and what it is measured against. */
@@ -40,6 +81,7 @@ pg_status system_residual (pg_system *s, double t, const double *d, const dynami
     else memcpy (s->reduced, s->residual, s->ndof * sizeof *s->reduced);
     /* a rank may have no supports where others have */
     if (T || system_is_shared (s)) reference = fmax (reference, system_norm (s, s->residual, s->ndof));
+    if (!dyn && s->lever > 0) reference = fmin (reference, largest_reference (s));
     s->reference = reference;
     reference = fmax (reference, force_of_rounding (s, d));
     s->scale = reference;
@@ -124,15 +166,12 @@ static pg_status refuse (pg_system *s, double residual, double restless)
     if (restless > settled)
         return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
                          "%.3g N of the loads stay unbalanced (%.3g of the reference force, allowed %.3g), "
-                         "%s, and each refinement moves the points by another "
-                         "%.2g of their displacement: nothing holds the body, or a loaded part of it has "
-                         "come loose; prescribe displacements that keep it from moving and turning, or "
-                         "use newmark",
+                         "%s, and each refinement moves the points by another %.2g of their displacement",
                          s->unbalanced, s->reference > 0 ? s->unbalanced / s->reference : 1,
                          s->options->tolerance, where, restless);
     return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
-                     "the residual stays at %.3g of the reference force (allowed %.3g), %s; %s", residual,
-                     s->options->tolerance, where, why_out_of_balance (p, s->options));
+                     "the residual stays at %.3g of the reference force (allowed %.3g), %s", residual,
+                     s->options->tolerance, where);
 }
 
 /* The state is judged by its own forces. Those of a body without load vanish: then by the largest that an
@@ -247,12 +286,13 @@ done:
  * small enough (1e-12 with a factor, a tenth of the tolerance with iterations) or no longer falls by
  * half, in itself or against the forces (which vanish with it in a body that is unloaded); then the state is
  * judged. */
-pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
+static pg_status solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
 {
     pg_status status = PG_OK;
     const pg_sparse *T = s->force->basis ? s->force->basis (s->self) : NULL;
     double last = INFINITY, r = 0, restless = -1;
     s->at_hand = 0;
+    if (!dyn) PG_TRY (know_loads (s, t));
     struct { double unbalanced, reference; } before = { 0, 0 };
     if (s->force->impose && T) PG_TRY (s->force->impose (s->self, t, d));
     PG_TRY (system_exchange (s, d));
@@ -288,6 +328,14 @@ pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics
     if (guesses (s, dyn)) system_guess_learn (s);
 done:
     return status;
+}
+
+/* Where there is no equilibrium at rest, its message names the part that nothing holds, or another reason. */
+pg_status system_solve_linear (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)
+{
+    pg_status status = solve_linear (s, t, d, dyn, residual);
+    if (dyn) return status;
+    return status == PG_OK ? body_parts_centre (s, d) : body_parts_explain (s, t, status);
 }
 
 pg_status system_solve (pg_system *s, double t, double *d, const dynamics *dyn, double *residual)

@@ -2,6 +2,7 @@
  * Stages of a load, each brought to rest by damped motion (Kilic and Madenci 2010; Shen 2016; theory B4, C).
  * While a stage is held, bonds do not break before its load has come to act, for the jolt of the load's
  * arrival is not part of a quasi-static path. */
+#include "body_parts.h"
 #include "contact.h"
 #include "relaxation.h"
 #include "perigal/ranks.h"
@@ -288,22 +289,22 @@ done:
 }
 
 /* A stage that does not come to rest: why, and what to do. */
-static pg_status too_long (const pg_solver *s, const pg_state *state, long iterations)
+static pg_status too_long (pg_solver *s, const pg_state *state, double t, long iterations)
 {
     const pg_problem *p = s->problem;
-    const pg_system *sys = &s->break_loop.system;
+    pg_system *sys = &s->break_loop.system;
     size_t worst = 0, dim = (size_t) p->dim;
     for (size_t i = 1; i < state->ndof; i++)
         if (fabs (sys->residual[i]) > fabs (sys->residual[worst])) worst = i;
     const double *x = p->cloud.x + worst / (size_t) sys->components * dim;
-    return pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+    pg_error (PG_E_EQUILIBRIUM, PG_HERE,
                      "no balance after %ld iterations: the out-of-balance force is %.3g of the loads "
                      "(allowed %.3g), largest at point %zu "
-                     "(%g, %g, %g) m: probably a loaded part has come loose; try prescribed displacements or "
-                     "more solver.stages, else raise "
-                     "solver.max_iterations or solver.imbalance",
+                     "(%g, %g, %g) m: take more solver.stages, or raise solver.max_iterations or "
+                     "solver.imbalance",
                      iterations, motion_of (s)->relaxation->imbalance, stages_of (s)->imbalance,
                      worst / (size_t) sys->components, x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0);
+    return body_parts_explain (sys, t, PG_E_EQUILIBRIUM);
 }
 
 /* The caller looks at the body between iterations and may stop the step. */
@@ -345,7 +346,7 @@ static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
             if (!died) break;
         }
         if (!x->armed && x->imbalance <= arrival) PG_TRY (arm (s, state, t, passing));
-        if (b->round >= o->max_iterations) PG_TRY (too_long (s, state, b->round));
+        if (b->round >= o->max_iterations) PG_TRY (too_long (s, state, t, b->round));
         PG_TRY (iterate (s, state));
     }
     step->iterations = b->round;

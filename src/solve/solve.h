@@ -100,6 +100,10 @@ typedef struct {
     double    reference, unbalanced;
     double    scale;  /* what its residual was divided by: the reference, or forces of rounding */
     double    borne;  /* the largest reference of an accepted state of fixed load steps, N */
+    /* At rest: size of the loads and of what prescribed displacements alone exert at `loaded_at`, N, and how
+     * much larger the reactions can be that balance them (lever); lever 0: not known yet. */
+    double    loaded, loaded_at, lever;
+    struct body_parts *floating;  /* that move freely under loads that balance; NULL: none */
     double    shift;
     /* s (with the multilevel preconditioner: iterations) that a new factor would have spared */
     double    extra_cost;
@@ -410,10 +414,6 @@ pg_status solver_note_tip  (pg_solver *s, const pg_tip_values *values);
 pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k);
 
 /* ---- warnings.c ---------------------------------------------------------------------------------------- */
-/* 1: at rest the prescribed displacements leave a translation along an axis or a rotation free. */
-int supports_leave_free (const pg_problem *p);
-/* For messages: the probable cause of forces that find no balance, and what to do. Borrowed. */
-const char *why_out_of_balance (const pg_problem *p, const pg_solver_options *o);
 
 /* loaded_rows.c: warns of tractions that tear off the points they act on; the force is refreshed. */
 pg_status doubt_loaded_rows (pg_solver *s);

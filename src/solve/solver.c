@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The solver object: steps with refusal, the report of the run. */
+#include "body_parts.h"
 #include "contact.h"
 #include <math.h>
 #include <stdarg.h>
@@ -10,7 +11,7 @@
  * error. */
 pg_status options_fault (const pg_solver_options *o, const char *key, const char *format, ...)
 {
-    char text[512];
+    char text[1000];
     va_list args;
     va_start (args, format);
     vsnprintf (text, sizeof text, format, args);
@@ -90,6 +91,21 @@ void pg_solver_free (pg_solver **solver)
     *solver = NULL;
 }
 
+/* Where a part of the body is free to move under loads that do not balance the run ends before its first
+ * step, whatever it would be solved by; contact, or what a stage removes, may change that. */
+static pg_status check_parts (pg_solver *s, const pg_state *state)
+{
+    pg_system *sys = &s->break_loop.system;
+    if (!(s->options.flags & PG_SOLVER_QUASI_STATIC) || sys->contact || state->step > 0
+        || pg_problem_removes (s->problem))
+        return PG_OK;
+    pg_status status = body_parts_begin (sys, stage_end (s));
+    if (status != PG_E_EQUILIBRIUM || !s->options.scene) return status;
+    char text[1000];
+    snprintf (text, sizeof text, "%s", pg_last_error ());
+    return options_fault (&s->options, "boundary", "%s", text);
+}
+
 pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -99,6 +115,7 @@ pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *
     PG_TRY (contact_check (&s->break_loop.system));
     if (s->type->begin) PG_TRY (s->type->begin (s, state));
     PG_TRY (doubt_loaded_rows (s));
+    PG_TRY (check_parts (s, state));
     s->begun = 1;
 done:
     status = options_blame (status, &s->options, "solver");
@@ -177,6 +194,14 @@ static int short_range (const pg_solver *s)
 
 const pg_load *pg_solver_loads (const pg_solver *s) { return s->problem->load; }
 
+/* An accepted state at rest is one that something holds. */
+static pg_status check_rest (pg_solver *s, const pg_state *state)
+{
+    pg_system *sys = &s->break_loop.system;
+    if (!(s->options.flags & PG_SOLVER_QUASI_STATIC) || s->finished) return PG_OK;
+    return body_parts_check (sys, state->factor, state->d, !sys->contact);
+}
+
 /* The method advances the state. What fails leaves the last accepted state behind, and a message with the
  * step and the load it was at. */
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -196,6 +221,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     }
     step->number = state->step + 1;
     PG_TRY (s->type->step (s, state, step));
+    PG_TRY (check_rest (s, state));
     state->step++;
     state->iterations += step->iterations;
     state->work = s->break_loop.work;

@@ -4,6 +4,7 @@
  * M) T and the residual T' R. Unknowns that breaking has touched get 1e-11 of the mean diagonal (isolated
  * nodes and loose fragments stay put); the refinement takes its effect out again wherever the body can carry
  * load. */
+#include "body_parts.h"
 #include "contact.h"
 #include "event_solver.h"
 #include <math.h>
@@ -31,6 +32,7 @@ void system_free (pg_system *s)
     if (s->factor) s->linear->free (&s->factor);
     event_solver_free (&s->following);
     contact_free (s);
+    if (s->floating) body_parts_clear (s->floating), pg_free (s->floating);
     system_guess_free (s);
     system_forget_preconditioner (s);
     if (s->force && s->self) s->force->free (&s->self);
@@ -310,14 +312,27 @@ static double pivots (const pg_system *s)
 }
 static const double least_pivot = 1e-13;
 
+/* Nodes of parts that supports do not hold count as touched. 1: there are such parts. */
+static int touch_free_parts (pg_system *s)
+{
+    body_parts parts;
+    int any = 0;
+    if (body_parts_find (&parts, s) != PG_OK) return 0;
+    for (size_t i = 0; i < s->problem->cloud.n && parts.n; i++)
+        if (parts.part[parts.of[i]].n) s->touched[i] = 1, any = 1;
+    body_parts_clear (&parts);
+    return any;
+}
+
 /* No bond has negative energy, but those of a chain or a sheet leave motions free. So do supports that hold
- * the body along some axes only: rounding decides whether such a matrix passes for positive definite. All
- * unknowns get the shift, once; loads that need no support are in balance all the same, which the residual
- * tells. */
+ * a part of the body along some axes only, or not at all: rounding decides whether such a matrix passes for
+ * positive definite. These unknowns get the shift, once; loads that need no support are in balance all the
+ * same, which the residual tells. */
 static int weaken_all (pg_system *s, const dynamics *dyn)
 {
-    if (s->all_weak || !(s->problem->sums || (!dyn && supports_leave_free (s->problem)))) return 0;
-    memset (s->touched, 1, s->problem->cloud.n);
+    if (s->all_weak) return 0;
+    if (s->problem->sums) memset (s->touched, 1, s->problem->cloud.n);
+    else if (dyn || !touch_free_parts (s)) return 0;
     s->all_weak = 1, s->shift = 1e-11;
     return 1;
 }
@@ -510,11 +525,7 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
         if (falls_back (s)) return PG_OK;
         limit = LAST_TRY;
     }
-    pg_status now = system_iterate (s, dyn, BY_DIAGONAL, tolerance, limit, &used);
-    int free_to_move = (can && now == PG_E_EQUILIBRIUM) || now == PG_E_NOT_SPD;
-    if (free_to_move)
-        PG_FAIL (now, "%s; %s", pg_last_error (), why_out_of_balance (s->problem, s->options));
-    PG_TRY (now);
+    PG_TRY (system_iterate (s, dyn, BY_DIAGONAL, tolerance, limit, &used));
     if (!can) PG_TRY (leave_diagonal (s, dyn, used));
 done:
     return status;

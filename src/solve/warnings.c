@@ -69,21 +69,6 @@ static int held_along (const pg_problem *p, int k)
     return 0;
 }
 
-int supports_leave_free (const pg_problem *p)
-{
-    for (int k = 0; k < p->dim; k++) if (!held_along (p, k)) return 1;
-    return may_turn (p);
-}
-
-const char *why_out_of_balance (const pg_problem *p, const pg_solver_options *o)
-{
-    if ((o->flags & PG_SOLVER_QUASI_STATIC) && supports_leave_free (p))
-        return "nothing holds the body, which its prescribed displacements leave free to move or to turn: "
-               "prescribe displacements that keep it from both, or use newmark";
-    return "probably a loaded part has come loose: try prescribed displacements, newmark, or a coarser "
-           "criterion";
-}
-
 /* Warns of rigid motions that nothing prevents, and of bodies without a load. In dynamics inertia holds a
  * body, and only the load is asked for. */
 static void doubt_supports (pg_statistics *report, const pg_problem *p, const pg_solver_options *o)

@@ -1,0 +1,223 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * Parts of the body that hang together, and their rigid motions that neither prescribed displacements nor
+ * springs resist. */
+#include "body_parts.h"
+#include "perigal/ranks.h"
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+/* A motion counts as held where supports resist it by more than this share of what they resist the stiffest
+ * one: two supports side by side hold a rotation by the square of their distance over the size of the part.
+ * */
+static const double HELD = 1e-9;
+
+void body_parts_clear (body_parts *parts)
+{
+    pg_free (parts->part), pg_free (parts->of);
+    memset (parts, 0, sizeof *parts);
+}
+
+void body_part_move (const body_part *part, int dim, const double *x, const double *m, double *u)
+{
+    double r[3] = { 0 }, size = part->size > 0 ? part->size : 1;
+    for (int k = 0; k < dim; k++) r[k] = (x[k] - part->middle[k]) / size;
+    for (int k = 0; k < 3; k++)
+        u[k] = m[k] + m[3 + (k + 1) % 3] * r[(k + 2) % 3] - m[3 + (k + 2) % 3] * r[(k + 1) % 3];
+}
+
+void body_part_place (const pg_problem *p, const body_part *part, char *text, size_t size)
+{
+    double all = p->cloud.subdomain ? (double) p->cloud.subdomain->total : (double) p->cloud.n;
+    size_t used = (size_t) snprintf (text, size, "%zu of its %.0f points, around (%.6g", part->points, all,
+                                     part->middle[0]);
+    for (int k = 1; k < p->dim && used < size; k++)
+        used += (size_t) snprintf (text + used, size - used, ", %.6g", part->middle[k]);
+    if (used < size) snprintf (text + used, size - used, ") m");
+}
+
+/* "(x, y, z)" of as many components as the body has. */
+static size_t write_vector (int dim, const double *x, char *text, size_t size)
+{
+    size_t used = 0;
+    for (int k = 0; k < dim && used < size; k++)
+        used += (size_t) snprintf (text + used, size - used, "%s%.4g%s", k ? ", " : "(",
+                                   fabs (x[k]) < 1e-12 ? 0 : x[k], k + 1 == dim ? ")" : "");
+    return used;
+}
+
+void body_part_way (const pg_problem *p, const body_part *part, const double *m, char *text, size_t size)
+{
+    double turn[3], square = 0, place[3] = { 0 };
+    for (int k = 0; k < 3; k++)
+        turn[k] = m[3 + k] / (part->size > 0 ? part->size : 1), square += turn[k] * turn[k];
+    size_t used;
+    if (!(square * part->size * part->size > 1e-12)) {
+        used = (size_t) snprintf (text, size, "along ");
+        write_vector (p->dim, m, text + used, size - used);
+        return;
+    }
+    for (int k = 0; k < 3; k++)                        /* where the motion has no part across its axis */
+        place[k] = part->middle[k]
+                   + (turn[(k + 1) % 3] * m[(k + 2) % 3] - turn[(k + 2) % 3] * m[(k + 1) % 3]) / square;
+    for (int k = 0; k < 3; k++) turn[k] /= sqrt (square);
+    used = (size_t) snprintf (text, size, "about %s", p->dim == 2 ? "z" : "");
+    if (p->dim == 3) used += write_vector (3, turn, text + used, size - used);
+    used += (size_t) snprintf (text + used, size - used, " through ");
+    used += write_vector (p->dim, place, text + used, size - used);
+    snprintf (text + used, size - used, " m");
+}
+
+/* ---- parts --------------------------------------------------------------------------------------------- */
+static int ascending (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+/* Number of the part of every point, by labels that all ranks agree on. */
+static pg_status number_points (body_parts *out, const pg_system *s)
+{
+    pg_status status = PG_OK;
+    const pg_subdomain *owners = s->problem->cloud.subdomain;
+    size_t n = s->problem->cloud.n, own = 0;
+    int *parent = NULL;
+    double *label = NULL, *mine = NULL, *all = NULL;
+    PG_ALLOC (out->of, n);
+    PG_ALLOC (parent, n);
+    PG_ALLOC (label, n);
+    PG_ALLOC (mine, n);
+    s->force->join (s->self, parent);
+    PG_TRY (pg_subdomain_label (owners, n, 1, parent, label));
+    for (size_t i = 0; i < n; i++)
+        if (pg_owns (owners, i) && label[i] == (owners ? (double) owners->number[i] : (double) i))
+            mine[own++] = label[i];
+    PG_TRY (pg_ranks_share (own, mine, &out->n, &all));
+    qsort (all, out->n, sizeof *all, ascending);
+    PG_ALLOC (out->part, out->n);
+    for (size_t i = 0; i < n; i++) {
+        const double *at = bsearch (&label[i], all, out->n, sizeof *all, ascending);
+        out->of[i] = at ? (int) (at - all) : 0;
+    }
+done:
+    pg_free (parent), pg_free (label), pg_free (mine), pg_free (all);
+    return status;
+}
+
+/* Points, middle and size of every part, over all ranks. */
+static pg_status measure (body_parts *out, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) p->dim;
+    double *sum = NULL, *most = NULL;
+    PG_ALLOC (sum, 4 * out->n);
+    PG_ALLOC (most, out->n);
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double *to = sum + 4 * (size_t) out->of[i];
+        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        to[3]++;
+        for (size_t k = 0; k < dim; k++) to[k] += p->cloud.x[i * dim + k];
+    }
+    PG_TRY (pg_ranks_sum (4 * out->n, sum));
+    for (size_t r = 0; r < out->n; r++) {
+        out->part[r].points = (size_t) sum[4 * r + 3];
+        for (size_t k = 0; k < dim; k++) out->part[r].middle[k] = sum[4 * r + k] / fmax (1, sum[4 * r + 3]);
+    }
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        const double *middle = out->part[out->of[i]].middle, *x = p->cloud.x + i * dim;
+        double square = 0;
+        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        for (size_t k = 0; k < dim; k++) square += (x[k] - middle[k]) * (x[k] - middle[k]);
+        most[out->of[i]] = fmax (most[out->of[i]], sqrt (square));
+    }
+    PG_TRY (pg_ranks_most (out->n, most));
+    for (size_t r = 0; r < out->n; r++) out->part[r].size = most[r];
+done:
+    pg_free (sum), pg_free (most);
+    return status;
+}
+
+/* ---- motions ------------------------------------------------------------------------------------------- */
+/* Which of the six numbers a motion has, by the dimension of the body. */
+static const int line[1] = { 0 }, plane[3] = { 0, 1, 5 }, space[6] = { 0, 1, 2, 3, 4, 5 };
+enum { MOST = 6, SQUARES = MOST * MOST };
+static size_t numbers_of (int dim, const int **which)
+{
+    *which = dim == 1 ? line : dim == 2 ? plane : space;
+    return dim == 1 ? 1 : dim == 2 ? 3 : 6;
+}
+
+/* Does a load resist motion along its component k? */
+static int resists (const pg_load *load, int k)
+{
+    return load->kind == PG_SPRING ? load->stiffness[k] > 0 : pg_load_prescribes (load) && load->value[k];
+}
+
+/* What a load resists at a point: A += the squares of its rows, n x n. A prescribed rotation of points with
+ * rotations of their own turns with the part. */
+static void resist (const body_part *part, int dim, const pg_load *load, const double *x, double *A)
+{
+    const int *which;
+    size_t n = numbers_of (dim, &which);
+    int turns = pg_load_rotates (load), count = pg_load_components (load, dim);
+    for (int k = 0; k < count; k++) {
+        double row[MOST];
+        if (!resists (load, k)) continue;
+        for (size_t a = 0; a < n; a++) {
+            rigid_motion m = { 0 };
+            double u[3];
+            m[which[a]] = 1;
+            body_part_move (part, dim, x, m, u);
+            row[a] = turns ? m[dim == 2 ? 5 : 3 + k] : u[k];
+        }
+        for (size_t a = 0; a < n; a++) for (size_t b = 0; b < n; b++) A[a * n + b] += row[a] * row[b];
+    }
+}
+
+/* The motions of every part that nothing resists. */
+static pg_status find_free (body_parts *out, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    const int *which;
+    size_t dim = (size_t) p->dim, n = numbers_of (p->dim, &which);
+    double *A = NULL;
+    PG_ALLOC (A, SQUARES * out->n);
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (!pg_load_prescribes (load) && load->kind != PG_SPRING) continue;
+        for (size_t i = 0; i < load->set->npoint; i++) {
+            size_t at = (size_t) load->set->point[i], r = (size_t) out->of[at];
+            if (pg_owns (p->cloud.subdomain, at))
+                resist (&out->part[r], p->dim, load, p->cloud.x + at * dim, A + SQUARES * r);
+        }
+    }
+    PG_TRY (pg_ranks_sum (SQUARES * out->n, A));
+    for (size_t r = 0; r < out->n; r++) {
+        body_part *part = &out->part[r];
+        double value[MOST], V[SQUARES];
+        pg_dense_eigen ((int) n, A + SQUARES * r, value, V);
+        for (size_t a = 0; a < n; a++) {
+            if (value[a] > HELD * value[0] && value[0] > 0) continue;
+            memset (part->motion[part->n], 0, sizeof (rigid_motion));
+            for (size_t b = 0; b < n; b++) part->motion[part->n][which[b]] = V[b * n + a];
+            part->n++;
+        }
+    }
+done:
+    pg_free (A);
+    return status;
+}
+
+pg_status body_parts_find (body_parts *out, const pg_system *s)
+{
+    pg_status status = PG_OK;
+    memset (out, 0, sizeof *out);
+    if (!s->force->join) return PG_OK;
+    PG_TRY (number_points (out, s));
+    PG_TRY (measure (out, s->problem));
+    PG_TRY (find_free (out, s->problem));
+done:
+    if (status != PG_OK) body_parts_clear (out);
+    return status;
+}
