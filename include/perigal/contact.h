@@ -149,6 +149,8 @@ pg_status pg_contact_rows_of (pg_sparse *out, const pg_contact_pieces *pieces, c
  * frees. Slips are those of the body over the platen. */
 pg_status pg_platen_pieces_create (pg_contact_pieces *out, double **gap, const pg_problem *problem,
                                    size_t platen);
+/* Least distance of the surface of these pieces from the platen at the start, m; h: spacing there. */
+double pg_platen_touches (const pg_contact_pieces *pieces, const pg_platen *platen, double h);
 /* What the gap and the slips of piece k gain by each of six motions of its platen: translations along x, y, z
  * (per m), rotations about axes through `about` (m, per rad). row: dim x 6. */
 void pg_platen_row (const pg_contact_pieces *pieces, size_t k, const double *about, double *row);

@@ -5,7 +5,6 @@
 #include "perigal/ranks.h"
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 /* A motion counts as held where supports resist it by more than this share of what they resist the stiffest
@@ -94,10 +93,10 @@ static pg_status number_points (body_parts *out, const pg_system *s)
         if (pg_owns (owners, i) && label[i] == (owners ? (double) owners->number[i] : (double) i))
             mine[own++] = label[i];
     PG_TRY (pg_ranks_share (own, mine, &out->n, &all));
-    qsort (all, out->n, sizeof *all, ascending);
+    pg_sort (all, out->n, sizeof *all, ascending);
     PG_ALLOC (out->part, out->n);
     for (size_t i = 0; i < n; i++) {
-        const double *at = bsearch (&label[i], all, out->n, sizeof *all, ascending);
+        const double *at = pg_search (&label[i], all, out->n, sizeof *all, ascending);
         out->of[i] = at ? (int) (at - all) : 0;
     }
 done:

@@ -42,6 +42,20 @@ done:
     return status;
 }
 
+/* The mean distance of a piece of a curved surface is not that at which it first touches: a disk of radius R
+ * would come (2 h)^2 / 6 R too late under a plane. All pieces of a platen come nearer by what the nearest of
+ * them is further away than the nearest place: where it touches first is right, and the shape that the means
+ * have stays. */
+static void begin_at_first_touch (const pg_problem *p, const pg_contact_pieces *one, size_t platen,
+                                  double *gap)
+{
+    size_t nearest = 0;
+    for (size_t k = 1; k < one->n; k++) if (gap[k] < gap[nearest]) nearest = k;
+    double h = pg_problem_spacing_at (p, one->piece[nearest].x),
+           late = gap[nearest] - fmax (pg_platen_touches (one, &p->platen[platen], h), 0);
+    for (size_t k = 0; k < one->n && late > PG_NO_LENGTH * h; k++) gap[k] -= late;
+}
+
 /* The pieces opposite all platens, from the positions at the start; a platen in the body is refused. */
 pg_status platens_create (pg_system *s)
 {
@@ -71,6 +85,7 @@ pg_status platens_create (pg_system *s)
                                        "before anything moves: put it where it touches at most (a body of "
                                        "whole cells has a surface of steps: cells: cut)", p->platen[i].name,
                                        -gap[k], one.piece[k].x[0], one.piece[k].x[1], one.piece[k].x[2]));
+        begin_at_first_touch (p, &one, i, gap);
         size_t before = w->all.n;
         PG_TRY (append (&w->all, &one, NULL));
         PG_GROW (w->distance, room, w->all.n);

@@ -40,7 +40,7 @@ run "points apart: refused with the point"   65 '' 'method.horizon = 2.2 spacing
 run "a horizon that joins them: measured"    65 '*' 'method: under uniform stress xx the displacement is off by [0-9.]* %; points without cells are integrated by their volumes' \
     cloud_apart.yaml method.horizon='4 spacing'
 run "two squares: the loose one stays"         0 'warning: the body is in 2 parts that no bond joins' '*' points_apart.yaml
-run "loaded it is refused and named"          65 '*' ':8:1: boundary: a loose part of the body, .* is held by nothing: it is free to move along x (.* N)' points_apart.yaml \
+run "loaded it is refused and named"          65 '*' ':9:1: boundary: a loose part of the body, .* is held by nothing: it is free to move along x (.* N)' points_apart.yaml \
     'sets.far.where="x > 1.1"' 'boundary[2]={name: pull, set: far, body_force: {x: 1 MN/m3}}'
 run "points alone: told"                      0 'warning: the cracks leave 1 point without a bond, such as that at (0.5, 0.5) m' '*' points_alone.yaml
 grep -q 'warning: 2 points lie on a pre-crack and lose all bonds to both sides' "$work/out" && grep -q '2 points lie on a pre-crack' "$out/report.json" \
