@@ -55,7 +55,7 @@ OBJECTS := $(SOURCES:src/%.c=$(BUILD)/src/%.o)
 CLIOBJ  := $(CLI:src/%.c=$(BUILD)/src/%.o)
 TESTBIN := $(TESTS:test/%.c=$(BUILD)/test/%)
 # tests that replace a function of the C library, which the other tests of their folder must not see
-ALONE   := $(BUILD)/test/results/test_durable $(BUILD)/test/scene/test_locale
+ALONE   := $(BUILD)/test/results/test_durable $(BUILD)/test/results/test_killed $(BUILD)/test/scene/test_locale
 BENCHBIN:= $(TOOLS:bench/%.c=$(BUILD)/bench/%)
 RANKSBIN = $(if $(PETSC),$(patsubst bench/%.c,$(BUILD)/bench/%,$(wildcard bench/ranks/*.c)))
 LIB     := $(BUILD)/libperigal.a
