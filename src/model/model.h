@@ -76,6 +76,7 @@ pg_status pg_dilatation_build (pg_problem *problem, const pg_scene *scene);
 pg_status pg_interfaces_read (pg_problem *problem, const pg_scene *scene);
 /* Remarks on what was perhaps not meant (remarks.c); parts, contrast: once the bonds are there. */
 void      pg_remark_spacing  (pg_problem *problem, const pg_scene *scene);
+void      pg_remark_small_shapes (pg_problem *problem);
 void      pg_remark_clouds   (pg_problem *problem);
 pg_status pg_remark_parts    (pg_problem *problem);
 pg_status pg_remark_contrast (pg_problem *problem);

@@ -400,6 +400,7 @@ pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     PG_TRY (pg_scene_conclude (scene));
     pg_remark_spacing (p, scene);
+    pg_remark_small_shapes (p);
     pg_remark_clouds (p);
     PG_TRY (pg_bonds_build (p, scene));
     PG_TRY (pg_remark_parts (p));

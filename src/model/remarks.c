@@ -34,6 +34,43 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
         }
 }
 
+/* The least extent of a shape along its axes, m, and its middle; INFINITY: not known. */
+static double least_extent (const pg_shape *s, int dim, double *middle)
+{
+    double least = 2 * s->radius;
+    for (int k = 0; k < 3; k++) middle[k] = s->centre[k];
+    if (s->kind == PG_CYLINDER) return fmin (least, s->length);
+    if (s->kind == PG_DISK || s->kind == PG_SPHERE) return least;
+    if (s->kind != PG_BOX && s->kind != PG_POLYGON && s->kind != PG_PRISM) return INFINITY;
+    least = INFINITY;
+    for (int k = 0; k < dim; k++) {
+        double low = s->low[k], high = s->high[k];
+        for (size_t v = 0; k < 2 && v < s->nvertex; v++) {
+            double x = s->vertex[2 * v + (size_t) k];
+            low = v ? fmin (low, x) : x, high = v ? fmax (high, x) : x;
+        }
+        least = fmin (least, high - low), middle[k] = 0.5 * (low + high);
+    }
+    return least;
+}
+
+/* What is narrower than the points are apart the points do not see, or see as wide as they are. */
+void pg_remark_small_shapes (pg_problem *p)
+{
+    if (!p->lattice.dim) return;
+    for (size_t i = 0; i < p->body.n; i++) {
+        const pg_shape *s = &p->body.shape[i];
+        double middle[3] = { 0 }, least = least_extent (s, p->dim, middle), h;
+        if (s->slot) continue;
+        h = pg_problem_spacing_at (p, middle);
+        if (least < h * (1 - 1e-9))
+            pg_problem_note (p,
+                             PG_WARNING "body[%zu]: %s of %.3g m is smaller than the spacing there, %.3g m: "
+                                        "the points do not resolve it, and it may be without effect",
+                             i, s->add ? "a part" : "a hole", least, h);
+    }
+}
+
 /* ---- alpha shapes -------------------------------------------------------------------------------------- */
 /* From this part of twice alpha on a largest over the median radius is told: what is fine elsewhere is
  * coarse there. */

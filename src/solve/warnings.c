@@ -115,6 +115,108 @@ static void doubt_all (pg_statistics *report, const pg_problem *p)
                     "its surface alone: sets: {NAME: {boundary: all}}, or essential: nitsche");
 }
 
+/* How far the points of a set lie inside its facets, m, on the mean; *across: the extent of the body along
+ * the normals there, m. 0: it has no facets, or its points lie on them. */
+static double depth_of (const pg_problem *p, const pg_set *set, double *across)
+{
+    enum { SAMPLE = 64 };
+    size_t dim = (size_t) p->dim, step = set->nfacet / SAMPLE + 1, looked = 0;
+    double sum = 0;
+    *across = 0;
+    for (size_t f = 0; f < set->nfacet; f += step, looked++) {
+        const double *c = p->cells.facet_centre + (size_t) set->facet[f] * dim,
+                     *n = p->cells.normal + (size_t) set->facet[f] * dim;
+        double best = INFINITY, deep = 0;
+        for (size_t i = 0; i < set->npoint; i++) {
+            double far = 0, along = 0;
+            for (size_t k = 0; k < dim; k++) {
+                double d = c[k] - p->cloud.x[(size_t) set->point[i] * dim + k];
+                far += d * d, along += d * n[k];
+            }
+            if (far < best) best = far, deep = along;
+        }
+        sum += deep;
+        for (size_t k = 0; k < dim; k++)
+            *across += fabs (n[k]) * (p->cloud.high[k] - p->cloud.low[k]);
+    }
+    *across = looked ? *across / (double) looked : 0;
+    return looked ? sum / (double) looked : 0;
+}
+
+/* Prescribed at points, displacements act where these lie: on a lattice of centres half a spacing inside the
+ * surface, so that the body is that much shorter for its loads. */
+static void doubt_depth (pg_statistics *report, const pg_problem *p)
+{
+    double across;
+    if (!p->method->shape_functions || p->cloud.subdomain) return;
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || load->share
+            || load->set->npoint <= (size_t) p->dim)
+            continue;                                  /* so few points are a pin */
+        double deep = depth_of (p, load->set, &across);
+        if (!(deep > 0.1 * p->cloud.h) || !(across > 0)) continue;
+        pg_statistics_warn (report,
+                            "%.40s acts at points %.3g m inside the surface, %.2g spacings: the body is "
+                            "about %.2g %% shorter for it, and as much too stiff; essential: nitsche acts on "
+                            "the surface, as does lattice: nodes",
+                            load->name, deep, deep / p->cloud.h, 100 * deep / across);
+        return;
+    }
+}
+
+/* Where a load acts along axis k: its extent along axis q, from low to high, m. 0: nowhere. */
+static int spans (const pg_problem *p, const pg_load *load, int k, int q, double *low, double *high)
+{
+    *low = INFINITY, *high = -INFINITY;
+    if (!load->value[k] || load->turns || pg_load_rotates (load) || load->kind == PG_EIGENSTRAIN) return 0;
+    for (size_t i = 0; i < load->set->npoint; i++) {
+        double x = p->cloud.x[(size_t) load->set->point[i] * (size_t) p->dim + (size_t) q];
+        *low = fmin (*low, x), *high = fmax (*high, x);
+    }
+    return *low <= *high;
+}
+
+/* Does something else act along axis k beside the stretch low to high of axis q, so that the body bends over
+ * it? */
+static int bends (const pg_problem *p, size_t load, int k, int q, double low, double high)
+{
+    double from, to;
+    for (size_t l = 0; l < p->nload; l++)
+        if (l != load && spans (p, &p->load[l], k, q, &from, &to)
+            && (0.5 * (from + to) < low || 0.5 * (from + to) > high))
+            return 1;
+    return 0;
+}
+
+/* Displacements along k of a short part of the surface, its points more than a spacing apart along q, keep it
+ * from turning: a clamp, which bears a moment, where a roller or the edge of a load is mostly meant. */
+static void doubt_clamps (pg_statistics *report, const pg_problem *p)
+{
+    static const double narrow = 1.5, most = 0.2;      /* spacings; of the body along q */
+    double low, high;
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        int done = !pg_load_prescribes (load) || load->share || load->symmetry || p->cloud.subdomain;
+        for (int k = 0; k < p->dim && !done; k++)
+            for (int q = 0; q < p->dim && !done; q++) {
+                if (q == k || !spans (p, load, k, k, &low, &high)
+                    || high - low > most * (p->cloud.high[k] - p->cloud.low[k])) continue;
+                spans (p, load, k, q, &low, &high);
+                double h = pg_problem_spacing (p, PG_NODES, (size_t) load->set->point[0]);
+                if (high - low < narrow * h || high - low > most * (p->cloud.high[q] - p->cloud.low[q])
+                    || !bends (p, l, k, q, low, high))
+                    continue;
+                done = 1;
+                pg_statistics_warn (report,
+                                    "%.40s: displacements along %c of points up to %.3g m apart along %c "
+                                    "keep the surface there from turning, as a clamp does; a roller or hinge: "
+                                    "points within a spacing, %.3g m, a force or a spring `at` a place",
+                                    load->name, "xyz"[k], high - low, "xyz"[q], h);
+            }
+    }
+}
+
 /* Nitsche's method integrates over facets; of the whole body that is meant: its surface. */
 static void doubt_inner (pg_statistics *report, const pg_problem *p)
 {
@@ -279,6 +381,8 @@ void pg_solver_doubts (pg_statistics *report, const pg_problem *p, const pg_solv
     doubt_supports (report, p, o);
     doubt_all (report, p);
     doubt_inner (report, p);
+    doubt_clamps (report, p);
+    doubt_depth (report, p);
     doubt_patch (report, p);
     doubt_single_bonds (report, p, o);
     doubt_shear (report, p);

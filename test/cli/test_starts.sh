@@ -42,4 +42,19 @@ pull() { echo "boundary=[{set: top, traction: {y: $1 MPa}, ramp: constant}, {set
 silent "a load that they bear" 'top pulls' glass_rows.yaml "$(pull 2)"
 silent "a load that presses" 'top pulls' glass_rows.yaml "$(pull -12)"
 silent "rows that never break" 'top pulls' glass_rows.yaml 'failure.exclude=[top, bottom]'
+template=../../data/new/beam/scene.yaml
+silent "rollers of the template" '.*as a clamp does' $template
+wide='sets={load: {boundary: top, where: "abs(x) <= 5 mm"}, left_support: {boundary: bottom, where: "abs(x + 100 mm) <= 5 mm"}, right_support: {boundary: bottom, where: "abs(x - 100 mm) <= 5 mm"}}'
+for load in load left right; do
+    expect "$load, wide: told to be a clamp" 0 "warning: $load: displacements along y of points up to 0.008 m apart along x keep the surface there from turning" '' check $template --set "$wide"
+done
+silent "platens that face each other" '.*as a clamp does' ../../data/disk_crack/scene.yaml spacing='2.5 mm'
+inside='s acts at points 0.05 m inside the surface, 0.5 spacings: the body is about 5.6 % shorter'
+for how in transformation penalty; do
+    warned "supports on centres of cells, $how" "$inside" small_hole.yaml method.essential=$how
+done
+silent "supports on the surface" '.*inside the surface' small_hole.yaml method.essential=nitsche
+silent "supports on nodes" '.*inside the surface' small_hole.yaml method.essential=transformation lattice=nodes
+warned "a hole smaller than a spacing" 'body.1.: a hole of 0.04 m is smaller than the spacing there, 0.1 m' small_hole.yaml
+silent "a hole that is seen" '.*a hole of' small_hole.yaml 'spacing=0.035'
 finish
