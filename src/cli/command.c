@@ -231,8 +231,18 @@ int command_parse (command *c, int argc, char **argv)
         return PG_EXIT_USAGE;
     }
     c->scene = argv[optind];
-    if (c->threads < 1) c->threads = (int) sysconf (_SC_NPROCESSORS_ONLN);
+    if (c->threads < 1) c->threads = command_threads ();
     return -1;
+}
+
+/* Where none are asked for: OMP_NUM_THREADS, by which users share a machine among all their programs, or one
+ * per processor. */
+int command_threads (void)
+{
+    const char *shared = getenv ("OMP_NUM_THREADS");
+    long n = shared ? strtol (shared, NULL, 10) : 0;
+    if (n < 1) n = sysconf (_SC_NPROCESSORS_ONLN);
+    return n < 1 ? 1 : n > 64 ? 64 : (int) n;
 }
 
 /* A scene file that is missing counts as wrong, so that both have the exit code 65. */

@@ -142,7 +142,7 @@ static int parse (pg_comparison_request *q, int *json, int argc, char **argv)
     q->folder = argv[optind], q->reference = optind + 1 < argc ? argv[optind + 1] : NULL;
     if (strlen (q->folder) > 2000) return complain ("%s", "the path is too long");
     if (*json) q->out = NULL;
-    if (q->threads < 1) q->threads = (int) sysconf (_SC_NPROCESSORS_ONLN);
+    if (q->threads < 1) q->threads = command_threads ();
     return -1;
 }
 

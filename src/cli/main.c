@@ -66,7 +66,7 @@ static long threads_given (int argc, char **argv)
 static void settle_threads (int argc, char **argv)
 {
     char count[16];
-    long n = sysconf (_SC_NPROCESSORS_ONLN);
+    long n = command_threads ();
     if (getenv ("OMP_THREAD_LIMIT")) return;
     if (threads_given (argc, argv) > 0) n = threads_given (argc, argv);
     snprintf (count, sizeof count, "%ld", n < 1 ? 1 : n > 64 ? 64 : n);

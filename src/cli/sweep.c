@@ -127,9 +127,9 @@ done:
 /* Without other words the processors and the memory are shared by the runs that go on at one time. */
 void command_share (int jobs, int *threads, double memory, char text[32])
 {
-    long processors = sysconf (_SC_NPROCESSORS_ONLN), each = (processors < 1 ? 1 : processors) / jobs;
+    int each = command_threads () / jobs;
     command machine = { .threads = 1 };
-    if (*threads == 0) *threads = (int) (each < 1 ? 1 : each > 64 ? 64 : each);
+    if (*threads == 0) *threads = each < 1 ? 1 : each;
     snprintf (text, 32, "%.0f", floor (memory > 0 ? memory : afford_available (&machine) / jobs));
 }
 

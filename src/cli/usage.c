@@ -15,7 +15,7 @@ static const char run[] =
     "                       --set\n"
     "      --force          start anew in a folder with an interrupted run; its checkpoint and rows are\n"
     "                       lost\n"
-    "      --threads N      0 (the default): one per processor\n"
+    "      --threads N      0 (the default): OMP_NUM_THREADS, or one per processor\n"
     "      --memory SIZE    limit, such as 8GB; default: what the machine has free. A run that needs more\n"
     "                       is refused before it starts\n"
     "      --plain          without the shortcuts that spare work (solver.plain: on): slower, same answer\n"

@@ -45,6 +45,8 @@ verdict "--threads reaches the libraries, in every spelling" $?
 set=$(env -u OMP_THREAD_LIMIT LD_PRELOAD="$work/shown.so" "$perigal" run plate.yaml -o "$work/set" --threads 2 --plain --set 'failure={criterion: none}' 2>&1 > /dev/null)
 grep -q '^setenv OMP_THREAD_LIMIT=1$' <<< "$set" && [ "$(grep '^setenv OPENBLAS' <<< "$set" | tail -1)" = "setenv OPENBLAS_NUM_THREADS=1" ]
 verdict "a small system is solved by one thread of BLAS" $?
+of() { OMP_NUM_THREADS=$1 "$perigal" run plate.yaml -o "$work/of" --force --set output.pictures=[] "${@:2}" > "$work/out" 2>&1 && sed -n 's/.*"threads": \([0-9]*\).*/\1/p' "$work/of/report.json" | head -1; }
+[ "$(of 3)" = 3 ] && [ "$(of 3 --threads 2)" = 2 ] && [ "$(of 0)" = "$(getconf _NPROCESSORS_ONLN)" ]; verdict "OMP_NUM_THREADS where no threads are asked for" $?
 user=$(OMP_THREAD_LIMIT=2 LD_PRELOAD="$work/shown.so" "$perigal" check plate.yaml 2>&1 > /dev/null)
 ! grep -q '^setenv' <<< "$user"; verdict "what the user has settled is left alone" $?
 finish

@@ -9,7 +9,7 @@ static run coarse (const char *scene, size_t n, const char *const *sets)
 {
     run r = { 0 };
     check_ok (pg_scene_load_with (&r.scene, scene, n, sets));
-    check_ok (pg_problem_build (&r.problem, r.scene, 2));
+    check_ok (pg_problem_build (&r.problem, r.scene, 1));
     check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
     check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
     check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
