@@ -193,4 +193,6 @@ void plan_network      (const pg_crack_statistics *network);
 void plan_settled     (const pg_solver *solver);
 /* Warnings of a report but for those told before (NULL: none). */
 void plan_warnings   (const pg_statistics *report, const pg_statistics *before);
+/* The same on stderr, for runs that print nothing else. */
+void plan_quiet_warnings (const pg_statistics *report, const pg_statistics *before);
 #endif

@@ -78,6 +78,16 @@ void plan_warnings (const pg_statistics *report, const pg_statistics *before)
     }
 }
 
+void plan_quiet_warnings (const pg_statistics *report, const pg_statistics *before)
+{
+    if (pg_rank () > 0) return;
+    for (size_t k = 0; k < report->nwarning; k++) {
+        size_t i = 0;
+        while (before && i < before->nwarning && strcmp (before->warning[i], report->warning[k]) != 0) i++;
+        if (!before || i == before->nwarning) fprintf (stderr, "perigal: warning: %s\n", report->warning[k]);
+    }
+}
+
 static void print_notes (const pg_problem *p, const pg_solver_options *o)
 {
     char note[400];
@@ -441,13 +451,15 @@ static void print_toughness (const pg_problem *p)
     for (size_t m = 0; m < p->nmaterial; m++) {
         const pg_criterion *c = &p->criterion[m];
         pg_fracture_limits limits = { .strength = NAN, .cohesion = NAN };
+        pg_strength s;
         if (!c->type || c->never) continue;
         c->type->fracture (c, x, 0, &limits);
         printf ("  fracture %-10s %.4g J/m^2", p->material[m].name, limits.energy);
         double zone = p->material[m].modulus * limits.energy / (limits.strength * limits.strength);
         if (zone > 0)
-            printf (", strength %.4g Pa: a zone of %.3g m, new cracks need a spacing of at most %.3g m",
-                    limits.strength, zone, zone / 8);
+            printf (", strength %.4g Pa (in use %.4g Pa): a zone of %.3g m, new cracks need a spacing of at most "
+                    "%.3g m", limits.strength, pg_strength_of (p, m, &s) ? s.in_use : limits.strength, zone,
+                    zone / 8);
         zone = p->material[m].modulus * limits.shear / (limits.cohesion * limits.cohesion);
         if (zone > 0)
             printf (", cohesion %.4g Pa, sliding %.4g J/m^2: a zone of %.3g m, new cracks in shear need a "

@@ -83,6 +83,12 @@ static void print_summary (const pg_result *result, const pg_statistics *r, cons
     for (size_t k = 0; pg_result_tip (result, k, row, sizeof row); k++) printf ("  crack %s\n", row);
     for (size_t k = 0; k < r->nskipped; k++)
         printf ("  skipped: %s (%s)\n", r->skipped[k].what, r->skipped[k].why);
+    for (size_t m = 0; m < problem->nmaterial; m++) {
+        pg_strength s;
+        if (!pg_problem_grows (problem) || !pg_strength_of (problem, m, &s) || !(s.asked > 0)) continue;
+        printf ("  strength of %s: %.4g Pa asked for, %.4g Pa in use where cracks begin\n",
+                problem->material[m].name, s.asked, s.in_use);
+    }
     plan_warnings (r, early);
     if (pg_rank_count () > 1 && !pg_ranks_now () && !r->factorizations)
         printf ("  warning: no matrix was factored: all %d ranks did the same work, one would do; "
@@ -258,6 +264,7 @@ static pg_status run_to_the_end (const command *c, pg_solver *solver, watched *w
     if (status == PG_OK && !c->quiet)
         print_summary (w->result, pg_solver_report_now (solver), pg_solver_settled (solver), w->problem,
                        &w->early, pg_seconds () - start);
+    if (c->quiet) plan_quiet_warnings (pg_solver_report_now (solver), &w->early);
     tell_outcome (c, outcome, failure, status, fault, kept);
     return failed ? outcome : status;
 }
@@ -320,6 +327,7 @@ static pg_status open_run (run *r)
     PG_TRY (prepare_start (p));
     r->w.early = *pg_solver_report_now (p->solver);
     if (!r->c.quiet) plan_warnings (&r->w.early, &doubts);
+    else plan_quiet_warnings (&r->w.early, NULL);
     fflush (stdout);                                   /* progress goes to the other stream */
     r->w.state = p->state, r->w.problem = p->problem;
     PG_TRY (open_result (&r->c, r->folder, p->scene, p->problem, p->solver, &r->w));

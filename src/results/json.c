@@ -267,6 +267,29 @@ static void criteria (pg_json *j, const pg_problem *p)
     if (p->nmaterial > 1) pg_json_shut (j);
 }
 
+/* The strength of the scene beside the one in use where cracks begin. */
+static void strengths (pg_json *j, const pg_problem *p)
+{
+    pg_strength s;
+    int any = 0;
+    for (size_t m = 0; p->criterion->type && m < p->nmaterial; m++) {
+        if (!pg_strength_of (p, m, &s)) continue;
+        if (!any++) pg_json_open (j, "strength", '{');
+        pg_json_open (j, p->material[m].name, '{');
+        if (s.asked > 0) {
+            pg_json_number (j, "asked", s.asked);
+            pg_json_number (j, "in_use", s.in_use);
+            pg_json_number (j, "spacing_needed", s.zone / 8);
+        }
+        if (s.cohesion > 0) {
+            pg_json_number (j, "cohesion_asked", s.cohesion);
+            pg_json_number (j, "cohesion_in_use", s.cohesion_in_use);
+        }
+        pg_json_shut (j);
+    }
+    if (any) pg_json_shut (j);
+}
+
 /* What varies from place to place, under the name of its material. */
 static void variations (pg_json *j, const pg_problem *p)
 {
@@ -331,6 +354,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     if (pg_rank_count () > 1) pg_result_parts_json (j, res);
     pg_json_count (j, "threads", (size_t) res->problem->threads);
     criteria (j, res->problem);
+    strengths (j, res->problem);
     variations (j, res->problem);
     pg_json_open (j, "skipped", '[');
     for (size_t k = 0; k < r->nskipped; k++) {

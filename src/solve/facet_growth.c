@@ -20,32 +20,24 @@
 static const double LARGE_T = 0.2, CLOSED_TIE = 0.05;
 
 /* ---- life ---------------------------------------------------------------------------------------------- */
-/* A facet longer than the zone in which a material of that strength fails, E G0 / f_t^2, is no longer one of
- * linear theory. */
-static void doubt_length (const break_loop *b)
+/* Materials whose strength is more than the points can tell from their fracture energy. */
+static void doubt_strength (const break_loop *b)
 {
     const pg_problem *p = b->system.problem;
-    double h = b->growth->length > 0 ? b->growth->length : p->cloud.h, x[3] = { 0 };
     for (size_t m = 0; m < p->nmaterial; m++) {
-        const pg_criterion *c = &p->criterion[m];
-        pg_fracture_limits limits = { 0 };
-        if (!c->type || c->never) continue;
-        for (int k = 0; k < p->dim; k++) x[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]);
-        c->type->fracture (c, x, 0, &limits);
-        double zone = p->material[m].E * limits.energy / (limits.strength * limits.strength);
-        if (zone < 8 * h)
-            pg_statistics_warn (
-                b->system.report,
-                "material %.40s fails within E G0 / f_t^2 = %.3g m, %.2g facets of %.3g m: where "
-                "cracks begin the strength counts as at most %.3g Pa (zone of 8 facets)",
-                p->material[m].name, zone, zone / h, h,
-                hot_strength_cap (p->material[m].E, limits.energy, h));
-        double cap = hot_strength_cap (p->material[m].E, limits.shear, h);
-        if (limits.cohesion > cap)
+        pg_strength s;
+        if (!pg_strength_of (p, m, &s)) continue;
+        if (s.in_use < s.asked)
             pg_statistics_warn (b->system.report,
-                                "material %.40s has too large a cohesion for facets of %.3g m: where cracks "
-                                "begin in shear it counts as %.3g Pa (zone E G_II / c^2 of 8 facets)",
-                                p->material[m].name, h, cap);
+                                "material %.40s: of its strength of %.4g Pa only %.4g Pa are in use where cracks "
+                                "begin: it fails within E G0 / f_t^2 = %.3g m, which must be 8 spacings: take a "
+                                "spacing of at most %.3g m",
+                                p->material[m].name, s.asked, s.in_use, s.zone, s.zone / 8);
+        if (s.cohesion_in_use < s.cohesion)
+            pg_statistics_warn (b->system.report,
+                                "material %.40s: of its cohesion of %.4g Pa only %.4g Pa are in use where cracks "
+                                "begin in shear: it fails within E G_II / c^2 = %.3g m, which must be 8 spacings",
+                                p->material[m].name, s.cohesion, s.cohesion_in_use, s.shear_zone);
     }
 }
 
@@ -62,7 +54,7 @@ pg_status facet_create (break_loop *b)
     b->growth = g;
     g->length = b->system.options->facet;
     PG_TRY (pg_nearest_create (&g->near, p->dim, p->cloud.n, p->cloud.x));
-    doubt_length (b);
+    doubt_strength (b);
 done:
     return status;
 }

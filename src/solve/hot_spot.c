@@ -15,6 +15,23 @@ double hot_strength_cap (double modulus, double energy, double h)
     return sqrt (modulus * energy / (8 * h));
 }
 
+int pg_strength_of (const pg_problem *p, size_t material, pg_strength *out)
+{
+    const pg_criterion *c = &p->criterion[material];
+    const pg_material *m = &p->material[material];
+    pg_fracture_limits limits = { .strength = NAN, .cohesion = NAN };
+    double x[3] = { 0 }, modulus = p->dim == 3 ? m->E : m->modulus;
+    if (!c->type || c->never || !pg_criterion_of_tips (c)) return 0;
+    for (int k = 0; k < p->dim; k++) x[k] = 0.5 * (p->cloud.low[k] + p->cloud.high[k]);
+    c->type->fracture (c, x, 0, &limits);
+    out->asked = limits.strength, out->cohesion = limits.cohesion;
+    out->in_use = fmin (limits.strength, hot_strength_cap (modulus, limits.energy, p->cloud.h));
+    out->cohesion_in_use = fmin (limits.cohesion, hot_strength_cap (modulus, limits.shear, p->cloud.h));
+    out->zone = modulus * limits.energy / (limits.strength * limits.strength);
+    out->shear_zone = modulus * limits.shear / (limits.cohesion * limits.cohesion);
+    return limits.strength > 0 || limits.cohesion > 0;
+}
+
 /* ---- stress -------------------------------------------------------------------------------------------- */
 /* The least lambda >= 0 at which w m + R reaches f, m the mean of the principal stresses and R half their
  * difference, a linear polynomial and the root of a quadratic one, so that (f - w m)^2 = R^2 with w m <= f.
