@@ -96,10 +96,11 @@ const char *pg_patch_state (const pg_problem *problem);                         
 void      pg_patch_words  (const pg_problem *problem, char *out, size_t size);
 void      pg_patch_remedy (const pg_problem *problem, char *out, size_t size);
 
-/* ---- strength where cracks begin ------------------------------------------------------------------------ */
-/* Of a material with growth by facets: the tensile strength of the scene and the one in use, which the spacing
- * limits to sqrt (E G0 / 8 h), Pa; the zone E G0 / f_t^2 in which it fails, m; the same of a cohesion. NAN: not
- * given. */
+/* ---- strength where cracks begin
+ * ------------------------------------------------------------------------ */
+/* Of a material with growth by facets: the tensile strength of the scene and the one in use, which the
+ * spacing limits to sqrt (E G0 / 8 h), Pa; the zone E G0 / f_t^2 in which it fails, m; the same of a
+ * cohesion. NAN: not given. */
 typedef struct { double asked, in_use, zone, cohesion, cohesion_in_use, shear_zone; } pg_strength;
 /* 0: the material has neither. */
 int       pg_strength_of (const pg_problem *problem, size_t material, pg_strength *out);

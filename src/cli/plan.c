@@ -69,25 +69,6 @@ static void print_box (const pg_problem *q, int width)
     printf ("\n");
 }
 
-void plan_warnings (const pg_statistics *report, const pg_statistics *before)
-{
-    for (size_t k = 0; k < report->nwarning; k++) {
-        size_t i = 0;
-        while (before && i < before->nwarning && strcmp (before->warning[i], report->warning[k]) != 0) i++;
-        if (!before || i == before->nwarning) printf ("  warning: %s\n", report->warning[k]);
-    }
-}
-
-void plan_quiet_warnings (const pg_statistics *report, const pg_statistics *before)
-{
-    if (pg_rank () > 0) return;
-    for (size_t k = 0; k < report->nwarning; k++) {
-        size_t i = 0;
-        while (before && i < before->nwarning && strcmp (before->warning[i], report->warning[k]) != 0) i++;
-        if (!before || i == before->nwarning) fprintf (stderr, "perigal: warning: %s\n", report->warning[k]);
-    }
-}
-
 static void print_notes (const pg_problem *p, const pg_solver_options *o)
 {
     char note[400];
@@ -457,7 +438,8 @@ static void print_toughness (const pg_problem *p)
         printf ("  fracture %-10s %.4g J/m^2", p->material[m].name, limits.energy);
         double zone = p->material[m].modulus * limits.energy / (limits.strength * limits.strength);
         if (zone > 0)
-            printf (", strength %.4g Pa (in use %.4g Pa): a zone of %.3g m, new cracks need a spacing of at most "
+            printf (", strength %.4g Pa (in use %.4g Pa): a zone of %.3g m, new cracks need a spacing of "
+                    "at most "
                     "%.3g m", limits.strength, pg_strength_of (p, m, &s) ? s.in_use : limits.strength, zone,
                     zone / 8);
         zone = p->material[m].modulus * limits.shear / (limits.cohesion * limits.cohesion);

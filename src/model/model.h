@@ -87,4 +87,8 @@ int       pg_bond_cut_first (const pg_problem *problem, const double *x, const d
 /* Adds to `cut` the live bonds that these n pieces of cracks cut; `cut` stays ascending. */
 pg_status pg_bonds_cut_by (const pg_state *state, const pg_problem *problem, pg_crack *piece, size_t n,
                            pg_changes *cut);
+
+/* ---- crack_doubles.c ----------------------------------------------------------------------------------- */
+/* Leaves out cracks that are given twice, and notes it; what overlaps otherwise is a fault of the scene. */
+pg_status drop_doubled_cracks (pg_problem *p, const pg_scene *scene);
 #endif

@@ -160,6 +160,7 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
     pg_status status = PG_OK;
     PG_TRY (pg_body_read (&p->body, scene));
     PG_TRY (pass (scene, pg_cracks_read (&p->cracks, scene)));
+    PG_TRY (drop_doubled_cracks (p, scene));
     PG_TRY (pass (scene, pg_slots_read (&p->slots, scene)));
     PG_TRY (pg_scene_verdict (scene));
     if (pg_scene_given (scene, "mesh")) {

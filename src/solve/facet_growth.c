@@ -29,14 +29,18 @@ static void doubt_strength (const break_loop *b)
         if (!pg_strength_of (p, m, &s)) continue;
         if (s.in_use < s.asked)
             pg_statistics_warn (b->system.report,
-                                "material %.40s: of its strength of %.4g Pa only %.4g Pa are in use where cracks "
-                                "begin: it fails within E G0 / f_t^2 = %.3g m, which must be 8 spacings: take a "
+                                "material %.40s: of its strength of %.4g Pa only %.4g Pa are in use where "
+                                "cracks "
+                                "begin: it fails within E G0 / f_t^2 = %.3g m, which must be 8 spacings: "
+                                "take a "
                                 "spacing of at most %.3g m",
                                 p->material[m].name, s.asked, s.in_use, s.zone, s.zone / 8);
         if (s.cohesion_in_use < s.cohesion)
             pg_statistics_warn (b->system.report,
-                                "material %.40s: of its cohesion of %.4g Pa only %.4g Pa are in use where cracks "
-                                "begin in shear: it fails within E G_II / c^2 = %.3g m, which must be 8 spacings",
+                                "material %.40s: of its cohesion of %.4g Pa only %.4g Pa are in use where "
+                                "cracks "
+                                "begin in shear: it fails within E G_II / c^2 = %.3g m, which must be 8 "
+                                "spacings",
                                 p->material[m].name, s.cohesion, s.cohesion_in_use, s.shear_zone);
     }
 }

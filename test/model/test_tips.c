@@ -106,11 +106,47 @@ static void others_say_nothing (void **state)
     assert_true (told (SQUARE STATIC "spacing: 0.1\n", &crack, &spacings, &warns) == 0);
 }
 
+/* Cracks of a scene, and whether a note says that one is there twice. */
+static size_t cracks_of (const char *cracks, int *noted)
+{
+    char scene[1024];
+    snprintf (scene, sizeof scene, SQUARE "spacing: 0.1\n" STATIC "cracks: [%s]\n", cracks);
+    built b = build (scene);
+    size_t n = b.problem->cracks.n;
+    *noted = 0;
+    for (size_t k = 0; k < b.problem->nnote; k++) *noted += strstr (b.problem->note[k], "count as one") !=
+        NULL;
+    unbuild (&b);
+    return n;
+}
+
+static void a_crack_given_twice_is_one (void **state)
+{
+    static const struct { const char *cracks; size_t n; int noted; } scene[] = {
+        { "{from: [-0.5, 0], to: [0.5, 0.1]}, {from: [-0.5, 0], to: [0.5, 0.1]}", 1, 1 },
+        { "{from: [-0.5, 0], to: [0.5, 0.1]}, {from: [0.5, 0.1], to: [-0.5, 0]}", 1, 1 },
+        { "{from: [-0.5, 0], to: [0.5, 0]}, {from: [-0.1, 0], to: [0.2, 0]}", 1, 1 },
+        { "{from: [-0.1, 0], to: [0.2, 0]}, {from: [-0.5, 0], to: [0.5, 0]}", 1, 1 },
+        { "{from: [-0.5, 0], to: [0.1, 0]}, {from: [0, 0], to: [0.5, 0]}", 1, 1 },
+        { "{polyline: [[-0.5, 0], [0, 0.1], [0.5, 0]]}, {polyline: [[0.5, 0], [0, 0.1], [-0.5, 0]]}", 2, 1 },
+        { "{from: [-0.5, 0], to: [0, 0]}, {from: [0, 0], to: [0.5, 0]}", 2, 0 },
+        { "{from: [-0.5, 0], to: [0.5, 0]}, {from: [-0.5, 0.01], to: [0.5, 0.01]}", 2, 0 },
+        { "{from: [-0.5, 0], to: [0.5, 0]}, {from: [0, -0.5], to: [0, 0.5]}", 2, 0 },
+    };
+    int noted;
+    (void) state;
+    for (size_t k = 0; k < sizeof scene / sizeof *scene; k++) {
+        assert_int_equal (cracks_of (scene[k].cracks, &noted), scene[k].n);
+        assert_int_equal (noted, scene[k].noted);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (short_cracks_are_told_with_a_number),
                                         cmocka_unit_test (pieces_that_meet_are_one_crack),
                                         cmocka_unit_test (fronts_in_space),
-                                        cmocka_unit_test (others_say_nothing) };
+                                        cmocka_unit_test (others_say_nothing),
+                                        cmocka_unit_test (a_crack_given_twice_is_one) };
     return cmocka_run_group_tests_name ("model/tips", tests, NULL, NULL);
 }
