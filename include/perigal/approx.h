@@ -64,6 +64,10 @@ typedef struct {
     unsigned char *grade;
     /* Places so far whose values were copied from others that see their nodes alike, and their bonds. */
     size_t  copied, copied_bonds;
+    /* Where places on the surface look from, m (n x dim); NULL: from where they are. Nodes within the support
+     * of a place that it does not see (pg_between_sift), over all places. */
+    double *eye;
+    size_t  parted;
 } pg_rows;
 
 typedef struct pg_approx_type pg_approx_type;
@@ -135,12 +139,15 @@ extern const pg_key_table pg_keys_shape_functions;
 pg_status pg_rows_create (pg_rows *out, const pg_approx *a, const pg_cloud *cloud, size_t n, const double *x,
                           const double *weight, const int *own, const int *cell);
 void      pg_rows_clear  (pg_rows *rows);
-/* The same in steps, for large bodies and for several lots of places: the points of the cloud sorted for a
- * search (which borrows the cloud; pg_family_search_free), places with their families but without memory for
- * shape functions and grades, found by any number of threads, and that memory. */
+/* The same in steps, for large bodies and for several lots of places: the points of the cloud sorted for
+ * a search (which borrows the cloud; pg_family_search_free), places with their families but without
+ * memory for shape functions and grades, found by any number of threads, and that memory. Nodes that a
+ * place does not see (pg_between_sift: cloud->between) are not in its family. eye: where places on the
+ * surface look from (n x dim, pg_rows_eyes); NULL: from where they are. */
 pg_status pg_rows_search (pg_family_search **out, const pg_approx *a, const pg_cloud *cloud);
-pg_status pg_rows_place  (pg_rows *out, const pg_family_search *search, int dim, size_t n, const double *x,
-                          const double *weight, const int *own, const int *cell, int threads);
+pg_status pg_rows_place  (pg_rows *out, const pg_family_search *search, const pg_cloud *cloud, size_t n,
+                          const double *x, const double *weight, const int *own, const int *cell,
+                          const double *eye, int threads);
 pg_status pg_rows_values (pg_rows *rows);
 /* What pg_rows_widen did: number of places whose support is wider now, and the widest, over the usual one;
  * places that still see too little, ascending (nblind; whoever asked frees them). */
@@ -156,6 +163,11 @@ typedef int (*pg_sight) (void *context, size_t place, int node);
 #define PG_WIDEST_SUPPORT 2.5
 pg_status pg_rows_widen (pg_rows *rows, const pg_approx *a, const pg_cloud *cloud, pg_sight sees,
                          void *context, int threads, pg_widened *out);
+/* Places a little way inside of places x on the surface with outward normals (n x dim, of any length;
+ * zero: the place itself), so that each sees its own side only: *eye (pg_free); NULL where nothing parts
+ * the points. */
+pg_status pg_rows_eyes   (double **eye, const pg_cloud *cloud, size_t n, const double *x,
+                          const double *normal);
 /* Values of entry e of place i are entries e + offset of N, dN and w (unsigned numbers, which may wrap
  * around). */
 static inline size_t pg_rows_offset (const pg_rows *rows, size_t i)

@@ -251,6 +251,8 @@ typedef struct {
     double  low[3], high[3];
     /* Which of the points this rank owns, where ranks share the run (perigal/ranks.h); NULL: alone. */
     pg_subdomain *subdomain;
+    /* What parts the points; NULL: nothing. Borrowed. */
+    const struct pg_between *between;
 } pg_cloud;
 /* Points of the scene. On a lattice (`lattice: nodes` or `cells`): the vertices of the cells whose centre
  * lies in the body, each with an equal share of the volume of its cells, or the centres of these cells;
@@ -353,6 +355,37 @@ pg_status pg_family_search_create (pg_family_search **out, const pg_cloud *cloud
 void      pg_family_search_free   (pg_family_search **search);
 pg_status pg_family_find (pg_family *out, const pg_family_search *search, size_t n, const double *centre,
                           int threads);
+
+/* ---- what lies between two points ---------------------------------------------------------------------- */
+/* Answers whether two places of a body are parted by what is not body: by a slot, a gap or the room to
+ * another body, however narrow. Thread-safe. */
+typedef struct pg_between pg_between;
+/* NULL: nothing can part any two places of this body, as of one box. part: the body as a mesh, or one without
+ * elements. Borrows body and cloud, not the mesh. */
+pg_status pg_between_create (pg_between **out, const pg_body *body, const pg_mesh_body *part,
+                             const pg_cloud *cloud);
+void      pg_between_free   (pg_between **between);
+/* 0: nothing can, whatever the points; -1: where the body lies is not known. */
+int       pg_body_parts (const pg_body *body, const pg_mesh_body *part);
+/* What can be met within a box (dim each, m); 0: nothing parts any two places in it. */
+enum { PG_OUTLOOK = 32 };
+typedef struct { int n, all, member[PG_OUTLOOK]; } pg_outlook;
+int       pg_between_look   (const pg_between *between, const double *low, const double *high,
+                             pg_outlook *out);
+/* 1: the segment from x to y leaves the body through one face and comes back through one that looks the other
+ * way, or runs outside for more than half a spacing and is not the chord of a smooth surface. The same for y
+ * and x. outlook: of a box that holds both; NULL: of the whole body. */
+int       pg_between_parted (const pg_between *between, const pg_outlook *outlook, const double *x,
+                             const double *y);
+/* Where a place looks from: itself or, outside the body, the nearest place in it; where point i of the cloud
+ * does, which may be a little way inside of a face. */
+void      pg_between_eye    (const pg_between *between, const double *x, double *eye);
+const double *pg_between_eye_of (const pg_between *between, size_t i);
+/* Drops from families those nodes that their centres do not see. eye: where these look from (n x dim), NULL:
+ * from where they are; own: the node that each is, -1: none; NULL: none is. *parted: how many were dropped.
+ * between NULL: none. */
+pg_status pg_between_sift   (const pg_between *between, pg_family *family, const double *centre,
+                             const double *eye, const int *own, int threads, size_t *parted);
 
 /* ---- nearest point ------------------------------------------------------------------------------------- */
 /* A k-d tree over copies of the points, for nearest-point searches. */

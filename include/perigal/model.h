@@ -287,6 +287,7 @@ struct pg_problem {
     int      equilibria;  /* 1: solver.kind finds equilibria by linear systems */
     pg_mode  mode;
     pg_body  body;  pg_mesh_body part;                 /* one of them, or none: points of a file */
+    pg_between *between;                               /* what parts the points; NULL: nothing does */
     pg_lattice lattice;  pg_cloud cloud;  pg_cells cells;  pg_sets sets;  pg_cracks cracks;
     pg_cracks  slots;                                  /* of the scene: they cut bonds and have no tips */
     pg_material  *material;  size_t nmaterial;

@@ -117,8 +117,10 @@ double    pg_sums_toughness (const pg_sums *sums, double E, double nu);
 /* How much more than such a straight cut a crack consumes that grows bond by bond (growth.c); mean 0: not
  * measured for these bonds. */
 pg_growth pg_sums_growth (const pg_sums *sums);
-/* Neighbours of every point, ascending, itself excluded; i sees j if and only if j sees i. */
-pg_status pg_sums_family (pg_family *out, const pg_sums *sums);
+/* Neighbours of every point, ascending, itself excluded; i sees j if and only if j sees i. *parted: how many
+ * others lie within the horizon and are parted from their point (pg_between_sift), over all points; NULL: not
+ * wanted. */
+pg_status pg_sums_family (pg_family *out, const pg_sums *sums, size_t *parted);
 /* Of the bonds of point i in `family`: xi (m x dim, m; on a lattice the stencil's own), weight k beta g_ij
  * (m), beta (m); NULL: not wanted. The weight of i -> j and of j -> i are the same bits. */
 void pg_sums_bonds (const pg_sums *sums, const pg_family *family, size_t i, double *xi, double *weight,

@@ -192,16 +192,18 @@ static pg_status attempt (work *w, double factor)
     pg_status status = PG_OK;
     pg_family_search *search = NULL;
     size_t *list = NULL, *which = NULL, n = 0, dim = (size_t) w->rows->dim;
-    double *x = NULL;
+    double *x = NULL, *eye = NULL;
     int *own = NULL, worst = factor > for_full ? LOWERED : GOOD;
     lot l = { .w = w };
     PG_ALLOC (list, w->n);
     PG_ALLOC (which, w->n);
     PG_ALLOC (x, w->n * dim);
     PG_ALLOC (own, w->n);
+    if (w->rows->eye) PG_ALLOC (eye, w->n * dim);
     for (size_t k = 0; k < w->n; k++) {
         if (w->best[k] >= worst) continue;
         memcpy (x + n * dim, w->rows->x + w->place[k] * dim, dim * sizeof *x);
+        if (eye) memcpy (eye + n * dim, w->rows->eye + w->place[k] * dim, dim * sizeof *eye);
         own[n] = w->rows->own[w->place[k]];
         list[n] = w->place[k], which[n++] = k;
     }
@@ -209,7 +211,7 @@ static pg_status attempt (work *w, double factor)
     l.place = list;
     PG_TRY (pg_family_search_create (&search, w->cloud, factor * w->a.horizon, w->a.shape,
                                      w->a.kernel->closed));
-    PG_TRY (pg_rows_place (&l.rows, search, (int) dim, n, x, NULL, own, NULL, w->threads));
+    PG_TRY (pg_rows_place (&l.rows, search, w->cloud, n, x, NULL, own, NULL, eye, w->threads));
     PG_ALLOC (l.rows.wide, n);
     for (size_t i = 0; i < n; i++) l.rows.wide[i] = factor;
     PG_TRY (measure (&l));
@@ -224,7 +226,7 @@ static pg_status attempt (work *w, double factor)
 done:
     lot_clear (&l);
     pg_family_search_free (&search);
-    pg_free (list), pg_free (which), pg_free (x), pg_free (own);
+    pg_free (list), pg_free (which), pg_free (x), pg_free (own), pg_free (eye);
     return status;
 }
 

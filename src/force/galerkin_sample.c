@@ -244,8 +244,8 @@ static pg_status make_rows (sampling *s, size_t n, const double *x, int *own)
     a.refined = 0;                                     /* places that are alike have the same field */
     int about_nodes = p->approx.type->interpolates || !s->intact;
     if (about_nodes) find_nodes (s->g, n, x, own);
-    PG_TRY (pg_rows_place (&s->rows, s->g->search, s->g->dim, n, x, NULL, about_nodes ? own : NULL, NULL,
-                           s->g->threads));
+    PG_TRY (pg_rows_place (&s->rows, s->g->search, &p->cloud, n, x, NULL, about_nodes ? own : NULL, NULL,
+                           NULL, s->g->threads));
     bonds = s->rows.family.start[n];
     PG_ALLOC (s->rows.N, bonds);                       /* the influence is not asked for */
     PG_ALLOC (s->rows.dN, bonds * dim);

@@ -38,6 +38,7 @@ typedef struct { int64_t part[3]; size_t pattern; int used; } key;
 struct galerkin_alike {
     int      dim;
     double   low[3], inverse[3];                       /* of the lattice, m and 1/m */
+    const pg_between *between;                         /* what parts points; NULL: nothing does */
     /* Vertices of the padded lattice along each axis; first and number of those of a block. */
     long     count[3], first[3], width[3];
     int     *node;                                     /* at each vertex of the padded lattice; -1: none */
@@ -64,7 +65,7 @@ static long vertex_of (const galerkin_alike *a, int axis, double x, double *away
 static int lay (galerkin_alike *a, const pg_problem *p)
 {
     double boxes = 1, most = 64 * (double) p->cloud.n + 4096;
-    a->dim = p->dim, a->block = 1;
+    a->dim = p->dim, a->block = 1, a->between = p->cloud.between;
     for (int k = 0; k < 3; k++) a->count[k] = a->width[k] = 1, a->first[k] = 0;
     for (int k = 0; k < a->dim; k++) {
         double step = p->cloud.step[k], reach = p->approx.horizon / step * (1 + 1e-7), away;
@@ -216,6 +217,20 @@ static size_t pattern_of (galerkin_alike *a, const double *volume, size_t first)
     return a->npattern - 1;
 }
 
+/* May anything part the points of the block about the cell of x? What a place sees then does not follow from
+ * where points are. */
+static int may_be_parted (const galerkin_alike *a, const double *x)
+{
+    double low[3], high[3];
+    pg_outlook seen;
+    if (!a->between) return 0;
+    for (int k = 0; k < a->dim; k++) {
+        double wide = (double) a->width[k] / a->inverse[k];
+        low[k] = x[k] - wide, high[k] = x[k] + wide;
+    }
+    return pg_between_look (a->between, low, high, &seen);
+}
+
 /* Number of a key, made if it is not known; KEPT: no more are. */
 static size_t key_of (galerkin_alike *a, const key *wanted)
 {
@@ -261,7 +276,9 @@ pg_status galerkin_alike_sort (galerkin_alike *a, const double *volume, size_t n
         size_t first, at = KEPT;
         a->asked++;
         if (cell_of (a, x + p * (size_t) a->dim, &first, k.part)) {
-            if (first != last) of_last = pattern_of (a, volume, first), last = first;
+            const double *place = x + p * (size_t) a->dim;
+            if (first != last) of_last = may_be_parted (a, place) ? PATTERNS : pattern_of (a, volume, first);
+            last = first;
             k.pattern = of_last;
             if (of_last < PATTERNS) at = key_of (a, &k);
         }

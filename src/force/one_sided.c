@@ -91,7 +91,7 @@ static pg_status find (const pg_problem *p, const pg_approx *a, const pg_state *
                   .flat = wanted->flat };
     memset (out, 0, sizeof *out);
     PG_TRY (pg_rows_search (&search, a, &p->cloud));
-    PG_TRY (pg_rows_place (&rows, search, p->dim, n, x, NULL, NULL, NULL, p->threads));
+    PG_TRY (pg_rows_place (&rows, search, &p->cloud, n, x, NULL, NULL, NULL, NULL, p->threads));
     size_t bonds = rows.family.start[n];
     PG_ALLOC (rows.N, bonds);
     PG_ALLOC (rows.grade, n);

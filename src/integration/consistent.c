@@ -82,6 +82,25 @@ done:
     return status;
 }
 
+/* Places on the boundary look from their own side. */
+static pg_status look_inward (double **eye, const pg_faces *f, const pg_cloud *cloud)
+{
+    pg_status status = PG_OK;
+    size_t dim = (size_t) f->dim;
+    double *normal = NULL;
+    *eye = NULL;
+    if (!cloud->between) return PG_OK;
+    PG_ALLOC (normal, f->npoint * dim);
+    for (size_t k = 0; k < f->n; k++)
+        if (f->cell[2*k + 1] < 0)
+            memcpy (normal + f->start[k] * dim, f->flux + f->start[k] * dim,
+                    (f->start[k + 1] - f->start[k]) * dim * sizeof *normal);
+    PG_TRY (pg_rows_eyes (eye, cloud, f->npoint, f->x, normal));
+done:
+    pg_free (normal);
+    return status;
+}
+
 /* Points come cell by cell, so that `first` is a running count. At faces there are values alone, no
  * derivatives. */
 pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, const pg_approx *approx,
@@ -90,6 +109,7 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
     pg_status status = PG_OK;
     pg_consistency *c = NULL;
     pg_family_search *search = NULL;
+    double *eye = NULL;
     PG_ALLOC (c, 1);
     c->cells = cells, c->cloud = cloud, c->order = approx->order;
     PG_ALLOC (c->first, cells->n + 1);
@@ -99,7 +119,8 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
     PG_TRY (consistent_close (c, points));
     PG_TRY (consistent_hosts (c));
     PG_TRY (pg_rows_search (&search, approx, cloud));
-    PG_TRY (pg_rows_place (&c->face, search, cloud->dim, c->faces.npoint, c->faces.x, NULL, NULL, NULL,
+    PG_TRY (look_inward (&eye, &c->faces, cloud));
+    PG_TRY (pg_rows_place (&c->face, search, cloud, c->faces.npoint, c->faces.x, NULL, NULL, NULL, eye,
                            threads));
     PG_TRY (pg_rows_widen (&c->face, approx, cloud, NULL, NULL, threads, &c->widened));
     PG_ALLOC (c->face.N, c->face.family.start[c->face.n]);             /* values only */
@@ -109,6 +130,7 @@ pg_status pg_consistency_create (pg_consistency **out, const pg_cells *cells, co
     *out = c, c = NULL;
 done:
     pg_family_search_free (&search);
+    pg_free (eye);
     pg_consistency_free (&c);
     return status;
 }

@@ -10,7 +10,7 @@
 typedef struct {
     /* Its number, counted cell by cell and side by side. */
     size_t at;
-    /* Cell, side in the numbering of Exodus, number of corners. */
+    /* Cell (-1: a facet of the boundary), side in the numbering of Exodus, number of corners. */
     int    cell, side, corners;
     /* The corners (up to 4 x 3), sorted, so that the order in which a cell lists them does not matter. */
     double corner[12];
@@ -66,21 +66,36 @@ static void describe (candidate *c, const pg_cells *cells, size_t at, int cell, 
     pg_sort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
 }
 
-/* partner[at]: the number of the same face of the other cell, or -1 on the boundary (n faces). */
+/* The same with facet f of the boundary, a face of an element. */
+static void describe_facet (candidate *c, const pg_cells *cells, size_t at, size_t f)
+{
+    size_t dim = (size_t) cells->dim;
+    const double *x = cells->facet_x + cells->facet_start[f] * dim;
+    *c = (candidate) { .at = at, .cell = -1, .corners = pg_element_types[cells->facet_kind[f]].corners };
+    for (int i = 0; i < c->corners; i++)
+        for (size_t k = 0; k < dim; k++) c->corner[3 * i + (int) k] = x[(size_t) i * dim + k] + 0.0;
+    pg_sort (c->corner, (size_t) c->corners, 3 * sizeof *c->corner, compare_places);
+}
+
+/* partner[at]: the number of the same face of the other cell, or -1 on the boundary (n faces). Where
+ * facets of the boundary lie too, as along a seam of nodes that are there twice, faces at one place are
+ * not the same. */
 static pg_status pair_up (long *partner, size_t n, const pg_cells *cells)
 {
     pg_status status = PG_OK;
     candidate *all = NULL;
     size_t at = 0;
-    PG_ALLOC (all, n);
+    PG_ALLOC (all, n + cells->nfacet);
     for (size_t c = 0; c < cells->n; c++)
         for (int f = 0; f < faces_of (cells, c); f++, at++) describe (&all[at], cells, at, (int) c, f);
-    pg_sort (all, n, sizeof *all, compare);
+    for (size_t f = 0; f < cells->nfacet; f++)
+        if (cells->facet_kind[f] != PG_CUT) describe_facet (&all[at], cells, at, f), at++;
+    pg_sort (all, at, sizeof *all, compare);
     for (size_t i = 0; i < n; i++) partner[i] = -1;
-    for (size_t i = 0; i + 1 < n; i++) {
-        if (compare_corners (&all[i], &all[i + 1])) continue;
+    for (size_t i = 0, end = 0; i < at; i = end) {
+        for (end = i + 1; end < at && !compare_corners (&all[i], &all[end]); end++) continue;
+        if (end - i < 2 || all[end - 1].cell < 0) continue;      /* facets come last */
         partner[all[i].at] = (long) all[i + 1].at, partner[all[i + 1].at] = (long) all[i].at;
-        i++;
     }
 done:
     pg_free (all);

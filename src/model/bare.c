@@ -22,10 +22,12 @@ static pg_status make_surface (pg_problem *out, const pg_problem *p)
     pg_quadrature q = { 0 };
     pg_family_search *search = NULL;
     pg_widened w = { 0 };
+    double *eye = NULL;
     out->rows[PG_FACETS] = (pg_rows) { 0 }, out->facet_normal = NULL;
     PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
     PG_TRY (pg_rows_search (&search, &p->approx, &p->cloud));
-    PG_TRY (pg_rows_place (&out->rows[PG_FACETS], search, p->dim, q.n, q.x, q.weight, NULL, q.cell,
+    PG_TRY (pg_rows_eyes (&eye, &p->cloud, q.n, q.x, q.normal));
+    PG_TRY (pg_rows_place (&out->rows[PG_FACETS], search, &p->cloud, q.n, q.x, q.weight, NULL, q.cell, eye,
                            p->threads));
     PG_TRY (pg_rows_widen (&out->rows[PG_FACETS], &p->approx, &p->cloud, NULL, NULL, p->threads, &w));
     pg_consistency_normals (p->consistency, &out->rows[PG_FACETS], q.normal);
@@ -33,6 +35,7 @@ static pg_status make_surface (pg_problem *out, const pg_problem *p)
 done:
     pg_free (w.blind);
     pg_family_search_free (&search);
+    pg_free (eye);
     pg_quadrature_clear (&q);
     return status;
 }

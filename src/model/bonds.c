@@ -134,8 +134,8 @@ static pg_status make_nodes (pg_problem *p, const pg_family_search *search, cons
     int *own = NULL;
     PG_ALLOC (own, p->cloud.n);
     for (size_t i = 0; i < p->cloud.n; i++) own[i] = (int) i;
-    PG_TRY (pg_rows_place (&p->rows[PG_NODES], search, p->dim, p->cloud.n, p->cloud.x, p->cloud.volume, own,
-                           NULL, p->threads));
+    PG_TRY (pg_rows_place (&p->rows[PG_NODES], search, &p->cloud, p->cloud.n, p->cloud.x, p->cloud.volume,
+                           own, NULL, NULL, p->threads));
     PG_TRY (number_held (p, PG_NODES));
     PG_TRY (widen (p, PG_NODES));
     PG_TRY (check_support (p, scene, PG_NODES));
@@ -178,7 +178,7 @@ static pg_status make_points (pg_problem *p, const pg_family_search *search, con
     p->cells.cut_order = p->integration->consistent ? 3 : 0;
     if (!p->integration->at_nodes)
         PG_TRY (p->integration->points (&q, &p->cells, p->cloud.thickness, gauss_order (p, scene)));
-    PG_TRY (pg_rows_place (&p->rows[PG_POINTS], search, p->dim, q.n, q.x, q.weight, NULL, q.cell,
+    PG_TRY (pg_rows_place (&p->rows[PG_POINTS], search, &p->cloud, q.n, q.x, q.weight, NULL, q.cell, NULL,
                            p->threads));
     PG_TRY (number_held (p, PG_POINTS));
     PG_TRY (widen (p, PG_POINTS));
@@ -197,6 +197,7 @@ static pg_status make_facets (pg_problem *p, const pg_family_search *search, con
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
     unsigned char *used = NULL;
+    double *eye = NULL;
     size_t keep = 0, dim = (size_t) p->dim;
     PG_ALLOC (used, p->cells.nfacet);
     for (size_t l = 0; l < p->nload; l++) {
@@ -214,7 +215,8 @@ static pg_status make_facets (pg_problem *p, const pg_family_search *search, con
         memmove (q.normal + keep * dim, q.normal + k * dim, dim * sizeof *q.normal);
         q.weight[keep] = q.weight[k], q.cell[keep++] = q.cell[k];
     }
-    PG_TRY (pg_rows_place (&p->rows[PG_FACETS], search, p->dim, keep, q.x, q.weight, NULL, q.cell,
+    PG_TRY (pg_rows_eyes (&eye, &p->cloud, keep, q.x, q.normal));
+    PG_TRY (pg_rows_place (&p->rows[PG_FACETS], search, &p->cloud, keep, q.x, q.weight, NULL, q.cell, eye,
                            p->threads));
     PG_TRY (number_held (p, PG_FACETS));
     PG_TRY (widen (p, PG_FACETS));
@@ -223,7 +225,7 @@ static pg_status make_facets (pg_problem *p, const pg_family_search *search, con
     p->facet_normal = q.normal, q.normal = NULL;
 done:
     pg_quadrature_clear (&q);
-    pg_free (used);
+    pg_free (used), pg_free (eye);
     return status;
 }
 
@@ -326,7 +328,7 @@ static pg_status make_point_bonds (pg_problem *p)
     memcpy (r->x, p->cloud.x, n * dim * sizeof *r->x);
     memcpy (r->weight, p->cloud.volume, n * sizeof *r->weight);
     for (size_t i = 0; i < n; i++) r->own[i] = (int) i, r->cell[i] = -1;
-    PG_TRY (pg_sums_family (&r->family, p->sums));
+    PG_TRY (pg_sums_family (&r->family, p->sums, &r->parted));
     PG_TRY (number_held (p, PG_NODES));
     for (int s = PG_POINTS; s < PG_BOND_SETS; s++)
         PG_TRY (pg_rows_create (&p->rows[s], &p->approx, &p->cloud, 0, NULL, NULL, NULL, NULL));
@@ -396,6 +398,24 @@ done:
     return status;
 }
 
+/* How many bonds there are not because something parts their ends: a bond between points once. */
+static pg_status note_parted (pg_problem *p)
+{
+    pg_status status = PG_OK;
+    double n[PG_BOND_SETS] = { 0 };
+    int alone = !p->method->shape_functions;
+    for (int s = 0; s < PG_BOND_SETS; s++) n[s] = (double) p->rows[s].parted;
+    if (p->cloud.subdomain) PG_TRY (pg_ranks_sum (PG_BOND_SETS, n));
+    double all = alone ? n[PG_NODES] / 2 : n[PG_NODES] / 2 + n[PG_POINTS] + n[PG_FACETS];
+    if (all > 0)
+        pg_problem_note (p,
+                         "what lies between two points is asked: %.0f bonds across slots, gaps and corners "
+                         "of the body are none%s",
+                         all, p->cloud.subdomain ? " (those of ghosts counted again)" : "");
+done:
+    return status;
+}
+
 /* Of points of a file their place in it, of a lattice their site, counted through empty ones as well. */
 static void number_nodes (const pg_problem *p, int64_t *out)
 {
@@ -452,6 +472,7 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_dilatation_build (p, scene));
     PG_TRY (make_exempt (p, scene));
     PG_TRY (count_eroded (p, scene));
+    PG_TRY (note_parted (p));
 done:
     pg_family_search_free (&search);
     return status;

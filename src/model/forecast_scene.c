@@ -345,6 +345,8 @@ pg_status pg_forecast_scene (pg_forecast *out, const pg_scene *scene, const pg_m
         PG_TRY (count_file (out, scene, &body));
     else PG_TRY (count_lattice (out, scene, &body));
     PG_TRY (pg_scene_verdict (scene));
+    /* bonds that something parts are counted here */
+    if (body.n && pg_body_parts (&body, &(pg_mesh_body) { 0 }) > 0) out->counted = 0;
     forecast_factor (out);
     pg_forecast_sum (out);
 done:

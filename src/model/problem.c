@@ -184,6 +184,8 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
         pg_problem_note (p,
                          "%d ranks share the %.0f points; the patch test is left out: perigal check makes it",
                          pg_rank_count (), (double) p->cloud.subdomain->total);
+    PG_TRY (pg_between_create (&p->between, &p->body, &p->part, &p->cloud));
+    p->cloud.between = p->between;
     PG_TRY (pass (scene, pg_sets_build (&p->sets, scene, &p->body, &p->lattice, &p->cloud, &p->cells)));
 done:
     return status;
@@ -444,6 +446,7 @@ void pg_problem_free (pg_problem **problem)
     pg_cells_clear (&p->cells);
     pg_cloud_clear (&p->cloud);
     pg_lattice_clear (&p->lattice);
+    pg_between_free (&p->between);
     pg_cracks_clear (&p->cracks), pg_cracks_clear (&p->slots);
     for (size_t f = 0; p->front && f < p->nfront; f++) pg_front_clear (&p->front[f]);
     pg_free (p->tip), pg_free (p->front), pg_body_search_free (p);

@@ -35,7 +35,7 @@ pg_status pg_bond_sum_create (pg_bond_sum **out, const pg_cloud *cloud, const pg
     PG_ALLOC (s, 1);
     PG_TRY (copy_points (s, cloud));
     PG_TRY (pg_sums_create (&s->sums, rule, &s->cloud, NULL));
-    PG_TRY (pg_sums_family (&s->family, s->sums));
+    PG_TRY (pg_sums_family (&s->family, s->sums, NULL));
     PG_ALLOC (s->modulus, s->cloud.n);
     for (size_t i = 0; i < s->cloud.n; i++) s->modulus[i] = s->sums->calibration * c;
     PG_ALLOC (s->alive, s->family.start[s->family.n]);

@@ -94,7 +94,7 @@ static pg_status shear_of_cloud (double *out, const pg_sums *sums)
     const pg_cloud *cloud = sums->cloud;
     pg_family family = { 0 };
     double *volume = NULL, *sum = NULL;
-    PG_TRY (pg_sums_family (&family, sums));
+    PG_TRY (pg_sums_family (&family, sums, NULL));
     PG_ALLOC (volume, cloud->n);
     PG_ALLOC (sum, cloud->n);
     for (size_t i = 0; i < cloud->n; i++) {

@@ -186,9 +186,24 @@ done:
     return status;
 }
 
+/* Drops neighbours that a point does not see. */
+static pg_status sift (pg_family *f, const pg_sums *sums, size_t *dropped)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *cloud = sums->cloud;
+    int *own = NULL;
+    if (!cloud->between) return PG_OK;
+    PG_ALLOC (own, cloud->n);
+    for (size_t i = 0; i < cloud->n; i++) own[i] = (int) i;
+    PG_TRY (pg_between_sift (cloud->between, f, cloud->x, NULL, own, sums->rule.threads, dropped));
+done:
+    pg_free (own);
+    return status;
+}
+
 /* Without a lattice: pairs within the larger horizon of both ends, both ways round. Partial volumes count
  * cells that the horizon only cuts, so that the search goes half a spacing farther then. */
-static pg_status by_search (pg_family *out, const pg_sums *sums)
+static pg_status by_search (pg_family *out, const pg_sums *sums, size_t *dropped)
 {
     pg_status status = PG_OK;
     const pg_cloud *cloud = sums->cloud;
@@ -197,6 +212,7 @@ static pg_status by_search (pg_family *out, const pg_sums *sums)
     /* The reach at spacing h; pg_family_build scales it with the local spacing of a graded cloud. */
     double reach = sums->rule.horizon + (sums->rule.partial == PG_PARTIAL_NONE ? 0 : 0.5 * cloud->h);
     PG_TRY (pg_family_build (&near, cloud, n, cloud->x, reach, PG_RADIAL, 1));
+    PG_TRY (sift (&near, sums, dropped));
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (next, n);
     out->n = n;
@@ -212,11 +228,16 @@ done:
     return status;
 }
 
-/* Bonds of all points, each point's neighbours ascending. */
-pg_status pg_sums_family (pg_family *out, const pg_sums *sums)
+/* Bonds of all points, each point's neighbours ascending; without those that something parts. */
+pg_status pg_sums_family (pg_family *out, const pg_sums *sums, size_t *parted)
 {
+    pg_status status = PG_OK;
+    size_t dropped = 0;
     memset (out, 0, sizeof *out);
-    pg_status status = sums->stencil.n ? by_stencil (out, sums) : by_search (out, sums);
+    PG_TRY (sums->stencil.n ? by_stencil (out, sums) : by_search (out, sums, &dropped));
+    if (sums->stencil.n) PG_TRY (sift (out, sums, &dropped));
+    if (parted) *parted = dropped;
+done:
     if (status != PG_OK) pg_family_clear (out);
     return status;
 }

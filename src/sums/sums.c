@@ -161,7 +161,7 @@ static pg_status from_cloud (pg_sums *s)
     size_t n = cloud->n;
     if (s->rule.partial == PG_PARTIAL_OVERLAP)
         PG_FAIL (PG_E_USAGE, "partial volume `overlap` needs points on a lattice: choose `linear` or `none`");
-    PG_TRY (pg_sums_family (&family, s));
+    PG_TRY (pg_sums_family (&family, s, NULL));
     if (family.start[n] == 0) PG_FAIL (PG_E_USAGE, "a horizon of %g m reaches no neighbour", s->rule.horizon);
     PG_ALLOC (volume, n);
     PG_ALLOC (moment, n);

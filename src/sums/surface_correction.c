@@ -12,6 +12,28 @@ double pg_sums_surface (const pg_sums *sums, size_t i, size_t j)
     return sums->rule.surface == PG_SURFACE_VOLUME ? 2 / (v[i] + v[j]) : 1 / sqrt (v[i] * v[j]);
 }
 
+/* v of every point of a lattice in which neighbours may be parted, by the bonds of its family. */
+static pg_status by_families (pg_sums *s, double whole)
+{
+    pg_status status = PG_OK;
+    pg_family family = { 0 };
+    double *beta = NULL, *volume = NULL;
+    PG_TRY (pg_sums_family (&family, s, NULL));
+    PG_ALLOC (volume, s->cloud->n);
+    PG_ALLOC (beta, s->stencil.n);
+    for (size_t i = 0; i < s->cloud->n; i++) {
+        size_t first = family.start[i];
+        pg_sums_bonds (s, &family, i, NULL, NULL, beta);
+        for (size_t e = first; e < family.start[i + 1]; e++)
+            volume[i] += beta[e - first] * (s->share ? s->share[family.node[e]] : 1) / whole;
+    }
+    s->family_volume = volume, volume = NULL;
+done:
+    pg_free (beta), pg_free (volume);
+    pg_family_clear (&family);
+    return status;
+}
+
 /* v of every point of a lattice, from the shares beta of its stencil. Points on no lattice: from_cloud in
  * sums.c, which sums their bonds anyway. */
 pg_status pg_sums_family_volumes (pg_sums *s)
@@ -20,6 +42,7 @@ pg_status pg_sums_family_volumes (pg_sums *s)
     const pg_stencil *t = &s->stencil;
     double whole = 0;
     for (size_t b = 0; b < t->n; b++) whole += t->beta[b];
+    if (s->cloud->between) return by_families (s, whole);
     PG_ALLOC (s->family_volume, s->cloud->n);
     for (size_t i = 0; i < s->cloud->n; i++) {
         double sum = 0;

@@ -36,7 +36,7 @@ static inline void direct_build (direct *b, const char *text, const char *kernel
                          .surface = PG_SURFACE_NONE,
                          .calibrate = calibrate };
     check_ok (pg_sums_create (&b->sums, &rule, &b->cloud, &b->lattice));
-    check_ok (pg_sums_family (&b->family, b->sums));
+    check_ok (pg_sums_family (&b->family, b->sums, NULL));
     b->n = b->cloud.n;
     b->bonds = b->sums->stencil.n;
     b->c = b->sums->calibration * pg_bond_modulus (rule.mode, rule.kernel, horizon, E, b->cloud.thickness);

@@ -85,7 +85,7 @@ static inline void body_create_as (body *b, const body_wish *w, double scatter, 
                          .finite = w->finite,
                          .evaluation = w->evaluation };
     check_ok (pg_sums_create (&b->sums, &rule, c, scatter > 0 ? NULL : &lattice));
-    check_ok (pg_sums_family (&b->family, b->sums));
+    check_ok (pg_sums_family (&b->family, b->sums, NULL));
     b->nbond = b->family.start[c->n];
     b->alive = pg_calloc (b->nbond, 1), b->exempt = pg_calloc (c->n, 1);
     b->modulus = pg_calloc (c->n, sizeof *b->modulus), b->limit = pg_calloc (c->n, sizeof *b->limit),

@@ -69,7 +69,7 @@ static matrix assemble (const pg_sums *s, double c)
 {
     matrix A = {.n = s->cloud->n};
     double xi[400], weight[200];
-    check_ok (pg_sums_family (&A.family, s));
+    check_ok (pg_sums_family (&A.family, s, NULL));
     A.K = malloc (3 * A.family.start[A.n] * sizeof *A.K);
     for (size_t i = 0; i < A.n; i++) {
         pg_sums_bonds (s, &A.family, i, xi, weight, NULL);

@@ -217,7 +217,7 @@ static void field_create (field *b, int dim, int side, double scatter, double tu
         x[0] = cos (turned) * u - sin (turned) * v, x[1] = sin (turned) * u + cos (turned) * v;
     }
     check_ok (pg_sums_create (&b->sums, &rule, c, NULL));
-    check_ok (pg_sums_family (&b->family, b->sums));
+    check_ok (pg_sums_family (&b->family, b->sums, NULL));
     pg_beam_sums sums;
     check_ok (pg_beam_measure (&sums, b->sums));
     double **of[] = { &b->modulus, &b->shear, &b->bending };

@@ -210,7 +210,7 @@ static void check_family (const pg_sums *s, const pg_sum_rule *rule, int exact)
     double *xi = malloc (c->n * dim * sizeof *xi), *weight = malloc (c->n * sizeof *weight),
            *beta = malloc (c->n * sizeof *beta);
     double *back = malloc (c->n * sizeof *back), *all = calloc (c->n * c->n, sizeof *all);
-    check_ok (pg_sums_family (&f, s));
+    check_ok (pg_sums_family (&f, s, NULL));
     assert_int_equal (f.n, c->n);
     for (size_t i = 0; i < c->n; i++) {
         size_t e = f.start[i], n = f.start[i + 1] - e;
@@ -296,7 +296,7 @@ static void threads_find_the_same_families (void **state)
                 }
             check_ok (pg_sums_create (&s, &rule, &b->cloud, &b->lattice));
             assert_int_equal (s->ordered, !k);
-            check_ok (pg_sums_family (&f[t], s));
+            check_ok (pg_sums_family (&f[t], s, NULL));
             if (t) assert_memory_equal (f[t].start, f[0].start, (b->cloud.n + 1) * sizeof *f->start);
             if (t) assert_memory_equal (f[t].node, f[0].node, f[0].start[b->cloud.n] * sizeof *f->node);
             pg_sums_free (&s);
@@ -322,8 +322,8 @@ static void the_numbering_of_points_changes_nothing (void **state)
     check_ok (pg_sums_create (&t, &rule, &b->cloud, &b->lattice));
     assert_true (s->ordered && !t->ordered);
     check_family (t, &rule, 0);
-    check_ok (pg_sums_family (&f, s));
-    check_ok (pg_sums_family (&g, t));
+    check_ok (pg_sums_family (&f, s, NULL));
+    check_ok (pg_sums_family (&g, t, NULL));
     for (size_t i = 0; i < n; i++) {
         double w[100], v[100];
         size_t k = i * 5 % n, m = f.start[i + 1] - f.start[i];
@@ -400,7 +400,7 @@ static void volumes_of_points_count (void **state)
     for (size_t i = 0; i < b->cloud.n; i++)
         b->volume[i] *= (i % 12 == 0 || i % 12 == 11 ? 0.5 : 1) * (i / 12 == 0 || i / 12 == 8 ? 0.5 : 1);
     check_ok (pg_sums_create (&s, &rule, &b->cloud, &b->lattice));
-    check_ok (pg_sums_family (&f, s));
+    check_ok (pg_sums_family (&f, s, NULL));
     check_relative (s->share[0], 0.25, 1e-12);
     check_relative (s->share[5], 0.5, 1e-12);
     check_relative (s->share[17], 1, 1e-12);
@@ -434,7 +434,7 @@ static void surface_factors_are_those_of_the_volumes (void **state)
             check_ok (pg_sums_create (&s[k], &rule, &b->cloud, how ? NULL : &b->lattice));
             assert_true (!s[k]->family_volume == (k == 0));
         }
-        check_ok (pg_sums_family (&f, s[0]));
+        check_ok (pg_sums_family (&f, s[0], NULL));
         for (size_t i = 0; i < b->cloud.n; i++) {
             double w[3][400];
             assert_true (f.start[i + 1] - f.start[i] <= 400);
@@ -577,7 +577,7 @@ static void running_out_of_memory_leaves_nothing (void **state)
             pg_family f = {0};
             pg_memory_fail_at (k);
             pg_status status = pg_sums_create (&s, &rule, &b->cloud, how ? &b->lattice : &none);
-            if (status == PG_OK) status = pg_sums_family (&f, s);
+            if (status == PG_OK) status = pg_sums_family (&f, s, NULL);
             pg_memory_fail_at (0);
             pg_family_clear (&f);
             pg_sums_free (&s);

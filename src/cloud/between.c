@@ -1,0 +1,423 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What lies between two places of the body. A straight way that leaves the body through one face and comes
+ * back through a face that looks the other way - across a slot, a gap, to another body, however narrow -
+ * parts them; so does one that runs outside for more than half a spacing, unless it is the chord of one
+ * smooth surface: there the normals at both ends of the way outside are nearly the same. A body is the
+ * faces of its mesh, or shapes that are added and subtracted in turn.
+ *
+ * Points need not lie in the body exactly: the vertices of a lattice about cells whose centres do may
+ * lie beyond its surface. Such a point looks from the nearest place of the body, as if it had been drawn
+ * back there, and so belongs to one side of a slot that it lies in. A node of a mesh looks from a place
+ * a little way inside its elements, which tells the two nodes apart that lie at one place on both sides
+ * of a seam. */
+#include "between.h"
+#include "shape.h"
+#include "solid.h"
+#include <math.h>
+#include <string.h>
+
+/* A shape, or the mesh that is the body (shape NULL); its box. */
+typedef struct { const pg_shape *shape; between_faces *faces; int add, convex; double box[6]; } member;
+
+struct pg_between {
+    int     dim;
+    /* 1: one shape, or a mesh: where no face is met all is inside. */
+    int     alone;
+    /* Places so near to a surface lie on it, m. */
+    double  near;
+    const pg_body *body;
+    const pg_cloud *cloud;
+    size_t  n;
+    member *member;
+    /* Nearest points, where spacings differ. */
+    pg_nearest *nearest;
+    /* Where the points look from, m (cloud.n x dim); NULL: from where they are. */
+    double *eye;
+};
+
+/* Normals that part by more than 91 degrees look away from each other; the chord of a smooth surface
+ * turns them by less than 60 degrees. Ways outside are long from half a spacing on. */
+static const double AWAY = -0.02, SMOOTH = 0.5, LONG = 0.5;
+/* How far from a point outside the body is looked for, spacings; how far within it its eye lies, and of
+ * nodes of a mesh the share of the way to the middle of their elements. */
+static const double REACH = 2, WITHIN = 1e-6, INWARD = 1e-5;
+
+/* ---- one way ------------------------------------------------------------------------------------------- */
+/* Of an alpha shape with a rim a gap of its simplices counts only where it is wider than the rim fills. */
+static void fill_rim (between_gaps *g, const pg_shape *s, const between_way *w)
+{
+    double rim = pg_shape_alpha (s) ? pg_shape_alpha (s)->rim : 0;
+    int kept = 0;
+    for (int i = 0; i < g->n && rim > 0; i++) {
+        double a = fmax (g->gap[i].t[0], 0), b = fmin (g->gap[i].t[1], 1), most = 0;
+        for (int k = 1; k < 4; k++) {
+            double x[3], t = a + 0.25 * k * (b - a);
+            for (int c = 0; c < w->dim; c++) x[c] = w->x[c] + t * w->d[c];
+            most = fmax (most, pg_skin_distance (s->solid->skin, x, 2 * rim, NULL));
+        }
+        g->gap[kept] = g->gap[i];
+        kept += most > rim;
+    }
+    if (rim > 0) g->n = kept;
+}
+
+/* The gaps of a member. A mesh beside others may not be met at all, and then is here or is not. */
+static void gaps_of (between_gaps *out, const pg_between *b, const member *m, const between_way *w)
+{
+    if (!m->faces && (!m->shape || pg_shape_meshed (m->shape))) {
+        out->n = out->full = 0;                        /* no face can be met */
+        return;
+    }
+    if (!m->faces) {
+        between_shape (out, m->shape, w);
+        return;
+    }
+    between_faces_gaps (out, m->faces, w);
+    if (!m->shape) return;
+    if (out->n == 0 && !b->alone
+        && pg_shape_types[m->shape->kind].distance (m->shape, b->dim, w->x, w->near) > w->near) {
+        between_gap all = { .t = { -INFINITY, INFINITY } };
+        between_gaps_add (out, &all);
+    }
+    fill_rim (out, m->shape, w);
+}
+
+static int meets (const pg_between *b, const member *m, const double *low, const double *high)
+{
+    for (int k = 0; k < b->dim; k++)
+        if (!(m->box[k] <= high[k] + b->near && low[k] - b->near <= m->box[3 + k])) return 0;
+    return 1;
+}
+
+/* The gaps of the body. */
+static void gaps_along (between_gaps *out, const pg_between *b, const pg_outlook *o, const between_way *w)
+{
+    double low[3], high[3];
+    size_t n = o && !o->all ? (size_t) o->n : b->n;
+    *out = (between_gaps) { .n = 1, .gap[0] = { .t = { -INFINITY, INFINITY } } };
+    for (int k = 0; k < b->dim; k++)
+        low[k] = fmin (w->x[k], w->x[k] + w->d[k]), high[k] = fmax (w->x[k], w->x[k] + w->d[k]);
+    for (size_t i = 0; i < n; i++) {
+        const member *m = &b->member[o && !o->all ? (size_t) o->member[i] : i];
+        between_gaps own, inside, all;
+        if (!meets (b, m, low, high)) continue;
+        gaps_of (&own, b, m, w);
+        if (m->add) between_gaps_both (&all, out, &own, w->near / w->length);
+        else between_gaps_turn (&inside, &own), between_gaps_any (&all, out, &inside);
+        *out = all;
+    }
+}
+
+/* Does a place lie on a face of a mesh? */
+static int on_face (const pg_between *b, const double *x)
+{
+    for (size_t i = 0; i < b->n; i++)
+        if (b->member[i].faces && between_faces_touch (b->member[i].faces, x, 2 * b->near)) return 1;
+    return 0;
+}
+
+static double spacing_at (const pg_between *b, const double *x)
+{
+    long i = b->nearest ? pg_nearest_find (b->nearest, x, NULL, NULL) : -1;
+    return i < 0 ? b->cloud->h : b->cloud->size[i];
+}
+
+/* Does this gap part the ends of the way? */
+static int parts (const pg_between *b, const between_gap *g, const between_way *w)
+{
+    double slack = 4 * w->near / w->length, wide = (g->t[1] - g->t[0]) * w->length, same = 0, middle[3];
+    if (!(g->t[0] >= -slack && g->t[1] <= 1 + slack)) return 0;
+    if (wide <= 2 * w->near && !(g->t[0] > slack && g->t[1] < 1 - slack)) return 0;
+    for (int k = 0; k < w->dim; k++) {
+        same += g->normal[0][k] * g->normal[1][k];
+        middle[k] = w->x[k] + 0.5 * (g->t[0] + g->t[1]) * w->d[k];
+    }
+    if (same > SMOOTH || (same >= AWAY && wide <= LONG * spacing_at (b, middle))) return 0;
+    /* A way along a face runs in the body. */
+    return wide <= 2 * w->near || !on_face (b, middle);
+}
+
+static int way_from (between_way *w, const pg_between *b, const double *x, const double *y)
+{
+    double size = 0;
+    *w = (between_way) { .dim = b->dim, .near = b->near };
+    for (int k = 0; k < b->dim; k++) w->x[k] = x[k], w->d[k] = y[k] - x[k], size += w->d[k] * w->d[k];
+    w->length = sqrt (size);
+    return w->length > 8 * b->near;
+}
+
+/* Both ways round the same: from the end with the smaller coordinates. */
+int pg_between_parted (const pg_between *b, const pg_outlook *o, const double *x, const double *y)
+{
+    between_way w;
+    between_gaps g;
+    int k = 0;
+    while (k < b->dim - 1 && x[k] == y[k]) k++;
+    if (x[k] > y[k]) return pg_between_parted (b, o, y, x);
+    if (!way_from (&w, b, x, y)) return 0;
+    gaps_along (&g, b, o, &w);
+    if (g.full) return 1;
+    for (int i = 0; i < g.n; i++) if (parts (b, &g.gap[i], &w)) return 1;
+    return 0;
+}
+
+/* ---- what can be met in a box -------------------------------------------------------------------------- */
+/* Does this convex shape hold the whole box? */
+static int holds (const pg_between *b, const member *m, const double *low, const double *high)
+{
+    for (int c = 0; c < 1 << b->dim; c++) {
+        double x[3] = { 0 };
+        for (int k = 0; k < b->dim; k++) x[k] = c >> k & 1 ? high[k] : low[k];
+        if (pg_shape_types[m->shape->kind].distance (m->shape, b->dim, x, b->near) > 0) return 0;
+    }
+    return 1;
+}
+
+int pg_between_look (const pg_between *b, const double *low, const double *high, pg_outlook *o)
+{
+    o->n = o->all = 0;
+    for (size_t i = 0; i < b->n; i++) {
+        const member *m = &b->member[i];
+        if (!meets (b, m, low, high)) continue;
+        /* what was before is filled */
+        if (m->add && m->convex && holds (b, m, low, high)) o->n = o->all = 0;
+        if (o->n == PG_OUTLOOK) o->all = 1;
+        else o->member[o->n++] = (int) i;
+    }
+    if (o->all || o->n > 1) return 1;
+    if (o->n == 0) return 0;
+    const member *m = &b->member[o->member[0]];
+    if (m->faces) return between_faces_near (m->faces, low, high);
+    return !m->convex;
+}
+
+/* ---- where places look from ---------------------------------------------------------------------------- */
+void pg_between_eye (const pg_between *b, const double *x, double *eye)
+{
+    double best = INFINITY, h, found[3] = { 0 };
+    memcpy (eye, x, (size_t) b->dim * sizeof *x);
+    if (!b->body || pg_body_inside (b->body, x, b->near)) return;
+    h = spacing_at (b, x);
+    for (int c = 0; c < 2 * b->dim + (1 << b->dim); c++) {
+        between_way w = { .dim = b->dim, .near = b->near, .length = REACH * h };
+        between_gaps g;
+        for (int k = 0; k < b->dim; k++) {
+            double axis = (c / 2 == k) * (c % 2 ? 1 : -1),
+                   diagonal = ((c - 2 * b->dim) >> k & 1 ? 1 : -1) / sqrt (b->dim);
+            w.x[k] = x[k], w.d[k] = w.length * (c < 2 * b->dim ? axis : diagonal);
+        }
+        gaps_along (&g, b, NULL, &w);
+        for (int i = 0; i < g.n; i++) {
+            double t = g.gap[i].t[1];
+            if (g.gap[i].t[0] > 0 || !(t >= 0 && t <= 1) || !(t < best * (1 - 1e-9))) continue;
+            best = t;
+            for (int k = 0; k < b->dim; k++) found[k] = x[k] + (t + WITHIN / REACH) * w.d[k];
+        }
+    }
+    if (best <= 1) memcpy (eye, found, (size_t) b->dim * sizeof *x);
+}
+
+const double *pg_between_eye_of (const pg_between *b, size_t i)
+{
+    return (b->eye ? b->eye : b->cloud->x) + i * (size_t) b->dim;
+}
+
+/* Nodes on the faces of a mesh look from a little way inside. */
+static pg_status look_inward (pg_between *b, const pg_mesh_body *part)
+{
+    pg_status status = PG_OK;
+    const pg_mesh *m = &part->mesh;
+    const pg_cloud *c = b->cloud;
+    size_t dim = (size_t) b->dim;
+    double *sum = NULL;
+    int *held = NULL;
+    PG_ALLOC (b->eye, c->n * dim);
+    PG_ALLOC (sum, m->nnode * 4);
+    /* the point at a node, from 1; 0: held by other ranks */
+    PG_ALLOC (held, m->nnode);
+    for (size_t i = 0; i < c->n; i++) held[c->subdomain ? (size_t) c->subdomain->number[i] : i] = (int) i + 1;
+    for (size_t e = 0; e < m->n; e++) {
+        double centre[3] = { 0 }, corners = pg_element_types[m->kind[e]].corners;
+        const int *node = m->node + m->start[e];
+        for (int v = 0; v < (int) corners; v++)
+            for (size_t k = 0; k < dim; k++) centre[k] += m->x[3 * (size_t) node[v] + k] / corners;
+        for (size_t i = 0; i < m->start[e + 1] - m->start[e]; i++) {
+            for (size_t k = 0; k < dim; k++) sum[4 * (size_t) node[i] + k] += centre[k];
+            sum[4 * (size_t) node[i] + 3]++;
+        }
+    }
+    memcpy (b->eye, c->x, c->n * dim * sizeof *b->eye);
+    for (size_t i = 0; i < m->nnode; i++) {
+        const double *x = m->x + 3*i;
+        int at = part->point[i] < 0 ? 0 : held[part->point[i]];
+        if (!at || !between_faces_touch (b->member->faces, x, b->near)) continue;
+        for (size_t k = 0; k < dim; k++)
+            b->eye[(size_t) (at - 1) * dim + k] += INWARD * (sum[4*i + k] / sum[4*i + 3] - x[k]);
+    }
+done:
+    pg_free (sum), pg_free (held);
+    return status;
+}
+
+/* Of the points outside the body, if there are any. */
+static pg_status draw_back (pg_between *b)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *c = b->cloud;
+    size_t dim = (size_t) b->dim;
+    for (size_t i = 0; i < c->n; i++) {
+        double eye[3];
+        const double *x = c->x + i * dim;
+        if (pg_body_inside (b->body, x, b->near)) continue;
+        pg_between_eye (b, x, eye);
+        if (!b->eye) {
+            PG_ALLOC (b->eye, c->n * dim);
+            memcpy (b->eye, c->x, c->n * dim * sizeof *eye);
+        }
+        memcpy (b->eye + i * dim, eye, dim * sizeof *eye);
+    }
+done:
+    return status;
+}
+
+/* ---- making it ----------------------------------------------------------------------------------------- */
+static pg_status add_shapes (pg_between *b, const pg_body *body)
+{
+    pg_status status = PG_OK;
+    b->alone = body->n == 1, b->body = body;
+    PG_ALLOC (b->member, body->n);
+    for (size_t i = 0; i < body->n; i++) {
+        const pg_shape *s = &body->shape[i];
+        member *m = &b->member[b->n++];
+        *m = (member) { .shape = s, .add = s->add, .convex = between_convex (s) };
+        pg_shape_types[s->kind].box (s, body->dim, m->box, m->box + 3);
+        const pg_alpha_shape *points = pg_shape_alpha (s);
+        if (pg_shape_meshed (s))
+            PG_TRY (between_faces_create (&m->faces, points ? &points->mesh : &s->solid->part.mesh,
+                                          b->alone && !(points && points->rim > 0)));
+    }
+done:
+    return status;
+}
+
+static pg_status add_mesh (pg_between *b, const pg_mesh *mesh)
+{
+    pg_status status = PG_OK;
+    b->alone = 1;
+    PG_ALLOC (b->member, 1);
+    b->n = 1;
+    b->member->add = 1;
+    for (int k = 0; k < 3; k++) b->member->box[k] = -INFINITY, b->member->box[3 + k] = INFINITY;
+    PG_TRY (between_faces_create (&b->member->faces, mesh, 1));
+done:
+    return status;
+}
+
+int pg_body_parts (const pg_body *body, const pg_mesh_body *part)
+{
+    if (!body->n && !part->mesh.n) return -1;
+    return part->mesh.n > 0 || body->n > 1 || !between_convex (body->shape);
+}
+
+pg_status pg_between_create (pg_between **out, const pg_body *body, const pg_mesh_body *part,
+                             const pg_cloud *cloud)
+{
+    pg_status status = PG_OK;
+    pg_between *b = NULL;
+    double size = 0;                                   /* of all ranks, so that all answer alike */
+    *out = NULL;
+    if (pg_body_parts (body, part) <= 0) return PG_OK;
+    PG_ALLOC (b, 1);
+    b->dim = cloud->dim, b->cloud = cloud;
+    for (int k = 0; k < cloud->dim; k++)
+        size = fmax (size, fmax (fabs (cloud->low[k]), fabs (cloud->high[k])));
+    b->near = 1e-12 * size;
+    if (part->mesh.n) PG_TRY (add_mesh (b, &part->mesh));
+    else PG_TRY (add_shapes (b, body));
+    if (!b->member->shape && !b->member->faces) goto done;
+    if (cloud->size) PG_TRY (pg_nearest_create (&b->nearest, cloud->dim, cloud->n, cloud->x));
+    if (part->mesh.n) PG_TRY (look_inward (b, part));
+    else PG_TRY (draw_back (b));
+    *out = b, b = NULL;
+done:
+    pg_between_free (&b);
+    return status;
+}
+
+void pg_between_free (pg_between **between)
+{
+    pg_between *b = *between;
+    if (!b) return;
+    for (size_t i = 0; i < b->n; i++) between_faces_free (&b->member[i].faces);
+    pg_free (b->member), pg_free (b->eye);
+    pg_nearest_free (&b->nearest);
+    pg_free (b);
+    *between = NULL;
+}
+
+/* ---- families ------------------------------------------------------------------------------------------ */
+typedef struct {
+    const pg_between *b;
+    pg_family *f;
+    const double *centre, *eye;
+    const int *own;
+    size_t *kept;
+} sifting;
+
+/* The box of a centre and its family. */
+static void box_of (const sifting *s, size_t i, double *low, double *high)
+{
+    size_t dim = (size_t) s->b->dim;
+    memcpy (low, s->centre + i * dim, dim * sizeof *low), memcpy (high, low, dim * sizeof *high);
+    for (size_t e = s->f->start[i]; e < s->f->start[i + 1]; e++) {
+        const double *x = s->b->cloud->x + (size_t) s->f->node[e] * dim;
+        for (size_t k = 0; k < dim; k++) low[k] = fmin (low[k], x[k]), high[k] = fmax (high[k], x[k]);
+    }
+}
+
+/* Each centre writes into its own part of the list. */
+static void sift_those (void *context, size_t first, size_t last, int thread)
+{
+    const sifting *s = context;
+    size_t dim = (size_t) s->b->dim;
+    (void) thread;
+    for (size_t i = first; i < last; i++) {
+        double low[3], high[3], eye[3];
+        pg_outlook o;
+        size_t begin = s->f->start[i], n = begin;
+        s->kept[i] = s->f->start[i + 1] - begin;
+        box_of (s, i, low, high);
+        if (!pg_between_look (s->b, low, high, &o)) continue;
+        if (s->own && s->own[i] >= 0)
+            memcpy (eye, pg_between_eye_of (s->b, (size_t) s->own[i]), dim * sizeof *eye);
+        else pg_between_eye (s->b, (s->eye ? s->eye : s->centre) + i * dim, eye);
+        for (size_t e = begin; e < s->f->start[i + 1]; e++) {
+            int j = s->f->node[e];
+            s->f->node[n] = j;
+            n += (s->own && s->own[i] == j)
+                 || !pg_between_parted (s->b, &o, eye, pg_between_eye_of (s->b, (size_t) j));
+        }
+        s->kept[i] = n - begin;
+    }
+}
+
+pg_status pg_between_sift (const pg_between *b, pg_family *f, const double *centre, const double *eye,
+                           const int *own, int threads, size_t *parted)
+{
+    pg_status status = PG_OK;
+    sifting s = { b, f, centre, eye, own, NULL };
+    size_t at = 0;
+    *parted = 0;
+    if (!b) return PG_OK;
+    PG_ALLOC (s.kept, f->n);
+    pg_parallel (threads, f->n, sift_those, &s);
+    for (size_t i = 0, begin = 0; i < f->n; i++) {
+        size_t end = f->start[i + 1];
+        memmove (f->node + at, f->node + begin, s.kept[i] * sizeof *f->node);
+        at += s.kept[i], *parted += end - begin - s.kept[i];
+        f->start[i + 1] = at, begin = end;
+    }
+done:
+    pg_free (s.kept);
+    return status;
+}
