@@ -177,16 +177,15 @@ pg_contact_setting pg_contact_read (const pg_scene *scene);
 /* ---- short-range forces -------------------------------------------------------------------------------- */
 /* Points that no live bond joins repel each other when they come nearer than a contact distance, so that
  * bodies, fragments and the faces of cracks do not pass through each other (Silling and Askari 2005; Madenci
- * and Oterkus 2014, section 10.2). Of a pair that is r apart now, and was |X| apart at the start,
- *
- *     F_n = k (l - r),   l = min (distance (s_i + s_j) / 2, |X|),   s: local spacing,
- *     k = stiffness M min (V_i / s_i^2, V_j / s_j^2),   M = 2 M_i M_j / (M_i + M_j),
- *
- * along the line between them: no force at the start, and the stiffness of a column of the material as wide
- * and as long as a spacing (M = density c_p^2). Friction: a spring of stiffness k mu_s / M (mu_s: shear
- * modulus) across that line, made longer by the relative motion of the two, which bears at most coefficient
- * F_n; what it cannot follow is slip. Forces on the two are equal and opposite to the last bit. The faces of
- * a lattice are not smooth: points that slide over others feel their spacing. */
+ * and Oterkus 2014, section 10.2). Of a pair that is r apart now, and was |X| apart at the start, F_n = k (l
+ * - r), l = min (distance (s_i + s_j) / 2, |X|), s: local spacing, k = stiffness M min (V_i / s_i^2, V_j /
+ * s_j^2), M = 2 M_i M_j / (M_i + M_j), along the line between them (a pair whose bond broke while it was
+ * nearer than l: l is what it was apart then, until it has been l apart): no force at the start, and the
+ * stiffness of a column of the material as wide and as long as a spacing (M = density c_p^2). Friction: a
+ * spring of stiffness k mu_s / M (mu_s: shear modulus) across that line, made longer by the relative motion
+ * of the two, which bears at most coefficient F_n; what it cannot follow is slip. Forces on the two are equal
+ * and opposite to the last bit. The faces of a lattice are not smooth: points that slide over others feel
+ * their spacing. */
 typedef struct pg_short_range pg_short_range;
 typedef struct {
     size_t listed, touching;                           /* pairs near each other; pairs that bear a force */

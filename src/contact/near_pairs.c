@@ -62,8 +62,8 @@ static near_pair pair_of (const near_pairs *s, size_t i, size_t j)
     double rr = 0, M = 2 * s->modulus[a] * s->modulus[b] / (s->modulus[a] + s->modulus[b]),
            G = 2 * s->shear[a] * s->shear[b] / (s->shear[a] + s->shear[b]);
     for (size_t k = 0; k < s->dim; k++) rr += pow (x[j * s->dim + k] - x[i * s->dim + k], 2);
-    return (near_pair) { .i = (int) i, .j = (int) j,
-                         .reach = fmin (0.5 * s->distance * (size_of (s, i) + size_of (s, j)), sqrt (rr)),
+    double full = fmin (0.5 * s->distance * (size_of (s, i) + size_of (s, j)), sqrt (rr));
+    return (near_pair) { .i = (int) i, .j = (int) j, .reach = full, .full = full,
                          .k = s->stiffness * M * fmin (s->local[i], s->local[j]),
                          .share = G > 0 ? fmin (G / M, 1) : 0 };
 }
@@ -129,12 +129,14 @@ pg_status near_collect (near_pairs *s)
     pg_status status = PG_OK;
     if (!s->valid) return PG_OK;                       /* what is to be remembered is there already */
     s->nmemory = 0;
-    for (size_t q = 0; s->slips && q < s->n; q++) {
-        const double *v = s->slip + 3 * q;
-        if (v[0] == 0 && v[1] == 0 && v[2] == 0) continue;
+    for (size_t q = 0; q < s->n; q++) {
+        static const double none[3] = { 0 };
+        const near_pair *p = &s->pair[q];
+        const double *v = s->slips ? s->slip + 3 * q : none;
+        int shorter = p->reach < p->full;
+        if (v[0] == 0 && v[1] == 0 && v[2] == 0 && !shorter) continue;
         PG_GROW (s->memory, s->cap_memory, s->nmemory + 1);
-        s->memory[s->nmemory] = (near_memory) { s->pair[q].i, s->pair[q].j, { v[0], v[1], v[2] } };
-        s->nmemory++;
+        s->memory[s->nmemory++] = (near_memory) { p->i, p->j, { v[0], v[1], v[2] }, shorter ? p->reach : 0 };
     }
 done:
     return status;
@@ -155,10 +157,12 @@ static pg_status finish (near_pairs *s)
     s->row[s->nrow] = s->n;
     if (s->slips) PG_GROW (s->slip, s->cap_slip, 3 * s->n);
     if (s->slips && s->n) memset (s->slip, 0, 3 * s->n * sizeof *s->slip);
-    for (size_t q = 0, m = 0; s->slips && q < s->n; q++) {
-        while (m < s->nmemory && before (s->memory[m].i, s->memory[m].j, s->pair[q].i, s->pair[q].j)) m++;
-        if (m < s->nmemory && s->memory[m].i == s->pair[q].i && s->memory[m].j == s->pair[q].j)
-            memcpy (s->slip + 3 * q, s->memory[m].slip, sizeof s->memory[m].slip);
+    for (size_t q = 0, m = 0; q < s->n; q++) {
+        near_pair *p = &s->pair[q];
+        while (m < s->nmemory && before (s->memory[m].i, s->memory[m].j, p->i, p->j)) m++;
+        int known = m < s->nmemory && s->memory[m].i == p->i && s->memory[m].j == p->j;
+        if (known && s->slips) memcpy (s->slip + 3 * q, s->memory[m].slip, sizeof s->memory[m].slip);
+        if (known && s->memory[m].reach > 0) p->reach = s->memory[m].reach;
     }
     s->valid = 1;
 done:
@@ -295,6 +299,41 @@ done:
     return status;
 }
 
+/* How far apart the two are now, by the same sums as where their force is asked for. */
+static double apart (const near_pairs *s, const pg_state *state, size_t i, size_t j)
+{
+    const double *x = s->problem->cloud.x, *d = state->d;
+    double rr = 0;
+    for (size_t k = 0; k < s->dim; k++) {
+        double e = (x[j * s->dim + k] - x[i * s->dim + k]) + (d[j * s->stride + k] - d[i * s->stride + k]);
+        rr += e * e;
+    }
+    return sqrt (rr);
+}
+
+static near_pair *listed (near_pairs *s, int i, int j)
+{
+    const near_pair one = { .i = i, .j = j };
+    return pg_search (&one, s->pair, s->n, sizeof one, by_place);
+}
+
+/* Two whose bond breaks while they are nearer than their contact distance do not touch at once: a spring that
+ * came into being with a load in it would give energy to the body. They touch where they are, until they have
+ * been apart. Impulses know by themselves how far such pairs may go. */
+static void touch_from_here (near_pairs *s, const pg_state *state, const pg_changes *broken)
+{
+    for (size_t c = 0; c < broken->n && !s->impulses; c++) {
+        int set;
+        size_t i, j;
+        pg_problem_locate (s->problem, broken->bond[c], &set, &i);
+        if (set != PG_NODES) continue;
+        j = (size_t) s->problem->rows[PG_NODES].family.node[broken->bond[c] - s->problem->first_bond[PG_NODES]];
+        near_pair *one = listed (s, (int) i, (int) j), *other = listed (s, (int) j, (int) i);
+        double r = one && other ? apart (s, state, i, j) : INFINITY;
+        if (isfinite (r) && r < one->full) one->reach = other->reach = r;
+    }
+}
+
 /* The sum of what points have moved in each step at most is enough as long as it is small; else they are
  * looked at. */
 pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed,
@@ -308,11 +347,13 @@ pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *b
     if (keeps && !(s->way <= limit)) s->way = moved (s, state->d);
     if (keeps && s->way <= limit) {
         if (broken && broken->n) PG_TRY (add_broken (s, state, broken));
+        if (broken) touch_from_here (s, state, broken);
         goto done;
     }
     /* lost runs end where they are looked at: there is nothing to be found in them */
     for (size_t i = 0; i < s->problem->cloud.n * s->stride; i++) if (!isfinite (state->d[i])) goto done;
     PG_TRY (search (s, state));
+    if (broken) touch_from_here (s, state, broken);
 done:
     return status;
 }

@@ -9,11 +9,12 @@
 /* One of the two directions of a pair. */
 typedef struct {
     int    i, j;
-    double reach;                                      /* contact distance, m */
+    double reach, full;  /* contact distance, m; that of a pair whose bond did not break under pressure */
     double k, share;                                   /* stiffness, N/m; that across over that along */
 } near_pair;
-/* What pairs remember: the spring of friction, the displacement of j past i that it bears, m. */
-typedef struct { int i, j; double slip[3]; } near_memory;
+/* What pairs remember: the spring of friction, the displacement of j past i that it bears, m; their contact
+ * distance, m, 0: in full. */
+typedef struct { int i, j; double slip[3], reach; } near_memory;
 
 typedef struct {
     const pg_problem *problem;
@@ -41,7 +42,7 @@ void      near_free   (near_pairs *s);
 /* Brings the list in line with the state: unchanged, with bonds that broke added, or by another search. */
 pg_status near_update (near_pairs *s, const pg_state *state, const pg_changes *broken, int changed,
                        double way);
-/* The slips that are not zero, into `memory`. */
+/* The slips that are not zero and distances that are not full, into `memory`. */
 pg_status near_collect (near_pairs *s);
 
 /* Short-range contact of a run: what springs (short_range.c) and impulses (point_impulses.c) know. */

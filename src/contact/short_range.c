@@ -68,7 +68,7 @@ typedef struct { pg_short_range *c; const double *d, *v; double dt, *f; } summin
 static void one_pair (const summing *w, size_t q, double *f, double *sum)
 {
     near_pairs *s = &w->c->near;
-    const near_pair *p = &s->pair[q];
+    near_pair *p = &s->pair[q];
     const double *x = s->problem->cloud.x;
     size_t dim = s->dim, i = (size_t) p->i, j = (size_t) p->j, a = i * s->stride, b = j * s->stride;
     double e[3] = { 0 }, move[3] = { 0 }, rr = 0, *slip = s->slips ? s->slip + 3 * q : NULL;
@@ -76,7 +76,9 @@ static void one_pair (const summing *w, size_t q, double *f, double *sum)
         e[k] = (x[j * dim + k] - x[i * dim + k]) + (w->d[b + k] - w->d[a + k]);
         rr += e[k] * e[k];
     }
-    double r = sqrt (rr), overlap = p->reach - r, press = p->k * overlap, across = p->k * p->share;
+    double r = sqrt (rr);
+    if (r >= p->full) p->reach = p->full;              /* they have been apart */
+    double overlap = p->reach - r, press = p->k * overlap, across = p->k * p->share;
     int touches = overlap > 0 && r > 0;
     for (size_t k = 0; slip && k < dim; k++) move[k] = w->dt > 0 ? w->dt * (w->v[b + k] - w->v[a + k]) : 0;
     /* what the spring bore at the end of the last step takes half of the work of this one */
@@ -179,14 +181,14 @@ done:
     return status;
 }
 
-/* Slips: two whole numbers and three numbers each. */
+/* Slips and distances: two whole numbers and four numbers each. */
 typedef struct { near_memory *memory;  long npoint; } slip_list;
 
 static void give_slip (void *context, size_t i, long *ends, double *slip)
 {
     const near_memory *m = &((const slip_list *) context)->memory[i];
     ends[0] = m->i, ends[1] = m->j;
-    memcpy (slip, m->slip, sizeof m->slip);
+    memcpy (slip, m->slip, sizeof m->slip), slip[3] = m->reach;
 }
 
 static pg_status take_slip (void *context, size_t i, const long *ends, const double *slip, const pg_keeper *k)
@@ -194,7 +196,7 @@ static pg_status take_slip (void *context, size_t i, const long *ends, const dou
     pg_status status = PG_OK;
     const slip_list *list = context;
     for (int a = 0; a < 2; a++) PG_KEEP_BOUND (k, "a point in contact", ends[a], 0, list->npoint - 1);
-    list->memory[i] = (near_memory) { (int) ends[0], (int) ends[1], { slip[0], slip[1], slip[2] } };
+    list->memory[i] = (near_memory) { (int) ends[0], (int) ends[1], { slip[0], slip[1], slip[2] }, slip[3] };
 done:
     return status;
 }
@@ -213,7 +215,7 @@ static pg_status keep_slips (near_memory **memory, size_t *n, size_t *cap, const
     *n = (size_t) count;
     slip_list list = { *memory, npoint };
     PG_TRY (pg_keep_records (k, &(pg_records) { .count_name = ends, .number_name = slips, .n = *n,
-                                                .counts = 2, .numbers = 3, .give = give_slip,
+                                                .counts = 2, .numbers = 4, .give = give_slip,
                                                 .take = take_slip, .context = &list }));
 done:
     return status;
