@@ -11,6 +11,14 @@ import shutil
 import fracture_scenes as scenes
 
 
+STRAIGHT = [scenes.Lattice("centred"), scenes.Lattice("shifted .37, .21", (0.37, 0.21)), scenes.Lattice("shifted .11, .43", (0.11, 0.43)),
+            scenes.Lattice("shifted -.29, .36", (-0.29, 0.36)), scenes.Lattice("moved .2, seed 1", perturb=0.2)]
+TURNED = [STRAIGHT[0], STRAIGHT[1], scenes.Lattice("turned 23", (0.13, 0.29), 23), scenes.Lattice("turned 37", (0.13, 0.29), 37), STRAIGHT[4]]
+# body, its width in half lengths of the crack, lattices (sides that are held across cannot be turned)
+CASES = [(scenes.ShearNotch, 2, STRAIGHT), (scenes.CrackedDisk, 1 / 0.15, TURNED), (scenes.CrackedDisk15, 1 / 0.15, TURNED),
+         (scenes.Inclined30, 1, TURNED), (scenes.Inclined, 1, TURNED), (scenes.Inclined60, 1, TURNED)]
+
+
 def load_reference():
     place = importlib.util.spec_from_file_location("reference", "data/fracture_fem/reference.py")
     module = importlib.util.module_from_spec(place)
@@ -94,7 +102,6 @@ def intensities(reference, body, event, refine=1.0):
         x, y = body.outline[0]
         far = body.outline[1]
         pins = [((x, y), 1), ((x, y), 2), (far, 2)]
-    # the other end of a long crack is meshed as finely: a size in the middle of both
     found, _, _ = reference.measure(body.outline, (), [event.crack], loads, pins, outer, outer / 14 / refine, 0.06 / refine * size_of(body), 0, event.start, held)
     root = scale * math.sqrt(body.width)
     return found[1] * root, found[2] * root

@@ -23,6 +23,10 @@ class Failure(Exception):
     """A command failed, or printed something else than what is read here."""
 
 
+class Skipped(Exception):
+    """A tool lacks that the measurement needs."""
+
+
 # ---- Markdown --------------------------------------------------------------------------------------------------------
 def command(*lines):
     """An indented block; test/cli/test_doc_commands.sh runs or checks its lines."""
@@ -112,6 +116,8 @@ def run_groups(target, pages, groups, chosen, measure, note=""):
             if not write(pages, group, stamp, lines):
                 raise Failure("no page has a place <!-- measured: %s -->" % group)
             print("%-16s %6.1f s" % (group, time.time() - start), flush=True)
+        except Skipped as why:
+            print("%-16s skipped: %s" % (group, why), flush=True)
         except (Failure, OSError, KeyError, ValueError) as fault:
             failed = 1
             print("%-16s FAILED: %s" % (group, fault), flush=True)
