@@ -92,7 +92,7 @@ typedef struct facet_growth {
 } facet_growth;
 enum {
     FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4, FACET_SAID_INTERFACE = 8,
-    FACET_SAID_BEGINS = 16, FACET_SAID_UNKNOWN = 32, FACET_SAID_ALL = 63
+    FACET_SAID_BEGINS = 16, FACET_SAID_UNKNOWN = 32, FACET_SAID_KINKED = 64, FACET_SAID_ALL = 127
 };
 
 /* Tips whose utilisation is within this share of the largest grow together: keeps symmetric scenes

@@ -244,6 +244,26 @@ static int is_as_measured (const front_growth *f, const pg_front *front, size_t 
     return front[k].open && front[k].n > 0 && front[k].n == f->first[k + 1] - f->first[k];
 }
 
+/* A sharp turn in space: tubes around the next fronts hold it, and their fields are those of a straight crack
+ * (doc/accuracy.md, "Behind a kink"). theta: of each vertex of front k, whose ways are d. */
+static void doubt_turn (break_loop *b, const pg_front *front, const double *d, const double *theta)
+{
+    static const double sharp = 0.7;                   /* rad: 3 % of the load at .79, 31 % at 1.23 */
+    facet_growth *g = b->growth;
+    double most = 0;
+    size_t at = 0;
+    for (size_t i = 0; i < front->n; i++)
+        if (d[i] > 0 && fabs (theta[i]) > most) most = fabs (theta[i]), at = i;
+    if (!(most > sharp) || g->said & FACET_SAID_KINKED) return;
+    const double *x = front->x + 3*at;
+    pg_statistics_warn (b->system.report,
+                        "crack front %ld turns by %.0f degrees at (%.4g, %.4g, %.4g) m: the load is not known "
+                        "well for the next two strips (behind a turn of 70 degrees +31 and -4 %%, of 45 -3 "
+                        "and -1 %%, against the plane)",
+                        front->id, most * 57.295779513082320877, x[0], x[1], x[2]);
+    g->said |= FACET_SAID_KINKED;
+}
+
 /* The strips of all fronts by the plan at hand. */
 static pg_status grow_planned (break_loop *b, pg_state *state)
 {
@@ -261,6 +281,7 @@ static pg_status grow_planned (break_loop *b, pg_state *state)
             f->theta[f->first[k] + i] = v[i].way > 0 ? asin (v[i].rise / v[i].way) : 0;
             taken += v[i].need * v[i].way * v[i].width, grown += v[i].way * v[i].width;
         }
+        doubt_turn (b, &front[k], f->d + f->first[k], f->theta + f->first[k]);
         if (grown > 0) PG_TRY (advance (b, state, k, taken / grown));
     }
 done:
