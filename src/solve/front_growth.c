@@ -257,9 +257,9 @@ static void doubt_turn (break_loop *b, const pg_front *front, const double *d, c
     if (!(most > sharp) || g->said & FACET_SAID_KINKED) return;
     const double *x = front->x + 3*at;
     pg_statistics_warn (b->system.report,
-                        "crack front %ld turns by %.0f degrees at (%.4g, %.4g, %.4g) m: the load is not known "
-                        "well for the next two strips (behind a turn of 70 degrees +31 and -4 %%, of 45 -3 "
-                        "and -1 %%, against the plane)",
+                        "crack front %ld turns by %.0f degrees at (%.4g, %.4g, %.4g) m: the load is not "
+                        "known well for the next two strips (behind a turn of 70 degrees +31 and -4 %%, of "
+                        "45 -3 and -1 %%, against the plane)",
                         front->id, most * 57.295779513082320877, x[0], x[1], x[2]);
     g->said |= FACET_SAID_KINKED;
 }

@@ -118,7 +118,8 @@ static void a_front_that_turns_is_told (void **state)
         run r = scene_of (1, "dimension: 3\nlattice: cells\nspacing: 10 mm\nmaterials: {" GLASS "}\n"
             "failure: {criterion: energy_release, fracture_energy: 8 J/m2}\n"
             "body: [{add: {box: {low: [0, -60 mm, 0], high: [120 mm, 60 mm, 40 mm]}}}]\n"
-            "cracks: [{polygon: [[-20 mm, 0, -9 mm], [60 mm, 0, -9 mm], [60 mm, 0, 49 mm], [-20 mm, 0, 49 mm]]}]\n"
+            "cracks: [{polygon: [[-20 mm, 0, -9 mm], [60 mm, 0, -9 mm], [60 mm, 0, 49 mm], "
+            "[-20 mm, 0, 49 mm]]}]\n"
             "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0, z: 0}}\n"
             "  - {set: top, displacement: {x: %s, y: %s, z: 0}}\n"
             "solver: {kind: static, stepping: event, max_events: 1}\n",
