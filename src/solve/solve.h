@@ -363,6 +363,7 @@ struct pg_solver {
     int shared;                                        /* the report is that of all ranks */
     int begun, started, finished, warned_overlap, warned_energy, warned_facets;
     long      next_level;                              /* next level to report: next_level / levels */
+    double    turned, turned_at;                       /* largest turn of a family, rad; since when */
     pg_state *backup;                                  /* last accepted state, for refused steps */
     long      evaluations, spared;                     /* of forces by explicit steps; for rows: not made */
     /* 1: alive bits of backup and state differ in the bonds of the last step's list alone */
@@ -414,6 +415,9 @@ pg_status solver_note_tip  (pg_solver *s, const pg_tip_values *values);
 pg_status solver_keep_tips (pg_solver *s, const pg_keeper *k);
 
 /* ---- warnings.c ---------------------------------------------------------------------------------------- */
+
+/* turns.c: after a step; warns of families that have turned. */
+void solver_note_turns (pg_solver *s, const pg_state *state, const pg_step *step);
 
 /* loaded_rows.c: warns of tractions that tear off the points they act on; the force is refreshed. */
 pg_status doubt_loaded_rows (pg_solver *s);

@@ -240,6 +240,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     /* First law: work of loads = strain + motion + damping + what breaking has taken, the rest. */
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping
                            - r->energy_friction - r->energy_contact;
+    solver_note_turns (s, state, step);
     PG_TRY (stage_close_step (s, state, step));
 done:
     if (status != PG_OK && s->started && !s->break_loop.stopped) {

@@ -210,7 +210,7 @@ static void doubt_clamps (pg_statistics *report, const pg_problem *p)
                 done = 1;
                 pg_statistics_warn (report,
                                     "%.40s: displacements along %c of points up to %.3g m apart along %c "
-                                    "keep the surface there from turning, as a clamp does; a roller or hinge: "
+                                    "keep the surface there from turning, as a clamp does; roller or hinge: "
                                     "points within a spacing, %.3g m, a force or a spring `at` a place",
                                     load->name, "xyz"[k], high - low, "xyz"[q], h);
             }

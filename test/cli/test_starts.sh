@@ -57,4 +57,18 @@ silent "supports on the surface" '.*inside the surface' small_hole.yaml method.e
 silent "supports on nodes" '.*inside the surface' small_hole.yaml method.essential=transformation lattice=nodes
 warned "a hole smaller than a spacing" 'body.1.: a hole of 0.04 m is smaller than the spacing there, 0.1 m' small_hole.yaml
 silent "a hole that is seen" '.*a hole of' small_hole.yaml 'spacing=0.035'
+
+# ---- families that turn ------------------------------------------------------------------------------------------------
+turns='warning: families of points turn: 0.1 rad from 2.[0-9]*e-05 s on, [01][0-9.]* rad at most'
+expect "linear stretches of a body that turns: told"  0 "$turns" '*' run spin.yaml -o "$work/spin"
+sed '/^initial/d' spin.yaml > "$work/rest.yaml"; turned='displacement: {x: "-0.3*y", y: "0.3*x"}'
+expect "at rest and by shape functions too" 0 'points turn: 0.1 rad from 0.35 of the load on, 0.29 rad at most' '*' run "$work/rest.yaml" -o "$work/spin2" \
+    --set 'method={approximation: rkpm, integration: nodal}' --set 'failure={criterion: none}' --set 'solver={kind: static}' --set "boundary=[{set: left, $turned}, {set: right, $turned}]"
+"$perigal" run spin.yaml -o "$work/spin3" --set method.stretch=finite > "$work/out" 2>&1; ! grep -q 'points turn' "$work/out"; verdict "not of finite stretches" $?
+
+# ---- a full device ----------------------------------------------------------------------------------------------------
+for words in "check small_hole.yaml" "check small_hole.yaml --json" list "help horizon" "help --manual"; do
+    "$perigal" $words > /dev/full 2> "$work/err"; [ $? -eq 70 ] && grep -q 'the output cannot be written: No space left on device' "$work/err"
+    verdict "$words, to a full device" $?
+done
 finish
