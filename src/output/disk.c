@@ -122,16 +122,19 @@ void pg_folder_remove (const char *path)
     rmdir (path);
 }
 
-/* Goes through the path and makes every folder on the way. Files are put into it under names of up to
- * NAME_MAX bytes, and the system takes paths of less than PATH_MAX bytes: a longer folder is refused before
- * anything is made, as its files would be cut to names of something else. */
+/* Of the path of a folder, bytes: files in it, temporary ones and those of its own folders have room in the
+ * paths of less than PATH_MAX bytes that the system takes, and messages for a few words about them. */
+enum { LONGEST = 3000 };
+
+/* Goes through the path and makes every folder on the way. A longer one is refused before anything is made,
+ * as its files would be cut to names of something else. */
 pg_status pg_folder_make (const char *path)
 {
     pg_status status = PG_OK;
     char *part = NULL;
-    if (strlen (path) + NAME_MAX + 2 > PATH_MAX)
+    if (strlen (path) > LONGEST)
         PG_FAIL (PG_E_FILE, "the folder %.40s... has a path of %zu bytes, more than the %d that leave room "
-                            "for the names of files in it", path, strlen (path), PATH_MAX - NAME_MAX - 2);
+                            "for the names of files in it", path, strlen (path), LONGEST);
     part = pg_strdup (path);
     if (!part) PG_FAIL (PG_E_MEMORY, "no memory for a path");
     for (char *p = part + !!*part;; p++) {

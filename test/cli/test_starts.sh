@@ -71,4 +71,12 @@ for words in "check small_hole.yaml" "check small_hole.yaml --json" list "help h
     "$perigal" $words > /dev/full 2> "$work/err"; [ $? -eq 70 ] && grep -q 'the output cannot be written: No space left on device' "$work/err"
     verdict "$words, to a full device" $?
 done
+
+# ---- long paths: whole, or refused ---------------------------------------------------------------------------------------
+part=$(printf 'x%.0s' $(seq 200)); long=$work/long
+for k in $(seq 14); do long=$long/$part; done
+expect "results under a path of ${#long} bytes" 0 '*' '*' run small_hole.yaml -o "$long" --quiet && [ -s "$long/report.json" ]; verdict "they are there" $?
+expect "again, by --force" 0 '*' '*' run small_hole.yaml -o "$long" --quiet --force
+expect "a path of 3300 bytes is refused" 70 '*' 'has a path of 3[0-9]* bytes, more than the 3000' run small_hole.yaml -o "$long/$part/$part" --quiet
+[ ! -e "$long/$part" ]; verdict "nothing of it is made" $?
 finish
