@@ -322,12 +322,13 @@ static near_pair *listed (near_pairs *s, int i, int j)
  * been apart. Impulses know by themselves how far such pairs may go. */
 static void touch_from_here (near_pairs *s, const pg_state *state, const pg_changes *broken)
 {
+    const pg_family *family = &s->problem->rows[PG_NODES].family;
     for (size_t c = 0; c < broken->n && !s->impulses; c++) {
         int set;
         size_t i, j;
         pg_problem_locate (s->problem, broken->bond[c], &set, &i);
         if (set != PG_NODES) continue;
-        j = (size_t) s->problem->rows[PG_NODES].family.node[broken->bond[c] - s->problem->first_bond[PG_NODES]];
+        j = (size_t) family->node[broken->bond[c] - s->problem->first_bond[PG_NODES]];
         near_pair *one = listed (s, (int) i, (int) j), *other = listed (s, (int) j, (int) i);
         double r = one && other ? apart (s, state, i, j) : INFINITY;
         if (isfinite (r) && r < one->full) one->reach = other->reach = r;

@@ -179,6 +179,32 @@ done:
     return status;
 }
 
+/* What the points lack of balance adds up in the reactions: small forces of one sign all over a body leave
+ * supports off by many times their norm. The largest sum of the residual along an axis over that of loads or
+ * reactions, whichever is larger; prescribed unknowns have no residual any more. */
+static double imbalance_of_reactions (const pg_solver *s)
+{
+    const motion *m = motion_of (s);
+    const pg_system *sys = &s->break_loop.system;
+    size_t components = (size_t) sys->components, dim = (size_t) s->problem->dim;
+    double left[3] = { 0 }, loads[3] = { 0 }, supports[3] = { 0 }, most = 0, size = 0;
+    for (size_t i = 0; i < sys->ndof; i++) {
+        size_t k = i % components;
+        if (k >= dim) continue;
+        left[k] += sys->residual[i];
+        if (m->P) loads[k] += fabs (m->P[i]);
+    }
+    for (size_t j = 0; j < m->nprescribed; j++) {
+        size_t k = m->prescribed[j] % components;
+        if (k < dim) supports[k] += fabs (m->push[j]);
+    }
+    for (size_t k = 0; k < dim; k++) {
+        most = fmax (most, fabs (system_sum (sys, left[k])));
+        size = fmax (size, fmax (system_sum (sys, loads[k]), system_sum (sys, supports[k])));
+    }
+    return size > 0 ? most / size : 0;
+}
+
 /* One iteration of all unknowns. */
 static pg_status iterate (pg_solver *s, pg_state *state)
 {
@@ -334,6 +360,8 @@ static pg_status hold (pg_solver *s, pg_state *state, double t, pg_step *step)
         int tested = passing && x->armed;
         PG_TRY (examine (s, state, t, tested));
         if (x->broke) PG_TRY (book_pending (s));
+        if (x->imbalance <= stages_of (s)->imbalance) x->imbalance = fmax (x->imbalance,
+                                                                           imbalance_of_reactions (s));
         if (x->imbalance <= stages_of (s)->imbalance) {
             int died = x->broke;
             if (can && !tested) {
