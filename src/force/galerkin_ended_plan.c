@@ -93,8 +93,8 @@ static int is_tip (const galerkin *g, const pg_cracks *cracks, size_t k, int end
     return pg_problem_has_body (g->problem, ahead);
 }
 
-/* Cells that see a tip fail. Whether one that is just a horizon away sees it must not hang on rounding: it does
- * where the kernel is not zero there. */
+/* Cells that see a tip fail. Whether one that is just a horizon away sees it must not hang on rounding: it
+ * does where the kernel is not zero there. */
 static void look_for_tips (galerkin *g, const pg_cracks *cracks)
 {
     struct galerkin_ended *e = g->ended;

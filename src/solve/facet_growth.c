@@ -334,6 +334,22 @@ done:
     return status;
 }
 
+/* A tip without a ring that leaves its way for the surface beside it, as a hole that the path would pass:
+ * which of both it does, the spacing does not tell. */
+static void tell_swallowed (break_loop *b, const pg_state *state, const facet_candidate *c)
+{
+    const pg_tip_field *f = &b->growth->field[c->tip];
+    double t[2] = { c->to[0] - f->x[0], c->to[1] - f->x[1] },
+           turn = fabs (atan2 (f->e[0] * t[1] - f->e[1] * t[0], f->e[0] * t[0] + f->e[1] * t[1]));
+    if (!isnan (f->near) || f->limit != PG_ROOM_SURFACE || turn < 0.2) return;
+    pg_statistics_warn_once (b->system.report,
+                             "crack tip %ld at (%.6g, %.6g) m went aside into the surface since it came "
+                             "within "
+                             "%.2g spacings of it (1.5 are needed to judge it): refine to decide whether "
+                             "it passes",
+                             state->paths->tip[c->tip].id, f->x[0], f->x[1], f->room / f->h);
+}
+
 /* One facet, and what it takes. */
 static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate *c)
 {
@@ -342,6 +358,7 @@ static pg_status grow_one (break_loop *b, pg_state *state, const facet_candidate
     const pg_problem *p = b->system.problem;
     /* another tip ran into it at this event */
     if (c->tip >= 0 && !state->paths->tip[c->tip].open) return PG_OK;
+    if (c->tip >= 0 && c->close) tell_swallowed (b, state, c);
     if (c->tip >= 0) PG_TRY (pg_crack_grow (state, p, (size_t) c->tip, c->to, c->close, &b->changes));
     else PG_TRY (pg_crack_start (state, p, c->from, c->to, c->open | (c->slides ? PG_START_SLIDES : 0),
                                  &b->changes));

@@ -92,7 +92,8 @@ typedef struct facet_growth {
 } facet_growth;
 enum {
     FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4, FACET_SAID_INTERFACE = 8,
-    FACET_SAID_BEGINS = 16, FACET_SAID_UNKNOWN = 32, FACET_SAID_KINKED = 64, FACET_SAID_ALL = 127
+    FACET_SAID_BEGINS = 16, FACET_SAID_UNKNOWN = 32, FACET_SAID_KINKED = 64, FACET_SAID_ENERGY = 128,
+    FACET_SAID_CUT = 256, FACET_SAID_ALL = 511
 };
 
 /* Tips whose utilisation is within this share of the largest grow together: keeps symmetric scenes
@@ -134,6 +135,12 @@ long      facet_unjudged (const break_loop *b, const pg_state *state, double fac
 void      facet_tell_lost (break_loop *b, const pg_state *state);
 /* After an event, at that load: there is such a tip and nothing else grows up to full load: the run ends. */
 int       facet_measure_ends (pg_solver *s, const pg_state *state, double factor);
+
+/* ---- facet_energy.c ------------------------------------------------------------------------------------ */
+/* After a step that ended at t: have facets in motion taken .9 to 1.1 of the fracture energy? Said once. */
+void      facet_doubt_energy (pg_solver *s, const pg_state *state, double t);
+/* The energy (J) that a facet has set free as it was cut: of the size of what it takes? Said once. */
+void      facet_doubt_cut (break_loop *b, const facet_candidate *c, double t, double freed);
 
 /* ---- facet_motion.c ------------------------------------------------------------------------------------ */
 /* Warns where a time step is too long for facets. */

@@ -143,6 +143,7 @@ static pg_status cut (break_loop *b, pg_state *state, const facet_candidate *c, 
     const facet_hold what = { .tip = c->tip, .length = zone, .energy = c->energy,
                               .alone = g->field[i].wide >= zone };
     PG_TRY (facet_hold_begin (b, t, d, &what, borne));
+    facet_doubt_cut (b, c, t, g->hold[g->nhold - 1].drop);
     if (!(r->shown > 0)) r->taken = r->shown = facet_zone (b) * c->energy;
     r->way = r->length > 0 ? fmin (r->way - r->length, length) : 0;
     r->length = length, r->straight -= length;

@@ -1,5 +1,6 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * The solver object: steps with refusal, the report of the run. */
+#include "facet_growth.h"
 #include "body_parts.h"
 #include "contact.h"
 #include <math.h>
@@ -241,6 +242,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     r->energy_dissipated = r->energy_external - r->energy_strain - r->energy_kinetic - r->energy_damping
                            - r->energy_friction - r->energy_contact;
     solver_note_turns (s, state, step);
+    facet_doubt_energy (s, state, step->time);
     PG_TRY (stage_close_step (s, state, step));
 done:
     if (status != PG_OK && s->started && !s->break_loop.stopped) {
@@ -370,9 +372,12 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
         && s->report.energy_dissipated < -0.01 * s->report.energy_external) {
         pg_statistics_warn (&s->report,
                             "breaking has fed %.3g J into the body instead of dissipating energy (external "
-                            "work %.3g J): single bonds are not an "
-                            "objective measure of fracture",
-                            -s->report.energy_dissipated, s->report.energy_external);
+                            "work %.3g J): %s",
+                            -s->report.energy_dissipated, s->report.energy_external,
+                            s->break_loop.growth
+                                ? "facets in motion that touch, or are cut near other cracks, give more back "
+                                  "than they take"
+                                : "single bonds are not an objective measure of fracture");
         s->warned_energy = 1;
     }
     warn_of_facets (s);

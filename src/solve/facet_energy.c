@@ -1,0 +1,45 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What facets in motion take out of the body, against the fracture energy of their area. The forces that a
+ * facet holds die with the way of its tip, not with its opening, so that the two agree only as long as the
+ * tip runs on: where tips branch, stop or are overdriven, or faces touch, they part. The run says when and
+ * where. */
+#include "facet_growth.h"
+#include <math.h>
+
+/* Growth, in spacings, from which on the ratio tells anything; bounds of the ratio, and of what one cut may
+ * set free, in fracture energies of its facet. */
+static const double grown = 10, least = 0.9, most = 1.1, cut_most = 4;
+
+void facet_doubt_energy (pg_solver *s, const pg_state *state, double t)
+{
+    facet_growth *g = s->break_loop.growth;
+    const pg_statistics *r = &s->report;
+    const pg_crack_paths *w = state->paths;
+    if (!g || !g->moving || !w || !(s->options.flags & PG_SOLVER_NEEDS_DENSITY)) return;
+    if (g->said & FACET_SAID_ENERGY || w->length < grown * s->problem->cloud.h) return;
+    double share = r->energy_fracture > 0 ? r->energy_dissipated / r->energy_fracture : 1;
+    if ((share > least && share < most) || !w->cracks.n) return;
+    const double *x = w->cracks.crack[w->cracks.n - 1].vertex + 2;
+    pg_statistics_warn (&s->report,
+                        "at t = %.4g s the cracks have dissipated %.3g times what their opened area takes, "
+                        "the "
+                        "last facet being at (%.4g, %.4g) m: facets in motion that branch, stop or touch "
+                        "take "
+                        "more or less than their share",
+                        t, share, x[0], x[1]);
+    g->said |= FACET_SAID_ENERGY;
+}
+
+void facet_doubt_cut (break_loop *b, const facet_candidate *c, double t, double freed)
+{
+    facet_growth *g = b->growth;
+    if (g->said & FACET_SAID_CUT || !(c->energy > 0) || fabs (freed) < cut_most * c->energy) return;
+    pg_statistics_warn (b->system.report,
+                        "the facet that comes to (%.4g, %.4g) m at t = %.4g s sets %.3g times its fracture "
+                        "energy "
+                        "free as it is cut: it lies too near another crack or the surface, and the "
+                        "energies of "
+                        "the run are out by that",
+                        c->to[0], c->to[1], t, freed / c->energy);
+    g->said |= FACET_SAID_CUT;
+}
