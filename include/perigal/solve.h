@@ -126,6 +126,10 @@ typedef struct {                                       /* of the run so far */
     long   preconditioners;                            /* made (multilevel) */
     size_t cg_iterations, degenerate_points, isolated_nodes, fragments, unended_cells;
     double utilisation_max, residual_max, overlap_max; /* over accepted steps; m */
+    /* What loads, reactions, inertia and damping miss of balance: the largest sum of forces over that of
+     * their sizes, of moments over that times the body's diagonal; in how many states (0: not measured). */
+    double balance_force, balance_moment;
+    long   balances;
     /* J; dissipated: by breaking, the rest */
     double energy_strain, energy_kinetic, energy_external, energy_damping, energy_dissipated;
     double energy_contact;                             /* J: stored by short-range contact */
@@ -157,6 +161,9 @@ typedef struct {                                       /* of the run so far */
 /* The same, but not if these words are there already. */
 void pg_statistics_warn_once (pg_statistics *report, const char *format, ...)
     __attribute__ ((format (printf, 2, 3)));
+/* What forces and moments may miss of balance: ten times what the solver leaves, 1e-10, or what a factor with
+ * the penalty of a support leaves. */
+double pg_balance_allowed (const pg_statistics *report, const pg_problem *problem);
 void pg_statistics_warn (pg_statistics *report, const char *format, ...)
     __attribute__ ((format (printf, 2, 3)));
 /* Adds the warnings that a run has before its first step: what is legal, yet hardly meant, such as a body

@@ -98,7 +98,7 @@ static int is_tip (const galerkin *g, const pg_cracks *cracks, size_t k, int end
 static void look_for_tips (galerkin *g, const pg_cracks *cracks)
 {
     struct galerkin_ended *e = g->ended;
-    double reach = reach_of (g) * (g->problem->approx.kernel->closed ? 1 + 1e-9 : 1 - 1e-9), low[2], high[2];
+    double low[2], high[2], reach = reach_of (g) * (g->problem->approx.kernel->closed ? 1 + 1e-9 : 1 - 1e-9);
     for (size_t k = 0; k < cracks->n; k++)
         for (int end = 0; end < 2; end++) {
             const double *x = cracks->crack[k].vertex + 2 * end;

@@ -235,6 +235,18 @@ static void patch_block (pg_json *j, const pg_problem *p)
     pg_json_shut (j);
 }
 
+/* What forces and moments miss of balance, over the loads; missing if it was not measured. */
+static void balance_block (pg_json *j, const pg_problem *p, const pg_statistics *r)
+{
+    if (r->balances == 0) return;
+    pg_json_open (j, "balance", '{');
+    pg_json_number (j, "forces", r->balance_force);
+    if (p->method->shape_functions) pg_json_number (j, "moments", r->balance_moment);
+    pg_json_number (j, "allowed", pg_balance_allowed (r, p));
+    pg_json_count (j, "states", (size_t) r->balances);
+    pg_json_shut (j);
+}
+
 /* The new crack, if any bond has broken. */
 static void crack_block (pg_json *j, const pg_result *res)
 {
@@ -342,6 +354,7 @@ pg_status pg_result_json (pg_result *res, const pg_state *state, const char *fai
     crack_block (j, res);
     pg_result_paths_json (j, res, state);
     patch_block (j, res->problem);
+    balance_block (j, res->problem, r);
     estimate_block (j, res);
     seconds_block (j, res, r, search, total);
     if (res->measured) {

@@ -104,14 +104,16 @@ pg_status keep_report (pg_statistics *r, const pg_keeper *k)
     long *const word[] = { &r->steps,           &r->events,           &r->iterations,
                            &r->broken,          &r->bonds_over_limit, &r->factorizations,
                            &r->updates,         &r->solves,           &r->preconditioners,
-                           &r->contact_columns, &r->contact_solves,   &r->contact_changes };
+                           &r->contact_columns, &r->contact_solves,   &r->contact_changes,
+                           &r->balances };
     size_t *const size[6] = { &r->cg_iterations, &r->degenerate_points, &r->isolated_nodes,
                               &r->fragments,     &r->nskipped,          &r->nwarning };
     double *const value[] = { &r->utilisation_max, &r->residual_max,    &r->overlap_max,
                               &r->energy_strain,   &r->energy_kinetic,  &r->energy_external,
                               &r->energy_damping,  &r->energy_dissipated, &r->factor_entries,
                               &r->factor_flops,    &r->energy_fracture, &r->energy_friction,
-                              &r->contact_overlap, &r->energy_contact,  &r->contact_seconds };
+                              &r->contact_overlap, &r->energy_contact,  &r->contact_seconds,
+                              &r->balance_force,   &r->balance_moment };
     enum {
         VALUES = sizeof value / sizeof *value,
         WORDS = sizeof word / sizeof *word,

@@ -17,6 +17,7 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     double t0 = pg_seconds ();
     if (dyn && dyn->whole && s->known && !s->options->plain && s->force->work_balance_of) {
         PG_TRY (s->force->work_balance_of (s->self, t, d, s->residual, &b->work_balance));
+        force_balance (s, d, &b->work_balance, dyn);
         PG_TRY (break_loop_book (b, scale));
         goto done;
     }
@@ -29,6 +30,7 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : rest, &b->work_balance));
     if (!dyn) platens_reactions (s, b->work_balance.reaction);
     if (!dyn) b->work_balance.strain += contact_energy (s);
+    if (!rest) force_balance (s, d, &b->work_balance, dyn);
     PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;
@@ -45,6 +47,7 @@ pg_status break_loop_account_rest (break_loop *b, double t, const double *d, dou
         return break_loop_account (b, t, d, NULL, scale);
     double t0 = pg_seconds ();
     PG_TRY (s->force->equilibrium_balance (s->self, t, d, &b->work_balance));
+    force_balance (s, d, &b->work_balance, NULL);
     PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;

@@ -292,6 +292,9 @@ long      break_loop_over   (const break_loop *b, const pg_state *state, double 
  * scaled by `scale`). */
 pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale);
 /* The same of a static state in equilibrium. */
+/* force_balance.c: do forces and moments of this state balance? Adds to the report; at the end warns. */
+void      force_balance      (pg_system *s, const double *d, const pg_work_balance *w, const dynamics *dyn);
+void      force_balance_warn (pg_statistics *report, const pg_problem *problem);
 pg_status break_loop_account_rest (break_loop *b, double t, const double *d, double scale);
 /* The work alone, from the work balance at hand. */
 pg_status break_loop_book    (break_loop *b, double scale);
@@ -361,7 +364,8 @@ struct pg_solver {
     break_loop   break_loop;
     pg_statistics report;
     int shared;                                        /* the report is that of all ranks */
-    int begun, started, finished, warned_overlap, warned_energy, warned_facets;
+    int begun, started, finished, warned_overlap, warned_energy, warned_facets,
+           warned_balance;
     long      next_level;                              /* next level to report: next_level / levels */
     double    turned, turned_at;                       /* largest turn of a family, rad; since when */
     pg_state *backup;                                  /* last accepted state, for refused steps */

@@ -381,6 +381,10 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
         s->warned_energy = 1;
     }
     warn_of_facets (s);
+    if (s->finished && !s->warned_balance) {
+        force_balance_warn (&s->report, s->problem);
+        s->warned_balance = 1;
+    }
     if (s->finished) platens_tell (&s->break_loop.system);
     if (!s->warned_overlap && !short_range (s)
         && s->report.overlap_max > 1e-3 * largest_displacement (s, state)) {

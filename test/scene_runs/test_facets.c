@@ -70,7 +70,7 @@ static void the_strip_takes_griffiths_load (void **state)
         check_below (fmax (g.high - 1, 1 - g.low), 0.01);
         check_relative (g.energy, 1, 0.02);
         check_below (0.5, g.least);
-        check_below (g.off, 0.25 * H);                 /* found: 0, 0.19, 0.22 */
+        check_below (g.off, 0.28 * H);                 /* found: 0, 0.22, 0.26 */
         check_relative (r.state->paths->length, 20 * H, 1e-9);
         clear (&r);
     }
