@@ -267,12 +267,15 @@ static void tell_crack (const pg_result *r, char *out, size_t size)
             snprintf (out + n, size - (size_t) n, ", %.4g of the fracture energy", ratio);
         return;
     }
+    int damped = (pg_solver_settled (r->solver)->flags & PG_SOLVER_STAGED) != 0;
+    if (damped) snprintf (spent, sizeof spent, "not known");
     snprintf (
         out, size,
-        "new crack by the %s (an estimate): %s %s; dissipated energy per area of it %s",
+        "new crack by the %s (an estimate): %s %s; dissipated energy per area of it %s%s",
         r->problem->criterion->type->needs & PG_NEEDS_ENERGY ? "volume of failed points over the horizon"
                                                              : "count of broken bonds",
-        r->problem->dim == 2 ? "length" : "area", length, spent);
+        r->problem->dim == 2 ? "length" : "area", length, spent,
+        damped ? " (what the run has dissipated holds the damping of the relaxation)" : "");
 }
 
 /* Lines that do not apply are skipped, so k counts those that exist. */

@@ -99,7 +99,7 @@ static const pg_key stages[] = {
          "Each stage is iterated until it is in equilibrium and no bond breaks any more; off: one "
          "iteration per stage, never in equilibrium."),
     ROW ("solver.imbalance", PG_NUMBER, "1", "[1e-12, 0.1]", "1e-5", NULL,
-         "A stage is in equilibrium when the out-of-balance force is at most this share of the loads (or "
-         "reactions)."),
+         "A stage is in equilibrium when the out-of-balance force, and what it adds up to in the reactions, "
+         "are at most this share of the loads (or reactions)."),
 };
 const pg_key_table solver_keys_stages = { "solve", stages, sizeof stages / sizeof *stages };

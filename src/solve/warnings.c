@@ -148,7 +148,7 @@ static double depth_of (const pg_problem *p, const pg_set *set, double *across)
 static void doubt_depth (pg_statistics *report, const pg_problem *p)
 {
     double across;
-    if (!p->method->shape_functions || p->cloud.subdomain) return;
+    if (!p->method || !p->method->shape_functions || p->cloud.subdomain) return;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || load->share
