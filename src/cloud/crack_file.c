@@ -101,8 +101,9 @@ static pg_status read_header (reader *r, int n, char **field)
         PG_TRY (pg_column_cut (field[k], &unit) == PG_OK ? PG_OK : wrong (r, "%s", pg_last_error ()));
         while (what < ROLES && strcasecmp (field[k], role[what].name) != 0) what++;
         if (what == ROLES)
-            PG_TRY (wrong (r, "column %d is called '%.40s': the columns of cracks in %dD are %s", k + 1,
-                           field[k], r->list->all->dim, tables_of (r->list->all->dim)));
+            /* whatever file a scene names: nothing is shown of one that is no table of cracks */
+            PG_TRY (wrong (r, "column %d is none of them: the columns of cracks in %dD are %s", k + 1,
+                           r->list->all->dim, tables_of (r->list->all->dim)));
         for (int j = 0; j < k; j++)
             if (r->role[j] == what)
                 PG_TRY (wrong (r, "columns %d and %d are both called '%s'", j + 1, k + 1, role[what].name));

@@ -147,11 +147,13 @@ static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
     if (what == ROLES) {
         if (r->places)
             return WRONG (r, "column %zu of the header is called 'z', and dimension is %zu", k + 1, dim);
+        /* whatever file a scene names: nothing is shown of one that is no table of points */
         near = pg_nearest_name (cell, names_of (dim, "|"));
         return WRONG (r,
-                      "column %zu of the header is called '%.40s'%s%s%s: the columns of a %zuD body are %s, "
-                      "in any order, with their units: x [mm], volume [mm3]",
-                      k + 1, cell, near ? " (did you mean " : "", near ? near : "", near ? "?)" : "", dim,
+                      "column %zu of the header %s%.40s%s%s%s: the columns of a %zuD body are %s, in any "
+                      "order, with their units: x [mm], volume [mm3]",
+                      k + 1, near ? "is called '" : "is none of these", near ? cell : "",
+                      near ? "' (did you mean " : "", near ? near : "", near ? "?)" : "", dim,
                       names_of (dim, ", "));
     }
     if (!closed || pg_column_scale (&r->scale[what], unit, role[what].unit) != PG_OK)

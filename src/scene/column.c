@@ -25,8 +25,7 @@ pg_status pg_column_cut (char *header, const char **unit)
     cut_blanks (open, header);
     if (!shut) return pg_error (PG_E_SCENE, PG_HERE, "the bracket of its unit does not close");
     if (shut[1 + strspn (shut + 1, " \t")])
-        return pg_error (PG_E_SCENE, PG_HERE, "'%.40s' follows its unit",
-                         shut + 1 + strspn (shut + 1, " \t"));
+        return pg_error (PG_E_SCENE, PG_HERE, "something follows the bracket of its unit");
     open += 1 + strspn (open + 1, " \t");
     cut_blanks (shut, open);
     *unit = open;

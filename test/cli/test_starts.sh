@@ -79,4 +79,12 @@ expect "results under a path of ${#long} bytes" 0 '*' '*' run small_hole.yaml -o
 expect "again, by --force" 0 '*' '*' run small_hole.yaml -o "$long" --quiet --force
 expect "a path of 3300 bytes is refused" 70 '*' 'has a path of 3[0-9]* bytes, more than the 3000' run small_hole.yaml -o "$long/$part/$part" --quiet
 [ ! -e "$long/$part" ]; verdict "nothing of it is made" $?
+
+# ---- files that are no such table: nothing of them is shown --------------------------------------------------------------
+printf 'SECRET:x:0:0:root\nSECRET2 3\n' > "$work/other.csv"
+for key in points 'cracks=[{file' 'mesh={file' 'reference={file'; do
+    case $key in *=*) set="$key: $work/other.csv}";; *) set="$key=$work/other.csv";; esac
+    case $key in cracks*) set="$set]";; esac
+    "$perigal" check small_hole.yaml --set "$set" > "$work/out" 2> "$work/err"; [ $? -eq 65 ] && ! grep -q SECRET "$work/err"; verdict "a foreign file as ${key%%=*}: nothing of it" $?
+done
 finish

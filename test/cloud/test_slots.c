@@ -333,7 +333,7 @@ static void a_wrong_table_is_told_with_its_line (void **state)
     (void) state;
     static const struct { const char *table, *cracks, *part; } all[] = {
         { "x1, y1, x2, y2\n0, 0, 1, 0\n0, 0, 1\n", "", "t.csv:3: 3 columns, but there are 4" },
-        { "x1, y1, x2, y3\n", "", "column 4 is called 'y3'" },
+        { "x1, y1, x2, y3\n", "", "column 4 is none of them" },
         { "x1, y1, x2\n", "", "make no cracks in 2D: give x1, y1, x2, y2" },
         { "x1 [kg], y1, x2, y2\n", "", "t.csv:1: column 1, 'x1'" },
         { "0, 0, 1, abc\n", "", "'abc' in column 4 (y2) is not a finite number" },
