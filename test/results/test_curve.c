@@ -305,11 +305,29 @@ static void the_peak_is_one_of_judged_rows (void **state)
     tidy ();
 }
 
+/* A strength that the spacing does not resolve: the one in use stands beside it, sqrt (E G0 / 8 h), in the
+ * report and in a warning with the spacing that it needs. */
+static void the_strength_in_use_is_told (void **state)
+{
+    (void) state;
+    play ("dimension: 2\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [10, 4]}}}]\nspacing: 1\n"
+          "materials: {m: {youngs_modulus: 3200, poissons_ratio: 0}}\n"
+          "failure: {criterion: energy_release, fracture_energy: 0.25, tensile_strength: 20}\n"
+          "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 0.001}}]\n"
+          "output: {pictures: [], estimate: off, at: {levels: 1}}\n", "");
+    check_relative (json_number (report, "m", "asked"), 20, 1e-12);
+    check_relative (json_number (report, "m", "in_use"), 10, 1e-12);
+    check_relative (json_number (report, "m", "spacing_needed"), 0.25, 1e-12);
+    assert_non_null (strstr (report, "of its strength of 20 Pa only 10 Pa are in use"));
+    tidy ();
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (displacements_are_those_of_the_facets),
         cmocka_unit_test (the_peak_is_one_of_judged_rows),
+        cmocka_unit_test (the_strength_in_use_is_told),
         cmocka_unit_test (a_push_is_negative),
         cmocka_unit_test (the_axis_that_pulls_is_drawn),
         cmocka_unit_test (the_load_that_comes_last_is_drawn),
