@@ -134,12 +134,64 @@ static double thickness_of (int dim, const pg_scene *scene)
     return dim == 3 ? 1 : pg_scene_number (scene, dim == 2 ? "thickness" : "cross_section");
 }
 
+/* For pg_sort. */
+static int ascending (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+static int is_itself (void *context, const double *place, size_t point)
+{
+    (void) place;
+    return point == *(const size_t *) context;
+}
+
+/* Volumes must be of the size of the distances: the median, over a sample, of a point's volume over that of a
+ * cube (square) as wide as its nearest neighbour is away is 1 on a lattice and some units among random
+ * points. Thousands are a wrong unit or a wrong column. */
+static pg_status check_volumes (const pg_cloud *c, const pg_scene *scene)
+{
+    enum { SAMPLE = 1000 };
+    static const double most = 1000;
+    pg_status status = PG_OK;
+    pg_nearest *near = NULL;
+    double *ratio = NULL, total = 0;
+    size_t stride = c->n / SAMPLE + 1, n = 0, dim = (size_t) c->dim;
+    if (c->n < 2) return PG_OK;
+    PG_TRY (pg_nearest_create (&near, c->dim, c->n, c->x));
+    PG_ALLOC (ratio, c->n / stride + 1);
+    for (size_t i = 0; i < c->n; i++) total += c->volume[i];
+    for (size_t i = 0; i < c->n; i += stride) {
+        long j = pg_nearest_find (near, c->x + i * dim, is_itself, &i);
+        double away = 0;
+        for (size_t k = 0; j >= 0 && k < dim; k++)
+            away = hypot (away, c->x[(size_t) j * dim + k] - c->x[i * dim + k]);
+        if (away > 0) ratio[n++] = c->volume[i] / c->thickness / pow (away, c->dim);
+    }
+    if (n == 0) goto done;
+    pg_sort (ratio, n, sizeof *ratio, ascending);
+    if (ratio[n / 2] < most && ratio[n / 2] > 1 / most) goto done;
+    pg_scene_fault (scene, "points",
+                    "the volumes do not fit the distances: a point has %.3g times the volume that its "
+                    "neighbours leave to it (all points together %.6g m^3); look at the units of the columns "
+                    "(x [mm], volume [mm3]), at their order and at %s",
+                    ratio[n / 2], total,
+                    c->dim == 2 ? "thickness" : c->dim == 1 ? "cross_section" : "the file");
+    status = pg_scene_verdict (scene);
+done:
+    pg_nearest_free (&near);
+    pg_free (ratio);
+    return status;
+}
+
 /* h from the mean volume of the points. */
 static pg_status from_file (pg_cloud *c, const pg_body *body, const pg_scene *scene)
 {
     pg_status status = PG_OK;
     double volume = 0;
     PG_TRY (pg_points_read (c, scene));
+    PG_TRY (check_volumes (c, scene));
     for (size_t i = 0; i < c->n; i++) volume += c->volume[i];
     c->h = pow (volume / (double) c->n / c->thickness, 1.0 / c->dim);
     for (int k = 0; k < c->dim; k++) c->step[k] = c->h;

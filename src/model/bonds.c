@@ -416,6 +416,23 @@ done:
     return status;
 }
 
+/* Points of a file bring their volumes: how much they are together, beside what the box around them holds. */
+static pg_status note_volume (pg_problem *p, const pg_scene *scene)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *c = &p->cloud;
+    double total = 0, box = c->thickness;
+    if (!pg_scene_given (scene, "points")) return PG_OK;
+    for (size_t i = 0; i < c->n; i++) total += pg_owns (c->subdomain, i) ? c->volume[i] : 0;
+    PG_TRY (pg_ranks_sum (1, &total));
+    for (int k = 0; k < c->dim; k++) box *= c->high[k] - c->low[k] + c->h;
+    pg_problem_note (p, "%svolume of all points %.6g m^3, %.3g of the box around them%s",
+                     total > 1.5 * box ? PG_WARNING : "", total, total / box,
+                     total > 1.5 * box ? ": look at the columns of the file and their units" : "");
+done:
+    return status;
+}
+
 /* Of points of a file their place in it, of a lattice their site, counted through empty ones as well. */
 static void number_nodes (const pg_problem *p, int64_t *out)
 {
@@ -473,6 +490,7 @@ pg_status pg_bonds_build (pg_problem *p, const pg_scene *scene)
     PG_TRY (make_exempt (p, scene));
     PG_TRY (count_eroded (p, scene));
     PG_TRY (note_parted (p));
+    PG_TRY (note_volume (p, scene));
 done:
     pg_family_search_free (&search);
     return status;

@@ -483,6 +483,7 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
     PG_TRY (pg_stages_read (problem, scene));
     if (problem->nstage) duration = (double) problem->nstage;
     pg_supports_check (problem, scene, duration);
+    pg_loads_check_finite (problem, scene, duration);
     pg_supports_check_eliminated (problem, scene);
 done:
     return status;

@@ -7,6 +7,8 @@ pg_status pg_loads_read  (pg_problem *problem, const pg_scene *scene);
 /* supports.c: supports that contradict each other (at corners: warnings), or are too many for elimination, as
  * faults. duration: end of the run, s (static: 1). */
 void      pg_supports_check (pg_problem *problem, const pg_scene *scene, double duration);
+/* Faults where a load or support is not finite at a place and time where it acts (load_finite.c). */
+void      pg_loads_check_finite (const pg_problem *problem, const pg_scene *scene, double duration);
 void      pg_supports_check_eliminated (const pg_problem *problem, const pg_scene *scene);
 void      pg_loads_clear (pg_problem *problem);
 /* load_place.c, load_spring.c: parts of entry i of `boundary`. The centre of its moments; a place instead of

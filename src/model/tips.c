@@ -223,11 +223,16 @@ static void retreat_polygon (const surroundings *s, size_t k, pg_crack *c, doubl
     s->extent[k].size = area_inside (s, c);
 }
 
-/* The rim of a disc retreats as one. */
+/* The rim of a disc retreats as one, by the mean over its vertices in the body: the spacing at the centre is
+ * another one where points are graded. */
 static void retreat_disc (const surroundings *s, size_t k, const pg_crack *c, double *out)
 {
-    double rim[3];
-    out[0] = fmin (retreat_at (s, c->centre), 0.5 * c->radius);
+    double rim[3], sum = 0, n = 0;
+    for (size_t i = 0; i < c->nvertex; i++) {
+        const double *x = c->vertex + 3*i;
+        if (pg_problem_has_body (s->p, x)) sum += retreat_at (s, x), n++;
+    }
+    out[0] = fmin (n > 0 ? sum / n : retreat_at (s, c->centre), 0.5 * c->radius);
     for (size_t i = 0; i < c->nvertex; i++) {
         const double *x = c->vertex + 3*i;
         for (int m = 0; m < 3; m++) rim[m] = (x[m] - c->centre[m]) / c->radius;
