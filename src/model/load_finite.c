@@ -35,6 +35,7 @@ static int finds_none (const pg_problem *p, const pg_load *load, int k, double d
 void pg_loads_check_finite (const pg_problem *p, const pg_scene *scene, double duration)
 {
     size_t own = pg_scene_count (scene, "boundary");
+    if (pg_scene_verdict (scene) != PG_OK) return;     /* what is faulty may lack expressions */
     for (size_t i = 0; i < own && i < p->nload; i++) {
         const pg_load *load = &p->load[i];
         char path[32];
