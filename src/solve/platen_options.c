@@ -128,8 +128,8 @@ void platens_check (const pg_solver_options *o, const pg_problem *problem, const
                         "(break: facet), or leave failure out");
     else if (options_begin_cracks (problem))
         pg_scene_fault (scene, "platens",
-                        "do not go with a strength yet, at which new cracks begin: leave failure.strength "
-                        "out");
+                        "do not go with a strength yet, at which new cracks begin: leave "
+                        "failure.tensile_strength and failure.cohesion out");
     for (size_t k = 0; k < problem->nstage; k++)
         if (problem->stage[k].remove)
             pg_scene_fault (scene, "platens",
