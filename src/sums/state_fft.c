@@ -40,6 +40,8 @@ static int pair_of (int dim, int a, int b) { return a > b ? fft_pair (dim, b, a)
 /* What the stencil of this theory refuses; it is linear in u already. */
 static const char *refusal (const pg_bond_loop_setting *setting)
 {
+    /* blocks count as cut where bonds are lost after the start */
+    if (setting->sums->cloud->between) return "slots, gaps or corners may part neighbours of this body";
     return pg_bond_loop_state_stencil.refusal (setting);
 }
 
