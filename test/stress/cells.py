@@ -51,7 +51,8 @@ class Run:
         return ''
 
     def call(self, command, limit, interrupt):
-        child = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
+        # seconds of a processor, so that a machine with other work does not decide; five times as long on the clock for one that waits for ever
+        child = subprocess.Popen(['prlimit', f'--cpu={limit}', *command], stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, stdin=subprocess.DEVNULL, text=True)
         try:
             if interrupt:
                 rows = os.path.join(self.folder, 'history.csv')
@@ -59,12 +60,14 @@ class Run:
                     time.sleep(0.001)
                 if child.poll() is None:
                     child.send_signal(signal.SIGTERM)
-            self.error = child.communicate(timeout=limit)[1]
+            self.error = child.communicate(timeout=5 * limit)[1]
             self.code = child.returncode
+            if self.code in (-signal.SIGXCPU, -signal.SIGKILL):
+                self.code, self.error = None, f'no answer in {limit} s of a processor'
         except subprocess.TimeoutExpired:
             child.kill()
             child.communicate()
-            self.code, self.error = None, f'no answer in {limit} s'
+            self.code, self.error = None, f'no answer in {5 * limit} s'
 
     def history(self):
         """Columns of history.csv: {name with its unit: [numbers]}; an empty cell is 0."""
