@@ -12,12 +12,14 @@ static void a_free_body_falls (void **state)
     static const struct { int dim; const char *body, *gravity; double spacing; } bodies[] = {
         { 2, "disk: {center: [0, 0], radius: 0.5}", "[0, -10]", 0.1 },
         { 3, "sphere: {center: [0, 0, 0], radius: 0.5}", "[0, -10, 0]", 0.2 },
-        { 3, "cylinder: {center: [0, 0, 0], axis: [0, 0, 1], length: 0.5, radius: 0.4}", "[0, -10, 0]", 0.2 },
+        { 3, "cylinder: {center: [0, 0, 0], axis: [0, 0, 1], length: 0.5, radius: 0.4}",
+          "[0, -10, 0]", 0.2 },
     };
     (void) state;
     for (size_t k = 0; k < sizeof bodies / sizeof *bodies; k++) {
         run r = scene_of (1, "dimension: %d\nbody: [{add: {%s}}]\nspacing: %g\n" SOLID
-                             "boundary: [{name: g, gravity: %s}]\nsolver: {kind: newmark, dt: 0.05, end: 1, tolerance: 1e-12}\n"
+                             "boundary: [{name: g, gravity: %s}]\n"
+                             "solver: {kind: newmark, dt: 0.05, end: 1, tolerance: 1e-12}\n"
                              "output: {at: {levels: 1}}\n",
                           bodies[k].dim, bodies[k].body, bodies[k].spacing, bodies[k].gravity);
         assert_true (r.problem->integration->consistent);
@@ -50,7 +52,8 @@ static void a_cantilever_with_a_hole_bends (void **state)
     int components;
     double *u = field_of (&r, NULL, "displacement", &components), tip = 0;
     for (size_t i = 0; i < r.problem->cloud.n; i++)
-        if (r.problem->cloud.x[2*i] > 9.99 && fabs (r.problem->cloud.x[2*i + 1] - 0.5) < 0.01) tip = u[2*i + 1];
+        if (r.problem->cloud.x[2*i] > 9.99 && fabs (r.problem->cloud.x[2*i + 1] - 0.5) < 0.01)
+            tip = u[2*i + 1];
     check_relative (tip, -0.4029, 1e-3);
     const pg_statistics *s = pg_solver_report (r.solver, r.state);
     assert_true (s->balances > 0);
