@@ -71,6 +71,12 @@ typedef struct { char name[64]; int id; size_t n; int *element, *side; } pg_mesh
 /* A block: a group of n elements, usually of one material. */
 typedef struct { char name[64]; int id; size_t n; } pg_mesh_block;
 
+/* What a reader has passed over, and how often: "*MATERIAL", "section $NodeData". */
+typedef struct { char what[96]; size_t n; } pg_mesh_passed;
+/* Elements of a type that is not known, which are not in the mesh: what to say of them (file, line, type),
+ * and the block that they belong to ("" for none). */
+typedef struct { char block[64], words[400]; } pg_mesh_foreign;
+
 /* A mesh. Solid elements are those of the highest dimension in the file; elements of lower dimension become
  * sets. */
 typedef struct {
@@ -98,6 +104,11 @@ typedef struct {
     /* Node sets: those of the file, and the nodes of every side set. */
     pg_mesh_nodes *nodes;
     pg_mesh_sides *sides;
+    /* What of the file is not in the mesh. A mesh with foreign elements has holes where they belong to the
+     * body: who uses it asks whether their blocks are meant. */
+    size_t  npassed, nforeign;
+    pg_mesh_passed  *passed;
+    pg_mesh_foreign *foreign;
 } pg_mesh;
 /* Frees what the mesh holds and zeroes it. */
 void      pg_mesh_clear (pg_mesh *mesh);
@@ -124,6 +135,15 @@ pg_status pg_mesh_builder_nodeset_add (pg_mesh_builder *m, long node);
 pg_status pg_mesh_builder_sideset (pg_mesh_builder *m, const char *name, long id);
 pg_status pg_mesh_builder_sideset_add (pg_mesh_builder *m, long element,
                                        int side /* from 0, as pg_element_face */);
+/* Notes that something of the file is passed over: the same words are counted. */
+pg_status pg_mesh_builder_pass    (pg_mesh_builder *m, const char *format, ...)
+    __attribute__ ((format (printf, 2, 3)));
+/* The same for elements that are left out as their type is not known: `words` tell of the first of a type and
+ * block ("": none). */
+pg_status pg_mesh_builder_foreign (pg_mesh_builder *m, const char *type, const char *block,
+                                   const char *words);
+/* The name of a group that has got one, else its number; dim 0: of any dimension. */
+void      pg_mesh_builder_group_name (const pg_mesh_builder *m, int dim, long group, char name[64]);
 /* Resolves numbers, checks everything and sorts; `out` becomes the mesh. On failure nothing remains in it. */
 pg_status pg_mesh_builder_finish  (pg_mesh_builder *m, pg_mesh *out);
 
@@ -146,6 +166,8 @@ typedef struct {
     const size_t *start;
     /* Numbers of nodes. */
     const long *node;
+    /* Kinds of elements that were left out, as they are not known. */
+    size_t nforeign;
 } pg_mesh_given;
 pg_mesh_given pg_mesh_builder_given (const pg_mesh_builder *m);
 /* Moves the element at place e of what was given into another group. */

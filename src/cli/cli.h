@@ -187,6 +187,8 @@ pg_status json_to_stdout (pg_status (*write) (const void *what, const char *path
 /* The mesh of a body, if it has one (plan_mesh.c). */
 void plan_mesh       (const pg_problem *p);
 void plan_mesh_json  (pg_json *j, const pg_problem *p);
+/* What of its file is not used. */
+void plan_passed     (const pg_problem *p);
 /* The cracks of the scene (plan_network.c); nothing without any. */
 void plan_network      (const pg_crack_statistics *network);
 /* What the solver has settled: time steps, stages. */

@@ -82,6 +82,7 @@ void plan_print (const pg_problem *p, const pg_solver_options *o, pg_statistics 
     char text[400];
     printf ("%s\n", p->title);
     print_box (p, 0);
+    plan_passed (p);
     printf ("  %zu point%s, spacing %.6g m, %zu evaluation points, %zu bonds, %zu unknowns\n", p->cloud.n,
             p->cloud.n == 1 ? "" : "s", p->cloud.h, p->rows[PG_POINTS].n ? p->rows[PG_POINTS].n : p->cloud.n,
             p->first_bond[PG_BOND_SETS], p->cloud.n * (size_t) pg_problem_unknowns (p));

@@ -3,6 +3,7 @@
  * elements. */
 #include "cli.h"
 #include <string.h>
+#include <strings.h>
 
 /* Blocks and sets that are listed by name. */
 enum { MOST = 12 };
@@ -55,6 +56,24 @@ static void print_renamed (const pg_mesh *m)
     }
 }
 
+/* What of the file is not in the mesh; sets that have the name of a side of the body but for their case. */
+void plan_passed (const pg_problem *p)
+{
+    const pg_mesh *m = &p->part.mesh;
+    static const char *const sides[] = { "left", "right", "bottom", "top", "back", "front", "all" };
+    for (size_t k = 0; k < m->npassed; k++) {
+        printf ("  passed over         %s", m->passed[k].what);
+        if (m->passed[k].n > 1) printf (", %zu times", m->passed[k].n);
+        printf ("\n");
+    }
+    for (size_t k = 0; k < p->cells.ngiven; k++)
+        for (size_t s = 0; s < sizeof sides / sizeof *sides; s++)
+            if (strcasecmp (p->cells.given[k].name, sides[s]) == 0
+                && strcmp (p->cells.given[k].name, sides[s]) != 0)
+                printf ("  set %-14s  of the mesh is not `%s`, which is a side of the body: the case of "
+                        "letters counts\n", p->cells.given[k].name, sides[s]);
+}
+
 /* Nothing is printed for bodies without a mesh. Volume and surface show a wrong length unit;
  * the worst quality (scaled Jacobian, 1 is perfect) shows a bad element with its number. */
 void plan_mesh (const pg_problem *p)
@@ -69,6 +88,7 @@ void plan_mesh (const pg_problem *p)
                 c->given[k].nfacet);
     if (c->ngiven > MOST) printf ("  %-18s  and %zu more\n", "sets", c->ngiven - MOST);
     print_renamed (&b->mesh);
+    plan_passed (p);
     for (size_t e = 0; e < c->n; e++) volume += c->volume[e];
     for (size_t f = 0; f < c->nfacet; f++) area += c->area[f];
     printf ("  %-18s  %.8g m3, surface %.8g m2\n", "volume", volume, area);
@@ -99,6 +119,9 @@ void plan_mesh_json (pg_json *j, const pg_problem *p)
     pg_json_open (j, "sets", '{');
     for (size_t k = 0; k < p->cells.ngiven; k++)
         pg_json_count (j, p->cells.given[k].name, p->cells.given[k].npoint);
+    pg_json_shut (j);
+    pg_json_open (j, "passed_over", '{');
+    for (size_t k = 0; k < m->npassed; k++) pg_json_count (j, m->passed[k].what, m->passed[k].n);
     pg_json_shut (j);
     pg_json_number (j, "volume", volume);
     pg_json_number (j, "surface", area);

@@ -132,6 +132,26 @@ done:
     return status;
 }
 
+/* Elements of types that are not known are no loss where key AT.blocks leaves out the blocks that have them;
+ * else they would be holes of the body. */
+static pg_status refuse_foreign (const pg_mesh *m, const pg_scene *scene, const char *at)
+{
+    char key[128], of[128], name[128];
+    snprintf (key, sizeof key, "%.100s.file", at), snprintf (of, sizeof of, "%.100s.blocks", at);
+    for (size_t k = 0; k < m->nforeign; k++) {
+        const pg_mesh_foreign *f = &m->foreign[k];
+        int used = !pg_scene_given (scene, "%s", of) || !f->block[0];
+        const char *word;
+        for (size_t i = 0; !used && (word = pg_scene_name (scene, i, "%s", of)); i++)
+            used = strcmp (word, f->block) == 0;
+        if (!used) continue;
+        snprintf (name, sizeof name, f->block[0] ? " (block %.60s: leave it out by `blocks`)" : "", f->block);
+        pg_scene_fault (scene, key, "%s%s", f->words, name);
+        break;
+    }
+    return pg_scene_verdict (scene);
+}
+
 /* Key AT.blocks: the blocks in use, by name or number. */
 static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene, const char *at)
 {
@@ -142,7 +162,8 @@ static pg_status keep_blocks (pg_mesh *m, const pg_scene *scene, const char *at)
     size_t n = 0;
     int *number = NULL;
     snprintf (key, sizeof key, "%.100s.blocks", at);
-    if (!pg_scene_given (scene, "%s", key)) return PG_OK;
+    if (!pg_scene_given (scene, "%s", key)) return refuse_foreign (m, scene, at);
+    PG_TRY (refuse_foreign (m, scene, at));
     PG_ALLOC (keep, m->nblock);
     PG_ALLOC (number, m->nblock);
     /* Every name must be that of a block. */

@@ -4,6 +4,7 @@
 #include "builder.h"
 #include <limits.h>
 #include <math.h>
+#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,6 +34,7 @@ void pg_mesh_builder_free (pg_mesh_builder **builder)
         pg_free (m->list);
     pg_free (m->groups), pg_free (m->sets), pg_free (m->side_sets), pg_free (m->set_node),
         pg_free (m->side_element), pg_free (m->side);
+    pg_free (m->passed), pg_free (m->foreign);
     pg_free (m->index), pg_free (m->solid), pg_free (m->turned), pg_free (m->kept);
     pg_id_table_clear (&m->nodes);
     pg_free (m);
@@ -85,13 +87,15 @@ done:
 
 /* Control characters become _, as names appear in messages of one line; what is too long is cut between
  * characters of UTF-8. */
-static void copy_name (char to[64], const char *name)
+static void copy_text (char *to, size_t size, const char *name)
 {
     size_t n = strlen (name);
-    if (n > 63) for (n = 63; n > 0 && ((unsigned char) name[n] & 0xC0) == 0x80; ) n--;
+    if (n > size - 1) for (n = size - 1; n > 0 && ((unsigned char) name[n] & 0xC0) == 0x80; ) n--;
     for (size_t k = 0; k < n; k++) to[k] = (unsigned char) name[k] < ' ' || name[k] == 127 ? '_' : name[k];
     to[n] = '\0';
 }
+
+static void copy_name (char to[64], const char *name) { copy_text (to, 64, name); }
 
 /* Several names for one group are kept; builder_name chooses. */
 pg_status pg_mesh_builder_group (pg_mesh_builder *m, int dim, long group, const char *name)
@@ -158,11 +162,60 @@ done:
     return status;
 }
 
+pg_status pg_mesh_builder_pass (pg_mesh_builder *m, const char *format, ...)
+{
+    pg_status status = PG_OK;
+    char words[300], clean[sizeof m->passed->what];
+    size_t k = 0;
+    va_list args;
+    va_start (args, format);
+    vsnprintf (words, sizeof words, format, args);
+    va_end (args);
+    copy_text (clean, sizeof clean, words);
+    while (k < m->npassed && strcmp (m->passed[k].what, clean) != 0) k++;
+    if (k == m->npassed) {
+        PG_GROW (m->passed, m->passed_cap, m->npassed + 1);
+        memset (&m->passed[m->npassed], 0, sizeof *m->passed);
+        snprintf (m->passed[m->npassed++].what, sizeof m->passed->what, "%s", clean);
+    }
+    m->passed[k].n++;
+done:
+    return status;
+}
+
+pg_status pg_mesh_builder_foreign (pg_mesh_builder *m, const char *type, const char *block,
+                                   const char *words)
+{
+    pg_status status = PG_OK;
+    size_t before = m->npassed;
+    PG_TRY (pg_mesh_builder_pass (m, "elements %.30s%s%.40s", type, *block ? " of " : "", block));
+    if (m->npassed == before) goto done;
+    PG_GROW (m->foreign, m->foreign_cap, m->nforeign + 1);
+    pg_mesh_foreign *f = &m->foreign[m->nforeign++];
+    memset (f, 0, sizeof *f);
+    copy_name (f->block, block);
+    copy_text (f->words, sizeof f->words, words);
+done:
+    return status;
+}
+
+void pg_mesh_builder_group_name (const pg_mesh_builder *m, int dim, long group, char name[64])
+{
+    snprintf (name, 64, "%ld", group);
+    if (group == 0) name[0] = 0;
+    for (size_t k = 0; k < m->ngroup; k++)
+        if (m->groups[k].group == group && (dim == 0 || m->groups[k].dim == dim)) {
+            memcpy (name, m->groups[k].name, 64);
+            return;
+        }
+}
+
 /* A view of the arrays, without copies. */
 pg_mesh_given pg_mesh_builder_given (const pg_mesh_builder *m)
 {
     return (pg_mesh_given) { .nnode = m->nnode, .node_id = m->node_id, .n = m->n, .element_id = m->element_id,
-                             .group = m->group, .kind = m->kind, .start = m->start, .node = m->list };
+                             .group = m->group, .kind = m->kind, .start = m->start, .node = m->list,
+                             .nforeign = m->nforeign };
 }
 
 /* Element e, by its order in the file, goes to another block. */
@@ -191,7 +244,7 @@ void pg_mesh_builder_renumber (pg_mesh_builder *m, size_t nnode, const long *nod
         replace (m->set_node, m->nset_node, node);
     }
     if (element) {
-        memcpy (m->element_id, element, m->n * sizeof *element);
+        replace (m->element_id, m->n, element);        /* by their place in the file: some are left out */
         replace (m->side_element, m->nside, element);
     }
 }
@@ -234,12 +287,17 @@ void builder_name (const pg_mesh_builder *m, int dim, long group, char name[64])
 pg_status pg_mesh_builder_finish (pg_mesh_builder *m, pg_mesh *out)
 {
     pg_status status = PG_OK;
+    int solid = 0;
     memset (out, 0, sizeof *out);
     m->out = out;
+    for (size_t e = 0; e < m->n && !solid; e++) solid = pg_element_types[m->kind[e]].dim > 0;
+    if (!solid && m->nforeign) PG_FAIL (PG_E_FILE, "%s", m->foreign[0].words);
     if (m->ngroup) pg_sort (m->groups, m->ngroup, sizeof *m->groups, by_group_and_name);
     PG_TRY (builder_resolve (m));
     PG_TRY (builder_solids (m));
     PG_TRY (builder_sets (m));
+    out->passed = m->passed, out->npassed = m->npassed, m->passed = NULL;
+    out->foreign = m->foreign, out->nforeign = m->nforeign, m->foreign = NULL;
 done:
     if (status != PG_OK) pg_mesh_clear (out);
     return status;

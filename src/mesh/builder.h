@@ -41,6 +41,9 @@ struct pg_mesh_builder {
     /* Entries of all node sets (nset_node); elements and sides of all side sets (nside). */
     long      *set_node, *side_element;
     int       *side;
+    size_t     npassed, passed_cap, nforeign, foreign_cap;
+    pg_mesh_passed  *passed;
+    pg_mesh_foreign *foreign;
     /* From here on: filled while finishing. Largest dimension of all elements. */
     int        dim;
     /* Finds nodes by number. */

@@ -1,6 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Node sets and side sets of a mesh: those of the file, those that elements of lower dimension name, and
- * the nodes of every side set. Sets of equal name are one. Members are collected as integers (set, member)
+ * the nodes of every side set. Sets of equal name are one, except a node set and a side set of the file that
+ * have other nodes: formats name them apart, as numbers of both begin with 1, and so do we (NAME_nodes,
+ * NAME_sides). Members are collected as integers (set, member)
  * in one list; sorting it puts the sets in order and their members too, and shows repetitions.
  *
  * An element of dimension dim - 1 that is a face of a solid element is a side in the set that its group
@@ -161,14 +163,96 @@ done:
     return status;
 }
 
+/* The number of side `side` after the element was mirrored: the face with the mirrored corners. */
+static int mirrored_side (pg_element kind, int side)
+{
+    const signed char *mirror = element_mirror (kind);
+    int was[4], now[4], n = element_face_corners (kind, side, was);
+    for (int f = 0; f < pg_element_types[kind].faces; f++) {
+        int found = 0, corners = element_face_corners (kind, f, now);
+        for (int i = 0; i < n; i++) for (int j = 0; j < corners; j++) found += mirror[was[i]] == now[j];
+        if (found == n && corners == n) return f;
+    }
+    return side;
+}
+
+static int by_int (const void *p, const void *q)
+{
+    int a = *(const int *) p, b = *(const int *) q;
+    return (a > b) - (a < b);
+}
+
+/* Sorts n numbers, drops repetitions and -1; how many are left. */
+static size_t sort_ints (int *list, size_t n)
+{
+    size_t left = 0;
+    pg_sort (list, n, sizeof *list, by_int);
+    for (size_t k = 0; k < n; k++)
+        if (list[k] >= 0 && (left == 0 || list[k] != list[left - 1])) list[left++] = list[k];
+    return left;
+}
+
+/* Do node set s and side set t of the file have the same nodes? */
+static pg_status same_nodes (const builder *b, const pg_id_table *elements, size_t s, size_t t, int *same)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_builder *m = b->m;
+    const pg_mesh *out = m->out;
+    const mesh_list *nodes = &m->sets[s], *sides = &m->side_sets[t];
+    size_t n = 0, nside = 0;
+    int *own = NULL, *other = NULL;
+    PG_ALLOC (own, nodes->end - nodes->first);
+    PG_ALLOC (other, 9 * (sides->end - sides->first));
+    for (size_t k = nodes->first; k < nodes->end; k++) {
+        long at = pg_id_table_find (&m->nodes, m->set_node[k]);
+        own[n++] = at < 0 ? -1 : m->kept[at];
+    }
+    for (size_t k = sides->first; k < sides->end; k++) {
+        long e = pg_id_table_find (elements, m->side_element[k]);
+        int corner[9], side = m->side[k];
+        if (e < 0 || side < 0 || side >= pg_element_types[out->kind[e]].faces) continue;
+        if (m->turned[e]) side = mirrored_side (out->kind[e], side);
+        int count = pg_element_types[pg_element_face (out->kind[e], side, corner)].nodes;
+        for (int i = 0; i < count; i++) other[nside++] = out->node[out->start[e] + (size_t) corner[i]];
+    }
+    n = sort_ints (own, n), nside = sort_ints (other, nside);
+    *same = n == nside && (n == 0 || memcmp (own, other, n * sizeof *own) == 0);
+done:
+    pg_free (own), pg_free (other);
+    return status;
+}
+
+/* Node sets and side sets of one name with other nodes get names of their own. */
+static pg_status tell_apart (builder *b, const pg_id_table *elements)
+{
+    pg_status status = PG_OK;
+    pg_mesh_builder *m = b->m;
+    for (size_t s = 0; s < m->nset; s++)
+        for (size_t t = 0; t < m->nside_set; t++) {
+            int same = 1;
+            named *nodes = &b->set[s], *sides = &b->set[m->nset + t];
+            if (strcmp (m->sets[s].name, m->side_sets[t].name) != 0) continue;
+            PG_TRY (same_nodes (b, elements, s, t, &same));
+            if (same) continue;
+            PG_TRY (pg_mesh_builder_pass (m, "node set and side set both '%.20s': called %.20s_nodes, "
+                                             "%.20s_sides", m->sets[s].name, m->sets[s].name,
+                                          m->sets[s].name));
+            snprintf (nodes->name, sizeof nodes->name, "%.57s_nodes", m->sets[s].name);
+            snprintf (sides->name, sizeof sides->name, "%.57s_sides", m->sets[s].name);
+        }
+done:
+    return status;
+}
+
 /* Node sets, side sets, groups, in this order. */
-static pg_status collect_names (builder *b)
+static pg_status collect_names (builder *b, const pg_id_table *elements)
 {
     pg_status status = PG_OK;
     pg_mesh_builder *m = b->m;
     for (size_t k = 0; k < m->nset; k++) PG_TRY (add_name (b, m->sets[k].name, m->sets[k].id, 0));
     for (size_t k = 0; k < m->nside_set; k++)
         PG_TRY (add_name (b, m->side_sets[k].name, m->side_sets[k].id, 1));
+    PG_TRY (tell_apart (b, elements));
     PG_TRY (add_sources (b));
     PG_TRY (unite (b));
 done:
@@ -191,19 +275,6 @@ static pg_status add_node_sets (builder *b)
         }
 done:
     return status;
-}
-
-/* The number of side `side` after the element was mirrored: the face with the mirrored corners. */
-static int mirrored_side (pg_element kind, int side)
-{
-    const signed char *mirror = element_mirror (kind);
-    int was[4], now[4], n = element_face_corners (kind, side, was);
-    for (int f = 0; f < pg_element_types[kind].faces; f++) {
-        int found = 0, corners = element_face_corners (kind, f, now);
-        for (int i = 0; i < n; i++) for (int j = 0; j < corners; j++) found += mirror[was[i]] == now[j];
-        if (found == n && corners == n) return f;
-    }
-    return side;
 }
 
 /* Members of the side sets of the file. */
@@ -424,7 +495,7 @@ pg_status builder_sets (pg_mesh_builder *m)
     builder b = { .m = m };
     pg_id_table elements = { 0 };
     PG_TRY (check_ids (m, &elements));
-    PG_TRY (collect_names (&b));
+    PG_TRY (collect_names (&b, &elements));
     PG_TRY (add_node_sets (&b));
     PG_TRY (add_side_sets (&b, &elements));
     PG_TRY (add_lower_nodes (&b));

@@ -16,7 +16,7 @@ void pg_mesh_clear (pg_mesh *mesh)
     pg_free (mesh->nodes), pg_free (mesh->sides), pg_free (mesh->blocks);
     pg_free (mesh->x), pg_free (mesh->node_id), pg_free (mesh->kind), pg_free (mesh->start),
         pg_free (mesh->node);
-    pg_free (mesh->block), pg_free (mesh->element_id);
+    pg_free (mesh->block), pg_free (mesh->element_id), pg_free (mesh->passed), pg_free (mesh->foreign);
     memset (mesh, 0, sizeof *mesh);
 }
 

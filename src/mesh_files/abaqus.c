@@ -34,6 +34,16 @@ pg_status abaqus_wrong (const reader *r, const char *where, const char *format, 
 /* Reads the next line of a file; 0: its end. */
 static int next_line (abaqus_file *f) { return mesh_line (&f->c, &f->line, &f->end); }
 
+/* Is it a line of a keyword, or a comment? The line then begins at the asterisk, behind blanks. */
+static int has_asterisk (abaqus_file *f)
+{
+    const char *s = f->line;
+    while (s < f->end && isspace ((unsigned char) *s)) s++;
+    if (s == f->end || *s != '*') return 0;
+    f->line = s;
+    return 1;
+}
+
 static void file_close (abaqus_file *f)
 {
     pg_free (f->owned), pg_free (f->path);
@@ -141,7 +151,26 @@ done:
     return status;
 }
 
-/* *ELEMENT; an unknown type is a fault that lists the known ones. */
+/* Elements of a type that is not known are passed over, and remembered with their block: they bar the file
+ * only where that block is meant. */
+static pg_status pass_elements (reader *r, const char *type, const char *near, const char *set)
+{
+    pg_status status = PG_OK;
+    char words[400], name[ABAQUS_NAME] = "";
+    int axisymmetric = strncasecmp (type, "CAX", 3) == 0 || strncasecmp (type, "SAX", 3) == 0;
+    snprintf (words, sizeof words, "%.100s, line %ld: elements of type '%.30s' are not known%s%s%s; known "
+              "are C3D4, 6, 8, 10, 15, 20, CPS and CPE 3, 4, 6, 8, S3, 4, 6, 8, M3D3, 4, 6, 8, T3D2, B31, "
+              "with letters behind them as in C3D8R", now (r)->bytes.path, now (r)->c.line, type,
+              axisymmetric ? " (axisymmetric: there are plane and solid bodies only)"
+              : near[0]    ? " (did you mean '" : "", axisymmetric ? "" : near,
+              near[0] && !axisymmetric ? "'?)" : "");
+    if (set && *set) snprintf (name, sizeof name, "%.63s", set);
+    PG_TRY (pg_mesh_builder_foreign (r->data.builder, type, name, words));
+done:
+    return status;
+}
+
+/* *ELEMENT; elements without extent (springs, masses) are passed over with their data lines. */
 static pg_status begin_elements (reader *r)
 {
     pg_status status = PG_OK;
@@ -150,17 +179,17 @@ static pg_status begin_elements (reader *r)
     if (!type || !*type) PG_TRY (ABAQUS_WRONG (r, "*ELEMENT without TYPE="));
     copy_key (capitals, sizeof capitals, type, type + strlen (type));
     int found = abaqus_find_type (capitals, &r->type, near);
-    if (!found)
-        PG_TRY (ABAQUS_WRONG (r,
-                              "elements of type '%.30s' are not known%s%s%s; known are C3D4, 6, 8, 10, 15, "
-                              "20, CPS and CPE 3, 4, 6, 8, S3, 4, 6, 8, "
-                              "M3D3, 4, 6, 8, T3D2, B31, with letters behind them as in C3D8R",
-                              type, near[0] ? " (did you mean '" : "", near, near[0] ? "'?)" : ""));
-    /* Elements without extent (springs, masses) are passed over with their data lines. */
-    r->mode = found == 1 ? ABAQUS_ELEMENT_LINES : ABAQUS_SKIP;
+    r->mode = found == 1 ? ABAQUS_ELEMENT_LINES : ABAQUS_SKIPPED_ELEMENTS;
     r->have = -1;
-    r->set = -1;
+    r->set = -1, r->goes_on = 0;
+    if (!found) PG_TRY (pass_elements (r, type, near, set));
+    if (found == 2) PG_TRY (pg_mesh_builder_pass (r->data.builder, "elements %.30s", type));
+    /* the set may be named by others, and by sections */
+    if (found != 1 && set && *set) PG_TRY (abaqus_set_get (&r->data.elset, set, &r->set));
     if (found != 1) goto done;
+    if (strncmp (capitals, "CPE", 3) == 0)
+        PG_TRY (pg_mesh_builder_pass (r->data.builder, "plane strain of elements %.30s (key `plane` of the "
+                                      "scene decides)", type));
     abaqus_node_order (r->type.kind, r->order);
     if (set && *set) {
         PG_TRY (name_of (r, "ELSET", NULL, name));
@@ -282,9 +311,9 @@ done:
 /* Keywords that make nodes or elements from others: skipping them would give another mesh. */
 static int generates (const char *keyword)
 {
-    /* Generation and copying of nodes and elements, other coordinate systems, models from other files. */
-    static const char *const word[] = { "NGEN",   "NFILL",  "NCOPY",  "NMAP",    "ELGEN",
-                                        "ELCOPY", "SYSTEM", "IMPORT", "SUBMODEL" };
+    /* Generation and copying of nodes and elements, other coordinate systems, meshes from other files. */
+    static const char *const word[] = { "NGEN",  "NFILL",  "NCOPY",  "NMAP",
+                                        "ELGEN", "ELCOPY", "SYSTEM", "IMPORT" };
     for (size_t k = 0; k < sizeof word / sizeof *word; k++) if (strcmp (keyword, word[k]) == 0) return 1;
     return 0;
 }
@@ -328,7 +357,8 @@ static pg_status begin (reader *r)
     r->mode = ABAQUS_SKIP;
     while (k < KEYWORDS && strcmp (r->keyword, keywords[k].keyword) != 0) k++;
     if (k < KEYWORDS) status = keywords[k].begin (r);
-    else if (generates (r->keyword))
+    else if (!generates (r->keyword)) status = pg_mesh_builder_pass (r->data.builder, "*%s", r->keyword);
+    else
         status = ABAQUS_WRONG (r, "*%s is not read: write out all nodes and elements (most programs do so on "
                                   "export)", r->keyword);
     /* the data lines may stand in a file of their own */
@@ -350,13 +380,14 @@ static pg_status read_all (reader *r)
             file_close (f);
             r->depth--;
         }
-        else if (f->line < f->end && f->line[0] == '*') {
+        else if (has_asterisk (f)) {
             if (!is_comment (f)) PG_TRY (begin (r));
         }
         else if (r->mode != ABAQUS_SKIP) PG_TRY (abaqus_data (r));
     }
     PG_TRY (finish_element (r));
-    if (pg_mesh_builder_given (r->data.builder).n == 0)
+    const pg_mesh_given given = pg_mesh_builder_given (r->data.builder);
+    if (given.n == 0 && given.nforeign == 0)
         PG_FAIL (PG_E_FILE, "%s: no *ELEMENT: there is no mesh in this file", r->file[0].bytes.path);
 done:
     return status;
@@ -368,7 +399,7 @@ static void reader_free (reader *r)
     abaqus *a = &r->data;
     for (int k = 1; k < ABAQUS_DEEPEST; k++) file_close (&r->file[k]);
     for (size_t k = 0; k < a->nsurface; k++) pg_free (a->surface[k].face);
-    abaqus_sets_free (&a->nset), abaqus_sets_free (&a->elset);
+    abaqus_sets_free (&a->nset), abaqus_sets_free (&a->elset), pg_free (a->skipped.range);
     pg_free (a->surface), pg_free (a->section), pg_free (a->shell);
     pg_free (r);
 }
@@ -391,13 +422,15 @@ done:
     return status;
 }
 
-/* The first line that is neither empty nor a comment begins with * and a letter. */
+/* The first line that is neither empty nor a comment, nor a lone asterisk, begins with * and a letter. */
 static int knows_abaqus (const mesh_file *file)
 {
     mesh_cursor c = mesh_begin (file);
     const char *s, *end;
     while (mesh_line (&c, &s, &end)) {
-        if (s == end || (end - s >= 2 && s[0] == '*' && s[1] == '*')) continue;
+        while (s < end && isspace ((unsigned char) *s)) s++;
+        while (s < end && isspace ((unsigned char) end[-1])) end--;
+        if (s == end || (*s == '*' && (end - s == 1 || s[1] == '*'))) continue;
         return *s == '*' && end - s > 3 && isalpha ((unsigned char) s[1 + (s[1] == ' ')]);
     }
     return 0;

@@ -60,6 +60,8 @@ typedef struct {
     /* Element sets of *SOLID SECTION and the like, in their order. */
     size_t nsection, section_capacity;  int *section;
     size_t nsurface, surface_capacity;  abaqus_surface *surface;
+    /* Numbers of elements that are passed over; sets may name them. */
+    abaqus_set skipped;
 } abaqus;
 
 /* ---- abaqus.c, abaqus_data.c: a file being read -------------------------------------------------------- */
@@ -69,6 +71,7 @@ enum { ABAQUS_DEEPEST = 8, ABAQUS_PARAMETERS = 24, ABAQUS_WORD = 256 };
 /* What data lines mean at present. */
 typedef enum {
     ABAQUS_SKIP,
+    ABAQUS_SKIPPED_ELEMENTS,
     ABAQUS_NODE_LINES,
     ABAQUS_ELEMENT_LINES,
     ABAQUS_NODE_SET,
@@ -107,6 +110,8 @@ typedef struct {
     long        element, element_line, node[PG_ELEMENT_NODES];
     /* How many of its nodes have been read; -1: no element has begun. */
     int         have;
+    /* 1: the line before ended with a comma, so that an element that is passed over goes on. */
+    int         goes_on;
     /* Numbers of *PART and *INSTANCE so far; name of the one instance. */
     int         parts, instances;
     char        instance[ABAQUS_WORD];

@@ -91,8 +91,11 @@ static pg_status element_line (reader *r)
         if (r->have < 0) r->element = id, r->element_line = now (r)->c.line, r->have = 0;
         else r->node[r->have++] = id;
         if (r->have == r->type.nodes) {
+            /* CalculiX ignores what stands behind the last node; zeros are what some programs pad with */
             if (!at_end (s, end))
-                PG_TRY (ABAQUS_WRONG (r, "element %ld has more than %d nodes", r->element, r->type.nodes));
+                PG_TRY (pg_mesh_builder_pass (r->data.builder, "numbers behind the last node of an element "
+                                              "(CalculiX ignores them)"));
+            s = end;
             PG_TRY (add_element (r));
         }
     }
@@ -212,6 +215,20 @@ done:
     return status;
 }
 
+/* An element that is passed over: its number counts, for sets that name it. */
+static pg_status skipped_line (reader *r)
+{
+    pg_status status = PG_OK;
+    const char *s = now (r)->line, *end = now (r)->end;
+    long id;
+    while (end > s && isspace ((unsigned char) end[-1])) end--;
+    if (!r->goes_on && mesh_whole (&s, end, &id))
+        PG_TRY (abaqus_set_add (&r->data.skipped, (abaqus_range) { id, id, 1, 0 }));
+    r->goes_on = end > s && end[-1] == ',';
+done:
+    return status;
+}
+
 /* Empty lines are skipped. */
 pg_status abaqus_data (reader *r)
 {
@@ -220,6 +237,7 @@ pg_status abaqus_data (reader *r)
     switch (r->mode) {
     case ABAQUS_NODE_LINES:        return node_line (r);
     case ABAQUS_ELEMENT_LINES:     return element_line (r);
+    case ABAQUS_SKIPPED_ELEMENTS:  return skipped_line (r);
     case ABAQUS_NODE_SET:
         return r->generate ? generate_line (r, &a->nset.set[r->set]) : set_line (r, &a->nset, "node");
     case ABAQUS_ELEMENT_SET:

@@ -125,6 +125,15 @@ static pg_status fault (const resolver *r, long line, const char *what, long id,
                      set);
 }
 
+/* Is it the number of an element that was passed over? */
+static int is_skipped (const resolver *r, const gather *g, long id)
+{
+    const abaqus_set *s = &r->a->skipped;
+    for (size_t k = 0; g->sets == &r->a->elset && k < s->n; k++)
+        if (id >= s->range[k].first && id <= s->range[k].last) return 1;
+    return 0;
+}
+
 /* Adds the members of a range. A range with more numbers than the file has is not walked number by number. */
 static pg_status put_range (const resolver *r, gather *g, const abaqus_range *range, const char *set)
 {
@@ -133,8 +142,9 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
                        : ((size_t) range->last - (size_t) range->first) / (size_t) range->step + 1;
     /* More numbers than there are: one is missing, the first of which is named. */
     if (count > g->all && range->line) {
-        for (long id = range->first;; id++)
-            if (pg_id_table_find (&g->table, id) < 0) return fault (r, range->line, g->what, id, set);
+        for (long id = range->first; id <= range->last; id++)
+            if (pg_id_table_find (&g->table, id) < 0 && !is_skipped (r, g, id))
+                return fault (r, range->line, g->what, id, set);
     }
     /* Ranges by GENERATE may have gaps: the list of all numbers is walked instead of the range. */
     if (count > g->all) {
@@ -147,7 +157,8 @@ static pg_status put_range (const resolver *r, gather *g, const abaqus_range *ra
     long id = range->first;
     for (size_t k = 0; k < count; k++, id += k < count ? range->step : 0) {
         long place = pg_id_table_find (&g->table, id);
-        if (place < 0 && range->line) return fault (r, range->line, g->what, id, set);
+        if (place < 0 && range->line && !is_skipped (r, g, id))
+            return fault (r, range->line, g->what, id, set);
         put (g, place);
     }
     return PG_OK;
@@ -260,35 +271,48 @@ static int top_dimension (const pg_mesh_given *m)
     return dim;
 }
 
-/* Side that a line of a surface means for one element; -2: the face of a shell. */
-static pg_status side_of (const resolver *r, const abaqus_surface *surface, const abaqus_face *face,
-                          int place, int dim, int *side)
-{
-    pg_status status = PG_OK;
-    const pg_mesh_given *m = &r->given;
-    char at[32] = "";
-    pg_element kind = (pg_element) m->kind[place];
-    *side = abaqus_side (kind, r->a->shell[place], face->face);
-    if (!r->a->included) snprintf (at, sizeof at, ", line %ld", face->line);
-    if (*side == -1 || pg_element_types[kind].dim < dim)
-        PG_FAIL (PG_E_FILE,
-                 "%s%s: surface '%s': element %ld (%s) has no face '%s'; faces are called S1, S2 ... "
-                 "(shells: E1, E2 ...)",
-                 r->a->path, at, surface->name, m->element_id[place], pg_element_types[kind].name,
-                 face->face);
-done:
-    return status;
-}
-
 /* The elements of one line of a surface. */
 static pg_status collect_face (resolver *r, const abaqus_surface *surface, const abaqus_face *face)
 {
     if (face->set >= 0) return collect (r, &r->element, face->set);
     long place = pg_id_table_find (&r->element.table, face->element);
-    if (place < 0) return fault (r, face->line, "element", face->element, surface->name);
     forget (&r->element);
+    if (place < 0 && is_skipped (r, &r->element, face->element)) return PG_OK;
+    if (place < 0) return fault (r, face->line, "element", face->element, surface->name);
     put (&r->element, place);
     return PG_OK;
+}
+
+/* Side that a line of a surface means for one element; -2: the face of a shell, also of one that is the
+ * skin of a solid body; -1: none that is known. */
+static int side_of (const resolver *r, const abaqus_face *face, int place, int dim)
+{
+    const pg_mesh_given *m = &r->given;
+    pg_element kind = (pg_element) m->kind[place];
+    int side = abaqus_side (kind, r->a->shell[place], face->face);
+    return side != -2 && pg_element_types[kind].dim < dim ? -1 : side;
+}
+
+/* A surface with a face that is not known would be another surface without it: all of it is passed over, and
+ * a scene that names it finds no such set. */
+static pg_status whole_surface (resolver *r, const abaqus_surface *surface, int dim, int *whole)
+{
+    pg_status status = PG_OK;
+    const pg_mesh_given *m = &r->given;
+    *whole = 1;
+    for (size_t k = 0; k < surface->n && *whole; k++) {
+        PG_TRY (collect_face (r, surface, &surface->face[k]));
+        for (size_t i = 0; i < r->element.n && *whole; i++) {
+            int e = r->element.place[i];
+            *whole = side_of (r, &surface->face[k], e, dim) != -1;
+            if (!*whole)
+                PG_TRY (pg_mesh_builder_pass (r->a->builder, "surface %.30s (element %ld, %s, has no face "
+                                              "%.10s)", surface->name, m->element_id[e],
+                                              pg_element_types[m->kind[e]].name, surface->face[k].face));
+        }
+    }
+done:
+    return status;
 }
 
 /* Sides become a side set. Faces of shells are no sides of plane elements: their nodes become a node set,
@@ -296,13 +320,15 @@ static pg_status collect_face (resolver *r, const abaqus_surface *surface, const
 static pg_status resolve_surface (resolver *r, const abaqus_surface *surface, long id, int dim)
 {
     pg_status status = PG_OK;
-    int side, begun = 0;
+    int side, begun = 0, whole;
+    PG_TRY (whole_surface (r, surface, dim, &whole));
+    if (!whole) goto done;
     forget (&r->node);
     for (size_t k = 0; k < surface->n; k++) {
         PG_TRY (collect_face (r, surface, &surface->face[k]));
         for (size_t i = 0; i < r->element.n; i++) {
             int e = r->element.place[i];
-            PG_TRY (side_of (r, surface, &surface->face[k], e, dim, &side));
+            side = side_of (r, &surface->face[k], e, dim);
             /* The face of a shell: its nodes join the node set of the surface. */
             if (side == -2) {
                 put_nodes (r, e);

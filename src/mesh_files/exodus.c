@@ -2,9 +2,9 @@
  * Meshes and nodal results of Exodus II files (any kind of netCDF).
  *
  * Dimensions and variables used: num_dim, num_nodes, num_elem, num_el_blk; coordx, coordy, coordz (or
- * coord); num_el_in_blk1, num_nod_per_el1, connect1 with the attribute elem_type, eb_names; node_ns1,
- * ns_prop1, ns_names; elem_ss1, side_ss1, ss_prop1, ss_names; node_num_map, elem_num_map; time_whole,
- * name_nod_var, vals_nod_var1.
+ * coord); num_el_in_blk1, num_nod_per_el1, connect1 with the attribute elem_type, eb_prop1, eb_names;
+ * node_ns1, ns_prop1, ns_names; elem_ss1, side_ss1, ss_prop1, ss_names; node_num_map, elem_num_map;
+ * time_whole, name_nod_var, vals_nod_var1.
  *
  * Nodes and elements go by their place in the file while it is read; the numbers that node_num_map and
  * elem_num_map give them are assigned last. */
@@ -29,6 +29,8 @@ typedef struct {
     pg_mesh_builder *builder;
     /* 1: sides 1 and 2 of this element are its faces, as of shells (n). */
     unsigned char *shell;
+    /* 1: this element is of a type that is not known, and is passed over (n). */
+    unsigned char *foreign;
 } reader;
 
 /* The variable of that name, which must have n values; *var = -1: there is none. A variable of another size
@@ -110,7 +112,7 @@ done:
 static void close_file (reader *r)
 {
     pg_netcdf_close (&r->file);
-    pg_free (r->shell);
+    pg_free (r->shell), pg_free (r->foreign);
 }
 
 /* ---- mesh ---------------------------------------------------------------------------------------------- */
@@ -182,11 +184,12 @@ static pg_element kind_of (const char *type, size_t nodes, int *shell)
     return PG_ELEMENTS;
 }
 
-/* Number and kind of the elements of block k; PG_ELEMENTS: the block is empty. */
-static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_element *kind, int *shell)
+/* Number and kind of the elements of block k; PG_ELEMENTS: the block is empty, or its type is not known. */
+static pg_status block_kind (const reader *r, size_t k, long group, size_t *count, pg_element *kind,
+                             int *shell)
 {
     pg_status status = PG_OK;
-    char name[64], type[NAME] = "";
+    char name[64], type[NAME] = "", block[NAME], words[400];
     snprintf (name, sizeof name, "num_el_in_blk%zu", k + 1);
     *count = pg_netcdf_length (r->file, name);
     snprintf (name, sizeof name, "num_nod_per_el%zu", k + 1);
@@ -200,30 +203,54 @@ static pg_status block_kind (const reader *r, size_t k, size_t *count, pg_elemen
     if (var < 0) PG_FAIL (PG_E_FILE, "%.400s: no '%s': not a whole Exodus file", r->path, name);
     (void) pg_netcdf_text (r->file, var, "elem_type", type, sizeof type);
     *kind = kind_of (type, nodes, shell);
-    if (*kind == PG_ELEMENTS)
-        PG_FAIL (PG_E_FILE,
-                 "%.400s: block %zu has elements '%.30s' of %zu nodes; known are BAR, TRI, QUAD, SHELL, TET, "
-                 "WEDGE and HEX of first and second order",
-                 r->path, k + 1, type, nodes);
+    if (*kind == PG_ELEMENTS) {
+        snprintf (words, sizeof words, "%.100s: block %ld has elements '%.30s' of %zu nodes; known are BAR, "
+                  "TRI, QUAD, SHELL, TET, WEDGE and HEX of first and second order", r->path, group, type,
+                  nodes);
+        name_of (r, "eb_names", k, block);
+        if (!block[0]) snprintf (block, sizeof block, "%ld", group);
+        PG_TRY (pg_mesh_builder_foreign (r->builder, type, block, words));
+    }
 done:
     return status;
 }
 
-/* Elements of block k; *first: number of elements before it, updated. */
-static pg_status read_block (reader *r, size_t k, size_t *first)
+/* The numbers that the file gives its blocks (eb_prop1); their places where it gives none, or one twice. */
+static pg_status block_numbers (reader *r, long **id)
+{
+    pg_status status = PG_OK;
+    int useful = 1;
+    PG_TRY (whole_numbers (r, "eb_prop1", r->nblock, id));
+    for (size_t k = 0; *id && k < r->nblock; k++) {
+        useful &= (*id)[k] > 0 && (*id)[k] <= 0x7fffffff;
+        for (size_t j = 0; j < k && useful; j++) useful = (*id)[j] != (*id)[k];
+    }
+    if (!*id) PG_ALLOC (*id, r->nblock);
+    else if (useful) goto done;
+    for (size_t k = 0; k < r->nblock; k++) (*id)[k] = (long) k + 1;
+done:
+    return status;
+}
+
+/* Elements of block k, whose number is `group`; *first: number of elements before it, updated. */
+static pg_status read_block (reader *r, size_t k, long group, size_t *first)
 {
     pg_status status = PG_OK;
     size_t count;
     pg_element kind;
     int shell = 0;
-    long *connect = NULL, group = (long) k + 1;
+    long *connect = NULL;
     char name[NAME];
-    PG_TRY (block_kind (r, k, &count, &kind, &shell));
-    if (kind == PG_ELEMENTS) goto done;
-    size_t nodes = (size_t) pg_element_types[kind].nodes;
+    PG_TRY (block_kind (r, k, group, &count, &kind, &shell));
     /* Counts of blocks may not exceed that of the file: other arrays have that size. */
     if (count > r->n - *first)
         PG_FAIL (PG_E_FILE, "%.400s: its blocks have more than the %zu elements of the file", r->path, r->n);
+    if (kind == PG_ELEMENTS) {
+        memset (r->foreign + *first, 1, count);
+        *first += count;
+        goto done;
+    }
+    size_t nodes = (size_t) pg_element_types[kind].nodes;
     snprintf (name, sizeof name, "connect%zu", k + 1);
     PG_TRY (must (r, name, count * nodes, &connect));
     for (size_t e = 0; e < count; e++) {
@@ -246,6 +273,7 @@ static pg_status check_points (const reader *r)
     const pg_mesh_given given = pg_mesh_builder_given (r->builder);
     /* One element with an extent is enough. */
     for (size_t e = 0; e < given.n; e++) if (given.kind[e] != PG_POINT1) goto done;
+    for (size_t e = 0; e < r->n; e++) if (r->foreign[e]) goto done;
     PG_FAIL (PG_E_FILE, "%.400s: points without elements (SPHERE): a result of points is no mesh", r->path);
 done:
     return status;
@@ -285,6 +313,7 @@ static pg_status add_side (const reader *r, long element, long side)
         PG_FAIL (PG_E_FILE, "%.400s: a side set has element %ld of %zu", r->path, element, r->n);
     if (side < 1 || side > 6)
         PG_FAIL (PG_E_FILE, "%.400s: a side set has side %ld of element %ld", r->path, side, element);
+    if (r->foreign[element - 1]) goto done;
     /* Edges of shells are sides 3 and on. */
     int first = r->shell[element - 1] ? 3 : 1;
     if (side < first) goto done;
@@ -333,17 +362,39 @@ done:
     return status;
 }
 
+/* Fields of nodes and elements are no part of a mesh. */
+static pg_status pass_results (const reader *r)
+{
+    pg_status status = PG_OK;
+    static const struct { const char *count, *names, *what; } table[] = {
+        { "num_nod_var", "name_nod_var", "node" }, { "num_elem_var", "name_elem_var", "element" },
+        { "num_glo_var", "name_glo_var", "global" } };
+    for (size_t t = 0; t < sizeof table / sizeof *table; t++) {
+        size_t n = pg_netcdf_length (r->file, table[t].count);
+        char name[NAME];
+        for (size_t k = 0; k < n && k < 20; k++) {
+            name_of (r, table[t].names, k, name);
+            PG_TRY (pg_mesh_builder_pass (r->builder, "%s variable %.40s", table[t].what, name));
+        }
+    }
+done:
+    return status;
+}
+
 /* Blocks must hold exactly as many elements as the file says. */
 static pg_status read_exodus (pg_mesh_builder *m, const mesh_file *file)
 {
     pg_status status = PG_OK;
     reader r = { .builder = m };
     size_t first = 0;
+    long *id = NULL;
     PG_TRY (open_file (&r, file));
     if (r.n == 0) PG_FAIL (PG_E_FILE, "%.400s: no elements", r.path);
     PG_ALLOC (r.shell, r.n);
+    PG_ALLOC (r.foreign, r.n);
     PG_TRY (read_nodes (&r));
-    for (size_t k = 0; k < r.nblock; k++) PG_TRY (read_block (&r, k, &first));
+    PG_TRY (block_numbers (&r, &id));
+    for (size_t k = 0; k < r.nblock; k++) PG_TRY (read_block (&r, k, id[k], &first));
     if (first < r.n)
         PG_FAIL (PG_E_FILE, "%.400s: its blocks have %zu of the %zu elements of the file", r.path, first,
                  r.n);
@@ -352,7 +403,9 @@ static pg_status read_exodus (pg_mesh_builder *m, const mesh_file *file)
     PG_TRY (read_node_sets (&r));
     PG_TRY (read_side_sets (&r));
     PG_TRY (renumber (&r));
+    PG_TRY (pass_results (&r));
 done:
+    pg_free (id);
     close_file (&r);
     return status;
 }

@@ -296,6 +296,7 @@ static pg_status read_block (reader *r)
     }
     b.data = r->c;
     PG_TRY (skip_values (r, &b));
+    if (r->builder) PG_TRY (pg_mesh_builder_pass (r->builder, "results %s", b.name));
     PG_GROW (r->block, r->capacity, r->nblock + 1);
     r->block[r->nblock++] = b;
 done:

@@ -17,8 +17,9 @@ typedef struct {
     /* binary: numbers are bytes; swap: in the other byte order. */
     int            binary, swap;
 } gmsh_reader;
-/* A type of elements; order[k]: place in Gmsh's list of node k in the order of Exodus. */
-typedef struct { int known; pg_element kind; const signed char *order; } gmsh_type;
+/* A type of elements; order[k]: place in Gmsh's list of node k in the order of Exodus. known 0: such elements
+ * are passed over; nodes: how many they have, 0: nobody knows. */
+typedef struct { int known; pg_element kind; const signed char *order; int nodes; } gmsh_type;
 
 /* The present place in the file: "line 7" or "byte 1200". */
 const char *gmsh_at (const gmsh_reader *g, char text[40]);
@@ -41,8 +42,9 @@ pg_status gmsh_line    (gmsh_reader *g, const char *what, const char **at, const
 pg_status gmsh_wholes  (gmsh_reader *g, const char *what, int n, long *value);
 /* Three coordinates. */
 pg_status gmsh_place   (gmsh_reader *g, const char **at, const char *last, double x[3]);
-/* The type of that number; unknown ones are a fault that names the element. */
-pg_status gmsh_kind    (gmsh_reader *g, long type, long element, gmsh_type *out);
+/* The type of that number; of an unknown one the builder is told the element, which is the first of its
+ * block, and its group (of that dimension; 0: of any). */
+pg_status gmsh_kind    (gmsh_reader *g, long type, long element, int dim, long group, gmsh_type *out);
 /* Hands an element to the builder, with its nodes in the order of Exodus. */
 pg_status gmsh_element (gmsh_reader *g, const gmsh_type *type, long id, const long *node, long group,
                         long line);

@@ -32,7 +32,6 @@ static pg_status element_of_text (gmsh_reader *g, const char *at, const char *la
     gmsh_type t;
     if (!mesh_whole (&at, last, &id) || !mesh_whole (&at, last, &type) || !mesh_whole (&at, last, &tags))
         GMSH_FAIL (g, "an element needs number, type and number of tags");
-    PG_TRY (gmsh_kind (g, type, id, &t));
     if (tags < 0) GMSH_FAIL (g, "element %ld has %ld tags", id, tags);
     /* Further tags (entity, partitions) are not needed. */
     for (long k = 0; k < tags; k++) {
@@ -40,6 +39,8 @@ static pg_status element_of_text (gmsh_reader *g, const char *at, const char *la
             GMSH_FAIL (g, "element %ld: tag %ld of %ld is missing", id, k + 1, tags);
         if (k == 0) group = tag;
     }
+    PG_TRY (gmsh_kind (g, type, id, 0, labs (group), &t));
+    if (!t.known) goto done;
     int nodes = pg_element_types[t.kind].nodes;
     for (int k = 0; k < nodes; k++)
         if (!mesh_whole (&at, last, &node[k]))
@@ -98,10 +99,15 @@ static pg_status block_of_bytes (gmsh_reader *g, long *left)
         GMSH_FAIL (g, "a block of %d elements with %d tags each where %ld elements are left", n, tags, *left);
     PG_TRY (gmsh_has_left (g, "tags", (size_t) tags, 4));
     PG_TRY (gmsh_has_left (g, "an element", 1, 4));
-    /* Number of the first element, for the message about an unknown type. */
+    /* Number and group of the first element, for what is told of an unknown type. */
     gmsh_reader peek = *g;
-    PG_TRY (gmsh_kind (g, type, gmsh_int (&peek), &t));
-    int nodes = pg_element_types[t.kind].nodes;
+    long first = gmsh_int (&peek), own = 0;
+    if (tags > 0) {
+        PG_TRY (gmsh_has_left (g, "an element", 2, 4));
+        own = gmsh_int (&peek);
+    }
+    PG_TRY (gmsh_kind (g, type, first, 0, labs (own), &t));
+    int nodes = t.known ? pg_element_types[t.kind].nodes : t.nodes;
     PG_TRY (gmsh_has_left (g, "elements", (size_t) n, 4 * (1 + (size_t) tags + (size_t) nodes)));
     for (int k = 0; k < n; k++) {
         long node[PG_ELEMENT_NODES], id = gmsh_int (g), group = 0;
@@ -110,7 +116,7 @@ static pg_status block_of_bytes (gmsh_reader *g, long *left)
             if (i == 0) group = tag;
         }
         for (int i = 0; i < nodes; i++) node[i] = gmsh_int (g);
-        PG_TRY (gmsh_element (g, &t, id, node, group, 0));
+        if (t.known) PG_TRY (gmsh_element (g, &t, id, node, group, 0));
     }
     *left -= n;
 done:
@@ -157,7 +163,10 @@ static pg_status read (pg_mesh_builder *m, const mesh_file *file)
         if (!strcmp (name, "Nodes") || !strcmp (name, "ParametricNodes")) PG_TRY (read_nodes (&g, name));
         else if (!strcmp (name, "Elements")) PG_TRY (read_elements (&g));
         else if (!strcmp (name, "PhysicalNames")) PG_TRY (gmsh_names (&g));
-        else PG_TRY (gmsh_skip (&g, name));
+        else {
+            PG_TRY (pg_mesh_builder_pass (m, "section $%.40s", name));
+            PG_TRY (gmsh_skip (&g, name));
+        }
 done:
     return status;
 }

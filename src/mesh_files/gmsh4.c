@@ -2,7 +2,8 @@
  * Gmsh .msh 4.1, text and binary: elements belong to entities (points, curves, surfaces, volumes of the
  * geometry), and entities belong to physical groups.
  *
- * Sections: $MeshFormat, $PhysicalNames, $Entities, $Nodes and $Elements in blocks, one for each entity;
+ * Sections: $MeshFormat, $PhysicalNames, $Entities, in partitioned files also $PartitionedEntities, to whose
+ * parts the elements then belong, $Nodes and $Elements in blocks, one for each entity;
  * all others are skipped. In binary files counts and numbers of nodes have 8 bytes, tags of entities 4. */
 #include "gmsh.h"
 #include <stdlib.h>
@@ -14,6 +15,8 @@ typedef struct { long dim, tag; size_t first, n; } entity;
 /* State of the reader: entities (nentity), and the groups of all entities (ngroup). */
 typedef struct {
     gmsh_reader g;
+    /* parted: the section is that of partitions */
+    int     parted;
     size_t  nentity, entity_cap, ngroup, group_cap;
     entity *entities;
     long   *group;
@@ -46,6 +49,39 @@ done:
 }
 
 /* ---- entities ------------------------------------------------------------------------------------------ */
+/* Behind the tag of a part of an entity: the entity that it is a part of (dimension, tag), and the partitions
+ * that it belongs to. What lies between partitions has less dimensions than its entity, whose groups it has
+ * without being meant: *between 1. */
+static pg_status parts_of_text (gmsh_reader *g, const char **at, const char *last, long tag, int dim,
+                                int *between)
+{
+    pg_status status = PG_OK;
+    long parent = dim, unused, n;
+    if (!mesh_whole (at, last, &parent) || !mesh_whole (at, last, &unused) || !mesh_whole (at, last, &n)
+        || n < 0)
+        GMSH_FAIL (g, "part %ld: the entity it belongs to, or the number of its partitions, is missing", tag);
+    *between = parent != dim;
+    for (long k = 0; k < n; k++)
+        if (!mesh_whole (at, last, &unused)) GMSH_FAIL (g, "part %ld: partition %ld of %ld is missing", tag,
+                                                        k + 1, n);
+done:
+    return status;
+}
+
+/* The same as bytes. */
+static pg_status parts_of_bytes (gmsh_reader *g, int dim, int *between)
+{
+    pg_status status = PG_OK;
+    PG_TRY (gmsh_has_left (g, "a part of an entity", 1, 16));
+    *between = gmsh_int (g) != dim;
+    g->c.at += 4;
+    long n = gmsh_long (g);
+    PG_TRY (gmsh_has_left (g, "partitions of an entity", (size_t) n, 4));
+    g->c.at += 4 * (size_t) n;
+done:
+    return status;
+}
+
 /* A line: tag, box (of points: position), groups, and what bounds it, which is not read. */
 static pg_status entity_of_text (reader *r, int dim)
 {
@@ -53,9 +89,11 @@ static pg_status entity_of_text (reader *r, int dim)
     gmsh_reader *g = &r->g;
     const char *at, *last;
     long tag, n, group;
+    int between = 0;
     double unused;
     PG_TRY (gmsh_line (g, "the last entity", &at, &last));
     if (!mesh_whole (&at, last, &tag)) GMSH_FAIL (g, "an entity has no number");
+    if (r->parted) PG_TRY (parts_of_text (g, &at, last, tag, dim, &between));
     /* Box of the entity, or position of a point: not needed. */
     for (int k = 0; k < (dim ? 6 : 3); k++)
         if (!mesh_real (&at, last, &unused))
@@ -66,7 +104,7 @@ static pg_status entity_of_text (reader *r, int dim)
     for (long k = 0; k < n; k++) {
         if (!mesh_whole (&at, last, &group))
             GMSH_FAIL (g, "entity %ld: group %ld of %ld is missing", tag, k + 1, n);
-        PG_TRY (add_group (r, group));
+        if (!between) PG_TRY (add_group (r, group));
     }
 done:
     return status;
@@ -78,13 +116,19 @@ static pg_status entity_of_bytes (reader *r, int dim)
     pg_status status = PG_OK;
     gmsh_reader *g = &r->g;
     size_t box = dim ? 48 : 24;
+    int between = 0;
     PG_TRY (gmsh_has_left (g, "an entity", 1, 4 + box + 8));
     long tag = gmsh_int (g);
+    if (r->parted) PG_TRY (parts_of_bytes (g, dim, &between));
+    PG_TRY (gmsh_has_left (g, "an entity", 1, box + 8));
     g->c.at += box;
     long n = gmsh_long (g);
     PG_TRY (gmsh_has_left (g, "groups of an entity", (size_t) n, 4));
     PG_TRY (add_entity (r, dim, tag));
-    for (long k = 0; k < n; k++) PG_TRY (add_group (r, gmsh_int (g)));
+    for (long k = 0; k < n; k++) {
+        long group = gmsh_int (g);
+        if (!between) PG_TRY (add_group (r, group));
+    }
     if (dim == 0) goto done;
     PG_TRY (gmsh_has_left (g, "the bounds of an entity", 1, 8));
     /* Entities that bound this one: not needed. */
@@ -103,12 +147,35 @@ static int by_entity (const void *p, const void *q)
     return (a->tag > b->tag) - (a->tag < b->tag);
 }
 
-/* Section $Entities, sorted for the search. */
-static pg_status read_entities (reader *r)
+/* Number of partitions, and ghost entities (tag, partition), which other programs need. */
+static pg_status skip_ghosts (gmsh_reader *g)
+{
+    pg_status status = PG_OK;
+    long parts, ghosts;
+    if (g->binary) {
+        PG_TRY (gmsh_has_left (g, "the number of partitions", 2, 8));
+        (void) gmsh_long (g);
+        ghosts = gmsh_long (g);
+        PG_TRY (gmsh_has_left (g, "ghost entities", (size_t) ghosts, 8));
+        g->c.at += 8 * (size_t) ghosts;
+        goto done;
+    }
+    PG_TRY (gmsh_wholes (g, "the number of partitions", 1, &parts));
+    PG_TRY (gmsh_wholes (g, "the number of ghost entities", 1, &ghosts));
+    for (long k = 0; k < ghosts; k++)
+        PG_TRY (gmsh_wholes (g, "a ghost entity", 2, (long[2]) { 0 }));
+done:
+    return status;
+}
+
+/* Section $Entities or, if parted, $PartitionedEntities, sorted for the search. */
+static pg_status read_entities (reader *r, int parted)
 {
     pg_status status = PG_OK;
     gmsh_reader *g = &r->g;
     long count[4];
+    r->parted = parted;
+    if (parted) PG_TRY (skip_ghosts (g));
     if (g->binary) {
         PG_TRY (gmsh_has_left (g, "the numbers of entities", 4, 8));
         for (int k = 0; k < 4; k++) count[k] = gmsh_long (g);
@@ -118,7 +185,7 @@ static pg_status read_entities (reader *r)
         for (long k = 0; k < count[dim]; k++)
             PG_TRY (g->binary ? entity_of_bytes (r, dim) : entity_of_text (r, dim));
     if (r->nentity) pg_sort (r->entities, r->nentity, sizeof *r->entities, by_entity);
-    PG_TRY (gmsh_end (g, "Entities"));
+    PG_TRY (gmsh_end (g, parted ? "PartitionedEntities" : "Entities"));
 done:
     return status;
 }
@@ -283,7 +350,14 @@ static pg_status read_block (reader *r, long *left)
     entity key = { .dim = head[0], .tag = head[1] };
     const entity *e = r->nentity ? pg_search (&key, r->entities, r->nentity, sizeof key, by_entity) : NULL;
     if (head[3] == 0) return PG_OK;
-    PG_TRY (gmsh_kind (g, head[2], first_number (g), &t));
+    PG_TRY (gmsh_kind (g, head[2], first_number (g), (int) head[0], e && e->n ? r->group[e->first] : 0, &t));
+    if (!t.known) {
+        const char *at, *last;
+        if (g->binary) PG_TRY (gmsh_has_left (g, "elements", (size_t) head[3], 8 * (1 + (size_t) t.nodes)));
+        if (g->binary) g->c.at += (size_t) head[3] * 8 * (1 + (size_t) t.nodes);
+        else for (long k = 0; k < head[3]; k++) PG_TRY (gmsh_line (g, "the last element", &at, &last));
+        goto done;
+    }
     if (g->binary) PG_TRY (elements_of_bytes (r, e, &t, head[3]));
     else for (long k = 0; k < head[3]; k++) PG_TRY (element_of_text (r, e, &t));
 done:
@@ -318,11 +392,15 @@ static pg_status read (pg_mesh_builder *m, const mesh_file *file)
                    "msh4 -o NEW.msh)",
                    r.g.version);
     while (gmsh_section (&r.g, name))
-        if (!strcmp (name, "Entities")) PG_TRY (read_entities (&r));
+        if (!strcmp (name, "Entities")) PG_TRY (read_entities (&r, 0));
+        else if (!strcmp (name, "PartitionedEntities")) PG_TRY (read_entities (&r, 1));
         else if (!strcmp (name, "Nodes")) PG_TRY (read_nodes (&r.g));
         else if (!strcmp (name, "Elements")) PG_TRY (read_elements (&r));
         else if (!strcmp (name, "PhysicalNames")) PG_TRY (gmsh_names (&r.g));
-        else PG_TRY (gmsh_skip (&r.g, name));
+        else {
+            PG_TRY (pg_mesh_builder_pass (m, "section $%.40s", name));
+            PG_TRY (gmsh_skip (&r.g, name));
+        }
 done:
     pg_free (r.entities), pg_free (r.group);
     return status;

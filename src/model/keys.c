@@ -141,7 +141,8 @@ static const pg_key keys[] = {
     { "platens[].velocity", PG_VECTOR, "m/s", NULL, "", no_choice, NULL, NULL,
       "Velocity at the start of a platen with a mass." },
     { "platens[].ramp", PG_TEXT, NULL, NULL, "linear", NULL, NULL, NULL,
-      "Factor of its displacement over time: linear, constant, or an expression in t." },
+      "Factor of its displacement over time: linear (from 0 to 1 over the run), constant, or an expression "
+      "in t." },
     { "platens[].force_ramp", PG_TEXT, NULL, NULL, "linear", NULL, NULL, NULL,
       "The same of its force." },
     { "stages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,

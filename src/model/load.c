@@ -478,7 +478,7 @@ pg_status pg_loads_read (pg_problem *problem, const pg_scene *scene)
     PG_ALLOC (problem->load, problem->nload);
     for (size_t i = 0; i < own; i++)
         PG_TRY (read_load (problem, &problem->load[i], scene, i, is_static, duration));
-    PG_TRY (pg_platens_read (problem, scene, own));
+    PG_TRY (pg_platens_read (problem, scene, own, is_static, duration));
     name_apart (problem, scene);
     PG_TRY (pg_stages_read (problem, scene));
     if (problem->nstage) duration = (double) problem->nstage;

@@ -27,7 +27,8 @@ double    pg_load_turned (const pg_load *load, int k, int dim, const double *x, 
                           double factor);
 /* platens.c: rigid platens; their loads take the places of problem->load from `first` on. */
 size_t    pg_platens_loads (const pg_scene *scene);    /* how many these are */
-pg_status pg_platens_read  (pg_problem *problem, const pg_scene *scene, size_t first);
+pg_status pg_platens_read  (pg_problem *problem, const pg_scene *scene, size_t first, int is_static,
+                            double duration);
 /* stages.c: once the loads have their names. A load that follows the stages gets its table, still empty. */
 pg_status pg_stages_read  (pg_problem *problem, const pg_scene *scene);
 void      pg_stages_clear (pg_problem *problem);

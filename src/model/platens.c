@@ -108,11 +108,14 @@ static void read_shape (pg_platen *p, const pg_scene *scene, size_t i, int dim)
     p->radius = pg_scene_number (scene, "%s", path);
 }
 
-/* The factor of time, as that of loads: linear, constant, or an expression; stages of loading say it by
- * tables. */
-static pg_status read_ramp (pg_load *load, const pg_scene *scene, const char *path, size_t nstage)
+/* The factor of time, as that of loads: linear (from 0 to 1 over the run, duration in s, quasi-static 1),
+ * constant, or an expression; stages of loading say it by tables. */
+static pg_status read_ramp (pg_load *load, const pg_scene *scene, const char *path, int is_static,
+                            double duration)
 {
     pg_status status = PG_OK;
+    size_t nstage = pg_scene_count (scene, "stages");
+    char over[48];
     const char *ramp = pg_scene_text (scene, "%s", path), *text = ramp;
     int constant = ramp && strcmp (ramp, "constant") == 0,
         linear = !ramp || !*ramp || strcmp (ramp, "linear") == 0;
@@ -125,7 +128,8 @@ static pg_status read_ramp (pg_load *load, const pg_scene *scene, const char *pa
         PG_ALLOC (load->table, 2 * load->ntable);
         return PG_OK;
     }
-    if (linear) text = "t", load->proportional = 1;
+    snprintf (over, sizeof over, "t * %.17g", 1 / duration);
+    if (linear) text = over, load->proportional = is_static;
     if (constant) text = "1";
     if (pg_expression_compile (&load->ramp, text, "1") == PG_OK) goto done;
     pg_scene_fault (scene, path, "linear, constant or an expression in t: %s", pg_last_error ());
@@ -161,7 +165,7 @@ done:
 
 /* One of its loads: `displacement` or `force`. Values are the same everywhere. */
 static pg_status read_load (pg_problem *problem, size_t i, const pg_scene *scene, size_t at,
-                            pg_load_kind kind)
+                            pg_load_kind kind, int is_static, double duration)
 {
     pg_status status = PG_OK;
     pg_load *load = &problem->load[at];
@@ -174,7 +178,7 @@ static pg_status read_load (pg_problem *problem, size_t i, const pg_scene *scene
     snprintf (load->name, sizeof load->name, second ? "%.57s.force" : "%.63s", p->name);
     int own = second || (force && pg_scene_given (scene, "platens[%zu].force_ramp", i));
     snprintf (path, sizeof path, "platens[%zu].%s", i, own ? "force_ramp" : "ramp");
-    PG_TRY (read_ramp (load, scene, path, pg_scene_count (scene, "stages")));
+    PG_TRY (read_ramp (load, scene, path, is_static, duration));
     for (int k = 0; k < 3; k++) {
         const char *text = pg_scene_text (scene, "platens[%zu].%s.%c", i, key, "xyz"[k]);
         if (!text || !*text) continue;
@@ -189,7 +193,8 @@ done:
     return status;
 }
 
-pg_status pg_platens_read (pg_problem *problem, const pg_scene *scene, size_t at)
+pg_status pg_platens_read (pg_problem *problem, const pg_scene *scene, size_t at, int is_static,
+                           double duration)
 {
     pg_status status = PG_OK;
     size_t n = pg_scene_count (scene, "platens");
@@ -213,9 +218,9 @@ pg_status pg_platens_read (pg_problem *problem, const pg_scene *scene, size_t at
         pg_scene_vector (scene, 3, p->velocity, "platens[%zu].velocity", i);
         p->tilts = strcmp (pg_scene_text (scene, "platens[%zu].tilt", i), "free") == 0;
         if (pg_scene_given (scene, "platens[%zu].displacement", i))
-            PG_TRY (read_load (problem, i, scene, at++, PG_PLATEN_MOTION));
+            PG_TRY (read_load (problem, i, scene, at++, PG_PLATEN_MOTION, is_static, duration));
         if (pg_scene_given (scene, "platens[%zu].force", i))
-            PG_TRY (read_load (problem, i, scene, at++, PG_PLATEN_FORCE));
+            PG_TRY (read_load (problem, i, scene, at++, PG_PLATEN_FORCE, is_static, duration));
     }
 done:
     return status;

@@ -157,7 +157,8 @@ static void what_is_not_known_is_skipped (void **state)
     check_ok (parse (
         &a, "$Comments\nby hand\n$EndComments\n" HEAD2 "$Periodic\n$Nodes\n$EndPeriodic\n\r\n" NODES2
             "$Elements\r\n1\r\n\r\n 9 3 3 -5 0 7 1 2 3 4\r\n$EndElements\r\n$NodeData\n1\n$EndNodeData\n"));
-    check_ok (parse (&b, HEAD4 "$PartitionedEntities\n1 2 3\n$EndPartitionedEntities\n$Entities\n0 0 1 0\n1 "
+    check_ok (parse (&b, HEAD4 "$PartitionedEntities\n1\n0\n0 0 0 0\n"
+                         "$EndPartitionedEntities\n$Entities\n0 0 1 0\n1 "
                                "0 0 0 1 1 0 1 -5 0\n$EndEntities\n" NODES4
                                "$Elements\n1 1 9 9\n2 1 3 1\n9 1 2 3 4 \n$EndElements\n"));
     same (&a, &b);

@@ -1,0 +1,105 @@
+#!/bin/bash
+# test_imports.sh BUILD: files of other programs, of which something is not known, is unusual, or is left out: what is read is right, what is
+# passed over is printed by check and at the start of a run.
+. "$(dirname "$0")/expect.sh"
+cd "$work" || exit 1
+# scene FILE REST: a scene of that mesh, or of points
+scene() { printf 'mesh: {file: %s}\nmaterials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\nmethod: {integration: gauss, accept_inexact: yes}\n%s\n' "$1" "$2" > scene.yaml; }
+has() { local name=$1 p; shift; "$perigal" check scene.yaml > out 2> err; for p in "$@"; do grep -q -- "$p" out || { verdict "$name: $p" 1; return; }; done; verdict "$name" 0; }
+nodes='*NODE, NSET=N\n1,0,0\n2,1,0\n3,2,0\n4,0,1\n5,1,1\n6,2,1\n'
+held='boundary: [{name: g, set: left, displacement: {x: 0, y: 0}}, {name: t, set: right, displacement: {x: 1 mm}}]'
+
+printf "$nodes"'*ELEMENT,TYPE=CPS4,ELSET=A\n1,1,2,5,4\n*SOLID SECTION,ELSET=A,MATERIAL=M\n1.\n *ELEMENT,TYPE=CPS4,ELSET=B\n2,2,3,6,5\n*MATERIAL,NAME=M\n*ELASTIC\n1000.,.3\n*BOUNDARY\n1,1,2\n*STEP\n*CLOAD\n3,1,1.\n*CLOAD\n6,1,1.\n*END STEP\n' > job.inp
+scene job.inp "dimension: 2
+$held"
+has "an indented keyword is one; cards that are not used are told once each" '2 quad4' 'passed over  *\*MATERIAL' 'passed over  *\*CLOAD, 2 times' 'passed over  *\*BOUNDARY'
+"$perigal" run scene.yaml -o r > out 2> err && grep -q 'passed over .*\*MATERIAL' out; verdict "also at the start of a run" $?
+"$perigal" check scene.yaml --json | grep -q '"\*CLOAD": 2'; verdict "and as JSON" $?
+
+printf '** a tool\n*\n'"$nodes"'*ELEMENT,TYPE=CPE4,ELSET=A\n1,1,2,5,4,0\n2,2,3,6,5,0\n*SUBMODEL,TYPE=NODE,INPUT=coarse.frd\nA\n*NSET,NSET=TOP\n4,6\n' > job.inp
+has "numbers behind the nodes, a lone asterisk, plane strain, sets but for their case" '2 quad4' 'numbers behind the last node.*2 times' 'plane strain of elements CPE4' 'set TOP  *of the mesh is not .top.'
+
+printf "$nodes"'11,0,1\n12,1,1\n*ELEMENT,TYPE=CPS4,ELSET=A\n1,1,2,5,4\n*ELEMENT,TYPE=COH2D4,ELSET=COH\n7,4,5,12,11\n*ELSET,ELSET=ALL\n1,7\n' > job.inp
+scene job.inp "dimension: 2
+$held"
+"$perigal" check scene.yaml > out 2> err; [ $? -eq 65 ] && grep -q "line 12: elements of type 'COH2D4' are not known.*(block COH: leave it out by .blocks.)" err; verdict "elements that are not known bar the file" $?
+sed -i 's/job.inp/job.inp, blocks: [A]/' scene.yaml
+has "unless their block is left out" '1 quad4' 'passed over  *elements COH2D4 of COH'
+sed -i 's/COH2D4/CAX4/' job.inp; sed -i 's/, blocks: .A.//' scene.yaml
+"$perigal" check scene.yaml > out 2> err; grep -q 'CAX4.*axisymmetric' err && ! grep -q C3D4\' err; verdict "axisymmetric elements are called that" $?
+
+printf '*NODE\n1,0,0,0\n2,1,0,0\n3,0,1,0\n4,1,1,0\n5,0,0,1\n6,1,0,1\n7,0,1,1\n8,1,1,1\n*ELEMENT,TYPE=C3D8,ELSET=SOL\n1,1,2,4,3,5,6,8,7\n*ELEMENT,TYPE=S4,ELSET=SKIN\n2,5,6,8,7\n*SURFACE,NAME=LOAD,TYPE=ELEMENT\nSKIN,SPOS\n*SURFACE,NAME=ODD,TYPE=ELEMENT\nSOL,S9\n' > job.inp
+scene job.inp 'dimension: 3
+boundary: [{name: g, set: LOAD, displacement: {x: 0, y: 0}}]'
+has "the face of a skin is the face of its solid; a surface with a face that is not known bars nothing else" 'set LOAD  *4 points, 1 facets' 'passed over  *surface ODD (element 1, hex8, has no face S9)'
+
+cat > part.msh <<'S'
+$MeshFormat
+4.1 0 8
+$EndMeshFormat
+$PhysicalNames
+2
+1 9 "edge"
+2 7 "A"
+$EndPhysicalNames
+$Entities
+0 1 1 0
+1 0 0 0 0 1 0 1 9 0
+1 0 0 0 2 1 0 1 7 1 1
+$EndEntities
+$PartitionedEntities
+2
+0
+0 2 2 0
+11 1 1 1 1 0 0 0 0 1 0 1 9 0
+12 2 1 2 1 2 1 0 0 1 1 0 1 7 0
+21 2 1 1 1 0 0 0 1 1 0 1 7 0
+22 2 1 1 2 1 0 0 2 1 0 1 7 0
+$EndPartitionedEntities
+$Nodes
+1 6 1 6
+2 1 0 6
+1
+2
+3
+4
+5
+6
+0 0 0
+1 0 0
+2 0 0
+0 1 0
+1 1 0
+2 1 0
+$EndNodes
+$Elements
+4 4 1 4
+1 11 1 1
+1 1 4 
+1 12 1 1
+2 2 5 
+2 21 3 1
+3 1 2 5 4 
+2 22 3 1
+4 2 3 6 5 
+$EndElements
+$NodeData
+0
+$EndNodeData
+S
+scene part.msh 'dimension: 2
+boundary: [{name: g, set: edge, displacement: {x: 0, y: 0}}]'
+has "a partitioned mesh keeps blocks and sets, and gets none from what lies between partitions" 'block A  *2 elements' 'set edge  *2 points, 1 facets' 'passed over  *section \$NodeData'
+[ "$(grep -c '^  set ' out)" -eq 1 ]; verdict "no further set" $?
+
+printf 'dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [6, 4]}}}]\nspacing: 1\nmaterials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.3, density: 2000}}\nmethod: {force: bond, accept_inexact: yes}\nplatens: [{name: ram, shape: plane, point: [3, 4.5], normal: [0, -1], displacement: {y: -2 mm}}]\nsolver: {kind: verlet, end: 200 us}\noutput: {pictures: []}\n' > scene.yaml
+"$perigal" run scene.yaml -o ram --quiet > out 2> err
+awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /ram.displacement_y/) c = k } END { exit !($c > -0.0020001 && $c < -0.0019999) }' ram/history.csv; verdict "a platen with ramp: linear has gone its way at the end of an explicit run" $?
+
+# pictures: libraries that cannot be loaded, a section through no points
+mkdir lib; for f in libcairo.so.2 libpng16.so.16; do echo broken > lib/$f; done
+printf 'dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [6, 4]}}}]\nspacing: 1\nmaterials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\n%s\n' "$held" > scene.yaml
+LD_LIBRARY_PATH=$PWD/lib "$perigal" run scene.yaml -o bare > out 2> err; code=$?
+[ $code -eq 0 ] && grep -q '"pictures could not be drawn, damage.png among them: ' bare/report.json && grep -q '"outcome": "done"' bare/report.json && [ ! -e bare/checkpoint.nc ]
+verdict "without the library of pictures a run is done, with a warning" $?
+finish
