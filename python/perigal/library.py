@@ -56,8 +56,8 @@ class _Cloud(ctypes.Structure):
 class _Rows(ctypes.Structure):
     _fields_ = [('dim', c_int), ('n', c_size_t), ('x', c_void_p), ('weight', c_void_p), ('own', c_void_p),
                 ('cell', c_void_p), ('family', _Family), ('N', POINTER(c_double)), ('dN', POINTER(c_double)),
-                ('w', c_void_p), ('at', c_void_p), ('grade', POINTER(c_ubyte)), ('copied', c_size_t),
-                ('copied_bonds', c_size_t)]
+                ('w', c_void_p), ('at', c_void_p), ('wide', c_void_p), ('grade', POINTER(c_ubyte)), ('copied', c_size_t),
+                ('copied_bonds', c_size_t), ('eye', c_void_p), ('parted', c_size_t)]
 
 
 class _Choice(ctypes.Structure):

@@ -50,7 +50,8 @@ pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *st
 double    tip_room_about (const pg_problem *p, const pg_state *state, size_t tip, const double *x,
                           size_t node, double limit);
 size_t    tip_node_at (const pg_problem *p, const double *x);          /* the nearest one */
-/* Does the same elastic material fill two nodes, of whatever name and toughness? */
+/* Does the same elastic material fill two nodes, of whatever name and toughness, and without an interface
+ * of its own between them (failure.interfaces)? */
 int       tip_same_material (const pg_problem *p, size_t i, size_t k);
 
 /* core: 1: places within r1 too, where terms without derivatives of the weight are to be summed. */

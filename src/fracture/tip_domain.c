@@ -67,6 +67,7 @@ static void end_at_loads (pg_tip_field *out, const pg_problem *p)
 int tip_same_material (const pg_problem *p, size_t i, size_t k)
 {
     const pg_material *a = pg_problem_law (p, PG_NODES, i), *b = pg_problem_law (p, PG_NODES, k);
+    if (pg_problem_interface (p, p->block[PG_NODES][i], p->block[PG_NODES][k])) return 0;
     return a == b || (a->type == b->type && a->mode == b->mode && a->mu == b->mu && a->nu == b->nu
                       && a->density == b->density);
 }

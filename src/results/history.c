@@ -310,13 +310,15 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     pg_broken *collected = NULL;
     size_t nbroken = step->nbroken;
     const double *moved, *turned;
+    void *self;
+    const pg_force_type *force = pg_solver_force (r->solver, &self);
     r->row[n++] = pg_result_once ((double) step->number), r->row[n++] = pg_result_once (step->time),
     r->row[n++] = pg_result_once (step->factor);
     PG_TRY (move_points (r, state, &moved, &turned));
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &pg_solver_loads (r->solver)[l];
         double facets[3];
-        int on_facets = columns_of (p, l) && acts_on_facets (p, load);
+        int on_facets = columns_of (p, l) && force->sample && acts_on_facets (p, load);
         if (on_facets) PG_TRY (mean_on_facets (r, state, load, facets));
         for (int k = 0; k < columns_of (p, l); k++) {
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;

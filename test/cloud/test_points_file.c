@@ -105,13 +105,13 @@ static void many_points_keep_their_order (void **state)
     static char csv[400000];
     size_t used = 0, n = 5000;
     for (size_t i = 0; i < n; i++)
-        used += (size_t) snprintf (csv + used, sizeof csv - used, "%zu,%g\n", (i * 7919) % n,
-                                   1.0 + (double) i);
+        used += (size_t) snprintf (csv + used, sizeof csv - used, "%zu,%.17g\n", (i * 7919) % n,
+                                   1.0 + (double) i / (double) n);
     pg_cloud c;
     check_ok (cloud_of (&c, 1, csv, used));
     assert_int_equal (c.n, n);
     for (size_t i = 0; i < n; i++)
-        assert_true (c.x[i] == (double) ((i * 7919) % n) && c.volume[i] == 1.0 + (double) i);
+        assert_true (c.x[i] == (double) ((i * 7919) % n) && c.volume[i] == 1.0 + (double) i / (double) n);
     pg_cloud_clear (&c);
 }
 
@@ -139,13 +139,13 @@ static void a_header_gives_units_and_order (void **state)
 {
     (void) state;
     static const char *const csv[] = {
-        "x,y,volume,block,spacing\n0,0.003,2e-8,1,0.1\n1,0,3e-8,0,0.2\n-0.007,1,4e-8,2,0.3\n",
-        "x [mm],y (mm),volume [mm3],block,spacing [cm]\n0,3,20,1,10\n1000,0,30,0,20\n-7,1000,40,2,30\n",
+        "x,y,volume,block,spacing\n0,0.003,0.02,1,0.1\n1,0,0.03,0,0.2\n-0.007,1,0.04,2,0.3\n",
+        "x [mm],y (mm),volume [mm3],block,spacing [cm]\n0,3,2e7,1,10\n1000,0,3e7,0,20\n-7,1000,4e7,2,30\n",
         "\"volume [mm^3]\",\"y [um]\",\"x[km]\",\"spacing [m]\",\"block "
-        "[1]\"\n20,3000,0,0.1,1\n30,0,1e-3,0.2,0\n40,1e6,-7e-6,0.3,2\n",
-        "spacing [mm] x [mm] y [m] VOLUME [mm3] block\n100 0 0.003 20 1\n200 1000 0 30 0\n300 -7 1 40 2\n"
+        "[1]\"\n2e7,3000,0,0.1,1\n3e7,0,1e-3,0.2,0\n4e7,1e6,-7e-6,0.3,2\n",
+        "spacing [mm] x [mm] y [m] VOLUME [mm3] block\n100 0 0.003 2e7 1\n200 1000 0 3e7 0\n300 -7 1 4e7 2\n"
     };
-    static const double x[6] = { 0, 0.003, 1, 0, -0.007, 1 }, volume[3] = { 2e-8, 3e-8, 4e-8 },
+    static const double x[6] = { 0, 0.003, 1, 0, -0.007, 1 }, volume[3] = { 0.02, 0.03, 0.04 },
                         spacing[3] = { 0.1, 0.2, 0.3 };
     static const int block[3] = { 1, 0, 2 };
     for (size_t k = 0; k < sizeof csv / sizeof *csv; k++) {

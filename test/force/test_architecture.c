@@ -271,7 +271,7 @@ static void neither_matrix_nor_operator_is_refused (void **state)
     check_ok (pg_scene_parse (&scene, BAR, "beam.yaml"));
     check_ok (pg_problem_build (&problem, scene, 1));
     check_ok (pg_solver_options_read (&options, problem, scene));
-    check_fails (pg_solver_create_with (&solver, problem, &options, &nothing), PG_E_USAGE);
+    check_fails (pg_solver_create_with (&solver, problem, &options, &nothing), PG_E_SCENE);
     assert_null (solver);
     check_contains (pg_last_error (), "beam_of_nothing");
     pg_problem_free (&problem);
