@@ -50,7 +50,8 @@ class _Family(ctypes.Structure):
 class _Cloud(ctypes.Structure):
     _fields_ = [('dim', c_int), ('n', c_size_t), ('x', c_void_p), ('volume', c_void_p), ('block', c_void_p),
                 ('size', c_void_p), ('metric', c_void_p), ('h', c_double), ('step', c_double * 3),
-                ('regular', c_int), ('thickness', c_double), ('low', c_double * 3), ('high', c_double * 3)]
+                ('regular', c_int), ('centred', c_int), ('thickness', c_double), ('low', c_double * 3),
+                ('high', c_double * 3), ('subdomain', c_void_p), ('between', c_void_p)]
 
 
 class _Rows(ctypes.Structure):
