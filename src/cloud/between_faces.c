@@ -29,7 +29,8 @@ static pg_status add_piece (between_faces *f, const double *const *corner)
     pg_status status = PG_OK;
     size_t dim = (size_t) f->dim, at = f->n * dim * dim;
     double n[3] = { 0 }, size = 0;
-    if (dim == 2) n[0] = corner[1][1] - corner[0][1], n[1] = corner[0][0] - corner[1][0];
+    if (dim == 1) n[0] = corner[0][0] - corner[1][0];  /* away from the other end of the bar */
+    else if (dim == 2) n[0] = corner[1][1] - corner[0][1], n[1] = corner[0][0] - corner[1][0];
     else
         for (int k = 0; k < 3; k++) {
             int p = (k + 1) % 3, q = (k + 2) % 3;
@@ -192,7 +193,10 @@ pg_status between_faces_create (between_faces **out, const pg_mesh *mesh, int al
             memcpy (x + (size_t) k * dim, mesh->x + 3 * (size_t) node, dim * sizeof *x);
             on[node] = 1;
         }
-        PG_TRY (add_face (f, kind, x));
+        if (dim == 1) {
+            const double *other = mesh->x + 3 * (size_t) mesh->node[mesh->start[e] + (size_t) (1 - local[0])];
+            PG_TRY (add_piece (f, (const double *[]) { x, other }));
+        } else PG_TRY (add_face (f, kind, x));
     }
     if (alone) drop_outer (f, mesh, on);
     if (f->n) {
@@ -242,12 +246,12 @@ int between_faces_near (const between_faces *f, const double *low, const double 
     return search (f, f->levels - 1, 0, low, high, stop, NULL);
 }
 
-/* Does a place in the plane of a piece lie in it, or within `near` of it? */
+/* Does a place in the plane of a piece lie in it, or within `near` of it? On a line pieces are points. */
 static int covers (const between_faces *f, size_t piece, const double *q, double near)
 {
     size_t dim = (size_t) f->dim;
     const double *x = f->x + piece * dim * dim, *n = f->plane + 4 * piece;
-    for (size_t c = 0; c < dim; c++) {
+    for (size_t c = 0; dim > 1 && c < dim; c++) {
         const double *a = x + c * dim, *b = x + (c + 1) % dim * dim;
         double in[3] = { 0 }, off = 0, size = 0;       /* in the plane, from the edge inwards */
         if (dim == 2) in[0] = b[0] - a[0], in[1] = b[1] - a[1];
