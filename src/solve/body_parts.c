@@ -174,10 +174,53 @@ static void resist (const body_part *part, int dim, const pg_load *load, const d
     }
 }
 
-/* The motions of every part that nothing resists. */
-static pg_status find_free (body_parts *out, const pg_problem *p)
+/* What points move by motions, as squares in `moved`: turns of a part about the line that all its points lie
+ * on, or about its only point, move none. They count as resisted, unless points turn by themselves. */
+static const double NO_MOTION = 1e-12;
+static pg_status drop_no_motions (body_parts *out, const pg_system *s, double *A)
 {
     pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
+    const int *which;
+    size_t dim = (size_t) p->dim, n = numbers_of (p->dim, &which);
+    double *moved = NULL;
+    PG_ALLOC (moved, SQUARES * out->n);
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        const body_part *part = &out->part[out->of[i]];
+        double u[MOST][3], *to = moved + SQUARES * (size_t) out->of[i];
+        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        for (size_t a = 0; a < n; a++) {
+            rigid_motion m = { 0 };
+            m[which[a]] = 1;
+            body_part_move (part, p->dim, p->cloud.x + i * dim, m, u[a]);
+        }
+        for (size_t a = 0; a < n; a++)
+            for (size_t b = 0; b < n; b++)
+                for (size_t k = 0; k < dim; k++) to[a * n + b] += u[a][k] * u[b][k];
+    }
+    PG_TRY (pg_ranks_sum (SQUARES * out->n, moved));
+    for (size_t r = 0; r < out->n; r++) {
+        double value[MOST], V[SQUARES], *to = A + SQUARES * r, size = 0;
+        pg_dense_eigen ((int) n, moved + SQUARES * r, value, V);
+        for (size_t a = 0; a < n; a++) size += to[a * n + a];
+        for (size_t a = 0; a < n; a++) {
+            if (value[a] > NO_MOTION * value[0]) continue;
+            out->part[r].row = p->dim > 1 && out->part[r].points > 1;
+            if (s->components != p->dim) continue;
+            for (size_t b = 0; b < n * n; b++)
+                to[b] += (size > 0 ? size : 1) * V[b / n * n + a] * V[b % n * n + a];
+        }
+    }
+done:
+    pg_free (moved);
+    return status;
+}
+
+/* The motions of every part that nothing resists. */
+static pg_status find_free (body_parts *out, const pg_system *s)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
     const int *which;
     size_t dim = (size_t) p->dim, n = numbers_of (p->dim, &which);
     double *A = NULL;
@@ -192,6 +235,7 @@ static pg_status find_free (body_parts *out, const pg_problem *p)
         }
     }
     PG_TRY (pg_ranks_sum (SQUARES * out->n, A));
+    PG_TRY (drop_no_motions (out, s, A));
     for (size_t r = 0; r < out->n; r++) {
         body_part *part = &out->part[r];
         double value[MOST], V[SQUARES];
@@ -215,7 +259,7 @@ pg_status body_parts_find (body_parts *out, const pg_system *s)
     if (!s->force->join) return PG_OK;
     PG_TRY (number_points (out, s));
     PG_TRY (measure (out, s->problem));
-    PG_TRY (find_free (out, s->problem));
+    PG_TRY (find_free (out, s));
 done:
     if (status != PG_OK) body_parts_clear (out);
     return status;

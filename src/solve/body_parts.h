@@ -12,6 +12,7 @@ typedef double rigid_motion[6];
 typedef struct {
     size_t points;                                     /* of all ranks */
     double middle[3], size;  /* mean place of its points; of the farthest from it the distance, m */
+    int row;                                           /* 1: its points, two or more, lie on one line */
     size_t n;                                          /* motions that supports and springs leave free */
     rigid_motion motion[6];
 } body_part;

@@ -392,6 +392,24 @@ static const pg_load *stiffest_penalty (const pg_system *s)
     return found;
 }
 
+/* A part whose points lie on one line, which bonds leave free to twist; and to move across it, unless points
+ * turn by themselves. */
+static int say_row (words *out, const along_motions *w)
+{
+    const pg_system *s = w->s;
+    for (size_t r = 0; r < w->parts.n; r++) {
+        const body_part *part = &w->parts.part[r];
+        char place[BODY_PART_WORDS];
+        if (!part->row || s->force->method.shape_functions) continue;
+        body_part_place (s->problem, part, place, sizeof place);
+        say (out, "; points of a part of the body, %s, stand in one row: bonds along one line resist no %s; "
+                  "use a smaller spacing, so that it is several points wide", place,
+             s->components == s->problem->dim ? "motion across it" : "twist about it");
+        return 1;
+    }
+    return 0;
+}
+
 static void say_reason (words *out, const pg_system *s)
 {
     const pg_load *penalty = stiffest_penalty (s);
@@ -436,7 +454,7 @@ pg_status body_parts_explain (pg_system *s, double t, pg_status failed)
         if (worst != SIZE_MAX) PG_TRY (refuse (&w, worst));
         say_free (&why, &w);
     }
-    if (!why.used) say_reason (&why, s);
+    if (!why.used && !(w.s && say_row (&why, &w))) say_reason (&why, s);
     status = pg_error (failed, PG_HERE, "%s%s", text, why.text);
 done:
     clear (&w);

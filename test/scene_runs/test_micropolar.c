@@ -128,7 +128,7 @@ static void a_chain_twists_freely (void **state)
     unlink (path);
 }
 
-/* A moment about the chain finds no resistance: said so, whoever solves. */
+/* A moment about the chain finds no resistance: the row of points is named, whoever solves. */
 static void a_loaded_twist_is_refused (void **state)
 {
     (void) state;
@@ -143,7 +143,7 @@ static void a_loaded_twist_is_refused (void **state)
             "solver: {kind: static, linear: %s}\noutput: {at: {levels: 1}}\n",
             linear[k]);
         assert_true (pg_solver_step (r.solver, r.state, &r.step) != PG_OK);
-        check_contains (pg_last_error (), "probably a loaded part has come loose");
+        check_contains (pg_last_error (), "stand in one row: bonds along one line resist no twist about it");
         clear (&r);
     }
 }
