@@ -114,6 +114,8 @@ typedef struct {
 } preparation;
 /* From the scene, which the caller has loaded, to the problem and its patch test; refused where memory is
  * short. thorough: afford_problem. Of ranks that share the body the forecast stays empty. */
+/* The threads of libraries are this program's to settle: once the scene is read, also those of BLAS. */
+void      settle_blas_too (void);
 pg_status prepare_problem (preparation *r, const command *c, int thorough);
 /* The solver, which settles what the options leave open. */
 pg_status prepare_solver  (preparation *r);

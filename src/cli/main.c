@@ -69,6 +69,7 @@ static void settle_threads (int argc, char **argv)
     char count[16];
     long n = command_threads ();
     if (getenv ("OMP_THREAD_LIMIT")) return;
+    settle_blas_too ();
     if (threads_given (argc, argv) > 0) n = threads_given (argc, argv);
     snprintf (count, sizeof count, "%ld", n < 1 ? 1 : n > 64 ? 64 : n);
     setenv ("OMP_THREAD_LIMIT", "1", 1);

@@ -4,6 +4,12 @@
 #include "cli.h"
 #include <stdlib.h>
 
+/* Where the user, or the program that started this one, has settled the threads of libraries, the
+ * environment stays as it is. */
+static int environment_ours;
+
+void settle_blas_too (void) { environment_ours = 1; }
+
 /* Two BLAS threads gain 7 % of a factorization with 4 000 unknowns on an idle machine, and
  * lose half the speed on a busy one: below 50 000 unknowns in 2D and 10 000 in 3D one thread
  * is used. By the environment where BLAS is not loaded yet, which then starts no threads that nobody needs:
@@ -14,7 +20,7 @@ static void settle_blas (const pg_problem *p)
     int threads = unknowns < enough ? 1 : p->threads;
     char count[16];
     snprintf (count, sizeof count, "%d", threads);
-    setenv ("OPENBLAS_NUM_THREADS", count, 1);
+    if (environment_ours) setenv ("OPENBLAS_NUM_THREADS", count, 1);
     pg_linear_threads (threads);
 }
 

@@ -158,15 +158,19 @@ int pg_process_finds (const char *program)
     return 0;
 }
 
-/* Compilers, scripts and our own program all put the reason first. */
+/* Compilers, scripts and our own program all put the reason first, ours after its warnings. */
 void pg_process_complaint (const char *log, char *text, size_t size)
 {
+    static const char warning[] = "perigal: warning: ";
     FILE *f = fopen (log, "r");
     text[0] = 0;
     if (!f) return;
     while (fgets (text, (int) size, f)) {
+        int whole = strchr (text, '\n') != NULL;
         text[strcspn (text, "\r\n")] = 0;
-        if (text[0]) break;
+        if (text[0] && strncmp (text, warning, strlen (warning)) != 0) break;
+        for (int c = 0; !whole && c != '\n' && c != EOF;) c = fgetc (f);
+        text[0] = 0;
     }
     fclose (f);
 }

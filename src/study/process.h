@@ -43,6 +43,6 @@ int       pg_child_ended  (pg_child *child);
 void      pg_child_signal (const pg_child *child, int number);
 /* 1 if a program of that name is in PATH. */
 int       pg_process_finds (const char *program);
-/* First line of a log that is not empty, for messages; "" without one. */
+/* First line of a log that is not empty and no warning of a run, for messages; "" without one. */
 void      pg_process_complaint (const char *log, char *text, size_t size);
 #endif

@@ -9,7 +9,7 @@ holds() { local good=1; grep -q -- "$3" "$2" && good=0; verdict "$1" $good; [ $g
 # ---- warnings are of the run, not of the screen -----------------------------------------------------------------------------
 loose=(--set 'boundary[1].displacement={y: 0}' --set 'method={force: bond}' --set 'failure={criterion: stretch, critical_stretch: 1e-3}')
 loose+=(--set 'boundary[0].essential=penalty' --set spacing='0.5 mm')
-expect "a quiet run prints nothing"             0 '' '' run plate.yaml --quiet -o "$work/loose" "${once[@]}" "${loose[@]}"
+expect "a quiet run prints warnings only"       0 '' 'warning: nothing holds the body along x' run plate.yaml --quiet -o "$work/loose" "${once[@]}" "${loose[@]}"
 holds "report.json: nothing holds the body"     "$work/loose/report.json" '"nothing holds the body along x: '
 holds "report.json: another Poisson's ratio"    "$work/loose/report.json" "^ *\"material glass: Poisson's ratio is 0.3333, not 0.22"
 holds "report.json: keys that are ignored"       "$work/loose/report.json" '"ignored with force: bond: boundary\[0\].essential'
