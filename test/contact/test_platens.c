@@ -346,8 +346,9 @@ static void doubtful_platens_are_told (void **state)
             check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
             advance (&r);
             const pg_statistics *s = pg_solver_report_now (r.solver);
-            assert_true (s->nwarning > 0);
-            check_contains (s->warning[s->nwarning - 1], cases[i].words);
+            size_t k = 0;
+            while (k < s->nwarning && !strstr (s->warning[k], cases[i].words)) k++;
+            assert_true (k < s->nwarning);
         } else check_contains (pg_last_error (), cases[i].words);
         clear (&r);
     }
