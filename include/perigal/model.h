@@ -67,6 +67,8 @@ typedef struct pg_load {
 enum { PG_REACTIONS = 6 };
 /* moment (3) += that of a force along axis k at place x, N m. */
 void pg_load_add_moment (const pg_load *load, int dim, const double *x, int k, double force, double *moment);
+/* 1: this rank counts a facet that several may hold; alone: every one. */
+int  pg_problem_owns_facet (const pg_problem *problem, size_t facet);
 /* points per direction by PG_ESSENTIAL_TRANSFORMATION: full matrices below 300 MB each */
 #define PG_MOST_ELIMINATED 6000
 /* Component k of the load at place x and time t (s; static: load factor). */

@@ -18,8 +18,8 @@ void pg_load_add_moment (const pg_load *load, int dim, const double *x, int k, d
     moment[last] -= arm[next] * force;
 }
 
-/* Does this rank count a facet that several may hold? The cell half a step behind its centre tells. */
-static int owns_facet (const pg_problem *p, size_t facet)
+/* The cell half a step behind the centre of a facet tells. */
+int pg_problem_owns_facet (const pg_problem *p, size_t facet)
 {
     size_t dim = (size_t) p->dim;
     double behind[3] = { 0 };
@@ -39,7 +39,7 @@ static pg_status centre_of (const pg_problem *p, const pg_set *set, int on_facet
     memset (centre, 0, 3 * sizeof *centre);
     for (size_t i = 0; i < n; i++) {
         size_t item = (size_t) (on_facets ? set->facet[i] : set->point[i]);
-        if (!(on_facets ? owns_facet (p, item) : pg_owns (p->cloud.subdomain, item))) continue;
+        if (!(on_facets ? pg_problem_owns_facet (p, item) : pg_owns (p->cloud.subdomain, item))) continue;
         double weight = on_facets ? p->cells.area[item] : p->cloud.volume[item];
         const double *x = (on_facets ? p->cells.facet_centre : p->cloud.x) + item * dim;
         for (size_t k = 0; k < dim; k++) centre[k] += weight * x[k];

@@ -132,50 +132,61 @@ static int acts_on_facets (const pg_problem *p, const pg_load *load)
     int held = pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE,
         pushed = load->kind == PG_TRACTION || load->kind == PG_PRESSURE;
     return p->method->shape_functions && !load->own && !pg_load_rotates (load) && (held || pushed)
-           && load->set->nfacet > 0 && !p->cloud.subdomain;
+           && pg_set_facets (load->set) > 0;
 }
 
-/* Mean displacement of the facets of a load along every axis (dim). */
+/* Mean displacement of the facets of a load along every axis (dim), on all ranks. Each measures the facets
+ * that it owns: the rest may lie at the end of what it holds of the body. */
 static pg_status mean_on_facets (pg_result *r, const pg_state *state, const pg_load *load, double *mean)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
     const pg_set *set = load->set;
-    size_t dim = (size_t) p->dim;
-    double *x = NULL, *u = NULL, area = 0;
+    size_t dim = (size_t) p->dim, n = 0;
+    double *x = NULL, *u = NULL, *area = NULL, sum[4] = { 0 };
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     PG_ALLOC (x, dim * set->nfacet);
     PG_ALLOC (u, 3 * set->nfacet);
-    for (size_t i = 0; i < set->nfacet; i++)
-        memcpy (x + dim * i, p->cells.facet_centre + dim * (size_t) set->facet[i], dim * sizeof *x);
-    PG_TRY (force->sample (self, state, state->d, set->nfacet, x, u, NULL, NULL));
-    for (size_t k = 0; k < dim; k++) mean[k] = 0;
+    PG_ALLOC (area, set->nfacet);
     for (size_t i = 0; i < set->nfacet; i++) {
-        double w = p->cells.area[set->facet[i]];
-        area += w;
-        for (size_t k = 0; k < dim; k++) mean[k] += w * u[3*i + k];
+        size_t facet = (size_t) set->facet[i];
+        if (!pg_problem_owns_facet (p, facet)) continue;
+        memcpy (x + dim * n, p->cells.facet_centre + dim * facet, dim * sizeof *x);
+        area[n++] = p->cells.area[facet];
     }
-    for (size_t k = 0; k < dim; k++) mean[k] /= area;
+    if (n) PG_TRY (force->sample (self, state, state->d, n, x, u, NULL, NULL));
+    for (size_t i = 0; i < n; i++) {
+        sum[3] += area[i];
+        for (size_t k = 0; k < dim; k++) sum[k] += area[i] * u[3*i + k];
+    }
+    PG_TRY (pg_ranks_sum (4, sum));
+    for (size_t k = 0; k < dim; k++) mean[k] = sum[k] / sum[3];
 done:
-    pg_free (x), pg_free (u);
+    pg_free (x), pg_free (u), pg_free (area);
     return status;
 }
 
-/* What component k of a support prescribes at t, in the mean over its facets, or its points. */
-static double prescribed (const pg_problem *p, const pg_load *load, int k, double t)
+/* *out: what component k of a support prescribes at t, in the mean over its facets, or its points, on all
+ * ranks. */
+static pg_status prescribed (const pg_problem *p, const pg_load *load, int k, double t, double *out)
 {
+    pg_status status = PG_OK;
     const pg_set *set = load->set;
     int facets = acts_on_facets (p, load);
-    double sum = 0, weight = 0;
+    double sum[2] = { 0 };                             /* value by weight, weight */
     size_t dim = (size_t) p->dim, n = facets ? set->nfacet : set->npoint;
     for (size_t i = 0; i < n; i++) {
-        const double *x = facets ? p->cells.facet_centre + dim * (size_t) set->facet[i]
-                                 : p->cloud.x + dim * (size_t) set->point[i];
-        double w = facets ? p->cells.area[set->facet[i]] : 1;
-        sum += w * pg_load_value (load, k, p->dim, x, t), weight += w;
+        size_t at = (size_t) (facets ? set->facet[i] : set->point[i]);
+        if (!(facets ? pg_problem_owns_facet (p, at) : pg_owns (p->cloud.subdomain, at))) continue;
+        const double *x = (facets ? p->cells.facet_centre : p->cloud.x) + dim * at;
+        double w = facets ? p->cells.area[at] : 1;
+        sum[0] += w * pg_load_value (load, k, p->dim, x, t), sum[1] += w;
     }
-    return weight > 0 ? sum / weight : 0;
+    PG_TRY (pg_ranks_sum (2, sum));
+    *out = sum[1] > 0 ? sum[0] / sum[1] : 0;
+done:
+    return status;
 }
 
 /* Mean of component k over the points of a load, at a place by their shares;
@@ -197,16 +208,22 @@ static double mean_of (const pg_problem *p, const pg_load *load, const double *u
 static int holds (const pg_problem *p, const pg_load *load, int k)
 {
     return p->method->shape_functions && pg_load_prescribes (load) && !pg_load_rotates (load)
-           && load->value[k] && !load->own && !p->cloud.subdomain;
+           && load->value[k] && !load->own;
 }
 
-/* Displacement of a load along its component k. turned: rotations; facets: means over them, or NULL. */
-static double moved_by (const pg_problem *p, const pg_load *load, int k, double t, const double *moved,
-                        const double *turned, const double *facets)
+/* *out: displacement of a load along its component k. turned: rotations; facets: means over them, or NULL.
+ * Ranks: the share of this one. */
+static pg_status moved_by (const pg_problem *p, const pg_load *load, int k, double t, const double *moved,
+                           const double *turned, const double *facets, double *out)
 {
-    if (pg_load_rotates (load)) return mean_of (p, load, turned, pg_problem_rotations (p), k);
-    if (holds (p, load, k)) return prescribed (p, load, k, t);
-    return facets ? facets[k] : mean_of (p, load, moved, p->dim, k);
+    pg_status status = PG_OK;
+    if (pg_load_rotates (load)) *out = mean_of (p, load, turned, pg_problem_rotations (p), k);
+    else if (holds (p, load, k)) {
+        PG_TRY (prescribed (p, load, k, t, out));
+        *out = pg_result_once (*out);
+    } else *out = facets ? pg_result_once (facets[k]) : mean_of (p, load, moved, p->dim, k);
+done:
+    return status;
 }
 
 /* One row per bond that broke in the step. Numbers come first, so that readers of numbers can
@@ -322,8 +339,9 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
         if (on_facets) PG_TRY (mean_on_facets (r, state, load, facets));
         for (int k = 0; k < columns_of (p, l); k++) {
             double f = step->reaction ? step->reaction[3 * l + (size_t) k] : 0;
-            double u = moved_by (p, load, k, r->dynamic ? step->time : step->factor, moved, turned,
-                                 on_facets ? facets : NULL);
+            double u;
+            PG_TRY (moved_by (p, load, k, r->dynamic ? step->time : step->factor, moved, turned,
+                              on_facets ? facets : NULL, &u));
             if ((int) l == r->curve_load && k == r->curve_component) x = n + 1, y = n;
             r->row[n++] = f, r->row[n++] = u;
         }
