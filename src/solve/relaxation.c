@@ -170,6 +170,7 @@ static pg_status examine (pg_solver *s, pg_state *state, double t, int breaking)
     reference = fmax (reference, fmax (sqrt (total[SQUARE_P]), sqrt (total[SQUARE_PUSH])));
     if (x->armed || !own->hold) x->most = fmax (x->most, reference);
     reference = fmax (reference, least * x->most);
+    x->reference = reference;
     double size = sqrt (total[SUM_R]);
     if (total[SUM_BAD] != 0 || !isfinite (size)) PG_TRY (lost (s, state, t));
     x->imbalance = reference > 0 ? size / reference : size > 0 ? 1 : 0;
@@ -181,13 +182,14 @@ done:
 
 /* What the points lack of balance adds up in the reactions: small forces of one sign all over a body leave
  * supports off by many times their norm. The largest sum of the residual along an axis over that of loads or
- * reactions, whichever is larger; prescribed unknowns have no residual any more. */
+ * reactions, whichever is larger, and over the reference of the imbalance where a body that has come apart bears
+ * less than that; prescribed unknowns have no residual any more. */
 static double imbalance_of_reactions (const pg_solver *s)
 {
     const motion *m = motion_of (s);
     const pg_system *sys = &s->break_loop.system;
     size_t components = (size_t) sys->components, dim = (size_t) s->problem->dim;
-    double left[3] = { 0 }, loads[3] = { 0 }, supports[3] = { 0 }, most = 0, size = 0;
+    double left[3] = { 0 }, loads[3] = { 0 }, supports[3] = { 0 }, most = 0, size = m->relaxation->reference;
     for (size_t i = 0; i < sys->ndof; i++) {
         size_t k = i % components;
         if (k >= dim) continue;

@@ -18,6 +18,7 @@ struct relaxation {
     double stiff, heavy;  /* v K v dt and v M v of the last iterations, older ones count less */
     double floor;                                      /* hold: off: least c, 1/s */
     double imbalance, worst;                           /* of the last residual; hold: off: the largest */
+    double reference;  /* of the imbalance now, N; not kept, as every look finds it anew */
     double most;  /* largest reference of a state that the load has come to, N */
     /* bonds may break; the next iteration starts from rest; the work balance at hand is that before the first
      * break of the stage and not booked; bonds broke at the last residual */
