@@ -13,7 +13,7 @@ static const double factors[] = { 1.15, 1.3, 1.45, 1.6, 1.8, 2, 2.25, PG_WIDEST_
 static const double for_full = 1.6;
 /* Places at a time, which bounds the memory. On a lattice a place is looked at if it sees fewer nodes than
  * this share of those in a whole support. */
-enum { CHUNK = 16384 };
+enum { CHUNK = 16384, SAMPLE = 256 };
 static const double complete = 0.85;
 /* More lowered places than this share, or more of those in the midst of others: the horizon is too small for
  * the basis everywhere, which is no fault of these places. */
@@ -122,6 +122,13 @@ static int suspect (const work *w, size_t i)
     return (double) (f->start[i + 1] - f->start[i]) < complete * whole;
 }
 
+/* A node that sees no other one within its horizon is joined to none: that is told, not mended. */
+static int is_apart (const work *w, size_t i)
+{
+    const pg_family *f = &w->rows->family;
+    return w->rows->own[i] >= 0 && w->cloud->n > 1 && f->start[i + 1] - f->start[i] <= 1;
+}
+
 /* Rows of the places of a lot with the families that they have. */
 static pg_status take (lot *l, size_t n)
 {
@@ -150,15 +157,36 @@ done:
     return status;
 }
 
+/* On a lattice: is the basis lowered at places that see all that a support holds? Some of those that are not
+ * suspect, evenly among the rows. */
+static pg_status whole_are_lowered (const work *w, int *answer)
+{
+    pg_status status = PG_OK;
+    size_t list[SAMPLE], n = 0, lowered = 0, step = w->rows->n / SAMPLE + 1;
+    lot l = { .w = w, .place = list };
+    for (size_t i = 0; i < w->rows->n && n < SAMPLE; i++)
+        if (!suspect (w, i)) list[n++] = i, i += step - 1;
+    *answer = 0;
+    if (n == 0) return PG_OK;
+    PG_TRY (take (&l, n));
+    PG_TRY (measure (&l));
+    for (size_t k = 0; k < n; k++) lowered += l.sight[k] == LOWERED;
+    *answer = (double) lowered > usual * (double) n;
+done:
+    lot_clear (&l);
+    return status;
+}
+
 /* The first look, at the supports that places have: those that see less than well. */
 static pg_status find_poor (work *w)
 {
     pg_status status = PG_OK;
     size_t *list = NULL, n = 0, looked = 0, lowered = 0, cap = 0, cap_best = 0;
+    int everywhere = 0;
     lot l = { .w = w };
     PG_ALLOC (list, w->rows->n < CHUNK ? w->rows->n : CHUNK);
     for (size_t i = 0; i < w->rows->n; i++) {
-        if (suspect (w, i)) list[n++] = i;
+        if (suspect (w, i) && !is_apart (w, i)) list[n++] = i;
         if (n == 0 || (n < CHUNK && i + 1 < w->rows->n)) continue;
         l.place = list;
         PG_TRY (take (&l, n));
@@ -174,7 +202,10 @@ static pg_status find_poor (work *w)
         lot_clear (&l);
         l = (lot) { .w = w };
     }
-    if (!w->cloud->regular && (double) lowered > usual * (double) looked) {
+    if (!w->cloud->regular || (w->a.order == 2 && looked == w->rows->n))
+        everywhere = (double) lowered > usual * (double) looked;
+    else if (lowered) PG_TRY (whole_are_lowered (w, &everywhere));
+    if (everywhere) {
         size_t kept = 0;
         for (size_t k = 0; k < w->n; k++)
             if (w->best[k] == POOR) w->place[kept] = w->place[k], w->best[kept++] = POOR;

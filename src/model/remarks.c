@@ -54,7 +54,8 @@ static double least_extent (const pg_shape *s, int dim, double *middle)
     return least;
 }
 
-/* What is narrower than the points are apart the points do not see, or see as wide as they are. */
+/* Of what is narrower than the points are apart they see little: of a hole which bonds it parts, of a part
+ * what points it happens to hold. */
 void pg_remark_small_shapes (pg_problem *p)
 {
     if (!p->lattice.dim) return;
@@ -66,8 +67,10 @@ void pg_remark_small_shapes (pg_problem *p)
         if (least < h * (1 - 1e-9))
             pg_problem_note (p,
                              PG_WARNING "body[%zu]: %s of %.3g m is smaller than the spacing there, %.3g m: "
-                                        "the points do not resolve it, and it may be without effect",
-                             i, s->add ? "a part" : "a hole", least, h);
+                                        "the points do not resolve it, %s",
+                             i, s->add ? "a part" : "a hole", least, h,
+                             s->add ? "and it may be without effect"
+                                    : "though it parts the bonds that cross it: do not trust stresses beside it");
     }
 }
 

@@ -92,7 +92,7 @@ run "nodal integration of moved points: refused" 65 'warning: under uniform stre
 run "nosb, nodal, moved points: warned"       0 'warning: under uniform stress xx the displacement is off by 1[0-9] %' '*' all_degenerate.yaml perturb.amount=0.3 \
     'method={approximation: nosb, integration: nodal, horizon: 2.5 spacing}'
 for horizon in 1.1 1.2 1.3 1.4; do
-    run "quadratic basis, horizon $horizon spacings: right" 0 'against the reference: displacement: L2 [0-9.]*e-0[4-9]' '*' all_degenerate.yaml "method.horizon=$horizon spacing"
+    run "quadratic basis, horizon $horizon spacings: right" 0 'against the reference: displacement: L2 [0-9.]*e-\(0[4-9]\|1\)' '*' all_degenerate.yaml "method.horizon=$horizon spacing"
     awk -v e="$(entry patch_error)" 'BEGIN { exit !(e > 0 && e < 0.01) }'; verdict "its patch error stands in report.json ($(entry patch_error))" $?
 done
 
