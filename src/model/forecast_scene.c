@@ -136,9 +136,10 @@ static void widen (pg_forecast *f, double reach)
     f->pairs *= pow ((reach + 0.25) / reach, f->dim);
 }
 
-/* Cut cells, of which half have their centre outside, have more points than whole ones: 1.23 and 1.6 times as
- * many, and where they are integrated consistently 2.6 and 5.1 times (2.4 to 3.5 and 3.3 to 5.6, measured on
- * disks, balls and cylinders: rather too many than too few); points near the surface see three quarters of what others see. */
+/* Cut cells, of which half have their centre outside, have more points than whole ones: 1.23 and 1.6 times
+ * as many, and where they are integrated consistently 2.6 and 5.1 times (2.4 to 3.5 and 3.3 to 5.6, measured
+ * on disks, balls and cylinders: rather too many than too few); points near the surface see three quarters of
+ * what others see. */
 static void add_cut (pg_forecast *f, const pg_tally *t, double finer, int consistent)
 {
     static const double points[2][3] = { { 1, 1.23, 1.6 }, { 1, 2.6, 5.1 } };

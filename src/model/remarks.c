@@ -70,7 +70,8 @@ void pg_remark_small_shapes (pg_problem *p)
                                         "the points do not resolve it, %s",
                              i, s->add ? "a part" : "a hole", least, h,
                              s->add ? "and it may be without effect"
-                                    : "though it parts the bonds that cross it: do not trust stresses beside it");
+                                    : "though it parts the bonds that cross it: do not trust stresses "
+                                      "beside it");
     }
 }
 

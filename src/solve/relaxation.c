@@ -182,8 +182,8 @@ done:
 
 /* What the points lack of balance adds up in the reactions: small forces of one sign all over a body leave
  * supports off by many times their norm. The largest sum of the residual along an axis over that of loads or
- * reactions, whichever is larger, and over the reference of the imbalance where a body that has come apart bears
- * less than that; prescribed unknowns have no residual any more. */
+ * reactions, whichever is larger, and over the reference of the imbalance where a body that has come apart
+ * bears less than that; prescribed unknowns have no residual any more. */
 static double imbalance_of_reactions (const pg_solver *s)
 {
     const motion *m = motion_of (s);
