@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Sweep by transforms: fft_convolution.h says how. */
 #include "fft_convolution.h"
+#include "sums_private.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -150,13 +151,14 @@ static void touch_block (transformer *t, size_t place, size_t *blocks)
 }
 
 /* Bonds that died (their bits say so already). Points whose last bond it was lose their weight, and those
- * about them renew D; all blocks with such a point are judged anew. Costs what the dead bonds touch, not
- * what the body has. OWNER: lost a bond; AROUND: a neighbour lost its weight. */
+ * about them renew D, also those that something parts from them, as the convolution sums all; all blocks
+ * with such a point are judged anew. Costs what the dead bonds touch, not what the body has. OWNER: lost a
+ * bond; AROUND: a neighbour lost its weight. */
 static void lose_bonds (transformer *t, size_t n, const size_t *bond)
 {
     enum { OWNER = 1, AROUND = 2 };
     const stencil *s = t->s;
-    const pg_family *family = s->setting.family;
+    const pg_sums *sums = s->setting.sums;
     size_t points = 0, blocks = 0, owners;
     for (size_t c = 0; c < n; c++) {
         size_t i = pg_stencil_loop_owner (s, bond[c]);
@@ -171,8 +173,10 @@ static void lose_bonds (transformer *t, size_t n, const size_t *bond)
         weigh_point (t, i);
         if (!before || t->chi[s->place[i]] != 0) continue;
         t->gone++;
-        for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
-            size_t j = (size_t) family->node[e];
+        for (size_t b = 0; b < sums->stencil.n; b++) {
+            int at = pg_sums_neighbour (&sums->sites, sums->sites.site[i], sums->stencil.offset + 3*b);
+            if (at < 0) continue;
+            size_t j = (size_t) at;
             if (!t->seen[j]) t->touched[points++] = (int) j;
             t->seen[j] |= AROUND;
             touch_block (t, s->place[j], &blocks);
