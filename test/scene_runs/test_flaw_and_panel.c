@@ -32,7 +32,7 @@ static void test_forces (void **unused)
     static const char *const force[] = { "method.force=gmpd", "method.force=bond", "method.force=lps",
                                          "method.force=fcbm" };
     /* of this lattice of 25 mm: each theory has its own missing families at the corner */
-    static const double load[] = { 12.88e3, 11.70e3, 14.88e3, 13.05e3 };
+    static const double load[] = { 13.74e3, 12.24e3, 14.90e3, 12.84e3 };
     for (size_t k = 0; k < sizeof force / sizeof *force; k++) {
         const char *set[] = { force[k], "spacing=25 mm", "body[2].add.box.low=[0, -75 mm]",
                               "sets.lift.where=x >= 0.45 m and y <= 0.28 m and y >= 0",
@@ -50,7 +50,7 @@ static void test_forces (void **unused)
         check_below (hypot (c.first[0] - 0.25, c.first[1] - 0.25), k < 3 ? 0.05 : 0.09);
         check_below (c.low[0], 0.06);
         check_below (0.14, c.low[1]);
-        check_below (c.high[1], 0.3);
+        check_below (c.high[1], 0.301);                /* places of bonds are 12.5 mm apart */
         check_relative (c.load, load[k], 0.01);
         clear (&r);
     }
@@ -93,8 +93,8 @@ static void test_galerkin (void **unused)
     double stiffness = r.step.reaction[4] / (r.step.factor * 1e-3);
     crack c = broken_by (&r, 4);
     print_message ("galerkin: %.4g MN/m, first (%.3g, %.3g) m\n", stiffness / 1e6, c.first[0], c.first[1]);
-    /* of this lattice: 9.6 % over CPS8 of CalculiX, 2.5 mm, whose lift is one spacing deeper */
-    check_relative (stiffness, 74.55e6, 5e-3);
+    /* of this lattice: 6.4 % over CPS8 of CalculiX, 2.5 mm, whose lift is one spacing deeper */
+    check_relative (stiffness, 72.39e6, 5e-3);
     check_below (hypot (c.first[0] - 0.25, c.first[1] - 0.25), 0.03);
     clear (&r);
 }
@@ -106,8 +106,9 @@ static void test_flaw (void **unused)
 {
     (void) unused;
     static const char *const rule[] = { "failure.criterion=beam_limits", "failure.criterion=stretch" };
-    /* 70 (closed) to 90 degrees (open crack), and 20 for a wing of three horizons */
-    const double end = 4.4955e-3, expected[] = { 1636, 1722 }, turn[] = { 96, 72.5 };
+    /* 70 (closed) to 90 degrees (open crack), and 20 for a wing of three horizons, less what a lattice makes of
+     * the ends of the slot, which no bond crosses for more than half a spacing */
+    const double end = 4.4955e-3, expected[] = { 1841.9, 1895.6 }, turn[] = { 67.7, 58.7 };
     for (int k = 0; k < 2; k++) {
         const char *set[] = { rule[k], "solver.max_events=90" };
         run r = loaded ("data/inclined_flaw/scene.yaml", 2, set);

@@ -190,7 +190,7 @@ static void broken_through (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (what_a_crack_costs),
-                                        cmocka_unit_test (the_same_by_every_sum), cmocka_unit_test (first_death),
-                                        cmocka_unit_test (broken_through) };
+                                        cmocka_unit_test (the_same_by_every_sum),
+                                        cmocka_unit_test (first_death), cmocka_unit_test (broken_through) };
     return cmocka_run_group_tests_name ("scene_runs/node_energy", tests, NULL, NULL);
 }
