@@ -106,8 +106,8 @@ static void test_flaw (void **unused)
 {
     (void) unused;
     static const char *const rule[] = { "failure.criterion=beam_limits", "failure.criterion=stretch" };
-    /* 70 (closed) to 90 degrees (open crack), and 20 for a wing of three horizons, less what a lattice makes of
-     * the ends of the slot, which no bond crosses for more than half a spacing */
+    /* theory: 70 (closed) to 90 degrees (open crack), and 20 for a wing of three horizons; these of this
+     * lattice, in which the slot is two spacings wide */
     const double end = 4.4955e-3, expected[] = { 1841.9, 1895.6 }, turn[] = { 67.7, 58.7 };
     for (int k = 0; k < 2; k++) {
         const char *set[] = { rule[k], "solver.max_events=90" };
