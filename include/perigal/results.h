@@ -99,8 +99,9 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
                             const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from);
 /* 1 if the folder holds the complete results of this scene and no checkpoint. */
 int       pg_result_finished (const char *folder, const pg_scene *scene);
-/* Does what was still to do in the folder of a finished run that was killed between its last two steps: the
- * faces of cracks come into result.e. PG_E_FILE; PG_E_USAGE: another process uses the folder. */
+/* Does what was still to do in the folder of a finished run that was killed behind its end: the faces of
+ * cracks come into result.e, folders and parts that ranks have left go. PG_E_FILE; PG_E_USAGE: another
+ * process uses the folder. */
 pg_status pg_result_complete (const char *folder);
 /* What pg_result_finish measured against the reference of the scene; NULL if there is none. */
 const pg_errors *pg_result_errors (const pg_result *result);

@@ -4,6 +4,7 @@
  * which makes a folder complete: a result can be opened again with nothing but its folder and
  * the files that the scene names. */
 #include "results_private.h"
+#include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
 #include <limits.h>
@@ -312,4 +313,25 @@ void pg_result_drop_ranks (const char *folder)
     snprintf (path, sizeof path, "%s/ranks", folder);
     if (pg_rank_count () == 1) rmdir (path);
     pg_exodus_drop_parts (folder, pg_ranks_now () ? pg_rank_count () : 0);
+}
+
+/* Ranks that were killed one by one may have left gaps between the numbers. Where fields stay in parts there
+ * is no result.e. */
+void pg_result_drop_finished_ranks (const char *folder)
+{
+    char path[4096];
+    const struct dirent *entry;
+    snprintf (path, sizeof path, "%s/result.e", folder);
+    if (access (path, F_OK) == 0) pg_exodus_drop_parts (folder, 0);
+    snprintf (path, sizeof path, "%s/ranks", folder);
+    DIR *ranks = opendir (path);
+    if (!ranks) return;
+    while ((entry = readdir (ranks)))
+        if (entry->d_name[strspn (entry->d_name, "0123456789")] == '\0') {
+            snprintf (path, sizeof path, "%.3800s/ranks/%.200s", folder, entry->d_name);
+            pg_folder_remove (path);
+        }
+    closedir (ranks);
+    snprintf (path, sizeof path, "%s/ranks", folder);
+    rmdir (path);
 }

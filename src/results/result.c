@@ -142,6 +142,7 @@ pg_status pg_result_open (pg_result **out, const char *folder, const pg_scene *s
     PG_TRY (pg_result_may_open (folder, scene));
     if (pg_rank () == 0) pg_result_drop_ranks (folder);
     PG_TRY (pg_result_remove (r, "report.json"));
+    if (r->in_parts && pg_rank () == 0) PG_TRY (pg_result_remove (r, "result.e"));     /* of an earlier run */
     PG_TRY (pg_result_copy_scene (folder, scene));
     PG_TRY (pg_result_history_create (r, NULL));
     PG_TRY (pg_result_create_fields (r));
@@ -332,6 +333,7 @@ pg_status pg_result_complete (const char *folder)
     PG_TRY (pg_result_lock (folder, &lock));
     snprintf (path, sizeof path, "%s/result.e", folder);
     PG_TRY (pg_exodus_commit_pieces (path));
+    pg_result_drop_finished_ranks (folder);
 done:
     pg_result_unlock (folder, &lock);
     return status;

@@ -182,6 +182,8 @@ pg_status pg_result_collect_broken (const pg_result *r, const pg_step *step, siz
 void      pg_result_parts_json   (pg_json *j, const pg_result *r);
 /* folder.c: removes what an earlier run of more ranks, or of another number, has left in the folder. */
 void      pg_result_drop_ranks   (const char *folder);
+/* Removes what ranks that were killed behind the end of their run have left: rows, parts of joined fields. */
+void      pg_result_drop_finished_ranks (const char *folder);
 /* joined_fields.c: the parts of all ranks become result.e; nothing alone. */
 pg_status pg_result_join_fields (pg_result *r);
 int       pg_result_in_parts    (const pg_result *r, const char *join);

@@ -40,7 +40,9 @@ for way in "explicit signal" "explicit kill" "row signal" "rest kill" "facets si
         begin $rows "$work/some" "${arguments[@]}"; kill -USR1 $run; ended
         [ $code -eq 130 ] && grep -q 'continue with: mpirun -n 3 perigal-mpi run' "$work/err"; verdict "$name: a signal that mpirun passes on ends it, said how to go on" $?
     else
-        begin $rows "$work/some" "${arguments[@]}"; left=$(pid "$work/some" 0; pid "$work/some" 1; pid "$work/some" 2); kill -KILL $run; ended
+        begin $rows "$work/some" "${arguments[@]}"; left=$(pid "$work/some" 0; pid "$work/some" 1; pid "$work/some" 2)
+        # without mpirun ranks may come to their end; those of rest are to leave checkpoints
+        kill -KILL $run; [ $name = rest ] && kill -KILL $left 2> /dev/null; ended
         [ ! -e "$work/some/report.json" ]; verdict "$name: mpirun is killed" $?
         while kill -0 $left 2> /dev/null; do sleep 0.1; done
     fi
@@ -126,6 +128,17 @@ rm -rf "$work/some"
 begin 20 "$work/some" "${explicit[@]}"; prlimit --pid "$(pid "$work/some" 2)" --fsize=1000; ended
 [ $code -eq 70 ] && grep -q 'ranks/2/.*: File too large' "$work/err"; verdict "so do tables and checkpoints" $?
 same explicit "$work/some"; verdict "the checkpoints before it serve" $?
+
+# killed behind the end, when the folders of some ranks are gone already: the run is whole, and what the others left goes
+mkdir -p "$work/some/ranks/2"; cp "$work/some/history.csv" "$work/some/report.json" "$work/some/ranks/2/"; cp "$work/some/result.e" "$work/some/result.e.3.0"
+same explicit "$work/some"; verdict "what ranks left that were killed behind the end of their run goes" $?
+# where the parts are the result they stay, and no other run's result.e does
+cp "$work/some/result.e" "$work/old.e"
+parts=("${row[@]}" --set output.join=no --set solver.time_steps=30 -o "$work/parts")
+mkdir -p "$work/parts"; mv "$work/old.e" "$work/parts/result.e"
+ranks 3 "${parts[@]}" --force && [ ! -e "$work/parts/result.e" ]; verdict "fields that stay in parts: the result.e of an earlier run goes" $?
+mkdir -p "$work/parts/ranks/1"; ranks 3 "${parts[@]}" --resume && [ ! -e "$work/parts/ranks" ] && [ -e "$work/parts/result.e.3.2" ]
+verdict "parts that are the result stay" $?
 
 # what other numbers of ranks have left is not in the way
 rm "$work/some/report.json"; mkdir -p "$work/some/ranks/7"; : > "$work/some/result.e.8.7"; mkdir -p "$work/some/ranks/3" "$work/some/ranks/4"
