@@ -35,8 +35,9 @@ static double largest_reference (pg_system *s)
     return fmax (s->lever * sum, s->borne);
 }
 
-/* The loads of t are known from now on: by the force on points at rest but for prescribed displacements.
- * `best` and `scratch` are free before a solve. */
+/* The loads of t are known from now on: by the force on points at rest but for prescribed displacements, and
+ * by the reference that the force itself has there: free strains load a body by forces that may balance each
+ * other where it may not grow. `best` and `scratch` are free before a solve. */
 static pg_status know_loads (pg_system *s, double t)
 {
     pg_status status = PG_OK;
@@ -55,7 +56,7 @@ static pg_status know_loads (pg_system *s, double t)
     PG_TRY (system_exchange (s, d));
     PG_TRY (s->force->balance (s->self, t, d, s->scratch, &reference));
     system_clear_ghosts (s, s->scratch);
-    s->loaded = system_norm (s, s->scratch, s->ndof), s->loaded_at = t;
+    s->loaded = fmax (reference, system_norm (s, s->scratch, s->ndof)), s->loaded_at = t;
     s->lever = fmax (1, system_most (s, length) / p->cloud.h);
 done:
     return status;
