@@ -26,6 +26,14 @@ void body_part_move (const body_part *part, int dim, const double *x, const doub
         u[k] = m[k] + m[3 + (k + 1) % 3] * r[(k + 2) % 3] - m[3 + (k + 2) % 3] * r[(k + 1) % 3];
 }
 
+void body_part_shift (const pg_system *s, const body_part *part, const double *x, const double *m, double *u)
+{
+    int dim = s->problem->dim;
+    body_part_move (part, dim, x, m, u);
+    for (int k = dim; k < s->components; k++)
+        u[k] = m[dim == 2 ? 5 : k] * s->problem->cloud.h / part->size;
+}
+
 void body_part_place (const pg_problem *p, const body_part *part, char *text, size_t size)
 {
     double all = p->cloud.subdomain ? (double) p->cloud.subdomain->total : (double) p->cloud.n;
@@ -131,7 +139,7 @@ static pg_status measure (body_parts *out, const pg_problem *p)
         most[out->of[i]] = fmax (most[out->of[i]], sqrt (square));
     }
     PG_TRY (pg_ranks_most (out->n, most));
-    for (size_t r = 0; r < out->n; r++) out->part[r].size = most[r];
+    for (size_t r = 0; r < out->n; r++) out->part[r].size = most[r] > 0 ? most[r] : p->cloud.h;
 done:
     pg_free (sum), pg_free (most);
     return status;
@@ -174,46 +182,51 @@ static void resist (const body_part *part, int dim, const pg_load *load, const d
     }
 }
 
-/* What points move by motions, as squares in `moved`: turns of a part about the line that all its points lie
- * on, or about its only point, move none. They count as resisted, unless points turn by themselves. */
-static const double NO_MOTION = 1e-12;
-static pg_status drop_no_motions (body_parts *out, const pg_system *s, double *A)
+/* A motion moves nothing where its squares are less than this of the largest. */
+static const double STILL = 1e-12;
+
+/* Motions that move no unknown count as held: those of points in a line about it, or of a point alone,
+ * unless points have rotations of their own. moved: n x n, squares of displacements of its points; A: of what
+ * supports resist. */
+static void hold_still_motions (const pg_system *s, body_part *part, double *moved, double *A)
 {
-    pg_status status = PG_OK;
-    const pg_problem *p = s->problem;
+    const int *which;
+    size_t n = numbers_of (s->problem->dim, &which), still = 0, last = 0;
+    double value[MOST], V[SQUARES], all = 0, turn = s->problem->cloud.h / part->size;
+    int pass = s->components > s->problem->dim;
+    pg_dense_eigen ((int) n, moved, value, V);
+    for (size_t a = 0; a < n; a++) if (!(value[a] > STILL * value[0])) still++, last = a;
+    part->line = s->problem->dim == 3 && part->points > 1 && still == 1;
+    for (size_t b = 3; b < n && part->line; b++) part->axis[b - 3] = V[b * n + last];
+    for (size_t a = 0; a < n; a++) all += A[a * n + a];
+    for (size_t a = 0; a < n; a++) {
+        double own = 0;                                /* rotations of the points themselves */
+        for (size_t b = 0; b < n && pass; b++)
+            if (which[b] >= 3) own += (double) part->points * V[b * n + a] * V[b * n + a] * turn * turn;
+        if (value[a] + own > STILL * value[0]) continue;
+        for (size_t b = 0; b < n; b++)
+            for (size_t c = 0; c < n; c++) A[b * n + c] += (all > 0 ? all : 1) * V[b * n + a] * V[c * n + a];
+    }
+}
+
+/* Squares of how the points of every part move by each motion: n x n a part, of all ranks. */
+static pg_status square_motions (const body_parts *out, const pg_problem *p, double *moved)
+{
     const int *which;
     size_t dim = (size_t) p->dim, n = numbers_of (p->dim, &which);
-    double *moved = NULL;
-    PG_ALLOC (moved, SQUARES * out->n);
     for (size_t i = 0; i < p->cloud.n; i++) {
-        const body_part *part = &out->part[out->of[i]];
-        double u[MOST][3], *to = moved + SQUARES * (size_t) out->of[i];
+        double u[MOST][3], *sum = moved + SQUARES * (size_t) out->of[i];
         if (!pg_owns (p->cloud.subdomain, i)) continue;
         for (size_t a = 0; a < n; a++) {
             rigid_motion m = { 0 };
             m[which[a]] = 1;
-            body_part_move (part, p->dim, p->cloud.x + i * dim, m, u[a]);
+            body_part_move (&out->part[out->of[i]], p->dim, p->cloud.x + i * dim, m, u[a]);
         }
         for (size_t a = 0; a < n; a++)
             for (size_t b = 0; b < n; b++)
-                for (size_t k = 0; k < dim; k++) to[a * n + b] += u[a][k] * u[b][k];
+                for (size_t k = 0; k < dim; k++) sum[a * n + b] += u[a][k] * u[b][k];
     }
-    PG_TRY (pg_ranks_sum (SQUARES * out->n, moved));
-    for (size_t r = 0; r < out->n; r++) {
-        double value[MOST], V[SQUARES], *to = A + SQUARES * r, size = 0;
-        pg_dense_eigen ((int) n, moved + SQUARES * r, value, V);
-        for (size_t a = 0; a < n; a++) size += to[a * n + a];
-        for (size_t a = 0; a < n; a++) {
-            if (value[a] > NO_MOTION * value[0]) continue;
-            out->part[r].row = p->dim > 1 && out->part[r].points > 1;
-            if (s->components != p->dim) continue;
-            for (size_t b = 0; b < n * n; b++)
-                to[b] += (size > 0 ? size : 1) * V[b / n * n + a] * V[b % n * n + a];
-        }
-    }
-done:
-    pg_free (moved);
-    return status;
+    return pg_ranks_sum (SQUARES * out->n, moved);
 }
 
 /* The motions of every part that nothing resists. */
@@ -223,8 +236,9 @@ static pg_status find_free (body_parts *out, const pg_system *s)
     const pg_problem *p = s->problem;
     const int *which;
     size_t dim = (size_t) p->dim, n = numbers_of (p->dim, &which);
-    double *A = NULL;
+    double *A = NULL, *moved = NULL;
     PG_ALLOC (A, SQUARES * out->n);
+    PG_ALLOC (moved, SQUARES * out->n);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (!pg_load_prescribes (load) && load->kind != PG_SPRING) continue;
@@ -235,10 +249,11 @@ static pg_status find_free (body_parts *out, const pg_system *s)
         }
     }
     PG_TRY (pg_ranks_sum (SQUARES * out->n, A));
-    PG_TRY (drop_no_motions (out, s, A));
+    PG_TRY (square_motions (out, p, moved));
     for (size_t r = 0; r < out->n; r++) {
         body_part *part = &out->part[r];
         double value[MOST], V[SQUARES];
+        hold_still_motions (s, part, moved + SQUARES * r, A + SQUARES * r);
         pg_dense_eigen ((int) n, A + SQUARES * r, value, V);
         for (size_t a = 0; a < n; a++) {
             if (value[a] > HELD * value[0] && value[0] > 0) continue;
@@ -248,7 +263,7 @@ static pg_status find_free (body_parts *out, const pg_system *s)
         }
     }
 done:
-    pg_free (A);
+    pg_free (A), pg_free (moved);
     return status;
 }
 

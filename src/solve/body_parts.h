@@ -11,8 +11,10 @@
 typedef double rigid_motion[6];
 typedef struct {
     size_t points;                                     /* of all ranks */
-    double middle[3], size;  /* mean place of its points; of the farthest from it the distance, m */
-    int row;                                           /* 1: its points, two or more, lie on one line */
+    double middle[3], size;  /* mean place of its points; of the farthest from it the distance, m; of a
+                              * point alone the spacing */
+    int    line;                                       /* its points stand in a line */
+    double axis[3];                                    /* along it, unit */
     size_t n;                                          /* motions that supports and springs leave free */
     rigid_motion motion[6];
 } body_part;
@@ -26,6 +28,10 @@ pg_status body_parts_find  (body_parts *out, const pg_system *s);
 void      body_parts_clear (body_parts *parts);
 /* Displacement of the point at x by such a motion. */
 void      body_part_move (const body_part *part, int dim, const double *x, const double *motion, double *u);
+/* The same of all unknowns of the point, with rotations of its own (times the spacing, as micropolar forces
+ * have them), m. u: 6 */
+void      body_part_shift (const pg_system *s, const body_part *part, const double *x, const double *motion,
+                           double *u);
 /* "500 of its 1000 points, around (x, y) m"; "along (0, 1)", "about z through (x, y) m". */
 enum { BODY_PART_WORDS = 160 };
 void      body_part_place (const pg_problem *p, const body_part *part, char *text, size_t size);

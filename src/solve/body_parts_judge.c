@@ -16,20 +16,24 @@ static const double NOTHING = 1e-13;
 static const double NOWHERE = 1e6;
 /* A motion counts as free where this much of it is among the free ones. */
 static const double AMONG = 1 - 1e-6;
+/* An axis counts as across a line where less than this of it is along the line. */
+static const double ALMOST = 1e-5;
 
-/* Work of the loads along the free motions of each part, and the sum of the sizes of its loads, N. */
+/* Work of the loads along the free motions of each part, and the sum of the sizes of its loads, N (moments on
+ * points as what they work on their unknowns). spin: sum of the moments, over the spacing, that turn points
+ * in a line about it where no rotation is prescribed: bonds bear no twist. */
 typedef struct {
     const pg_system *s;
     body_parts parts;
     double *work;                                      /* MOST a part */
-    double *size, all;                                 /* of each part; of the body */
+    double *size, *spin, all;                          /* of each part; of the body */
 } along_motions;
 enum { MOST = 6 };
 
 static void clear (along_motions *w)
 {
     body_parts_clear (&w->parts);
-    pg_free (w->work), pg_free (w->size);
+    pg_free (w->work), pg_free (w->size), pg_free (w->spin);
 }
 
 /* Forces at t on points at rest, with those of contact at hand and of what was removed, N (ndof). */
@@ -49,39 +53,58 @@ done:
     return status;
 }
 
+/* Does a prescribed rotation keep points from turning about the line that their part is? turned: one a
+ * point. */
+static void hold_spins (const along_motions *w, char *turned)
+{
+    const pg_problem *p = w->s->problem;
+    for (size_t l = 0; l < p->nload; l++) {
+        const pg_load *load = &p->load[l];
+        if (!pg_load_prescribes (load) || !pg_load_rotates (load)) continue;
+        for (size_t i = 0; i < load->set->npoint; i++) {
+            const body_part *part = &w->parts.part[w->parts.of[load->set->point[i]]];
+            for (int k = 0; k < 3 && part->line; k++)
+                if (load->value[k] && fabs (part->axis[k]) > ALMOST) turned[load->set->point[i]] = 1;
+        }
+    }
+}
+
 static pg_status add_up (along_motions *w, const double *force)
 {
     pg_status status = PG_OK;
     const pg_problem *p = w->s->problem;
     size_t dim = (size_t) p->dim, components = (size_t) w->s->components;
+    char *turned = NULL;
     if (!w->parts.n) return PG_OK;
     PG_ALLOC (w->work, MOST * w->parts.n);
     PG_ALLOC (w->size, w->parts.n);
+    PG_ALLOC (w->spin, w->parts.n);
+    PG_ALLOC (turned, p->cloud.n);
+    hold_spins (w, turned);
     for (size_t i = 0; i < p->cloud.n; i++) {
-        const body_part *part = &w->parts.part[w->parts.of[i]];
+        size_t r = (size_t) w->parts.of[i];
+        const body_part *part = &w->parts.part[r];
         const double *f = force + i * components;
-        double square = 0;
-        for (size_t k = 0; k < dim; k++) square += f[k] * f[k];
+        double square = 0, spin = 0;
+        for (size_t k = 0; k < components; k++) square += f[k] * f[k];
         if (square == 0 || !pg_owns (p->cloud.subdomain, i)) continue;
-        w->size[w->parts.of[i]] += sqrt (square);
+        w->size[r] += sqrt (square);
         for (size_t j = 0; j < part->n; j++) {
-            double u[3];
-            body_part_move (part, p->dim, p->cloud.x + i * dim, part->motion[j], u);
-            for (size_t k = 0; k < dim; k++) w->work[MOST * (size_t) w->parts.of[i] + j] += f[k] * u[k];
+            double u[MOST];
+            body_part_shift (w->s, part, p->cloud.x + i * dim, part->motion[j], u);
+            for (size_t k = 0; k < components; k++) w->work[MOST * r + j] += f[k] * u[k];
         }
+        for (size_t k = dim; k < components && part->line && !turned[i]; k++)
+            spin += f[k] * part->axis[k - dim];
+        w->spin[r] += fabs (spin);
     }
     PG_TRY (pg_ranks_sum (MOST * w->parts.n, w->work));
     PG_TRY (pg_ranks_sum (w->parts.n, w->size));
+    PG_TRY (pg_ranks_sum (w->parts.n, w->spin));
     for (size_t r = 0; r < w->parts.n; r++) w->all += w->size[r];
 done:
+    pg_free (turned);
     return status;
-}
-
-/* Moments on points that turn by themselves are not in these sums: nothing is said of rotations then. */
-static int has_moments (const pg_problem *p)
-{
-    for (size_t l = 0; l < p->nload; l++) if (p->load[l].kind == PG_MOMENT) return 1;
-    return 0;
 }
 
 /* Share of what loads do that stays unbalanced along a motion (unit) of a part; *work: how much, N. 0 where
@@ -104,15 +127,11 @@ static double unbalanced (const along_motions *w, size_t r, const double *motion
 static double worst_motion (const along_motions *w, size_t r, double *motion)
 {
     const body_part *part = &w->parts.part[r];
-    int turns = !has_moments (w->s->problem);
     double size = 0, work;
     memset (motion, 0, sizeof (rigid_motion));
     for (size_t j = 0; j < part->n; j++)
         for (int a = 0; a < MOST; a++) motion[a] += w->work[MOST * r + j] * part->motion[j][a];
-    for (int a = 0; a < MOST; a++) {
-        if (!turns && a >= 3) motion[a] = 0;
-        size += motion[a] * motion[a];
-    }
+    for (int a = 0; a < MOST; a++) size += motion[a] * motion[a];
     for (int a = 0; a < MOST && size > 0; a++) motion[a] /= sqrt (size);
     return size > 0 ? unbalanced (w, r, motion, &work) : 0;
 }
@@ -186,6 +205,25 @@ done:
     return status;
 }
 
+/* Points in a line that moments turn about it. */
+static pg_status refuse_spin (const along_motions *w, size_t r)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = w->s->problem;
+    const body_part *part = &w->parts.part[r];
+    words by = { .used = 0 };
+    char place[BODY_PART_WORDS];
+    body_part_place (p, part, place, sizeof place);
+    PG_TRY (say_loads (&by, w, r));
+    status = pg_error (PG_E_EQUILIBRIUM, PG_HERE,
+                       "a part of the body, %s, is a line of points, each of which is free to turn about it, "
+                       "along (%.3g, %.3g, %.3g), for bonds bear no twist: moments of %.3g N m about it find "
+                       "no resistance%s; prescribe a rotation there, or give the line points beside it",
+                       place, part->axis[0], part->axis[1], part->axis[2], w->spin[r] * p->cloud.h, by.text);
+done:
+    return status;
+}
+
 /* Names the part whose loads are out of balance most. */
 static pg_status refuse (const along_motions *w, size_t r)
 {
@@ -195,6 +233,8 @@ static pg_status refuse (const along_motions *w, size_t r)
     words where = { .used = 0 }, how = { .used = 0 }, by = { .used = 0 };
     double all = p->cloud.subdomain ? (double) p->cloud.subdomain->total : (double) p->cloud.n;
     char place[BODY_PART_WORDS];
+    rigid_motion m;
+    if (!(worst_motion (w, r, m) > w->s->options->tolerance)) return refuse_spin (w, r);
     body_part_place (p, part, place, sizeof place);
     if ((double) part->points == all) say (&where, "nothing holds the body");
     else say (&where, "a loose part of the body, %s, is held by nothing", place);
@@ -231,6 +271,7 @@ static size_t worst_part (const along_motions *w)
     for (size_t r = 0; r < w->parts.n; r++) {
         rigid_motion m;
         double share = worst_motion (w, r, m);
+        if (w->size[r] > NOTHING * w->all) share = fmax (share, w->spin[r] / w->size[r]);
         if (share > most) worst = r, most = share;
     }
     return worst;
@@ -273,27 +314,17 @@ done:
     return status;
 }
 
-/* Points turn with rotations of their own: what is known of these motions is then how they translate. */
-static size_t known_motions (const pg_system *s, const body_part *part, rigid_motion *out)
-{
-    size_t n = 0;
-    for (size_t j = 0; j < part->n; j++) {
-        double turns = 0;
-        for (int a = 3; a < MOST; a++) turns = fmax (turns, fabs (part->motion[j][a]));
-        if (s->components == s->problem->dim || turns < 1e-9) memcpy (out[n++], part->motion[j], sizeof *out);
-    }
-    return n;
-}
-
-/* Means along the free motions of a part: least squares over its points, by the normal equations. */
+/* Means along the free motions of a part: least squares over the unknowns of its points, by the normal
+ * equations. */
 enum { NORMAL = MOST * MOST + MOST };
-static void add_normal (const rigid_motion *m, size_t n, const body_part *part, int dim, const double *x,
-                        const double *d, double *sum)
+static void add_normal (const pg_system *s, const body_part *part, const double *x, const double *d,
+                        double *sum)
 {
-    double u[MOST][3];
-    for (size_t a = 0; a < n; a++) body_part_move (part, dim, x, m[a], u[a]);
+    double u[MOST][MOST];
+    size_t n = part->n;
+    for (size_t a = 0; a < n; a++) body_part_shift (s, part, x, part->motion[a], u[a]);
     for (size_t a = 0; a < n; a++)
-        for (int k = 0; k < dim; k++) {
+        for (int k = 0; k < s->components; k++) {
             for (size_t b = 0; b < n; b++) sum[a * n + b] += u[a][k] * u[b][k];
             sum[MOST * MOST + a] += u[a][k] * d[k];
         }
@@ -306,32 +337,27 @@ pg_status body_parts_centre (pg_system *s, double *d)
     const body_parts *parts = s->floating;
     size_t dim = (size_t) p->dim, components = (size_t) s->components;
     double *sum = NULL;
-    rigid_motion m[MOST];
     if (!parts) return PG_OK;
     PG_ALLOC (sum, NORMAL * parts->n);
     for (size_t i = 0; i < p->cloud.n; i++) {
         size_t r = (size_t) parts->of[i];
         if (!parts->part[r].n || !pg_owns (p->cloud.subdomain, i)) continue;
-        size_t n = known_motions (s, &parts->part[r], m);
-        add_normal (m, n, &parts->part[r], p->dim, p->cloud.x + i * dim, d + i * components,
-                    sum + NORMAL * r);
+        add_normal (s, &parts->part[r], p->cloud.x + i * dim, d + i * components, sum + NORMAL * r);
     }
     PG_TRY (pg_ranks_sum (NORMAL * parts->n, sum));
     for (size_t r = 0; r < parts->n; r++) {
         double *A = sum + NORMAL * r, *amount = A + MOST * MOST;
-        size_t n = known_motions (s, &parts->part[r], m);
+        size_t n = parts->part[r].n;
         if (n == 0) continue;
         if (pg_dense_cholesky ((int) n, A, 1e-12)) memset (amount, 0, n * sizeof *amount);
         else pg_dense_solve ((int) n, A, amount);
     }
     for (size_t i = 0; i < p->cloud.n; i++) {
         size_t r = (size_t) parts->of[i];
-        if (!parts->part[r].n) continue;
-        size_t n = known_motions (s, &parts->part[r], m);
-        for (size_t a = 0; a < n; a++) {
-            double u[3], by = sum[NORMAL * r + MOST * MOST + a];
-            body_part_move (&parts->part[r], p->dim, p->cloud.x + i * dim, m[a], u);
-            for (size_t k = 0; k < dim; k++) d[i * components + k] -= by * u[k];
+        for (size_t a = 0; a < parts->part[r].n; a++) {
+            double u[MOST], by = sum[NORMAL * r + MOST * MOST + a];
+            body_part_shift (s, &parts->part[r], p->cloud.x + i * dim, parts->part[r].motion[a], u);
+            for (size_t k = 0; k < components; k++) d[i * components + k] -= by * u[k];
         }
     }
 done:
@@ -400,7 +426,7 @@ static int say_row (words *out, const along_motions *w)
     for (size_t r = 0; r < w->parts.n; r++) {
         const body_part *part = &w->parts.part[r];
         char place[BODY_PART_WORDS];
-        if (!part->row || s->force->method.shape_functions) continue;
+        if (!part->line || s->force->method.shape_functions) continue;
         body_part_place (s->problem, part, place, sizeof place);
         say (out, "; points of a part of the body, %s, stand in one row: bonds along one line resist no %s; "
                   "use a smaller spacing, so that it is several points wide", place,

@@ -128,7 +128,7 @@ static void a_chain_twists_freely (void **state)
     unlink (path);
 }
 
-/* A moment about the chain finds no resistance: the row of points is named, whoever solves. */
+/* A moment about the chain finds no resistance: said so, whoever solves. */
 static void a_loaded_twist_is_refused (void **state)
 {
     (void) state;
@@ -143,9 +143,49 @@ static void a_loaded_twist_is_refused (void **state)
             "solver: {kind: static, linear: %s}\noutput: {at: {levels: 1}}\n",
             linear[k]);
         assert_true (pg_solver_step (r.solver, r.state, &r.step) != PG_OK);
-        check_contains (pg_last_error (), "stand in one row: bonds along one line resist no twist about it");
+        check_contains (pg_last_error (), "12 of its 12 points, around (6, 0.5, 0.5) m, is a line of "
+                                          "points");
+        check_contains (pg_last_error (), "moments of 1e+03 N m about it find no resistance; it is loaded "
+                                          "by r");
         clear (&r);
     }
+}
+
+/* Forces at two sides of a body that nothing holds turn it about z; moments on its points hold it, or do
+ * not. */
+static void moments_on_points_balance_forces (void **state)
+{
+    (void) state;
+    static const char *const body[] = { "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [6, 10]}}}]\n",
+                                        "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [3, 10, "
+                                        "2]}}}]\n" };
+    static const char *const moment[] = { "1.8e4", "-1.8e4" };
+    for (int dim = 2; dim <= 3; dim++)
+        for (int k = 0; k < 4; k++) {
+            int balance = k % 2 == 0;
+            run r = scene_of (
+                1,
+                "%sspacing: 1\nlattice: cells\n" STONE
+                "method: {force: gmpd, accept_inexact: yes}\n"
+                "sets: {low: {where: 'y < 1'}, high: {where: 'y > 9'}, in: {where: 'y > 4 and y < 6'}}\n"
+                "boundary: [{set: low, force: {x: -2 kN}}, {set: high, force: {x: 2 kN}}, {set: in, moment: "
+                "{z: %s}}]\n"
+                "solver: {kind: static, linear: %s}\noutput: {at: {levels: 1}}\n",
+                body[dim - 2], moment[!balance], k < 2 ? "cholmod" : "pcg");
+            pg_status status = pg_solver_step (r.solver, r.state, &r.step);
+            if (balance) {
+                size_t unknowns = (size_t) (3 * dim - 3);
+                double along = 0;
+                check_ok (status);
+                for (size_t i = 0; i < r.problem->cloud.n; i++) along += r.state->d[i * unknowns];
+                check_below (fabs (along), 1e-9 * largest_of (r.state->d, r.state->ndof));
+            } else {
+                assert_int_equal (status, PG_E_EQUILIBRIUM);
+                check_contains (pg_last_error (), "nothing holds the body: it is free to move about z "
+                                                  "(3.6e+04 N m), where its loads do not balance");
+            }
+            clear (&r);
+        }
 }
 
 /* ---- other sides --------------------------------------------------------------------------------------- */
@@ -360,7 +400,9 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_bond_breaks_at_its_limits), cmocka_unit_test (a_chain_twists_freely),
-        cmocka_unit_test (a_loaded_twist_is_refused),   cmocka_unit_test (the_same_block_from_all_sides),
+        cmocka_unit_test (a_loaded_twist_is_refused),
+        cmocka_unit_test (moments_on_points_balance_forces),
+        cmocka_unit_test (the_same_block_from_all_sides),
         cmocka_unit_test (threads_change_no_bit),       cmocka_unit_test (newmark_keeps_energy),
         cmocka_unit_test (work_of_a_turning_end),       cmocka_unit_test (what_breaking_takes_stays_taken)
     };
