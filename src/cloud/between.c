@@ -41,6 +41,8 @@ static const double AWAY = -0.02, SMOOTH = 0.5, LONG = 0.5;
 /* How far from a point outside the body is looked for, spacings; how far within it its eye lies, and of
  * nodes of a mesh the share of the way to the middle of their elements. */
 static const double REACH = 2, WITHIN = 1e-6, INWARD = 1e-5;
+/* How far beside a place on the surface the body is looked for, times `near`. */
+static const double BESIDE = 16;
 
 /* ---- one way ------------------------------------------------------------------------------------------- */
 /* Of an alpha shape with a rim a gap of its simplices counts only where it is wider than the rim fills. */
@@ -192,28 +194,82 @@ int pg_between_look (const pg_between *b, const double *low, const double *high,
 }
 
 /* ---- where places look from ---------------------------------------------------------------------------- */
+/* Direction c of those along the axes and the diagonals, a unit vector. */
+static void direction (int dim, int c, double *d)
+{
+    for (int k = 0; k < dim; k++)
+        d[k] = c < 2 * dim ? (c / 2 == k) * (c % 2 ? 1 : -1)
+                           : ((c - 2 * dim) >> k & 1 ? 1 : -1) / sqrt (dim);
+}
+
+static int directions (int dim) { return 2 * dim + (1 << dim); }
+
+/* Has the body shapes with faces of their own, which do not tell how deep within them a place is? */
+static int meshed (const pg_between *b)
+{
+    for (size_t i = 0; i < b->n; i++) if (b->member[i].faces) return 1;
+    return 0;
+}
+
+/* Does a place lie in the body, and where does it look from? A place on the surface looks from just inside
+ * it. In the end of a bore or slot that is as long as the body is thick there is surface on which a place
+ * has no body beside it: it lies outside. */
+static int stands (const pg_between *b, const double *x, double *eye)
+{
+    double sum[3] = { 0 }, size = 0, place[3];
+    int beside = 0, dim = b->dim;
+    if (!pg_body_inside (b->body, x, b->near)) return 0;
+    if (meshed (b) || pg_body_inside (b->body, x, -b->near)) return 1;
+    for (int c = 0; c < directions (dim); c++) {
+        double d[3];
+        direction (dim, c, d);
+        for (int k = 0; k < dim; k++) place[k] = x[k] + BESIDE * b->near * d[k];
+        if (!pg_body_inside (b->body, place, -b->near)) continue;
+        beside = 1;
+        for (int k = 0; k < dim; k++) sum[k] += d[k];
+    }
+    for (int k = 0; k < dim; k++) size += sum[k] * sum[k];
+    if (!(size > 1e-6)) return beside;
+    for (int k = 0; k < dim; k++) place[k] = x[k] + BESIDE * b->near * sum[k] / sqrt (size);
+    if (pg_body_inside (b->body, place, -b->near)) memcpy (eye, place, (size_t) dim * sizeof *eye);
+    return 1;
+}
+
+/* The nearest place of the body along the axes and the diagonals from `from`, a place outside, if it is
+ * nearer than *best. */
+static void seek (const pg_between *b, const double *from, double h, double *best, double *found)
+{
+    for (int c = 0; c < directions (b->dim); c++) {
+        between_way w = { .dim = b->dim, .near = b->near, .length = REACH * h };
+        between_gaps g;
+        direction (b->dim, c, w.d);
+        for (int k = 0; k < b->dim; k++) w.x[k] = from[k], w.d[k] *= w.length;
+        gaps_along (&g, b, NULL, &w);
+        for (int i = 0; i < g.n; i++) {
+            double t = g.gap[i].t[1], place[3];
+            if (g.gap[i].t[0] > 0 || !(t >= 0 && t <= 1) || !(t < *best * (1 - 1e-9))) continue;
+            for (int k = 0; k < b->dim; k++) place[k] = from[k] + (t + WITHIN / REACH) * w.d[k];
+            if (!meshed (b) && !pg_body_inside (b->body, place, -b->near)) continue;
+            *best = t;
+            memcpy (found, place, (size_t) b->dim * sizeof *found);
+        }
+    }
+}
+
 void pg_between_eye (const pg_between *b, const double *x, double *eye)
 {
     double best = INFINITY, h, found[3] = { 0 };
     memcpy (eye, x, (size_t) b->dim * sizeof *x);
-    if (!b->body || pg_body_inside (b->body, x, b->near)) return;
+    if (!b->body || stands (b, x, eye)) return;
     h = spacing_at (b, x);
-    for (int c = 0; c < 2 * b->dim + (1 << b->dim); c++) {
-        between_way w = { .dim = b->dim, .near = b->near, .length = REACH * h };
-        between_gaps g;
-        for (int k = 0; k < b->dim; k++) {
-            double axis = (c / 2 == k) * (c % 2 ? 1 : -1),
-                   diagonal = ((c - 2 * b->dim) >> k & 1 ? 1 : -1) / sqrt (b->dim);
-            w.x[k] = x[k], w.d[k] = w.length * (c < 2 * b->dim ? axis : diagonal);
+    if (!pg_body_inside (b->body, x, b->near)) seek (b, x, h, &best, found);
+    else
+        for (int c = 0; c < directions (b->dim); c++) {
+            double from[3];
+            direction (b->dim, c, from);
+            for (int k = 0; k < b->dim; k++) from[k] = x[k] + BESIDE * b->near * from[k];
+            seek (b, from, h, &best, found);
         }
-        gaps_along (&g, b, NULL, &w);
-        for (int i = 0; i < g.n; i++) {
-            double t = g.gap[i].t[1];
-            if (g.gap[i].t[0] > 0 || !(t >= 0 && t <= 1) || !(t < best * (1 - 1e-9))) continue;
-            best = t;
-            for (int k = 0; k < b->dim; k++) found[k] = x[k] + (t + WITHIN / REACH) * w.d[k];
-        }
-    }
     if (best <= 1) memcpy (eye, found, (size_t) b->dim * sizeof *x);
 }
 
@@ -259,7 +315,7 @@ done:
     return status;
 }
 
-/* Of the points outside the body, if there are any. */
+/* Of the points outside the body or on its surface, if there are any. */
 static pg_status draw_back (pg_between *b)
 {
     pg_status status = PG_OK;
@@ -268,8 +324,8 @@ static pg_status draw_back (pg_between *b)
     for (size_t i = 0; i < c->n; i++) {
         double eye[3];
         const double *x = c->x + i * dim;
-        if (pg_body_inside (b->body, x, b->near)) continue;
         pg_between_eye (b, x, eye);
+        if (!memcmp (eye, x, dim * sizeof *x)) continue;
         if (!b->eye) {
             PG_ALLOC (b->eye, c->n * dim);
             memcpy (b->eye, c->x, c->n * dim * sizeof *eye);

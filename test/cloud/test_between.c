@@ -50,6 +50,35 @@ static int parted (const made *m, const double *x, const double *y)
 #define PLANE(m, a, b, c, d) parted (&(m), (const double[]) { a, b }, (const double[]) { c, d })
 #define SOLID(m, a, b, c, d, e, f) parted (&(m), (const double[]) { a, b, c }, (const double[]) { d, e, f })
 
+/* Places on the end of a bore that is as long as the block is thick look from its wall, not through the
+ * end; and a slot parts places on the faces that it ends on. */
+static void ends_on_a_face_of_the_block_are_void (void **state)
+{
+    (void) state;
+    made m;
+    make (&m, 3,
+          "  - add: {box: {low: [0, 0, 0], high: [9, 9, 4]}}\n"
+          "  - subtract: {cylinder: {center: [4.5, 4.5, 0], radius: 2, length: 4}}\n",
+          "");
+    for (int z = 0; z <= 4; z += 4) {
+        assert_false (SOLID (m, 2.75, 4.5, z, 2.25, 4.5, 2));
+        assert_false (SOLID (m, 3, 4.5, z, 2, 4, 3));
+        assert_false (SOLID (m, 3, 4.5, z, 2, 5, 1));
+    }
+    unmake (&m);
+    make (&m, 3,
+          "  - add: {box: {low: [0, 0, 0], high: [9, 9, 4]}}\n"
+          "  - subtract: {box: {low: [4, 2, 0], high: [4.4, 9, 4]}}\n",
+          "");
+    for (int z = 0; z <= 4; z += 2) {
+        assert_true (SOLID (m, 3.8, 5, z, 4.5, 5, z));
+        assert_true (SOLID (m, 4, 5, z, 4.4, 5.5, z));
+        assert_false (SOLID (m, 3.8, 5, z, 4, 7, z));
+        assert_false (SOLID (m, 3.8, 1, z, 4.5, 2, z));
+    }
+    unmake (&m);
+}
+
 static void one_convex_shape_parts_nothing (void **state)
 {
     (void) state;
@@ -174,6 +203,7 @@ static void families_end_at_a_slot (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (ends_on_a_face_of_the_block_are_void),
         cmocka_unit_test (one_convex_shape_parts_nothing), cmocka_unit_test (a_slot_parts_however_narrow),
         cmocka_unit_test (another_body_is_apart),          cmocka_unit_test (smooth_chords_stay),
         cmocka_unit_test (the_same_in_space),              cmocka_unit_test (families_end_at_a_slot),
