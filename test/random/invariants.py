@@ -1,0 +1,445 @@
+"""What must hold of every run, whatever the scene. Each function is one invariant: it yields messages, none where it holds.
+
+An invariant asks for the runs that it needs; where its scene is not for it (mirror image of moved points, doubled loads of a body that breaks) it yields
+nothing. A refusal of an image of a scene that ran is a violation too: whether a scene can be computed does not depend on the unit or on the place.
+"""
+import copy
+import math
+
+from images import Image, mirror, quarter, turn
+from runs import DONE, FAILED, INTERRUPTED, REFUSED, USAGE
+
+LINEAR = ('elastic', 'tips')
+SAME = 1e-7                    # rounding, seen through the condition of a system
+EVENTS = 1e-5                  # loads of events, which follow each other
+
+
+class Case:
+    """A scene with the program that runs it; `base` is its own run."""
+
+    def __init__(self, scene, program):
+        self.scene, self.program = scene, program
+        self.base = program.run(scene.data, scene.files)
+
+    def run(self, change=None, files=None, **options):
+        data = copy.deepcopy(self.scene.data)
+        if change:
+            data = change(data) or data
+        return self.program.run(data, self.scene.files if files is None else files, **options)
+
+    @property
+    def data(self):
+        return self.scene.data
+
+    @property
+    def lattice(self):
+        return 'body' in self.data and 'points' not in self.data
+
+    @property
+    def linear(self):
+        return self.scene.kind in LINEAR and 'contact' not in self.data
+
+    @property
+    def names_sides(self):
+        return any(load.get('set') in ('left', 'right', 'bottom', 'top', 'back', 'front') for load in self.data['boundary'])
+
+
+def unit_of(name):
+    return name[name.rfind('[') + 1:-1]
+
+
+SKIPPED = ('residual', 'iterations', 'utilisation', 'step', 'level', 'event', 'time')
+WITHOUT = ('_x', '_y', '_z')
+
+
+def scales(case):
+    """The largest value of each unit over the run; moments at least forces on an arm of the body, energies at least one of them."""
+    scale = {}
+    for k, name in enumerate(case.base.names):
+        values = [abs(row[k]) for row in case.base.rows if math.isfinite(row[k])]
+        scale[unit_of(name)] = max([scale.get(unit_of(name), 0.0)] + values)
+    if 'N' in scale:
+        scale['N m'] = max(scale.get('N m', 0.0), scale['N'])
+    return scale
+
+
+def differs(case, other, image=None, tolerance=SAME, only_last=False):
+    """The worst column of the run of an image against the base; '' where all agree."""
+    base = case.base
+    if not other.done:
+        return f'ends with {other.code}: {other.first_words()}'
+    if not base.rows or len(base.rows) != len(other.rows):
+        return f'{len(other.rows)} rows for {len(base.rows)}'
+    image = image or Image(case.scene.dimension)
+    scale, worst, text = scales(case), 0.0, ''
+    # the place of a tip is no number that a scale can be had of
+    for k, name in enumerate(base.names):
+        word = name.rsplit(' [', 1)[0]
+        if word in SKIPPED or word.startswith('tip.') and word[-2:] in ('.x', '.y') or not scale.get(unit_of(name)):
+            continue
+        factor, parts = image.column(name)
+        if any(p not in other.names for p, _ in parts):
+            return f'no column {name}'
+        where = [(other.names.index(p), w) for p, w in parts]
+        for r in [-1] if only_last else range(len(base.rows)):
+            mine, its = factor * base.rows[r][k], sum(w * other.rows[r][j] for j, w in where)
+            if math.isnan(mine) and math.isnan(its):
+                continue
+            off = abs(mine - its) / (abs(factor) * scale[unit_of(name)])
+            if not off <= worst:
+                worst, text = off, f'{name} in row {r}: {its:.9g} for {mine:.9g}'
+                if math.isnan(off):
+                    return text
+    return f'{worst:.2e} off: {text}' if worst > tolerance else ''
+
+
+# ---- of the run alone
+def sound(case):
+    """It ends, with a result or with a reason; numbers are finite, steps in equilibrium, nothing over its limit is left."""
+    run = case.base
+    if run.code not in (DONE, USAGE, REFUSED, FAILED):
+        yield f'exit code {run.code}: {run.first_words()}'
+    elif run.code != DONE:
+        if len(run.said.strip()) < 30:
+            yield f'exit code {run.code} without a reason: {run.said.strip()}'
+    else:
+        if not run.report or not run.rows:
+            yield 'no report or no rows'
+            return
+        optional = ('tip.', 'front.', 'utilisation')
+        bad = [n for k, n in enumerate(run.names) if not n.startswith(optional) and any(not math.isfinite(r[k]) for r in run.rows)]
+        if bad:
+            yield f'not finite: {bad[0]}'
+        if run.report.get('bonds_over_limit'):
+            yield f'{run.report["bonds_over_limit"]} bonds over their limit'
+        if case.scene.kind not in ('relaxed', 'explicit') and run.report.get('residual_max', 0) > 1.01e-8:
+            yield f'residual {run.report["residual_max"]}'
+
+
+def checked(case):
+    """`check` refuses what a run refuses at its start, and nothing else, with the same words."""
+    code, said = case.program.check(case.data, case.scene.files)
+    refused = case.base.code in (REFUSED, USAGE)
+    if code not in (DONE, REFUSED):
+        yield f'check ends with {code}: {said.strip()[:200]}'
+    elif (code == REFUSED) != refused:
+        yield f'check ends with {code}, the run with {case.base.code}: {case.base.first_words()}'
+
+
+def balanced(case):
+    """Forces and moments of all loads and supports of a body at rest add up to nothing."""
+    if case.scene.kind in ('motion', 'explicit') or not case.base.done:
+        return
+    names, bound = case.base.names, 1e-4 if case.scene.kind == 'relaxed' else 1e-7
+    for what in ('force', 'moment'):
+        for a in 'xyz':
+            columns = [k for k, n in enumerate(names) if f'.{what}_{a} [' in n]
+            if not columns:
+                continue
+            for row in case.base.rows:
+                size = sum(abs(row[k]) for k, n in enumerate(names) if '.force_' in n)
+                total = sum(row[k] for k in columns)
+                if size and abs(total) > bound * size:
+                    yield f'{what} {a} out of balance by {total / size:.2e} of the forces'
+                    break
+
+
+def energies(case):
+    """Work becomes energy: of linear bodies all of it, at rest and in motion; of others none is created."""
+    report = case.base.report
+    if not case.base.done or 'energy' not in report:
+        return
+    e = report['energy']
+    size = max(abs(v) for v in e.values())
+    if not size:
+        return
+    breaks = 'failure' in case.data
+    if not breaks and case.scene.kind in ('elastic', 'tips', 'motion') and abs(e['dissipated']) > 1e-6 * size:
+        yield f'elastic, yet {e["dissipated"] / size:.2e} of the energy is lost'
+    if breaks and e['dissipated'] < -1e-6 * size and not case.base.warned('dissipated'):
+        yield f'energy is created: {e["dissipated"] / size:.2e}'
+
+
+def facets(case):
+    """Cracks that grow by facets take the fracture energy, or the run says that they do not; G = K^2 / E'."""
+    if case.scene.kind != 'facets' or not case.base.done:
+        return
+    found = case.base.report.get('fracture', {})
+    ratio = found.get('dissipated_over_G0_length', found.get('dissipated_over_G0_area'))
+    if ratio is not None and found.get('area', 0) > 0 and not 0.7 < ratio < 1.3 and not case.base.report['warnings']:
+        yield f'{ratio:.2f} of the fracture energy was taken, without a word'
+
+
+# ---- images
+def image_of(case, image, tolerance, what, files=None):
+    breaks = 'failure' in case.data
+    data = image.scene(case.data)
+    files = [(n, image.points(t) if n.endswith('.csv') else t) for n, t in case.scene.files]
+    text = differs(case, case.program.run(data, files), image, EVENTS if breaks else tolerance)
+    if text:
+        yield f'{what}: {text}'
+
+
+def rigid_points(case):
+    return 'perturb' in case.data or 'mesh' in case.data
+
+
+def mirrored(case):
+    if not rigid_points(case):
+        yield from image_of(case, mirror(case.scene.dimension, case.scene.seed % case.scene.dimension), SAME, 'mirror image')
+
+
+def quarter_turned(case):
+    if not rigid_points(case):
+        yield from image_of(case, quarter(case.scene.dimension), SAME, 'turned by 90 degrees')
+
+
+def moved(case):
+    """Far away: what rounding of the coordinates makes, not more."""
+    if 'mesh' in case.data:
+        return
+    for distance in (1e3, 1e6):
+        away = [distance, -distance, distance][:case.scene.dimension]
+        h = case.data.get('spacing', 0.1)
+        yield from image_of(case, Image(case.scene.dimension, shift=away), SAME + 1e-12 * distance / h, f'moved by {distance:g} m')
+
+
+def resized(case):
+    if 'mesh' not in case.data:
+        for scale, stress in ((1e-3, 1.0), (0.0254, 1e3), (1e3, 1e-3)):
+            yield from image_of(case, Image(case.scene.dimension, scale=scale, stress=stress), SAME, f'{scale:g} times as large, {stress:g} times as stiff')
+
+
+def nudged(case):
+    """The last digits of the spacing and of the lattice's place change the last digits of the answer."""
+    if not case.lattice or 'perturb' in case.data:      # of moved points the number decides, which may change with the offset
+        return
+    for name, change in (('spacing', 1e-13), ('spacing', -1e-13), ('offset', 3e-13)):
+        def nudge(data, name=name, change=change):
+            if name == 'spacing':
+                data['spacing'] *= 1 + change
+            else:
+                data['lattice_offset'] = [v + change for v in data.get('lattice_offset', [0.0] * data['dimension'])]
+        text = differs(case, case.run(nudge), tolerance=1e-3 if 'failure' in case.data else 1e-6)
+        if text:
+            yield f'{name} by {change:g}: {text}'
+
+
+def threaded(case):
+    text = differs(case, case.run(options=('--threads', '2')), tolerance=0.0)
+    if text:
+        yield f'two threads: {text}'
+
+
+def resumed(case):
+    run = case.run(kill_after=300)
+    if run.code == INTERRUPTED:
+        return                                          # before there was anything to keep
+    text = differs(case, run, tolerance=0.0)
+    if text:
+        yield f'interrupted and resumed: {text}'
+
+
+def on_ranks(case):
+    run = case.run(options=(), ranks=2)
+    if run.code in (REFUSED, USAGE):
+        return
+    text = differs(case, run, tolerance=1e-4 if case.scene.kind == 'relaxed' else EVENTS)
+    if text:
+        yield f'two ranks: {text}'
+
+
+# ---- linear bodies
+def scaled_loads(data, factor, names=None):
+    for load in data['boundary']:
+        if names is not None and load['name'] not in names:
+            continue
+        for kind in ('displacement', 'traction', 'force', 'body_force', 'velocity'):
+            if kind in load:
+                load[kind] = {a: v * factor for a, v in load[kind].items()}
+        if 'gravity' in load:
+            load['gravity'] = [v * factor for v in load['gravity']]
+    return data
+
+
+def doubled(case):
+    if not case.linear:
+        return
+    run = case.run(lambda d: scaled_loads(d, 2.0))
+    if not run.done:
+        yield f'twice the load ends with {run.code}: {run.first_words()}'
+        return
+    for name in case.base.names:
+        word = name.rsplit(' [', 1)[0]
+        unit = unit_of(name)
+        if unit in ('N', 'm', 'N m', 'J') and not word.startswith(('tip.', 'front.')):
+            size = scales(case)[unit]
+            factor = 4.0 if unit == 'J' else 2.0
+            if size and abs(run.last(word) - factor * case.base.last(word)) > SAME * factor * size:
+                yield f'twice the load: {name} {run.last(word):.9g} for {factor * case.base.last(word):.9g}'
+                return
+
+
+def superposed(case):
+    """What two loads do together is the sum of what each does alone."""
+    loads = [b['name'] for b in case.data['boundary'] if 'spring' not in b and not (set(b.get('displacement', {'x': 1}).values()) == {0.0})]
+    if not case.linear or len(loads) < 2:
+        return
+    first = case.run(lambda d: scaled_loads(d, 0.0, loads[1:]))
+    second = case.run(lambda d: scaled_loads(d, 0.0, loads[:1]))
+    if not (first.done and second.done):
+        return
+    scale = scales(case)
+    for name in case.base.names:
+        word, unit = name.rsplit(' [', 1)[0], unit_of(name)
+        if unit in ('N', 'm', 'N m') and not word.startswith(('tip.', 'front.')) and scale[unit]:
+            off = abs(first.last(word) + second.last(word) - case.base.last(word)) / scale[unit]
+            if not off <= SAME:
+                yield f'sum of two loads: {name} off by {off:.2e}'
+                return
+
+
+def rigid(case):
+    """Supports and loads that move the body as a rigid one strain nothing: no energy, no forces, no J."""
+    if not case.linear or any('spring' in b for b in case.data['boundary']):
+        return
+    d, angle = case.scene.dimension, 1e-3
+    def stiff(data):
+        held = next(b for b in data['boundary'] if 'displacement' in b)
+        move = {'x': f'0.002 m - {angle}*y', 'y': f'-0.001 m + {angle}*x'}
+        if d == 3:
+            move['z'] = '0.003 m'
+        if set(held['displacement']) != set('xyz'[:d]):
+            return None
+        data['boundary'] = [{**held, 'displacement': move}]
+        return data
+    if set(next((b for b in case.data['boundary'] if 'displacement' in b), {'displacement': {}})['displacement']) != set('xyz'[:d]):
+        return
+    run = case.run(stiff)
+    if not run.done:
+        yield f'moved as a rigid body: ends with {run.code}: {run.first_words()}'
+        return
+    # energy of a strain as large as the rotation, in a body of size 1
+    size = 1e9 * angle ** 2 * case.data.get('thickness', 1.0) * 0.1
+    energy = run.report['energy']['strain']
+    if not abs(energy) <= 1e-12 * size:
+        yield f'moved as a rigid body: strain energy {energy:.3g} J, {energy / size:.1e} of that of a strain as large'
+
+
+def turned_little(case):
+    """Turned by 37 degrees the lattice lies otherwise: loads and energies change by the error of the discretisation."""
+    if not case.linear or not case.lattice or case.names_sides or case.base.report.get('patch_error', 1) > 0.02 or case.scene.dimension == 3:
+        return
+    if any('box' in part.get('add', part.get('subtract', {})) for part in case.data['body']) or any('model' in m for m in case.data['materials'].values()):
+        return
+    run = case.program.run(turn(2, math.radians(37)).scene(case.data), case.scene.files)
+    if not run.done:
+        return
+    a, b = case.base.report['energy']['strain'], run.report['energy']['strain']
+    allowed = 0.15
+    if a and abs(a - b) > allowed * abs(a):
+        yield f'turned by 37 degrees: strain energy {b:.6g} for {a:.6g}'
+
+
+# ---- small things that must not matter
+def soft_spring(case):
+    """A spring of 1e-9 of the stiffness of the body, on any points, changes nothing, J and K included."""
+    if case.scene.kind not in ('elastic', 'tips', 'facets') or case.scene.dimension == 3 and case.scene.kind == 'facets':
+        return
+    def add(data):
+        data['boundary'].append({'name': 'soft', 'set': 'all', 'spring': {'all': 1e-9 * 1e9 * data.get('thickness', 1.0)}})
+    run = case.run(add)
+    text = differs(case, run, tolerance=1e-4) if run.done or run.code != REFUSED else ''
+    if text:
+        yield f'with a soft spring: {text}'
+
+
+def doubled_crack(case):
+    """A crack that is listed twice is that crack."""
+    if not case.data.get('cracks') or 'from' not in case.data['cracks'][0]:
+        return
+    run = case.run(lambda d: d['cracks'].append(dict(d['cracks'][0])))
+    if run.code == REFUSED:
+        return
+    a, b = case.base.report.get('energy', {}).get('strain'), run.report.get('energy', {}).get('strain')
+    if not run.done or a is None or abs(a - b) > 1e-3 * abs(a):
+        yield f'a crack listed twice: ends with {run.code}, strain energy {b} for {a}'
+
+
+def loose(case):
+    """A second body that nothing holds, under a load, is refused."""
+    if case.scene.kind != 'elastic' or not case.lattice or case.scene.dimension == 3 and case.data['method'].get('force') == 'fcbm':
+        return
+    h, d = case.data['spacing'], case.scene.dimension
+    def add(data):
+        low = [3.0] * d
+        data['body'].append({'add': {'box': {'low': low, 'high': [3.0 + 8 * h] * d}}})
+        data.setdefault('sets', {})['lost'] = {'where': 'x > 2.9'}
+        data['boundary'].append({'name': 'lost', 'set': 'lost', 'body_force': {'x': 1e6}})
+        # the sides of the bounding box are others now
+        return data
+    if case.names_sides:
+        return
+    run = case.run(add)
+    if run.done:
+        yield 'a body that nothing holds, under a load, is not refused'
+    elif not any(w in run.said for w in ('hold', 'held', 'loose', 'free')):
+        yield f'a body that nothing holds: the reason is not named: {run.first_words()}'
+
+
+def slot(case):
+    """A slot cut out of a body is the slot that `cracks` makes of the same width, however narrow."""
+    if case.scene.kind != 'elastic' or not case.lattice or case.scene.dimension != 2 or case.names_sides or 'offset' in case.data:
+        return
+    low = [min(c) for c in zip(*corners(case.data))]
+    high = [max(c) for c in zip(*corners(case.data))]
+    y, w = low[1] + 0.52 * (high[1] - low[1]), (0.05 + 0.5 * ((case.scene.seed * 7919) % 97) / 97) * case.data['spacing']
+    x = low[0] + 0.45 * (high[0] - low[0])
+    one = case.run(lambda d: d['body'].append({'subtract': {'box': {'low': [low[0] - 0.3, y - w / 2], 'high': [x, y + w / 2]}}}))
+    two = case.run(lambda d: d.setdefault('cracks', []).append({'from': [low[0] - 0.3, y], 'to': [x, y], 'width': w}))
+    if one.done and two.done:
+        a, b = (r.report['energy']['strain'] for r in (one, two))
+        if abs(a - b) > 0.1 * abs(a):
+            yield f'a slot {w / case.data["spacing"]:.2f} spacings wide: strain energy {a:.6g} as part of the body, {b:.6g} by cracks'
+
+
+def corners(data):
+    found = []
+    for part in data['body']:
+        shape = part.get('add', {})
+        for kind, s in shape.items():
+            if kind == 'box':
+                found += [s['low'], s['high']]
+            elif kind in ('disk', 'sphere'):
+                found += [[c - s['radius'] for c in s['center']], [c + s['radius'] for c in s['center']]]
+            elif kind == 'polygon':
+                found += s['vertices']
+    return found or [[0.0, 0.0], [1.0, 1.0]]
+
+
+def falling(case):
+    """A body that nothing holds falls as Galileo says, whatever its shape."""
+    if case.scene.kind not in ('motion', 'explicit') or not case.base.done:
+        return
+    d = case.scene.dimension
+    def fall(data):
+        data.pop('failure', None)
+        data.pop('cracks', None)
+        data['boundary'] = [{'name': 'weight', 'gravity': [0.0, -10.0, 0.0][:d], 'ramp': 'constant'}]
+        data['output']['averages'] = [{'name': 'fall', 'set': 'all', 'field': 'displacement.y'}]
+        return data
+    run = case.run(fall)
+    if run.code == REFUSED:
+        return
+    if not run.done:
+        yield f'free fall ends with {run.code}: {run.first_words()}'
+        return
+    t, u = run.last('time'), run.last('fall')
+    right = -5.0 * t * t
+    if run.report['energy']['strain'] > 1e-9 * abs(run.report['energy']['external']) or abs(u - right) > 0.02 * abs(right) + 1e-9:
+        yield f'free fall: {u:.6g} m for {right:.6g}, strain energy {run.report["energy"]["strain"]:.3g} of work {run.report["energy"]["external"]:.3g} J'
+
+
+INVARIANTS = [sound, checked, balanced, energies, facets, mirrored, quarter_turned, moved, resized, nudged, threaded, resumed, on_ranks, doubled, superposed,
+              rigid, turned_little, soft_spring, doubled_crack, loose, slot, falling]
+ALWAYS = (sound, checked)
