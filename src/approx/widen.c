@@ -109,17 +109,42 @@ done:
     return status;
 }
 
+/* Functions of the quadratic basis, by dimension. */
+static const int functions[] = { 3, 6, 10 };
+
+/* Nodes that a whole support on a lattice holds, by its volume. */
+static double whole_support (const work *w)
+{
+    const pg_cloud *c = w->cloud;
+    double r = w->a.horizon / c->h;
+    if (c->dim == 2) return w->a.shape == PG_TENSOR ? 4 * r * r : M_PI * r * r;
+    if (c->dim == 3) return w->a.shape == PG_TENSOR ? 8 * r * r * r : 4 * M_PI / 3 * r * r * r;
+    return 2 * r;
+}
+
+/* Nodes of the lattice within the horizon of one of them, itself included. */
+static int nodes_within (const work *w)
+{
+    const pg_cloud *c = w->cloud;
+    int count = 0, most[3] = { 0 };
+    for (int k = 0; k < c->dim; k++) most[k] = (int) (w->a.horizon / c->step[k]);
+    for (int i = -most[0]; i <= most[0]; i++)
+        for (int j = -most[1]; j <= most[1]; j++)
+            for (int k = -most[2]; k <= most[2]; k++) {
+                double z[3] = { i * c->step[0], j * c->step[1], k * c->step[2] };
+                if (w->a.shape == PG_TENSOR || hypot (hypot (z[0], z[1]), z[2]) < w->a.horizon) count++;
+            }
+    return count;
+}
+
 /* Could the place be poor? Away from a lattice each one; on a lattice those that see part of the nodes that a
  * whole support has. */
 static int suspect (const work *w, size_t i)
 {
     const pg_cloud *c = w->cloud;
     const pg_family *f = &w->rows->family;
-    double r = w->a.horizon / c->h, whole = 2 * r;
     if (!c->regular || c->size || w->sees) return 1;
-    if (c->dim == 2) whole = w->a.shape == PG_TENSOR ? 4 * r * r : M_PI * r * r;
-    if (c->dim == 3) whole = w->a.shape == PG_TENSOR ? 8 * r * r * r : 4 * M_PI / 3 * r * r * r;
-    return (double) (f->start[i + 1] - f->start[i]) < complete * whole;
+    return (double) (f->start[i + 1] - f->start[i]) < complete * whole_support (w);
 }
 
 /* A node that sees no other one within its horizon is joined to none: that is told, not mended. */
@@ -202,8 +227,9 @@ static pg_status find_poor (work *w)
         lot_clear (&l);
         l = (lot) { .w = w };
     }
-    if (!w->cloud->regular || (w->a.order == 2 && looked == w->rows->n))
-        everywhere = (double) lowered > usual * (double) looked;
+    if (!w->cloud->regular) everywhere = (double) lowered > usual * (double) looked;
+    else if (looked == w->rows->n)
+        everywhere = w->a.order == 2 && nodes_within (w) < functions[w->cloud->dim - 1];
     else if (lowered) PG_TRY (whole_are_lowered (w, &everywhere));
     if (everywhere) {
         size_t kept = 0;

@@ -17,7 +17,7 @@ pg_status options_fault (const pg_solver_options *o, const char *key, const char
     va_start (args, format);
     vsnprintf (text, sizeof text, format, args);
     va_end (args);
-    if (!o->scene) return pg_error (PG_E_USAGE, PG_HERE, "%s: %s", key, text);
+    if (!o->scene) return pg_error (PG_E_SCENE, PG_HERE, "%s: %s", key, text);
     pg_scene_fault (o->scene, key, "%s", text);
     return pg_scene_verdict (o->scene);
 }
