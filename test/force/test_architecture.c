@@ -308,7 +308,7 @@ static void a_force_without_mass_is_refused_by_newmark (void **state)
 {
     (void) state;
     run r = beam_of (&least, 1, RICH "solver: {kind: newmark, dt: 0.1, end: 1}\n");
-    check_fails (pg_solver_step (r.solver, r.state, &r.step), PG_E_USAGE);
+    check_fails (pg_solver_step (r.solver, r.state, &r.step), PG_E_SCENE);
     check_contains (pg_last_error (), "mass");
     clear (&r);
 }
