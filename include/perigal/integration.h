@@ -42,10 +42,10 @@ typedef struct {
 const pg_integration_type *pg_integration_find (const char *name);
 const pg_integration_type *pg_integration_at_nodes (void);     /* the entry whose points are the nodes */
 const char *pg_integration_names (void);
-/* The integration of a scene for shape functions: what it says; else, if `needed` (cells are cut, or cracks
- * grow by facets), the consistent one, which is exact there. Not for the quadratic basis, where it costs
- * several times as much, nor for approximations that interpolate: there, and where it is not needed, the
- * first of the list. */
+/* The integration of a scene for shape functions: what it says; else that at the nodes for points without
+ * cells, and, if `needed` (cells are cut, or cracks grow by facets), the consistent one, which is exact
+ * there. Not for the quadratic basis, where it costs several times as much, nor for approximations that
+ * interpolate: there, and where it is not needed, the first of the list. */
 const pg_integration_type *pg_integration_of (const pg_scene *scene, int needed);
 
 /* Gauss-Legendre points in every cell (order^dim in bars, quadrilaterals and hexahedra; in cut cells

@@ -8,7 +8,7 @@
 static const pg_key keys[] = {
     { "method.integration", PG_NAME, NULL, NULL, "", NULL, pg_integration_names, NULL,
       "Where the weak form is evaluated; unless given consistent where cells are cut by the surface of the "
-      "body or cracks grow by facets (linear basis, not nosb), else gauss." },
+      "body or cracks grow by facets (linear basis, not nosb), else gauss; nodal for points without cells." },
     { "method.gauss_points", PG_INTEGER, NULL, "[1, 5]", "", NULL, NULL, NULL,
       "Gauss points per direction of a background cell; default 2 for the linear basis, 3 for the quadratic "
       "one (with 2 it converges slowly); "

@@ -39,10 +39,19 @@ const char *pg_integration_names (void)
     return names + 1;
 }
 
+/* Points of a file without a body or a surface have no cells. */
+static int has_cells (const pg_scene *scene)
+{
+    const char *surface = pg_scene_text (scene, "surface");
+    return !pg_scene_given (scene, "points") || pg_scene_count (scene, "body") > 0
+           || (surface && strcmp (surface, "none") != 0);
+}
+
 const pg_integration_type *pg_integration_of (const pg_scene *scene, int needed)
 {
     if (pg_scene_given (scene, "method.integration"))
         return pg_integration_find (pg_scene_text (scene, "method.integration"));
+    for (size_t i = 0; i < COUNT && !has_cells (scene); i++) if (entries[i]->at_nodes) return entries[i];
     const char *basis = pg_scene_text (scene, "method.basis"),
                *how = pg_scene_text (scene, "method.approximation");
     const pg_approx_type *approx = how ? pg_approx_find (how) : NULL;

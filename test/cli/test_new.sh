@@ -20,6 +20,8 @@ done
 for kind in beam disk mesh explicit; do
     [ "$(wc -l < "results/$kind/events.csv")" -gt 100 ]; verdict "$kind: bonds break" $?
 done
+sed '/^body:/,/add:/d' mine/cloud/scene.yaml > mine/cloud/bare.yaml
+expect 'points without shapes have no cells: integration at the nodes' 0 'cubic_spline kernel, nodal integration' '*' check mine/cloud/bare.yaml
 expect 'without -o: a folder of that name' 0 'plate/scene.yaml' '' new plate
 expect 'never over another file' 70 '' 'plate/scene.yaml exists already: choose another folder' new plate
 expect 'a kind that is misspelt' 64 '' 'no kind plat (did you mean plate?); there are: beam, cloud' new plat
