@@ -50,12 +50,17 @@ static double angle_of (int dim, const double *H)
     return atan2 (sine, dim == 3 ? 0.5 * (trace - 1) : 0.5 * trace);
 }
 
+/* The largest turn at a sample of the points: every so many of the whole body, the same on any ranks. */
 static double largest_turn (const pg_problem *p, const pg_state *state, size_t stride)
 {
     enum { SAMPLE = 200 };
+    const pg_subdomain *part = p->cloud.subdomain;
+    int64_t every = (part ? part->total : (int64_t) p->cloud.n) / SAMPLE + 1;
     double most = 0, H[9];
-    for (size_t i = 0; i < p->cloud.n; i += p->cloud.n / SAMPLE + 1)
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        if (!pg_owns (part, i) || (part ? part->number[i] : (int64_t) i) % every) continue;
         if (gradient (p, state, stride, i, H)) most = fmax (most, angle_of (p->dim, H));
+    }
     return most;
 }
 
