@@ -189,12 +189,15 @@ static int bends (const pg_problem *p, size_t load, int k, int q, double low, do
     return 0;
 }
 
-/* Is this load all that holds the body? It then has to keep the body from turning. */
-static int holds_alone (const pg_problem *p, size_t load)
+/* May this load be a clamp by mistake? Not where it is all that holds the body, and so has to keep it from
+ * turning. */
+static int may_clamp (const pg_problem *p, size_t load)
 {
+    const pg_load *this = &p->load[load];
+    if (!pg_load_prescribes (this) || this->share || this->symmetry || p->cloud.subdomain) return 0;
     for (size_t l = 0; l < p->nload; l++)
-        if (l != load && (pg_load_prescribes (&p->load[l]) || p->load[l].kind == PG_SPRING)) return 0;
-    return p->nplaten == 0;
+        if (l != load && (pg_load_prescribes (&p->load[l]) || p->load[l].kind == PG_SPRING)) return 1;
+    return p->nplaten > 0;
 }
 
 /* Displacements along k of a short part of the surface, its points more than a spacing apart along q, keep it
@@ -205,8 +208,7 @@ static void doubt_clamps (pg_statistics *report, const pg_problem *p)
     double low, high;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        int done = !pg_load_prescribes (load) || load->share || load->symmetry || p->cloud.subdomain
-                   || holds_alone (p, l);
+        int done = !may_clamp (p, l);
         for (int k = 0; k < p->dim && !done; k++)
             for (int q = 0; q < p->dim && !done; q++) {
                 if (q == k || !spans (p, load, k, k, &low, &high)
