@@ -97,7 +97,7 @@ static int thin (const pg_neighbourhood *s, double h, double *M)
 /* From the bonds, where the basis does not begin with 1. */
 static int flat (const pg_neighbourhood *s, double h)
 {
-    double centre[3], M[9];
+    double centre[3] = { 0 }, M[9];
     pg_neighbourhood_centre (s, centre);
     pg_neighbourhood_spread (s, centre, M);
     return thin (s, h, M);

@@ -145,7 +145,8 @@ static pg_status refuse_foreign (const pg_mesh *m, const pg_scene *scene, const 
         for (size_t i = 0; !used && (word = pg_scene_name (scene, i, "%s", of)); i++)
             used = strcmp (word, f->block) == 0;
         if (!used) continue;
-        snprintf (name, sizeof name, f->block[0] ? " (block %.60s: leave it out by `blocks`)" : "", f->block);
+        name[0] = 0;
+        if (f->block[0]) snprintf (name, sizeof name, " (block %.60s: leave it out by `blocks`)", f->block);
         pg_scene_fault (scene, key, "%s%s", f->words, name);
         break;
     }

@@ -18,7 +18,7 @@ static void settle_labels (sweep *s)
             const char *last = dot && dot[1] ? dot + 1 : s->key[j].key;
             const char *own = strrchr (s->key[i].key, '.');
             if (i != j && strcmp (own && own[1] ? own + 1 : s->key[i].key, last) == 0)
-                snprintf (s->key[i].label, sizeof s->key[i].label, "%s", s->key[i].key);
+                memcpy (s->key[i].label, s->key[i].key, sizeof s->key[i].label);
         }
 }
 
