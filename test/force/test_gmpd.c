@@ -204,8 +204,8 @@ static void test_fracture_energy (void **unused)
 {
     (void) unused;
     static const char *const body[] = {
-        "dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1.5, 1.5]}}}]\nthickness: "
-        "0.2\n",
+        ("dimension: 2\nplane: stress\nbody: [{add: {box: {low: [0, 0], high: [1.5, 1.5]}}}]\nthickness: "
+         "0.2\n"),
         "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [1.5, 1.5]}}}]\n",
         "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [1.5, 1.5, 1.5]}}}]\n"
     };

@@ -8,8 +8,8 @@
 static const char *const bodies[] = {
     "dimension: 2\nplane: strain\nbody: [{add: {box: {low: [0, 0], high: [60, 6]}}}]\nspacing: 1\n",
     "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [40, 3, 3]}}}]\nspacing: 1\n",
-    "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [40, 3, 3]}}}]\nspacing: 1\n"
-    "perturb: {amount: 0.15}\n",
+    ("dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [40, 3, 3]}}}]\nspacing: 1\n"
+     "perturb: {amount: 0.15}\n"),
 };
 static const char *const criteria[] = {
     "mohr_coulomb, tensile_strength: 1 MPa, cohesion: 5 MPa, friction_angle: 40 deg",

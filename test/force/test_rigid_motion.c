@@ -19,8 +19,8 @@ static const char *const plane_bodies[] = {
 static const char *const solid_bodies[] = {
     "{add: {cylinder: {center: [0, 0, -0.25], axis: [0, 0, 1], length: 0.5, radius: 0.4}}}",
     "{add: {sphere: {center: [0, 0, 0], radius: 0.45}}}",
-    "{add: {box: {low: [-0.4, -0.4, -0.2], high: [0.4, 0.4, 0.2]}}}, {subtract: {cylinder: {center: [0.02, "
-    "0.01, -0.3], axis: [0, 0, 1], length: 0.6, radius: 0.15}}}",
+    ("{add: {box: {low: [-0.4, -0.4, -0.2], high: [0.4, 0.4, 0.2]}}}, {subtract: {cylinder: {center: [0.02, "
+     "0.01, -0.3], axis: [0, 0, 1], length: 0.6, radius: 0.15}}}"),
 };
 static const char *const kernels[] = { "cubic_spline", "quartic_spline", "gaussian", "conical", "quadratic" };
 

@@ -137,8 +137,8 @@ static void a_plate_keeps_its_energy (void **state)
     const char *const rest[3] = {
         "method: {approximation: rkpm}\n",
         "method: {approximation: nosb, integration: nodal, kernel: constant, horizon: 3.015 spacing}\n",
-        "method: {approximation: rkpm, essential: transformation}\nboundary: [{set: left, displacement: {x: "
-        "0, y: 0}}]\n"
+        ("method: {approximation: rkpm, essential: transformation}\nboundary: [{set: left, displacement: "
+         "{x: 0, y: 0}}]\n")
     };
     for (int k = 0; k < 3; k++) {
         char text[1024];

@@ -104,8 +104,8 @@ static void external_work_is_strain_energy (void **state)
     static const char *const cases[] = {
         "{set: left, displacement: {x: 0, y: 0}}, {set: right, traction: {x: 1 MPa, y: 1 MPa}}",
         "{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm, y: 2 mm}}",
-        "{set: left, displacement: {x: 0, y: 0}}, {set: top, pressure: 1 MPa}, {set: all, body_force: {x: 1 "
-        "MN/m3}}, {set: right, force: {y: -1 MN}}",
+        ("{set: left, displacement: {x: 0, y: 0}}, {set: top, pressure: 1 MPa}, {set: all, body_force: "
+         "{x: 1 MN/m3}}, {set: right, force: {y: -1 MN}}"),
     };
     for (int c = 0; c < 3; c++)
         for (int w = 0; w < 3; w++)
