@@ -2,8 +2,10 @@
  * What a run says of the tips of its pre-cracks: how well the opening of a crack is known that is few
  * spacings long. */
 #include "scenes.h"
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #define BODY \
     "materials: {a: {youngs_modulus: 1, poissons_ratio: 0.25}}\nboundary: [{set: bottom, displacement: {x: " \
@@ -141,12 +143,57 @@ static void a_crack_given_twice_is_one (void **state)
     }
 }
 
+/* The rim of a disc retreats by the spacing there, not by that at its centre: points that are coarse around
+ * the centre and fine at the rim. */
+static void a_disc_in_graded_points_retreats_by_its_rim (void **state)
+{
+    (void) state;
+    enum { N = 12 };
+    char folder[] = "/tmp/perigal_tips_XXXXXX", points[64], path[64];
+    assert_non_null (mkdtemp (folder));
+    snprintf (points, sizeof points, "%s/p.csv", folder);
+    snprintf (path, sizeof path, "%s/disc.yaml", folder);
+    FILE *f = fopen (points, "w");
+    assert_non_null (f);
+    fprintf (f, "x,y,z,volume,block,spacing\n");
+    for (int i = 0; i < N * N * N; i++) {
+        double h = 2.0 / N, x = (i % N + 0.5) * h - 1, y = (i / N % N + 0.5) * h - 1,
+               z = (i / N / N + 0.5) * h - 1;
+        fprintf (f, "%.17g,%.17g,%.17g,%.17g,0,%.17g\n", x, y, z, h * h * h,
+                 hypot (x, hypot (y, z)) < 0.3 ? 1.4 * h : h);
+    }
+    fclose (f);
+    f = fopen (path, "w");
+    assert_non_null (f);
+    fprintf (f, "dimension: 3\npoints: p.csv\n"
+                "materials: {a: {youngs_modulus: 1, poissons_ratio: 0.25}}\n"
+                "sets: {low: {where: \"y < -0.9\"}, high: {where: \"y > 0.9\"}}\n"
+                "boundary: [{set: low, displacement: {x: 0, y: 0, z: 0}}, "
+                "{set: high, displacement: {y: 1e-3}}]\n"
+                "cracks: [{disc: {center: [0, 0.01, 0], normal: [0, 1, 0], radius: 0.6}}]\n" STATIC);
+    fclose (f);
+    built b = { 0 };
+    check_ok (pg_scene_load (&b.scene, path));
+    check_ok (pg_problem_build (&b.problem, b.scene, 1));
+    const pg_problem *p = b.problem;
+    const pg_crack *c = &p->cracks.crack[0];
+    double rim = 0, centre = pg_problem_spacing_at (p, c->centre);
+    for (size_t i = 0; i < c->nvertex; i++)
+        rim += pg_problem_spacing_at (p, c->vertex + 3*i) / (double) c->nvertex;
+    assert_true (centre > 1.3 * rim && p->tip_offset > 0);
+    assert_non_null (c->retreat);
+    check_relative (c->retreat[0], p->tip_offset * rim / p->cloud.h, 1e-9);
+    unbuild (&b);
+    unlink (points), unlink (path), rmdir (folder);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (short_cracks_are_told_with_a_number),
                                         cmocka_unit_test (pieces_that_meet_are_one_crack),
                                         cmocka_unit_test (fronts_in_space),
                                         cmocka_unit_test (others_say_nothing),
-                                        cmocka_unit_test (a_crack_given_twice_is_one) };
+                                        cmocka_unit_test (a_crack_given_twice_is_one),
+                                        cmocka_unit_test (a_disc_in_graded_points_retreats_by_its_rim) };
     return cmocka_run_group_tests_name ("model/tips", tests, NULL, NULL);
 }
