@@ -61,6 +61,9 @@ typedef struct {
     double trial, trial_angle[PG_TIP_TRIALS], trial_K[PG_TIP_TRIALS][2][2];
 } pg_tip_field;
 
+/* A piece of crack whose faces press on each other: middle, unit normal, length (m), and the stresses that it
+ * carries, sigma_nn and sigma_nt in the frame of its normal, Pa, of each field. */
+typedef struct { double x[2], normal[2], length, stress[2][2]; } pg_face_piece;
 /* What the faces behind a tip do to each other, in equilibria with contact (perigal/contact.h). */
 typedef struct {
     /* Mean stresses that they carry across and along the crack, sigma_nn and sigma_nt in the frame of the
@@ -68,6 +71,7 @@ typedef struct {
     double stress[2][2];
     int    closed;                                     /* 1: they press on each other behind the tip */
     double nearest;  /* distance from the tip to the next piece that is closed, m; INFINITY: none */
+    const pg_face_piece *piece;  size_t npiece;        /* all that press; borrowed */
 } pg_tip_faces;
 
 /* Why tips of this problem have no K and J by integrals: a sentence, static text; NULL: they have. */
@@ -90,7 +94,8 @@ pg_status pg_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force
 /* The same where faces may touch (NULL: they do not), and the next facet will be so long (m; 0: it is not
  * asked for). The uniform field that carries the same stress across
  * the faces is subtracted: what is left has free faces behind the tip, and its K_II is that of the tip; rings
- * of an open tip end before the next closed piece, whose tractions are in no integral. */
+ * of an open tip end before the next closed piece, whose tractions are in no integral of theirs; the ring
+ * around a kink has the tractions of the pieces on the straight crack behind it. */
 pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg_force_type *force,
                                 void *self, const pg_state *state, size_t tip, int nfield,
                                 const double *const *d, const double *t, const pg_tip_faces *faces,

@@ -15,8 +15,13 @@
  * Body force and tractions of the faces. A stress that bears the body force b at the kink and leaves the
  * straight faces free, sigma_11 = - b_1 x_1, sigma_22 = - b_2 x_2, is subtracted, and the uniform stress of
  * a pressure on all faces. What is left has tractions on the new pieces alone, whose K at the end is that of
- * the same system of dislocations (kinked_faces); body force beyond that of the kink adds
- * int (b - b (kink)) . h q dA over the ring. Springs count as the body force that they are in the mean. */
+ * same system of dislocations (kinked_faces); body force beyond that of the kink adds
+ * int (b - b (kink)) . h q dA over the ring. Springs count as the body force that they are in the mean.
+ *
+ * Closed faces of the straight crack: the uniform stress that they carry in the mean of the ring is
+ * subtracted, which the new pieces then bear; what they carry beyond it, all of it next to the kink where
+ * they have opened, adds int t . h q ds over both faces. So wings of a closed crack are those of an open one
+ * under the rest of the field. */
 #include "gradient_fit.h"
 #include "kinked_crack.h"
 #include "tip.h"
@@ -60,6 +65,26 @@ static double straight_behind (const turned *t, size_t j)
     return hypot (t->x[2*end] - t->x[2*j], t->x[2*end + 1] - t->x[2*j + 1]);
 }
 
+/* Where a piece that presses lies on the straight crack that ends at x in the direction e: distance of its
+ * middle from x, m; else NAN. */
+static double on_straight (const pg_face_piece *p, const double *x, const double *e, double h)
+{
+    double v[2] = { p->x[0] - x[0], p->x[1] - x[1] }, behind = -(v[0] * e[0] + v[1] * e[1]);
+    int along = fabs (p->normal[0] * e[0] + p->normal[1] * e[1]) < 0.1;
+    return along && behind > 0 && fabs (v[1] * e[0] - v[0] * e[1]) < 0.5 * h ? behind : NAN;
+}
+
+/* The other pieces that press end the ring. */
+static double room_of_faces (const double *x, const double *e, double h, const pg_tip_faces *touch, double r2)
+{
+    for (size_t k = 0; touch && k < touch->npiece; k++) {
+        const pg_face_piece *p = &touch->piece[k];
+        if (isnan (on_straight (p, x, e, h)))
+            r2 = fmin (r2, hypot (p->x[0] - x[0], p->x[1] - x[1]) - 0.5 * p->length);
+    }
+    return r2;
+}
+
 /* The widest ring around a vertex behind which the crack runs straight, and before which it has turned; one
  * of full size around the first of them is not improved. 0: none. */
 static pg_status find_kink (turned *out, const pg_problem *p, const pg_state *state, size_t tip, double h,
@@ -79,7 +104,7 @@ static pg_status find_kink (turned *out, const pg_problem *p, const pg_state *st
         heading (x, x - 2, e), heading (x + 2, x, f);
         turns |= fabs (turn_between (f, e)) > STRAIGHT;
         if (FAR * h - r1 < best) break;
-        if (touch) r2 = fmin (r2, touch->nearest - hypot (out->x[0] - x[0], out->x[1] - x[1]));
+        r2 = room_of_faces (x, f, h, touch, r2);
         if (!turns || r2 - r1 <= best) continue;
         size_t here = tip_node_at (p, x);
         if (!tip_same_material (p, here, node)) continue;
@@ -168,11 +193,54 @@ static void add_ring (kinked_moments *out, const tip_grid *grid, int at, const t
     }
 }
 
+/* What the straight faces carry, sigma_12 and sigma_22 (Pa): of each field the mean over the ring, and by how
+ * much they carry more at each place behind the kink. any 0: nothing presses. */
+typedef struct { int any; double mean[TIP_FIELDS][2], more[TIP_FIELDS][KINKED_PLACES][2]; } straight_faces;
+
+static void look_at_faces (straight_faces *out, const turned *t, const pg_tip_faces *touch, double h,
+                           int nfield)
+{
+    const double *x = t->x + 2 * t->kink;
+    int within = 0;
+    memset (out, 0, sizeof *out);
+    for (int i = 0; touch && i < KINKED_PLACES; i++) {
+        double r = kinked_place_at (t->r2, i);
+        within += r > t->r1;
+        for (size_t k = 0; k < touch->npiece; k++) {
+            const pg_face_piece *p = &touch->piece[k];
+            double at = on_straight (p, x, t->e, h);
+            if (!(fabs (at - r) <= 0.5 * p->length)) continue;
+            out->any = 1;
+            for (int a = 0; a < nfield; a++)
+                for (int m = 0; m < 2; m++) {
+                    out->more[a][i][m] = p->stress[a][1 - m];
+                    if (r > t->r1) out->mean[a][m] += p->stress[a][1 - m];
+                }
+            break;
+        }
+    }
+    for (int a = 0; a < nfield; a++)
+        for (int m = 0; m < 2; m++) {
+            if (within) out->mean[a][m] /= within;
+            for (int i = 0; i < KINKED_PLACES; i++) out->more[a][i][m] -= out->mean[a][m];
+        }
+}
+
+/* Adds them to the moments of a field over the ring r1 .. r2. */
+static void add_faces (kinked_moments *out, const straight_faces *faces, int at, const tip_material *m,
+                       const turned *t, double r1)
+{
+    for (int i = 0; faces->any && i < KINKED_PLACES; i++) {
+        double slope, q = tip_weight (kinked_place_at (t->r2, i), r1, t->r2, &slope);
+        kinked_moments_face (out, i, faces->more[at][i], q, m->mu, m->kappa, t->r2 / t->r1);
+    }
+}
+
 /* Samples the ring and leaves in it fields with free straight faces and without body force at the kink. */
 static pg_status sample_ring (tip_grid *grid, kinked_faces *faces, const pg_tip_field *ring,
                               const tip_material *m, const pg_problem *p, const pg_force_type *force,
                               void *self, const pg_state *state, int nfield, const double *const *d,
-                              const double *t, size_t node)
+                              const double *t, size_t node, const straight_faces *press)
 {
     pg_status status = PG_OK;
     int forced = tip_has_body_force (p, node);
@@ -184,10 +252,12 @@ static pg_status sample_ring (tip_grid *grid, kinked_faces *faces, const pg_tip_
         PG_TRY (tip_springs_spread (grid, a, ring, p, t));
         double pressure = tip_pressure (p, a, t);
         take_rigid_motion_off (grid, a);
-        kinked_faces all = { .S = { -pressure, -pressure, 0 } };
+        const double *s = press->mean[a];
+        kinked_faces all = { .S = { -pressure, s[1] - pressure, s[0] } };
         mean_load (grid, a, all.b);
         subtract (grid, a, m, &all);
-        faces[a] = (kinked_faces) { .b = { all.b[0] * ring->r1, all.b[1] * ring->r1 } };
+        faces[a] = (kinked_faces) { .S = { 0, s[1], s[0] },
+                                    .b = { all.b[0] * ring->r1, all.b[1] * ring->r1 } };
     }
 done:
     return status;
@@ -196,7 +266,7 @@ done:
 /* ---- intensities --------------------------------------------------------------------------------------- */
 /* Weight functions of the polyline, with a trial facet at `theta` from its end where it has a length. */
 static pg_status weights_of (kinked_weights *out, const turned *t, double facet, double theta, int nfield,
-                             const kinked_faces *faces)
+                             const kinked_faces *faces, const straight_faces *press)
 {
     pg_status status = PG_OK;
     size_t n = t->kink;
@@ -209,7 +279,7 @@ static pg_status weights_of (kinked_weights *out, const turned *t, double facet,
         to[1] = t->x[1] + c * t->ahead[1] + s * t->ahead[0];
         vertex[n++] = frame_of (t, to);
     }
-    PG_TRY (kinked_weights_of (out, n, vertex, (size_t) nfield, faces));
+    PG_TRY (kinked_weights_of (out, n, vertex, (size_t) nfield, faces, press->any ? t->r2 / t->r1 : 0));
 done:
     pg_free (vertex);
     return status;
@@ -219,7 +289,8 @@ static const double trial_angles[PG_TIP_TRIALS] = { -0.8, -0.4, 0, 0.4, 0.8 };
 
 /* K at the end of the trial facets. */
 static pg_status measure_trials (pg_tip_field *out, const turned *t, const tip_grid *grid, int nfield,
-                                 const tip_material *m, const kinked_faces *faces, double facet)
+                                 const tip_material *m, const kinked_faces *faces,
+                                 const straight_faces *press, double facet)
 {
     pg_status status = PG_OK;
     kinked_moments moments[TIP_FIELDS];
@@ -228,10 +299,13 @@ static pg_status measure_trials (pg_tip_field *out, const turned *t, const tip_g
     memset (moments, 0, sizeof moments);
     out->trial = 0;
     if (!(facet > 0) || t->r2 - r1 < TIP_LEAST * out->h) return PG_OK;
-    for (int a = 0; a < nfield; a++) add_ring (&moments[a], grid, a, m, t, r1, t->r2, t->extent + facet);
+    for (int a = 0; a < nfield; a++) {
+        add_ring (&moments[a], grid, a, m, t, r1, t->r2, t->extent + facet);
+        add_faces (&moments[a], press, a, m, t, r1);
+    }
     for (int i = 0; i < PG_TIP_TRIALS; i++) {
         out->trial_angle[i] = trial_angles[i];
-        PG_TRY (weights_of (&w, t, facet, trial_angles[i], nfield, faces));
+        PG_TRY (weights_of (&w, t, facet, trial_angles[i], nfield, faces, press));
         for (int a = 0; a < nfield; a++) {
             if (!kinked_intensities (&w, &moments[a], m->modulus, (size_t) a, K)) goto done;
             for (int k = 0; k < 2; k++) out->trial_K[i][k][a] = K[k] * sqrt (t->r1);
@@ -244,18 +318,20 @@ done:
 
 /* K and J at the tip by the ring, J also by the outer half of it. */
 static pg_status measure_tip (pg_tip_field *out, const turned *t, const tip_grid *grid, int nfield,
-                              const tip_material *m, const kinked_faces *faces, int *done)
+                              const tip_material *m, const kinked_faces *faces, const straight_faces *press,
+                              int *done)
 {
     pg_status status = PG_OK;
     kinked_weights w;
     double half = 0.5 * (t->r1 + t->r2), near[2][TIP_FIELDS], K[2];
     *done = 0;
-    PG_TRY (weights_of (&w, t, 0, 0, nfield, faces));
+    PG_TRY (weights_of (&w, t, 0, 0, nfield, faces, press));
     for (int a = 0; a < nfield; a++)
         for (int outer = 0; outer < 2; outer++) {
             kinked_moments moments;
             memset (&moments, 0, sizeof moments);
             add_ring (&moments, grid, a, m, t, outer ? half : t->r1, t->r2, t->extent);
+            add_faces (&moments, press, a, m, t, outer ? half : t->r1);
             if (!kinked_intensities (&w, &moments, m->modulus, (size_t) a, K)) goto done;
             for (int k = 0; k < 2; k++)
                 if (outer) near[k][a] = K[k] * sqrt (t->r1);
@@ -284,20 +360,22 @@ pg_status kinked_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_f
     turned t = { 0 };
     tip_grid grid = { 0 };
     kinked_faces faces[TIP_FIELDS];
+    straight_faces press;
     size_t node = tip_node_at (p, out->x);
     *done = 0;
     PG_TRY (find_kink (&t, p, state, tip, out->h, node, touch, done));
     if (!*done) goto done;
     const double *kink = t.x + 2 * t.kink;
+    look_at_faces (&press, &t, touch, out->h, nfield);
     pg_tip_field ring = { .x = { kink[0], kink[1] }, .e = { t.e[0], t.e[1] }, .h = out->h, .r1 = t.r1,
                           .near = 0.5 * (t.r1 + t.r2), .wide = t.r2 };
     PG_TRY (sample_ring (&grid, faces, &ring, material, p, force, self, state, nfield, d, times,
-                         tip_node_at (p, kink)));
-    PG_TRY (measure_tip (out, &t, &grid, nfield, material, faces, done));
+                         tip_node_at (p, kink), &press));
+    PG_TRY (measure_tip (out, &t, &grid, nfield, material, faces, &press, done));
     if (!*done) goto done;
     out->r1 = ring.r1, out->near = ring.near, out->wide = ring.wide, out->kinked = 1;
     for (int k = 0; k < 2; k++) out->kink[k] = kink[k], out->e[k] = t.ahead[k];
-    PG_TRY (measure_trials (out, &t, &grid, nfield, material, faces, facet));
+    PG_TRY (measure_trials (out, &t, &grid, nfield, material, faces, &press, facet));
 done:
     tip_grid_clear (&grid);
     pg_free (t.x);

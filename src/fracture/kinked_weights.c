@@ -167,6 +167,24 @@ static void add_series (const place *node, size_t n, const double *d, double tim
     }
 }
 
+/* The same to half the jump of mu / (kappa + 1) u across the straight crack: int O dz from infinity along its
+ * left face, in closed form by the root of z. */
+static void add_jump (const place *node, size_t n, const double *d, double times, double reach,
+                      double complex *jump)
+{
+    for (int i = 0; i < KINKED_PLACES; i++) {
+        double r = kinked_place_at (reach, i);
+        double complex root = _Complex_I * sqrt (r), sum = 0;
+        for (size_t k = 0; k < n * NODES; k++) {
+            double complex s = node[k].root, c = conj (s),
+                           B = pi / NODES * (d[2*k] + _Complex_I * d[2*k + 1]);
+            sum += 0.5 * B * (clog ((root - s) / (root + s)) + clog ((root - c) / (root + c)))
+                   + conj (B) * (node[k].z - conj (node[k].z)) * root / (2 * c * (r + c * c));
+        }
+        jump[i] += times * sum;
+    }
+}
+
 /* Solves for all loads with the last piece `longer` times as long, and adds the end's K, half of it, and the
  * potentials over the change of length (that of both signs). */
 static pg_status add_change (kinked_weights *out, piece *all, size_t n, double longer, size_t nload,
@@ -199,6 +217,7 @@ static pg_status add_change (kinked_weights *out, piece *all, size_t n, double l
         double *K = l < 2 ? out->k[l] : out->own[l - 2];
         K[0] += 0.5 * creal (end), K[1] -= 0.5 * cimag (end);
         if (l < 2) add_series (node, n, d, change, out->even[l], out->odd[l]);
+        if (l < 2 && out->reach > 0) add_jump (node, n, d, change, out->reach, out->jump[l]);
     }
 done:
     last->way = way;
@@ -207,11 +226,12 @@ done:
 }
 
 pg_status kinked_weights_of (kinked_weights *out, size_t n, const double complex *vertex, size_t nload,
-                             const kinked_faces *load)
+                             const kinked_faces *load, double reach)
 {
     pg_status status = PG_OK;
     piece *all = NULL;
     memset (out, 0, sizeof *out);
+    out->reach = reach;
     PG_ALLOC (all, n);
     for (size_t p = 0; p < n; p++) {
         double complex from = p ? vertex[p - 1] : 0;
@@ -258,6 +278,14 @@ void kinked_moments_add (kinked_moments *out, const kinked_place *at, double mu,
     }
 }
 
+/* Both faces: the traction of the left one, -(sigma_12, sigma_22), with the jump of the weight function. */
+void kinked_moments_face (kinked_moments *m, int i, const double stress[2], double q, double mu, double kappa,
+                          double reach)
+{
+    double complex t = -(stress[0] + _Complex_I * stress[1]) * q * reach / KINKED_PLACES;
+    m->face[i] += (kappa + 1) / mu * conj (t);
+}
+
 /* Of Rice: the change of load l's field with the length is 2 / E' (k_I h_I + k_II h_II) of the weight
  * functions h, whose integrals are K_I and K_II. */
 int kinked_intensities (const kinked_weights *w, const kinked_moments *m, double modulus, size_t load,
@@ -268,6 +296,7 @@ int kinked_intensities (const kinked_weights *w, const kinked_moments *m, double
         double complex sum = 0;
         for (int k = 0; k < KINKED_TERMS; k++)
             sum += w->even[l][k] * m->even[k] + w->odd[l][k] * m->odd[k];
+        for (int i = 0; i < KINKED_PLACES; i++) sum -= w->jump[l][i] * m->face[i];
         integral[l] = -0.5 * modulus * creal (sum);
         size = fmax (size, fmax (fabs (w->k[l][0]), fabs (w->k[l][1])));
     }

@@ -102,6 +102,7 @@ struct system_contact {
     double   *rebound;                                 /* in motion: mean of impulses in the step, N (n) */
     int       moves;                                   /* 1: the last state solved for is one in motion */
     pg_contact_values *shown;  size_t nshown, cap_shown;         /* of the last step, for results */
+    pg_face_piece *press;                              /* those that press, of the last tip looked at (n) */
     contact_route route;
     contact_memory now, start;                         /* start: of the step, for one that is refused */
 };

@@ -68,6 +68,7 @@ static void clear_pairs (struct system_contact *c)
     contact_route_clear (c);
     pg_free (c->Z), pg_free (c->C), pg_free (c->coefficient), pg_free (c->cohesion), pg_free (c->before);
     pg_free (c->rebound), c->rebound = NULL;
+    pg_free (c->press), c->press = NULL;
     pg_free (c->force), pg_free (c->gap), pg_free (c->open), pg_free (c->status), pg_free (c->initial);
     c->Z = c->C = c->coefficient = c->cohesion = c->before = c->force = c->gap = c->open = c->initial = NULL;
     c->status = NULL;
@@ -110,6 +111,7 @@ static pg_status make_pairs (pg_system *s)
     PG_ALLOC (c->initial, dim * n);
     PG_ALLOC (c->status, n);
     PG_ALLOC (c->rebound, n);
+    PG_ALLOC (c->press, n);
     for (size_t k = 0; k < n; k++) {
         const pg_contact_piece *piece = &c->pieces.piece[k];
         c->coefficient[k] = piece->platen ? s->problem->platen[piece->platen - 1].friction
@@ -396,6 +398,29 @@ static double away_from (const pg_contact_piece *p, const double *to)
     return hypot (beyond, beside);
 }
 
+/* What a piece does, of field `at`: forces on its left face, N. */
+static double force_on (const struct system_contact *c, size_t row, int nfield, int at)
+{
+    if (at) return c->route.track.force_rate[row];
+    return nfield == 2 ? c->route.force_from[row] : c->force[row] / c->weight;
+}
+
+static pg_face_piece piece_of (const struct system_contact *c, size_t k, int nfield)
+{
+    const pg_contact_piece *p = &c->pieces.piece[k];
+    pg_face_piece out = { .x = { p->x[0], p->x[1] }, .normal = { p->normal[0], p->normal[1] },
+                          .length = p->length };
+    for (int a = 0; a < nfield; a++)
+        for (size_t i = 0; i < 2; i++) out.stress[a][i] = -force_on (c, 2*k + i, nfield, a) / p->area;
+    return out;
+}
+
+/* Do the faces of a piece press on each other, at some time of a stretch of loads? */
+static int presses (const struct system_contact *c, size_t k, int nfield)
+{
+    return nfield == 1 ? c->force[2*k] > 0 : c->status[k] != PG_CONTACT_OPEN;
+}
+
 void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int nfield, pg_tip_faces *out)
 {
     const struct system_contact *c = s->contact;
@@ -408,18 +433,18 @@ void contact_at_tip (const pg_system *s, const pg_state *state, size_t tip, int 
         const pg_contact_piece *p = &c->pieces.piece[k];
         double to[2] = { x[0] - p->x[0], x[1] - p->x[1] };
         double behind = to[0] * e[0] + to[1] * e[1], beside = fabs (to[1] * e[0] - to[0] * e[1]);
-        int presses = nfield == 1 ? c->force[2*k] > 0 : c->status[k] != PG_CONTACT_OPEN;
-        if (presses) out->nearest = fmin (out->nearest, away_from (p, to));
+        if (presses (c, k, nfield)) {
+            out->nearest = fmin (out->nearest, away_from (p, to));
+            c->press[out->npiece++] = piece_of (c, k, nfield);
+        }
         double place = (behind - NEXT * h) / (fmin (LAST * h, straight) - NEXT * h);
         if (beside > ASIDE * h || !(place > 0) || !(place < 1)) continue;
         double weight = pow (sin (3.14159265358979323846 * place), 2);
-        area += weight * p->area, out->closed |= presses;
-        for (size_t i = 0; i < 2; i++) {
-            force[0][i] += weight * (nfield == 2 ? c->route.force_from[2*k + i]
-                                                 : c->force[2*k + i] / c->weight);
-            if (nfield == 2) force[1][i] += weight * c->route.track.force_rate[2*k + i];
-        }
+        area += weight * p->area, out->closed |= presses (c, k, nfield);
+        for (int a = 0; a < nfield; a++)
+            for (size_t i = 0; i < 2; i++) force[a][i] += weight * force_on (c, 2*k + i, nfield, a);
     }
+    if (c) out->piece = c->press;
     /* A branch that leaves a crack which presses elsewhere: beyond the kink its faces are those of another
      * crack, closed or, for the last piece, just open; a ring around the kink knows nothing of the tip. */
     if (isfinite (out->nearest)) out->nearest = fmin (out->nearest, straight);
@@ -473,6 +498,9 @@ int pg_solver_tip_faces (const pg_solver *s, const pg_state *state, size_t tip, 
     memset (out, 0, sizeof *out);
     if (!c) return 0;
     contact_at_tip (&s->break_loop.system, state, tip, 1, out);
-    out->stress[0][0] *= scale, out->stress[0][1] *= scale;
+    for (int i = 0; i < 2; i++) {
+        out->stress[0][i] *= scale;
+        for (size_t k = 0; k < out->npiece; k++) c->press[k].stress[0][i] *= scale;
+    }
     return 1;
 }

@@ -143,6 +143,23 @@ static void doubt_release (break_loop *b, const pg_state *state, size_t i, doubl
     g->said |= FACET_SAID_UNKNOWN;
 }
 
+/* An open tip next to faces that press, which no ring around a kink knows: its own ring ends at them. */
+static void doubt_beside_faces (break_loop *b, const pg_state *state, size_t i)
+{
+    static const double narrow = 3;
+    facet_growth *g = b->growth;
+    const pg_tip_field *f = &g->field[i];
+    if (g->said & FACET_SAID_BESIDE || f->closed || f->kinked || f->limit != PG_ROOM_FACES
+        || !(f->wide < narrow * f->h))
+        return;
+    pg_statistics_warn (b->system.report,
+                        "K of crack tip %ld at (%.6g, %.6g) m comes from a ring of %.2g spacings beside "
+                        "faces that press on each other, where it may be half of what is right: take a "
+                        "smaller spacing",
+                        state->paths->tip[i].id, f->x[0], f->x[1], f->wide / f->h);
+    g->said |= FACET_SAID_BESIDE;
+}
+
 /* What the user should know of tips that were measured, each said once. */
 static void tell (break_loop *b, const pg_state *state)
 {
@@ -157,6 +174,7 @@ static void tell (break_loop *b, const pg_state *state)
         open++;
         if (isnan (f->near)) continue;
         doubt_release (b, state, i, top);
+        doubt_beside_faces (b, state, i);
         pg_tip_combine (f, facet_factors (g, 1, l), l, NULL, K, NULL);
         if (!b->system.contact && closes (b, f, K) && !(g->said & FACET_SAID_CLOSED)) {
             pg_statistics_warn (

@@ -93,7 +93,7 @@ typedef struct facet_growth {
 enum {
     FACET_SAID_CLOSED = 1, FACET_SAID_ROOM = 2, FACET_SAID_NOTHING = 4, FACET_SAID_INTERFACE = 8,
     FACET_SAID_BEGINS = 16, FACET_SAID_UNKNOWN = 32, FACET_SAID_KINKED = 64, FACET_SAID_ENERGY = 128,
-    FACET_SAID_CUT = 256, FACET_SAID_ALL = 511
+    FACET_SAID_CUT = 256, FACET_SAID_BESIDE = 512, FACET_SAID_ALL = 1023
 };
 
 /* Tips whose utilisation is within this share of the largest grow together: keeps symmetric scenes

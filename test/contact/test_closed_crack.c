@@ -245,7 +245,7 @@ static void wings_leave_a_closed_crack (void **state)
                        s->energy_friction / s->energy_external);
         check_relative (turn * 180 / pi, 70.53, 0.02);
         check_relative (w->tip[0].grown, w->tip[1].grown, 1e-9);
-        check_relative (s->energy_dissipated, s->energy_fracture, 0.11);  /* found: 0.90 */
+        check_relative (s->energy_dissipated, s->energy_fracture, 0.08);  /* found: 0.95 */
         assert_true (k ? s->energy_friction > 0.01 * s->energy_external
                        : fabs (s->energy_friction) < 1e-12 * s->energy_external);
         for (int i = 0; i < 2; i++) {                  /* they end along the load */
@@ -255,6 +255,43 @@ static void wings_leave_a_closed_crack (void **state)
         }
         clear (&r);
     }
+}
+
+/* Two spacings behind the kink no ring fits between a wing and the closed faces: its K is that of the ring
+ * around the kink, with the tractions of these faces. Displacement discontinuities on the same paths, in
+ * units of the load and sqrt (pi c): build/release/bench/wing_cracks show 30 0 0 0 8 4. Rings around the tip
+ * had .52 of K_I on one side, and three events later that wing had not grown. */
+static void short_wings_have_the_intensities_of_their_path (void **state)
+{
+    (void) state;
+    static const double right[3][2][2] = { { { 0.2537, 0.0608 }, { 0.2537, 0.0612 } },
+                                           { { 0.2277, -0.0031 }, { 0.2279, -0.0211 } },
+                                           { { 0.2015, -0.0022 }, { 0.2023, 0 } } };
+    run r = scene_of (1,
+        "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [-3, -3], high: [3, 3]}}}]\n"
+        "spacing: 0.125\nlattice: cells\n"
+        "cracks: [{from: [-0.45375, -0.83977540378], to: [0.54625, 0.89227540378]}]\n"
+        "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\ncontact: {kind: normal}\n"
+        "sets: {a: {where: \"x < -2.875 and y < -2.875\"}, b: {where: \"x > 2.875 and y < -2.875\"}}\n"
+        "boundary:\n  - {set: top, traction: {y: -1}}\n  - {set: bottom, traction: {y: 1}}\n"
+        "  - {set: a, essential: penalty, displacement: {x: 0, y: 0}}\n"
+        "  - {set: b, essential: penalty, displacement: {y: 0}}\n"
+        "failure: {criterion: energy_release, fracture_energy: 2.5e-6}\n"
+        "solver: {kind: static, stepping: event, max_events: 4}\noutput: {at: {levels: 1}}\n");
+    for (int event = 0; event < 4; event++) {
+        do advance (&r);
+        while (!r.step.event);
+        for (int i = 0; event && i < 2; i++) {
+            const pg_tip_values *v = pg_solver_tip (r.solver, r.state->paths->tip[i].id);
+            const double *k = right[event - 1][i], unit = r.step.factor * sqrt (pi);
+            print_message ("event %d, wing %d: K_I %.4f of %.4f, K_II %.4f of %.4f\n", event + 1, i,
+                           v->K[0] / unit, k[0], v->K[1] / unit, k[1]);
+            check_relative (v->K[0] / unit, k[0], 0.05);           /* slip of the crack itself: 4 % */
+            check_absolute (v->K[1] / unit, k[1], 0.05 * k[0]);
+        }
+    }
+    check_relative (r.state->paths->tip[0].grown, r.state->paths->tip[1].grown, 1e-9);
+    clear (&r);
 }
 
 /* A crack through a plate whose upper half is moved down and aside: the faces overlap by what it came down,
@@ -370,6 +407,7 @@ int main (void)
         cmocka_unit_test (slip_remembers_the_way),
         cmocka_unit_test (bending_closes_a_part),
         cmocka_unit_test (wings_leave_a_closed_crack),
+        cmocka_unit_test (short_wings_have_the_intensities_of_their_path),
         cmocka_unit_test (overlap_is_seen_on_the_faces),
         cmocka_unit_test (stages_go_around_a_loop),
         cmocka_unit_test (the_rest_is_refused),

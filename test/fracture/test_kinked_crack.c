@@ -42,7 +42,7 @@ static void branches_have_the_factors_of_the_expansions (void **state)
         double complex end = cexp (_Complex_I * theta);
         kinked_weights w;
         expansions (theta, F);
-        check_ok (kinked_weights_of (&w, 1, &end, 0, NULL));
+        check_ok (kinked_weights_of (&w, 1, &end, 0, NULL, 0));
         for (int l = 0; l < 2; l++)
             for (int k = 0; k < 2; k++) check_absolute (w.k[l][k], F[l][k], allowed[i]);
     }
@@ -58,9 +58,34 @@ static void a_stress_along_the_crack_acts_on_the_branch (void **state)
     double complex end = length * cexp (_Complex_I * pi * m);
     kinked_weights w;
     kinked_faces T = { .S = { 3, 0, 0 } };
-    check_ok (kinked_weights_of (&w, 1, &end, 1, &T));
+    check_ok (kinked_weights_of (&w, 1, &end, 1, &T, 0));
     check_absolute (w.own[0][0] / (3 * sqrt (length)), series (g1, 8, m, 0), 1e-5);
     check_absolute (w.own[0][1] / (3 * sqrt (length)), series (g2, 8, m, 1), 1e-5);
+}
+
+/* Forces on the faces of the straight part, against those of a straight crack: sqrt (2 / (pi d)) a unit of
+ * force at the distance d from its tip (Tada, Paris and Irwin). In two pieces behind the kink. */
+static void tractions_of_the_straight_faces_act_on_the_tip (void **state)
+{
+    (void) state;
+    double complex v[2] = { 0.7, 1.3 };
+    static const double stress[2][2] = { { 0, 2 }, { 3, 0 } };
+    const double reach = 4;
+    kinked_weights w;
+    check_ok (kinked_weights_of (&w, 2, v, 0, NULL, reach));
+    for (int mode = 0; mode < 2; mode++) {
+        kinked_moments m;
+        double K[2], right = 0;
+        memset (&m, 0, sizeof m);
+        for (int i = 0; i < KINKED_PLACES; i++) {
+            kinked_moments_face (&m, i, stress[mode], 0.5, 3, 2, reach);
+            right -= 0.5 * (stress[mode][0] + stress[mode][1]) * reach / KINKED_PLACES
+                     * sqrt (2 / (pi * (1.3 + kinked_place_at (reach, i))));
+        }
+        assert_true (kinked_intensities (&w, &m, 8 * 3 / (2 + 1), 0, K));  /* 8 mu / (kappa + 1) */
+        check_relative (K[mode], right, 1e-3);
+        check_absolute (K[1 - mode], 0, 1e-9);
+    }
 }
 
 /* A crack that goes straight on keeps its K; two pieces in one line are one. */
@@ -70,11 +95,11 @@ static void collinear_pieces_are_one (void **state)
     double complex straight[3] = { 0.4, 1.1, 2 }, one = 1.5 * cexp (0.8 * _Complex_I),
                    three[3] = { 0.2 * one, 0.7 * one, one };
     kinked_weights a, b;
-    check_ok (kinked_weights_of (&a, 3, straight, 0, NULL));
+    check_ok (kinked_weights_of (&a, 3, straight, 0, NULL, 0));
     check_absolute (a.k[0][0], 1, 1e-5), check_absolute (a.k[1][1], 1, 1e-5);
     check_absolute (a.k[0][1], 0, 1e-12), check_absolute (a.k[1][0], 0, 1e-12);
-    check_ok (kinked_weights_of (&a, 1, &one, 0, NULL));
-    check_ok (kinked_weights_of (&b, 3, three, 0, NULL));
+    check_ok (kinked_weights_of (&a, 1, &one, 0, NULL, 0));
+    check_ok (kinked_weights_of (&b, 3, three, 0, NULL, 0));
     for (int l = 0; l < 2; l++)
         for (int k = 0; k < 2; k++) check_absolute (a.k[l][k], b.k[l][k], 1e-4);
 }
@@ -131,8 +156,8 @@ static void betti_gives_what_loads_the_kink (void **state)
     double extent = cabs (v[1]), K[2];
     kinked_weights w, T;
     kinked_faces along = { .S = { 4, 0, 0 } };
-    check_ok (kinked_weights_of (&w, 2, v, 0, NULL));
-    check_ok (kinked_weights_of (&T, 2, v, 1, &along));
+    check_ok (kinked_weights_of (&w, 2, v, 0, NULL, 0));
+    check_ok (kinked_weights_of (&T, 2, v, 1, &along, 0));
     for (int outer = 0; outer < 2; outer++) {
         double r1 = outer ? 4 : 1.15 * extent, r2 = 7;
         for (int l = 0; l < 2; l++) {
@@ -152,6 +177,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (branches_have_the_factors_of_the_expansions),
                                         cmocka_unit_test (a_stress_along_the_crack_acts_on_the_branch),
+                                        cmocka_unit_test (tractions_of_the_straight_faces_act_on_the_tip),
                                         cmocka_unit_test (collinear_pieces_are_one),
                                         cmocka_unit_test (betti_gives_what_loads_the_kink) };
     return cmocka_run_group_tests_name ("fracture/kinked_crack", tests, NULL, NULL);

@@ -290,7 +290,7 @@ static void fields_around_a_kink (void **state)
     check_scaled (f.e[0], cos (angle + turn[1]), 1e-9, 1);
     kinked_weights w;
     kinked_faces load[2] = { { .b = { b, 0 } }, { .S = { 3e6, 0, 0 } } };
-    check_ok (kinked_weights_of (&w, 2, vertex, 2, load));
+    check_ok (kinked_weights_of (&w, 2, vertex, 2, load, 0));
     for (int k = 0; k < 2; k++) {
         check_scaled (f.K[k][0], w.own[0][k], 1e-3, 1e6 * 0.01);
         check_scaled (f.K[k][1], 1e6 * w.k[0][k] + 4e5 * w.k[1][k] + w.own[1][k], 1e-3, 1e6);
@@ -299,14 +299,14 @@ static void fields_around_a_kink (void **state)
     check_below (fabs (f.J_near[1][1] / f.J[1][1] - 1), 3e-3);
     /* the facet to come, and where it goes: K_II vanishes in the mean of its length */
     double complex more_of[3] = { vertex[0], vertex[1], vertex[1] + h * cexp (_Complex_I * (turn[1] + 0.4)) };
-    check_ok (kinked_weights_of (&w, 3, more_of, 2, load));
+    check_ok (kinked_weights_of (&w, 3, more_of, 2, load, 0));
     check_absolute (f.trial, h, 1e-12), check_absolute (f.trial_angle[3], 0.4, 1e-12);
     for (int k = 0; k < 2; k++)
         check_scaled (f.trial_K[3][k][1], 1e6 * w.k[0][k] + 4e5 * w.k[1][k] + w.own[1][k], 2e-3, 1e6);
     double l[2] = { 1, 1 }, theta, K[3];
     assert_int_equal (pg_kink_ahead (&f, 2, l, 0, &theta), 1);
     more_of[2] = vertex[1] + h * cexp (_Complex_I * (turn[1] + theta));
-    check_ok (kinked_weights_of (&w, 3, more_of, 2, load));
+    check_ok (kinked_weights_of (&w, 3, more_of, 2, load, 0));
     pg_tip_combine (&f, 2, l, NULL, K, NULL);
     double end[2];
     for (int k = 0; k < 2; k++) end[k] = 1e6 * w.k[0][k] + 4e5 * w.k[1][k] + w.own[1][k] + w.own[0][k];
