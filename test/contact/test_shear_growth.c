@@ -67,7 +67,7 @@ static void slip_surfaces_grow_as_palmer_and_rice (void **state)
                        "dissipated %.4f, friction %.3g of the work\n", k, sum / theory, tip->grown / h,
                        (tip->x[1] - line) / h,
                        s->energy_dissipated / s->energy_fracture, s->energy_friction / s->energy_external);
-        check_relative (sum, theory, 0.04);            /* eight spacings to the half height; found: 3.6 % */
+        check_relative (sum, theory, 0.035);           /* eight spacings to the half height; found: 3.3 % */
         check_relative (tip->grown, 2 * EVENTS * h, 1e-9);
         check_scaled (tip->x[1], line, 1e-6, h);
         check_relative (s->energy_dissipated, s->energy_fracture, 0.1);

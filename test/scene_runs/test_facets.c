@@ -52,7 +52,11 @@ static double constant (double length) { (void) length; return 1.0 / 3; }
 static const double along_x[2] = { 1, 0 };
 
 /* The strip holds what is released exactly, whatever the lattice: the crack between two rows of points, and
- * elsewhere between them. */
+ * elsewhere between them. Off the middle of the strip by y it is drawn back: K_II / K_I of a straight crack
+ * there is .41 y over the height (finite elements, data/fracture_fem/reference.py, y of .02 and .05 of the
+ * height), so that y' = - .82 y over the height, and .44 of y is left after 20 spacings, which are the
+ * height. Found, in spacings, of .40 and -.45: .19 and -.19 (right: .18, -.20); with Gauss points .21 and
+ * -.23. */
 static void the_strip_takes_griffiths_load (void **state)
 {
     static const double shift[][2] = { { 0, 0 }, { 0.37, 0.40 }, { 0.10, -0.45 } };
@@ -70,7 +74,7 @@ static void the_strip_takes_griffiths_load (void **state)
         check_below (fmax (g.high - 1, 1 - g.low), 0.01);
         check_relative (g.energy, 1, 0.02);
         check_below (0.5, g.least);
-        check_below (g.off, 0.28 * H);                 /* found: 0, 0.22, 0.26 */
+        check_absolute (g.tip[1] / H, 0.44 * shift[k][1], 0.05);
         check_relative (r.state->paths->length, 20 * H, 1e-9);
         clear (&r);
     }
