@@ -14,6 +14,7 @@ import fracture_scenes as scenes
 STRAIGHT = [scenes.Lattice("centred"), scenes.Lattice("shifted .37, .21", (0.37, 0.21)), scenes.Lattice("shifted .11, .43", (0.11, 0.43)),
             scenes.Lattice("shifted -.29, .36", (-0.29, 0.36)), scenes.Lattice("moved .2, seed 1", perturb=0.2)]
 TURNED = [STRAIGHT[0], STRAIGHT[1], scenes.Lattice("turned 23", (0.13, 0.29), 23), scenes.Lattice("turned 37", (0.13, 0.29), 37), STRAIGHT[4]]
+FEWER = ("shifted .11, .43", "shifted -.29, .36", "turned 37")          # left out with twice as many spacings
 # body, its width in half lengths of the crack, lattices (sides that are held across cannot be turned)
 CASES = [(scenes.ShearNotch, 2, STRAIGHT), (scenes.CrackedDisk, 1 / 0.15, TURNED), (scenes.CrackedDisk15, 1 / 0.15, TURNED),
          (scenes.Inclined30, 1, TURNED), (scenes.Inclined, 1, TURNED), (scenes.Inclined60, 1, TURNED)]
