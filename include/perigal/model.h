@@ -159,6 +159,9 @@ typedef struct {
     /* 1: no facets: the outermost points are held in the linear field instead, compliance is NAN */
     int    held;
     int    settled;                                    /* 0: iterations ended early: at least so much */
+    /* root of the largest energy of a turn of the body over that of a strain of the same size; 0: a turn
+     * strains nothing */
+    double rigid;
     /* energy that rough forces of unit size put into the body, over their number: about 1; of small bodies
      * 10; 1e9 and more: next to nothing resists some motion */
     double softness;

@@ -229,6 +229,7 @@ static void patch_block (pg_json *j, const pg_problem *p)
     pg_json_open (j, "patch", '{');
     pg_json_text (j, "stress", pg_patch_state (p));
     pg_json_number (j, "compliance", p->patch.compliance);
+    pg_json_number (j, "rigid", p->patch.rigid);
     pg_json_text (j, "loaded", p->patch.held ? "outermost points held" : "whole surface");
     pg_json_text (j, "kind", p->patch.settled ? "measured" : "lower bound");
     pg_json_count (j, "iterations", p->patch.iterations);

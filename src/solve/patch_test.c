@@ -491,6 +491,13 @@ static void measure_unit_strains (probe *t)
             one[w] = 0;
         }
     }
+    for (size_t m = t->nv + t->dim; m < t->nv + t->dim + t->dim * (t->dim - 1) / 2; m++) {
+        motion turn = motion_of (t, m);
+        memset (t->x, 0, t->ndof * sizeof *t->x);
+        add_field (t, &turn, t->stride, t->x);
+        t->op->apply (t->op->context, t->x, t->q);
+        t->out.rigid = fmax (t->out.rigid, sqrt (fmax (0, dot (t->ndof, t->x, t->q)) / t->A[0]));
+    }
     t->op->diagonal (t->op->context, t->inverse);
     for (size_t i = 0; i < t->ndof; i++) t->inverse[i] = t->inverse[i] > 0 ? 1 / t->inverse[i] : 0;
 }
