@@ -159,8 +159,8 @@ typedef struct {
     /* 1: no facets: the outermost points are held in the linear field instead, compliance is NAN */
     int    held;
     int    settled;                                    /* 0: iterations ended early: at least so much */
-    /* root of the largest energy of a turn of the body over that of a strain of the same size; 0: a turn
-     * strains nothing */
+    /* the largest strain of a rigid motion (a translation by the radius of the body, a turn by one), by its
+     * energy and the work of uniform tractions in it: rounding where such motions strain nothing */
     double rigid;
     /* energy that rough forces of unit size put into the body, over their number: about 1; of small bodies
      * 10; 1e9 and more: next to nothing resists some motion */

@@ -80,12 +80,15 @@ pg_status pg_solver_options_read (pg_solver_options *out, const pg_problem *prob
 
 /* ---- patch test ---------------------------------------------------------------------------------------- */
 /* Measures problem->patch, once: the bare body (pg_problem_bare) under the tractions of each independent
- * uniform stress, by conjugate gradients that begin at the best linear field and end when they gain
- * nothing more, or when they have cost what a run should not notice. Without facets the outermost points
- * are held instead. From PG_PATCH_WARNED on pg_solver_doubts warns, over PG_PATCH_REFUSED pg_patch_refuse
- * refuses. What the supports of the scene add is not in it, a fifth to a half of the error: so that a
- * warning comes before 5 % in a scene, the threshold here is 4 %. */
+ * uniform stress, by conjugate gradients that begin at the best linear field and end when they gain nothing
+ * more, or when they have cost what a run should not notice. Without facets the outermost points are held
+ * instead. From PG_PATCH_WARNED on, and of rigid motions that strain from PG_RIGID_WARNED on,
+ * pg_solver_doubts warns, over PG_PATCH_REFUSED pg_patch_refuse refuses. What the supports of the scene add
+ * is not in it, a fifth to a half of the error: so that a warning comes before 5 % in a scene, the
+ * threshold here is 4 %. A turn a hundred times the strains leaves an error of one per cent of them from
+ * the other one on. */
 #define PG_PATCH_WARNED 0.04
+#define PG_RIGID_WARNED 1e-4
 #define PG_PATCH_REFUSED 0.5
 pg_status pg_patch_probe (pg_problem *problem);
 /* PG_E_SCENE with what was measured that no run should go by: too large an error, unless

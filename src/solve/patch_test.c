@@ -370,6 +370,40 @@ static int mark_supports (probe *t, const pg_problem *p)
     return t->supported;
 }
 
+/* Motions of a rigid body, as long as the body is: the strains that they give. Translations and turns are
+ * numbers nv and on of motion_of. */
+static size_t motions_end (const probe *t) { return t->nv + t->dim + t->dim * (t->dim - 1) / 2; }
+
+static void rigid_field (const probe *t, size_t m, double *out)
+{
+    motion one = motion_of (t, m);
+    memset (out, 0, t->ndof * sizeof *out);
+    add_field (t, &one, t->stride, out);
+}
+
+static void measure_rigid_motions (probe *t)
+{
+    double strained = 0;
+    for (size_t v = 0; v < t->nv; v++) strained = fmax (strained, t->A[v * t->nv + v]);
+    for (size_t m = t->nv; m < motions_end (t) && strained > 0; m++) {
+        rigid_field (t, m, t->x);
+        t->op->apply (t->op->context, t->x, t->q);
+        t->out.rigid = fmax (t->out.rigid, sqrt (fmax (0, dot (t->ndof, t->x, t->q)) / strained));
+    }
+}
+
+/* The work of a uniform stress' tractions P in those motions, over that of the stress in a strain of the same
+ * size: shape functions on the surface that do not reproduce it do work, as supports by Nitsche's method do
+ * there. Points of bonds lie behind the surface, which is no such error. */
+static void measure_rigid_work (probe *t, double volume)
+{
+    if (t->out.held || t->supported || !t->p->method->shape_functions) return;
+    for (size_t m = t->nv; m < motions_end (t); m++) {
+        rigid_field (t, m, t->x);
+        t->out.rigid = fmax (t->out.rigid, fabs (dot (t->ndof, t->x, t->P)) / volume);
+    }
+}
+
 /* A bar's displacement has half the size about its middle that it has about its end, from which displacements
  * are commonly counted: what is not linear in the error is measured against that. Held or read off where it
  * bears loads, the body moves by what its surface gives way: that is in the work of the tractions. */
@@ -386,8 +420,9 @@ static pg_status measure_state (probe *t, size_t v)
     pg_dense_solve ((int) t->nv, D, strain);
     memset (t->P, 0, t->ndof * sizeof *t->P);
     if (!t->out.held) PG_TRY (t->force->surface (t->self, stress, t->P));
-    start (t, strain);
     for (size_t i = 0; i < t->n; i++) volume += t->p->cloud.volume[i];
+    measure_rigid_work (t, volume);
+    start (t, strain);
     PG_TRY (find_rest (t, volume * dot (t->nv, stress, strain), &energy));
     linear_field (t, strain, t->stride, t->z);
     work = dot (t->ndof, t->P, t->z);
@@ -491,13 +526,6 @@ static void measure_unit_strains (probe *t)
             one[w] = 0;
         }
     }
-    for (size_t m = t->nv + t->dim; m < t->nv + t->dim + t->dim * (t->dim - 1) / 2; m++) {
-        motion turn = motion_of (t, m);
-        memset (t->x, 0, t->ndof * sizeof *t->x);
-        add_field (t, &turn, t->stride, t->x);
-        t->op->apply (t->op->context, t->x, t->q);
-        t->out.rigid = fmax (t->out.rigid, sqrt (fmax (0, dot (t->ndof, t->x, t->q)) / t->A[0]));
-    }
     t->op->diagonal (t->op->context, t->inverse);
     for (size_t i = 0; i < t->ndof; i++) t->inverse[i] = t->inverse[i] > 0 ? 1 / t->inverse[i] : 0;
 }
@@ -537,6 +565,7 @@ pg_status pg_patch_probe (pg_problem *problem)
     int held = bare->nload == 0 || (t.out.fragments && !problem->method->shape_functions);
     PG_TRY (make_factor (&t, problem, held));
     measure_unit_strains (&t);
+    measure_rigid_motions (&t);
     if (held) hold_rim (&t);
     for (size_t v = 0; v < t.nv; v++) PG_TRY (measure_state (&t, v));
     PG_TRY (measure_softness (&t));

@@ -268,6 +268,13 @@ static void doubt_patch (pg_statistics *report, const pg_problem *p)
                             "displacements may be wrong there; points that nearly "
                             "coincide, or modes without energy of nodal integration, do this",
                             t->softness);
+    if (t->rigid > PG_RIGID_WARNED)
+        pg_statistics_warn (report,
+                            "a rigid motion of the body strains it: a turn by an angle gives strains of %.2g "
+                            "times the angle, and forces and moments miss balance by as much; a body that "
+                            "turns more than it strains is not to be trusted: use integration: consistent, a "
+                            "larger horizon (now %.3g spacings) or a smaller spacing",
+                            t->rigid, p->approx.horizon / p->cloud.h);
     if (t->error <= PG_PATCH_WARNED) return;
     pg_patch_words (p, words, sizeof words);
     pg_patch_remedy (p, remedy, sizeof remedy);
