@@ -80,7 +80,8 @@ typedef struct {
     void *self;
     const pg_state *state;
     int nfield;
-    const double *const *d, *t;
+    const mean_motion *d;
+    const double *t;
     double h;
     size_t n;
     const front_place *place;

@@ -76,3 +76,20 @@ double front_gap (const pg_front *f, double u, size_t i)
     double gap = fabs (u - (double) i);
     return f->closed ? fmin (gap, (double) f->n - gap) : gap;
 }
+
+/* ---- frames -------------------------------------------------------------------------------------------- */
+void front_turn_vector (const double *frame, const double *v, double *out)
+{
+    for (int i = 0; i < 3; i++) out[i] = frame[3*i] * v[0] + frame[3*i + 1] * v[1] + frame[3*i + 2] * v[2];
+}
+
+void front_turn_tensor (const double *frame, const double *T, double *out)
+{
+    double rows[9];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            rows[3*i + j] = T[3*i] * frame[3*j] + T[3*i + 1] * frame[3*j + 1] + T[3*i + 2] * frame[3*j + 2];
+    for (int i = 0; i < 3; i++)
+        for (int j = 0; j < 3; j++)
+            out[3*i + j] = frame[3*i] * rows[j] + frame[3*i + 1] * rows[3 + j] + frame[3*i + 2] * rows[6 + j];
+}

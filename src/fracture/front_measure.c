@@ -21,6 +21,7 @@ typedef struct {
     const pg_front *front;
     int nfield;
     const double *const *d, *t;
+    mean_motion field[TIP_FIELDS];
     const pg_front_faces *faces;                       /* of each vertex; NULL: they do not touch */
     double h;                                          /* the largest local spacing along the front, m */
     pg_nearest *near;                                  /* among the points; NULL: all are alike */
@@ -86,23 +87,6 @@ static int moves (const measuring *m)
     for (size_t i = 0; i < m->state->ndof; i++)
         if (m->state->v[i] != 0 || m->state->a[i] != 0) return 1;
     return 0;
-}
-
-/* ---- frames -------------------------------------------------------------------------------------------- */
-void front_turn_vector (const double *frame, const double *v, double *out)
-{
-    for (int i = 0; i < 3; i++) out[i] = frame[3*i] * v[0] + frame[3*i + 1] * v[1] + frame[3*i + 2] * v[2];
-}
-
-void front_turn_tensor (const double *frame, const double *T, double *out)
-{
-    double rows[9];
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            rows[3*i + j] = T[3*i] * frame[3*j] + T[3*i + 1] * frame[3*j + 1] + T[3*i + 2] * frame[3*j + 2];
-    for (int i = 0; i < 3; i++)
-        for (int j = 0; j < 3; j++)
-            out[3*i + j] = frame[3*i] * rows[j] + frame[3*i + 1] * rows[3 + j] + frame[3*i + 2] * rows[6 + j];
 }
 
 /* ---- cross sections ------------------------------------------------------------------------------------ */
@@ -227,8 +211,8 @@ static pg_status measure_sections (measuring *m, const front_section *s, size_t 
     for (int a = 0; a < m->nfield && c->n; a++) {
         double pressure = pressure_in (m, a);
         size_t from = 0;
-        PG_TRY (gradient_sample (m->p, m->force, m->self, m->state, m->d[a], c->n, c->x, c->u, c->stress,
-                                 c->gradient));
+        PG_TRY (gradient_sample (m->p, m->force, m->self, m->state, m->field[a].d, c->n, c->x, c->u,
+                                 c->stress, c->gradient));
         if (moving) {
             PG_TRY (gradient_sample (m->p, m->force, m->self, m->state, m->state->v, c->n, c->x, c->v, NULL,
                                      c->vgradient));
@@ -280,7 +264,7 @@ static void part (const void *context, int a, size_t section, const tip_material
 static pg_status add_springs (measuring *m)
 {
     const front_springs s = { .p = m->p, .force = m->force, .self = m->self, .state = m->state,
-                              .nfield = m->nfield, .d = m->d, .t = m->t, .h = m->h, .n = m->n,
+                              .nfield = m->nfield, .d = m->field, .t = m->t, .h = m->h, .n = m->n,
                               .place = m->place, .radii = m->radii, .sums = m->sums, .context = m,
                               .material = material_of, .part = part };
     return front_springs_add (&s);
@@ -540,6 +524,9 @@ static pg_status prepare (measuring *m)
     PG_ALLOC (m->width, f->n);
     PG_ALLOC (m->place, m->n);
     PG_ALLOC (m->sums, m->n);
+    for (int a = 0; a < m->nfield; a++)
+        PG_TRY (mean_motion_take (&m->field[a], m->p, m->state, m->d[a], f->n, f->x,
+                                  front_radius[FRONT_RADII - 1] * m->h));
     place_sections (m);
     for (size_t i = 0; i < f->n; i++) m->width[i] = hat_width (m, i);
 done:
@@ -590,6 +577,7 @@ pg_status pg_front_measure_faces (pg_tip_field *out, const pg_problem *p, const 
     if (faces) front_faces_close (m.front, faces, nfield, out);
 done:
     chunk_clear (&c);
+    for (int a = 0; a < TIP_FIELDS; a++) mean_motion_clear (&m.field[a]);
     pg_nearest_free (&m.near);
     pg_free (m.u), pg_free (m.room), pg_free (m.radii), pg_free (m.load);
     pg_free (m.width);

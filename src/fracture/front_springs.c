@@ -123,7 +123,13 @@ pg_status front_springs_add (const front_springs *s)
     for (int a = 0; a < s->nfield; a++) {
         PG_ALLOC (u[a], 3 * n);
         PG_ALLOC (gradient[a], 9 * n);
-        PG_TRY (gradient_sample (s->p, s->force, s->self, s->state, s->d[a], n, x, u[a], NULL, gradient[a]));
+        PG_TRY (gradient_sample (s->p, s->force, s->self, s->state, s->d[a].d, n, x, u[a], NULL,
+                                 gradient[a]));
+        for (size_t k = 0; k < n; k++) {
+            double moved[3];
+            mean_motion_at (&s->d[a], x + 3*k, 3, moved);
+            for (size_t c = 0; c < 3; c++) u[a][3*k + c] += moved[c];
+        }
     }
     for (size_t k = 0; k < n; k++) {
         const double *frame = s->place[q[k].section].frame;

@@ -145,8 +145,8 @@ static void subtract (tip_grid *grid, int at, const tip_material *m, const kinke
 }
 
 /* The mean displacement and rotation of the ring have no integral but for rounding and quadrature, which
- * would see them: off. */
-static void take_rigid_motion_off (tip_grid *grid, int at)
+ * would see them: off. spin: the rotation that the gradient lacks. */
+static void take_rigid_motion_off (tip_grid *grid, int at, double spin)
 {
     double sum[3] = { 0 }, area = 0, *u = grid->field[at].u;
     for (size_t k = 0; k < grid->n; k++) {
@@ -155,6 +155,7 @@ static void take_rigid_motion_off (tip_grid *grid, int at)
         area += w, sum[0] += w * u[2*k], sum[1] += w * u[2*k + 1], sum[2] += 0.5 * w * (H[2] - H[1]);
     }
     for (int i = 0; i < 3; i++) sum[i] /= area;
+    sum[2] += spin;
     for (size_t k = 0; k < grid->n; k++) {
         double x = grid->r[k] * cos (grid->theta[k]), y = grid->r[k] * sin (grid->theta[k]);
         u[2*k] -= sum[0] - sum[2] * y, u[2*k + 1] -= sum[1] + sum[2] * x;
@@ -239,7 +240,7 @@ static void add_faces (kinked_moments *out, const straight_faces *faces, int at,
 /* Samples the ring and leaves in it fields with free straight faces and without body force at the kink. */
 static pg_status sample_ring (tip_grid *grid, kinked_faces *faces, const pg_tip_field *ring,
                               const tip_material *m, const pg_problem *p, const pg_force_type *force,
-                              void *self, const pg_state *state, int nfield, const double *const *d,
+                              void *self, const pg_state *state, int nfield, const mean_motion *d,
                               const double *t, size_t node, const straight_faces *press)
 {
     pg_status status = PG_OK;
@@ -247,11 +248,11 @@ static pg_status sample_ring (tip_grid *grid, kinked_faces *faces, const pg_tip_
     PG_TRY (tip_grid_create (grid, ring, 0));
     grid->nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {
-        PG_TRY (tip_grid_sample (grid, a, ring, m, p, force, self, state, d[a]));
+        PG_TRY (tip_grid_sample (grid, a, ring, m, p, force, self, state, &d[a]));
         if (forced) PG_TRY (tip_add_body_force (grid, a, ring, p, node, t));
         PG_TRY (tip_springs_spread (grid, a, ring, p, t));
         double pressure = tip_pressure (p, a, t);
-        take_rigid_motion_off (grid, a);
+        take_rigid_motion_off (grid, a, d[a].spin[2]);
         const double *s = press->mean[a];
         kinked_faces all = { .S = { -pressure, s[1] - pressure, s[0] } };
         mean_load (grid, a, all.b);
@@ -352,7 +353,7 @@ done:
 }
 
 pg_status kinked_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
-                              const pg_state *state, size_t tip, int nfield, const double *const *d,
+                              const pg_state *state, size_t tip, int nfield, const mean_motion *d,
                               const double *times, double facet, const tip_material *material,
                               const pg_tip_faces *touch, int *done)
 {

@@ -6,6 +6,7 @@
  * (direction). */
 #ifndef PG_FRACTURE_TIP_H
 #define PG_FRACTURE_TIP_H
+#include "mean_motion.h"
 #include "perigal/fracture.h"
 
 #define TIP_LEAST 1.5                                  /* spacings: a ring that ends nearer knows nothing */
@@ -24,7 +25,8 @@ typedef struct {
 /* One displacement field at the places of a grid, in the frame of the tip. */
 typedef struct {
     double *u;                                         /* displacement, m (n x 2) */
-    double *H;                                         /* H[2 c + k] = du_c/dx_k (n x 4) */
+    /* H[2 c + k] = du_c/dx_k (n x 4), less the mean rotation around the tip */
+    double *H;
     double *stress;                                    /* 11, 22, 12, Pa (n x 3) */
     double *excess;                                    /* stress above that of the strain, Pa (n); NULL: 0 */
     double *load;                                      /* b - rho a, N/m^3 (n x 2); NULL: none */
@@ -63,7 +65,7 @@ pg_status tip_faces_create (tip_grid *out, const pg_tip_field *tip, const pg_cra
 /* One field from the force into grid->field[at]. */
 pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, const tip_material *material,
                            const pg_problem *p, const pg_force_type *force, void *self,
-                           const pg_state *state, const double *d);
+                           const pg_state *state, const mean_motion *d);
 /* Adds the body force b of field `at`, that of factor t[at], less that of t[0] for the second, to its load.
  * node: at the tip. */
 pg_status tip_add_body_force (tip_grid *grid, int at, const pg_tip_field *tip, const pg_problem *p,
@@ -79,7 +81,7 @@ pg_status tip_springs_create (tip_springs *out, const pg_tip_field *tip, const p
  * pg_tip_measure. */
 pg_status tip_springs_sample (tip_springs *s, int at, const pg_tip_field *tip, const tip_material *material,
                               const pg_problem *p, const pg_force_type *force, void *self,
-                              const pg_state *state, const double *d, const double *t);
+                              const pg_state *state, const mean_motion *d, const double *t);
 void      tip_springs_clear  (tip_springs *s);
 /* The same springs as a body force at the places of a grid, added to its load: each node's springs over its
  * volume. For rings that do not reach all the way in. */
@@ -99,7 +101,7 @@ double    tip_weight (double r, double r1, double r2, double *slope);
  * room of `out` are known. facet: length of the trial facets, m; 0: none. *done 0: the crack is straight
  * where rings lie, or there is no room around its turns. */
 pg_status kinked_tip_measure (pg_tip_field *out, const pg_problem *p, const pg_force_type *force, void *self,
-                              const pg_state *state, size_t tip, int nfield, const double *const *d,
+                              const pg_state *state, size_t tip, int nfield, const mean_motion *d,
                               const double *t, double facet, const tip_material *material,
                               const pg_tip_faces *touch, int *done);
 

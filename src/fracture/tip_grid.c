@@ -99,7 +99,7 @@ static void turn_stress (const double *e, const double *s, double *out)
 
 pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, const tip_material *material,
                            const pg_problem *p, const pg_force_type *force, void *self,
-                           const pg_state *state, const double *d)
+                           const pg_state *state, const mean_motion *d)
 {
     pg_status status = PG_OK;
     tip_sample *f = &grid->field[at];
@@ -112,10 +112,12 @@ pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, cons
     PG_ALLOC (f->H, 4 * n);
     PG_ALLOC (f->stress, 3 * n);
     if (material->lambda > 0) PG_ALLOC (f->excess, n);
-    PG_TRY (gradient_sample (p, force, self, state, d, n, grid->x, u, stress, gradient));
+    PG_TRY (gradient_sample (p, force, self, state, d->d, n, grid->x, u, stress, gradient));
     for (size_t k = 0; k < n; k++) {
-        double full[6];
-        tip_turn (tip->e, u + 3*k, f->u + 2*k);
+        double full[6], moved[3];
+        mean_motion_at (d, grid->x + 2*k, 2, moved);
+        for (size_t c = 0; c < 2; c++) moved[c] += u[3*k + c];
+        tip_turn (tip->e, moved, f->u + 2*k);
         turn_gradient (tip->e, gradient + 9*k, f->H + 4*k);
         turn_stress (tip->e, stress + 6*k, f->stress + 3*k);
         if (!f->excess) continue;

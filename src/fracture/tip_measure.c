@@ -220,6 +220,7 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
     tip_grid grid = { 0 }, faces = { 0 };
     tip_springs springs = { 0 };
     double pressure[TIP_FIELDS] = { 0 };
+    mean_motion field[TIP_FIELDS] = { { .d = NULL } };
     size_t node;
     const char *refused = pg_tip_refuses (p, force);
     memset (out, 0, sizeof *out);
@@ -233,8 +234,10 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
     out->modulus = m.modulus;
     if (touch && !closed) limit_rings (out, touch);
     unknown (out);
+    for (int a = 0; a < nfield; a++)
+        PG_TRY (mean_motion_take (&field[a], p, state, d[a], 1, out->x, fmax (out->wide, 4 * out->h)));
     if (!closed && !moving)
-        PG_TRY (kinked_tip_measure (out, p, force, self, state, tip, nfield, d, t, facet, &m, touch,
+        PG_TRY (kinked_tip_measure (out, p, force, self, state, tip, nfield, field, t, facet, &m, touch,
                                     &kinked));
     if (kinked || isnan (out->near)) goto done;
     /* What moves needs no places within the rings: where a field goes along with its tip, v = - c u,1, rho a
@@ -244,9 +247,9 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
     PG_TRY (tip_springs_create (&springs, out, p));
     grid.nfield = faces.nfield = springs.grid.nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {
-        PG_TRY (tip_grid_sample (&grid, a, out, &m, p, force, self, state, d[a]));
-        if (faces.n) PG_TRY (tip_grid_sample (&faces, a, out, &m, p, force, self, state, d[a]));
-        PG_TRY (tip_springs_sample (&springs, a, out, &m, p, force, self, state, d[a], t));
+        PG_TRY (tip_grid_sample (&grid, a, out, &m, p, force, self, state, &field[a]));
+        if (faces.n) PG_TRY (tip_grid_sample (&faces, a, out, &m, p, force, self, state, &field[a]));
+        PG_TRY (tip_springs_sample (&springs, a, out, &m, p, force, self, state, &field[a], t));
         if (forced) PG_TRY (tip_add_body_force (&grid, a, out, p, node, t));
         pressure[a] = tip_pressure (p, a, t);
         tip_grid *all[] = { &grid, &faces, &springs.grid };
@@ -261,6 +264,7 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
     if (closed) close_tip (out, nfield);
 done:
     tip_grid_clear (&grid), tip_grid_clear (&faces), tip_springs_clear (&springs);
+    for (int a = 0; a < TIP_FIELDS; a++) mean_motion_clear (&field[a]);
     return status;
 }
 

@@ -99,7 +99,7 @@ static void pull_of (const pg_load *load, size_t i, const double *x, const doubl
 
 pg_status tip_springs_sample (tip_springs *s, int at, const pg_tip_field *tip, const tip_material *material,
                               const pg_problem *p, const pg_force_type *force, void *self,
-                              const pg_state *state, const double *d, const double *t)
+                              const pg_state *state, const mean_motion *d, const double *t)
 {
     pg_status status = PG_OK;
     tip_grid *g = &s->grid;

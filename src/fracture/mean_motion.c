@@ -1,0 +1,106 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * A displacement field less the motion of a rigid body that the nodes around a tip or front make in the mean.
+ * A rigid motion changes no stress and has no part in J and K; in sums over places its turn is multiplied by
+ * what stresses miss of equilibrium, and a place whose shape functions do not reproduce linear fields strains
+ * under it. Least squares over the nodes: linear in the field, and exact for motions of a rigid body. */
+#include "mean_motion.h"
+#include <math.h>
+#include <string.h>
+
+/* The spin of which the moment of momentum of the nodes is L, with the inertia J (3 x 3, of unit masses). In
+ * the plane there is the third component alone. Nodes in a line have no spin about it. */
+static void spin_of (int dim, const double *J, const double *L, double *spin)
+{
+    double lambda[3], V[9];
+    if (dim == 2) {
+        spin[2] = J[8] > 0 ? L[2] / J[8] : 0;
+        return;
+    }
+    pg_dense_eigen (3, J, lambda, V);
+    for (int l = 0; l < 3 && lambda[l] > 1e-9 * lambda[0]; l++) {
+        double along = 0;
+        for (int k = 0; k < 3; k++) along += V[3*k + l] * L[k];
+        for (int k = 0; k < 3; k++) spin[k] += V[3*k + l] * along / lambda[l];
+    }
+}
+
+static int inside (const double *x, size_t dim, const double *low, const double *high)
+{
+    for (size_t k = 0; k < dim; k++) if (!(x[k] >= low[k] && x[k] <= high[k])) return 0;
+    return 1;
+}
+
+static void cross (const double *a, const double *b, double *out)
+{
+    for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
+}
+
+/* Mean place and displacement of the nodes in the box, and their spin; returns how many nodes there are. */
+static size_t find (mean_motion *m, const pg_cloud *c, size_t stride, const double *d, const double *low,
+                    const double *high)
+{
+    size_t dim = (size_t) c->dim, count = 0;
+    double J[9] = { 0 }, L[3] = { 0 };
+    for (size_t i = 0; i < c->n; i++) {
+        if (!inside (c->x + i * dim, dim, low, high)) continue;
+        count++;
+        for (size_t k = 0; k < dim; k++) m->at[k] += c->x[i * dim + k], m->shift[k] += d[i * stride + k];
+    }
+    for (size_t k = 0; k < dim && count; k++) m->at[k] /= (double) count, m->shift[k] /= (double) count;
+    for (size_t i = 0; i < c->n; i++) {
+        double x[3] = { 0 }, u[3] = { 0 }, l[3], square = 0;
+        if (!inside (c->x + i * dim, dim, low, high)) continue;
+        for (size_t k = 0; k < dim; k++)
+            x[k] = c->x[i * dim + k] - m->at[k], u[k] = d[i * stride + k] - m->shift[k],
+            square += x[k] * x[k];
+        cross (x, u, l);
+        for (size_t k = 0; k < 3; k++) {
+            L[k] += l[k], J[4*k] += square;
+            for (size_t b = 0; b < 3; b++) J[3*k + b] -= x[k] * x[b];
+        }
+    }
+    spin_of (c->dim, J, L, m->spin);
+    return count;
+}
+
+void mean_motion_at (const mean_motion *m, const double *x, int dim, double *u)
+{
+    double away[3] = { 0 }, turned[3];
+    for (int k = 0; k < dim; k++) away[k] = x[k] - m->at[k];
+    cross (m->spin, away, turned);
+    for (int k = 0; k < dim; k++) u[k] = m->shift[k] + turned[k];
+}
+
+/* Rotations of points are unknowns times the spacing. */
+pg_status mean_motion_take (mean_motion *out, const pg_problem *p, const pg_state *state, const double *d,
+                            size_t nplace, const double *place, double reach)
+{
+    pg_status status = PG_OK;
+    size_t n = p->cloud.n, dim = (size_t) p->dim, stride = state->ndof / n;
+    double low[3], high[3];
+    memset (out, 0, sizeof *out);
+    for (size_t k = 0; k < dim; k++) {
+        low[k] = INFINITY, high[k] = -INFINITY;
+        for (size_t i = 0; i < nplace; i++)
+            low[k] = fmin (low[k], place[i * dim + k] - reach),
+            high[k] = fmax (high[k], place[i * dim + k] + reach);
+    }
+    PG_ALLOC (out->d, state->ndof);
+    memcpy (out->d, d, state->ndof * sizeof *d);
+    if (!find (out, &p->cloud, stride, d, low, high)) goto done;
+    for (size_t i = 0; i < n; i++) {
+        double u[3];
+        mean_motion_at (out, p->cloud.x + i * dim, p->dim, u);
+        for (size_t k = 0; k < dim; k++) out->d[i * stride + k] -= u[k];
+        for (size_t k = dim; k < stride; k++)
+            out->d[i * stride + k] -= p->cloud.h * out->spin[dim == 2 ? 2 : k - dim];
+    }
+done:
+    return status;
+}
+
+void mean_motion_clear (mean_motion *m)
+{
+    pg_free (m->d);
+    memset (m, 0, sizeof *m);
+}
