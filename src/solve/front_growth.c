@@ -108,12 +108,55 @@ static const pg_tip_field *at_interface (const front_growth *f, size_t k)
     return NULL;
 }
 
+/* J of front k by its tube, its mean over the vertices (J/m^2), and the mean of what the tube of the next
+ * smaller radius makes different. 0: there is one tube everywhere. */
+static double mean_release (const facet_growth *g, size_t k, double *apart)
+{
+    const front_growth *f = g->fronts;
+    double l[2], J = 0, length = 0;
+    int n = facet_factors (g, 1, l);
+    *apart = 0;
+    for (size_t i = f->first[k]; i < f->first[k + 1]; i++) {
+        const pg_tip_field *at = &f->field[i];
+        double one, off = pg_tip_uncertainty (at, n, l);
+        if (isnan (off)) continue;
+        pg_tip_combine (at, n, l, &one, NULL, NULL);
+        J += at->length * fabs (one), *apart += at->length * fabs (one) * off, length += at->length;
+    }
+    if (length > 0) *apart /= length;
+    return length > 0 ? J / length : 0;
+}
+
+/* J of two tubes that differ by more than a tenth in the mean, of a front that may decide. */
+static void doubt_release (const break_loop *b, const pg_front *front, size_t nfront)
+{
+    static const double doubtful = 0.1, decisive = 0.25;
+    facet_growth *g = b->growth;
+    const front_growth *f = g->fronts;
+    double top = 0, apart;
+    if (g->said & FACET_SAID_UNKNOWN || g->moving) return;
+    for (size_t k = 0; k < nfront; k++) if (front[k].open) top = fmax (top, mean_release (g, k, &apart));
+    for (size_t k = 0; k < nfront && !(g->said & FACET_SAID_UNKNOWN); k++) {
+        double J = front[k].open ? mean_release (g, k, &apart) : 0;
+        const pg_tip_field *at = &f->field[f->first[k]];
+        if (!(J > decisive * top) || !(apart > doubtful * J)) continue;
+        pg_statistics_warn (b->system.report,
+                            "the energy release rate of crack front %ld at (%.6g, %.6g, %.6g) m is known to "
+                            "+-%.2g %% only: tubes of two radii up to %.2g spacings differ by that much; "
+                            "take a smaller spacing, and look for what lies within %.3g m of it",
+                            front[k].id, at->x[0], at->x[1], at->x[2], 100 * apart / J, at->wide / at->h,
+                            at->wide);
+        g->said |= FACET_SAID_UNKNOWN;
+    }
+}
+
 /* What the user should know, each said once. */
 static void tell (const break_loop *b, const pg_front *front, size_t nfront, long events)
 {
     facet_growth *g = b->growth;
     const front_growth *f = g->fronts;
     size_t open = 0;
+    doubt_release (b, front, nfront);
     for (size_t k = 0; k < nfront; k++) {
         open += front[k].open != 0;
         if (!front[k].open) continue;
