@@ -126,13 +126,16 @@ pg_status pg_contact_pieces_create (pg_contact_pieces *out, const pg_problem *pr
  * they face, is told by the dead bonds that no crack of the state cuts. */
 pg_status pg_contact_add_broken    (pg_contact_pieces *out, const pg_problem *problem, const pg_state *state);
 void      pg_contact_pieces_clear  (pg_contact_pieces *pieces);
-/* Their rows as columns of G' (unknowns x dim n): column dim k makes the mean gap of piece k, those after it
- * its mean slips, positive where the face that the normal shows to goes ahead along the tangent (plane: the
- * left face along the path); f acts on the nodes as G' f. *poor: points that see too little on one side, and
- * do not count. PG_E_USAGE: a piece has no other points; where single bonds
- * break its columns are empty then. */
+/* Some points of pieces: how many, their share of all by weight, and the first of them, m. */
+typedef struct { size_t n; double share, x[3]; } pg_contact_blind;
+/* Their rows as columns of G' (unknowns x dim n): column dim k makes the mean gap of piece k, those after
+ * it its mean slips, positive where the face that the normal shows to goes ahead along the tangent (plane:
+ * the left face along the path); f acts on the nodes as G' f. *blind: points that see too little on one
+ * side even by wider supports (pg_rows_widen), and do not count. PG_E_USAGE: a piece has no other points;
+ * where single bonds break its columns are empty then. */
 pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *problem,
-                           const pg_force_type *force, void *self, const pg_state *state, size_t *poor);
+                           const pg_force_type *force, void *self, const pg_state *state,
+                           pg_contact_blind *blind);
 
 /* The largest overlap of the faces at the points that sample the gaps, m, of the displacement d (unknowns);
  * 0: they overlap nowhere. */

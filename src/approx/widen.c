@@ -287,21 +287,30 @@ done:
     return status;
 }
 
+/* Square of the distance from place k to the middle of the nodes that it sees now, m^2. */
+static double off_middle (const work *w, size_t k)
+{
+    size_t dim = (size_t) w->rows->dim, count = 0;
+    double mean[3] = { 0 }, square = 0;
+    for (size_t e = 0; e < w->count[k]; e++) {
+        int node = w->node[w->at[k] + e];
+        if (w->sees && !w->sees (w->context, w->place[k], node)) continue;
+        count++;
+        for (size_t c = 0; c < dim; c++)
+            mean[c] += w->cloud->x[(size_t) node * dim + c] - w->rows->x[w->place[k] * dim + c];
+    }
+    for (size_t c = 0; c < dim && count; c++) mean[c] /= (double) count, square += mean[c] * mean[c];
+    return square;
+}
+
 /* Places in the midst of the nodes that they see now: what they saw before was little because the horizon is
  * small, not because they are at the surface. */
 static size_t inner_places (const work *w)
 {
-    size_t n = 0, dim = (size_t) w->rows->dim;
+    size_t n = 0;
     for (size_t k = 0; k < w->n; k++) {
-        double square = 0, reach = w->factor[k] * w->a.horizon;
-        for (size_t c = 0; c < dim; c++) {
-            double mean = 0;
-            for (size_t e = 0; e < w->count[k]; e++)
-                mean += w->cloud->x[(size_t) w->node[w->at[k] + e] * dim + c]
-                        - w->rows->x[w->place[k] * dim + c];
-            square += mean * mean / (double) (w->count[k] * w->count[k]);
-        }
-        n += w->factor[k] > 0 && square < MIDST * MIDST * reach * reach;
+        double reach = MIDST * w->factor[k] * w->a.horizon;
+        n += w->factor[k] > 0 && off_middle (w, k) < reach * reach;
     }
     return n;
 }

@@ -445,8 +445,26 @@ done:
     return status;
 }
 
+/* Points without values: how many, what share of all by weight, and the first of them. */
+static pg_contact_blind blind_of (const pg_contact_pieces *pieces, const pg_jump_rows *jump)
+{
+    pg_contact_blind out = { 0 };
+    double all = 0;
+    for (size_t q = 0; q < pieces->npoint; q++) {
+        int any = 0;
+        for (size_t e = jump->start[q]; e < jump->start[q + 1]; e++) any |= jump->value[e] != 0;
+        all += pieces->weight[q];
+        if (any) continue;
+        for (size_t k = 0; k < pieces->dim && !out.n; k++) out.x[k] = pieces->x[pieces->dim * q + k];
+        out.n++, out.share += pieces->weight[q];
+    }
+    if (all > 0) out.share /= all;
+    return out;
+}
+
 pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, const pg_problem *p,
-                           const pg_force_type *force, void *self, const pg_state *state, size_t *poor)
+                           const pg_force_type *force, void *self, const pg_state *state,
+                           pg_contact_blind *blind)
 {
     pg_status status = PG_OK;
     pg_jump_rows jump = { 0 };
@@ -455,7 +473,7 @@ pg_status pg_contact_rows (pg_sparse *out, const pg_contact_pieces *pieces, cons
         PG_FAIL (PG_E_USAGE, "contact of crack faces is known of forces that show the jump of the "
                              "displacement across a crack");
     PG_TRY (force->jump (self, state, pieces->npoint, pieces->x, pieces->normal, PG_CONTACT_RADIUS, &jump));
-    *poor = jump.poor;
+    *blind = blind_of (pieces, &jump);
     PG_TRY (pg_contact_rows_of (out, pieces, p, &jump));
 done:
     pg_jump_rows_clear (&jump);

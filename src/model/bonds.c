@@ -63,20 +63,15 @@ static size_t number_of (const pg_problem *p, int set, size_t point)
     return set == PG_NODES && p->held[set].number ? (size_t) p->held[set].number[point] : point;
 }
 
-/* Wider supports for the places of a set that see too little; the first one of this rank that still does is
- * named. */
-static pg_status widen (pg_problem *p, int set)
+/* Places that see too little although their supports are as wide as may be: those of this rank are told, the
+ * first by its coordinates. owned: NULL: all are. */
+static void tell_blind (pg_problem *p, const char *what, const pg_rows *r, const pg_widened *w,
+                        const unsigned char *owned)
 {
-    static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
-    pg_status status = PG_OK;
-    const pg_rows *r = &p->rows[set];
-    pg_widened w = { 0 };
     size_t own = 0, first = 0, dim = (size_t) p->dim;
     char at[100] = "";
     int used = 0;
-    PG_TRY (pg_rows_widen (&p->rows[set], &p->approx, &p->cloud, NULL, NULL, p->threads, &w));
-    for (size_t k = w.nblind; k-- > 0;)
-        if (!p->held[set].owned || p->held[set].owned[w.blind[k]]) own++, first = w.blind[k];
+    for (size_t k = w->nblind; k-- > 0;) if (!owned || owned[w->blind[k]]) own++, first = w->blind[k];
     for (size_t k = 0; own && k < dim; k++)
         used += snprintf (at + used, sizeof at - (size_t) used, k ? ", %.6g" : "%.6g", r->x[first * dim + k]);
     if (own)
@@ -84,7 +79,17 @@ static pg_status widen (pg_problem *p, int set)
                          PG_WARNING "%zu %s%s, such as that at (%s) m, see%s too little for a strain even "
                                     "within %g horizons: the body is thinner there than the spacing; use a "
                                     "smaller spacing",
-                         own, what[set], own == 1 ? "" : "s", at, own == 1 ? "s" : "", PG_WIDEST_SUPPORT);
+                         own, what, own == 1 ? "" : "s", at, own == 1 ? "s" : "", PG_WIDEST_SUPPORT);
+}
+
+/* Wider supports for the places of a set that see too little. */
+static pg_status widen (pg_problem *p, int set)
+{
+    static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
+    pg_status status = PG_OK;
+    pg_widened w = { 0 };
+    PG_TRY (pg_rows_widen (&p->rows[set], &p->approx, &p->cloud, NULL, NULL, p->threads, &w));
+    tell_blind (p, what[set], &p->rows[set], &w, p->held[set].owned);
 done:
     pg_free (w.blind);
     return status;
@@ -183,9 +188,10 @@ static pg_status make_points (pg_problem *p, const pg_family_search *search, con
     PG_TRY (number_held (p, PG_POINTS));
     PG_TRY (widen (p, PG_POINTS));
     PG_TRY (check_support (p, scene, PG_POINTS));
-    if (p->integration->consistent)
-        PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS],
-                                       facet_order (p, scene), p->threads));
+    if (!p->integration->consistent) goto done;
+    PG_TRY (pg_consistency_create (&p->consistency, &p->cells, &p->approx, &p->cloud, &p->rows[PG_POINTS],
+                                   facet_order (p, scene), p->threads));
+    tell_blind (p, "face point", &p->consistency->face, &p->consistency->widened, NULL);
 done:
     pg_quadrature_clear (&q);
     return status;

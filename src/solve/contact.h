@@ -79,7 +79,7 @@ struct system_contact {
     contact_platens platens;
     contact_loose   loose;
     pg_sparse G;                                       /* G', ndof x dim n */
-    size_t    poor;                                    /* points that see too little */
+    int       said_blind;                              /* points that see too little were told of */
     unsigned long made;                                /* revision of K that Z and C belong to, + 1 */
     unsigned long again;                               /* the same of those that a resumed run makes again */
     double   *Z, *C;                                   /* K^-1 G' (ndof x dim n); G Z (dim n x dim n), m/N */

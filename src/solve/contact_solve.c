@@ -143,6 +143,23 @@ static int grows_in_step (const pg_system *s, const pg_changes *changes)
            && pg_criterion_of_tips (s->problem->criterion);
 }
 
+/* Points of faces that see too little for a gap, once. Faces that single bonds leave may crumble: there is
+ * nothing to touch then. */
+static void tell_blind (pg_system *s, const pg_contact_blind *blind)
+{
+    char third[32] = "";
+    if (s->contact->said_blind || !blind->n || pg_criterion_of_bonds (s->problem->criterion)) return;
+    s->contact->said_blind = 1;
+    if (s->problem->dim == 3) snprintf (third, sizeof third, ", %.6g", blind->x[2]);
+    pg_statistics_warn (s->report,
+                        "%zu point%s of crack faces, such as that at (%.6g, %.6g%s) m, %.2g %% of them, "
+                        "see%s too little of the body on one side for a gap even within %g spacings: their "
+                        "pieces touch by their other points; cracks lie less than a spacing apart there: "
+                        "take a smaller spacing",
+                        blind->n, blind->n == 1 ? "" : "s", blind->x[0], blind->x[1], third,
+                        100 * blind->share, blind->n == 1 ? "s" : "", PG_WIDEST_SUPPORT * PG_CONTACT_RADIUS);
+}
+
 /* Of the faces of cracks, and how nodes take part in their gaps. */
 static pg_status find_pieces (pg_system *s, const pg_state *state)
 {
@@ -153,7 +170,11 @@ static pg_status find_pieces (pg_system *s, const pg_state *state)
     PG_ALLOC (c->soft, c->pieces.dim * c->pieces.n);
     if (s->force->faces)
         PG_TRY (pg_contact_layer (&c->G, c->soft, &c->stiffer, &c->pieces, s->force, s->self, state));
-    else PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &c->poor));
+    else {
+        pg_contact_blind blind;
+        PG_TRY (pg_contact_rows (&c->G, &c->pieces, s->problem, s->force, s->self, state, &blind));
+        tell_blind (s, &blind);
+    }
 done:
     return status;
 }
