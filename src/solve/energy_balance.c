@@ -6,6 +6,26 @@
 #include "facet_growth.h"
 #include <string.h>
 
+/* Do forces in motion balance? Of equations that weigh the forces of two times, reactions are asked for once
+ * more, with what these leave at the end of the step. */
+static pg_status balance_in_motion (pg_system *s, double t, const double *d, const pg_work_balance *w,
+                                    const dynamics *dyn)
+{
+    pg_status status = PG_OK;
+    pg_work_balance own = { 0 };
+    if (!force_balance_due (s)) return PG_OK;
+    memset (s->full, 0, s->ndof * sizeof *s->full);
+    dyn->resist (dyn->context, d, s->full);
+    if (dyn->leave) {
+        dyn->leave (dyn->context, d, s->full);
+        PG_TRY (s->force->work_balance (s->self, t, d, s->full, &own));
+    }
+    force_balance (s, d, dyn->leave ? &own : w, s->full);
+done:
+    pg_work_balance_clear (&own);
+    return status;
+}
+
 /* Asks the force for the work balance of the state (t, d) and adds the work since the last one. With
  * motion the reactions contain inertia and damping, which `dyn` adds, or which are in the residual that the
  * solve has left behind. */
@@ -17,7 +37,7 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     double t0 = pg_seconds ();
     if (dyn && dyn->whole && s->known && !s->options->plain && s->force->work_balance_of) {
         PG_TRY (s->force->work_balance_of (s->self, t, d, s->residual, &b->work_balance));
-        force_balance (s, d, &b->work_balance, dyn);
+        PG_TRY (balance_in_motion (s, t, d, &b->work_balance, dyn));
         PG_TRY (break_loop_book (b, scale));
         goto done;
     }
@@ -28,9 +48,10 @@ pg_status break_loop_account (break_loop *b, double t, const double *d, const dy
     /* at rest reactions contain the forces of contact on nodes that are held */
     const double *rest = s->excavated ? s->excavated : contact_forces (s);
     PG_TRY (s->force->work_balance (s->self, t, d, dyn ? s->full : rest, &b->work_balance));
+    if (dyn) PG_TRY (balance_in_motion (s, t, d, &b->work_balance, dyn));
+    else force_balance (s, d, &b->work_balance, rest);
     if (!dyn) platens_reactions (s, b->work_balance.reaction);
     if (!dyn) b->work_balance.strain += contact_energy (s);
-    if (!rest) force_balance (s, d, &b->work_balance, dyn);
     PG_TRY (break_loop_book (b, scale));
 done:
     s->report->seconds[PG_SECONDS_FORCE] += pg_seconds () - t0;

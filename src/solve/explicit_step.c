@@ -299,6 +299,22 @@ static pg_status measure_work (pg_solver *s, const pg_state *state, double t, in
     return status;
 }
 
+/* Do forces balance, with all that acts on nodes? */
+static void measure_balance (pg_solver *s, const pg_state *state, int staggered)
+{
+    const motion *m = motion_of (s);
+    pg_system *sys = &s->break_loop.system;
+    const double *contact = sys->contact ? contact_forces (sys) : NULL;
+    if (!force_balance_due (sys)) return;
+    for (size_t i = 0; i < sys->ndof; i++) sys->full[i] = inertia_of (s, state, staggered, 0, i);
+    for (size_t k = 0; k < m->nprescribed; k++)
+        sys->full[m->prescribed[k]] = inertia_of (s, state, staggered, 1, m->prescribed[k]);
+    for (size_t i = 0; contact && i < sys->ndof; i++) sys->full[i] += contact[i];
+    if (explicit_contact_active (s)) explicit_contact_forces (s, sys->full);
+    system_add_held (sys, sys->full);
+    force_balance (sys, state->d, &s->break_loop.work_balance, sys->full);
+}
+
 /* ... with inertia, which belongs to the reactions. book: the work since the last account is added. */
 static pg_status account (pg_solver *s, pg_state *state, double t, int staggered, int book)
 {
@@ -429,6 +445,7 @@ static pg_status close_step (pg_solver *s, pg_state *state, pg_step *step, long 
                  && s->problem->criterion->type;
     PG_TRY (share_row (s, state, n));
     if (!m->by_work_balance) PG_TRY (account (s, state, t, staggered, 0));
+    measure_balance (s, state, staggered);
     s->report.energy_damping = m->damped;
     explicit_contact_show (s);
     PG_TRY (check_growth (s, state, t));

@@ -2,15 +2,16 @@
  * Do forces and moments balance? Loads and reactions, with inertia and damping, should add up to nothing, and
  * so should their moments, since no motion of the body as a whole strains it: what they miss is what the
  * solver has left, or an error of the method. Sums are over loads and supports as the force tells them
- * (pg_work_balance), and are compared with the sum of the sizes of all forces at points. */
+ * (pg_work_balance) and over what else acts on nodes: inertia, damping, contact. They are compared with the
+ * sum of the sizes of all these forces. */
 #include "solve.h"
+#include <float.h>
 #include <math.h>
-#include <string.h>
 
-/* Forces are also compared with this share of what a displacement of the size at hand would bear if it were
- * strain: of a motion as a whole nothing is left but rounding. In motion every so many steps are measured. */
-static const double NOTHING = 1e-3;
+/* In motion every so many steps are measured. */
 enum { EVERY = 16 };
+/* Forces that balance to this share of them, by a direct solver, are in balance. */
+static const double BALANCED = 1e-10;
 
 /* N, N m; size: sum of the sizes of forces; length: diagonal of the body, m. */
 typedef struct { double force[3], moment[3], size, length; } sums;
@@ -33,16 +34,16 @@ static void add_loads (const pg_problem *p, const pg_work_balance *w, sums *s)
     for (size_t k = 0; k < w->npair; k++) s->size += fabs (w->force[k]);
 }
 
-/* Inertia and damping, whose forces at nodes act on the coefficients of shape functions that reproduce 1 and
- * x. */
-static void add_resistance (const pg_system *s, const double *f, sums *out)
+/* Inertia, damping and contact, whose forces at nodes act on the coefficients of shape functions that
+ * reproduce 1 and x. */
+static void add_forces (const pg_system *s, const double *f, sums *out)
 {
     const pg_cloud *c = &s->problem->cloud;
-    size_t dim = (size_t) c->dim;
+    size_t dim = (size_t) c->dim, stride = (size_t) s->components;
     for (size_t i = 0; i < c->n; i++) {
         double x[3] = { 0 }, F[3] = { 0 };
         if (!pg_owns (c->subdomain, i)) continue;
-        for (size_t k = 0; k < dim; k++) x[k] = c->x[i * dim + k], F[k] = f[i * dim + k];
+        for (size_t k = 0; k < dim; k++) x[k] = c->x[i * dim + k], F[k] = f[i * stride + k];
         for (int k = 0; k < 3; k++) {
             int next = (k + 1) % 3, last = (k + 2) % 3;
             out->force[k] += F[k], out->size += fabs (F[k]);
@@ -51,37 +52,41 @@ static void add_resistance (const pg_system *s, const double *f, sums *out)
     }
 }
 
-/* What the largest displacement would bear as a strain: E u / L on the mean section, N; and L, m. */
-static double elastic (const pg_system *s, const double *d, double *length)
+/* What rounding leaves in the sum of the forces of the material at points, N: each is a difference of
+ * forces as large as that of a displacement over a spacing, E u V / h^2, and roundings add up as squares. */
+static double rounding (const pg_system *s, const double *d)
 {
     const pg_problem *p = s->problem;
-    double square = 0, most[2] = { 0, 0 }, volume = 0;
-    for (int k = 0; k < p->dim; k++) square += pow (p->cloud.high[k] - p->cloud.low[k], 2);
-    *length = sqrt (square);
-    for (size_t i = 0; i < s->ndof; i++) most[0] = fmax (most[0], fabs (d[i]));
-    for (size_t m = 0; m < p->nmaterial; m++) most[1] = fmax (most[1], p->material[m].modulus);
-    for (size_t i = 0; i < p->cloud.n; i++)
-        if (pg_owns (p->cloud.subdomain, i)) volume += p->cloud.volume[i];
-    if (p->cloud.subdomain && (pg_ranks_most (1, most) != PG_OK || pg_ranks_sum (1, &volume) != PG_OK))
-        return NAN;
-    return most[1] * most[0] / *length * volume / *length;
+    size_t dim = (size_t) p->dim;
+    double sum = 0;
+    for (size_t i = 0; i < p->cloud.n; i++) {
+        double u = 0, h = pg_problem_spacing (p, PG_NODES, i);
+        if (!pg_owns (p->cloud.subdomain, i)) continue;
+        for (size_t k = 0; k < dim; k++) u = fmax (u, fabs (d[i * (size_t) s->components + k]));
+        double f = pg_problem_law (p, PG_NODES, i)->modulus * u * p->cloud.volume[i] / (h * h);
+        sum += f * f;
+    }
+    if (p->cloud.subdomain && pg_ranks_sum (1, &sum) != PG_OK) return NAN;
+    return 10 * DBL_EPSILON * sqrt (sum);
 }
 
-void force_balance (pg_system *s, const double *d, const pg_work_balance *w, const dynamics *dyn)
+int force_balance_due (const pg_system *s)
+{
+    return s->report->steps < EVERY || s->report->steps % EVERY == 0;
+}
+
+void force_balance (pg_system *s, const double *d, const pg_work_balance *w, const double *f)
 {
     const pg_problem *p = s->problem;
     sums all = { .length = 0 };
-    long steps = s->report->steps;
-    if (!w->reaction || pg_problem_rotations (p) || (dyn && !dyn->whole)) return;
-    if (p->nplaten || s->excavated || (dyn && steps >= EVERY && steps % EVERY)) return;
+    double square = 0;
+    if (!w->reaction) return;
+    for (int k = 0; k < p->dim; k++) square += pow (p->cloud.high[k] - p->cloud.low[k], 2);
     add_loads (p, w, &all);
-    if (dyn) {
-        memset (s->full, 0, s->ndof * sizeof *s->full);
-        dyn->resist (dyn->context, d, s->full);
-        add_resistance (s, s->full, &all);
-    }
+    if (f) add_forces (s, f, &all);
     if (p->cloud.subdomain && pg_ranks_sum (7, (double *) &all) != PG_OK) return;
-    double size = all.size + NOTHING * elastic (s, d, &all.length);
+    all.length = sqrt (square);
+    double size = all.size + rounding (s, d) / BALANCED;
     if (!(size > 0)) return;
     /* arms of forces that turn with finite displacements are not those of the places at rest */
     pg_statistics *r = s->report;
@@ -97,7 +102,7 @@ double pg_balance_allowed (const pg_statistics *r, const pg_problem *p)
     for (size_t l = 0; l < p->nload; l++)
         if (pg_load_prescribes (&p->load[l]) && p->load[l].essential == PG_ESSENTIAL_PENALTY)
             penalty = fmax (penalty, p->load[l].penalty);
-    return fmax (fmax (1e-10, 10 * r->residual_max), 1e-14 * penalty);
+    return fmax (fmax (BALANCED, 10 * r->residual_max), 1e-14 * penalty);
 }
 
 void force_balance_warn (pg_statistics *r, const pg_problem *p)
@@ -105,6 +110,6 @@ void force_balance_warn (pg_statistics *r, const pg_problem *p)
     double allowed = pg_balance_allowed (r, p);
     if (r->balances == 0 || !(fmax (r->balance_force, r->balance_moment) > allowed)) return;
     pg_statistics_warn (r, "forces miss balance by %.2g, moments by %.2g of the loads (the solver leaves "
-                           "%.2g): loads, reactions and inertia do not add up to nothing",
+                           "%.2g): loads, reactions, inertia and contact do not add up to nothing",
                         r->balance_force, r->balance_moment, allowed / 10);
 }

@@ -131,6 +131,19 @@ static void add_resistance (void *context, const double *d, double *residual)
     for (size_t i = 0; i < n->system->ndof; i++) residual[i] -= Ma[i];
 }
 
+/* With r = P - F - C v the equations are (1 + alpha) r - alpha r_t - M a = 0: r - M a, alpha (r_t - M a) /
+ * (1 + alpha), is left at the end of the step. */
+static void add_weights (void *context, const double *d, double *x)
+{
+    const course *m = context;
+    newmark *n = m->n;
+    double *v = n->work1, *a = n->work3, *Ma = n->work4, share = n->setting.alpha / (1 + n->setting.alpha);
+    rates (m, d, v, a);
+    memset (Ma, 0, n->system->ndof * sizeof *Ma);
+    system_add_mass (n->system, 1, a, Ma);
+    for (size_t i = 0; i < n->system->ndof; i++) x[i] -= share * (n->force0[i] - Ma[i]);
+}
+
 const dynamics *newmark_matrix (newmark *n)
 {
     coefficients c = coefficients_of (&n->setting, n->dt);
@@ -151,6 +164,7 @@ pg_status newmark_advance (newmark *n, break_loop *b, const pg_state *from, pg_s
     dyn.dt = n->creeps ? INFINITY : n->dt;
     dyn.add = add_inertia, dyn.resist = add_resistance, dyn.join = join_damping, dyn.context = &m;
     dyn.whole = n->setting.alpha == 0;
+    if (!dyn.whole) dyn.leave = add_weights;
     PG_TRY (newmark_supports (n, t, 0));
     if (b->round == 0) predict (&m, state->d);
     PG_TRY (equilibrate (b, state, t, state->d, &dyn, step));

@@ -12,6 +12,9 @@ typedef struct pg_dynamics {                           /* what inertia and dampi
     void (*add) (void *context, const double *d, double *residual, double *reference);
     /* residual -= M a + C v at d: what reactions contain of the motion */
     void (*resist) (void *context, const double *d, double *residual);
+    /* x -= what equations that weigh the forces of two times leave of their balance at the later one, over
+     * all unknowns. NULL: nothing. */
+    void (*leave) (void *context, const double *d, double *x);
     /* x = d + c_K v with the velocity v that belongs to d: forces are linear, so that their residual at x has
      * the damping by stiffness in it, which `add` then leaves out. 0, and x is not filled: there is none. */
     int  (*join) (void *context, const double *d, double *x);
@@ -292,8 +295,11 @@ long      break_loop_over   (const break_loop *b, const pg_state *state, double 
  * scaled by `scale`). */
 pg_status break_loop_account (break_loop *b, double t, const double *d, const dynamics *dyn, double scale);
 /* The same of a static state in equilibrium. */
-/* force_balance.c: do forces and moments of this state balance? Adds to the report; at the end warns. */
-void      force_balance      (pg_system *s, const double *d, const pg_work_balance *w, const dynamics *dyn);
+/* force_balance.c: do forces and moments of this state balance? Adds to the report; at the end warns. f:
+ * what acts on nodes beside loads and supports, inertia among it (ndof; NULL: nothing). In motion at some
+ * steps. */
+void      force_balance      (pg_system *s, const double *d, const pg_work_balance *w, const double *f);
+int       force_balance_due  (const pg_system *s);
 void      force_balance_warn (pg_statistics *report, const pg_problem *problem);
 pg_status break_loop_account_rest (break_loop *b, double t, const double *d, double scale);
 /* The work alone, from the work balance at hand. */
