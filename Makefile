@@ -242,7 +242,7 @@ accuracy: packages   ## measures the tables of doc/accuracy*.md and rewrites the
 
 bench-programs: $(BENCHBIN) $(MPI) $(RANKSBIN)
 # tests that print what doc/accuracy_tables.md shows
-ACCURACY := cells/test_cut force/test_estimate $(addprefix scene_runs/test_,disk incompressible mesh notch uncracked_disk)
+ACCURACY := cells/test_cut force/test_estimate force/test_rigid_motion $(addprefix scene_runs/test_,disk incompressible mesh notch uncracked_disk)
 
 install: all
 	install -d $(DESTDIR)$(prefix)/bin $(DESTDIR)$(prefix)/lib/pkgconfig $(DESTDIR)$(prefix)/include/perigal

@@ -451,10 +451,11 @@ class Hole(Body):
 # ---- lattices --------------------------------------------------------------------------------------------------------
 class Lattice:
     """How the points lie: shift of the crack against them in spacings (of a turned body: of the lattice against it), angle by which the
-    body is turned, degrees, random moves in spacings."""
+    body is turned, degrees, random moves in spacings, shift of the lattice against body and crack together."""
 
-    def __init__(self, name, shift=(0, 0), turn=0, perturb=0, seed=1):
+    def __init__(self, name, shift=(0, 0), turn=0, perturb=0, seed=1, offset=None):
         self.name, self.shift, self.turn, self.perturb, self.seed = name, shift, turn, perturb, seed
+        self.offset = offset or (shift if turn else None)
 
 
 LATTICES = [
@@ -520,8 +521,8 @@ def text(body, lattice, n, method="gauss linear", single=False, events=None):
     for centre, radius in body.holes:
         lines += ["  - subtract: {disk: {center: %s, radius: %.12g}}" % (numbers(frame.place(centre)), radius * body.width)]
     lines += ["spacing: %.12g" % h, "lattice: cells"]
-    if lattice.turn:
-        lines += ["lattice_offset: %s" % numbers(lattice.shift)]
+    if lattice.offset:
+        lines += ["lattice_offset: %s" % numbers(lattice.offset)]
     if lattice.perturb:
         lines += ["perturb: {amount: %g, seed: %d}" % (lattice.perturb, lattice.seed)]
     if body.cracks:
