@@ -204,20 +204,54 @@ static int is_common (pg_measure *m, const char *text, size_t n)
     return 0;
 }
 
+/* Is it a name of the degree of Celsius (n bytes)? No key takes a charge: C is no coulomb here. */
+static int is_celsius (const char *s, size_t n)
+{
+    static const char *const name[] = { "C",       "degC",           "\302\260C",
+                                        "celsius", "degree_Celsius", "degrees_Celsius" };
+    for (size_t k = 0; k < sizeof name / sizeof *name; k++)
+        if (strlen (name[k]) == n && memcmp (name[k], s, n) == 0) return 1;
+    return 0;
+}
+
+/* Temperatures are differences wherever a scene has them: degrees of Celsius are kelvins, in products and
+ * quotients as well; "/K" is 1/K. 0: the result does not fit. */
+static int spell_out (const char *text, size_t n, char word[WORD])
+{
+    size_t used = 0;
+    if (n > 1 && *text == '/') word[used++] = '1';
+    for (size_t k = 0, m; k < n; k += m) {
+        for (m = 0; k + m < n && is_letter (text[k + m]); ) m++;
+        int celsius = m > 0 && is_celsius (text + k, m);
+        const char *part = celsius ? "K" : text + k;
+        if (m == 0) m = 1;
+        size_t length = celsius ? 1 : m;
+        if (used + length >= WORD) return 0;
+        memcpy (word + used, part, length);
+        used += length;
+    }
+    word[used] = '\0';
+    return 1;
+}
+
 /* Unknown units are a fault with a suggestion. */
 pg_status pg_measure_read (pg_measure *m, const char *text, size_t n)
 {
     static const char usual[] =
-        "m|mm|um|km|cm|Pa|kPa|MPa|GPa|N|kN|MN|J|kJ|s|ms|us|h|kg|g|t|deg|rad|Hz|kg/m3|N/m|m/s|J/m2|N/m2|1/s";
+        "m|mm|um|km|cm|Pa|kPa|MPa|GPa|N|kN|MN|J|kJ|s|ms|us|h|kg|g|t|deg|rad|Hz|kg/m3|N/m|m/s|J/m2|N/m2|1/s|K|"
+        "1/K|degC";
     char word[WORD];
     if (n == 1 && text[0] == '1') {
         *m = (pg_measure) { .factor = 1 };
         return PG_OK;
     }
-    snprintf (word, sizeof word, "%.*s", (int) (n < WORD ? n : WORD - 1), text);
-    if (n >= WORD) return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s...'", word);
     /* Without the database, if possible. */
-    if (is_common (m, word, n)) return PG_OK;
+    if (is_common (m, text, n)) return PG_OK;
+    if (!spell_out (text, n, word)) {
+        snprintf (word, sizeof word, "%.*s", WORD - 1, text);
+        return pg_error (PG_E_SCENE, PG_HERE, "unknown unit '%s...'", word);
+    }
+    if (is_common (m, word, strlen (word))) return PG_OK;
     /* an expression is asked as well whether it is a number with a unit: nothing to read for that */
     int good = well_formed (word);
     if (good) {
