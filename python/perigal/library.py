@@ -18,6 +18,9 @@ OK, E_SCENE, E_USAGE = 0, 1, 2
 class Sparse(namedtuple('Sparse', 'data indices indptr shape')):
     """A sparse matrix by compressed columns. csc () makes it one of scipy.sparse, dense () an array."""
 
+    def __repr__(self):
+        return f'Sparse({self.shape[0]} x {self.shape[1]}, {len(self.data)} entries)'
+
     def csc(self):
         from scipy.sparse import csc_matrix
         return csc_matrix((self.data, self.indices, self.indptr), shape=self.shape)
@@ -38,35 +41,61 @@ class Sparse(namedtuple('Sparse', 'data indices indptr shape')):
 
 
 # ---- structures of the library ------------------------------------------------------------------------------
-class _Matrix(ctypes.Structure):
+def _shown(value):
+    """A value of a structure in words; what a pointer leads to has a length that only the library knows."""
+    if isinstance(value, ctypes.Array):
+        return list(value)
+    if value is None or isinstance(value, (int, float, bytes, ctypes.Structure)):
+        return value
+    return _Words('array' if value else 'none')
+
+
+class _Words(str):
+    __repr__ = str.__str__
+
+
+class _Structure(ctypes.Structure):
+    """A structure that shows its values, not its address."""
+
+    def __repr__(self):
+        parts = [f'{field[0]}={_shown(getattr(self, field[0]))!r}' if not _is_address(field[1]) else
+                 f'{field[0]}={"array" if getattr(self, field[0]) else "none"}' for field in self._fields_]
+        return f'{type(self).__name__.lstrip("_")}({", ".join(parts)})'
+
+
+def _is_address(kind):
+    return kind is c_void_p
+
+
+class _Matrix(_Structure):
     _fields_ = [('nrow', c_size_t), ('ncol', c_size_t), ('symmetric', c_int), ('start', POINTER(c_long)),
                 ('row', POINTER(c_long)), ('value', POINTER(c_double))]
 
 
-class _Family(ctypes.Structure):
+class _Family(_Structure):
     _fields_ = [('n', c_size_t), ('start', POINTER(c_size_t)), ('node', POINTER(c_int))]
 
 
-class _Cloud(ctypes.Structure):
+class _Cloud(_Structure):
     _fields_ = [('dim', c_int), ('n', c_size_t), ('x', c_void_p), ('volume', c_void_p), ('block', c_void_p),
                 ('size', c_void_p), ('metric', c_void_p), ('h', c_double), ('step', c_double * 3),
                 ('regular', c_int), ('centred', c_int), ('thickness', c_double), ('low', c_double * 3),
                 ('high', c_double * 3), ('subdomain', c_void_p), ('between', c_void_p)]
 
 
-class _Rows(ctypes.Structure):
+class _Rows(_Structure):
     _fields_ = [('dim', c_int), ('n', c_size_t), ('x', c_void_p), ('weight', c_void_p), ('own', c_void_p),
                 ('cell', c_void_p), ('family', _Family), ('N', POINTER(c_double)), ('dN', POINTER(c_double)),
                 ('w', c_void_p), ('at', c_void_p), ('wide', c_void_p), ('grade', POINTER(c_ubyte)), ('copied', c_size_t),
                 ('copied_bonds', c_size_t), ('eye', c_void_p), ('parted', c_size_t)]
 
 
-class _Choice(ctypes.Structure):
+class _Choice(_Structure):
     _fields_ = [('approximation', c_char_p), ('kernel', c_char_p), ('support', c_char_p), ('weights', c_char_p),
                 ('degenerate', c_char_p), ('order', c_int), ('horizon', c_double)]
 
 
-class _Equations(ctypes.Structure):
+class _Equations(_Structure):
     _fields_ = [('n', c_size_t), ('unknowns', c_int), ('dim', c_int), ('K', _Matrix), ('f', POINTER(c_double)),
                 ('T', _Matrix), ('g', POINTER(c_double)), ('N', _Matrix), ('selects', c_int),
                 ('free', POINTER(c_size_t)), ('idle', c_size_t)]
@@ -219,7 +248,7 @@ def shape_functions(x, horizon, places=None, volume=None, spacing=None, thicknes
     return N, dN, grade
 
 
-class _Kernel(ctypes.Structure):
+class _Kernel(_Structure):
     _fields_ = [('name', c_char_p), ('summary', c_char_p), ('closed', c_int)]
 
 

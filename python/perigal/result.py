@@ -8,8 +8,19 @@ import netCDF4
 import numpy
 
 
+def _numbers(values):
+    """A few numbers of a column, from both ends."""
+    if len(values) <= 5:
+        return ', '.join(f'{v:.6g}' for v in values) or 'no rows'
+    return f'{values[0]:.6g}, {values[1]:.6g}, ... {values[-1]:.6g}'
+
+
 class Table:
-    """Columns of a CSV file by name: table['energy_strain'] (NaN: not measured). names, units, data (rows x columns)."""
+    """Columns of a CSV file by name: table['energy_strain'] (NaN: not measured). names, units, data (rows x columns).
+
+    len (table): rows; table[3], table[-1]: a row as a dict; table[2:5], table[[0, 4]]: a table of these rows. A loop
+    goes over the rows; keys (), values (), items () are those of the columns.
+    """
 
     def __init__(self, path):
         with open(path, encoding='utf-8', newline='') as file:
@@ -28,15 +39,40 @@ class Table:
                                 dtype=float).reshape(len(rows), len(numbers))
 
     def __getitem__(self, name):
+        if isinstance(name, (int, numpy.integer)):
+            if not -len(self) <= name < len(self):
+                raise IndexError(f'there is no row {name}; there are {len(self)}')
+            return dict(zip(self.names, self.data[name].tolist()))
+        if isinstance(name, (slice, list, numpy.ndarray)):
+            some = Table.__new__(Table)
+            some.names, some.units, some.data = self.names, self.units, self.data[name]
+            return some
         if name not in self.names:
             raise KeyError(f'there is no column {name}; there are: {", ".join(self.names)}')
         return self.data[:, self.names.index(name)]
+
+    def __iter__(self):
+        return (self[k] for k in range(len(self)))
+
+    def keys(self):
+        return list(self.names)
+
+    def values(self):
+        return [self[name] for name in self.names]
+
+    def items(self):
+        return [(name, self[name]) for name in self.names]
 
     def __contains__(self, name):
         return name in self.names
 
     def __len__(self):
         return len(self.data)
+
+    def __repr__(self):
+        columns = [f'  {name}{f" [{unit}]" if unit else ""}: {_numbers(self[name])}'
+                   for name, unit in zip(self.names, self.units)]
+        return '\n'.join([f'{type(self).__name__}: {len(self)} rows, {len(self.names)} columns', *columns])
 
 
 class Sweep(Table):
@@ -59,6 +95,11 @@ class Sweep(Table):
 
     def result(self, k):
         return Result(self.folder[k])
+
+    def __repr__(self):
+        status = {s: self.status.count(s) for s in dict.fromkeys(self.status)}
+        words = [f'  {key}: {", ".join(values[:5])}{" ..." if len(values) > 5 else ""}' for key, values in self.words.items()]
+        return '\n'.join([super().__repr__(), *words, f'  status: {", ".join(f"{n} {s}" for s, n in status.items())}'])
 
 
 class Result:
@@ -85,6 +126,13 @@ class Result:
             self.times = numpy.array(file['time_whole'][:], dtype=float)
             self._read_names(file)
         self.fields = {name: list(parts) for name, parts in self._index.items()}
+
+    def __repr__(self):
+        fields = [f'  {name}{f" [{self.units[name]}]" if self.units[name] else ""}: {", ".join(filter(None, parts)) or "scalar"}'
+                  for name, parts in self.fields.items()]
+        steps = f'{len(self.times)} steps' + (f', {self.times[0]:.6g} to {self.times[-1]:.6g}' if len(self.times) else '')
+        title = f' ({self.title})' if self.title else ''
+        return '\n'.join([f'Result {self.folder}{title}: {self.points} points in {self.dimension}D, {steps}', *fields])
 
     def _read_names(self, file):
         """Variables that share the attribute `field` are the components of one; variable k holds values of name k."""

@@ -42,6 +42,14 @@ verdict('history: a row a step', len(h) == r.report['steps'] and h.data.shape[1]
 verdict('history: the last row is the state of the report',
         abs(h['energy_strain'][-1] - r.report['energy']['strain']) <= 1e-15 * h['energy_strain'][-1])
 verdict('history: units', h.units[h.names.index('top.force_y')] == 'N')
+verdict('history: a loop over rows, the last one, some of them', len(list(h)) == len(h) and h[-1] == list(h)[-1]
+        and h[-1]['top.force_y'] == h['top.force_y'][-1] and numpy.array_equal(h[1:3].data, h.data[1:3]))
+verdict('history: columns as of a dict', h.keys() == h.names and all(numpy.array_equal(v, h[k]) for k, v in dict(h).items())
+        and 'top.force_y' in h and len(h.values()) == len(h.items()) == len(h.names))
+refused('history: a row behind the last', IndexError, f'there are {len(h)}', lambda: h[len(h)])
+verdict('history: printed with names, units and numbers', f'{len(h)} rows' in repr(h) and 'top.force_y [N]: ' in repr(h) and ' ... ' in repr(h)
+        and ' at 0x' not in repr(h))
+verdict('a result: printed with points, steps and fields', f'{r.points} points in 2D' in repr(r) and 'stress [Pa]: xx, yy, xy' in repr(r))
 e = r.events
 verdict('events: a row a broken bond', len(e) == r.report['broken'] and e.names[-1] == 'kind_code')
 s = r.field('stress', step=slice(None))
