@@ -1,23 +1,35 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Lines of tables as spreadsheets and scripts write them: fields apart by commas or by blanks, with or
- * without quotes. */
+ * Lines of tables as spreadsheets and scripts write them: fields apart by semicolons, commas or blanks, with
+ * or without quotes. Where semicolons stand between numbers a comma is their decimal mark. */
 #include "csv_line.h"
 #include <string.h>
 
+static int is_digit (char c) { return c >= '0' && c <= '9'; }
+
+/* "1,5" becomes "1.5": digits about one comma, and no point. */
+static void mend_mark (char *s)
+{
+    char *comma = strchr (s, ',');
+    if (!comma || strchr (s, '.') || strchr (comma + 1, ',') || comma == s) return;
+    if (is_digit (comma[-1]) && is_digit (comma[1])) *comma = '.';
+}
+
 size_t csv_split (char *line, char **field, size_t most)
 {
-    int comma = strchr (line, ',') != NULL;
+    const char *between = strchr (line, ';') ? ";" : strchr (line, ',') ? "," : " \t";
+    int blanks = *between == ' ';
     size_t n = 0;
     for (char *s = line; ; ) {
         /* Blanks around a field do not belong to it. */
         s += strspn (s, " \t");
-        if (!*s && !comma) return n;
-        char *end = s + strcspn (s, comma ? "," : " \t"), *tail = end;
+        if (!*s && blanks) return n;
+        char *end = s + strcspn (s, between), *tail = end;
         int last = !*end;
         while (tail > s && (tail[-1] == ' ' || tail[-1] == '\t')) tail--;
         *tail = '\0';
         /* Quotes as spreadsheets write them. */
         if (tail > s + 1 && *s == '"' && tail[-1] == '"') s++, tail[-1] = '\0';
+        if (*between == ';') mend_mark (s);
         if (n < most) field[n] = s;
         n++;
         if (last) return n;

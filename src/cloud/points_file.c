@@ -1,10 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * points: FILE. One point per line, x [y [z]] volume [block] [spacing], separated by commas or blanks; #
- * starts a comment. A header line may come first: it names the columns, in any order, with their units in
- * brackets (and must, for a spacing without a block).
+ * points: FILE. One point per line, x [y [z]] volume [block] [spacing], separated by semicolons, commas or
+ * blanks; # starts a comment. A header line may come first: it names the columns, in any order, with their
+ * units in brackets (and must, for a spacing without a block).
  *
  *     x [mm], y [mm], volume [mm3], block
  *     0.5, 0.5, 1, 0
+ *
+ * A column of numbers of the points (id) is passed over.
  *
  * Two points at one position are a fault, because a bond between them would have no length. */
 #include "csv_line.h"
@@ -133,6 +135,16 @@ static const char *names_of (size_t dim, const char *between)
     return text;
 }
 
+/* Does the column only number the points? */
+static int is_number_column (const char *name)
+{
+    static const char *const usual[] = { "id",   "nr",    "no",      "number",  "index", "label",
+                                         "node", "point", "node_id", "point_id" };
+    for (size_t k = 0; k < sizeof usual / sizeof *usual; k++)
+        if (strcasecmp (name, usual[k]) == 0) return 1;
+    return 0;
+}
+
 /* Reads column k of the header: name and unit. */
 static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
 {
@@ -143,6 +155,7 @@ static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
     int closed = pg_column_cut (cell, &unit) == PG_OK;
     while (what < ROLES && (strcasecmp (cell, role[what].name) != 0 || (what >= dim && what < VOLUME)))
         what++;
+    if (what == ROLES && is_number_column (cell)) return PG_OK;
     if (what == ROLES && r->places && strcasecmp (cell, "z") != 0) return PG_OK;
     if (what == ROLES) {
         if (r->places)

@@ -96,6 +96,40 @@ printf 'dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [6, 4]}}}]\nspacing
 "$perigal" run scene.yaml -o ram --quiet > out 2> err
 awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /ram.displacement_y/) c = k } END { exit !($c > -0.0020001 && $c < -0.0019999) }' ram/history.csv; verdict "a platen with ramp: linear has gone its way at the end of an explicit run" $?
 
+# ---- nodes that hang on the faces of larger elements ------------------------------------------------------------------------
+printf '*NODE\n1,0,0\n2,2,0\n3,2,2\n4,0,2\n15,2,1\n6,3,0\n7,3,1\n8,3,2\n*ELEMENT,TYPE=CPS4,ELSET=A\n1,1,2,3,4\n2,2,6,7,15\n3,15,7,8,3\n' > job.inp
+scene job.inp "dimension: 2
+$held"
+has "a node that hangs, in the plane" 'warning: 1 node of the mesh, node 15 at (2, 1) m first, hangs on faces'
+"$perigal" run scene.yaml -o hang > out 2> err; awk '/ steps, / { exit } 1' out | grep -q 'node 15 at (2, 1) m first'; verdict "told before the first step as well" $?
+sed -i 's/^2,2,0$/&\n20,2,0\n30,2,2/; s/^2,2,6,7,15/2,20,6,7,15/; s/^3,15,7,8,3/3,15,7,8,30/' job.inp
+has "of another part, whose other nodes are doubled" 'warning: 1 node of the mesh, node 15 at (2, 1) m first, hangs on faces'
+printf '*NODE\n1,0,0,0\n2,2,0,0\n3,2,2,0\n4,0,2,0\n5,0,0,2\n6,2,0,2\n7,2,2,2\n8,0,2,2\n11,3,0,0\n12,3,1,0\n13,2,1,0\n14,3,0,2\n15,3,1,2\n16,2,1,2\n17,3,2,0\n18,3,2,2\n*ELEMENT,TYPE=C3D8,ELSET=A\n1,1,2,3,4,5,6,7,8\n2,2,11,12,13,6,14,15,16\n3,13,12,17,3,16,15,18,7\n' > job.inp
+scene job.inp "dimension: 3
+$held"
+has "in space" 'warning: 2 nodes of the mesh, node 13 at (2, 1, 0) m first, hang on faces'
+printf "$nodes"'*ELEMENT,TYPE=CPS4,ELSET=A\n1,1,2,5,4\n2,2,3,6,5\n' > job.inp
+scene job.inp "dimension: 2
+$held"
+"$perigal" check scene.yaml > out 2> err && ! grep -q ' hang' out; verdict "none in a mesh that fits" $?
+
+# ---- tables of points: semicolons, decimal commas, numbers of the points; keys in spacings beside graded points --------------------------
+table() { printf 'dimension: 2\nthickness: 1 mm\npoints: p.csv\nmaterials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\nmethod: {integration: nodal, accept_inexact: yes}\n%s\n' "$held" > scene.yaml; }
+awk 'BEGIN { print "id;x [mm];y [mm];volume [mm3]"; for (j = 0; j < 5; j++) for (i = 0; i < 5; i++) printf "%d;%d,5;%d,5;1\n", 7 + i + 5*j, i, j }' > p.csv
+table; has "semicolons, decimal commas and an id column" 'points  *25, spacing' 'x 0.0005 to 0.0045 m'
+sed 's/,5/.5/g; s/;/,/g' p.csv > q.csv; cp q.csv p.csv
+has "an id column among commas" 'points  *25, spacing' 'x 0.0005 to 0.0045 m'
+printf '*NODE\n' > job.inp
+awk 'BEGIN { split ("0 .1 .2 .3 .4 .5 1 1.5 2 2.5", x, " "); for (j = 0; j < 6; j++) for (i = 1; i <= 10; i++) printf "%d,%s,%g\n", 10*j + i, x[i], .2 * j
+    print "*ELEMENT,TYPE=CPS4,ELSET=A"; for (j = 0; j < 5; j++) for (i = 1; i < 10; i++) printf "%d,%d,%d,%d,%d\n", 10*j + i, 10*j + i, 10*j + i + 1, 10*j + i + 11, 10*j + i + 10 }' >> job.inp
+scene job.inp "dimension: 2
+$held
+failure: {criterion: energy_release, fracture_energy: 10}
+cracks: [{from: [0, 0.5], to: [0.25, 0.5]}]
+solver: {kind: static, facet: 1 spacing}"
+has "a facet in spacings beside graded points" 'warning: line 8: solver.facet = 1 spacing counts the mean, 0.[0-9]* m, and the points are 0.[0-9]* to 0.[0-9]* m apart'
+sed -i 's/facet: 1 spacing/facet: 0.1/' scene.yaml; "$perigal" check scene.yaml > out 2> err; ! grep -q 'counts the mean' out; verdict "a length of its own is none of it" $?
+
 # pictures: libraries that cannot be loaded, a section through no points
 mkdir lib; for f in libcairo.so.2 libpng16.so.16; do echo broken > lib/$f; done
 printf 'dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [6, 4]}}}]\nspacing: 1\nmaterials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\n%s\n' "$held" > scene.yaml
