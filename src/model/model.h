@@ -80,7 +80,12 @@ pg_status pg_interfaces_read (pg_problem *problem, const pg_scene *scene);
 /* Remarks on what was perhaps not meant (remarks.c); parts, contrast: once the bonds are there. */
 void      pg_remark_spacing  (pg_problem *problem, const pg_scene *scene);
 void      pg_remark_small_shapes (pg_problem *problem);
+void      pg_remark_units    (pg_problem *problem, const pg_scene *scene);
 void      pg_remark_clouds   (pg_problem *problem);
+/* The same of graded points, meshes and interfaces (remark_mesh.c); interfaces: once the bonds are there. */
+pg_status pg_remark_hanging  (pg_problem *problem);
+void      pg_remark_graded   (pg_problem *problem, const pg_scene *scene);
+void      pg_remark_interfaces (pg_problem *problem);
 pg_status pg_remark_parts    (pg_problem *problem);
 pg_status pg_remark_contrast (pg_problem *problem);
 /* alive = 0 where a bond meets a pre-crack. */

@@ -404,8 +404,12 @@ pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_scene_conclude (scene));
     pg_remark_spacing (p, scene);
     pg_remark_small_shapes (p);
+    pg_remark_units (p, scene);
     pg_remark_clouds (p);
+    PG_TRY (pg_remark_hanging (p));
     PG_TRY (pg_bonds_build (p, scene));
+    pg_remark_graded (p, scene);
+    pg_remark_interfaces (p);
     PG_TRY (pg_remark_parts (p));
     PG_TRY (pg_remark_contrast (p));
     if (p->method->check_points) p->method->check_points (p, scene);

@@ -34,6 +34,31 @@ void pg_remark_spacing (pg_problem *p, const pg_scene *scene)
         }
 }
 
+/* Is the value a number that has no unit? */
+static int bare (const char *text)
+{
+    return text && *text && text[strspn (text, "+-.0123456789eE ")] == '\0';
+}
+
+/* A stiffness without a unit beside lengths with one was perhaps meant in MPa or GPa: as pascals it would be
+ * that of a jelly. */
+void pg_remark_units (pg_problem *p, const pg_scene *scene)
+{
+    const char *name, *unit = pg_scene_text (scene, "mesh.unit"), *spacing = pg_scene_text (scene, "spacing");
+    int lengths = (pg_scene_given (scene, "spacing") && !bare (spacing))
+                  || (pg_scene_given (scene, "mesh.unit") && unit && strcmp (unit, "m") != 0);
+    for (size_t m = 0; lengths && (name = pg_scene_name (scene, m, "materials")); m++) {
+        if (!pg_scene_given (scene, "materials.%s.youngs_modulus", name)) continue;
+        const char *E = pg_scene_text (scene, "materials.%s.youngs_modulus", name);
+        double value = pg_scene_number (scene, "materials.%s.youngs_modulus", name);
+        if (bare (E) && value > 0 && value < 1e7)
+            pg_problem_note (p,
+                             PG_WARNING "line %d: materials.%.32s.youngs_modulus = %.24s has no unit: it is "
+                                        "read in Pa; MPa and GPa are written behind the number",
+                             pg_scene_line (scene, "materials.%s.youngs_modulus", name), name, E);
+    }
+}
+
 /* The least extent of a shape along its axes, m, and its middle; INFINITY: not known. */
 static double least_extent (const pg_shape *s, int dim, double *middle)
 {
