@@ -12,6 +12,7 @@ static const pg_key keys[] = {
              "true normals), or belong to the body entirely or not at all, by their centre." },
     { .path = "sets",
       .kind = PG_MAP,
+      .range = "[0, 1000]",
       .fallback = "",
       .doc = "Named parts of the body. Always there: left, right, bottom, top, back, front (what of the "
              "surface lies in the planes of the bounding box: nothing of a disk; "

@@ -13,9 +13,10 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Places that are tried for one crack; cracks in a row that are tried; values drawn before the limits of a
- * distribution are given up; depth of the subdivision of a crack near the surface. */
-enum { TRIES = 5000, CRACKS = 20, DRAWS = 100000, DEEPEST = 10 };
+/* Places that are tried for one crack; cracks in a row that are tried; places tried for all cracks of a
+ * network; values drawn before the limits of a distribution are given up; depth of the subdivision of a crack
+ * near the surface; lengths drawn to find their mean. */
+enum { TRIES = 5000, CRACKS = 20, ALL_TRIES = 10000000, DRAWS = 100000, DEEPEST = 10, SAMPLE = 2000 };
 
 /* The network while it grows. */
 typedef struct {
@@ -27,6 +28,9 @@ typedef struct {
     double  measure;
     /* Balls about all cracks so far (n x 4). */
     double *ball;  size_t nball, capacity;
+    crack_grid grid;
+    /* Places tried so far. */
+    long    tries;
 } network;
 
 /* ---- numbers --------------------------------------------------------------------------------------------
@@ -172,25 +176,40 @@ static int fits_body (const network *w, const model *m, const double *at)
     return piece_inside (w, m, at, whole, deep, 0);
 }
 
-/* Is the crack far enough from all before it? Balls settle most of the pairs. */
+/* Radius of the ball about a crack with half its slot and the slack of a disc. */
+static double grown (const pg_crack *c, double radius) { return 1.01 * (radius + 0.5 * c->slot); }
+
+/* Is the crack far enough from crack i? Balls settle most of the pairs. */
+static int far_from (const network *w, const pg_crack *c, const double *middle, double radius, size_t i)
+{
+    const pg_crack *b = &w->list->all->crack[i];
+    const double *ball = w->ball + 4*i;
+    double d[3] = { ball[0] - middle[0], ball[1] - middle[1], ball[2] - middle[2] };
+    /* a polygon that stands for a disc lies inside of it by this much at most */
+    double slack = (c->kind == PG_CRACK_DISC ? 0.0013 * c->radius : 0)
+                   + (b->kind == PG_CRACK_DISC ? 0.0013 * b->radius : 0),
+           least = w->ask->distance + 0.5 * (c->slot + b->slot) + slack;
+    if (sqrt (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) > radius + ball[3] + least) return 1;
+    double apart = crack_distance (c, b, w->list->all->dim);
+    return !(apart < least || apart == 0);
+}
+
+/* From all before it: only balls of the cells that its own ball meets are asked, grown by the least distance
+ * (that of slots and the slack of discs are parts of the radii). */
 static int far_from_others (const network *w, const pg_crack *c)
 {
     double middle[3], radius;
-    int dim = w->list->all->dim;
+    int dim = w->list->all->dim, first[3], last[3], at[3];
     if (w->ask->distance < 0) return 1;
     crack_ball (c, dim, middle, &radius);
-    for (size_t i = 0; i < w->nball; i++) {
-        const pg_crack *b = &w->list->all->crack[i];
-        const double *ball = w->ball + 4*i;
-        double d[3] = { ball[0] - middle[0], ball[1] - middle[1], ball[2] - middle[2] };
-        /* a polygon that stands for a disc lies inside of it by this much at most */
-        double slack = (c->kind == PG_CRACK_DISC ? 0.0013 * c->radius : 0)
-                       + (b->kind == PG_CRACK_DISC ? 0.0013 * b->radius : 0),
-               least = w->ask->distance + 0.5 * (c->slot + b->slot) + slack;
-        if (sqrt (d[0] * d[0] + d[1] * d[1] + d[2] * d[2]) > radius + ball[3] + least) continue;
-        double apart = crack_distance (c, b, dim);
-        if (apart < least || apart == 0) return 0;
-    }
+    crack_grid_range (&w->grid, middle, w->ask->distance + grown (c, radius), first, last);
+    for (at[2] = first[2]; at[2] <= last[2]; at[2]++)
+        for (at[1] = first[1]; at[1] <= last[1]; at[1]++)
+            for (at[0] = first[0]; at[0] <= last[0]; at[0]++) {
+                const struct crack_cell *cell = crack_grid_cell (&w->grid, at);
+                for (size_t k = 0; k < cell->n; k++)
+                    if (!far_from (w, c, middle, radius, cell->ball[k])) return 0;
+            }
     return 1;
 }
 
@@ -198,7 +217,10 @@ static pg_status add_ball (network *w, const pg_crack *c)
 {
     pg_status status = PG_OK;
     PG_GROW (w->ball, w->capacity, 4 * (w->nball + 1));
-    crack_ball (c, w->list->all->dim, w->ball + 4 * w->nball, w->ball + 4 * w->nball + 3);
+    double *ball = w->ball + 4 * w->nball;
+    crack_ball (c, w->list->all->dim, ball, ball + 3);
+    if (w->ask->distance >= 0)
+        PG_TRY (crack_grid_add (&w->grid, (unsigned) w->nball, ball, grown (c, ball[3])));
     w->nball++;
 done:
     return status;
@@ -225,7 +247,8 @@ static pg_status add_crack (network *w, int *found)
     if (isnan (m.length) || (plane && !draw_direction (w, direction))) return PG_OK;
     if (plane) for (int k = 0; k < 2; k++) m.half[k] = 0.5 * m.length * direction[k];
     else draw_frame (w, &m);
-    for (int n = 0; n < TRIES && !*found; n++) {
+    for (int n = 0; n < TRIES && w->tries < ALL_TRIES && !*found; n++) {
+        w->tries++;
         draw_place (w, at);
         if (!fits_body (w, &m, at)) continue;
         pg_crack *c = crack_next (w->list);
@@ -261,11 +284,51 @@ static void give_up (const network *w, long n, double size, double removed)
     else
         snprintf (what, sizeof what, "cracks, an intensity of %.4g /m instead of %.4g /m", size / w->measure,
                   ask->intensity);
+    if (w->tries >= ALL_TRIES || n >= CRACK_MOST) {
+        char most[64];
+        snprintf (most, sizeof most, "before their number was %d, the most that are drawn", CRACK_MOST);
+        pg_scene_fault (w->list->scene, path,
+                        "only %ld %s found a place %s; ask for fewer, shorter or nearer "
+                        "ones (distance, margin), or for inside: middle", n, what,
+                        n >= CRACK_MOST ? most : "in 10000000 tries");
+        return;
+    }
     pg_scene_fault (
         w->list->scene, path,
         "only %ld %s found a place: of the next %d none did in %d tries; ask for fewer, shorter or "
         "nearer ones (distance, margin), or for inside: middle",
         n, what, CRACKS, TRIES);
+}
+
+/* Mean length (area) of the cracks to be drawn, by a sample of their lengths, m or m^2. */
+static double mean_size (const crack_request *ask, int dim)
+{
+    random_source r;
+    double sum = 0;
+    random_start (&r, ask->seed);
+    for (int n = 0; n < SAMPLE; n++) {
+        double length = crack_draw (&ask->length, &r);
+        sum += dim == 2 ? length : length * length * (ask->shape == CRACK_DISC ? 1 : ask->aspect);
+    }
+    return sum / SAMPLE * (dim == 2 || ask->shape == CRACK_RECTANGLE ? 1 : 0.785398163397448);
+}
+
+/* An amount that would take more cracks than a network may have is refused before the first is drawn. */
+static int affordable (const network *w)
+{
+    char path[96];
+    const crack_request *ask = w->ask;
+    double size = mean_size (ask, w->body.dim), most = CRACK_MOST * size / w->measure;
+    const char *key = ask->fraction > 0 ? "fraction" : "intensity", *unit = ask->fraction > 0 ? "" : " 1/m";
+    double asked = ask->fraction > 0 ? ask->fraction : ask->intensity;
+    if (ask->fraction > 0) most *= ask->width;
+    if (ask->count || !(asked > most)) return 1;
+    snprintf (path, sizeof path, "%s.random.%s", w->list->at, key);
+    pg_scene_fault (w->list->scene, path,
+                    "takes about %.2g cracks of this length, and at most %d are drawn: must lie in (0, %.3g]"
+                    "%s",
+                    asked / most * CRACK_MOST, CRACK_MOST, most, unit);
+    return 0;
 }
 
 /* The body that cracks are placed in: without its layers. */
@@ -302,13 +365,15 @@ pg_status crack_read_random (crack_list *list)
     memcpy (ask.low, w.body.low, sizeof ask.low);
     memcpy (ask.high, w.body.high, sizeof ask.high);
     PG_TRY (crack_request_read (&ask, list));
+    if (!affordable (&w)) goto done;
     random_start (&w.source, ask.seed);
+    PG_TRY (crack_grid_create (&w.grid, w.body.dim, w.body.low, w.body.high));
     for (size_t i = 0; i < list->all->n && ask.distance >= 0; i++)
         PG_TRY (add_ball (&w, &list->all->crack[i]));
     while (!complete (&w, n, size, removed)) {
         int found = 0, vain = 0;
         for (; vain < CRACKS && !found; vain += !found) PG_TRY (add_crack (&w, &found));
-        if (!found) {
+        if (!found || n >= CRACK_MOST) {
             give_up (&w, n, size, removed);
             break;
         }
@@ -317,6 +382,7 @@ pg_status crack_read_random (crack_list *list)
         n++, size += pg_crack_size (c, w.body.dim), removed += crack_removed (c, w.body.dim);
     }
 done:
+    crack_grid_clear (&w.grid);
     pg_free (w.ball);
     return status;
 }

@@ -40,7 +40,24 @@ typedef struct {
     /* Width of the slots, m; 0: sharp. */
     double width;
 } crack_request;
+/* Cracks of a network, at most. */
+enum { CRACK_MOST = 20000 };
 pg_status crack_request_read (crack_request *out, const crack_list *list);
 /* A number of the distribution; an angle of von Mises' distribution is drawn by its direction instead. */
 double    crack_draw (const crack_distribution *d, random_source *r);
+
+/* Balls in the cells of a grid, so that those near a place are found without asking all. A ball stands in
+ * every cell that its box meets; what lies outside of the grid counts to the outermost cells. */
+typedef struct {
+    int     dim, cells[3];
+    double  low[3], size[3];
+    /* Numbers of the balls of each cell. */
+    struct crack_cell { size_t n, cap; unsigned *ball; } *cell;
+} crack_grid;
+pg_status crack_grid_create (crack_grid *g, int dim, const double *low, const double *high);
+void      crack_grid_clear  (crack_grid *g);
+/* First and last cell by axis that the ball of radius r about x meets. */
+void      crack_grid_range  (const crack_grid *g, const double *x, double r, int first[3], int last[3]);
+const struct crack_cell *crack_grid_cell (const crack_grid *g, const int *at);
+pg_status crack_grid_add    (crack_grid *g, unsigned ball, const double *x, double r);
 #endif

@@ -132,6 +132,7 @@ static const pg_key keys[] = {
     /* Where points come from: a body of shapes, a file of points, or a mesh (group "origin"). */
     { .path = "body",
       .kind = PG_LIST,
+      .range = "[0, 2000]",
       .fallback = "",
       .doc = "The body as shapes, added and subtracted one after the other; needed unless points or a mesh "
              "are read from a file. With points it is their surface." },
@@ -155,6 +156,7 @@ static const pg_key keys[] = {
     /* Boundary layers around a body of shapes. */
     { .path = "layers",
       .kind = PG_LIST,
+      .range = "[0, 100]",
       .fallback = "",
       .doc = "Fictitious boundary layers outside of a body of shapes: the body grows by a box over one face "
              "of its bounding box."
@@ -383,7 +385,7 @@ static const pg_key keys[] = {
       .doc = "Another seed, another network; perigal seeds runs many." },
     { .path = "cracks[].random.count",
       .kind = PG_INTEGER,
-      .range = "[1, 1000000]",
+      .range = "[1, 20000]",
       .fallback = "",
       .group = "amount:one",
       .doc = "Number of cracks." },

@@ -23,7 +23,7 @@ static const pg_key keys[] = {
     ROW ("reference.stress.xy", PG_EXPRESSION, "Pa", "", "Component xy."),
     ROW ("reference.stress.yz", PG_EXPRESSION, "Pa", "", "Component yz (3D)."),
     ROW ("reference.stress.zx", PG_EXPRESSION, "Pa", "", "Component zx (3D)."),
-    ROW ("reference.lines", PG_LIST, NULL, "", "Tables of places with values."),
+    { "reference.lines", PG_LIST, NULL, "[0, 100]", "", NULL, NULL, NULL, "Tables of places with values." },
     ROW ("reference.lines[].file", PG_FILE, NULL, NULL,
          "CSV beside the scene; first row: x [mm], y [mm], u_x [mm], s_xx [MPa] ...: coordinates and any of "
          "u_x u_y u_z s_xx s_yy s_zz s_xy s_yz s_zx."),

@@ -3,6 +3,9 @@
 #include "entries.h"
 
 static const pg_key keys[] = {
+    { .path = "materials", .kind = PG_MAP, .range = "[0, 1000]", .fallback = "",
+      .doc = "Materials by names of your own. With one material it is that of the whole body; with several "
+             "blocks say which is where." },
     { .path = "materials.{}.model", .kind = PG_NAME, .fallback = PG_FIRST_CHOICE,
       .choices_of = pg_material_names,
       .doc = "The law that gives stress from strain." },

@@ -149,13 +149,16 @@ static int drop_polyline (pg_problem *p, size_t j)
 
 pg_status drop_doubled_cracks (pg_problem *p, const pg_scene *scene)
 {
-    size_t before = p->cracks.n;
+    size_t before = p->cracks.n, first = 0;
     if (p->dim < 2) return PG_OK;
+    /* Pieces of an entry follow each other from `first` on: the pieces of others lie before that. */
     for (size_t j = 1; j < p->cracks.n; j++) {
-        int gone = drop_polyline (p, j);
-        for (size_t i = 0; i < j && !gone; i++)
-            if (p->cracks.crack[i].entry != p->cracks.crack[j].entry) gone = settle (p, i, j, scene);
-        j -= (size_t) gone;
+        int begins = p->cracks.crack[j].entry != p->cracks.crack[j - 1].entry, gone;
+        if (begins) first = j;
+        gone = begins && drop_polyline (p, j);
+        for (size_t i = 0; i < first && !gone; i++) gone = settle (p, i, j, scene);
+        /* the next piece takes this place */
+        if (gone) j--;
     }
     return p->cracks.n < before ? pg_cracks_index (&p->cracks) : PG_OK;
 }

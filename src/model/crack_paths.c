@@ -20,7 +20,8 @@
 /* Do two places lie at one? */
 static int same_place (const pg_crack_paths *w, const double *a, const double *b)
 {
-    return hypot (a[0] - b[0], a[1] - b[1]) <= w->nothing;
+    double x = a[0] - b[0], y = a[1] - b[1];
+    return fabs (x) <= w->nothing && fabs (y) <= w->nothing && hypot (x, y) <= w->nothing;
 }
 
 /* ---- walking along a path ------------------------------------------------------------------------------ */

@@ -13,7 +13,7 @@ static const char *const no_choice = NULL;
     LOAD_COMPONENT (name, unit, "z", "Component along z.")
 
 static const pg_key keys[] = {
-    { "blocks", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
+    { "blocks", PG_LIST, NULL, "[0, 1000]", "", NULL, NULL, NULL,
       "Which part is made of which material; needed with several materials. A later entry wins; every point "
       "needs one." },
     { "blocks[].material", PG_NAME, NULL, NULL, NULL, "materials.{}", NULL, NULL, "One of materials." },
@@ -22,7 +22,7 @@ static const pg_key keys[] = {
       "itself." },
     { "blocks[].block", PG_TEXT, NULL, NULL, "", no_choice, NULL, "claim:one",
       "Points of this block number of the points' file; of a mesh: of this block, by name or number." },
-    { "boundary", PG_LIST, NULL, NULL, "", NULL, NULL, NULL, "Loads and supports." },
+    { "boundary", PG_LIST, NULL, "[0, 1000]", "", NULL, NULL, NULL, "Loads and supports." },
     { "boundary[].name", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL,
       "Name in history.csv; default: the set's name." },
     { "boundary[].set", PG_NAME, NULL, NULL, "", "sets.{}|left|right|bottom|top|back|front|all|cracks",
@@ -97,7 +97,7 @@ static const pg_key keys[] = {
       "Factor over time as pairs [t, factor], linear between, constant beyond." },
     { "boundary[].table[]", PG_NUMBERS, NULL, NULL, "", NULL, NULL, NULL,
       "One pair: t in s (static: load factor 0 to 1), factor." },
-    { "platens", PG_LIST, NULL, NULL, "", no_choice, NULL, NULL,
+    { "platens", PG_LIST, NULL, "[0, 100]", "", no_choice, NULL, NULL,
       "Rigid platens and indenters: what of the surface of the body comes to theirs is pressed, and rubbed, "
       "by them (force: galerkin, solver: static; forces of points, solver: verlet, central; elsewhere they "
       "are refused)." },
@@ -145,7 +145,7 @@ static const pg_key keys[] = {
       "in t." },
     { "platens[].force_ramp", PG_TEXT, NULL, NULL, "linear", NULL, NULL, NULL,
       "The same of its force." },
-    { "stages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
+    { "stages", PG_LIST, NULL, "[0, 1000]", "", NULL, NULL, NULL,
       "Stages of loading, one after the other: confine, load axially, unload ... Stage k runs from t = k - 1 "
       "to t = k (load_factor of history.csv). Without them all loads grow from 0 to 1 together." },
     { "stages[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Name in report.json and in messages." },
@@ -187,7 +187,7 @@ static const pg_key keys[] = {
       "Component along x; absent: zero." },
     { "initial.velocity.y", PG_EXPRESSION, "m/s", NULL, "", no_choice, NULL, NULL, "Component along y." },
     { "initial.velocity.z", PG_EXPRESSION, "m/s", NULL, "", no_choice, NULL, NULL, "Component along z." },
-    { "initial.sets", PG_LIST, NULL, NULL, "", no_choice, NULL, NULL,
+    { "initial.sets", PG_LIST, NULL, "[0, 1000]", "", no_choice, NULL, NULL,
       "Velocities of sets of points at the start, instead of initial.velocity there: of bodies that "
       "collide." },
     { "initial.sets[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all", NULL,
@@ -199,7 +199,7 @@ static const pg_key keys[] = {
       "Component along y." },
     { "initial.sets[].velocity.z", PG_EXPRESSION, "m/s", NULL, "", no_choice, NULL, NULL,
       "Component along z." },
-    { "output.gauges", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
+    { "output.gauges", PG_LIST, NULL, "[0, 1000]", "", NULL, NULL, NULL,
       "Pairs of places whose opening is recorded." },
     { "output.gauges[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },
     { "output.gauges[].from", PG_VECTOR, "m", NULL, NULL, NULL, NULL, NULL, "First place." },

@@ -72,6 +72,8 @@ typedef struct {
     double spacing;                                    /* the largest at its tips, m */
     int open;                                          /* reaches the surface */
     size_t group;                                      /* the first crack that it hangs together with */
+    /* Box of the crack, for those that cannot touch, m. */
+    double low[3], high[3];
 } extent;
 
 typedef struct {
@@ -253,14 +255,34 @@ static int joined (const pg_problem *p, const pg_crack *a, const pg_crack *b)
     return 0;
 }
 
+/* Its box, grown by what counts as touching, and by how far the vertices of a disc lie inside its rim. */
+static void box_of (const pg_problem *p, const pg_crack *c, extent *e)
+{
+    double slack = 1e-5 * p->cloud.h + (c->kind == PG_CRACK_DISC ? 0.01 * c->radius : 0);
+    for (int a = 0; a < 3; a++) e->low[a] = a < p->dim ? INFINITY : 0, e->high[a] = -e->low[a];
+    for (size_t i = 0; i < c->nvertex; i++)
+        for (int a = 0; a < p->dim; a++) {
+            double x = c->vertex[i * (size_t) p->dim + (size_t) a];
+            e->low[a] = fmin (e->low[a], x - slack), e->high[a] = fmax (e->high[a], x + slack);
+        }
+}
+
+static int boxes_meet (const extent *a, const extent *b)
+{
+    return a->low[0] <= b->high[0] && b->low[0] <= a->high[0] && a->low[1] <= b->high[1]
+           && b->low[1] <= a->high[1] && a->low[2] <= b->high[2] && b->low[2] <= a->high[2];
+}
+
 /* What hangs together counts as one crack: into the extent of its first. */
 static void join (const pg_problem *p, extent *e)
 {
-    for (size_t k = 0; k < p->cracks.n; k++) e[k].group = k;
+    for (size_t k = 0; k < p->cracks.n; k++) e[k].group = k, box_of (p, &p->cracks.crack[k], &e[k]);
     for (size_t k = 1; k < p->cracks.n; k++)
         for (size_t j = 0; j < k; j++) {
             size_t from = e[k].group, to = e[j].group;
-            if (from == to || !joined (p, &p->cracks.crack[k], &p->cracks.crack[j])) continue;
+            if (from == to || !boxes_meet (&e[k], &e[j])
+                || !joined (p, &p->cracks.crack[k], &p->cracks.crack[j]))
+                continue;
             for (size_t i = 0; i <= k; i++)
                 if (e[i].group == from || e[i].group == to) e[i].group = from < to ? from : to;
         }

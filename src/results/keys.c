@@ -6,14 +6,14 @@
 #include "perigal/scene.h"
 
 static const pg_key keys[] = {
-    { "output.fields", PG_NAMES, NULL, NULL, "[displacement, damage, stress]",
+    { "output.fields", PG_NAMES, NULL, "[0, 1000]", "[displacement, damage, stress]",
       "displacement|rotation|velocity|damage|stress|strain|error_estimate|nodal_force", NULL, NULL,
       "Fields of result.e; rotation: of points, gmpd only; error_estimate: of the stress, by recovery; "
       "nodal_force: internal force of every point, at rest what loads and supports exert on it." },
-    { "output.pictures", PG_NAMES, NULL, NULL, "[damage]", NULL, NULL, NULL,
+    { "output.pictures", PG_NAMES, NULL, "[0, 100]", "[damage]", NULL, NULL, NULL,
       "Pictures of the last state: a field, or a part of one (displacement.y, stress.xx). Of a mesh: on its "
       "elements, while no bond is broken. []: none, and no charts either." },
-    { "output.views", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
+    { "output.views", PG_LIST, NULL, "[0, 100]", "", NULL, NULL, NULL,
       "More pictures of the last state, each with its own view, range or name: {field: damage, view: "
       "back}." },
     { "output.views[].field", PG_TEXT, NULL, NULL, "", NULL, NULL, NULL,
@@ -61,7 +61,7 @@ static const pg_key keys[] = {
       "The new crack so far as a column of history.csv, crack.length in 2D, crack.area in 3D, where bonds or "
       "points break one by one: an estimate, by the count of broken bonds, or by the volume of failed points "
       "over the horizon. Runs whose cracks grow by facets have the column anyway." },
-    { "output.averages", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
+    { "output.averages", PG_LIST, NULL, "[0, 1000]", "", NULL, NULL, NULL,
       "Means of a field over a set, a column of history.csv each." },
     { "output.averages[].name", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL, "Column name in history.csv." },
     { "output.averages[].set", PG_NAME, NULL, NULL, NULL, "sets.{}|left|right|bottom|top|back|front|all",
@@ -71,7 +71,7 @@ static const pg_key keys[] = {
     { "output.averages[].field", PG_TEXT, NULL, NULL, NULL, NULL, NULL, NULL,
       "One component of a field: damage, displacement.y, stress.yy, strain.xy, rotation.z (gmpd; 2D: "
       "rotation) ..." },
-    { "output.tips", PG_LIST, NULL, NULL, "", NULL, NULL, NULL,
+    { "output.tips", PG_LIST, NULL, "[0, 100]", "", NULL, NULL, NULL,
       "Tips of cracks: how far from a place a crack has come along a direction, a column of history.csv "
       "each; tip.png, tip_speed.png and report.json show length and speed, beside the speed of Rayleigh "
       "waves." },

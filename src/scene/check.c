@@ -2,8 +2,12 @@
  * Checks the tree of a scene against the key tables: unknown, missing, repeated and wrongly shaped keys,
  * groups. Single values are checked by value.c. Faults are collected and do not stop the walk. */
 #include "document.h"
+#include "unit.h"
 #include "value.h"
 #include <string.h>
+
+/* Unknown keys of a map that are named; the others are counted. */
+enum { NAMED = 10 };
 
 static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT]);
 
@@ -56,9 +60,8 @@ static int good_name (const char *name)
 /* An earlier child of the same name as child k; NULL: none. */
 static const pg_node *earlier (const pg_node *node, size_t k)
 {
-    for (size_t j = 0; j < k; j++)
-        if (strcmp (node->child[j].name, node->child[k].name) == 0) return &node->child[j];
-    return NULL;
+    const pg_node *first = pg_node_child (node, node->child[k].name, strlen (node->child[k].name));
+    return first != &node->child[k] ? first : NULL;
 }
 
 /* ---- missing keys and groups --------------------------------------------------------------------------- */
@@ -160,6 +163,7 @@ static void check_groups (pg_scene *s, const pg_node *node, const char *pattern,
 static pg_status check_map (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
     pg_status status = PG_OK;
+    size_t unknown = 0, first = 0;
     for (size_t k = 0; k < node->n; k++) {
         pg_node *child = &node->child[k];
         const pg_node *twin = earlier (node, k);
@@ -169,11 +173,15 @@ static pg_status check_map (pg_scene *s, pg_node *node, char pattern[PG_PATTERN]
         if (twin) FAULT (child, 1, "is given twice, first in line %d", twin->line);
         else if (!good_name (child->name))
             FAULT (child, 0, "a name has 1 to 63 characters without . = [ ] { }");
-        else if (!found) unknown_key (s, child, pattern, path);
-        else PG_TRY (check_node (s, child, pattern, path));
+        else if (!found) {
+            if (++unknown <= NAMED) unknown_key (s, child, pattern, path);
+            else if (unknown == NAMED + 1) first = k;
+        } else PG_TRY (check_node (s, child, pattern, path));
         pattern[end] = '\0';
         path[n] = '\0';
     }
+    if (unknown > NAMED)
+        FAULT (&node->child[first], 0, "%zu more of the %zu keys here are unknown", unknown - NAMED, node->n);
     check_missing (s, node, pattern, path);
     check_groups (s, node, pattern, path);
 done:
@@ -212,6 +220,18 @@ static void shape_of_nothing (const pg_schema *schema, pg_node *node, const char
     node->shape = shape;
 }
 
+/* Has a list or a map of names more entries than its row, or else any list, may have? Each entry costs time
+ * in every check, so that a scene of too many would have no answer. */
+static int overfull (pg_scene *s, const pg_node *node, const pg_key *row, const char *path)
+{
+    static const char any[] = "[0, 10000]", numbers[] = "[0, 100000]";
+    int wrong, counts = row->kind == PG_LIST || row->kind == PG_MAP || row->kind == PG_NAMES;
+    const char *range = counts && row->range ? row->range : row->kind == PG_NUMBERS ? numbers : any;
+    if (node->shape == PG_SCALAR || pg_range_holds (range, (double) node->n, &wrong)) return 0;
+    FAULT (node, 0, "has %zu entries; their number must lie in %s", node->n, range);
+    return 1;
+}
+
 /* A node of any shape, after its row has been found. */
 static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN], char path[PG_PATH_TEXT])
 {
@@ -222,6 +242,7 @@ static pg_status check_node (pg_scene *s, pg_node *node, char pattern[PG_PATTERN
     int is_map = row || pg_schema_opens (&s->schema, pattern, '.');
     int is_list = row ? row->kind == PG_LIST : pg_schema_opens (&s->schema, pattern, '[');
     node->key = row;
+    if (row && overfull (s, node, row, path)) return PG_OK;
     if (node->shape == PG_MAPPING && is_map) return check_map (s, node, pattern, path);
     if (node->shape == PG_SEQUENCE && is_list) return check_list (s, node, pattern, path);
     /* Values, and lists of numbers or names. */

@@ -50,12 +50,12 @@ void pg_faults_add_v (pg_faults *f, const char *file, const pg_node *at, const c
     char text[2 * LINE], reason[LINE];
     pg_status status = PG_OK;
     if (!path) path = "";
-    vsnprintf (reason, sizeof reason, format, args);
-    write_fault (text, file, at, path, with_value, reason);
     if (f->n == KEPT) {
         f->more++;
         return;
     }
+    vsnprintf (reason, sizeof reason, format, args);
+    write_fault (text, file, at, path, with_value, reason);
     PG_GROW (f->fault, f->cap, f->n + 1);
     pg_fault *fault = &f->fault[f->n];
     /* faults of overrides stand behind those of the file */

@@ -32,6 +32,9 @@ struct pg_node {
     /* Elements of a list, entries of a map (n). */
     pg_node      *child;
     size_t        n, cap;
+    /* Finds entries of a large map by name: places in child + 1, 0: empty (slots, a power of 2). */
+    unsigned     *slot;
+    size_t        slots;
 };
 
 /* A fault: its message, its place, and the first word of the key it is about. */
@@ -55,7 +58,7 @@ pg_status pg_node_read (pg_node *root, const char *text, size_t length, const ch
 pg_status pg_node_word  (pg_node *node, const char *text, const char *origin);
 /* Appends a zeroed child; other children may move. */
 pg_status pg_node_add   (pg_node **child, pg_node *parent, const char *name);
-/* The child of that name (length bytes) of a map; NULL: there is none. */
+/* The first child of that name (length bytes) of a map; NULL: there is none. */
 pg_node  *pg_node_child (const pg_node *parent, const char *name, size_t length);
 /* Is nothing written, or ~ ? */
 int       pg_node_null  (const pg_node *node);

@@ -132,7 +132,9 @@ static void check_reference (pg_scene *s, const pg_node *node, const char *choic
     at = add_children (pg_node_child (&s->root, map, m), names, at, sizeof names);
     int sets = strcmp (map, "sets") == 0;
     if (sets) add_layers (s, names, at, sizeof names);
-    if (is_choice (base, names)) return;
+    /* The list of names is cut where it is very long: names of the scene are looked up. */
+    const pg_node *own = pg_node_child (&s->root, map, m);
+    if (is_choice (base, names) || (own && pg_node_child (own, base, strlen (base)))) return;
     /* parts of shapes and the sets of a mesh are looked up once they are there */
     if (sets && (is_part_of_shape (s, base, node->text) || pg_node_child (&s->root, "mesh", 4))) return;
     const char *near = pg_nearest_name (node->text, names);

@@ -67,6 +67,54 @@ expect "at rest and by shape functions too" 0 'points turn: 0.1 rad from 0.35 of
     --set 'method={approximation: rkpm, integration: nodal}' --set 'failure={criterion: none}' --set 'solver={kind: static}' --set "boundary=[{set: left, $turned}, {set: right, $turned}]"
 "$perigal" run spin.yaml -o "$work/spin3" --set method.stretch=finite > "$work/out" 2>&1; ! grep -q 'points turn' "$work/out"; verdict "not of finite stretches" $?
 
+# ---- scenes that would have no answer: refused in a second or two, by check and by run ----------------------------------------
+plate='dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.1\nmaterials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\nboundary: [{set: left, displacement: {x: 0, y: 0}}]\n'
+# answered NAME PATTERN FILE SETTINGS...
+answered() {
+    local name=$1 words=$2 file=$3 set=(); shift 3
+    for s in "$@"; do set+=(--set "$s"); done
+    for verb in check run; do
+        ( ulimit -t 6; exec "$perigal" $verb "$file" "${set[@]}" $([ $verb = run ] && echo -o "$work/none") > "$work/out" 2> "$work/err" )
+        [ $? -eq 65 ] && grep -q -- "$words" "$work/err" && [ "$(wc -c < "$work/err")" -lt 20000 ]; verdict "$verb: $name" $?
+    done
+}
+printf "$plate" > "$work/plate.yaml"
+{ printf "$plate"; seq -f 'key%.0f: 1' 100000; } > "$work/keys.yaml"
+answered "100000 unknown keys" 'keys.yaml:16:1: 99990 more of the 100005 keys here are unknown' "$work/keys.yaml"
+grep -q 'keys.yaml:15:1: key10 = 1: unknown key' "$work/err"; verdict "the first ten are named" $?
+{ printf "$plate"; echo sets:; seq -f '  s%.0f: {where: "x < 1"}' 5000; } > "$work/sets.yaml"
+answered "5000 sets" 'sets: has 5000 entries; their number must lie in .0, 1000.' "$work/sets.yaml"
+{ printf "$plate"; echo cracks:; awk 'BEGIN { for (k = 1; k <= 11000; k++) print "  - {from: [0.1, 0." k "], to: [0.2, 0." k "]}" }'; } > "$work/cracks.yaml"
+answered "11000 cracks" 'cracks: has 11000 entries; their number must lie in .0, 10000.' "$work/cracks.yaml"
+answered "a million random cracks" 'random.count = 1000000: must lie in .1, 20000.' "$work/plate.yaml" 'cracks=[{random: {count: 1000000, length: 0.1}}]'
+answered "an absurd intensity" 'random.intensity = 1e12: takes about 1e+13 cracks .*(0, 2e+03. 1/m' "$work/plate.yaml" 'cracks=[{random: {intensity: 1e12, length: 0.1}}]'
+answered "a fraction of slots of no width" 'random.fraction = 0.9: takes about 9e+09 cracks' "$work/plate.yaml" 'cracks=[{random: {fraction: 0.9, length: 0.1}, width: 1e-9}]'
+answered "cracks that find no place" 'only [0-9]* of 1000 cracks found a place' "$work/plate.yaml" 'cracks=[{random: {count: 1000, length: 0.9, distance: 0.2}}]'
+answered "a spacing of 1e-9" 'spacing = 1e-9: too fine' "$work/plate.yaml" spacing=1e-9
+# the last of many names is known as well
+{ printf "$plate" | sed 's/materials: {/&'"$(seq -s ' ' -f 'a_material_of_a_long_name_%.0f: {youngs_modulus: 1 GPa, poissons_ratio: 0.2},' 300)"'/'; echo 'blocks: [{material: a, where: "x < 2"}]'; } > "$work/names.yaml"
+"$perigal" check "$work/names.yaml" > "$work/out" 2> "$work/err"; grep -q 'long_name_1: is used by no block' "$work/err" && ! grep -q 'no material of this name' "$work/err"
+verdict "the last of 301 materials is known" $?
+
+# ---- units of temperature, a stiffness without one ----------------------------------------------------------------------
+for unit in '10 K' '10 degC' '10 C' '10 °C' '"10 degC * x / (1 m)"'; do
+    expect "temperature: $unit" 0 '*' '' check "$work/plate.yaml" --set 'method.integration=gauss' --set 'solver.stepping=fixed' \
+        --set "boundary=[{set: left, displacement: {x: 0, y: 0}}, {temperature: $unit}]" --set 'materials={a: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, expansion: 1e-5 1/degC}}'
+done
+for unit in 1/K /K 1/C 1/degC um/m/C 'K-1' '/°C'; do
+    "$perigal" check "$work/plate.yaml" --set "materials={a: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, expansion: 1e-5 $unit}}" > "$work/out" 2> "$work/err"; verdict "expansion: 1e-5 $unit" $?
+done
+expect "a temperature in coulomb is none, a pressure per kelvin no pressure" 65 '' "the result is in m^-1 kg s^-2 K^-1, expected Pa" check "$work/plate.yaml" --set 'materials.a.youngs_modulus=1 Pa/C'
+expect "a stiffness without a unit beside lengths with one: told" 0 'warning: line 0*[0-9]*: materials.a.youngs_modulus = 210000 has no unit' '' check "$work/plate.yaml" --set 'materials.a.youngs_modulus=210000' --set 'spacing=100 mm'
+silent "a scene without any unit" '.*has no unit' "$work/plate.yaml" 'materials.a.youngs_modulus=210000'
+
+# ---- interfaces of materials, spacings of graded points -----------------------------------------------------------------------
+two='materials={a: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}, b: {youngs_modulus: 2 GPa, poissons_ratio: 0.2}}'
+"$perigal" check "$work/plate.yaml" --set "$two" --set 'blocks=[{material: a, where: "x < 2"}, {material: b, where: "x < 0.5"}]' > "$work/out" 2> "$work/err"
+grep -q 'at interfaces of materials the error falls with the first power of the spacing' "$work/out"; verdict "two materials: the order at interfaces is told" $?
+"$perigal" check "$work/plate.yaml" --set "$two" --set 'blocks=[{material: a, where: "x < 2"}]' > "$work/out" 2> "$work/err"
+! grep -q 'at interfaces' "$work/out"; verdict "not where one of them is used" $?
+
 # ---- a full device ----------------------------------------------------------------------------------------------------
 for words in "check small_hole.yaml" "check small_hole.yaml --json" list "help horizon" "help --manual"; do
     "$perigal" $words > /dev/full 2> "$work/err"; [ $? -eq 70 ] && grep -q 'the output cannot be written: No space left on device' "$work/err"
