@@ -88,7 +88,7 @@ good() {   # the command as words
                 mapfile -t words < <(for k in "$@"; do case $k in *.png|*.svg) echo "$work/$(basename "$k")" ;; *) echo "$k" ;; esac; done)
                 "$perigal" "${words[@]}" > "$work/out" 2> "$work/err"; return
             fi
-            if [ -d "$(ours "$2")" ] && [[ $3 != *.frd ]]; then
+            if [ "$(ours "$2")" != "$2" ] && [[ $3 != *.frd ]]; then     # whatever else out/ may hold
                 mapfile -t words < <(for k in "$@"; do ours "$k"; done)
                 "$perigal" "${words[@]}" > "$work/out" 2> "$work/err"; return
             fi
