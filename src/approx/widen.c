@@ -33,6 +33,8 @@ typedef struct {
     /* What is left to do: places (n), what the best support so far shows to each, that support (0: none), and
      * where its nodes are in `node`. */
     size_t n, *place, *at, *count;
+    /* Most places in the midst of irregular points see too little: the horizon is too small for them all. */
+    int too_small;
     unsigned char *best;
     double *factor;
     int *node;  size_t used, cap;
@@ -202,6 +204,53 @@ done:
     return status;
 }
 
+/* Is place k of a lot in the midst of the nodes that it sees? */
+static int in_midst (const lot *l, size_t k)
+{
+    const pg_family *f = &l->rows.family;
+    size_t dim = (size_t) l->rows.dim, count = f->start[k + 1] - f->start[k];
+    double square = 0, reach = MIDST * l->w->a.horizon;
+    for (size_t c = 0; c < dim; c++) {
+        double sum = 0;
+        for (size_t e = f->start[k]; e < f->start[k + 1]; e++)
+            sum += l->w->cloud->x[(size_t) f->node[e] * dim + c] - l->rows.x[k * dim + c];
+        square += sum * sum / (double) (count * count);
+    }
+    return count > 0 && square < reach * reach;
+}
+
+/* Shares of the places in the midst of irregular points that see less than well, and too little. By places a
+ * Gauss point away from some of the nodes, so that all sets of rows of a cloud go by the same: one place may be
+ * in two of them, as a point of a facet and of the face of its cell, and must have one support. */
+static pg_status look_amidst (const work *w, double *less, double *little)
+{
+    pg_status status = PG_OK;
+    const pg_cloud *c = w->cloud;
+    size_t dim = (size_t) c->dim, step = c->n / SAMPLE + 1, n = 0, inner = 0, lowered = 0, poor = 0;
+    work alone = *w;
+    lot l = { .w = &alone };
+    double *x = NULL;
+    pg_family_search *search = NULL;
+    alone.sees = NULL;
+    *less = *little = 0;
+    PG_ALLOC (x, SAMPLE * dim);
+    for (size_t i = 0; i < c->n; i += step, n++) {
+        double h = c->size ? c->size[i] / pg_cloud_slender (c, i) : c->h;
+        for (size_t k = 0; k < dim; k++) x[n * dim + k] = c->x[i * dim + k] + (n >> k & 1 ? 0.29 : -0.29) * h;
+    }
+    PG_TRY (pg_rows_search (&search, &w->a, c));
+    PG_TRY (pg_rows_place (&l.rows, search, c, n, x, NULL, NULL, NULL, NULL, w->threads));
+    PG_TRY (measure (&l));
+    for (size_t k = 0; k < n; k++)
+        if (in_midst (&l, k)) inner++, lowered += l.sight[k] != GOOD, poor += l.sight[k] == POOR;
+    if (inner) *less = (double) lowered / (double) inner, *little = (double) poor / (double) inner;
+done:
+    lot_clear (&l);
+    pg_family_search_free (&search);
+    pg_free (x);
+    return status;
+}
+
 /* The first look, at the supports that places have: those that see less than well. */
 static pg_status find_poor (work *w)
 {
@@ -227,8 +276,11 @@ static pg_status find_poor (work *w)
         lot_clear (&l);
         l = (lot) { .w = w };
     }
-    if (!w->cloud->regular) everywhere = (double) lowered > usual * (double) looked;
-    else if (looked == w->rows->n)
+    if (w->n > 0 && !w->cloud->regular) {
+        double less, little;
+        PG_TRY (look_amidst (w, &less, &little));
+        everywhere = less > usual, w->too_small = little > usual;
+    } else if (looked == w->rows->n)
         everywhere = w->a.order == 2 && nodes_within (w) < functions[w->cloud->dim - 1];
     else if (lowered) PG_TRY (whole_are_lowered (w, &everywhere));
     if (everywhere) {
@@ -361,7 +413,7 @@ pg_status pg_rows_widen (pg_rows *rows, const pg_approx *a, const pg_cloud *clou
     PG_ALLOC (w.count, w.n);
     PG_ALLOC (w.factor, w.n);
     for (size_t k = 0; k < sizeof factors / sizeof *factors; k++) PG_TRY (attempt (&w, factors[k]));
-    if ((double) inner_places (&w) > usual * (double) rows->n) goto done;
+    if (cloud->regular ? (double) inner_places (&w) > usual * (double) rows->n : w.too_small) goto done;
     PG_ALLOC (out->blind, w.n);
     for (size_t k = 0; k < w.n; k++) {
         out->widened += w.factor[k] > 0;
