@@ -6,6 +6,7 @@
 #ifndef PERIGAL_CLI_H
 #define PERIGAL_CLI_H
 #include "perigal.h"
+#include <time.h>
 
 /* SCENE [-o DIR] [--resume | --force] ...: solves and leaves a folder of results (run.c). */
 int pg_cli_run   (int argc, char **argv);
@@ -56,9 +57,11 @@ void progress_show (progress *p, const pg_progress *at, const pg_step *step, con
 void progress_end   (progress *p);
 
 /* From now on a signal that asks this process to stop is noted: its number, 0 while there was none; the
- * second one of its kind ends the process (signals.c). */
+ * second one of its kind, half a second later or more, ends the process (signals.c). */
 void run_listen        (void);
 int  run_asked_to_stop (void);
+/* 1: a signal that comes now belongs to the request that came `since` then (CLOCK_MONOTONIC). */
+int  command_same_request (const struct timespec *since);
 /* From now on SIGINT, SIGTERM and SIGHUP are counted, for studies of many runs (stops.c). */
 const volatile sig_atomic_t *command_stops (void);
 /* usage.c: prints what a command says of itself; 0: there is no such command. */

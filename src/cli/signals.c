@@ -7,6 +7,7 @@
 #include <pthread.h>
 #include <signal.h>
 #include <stdatomic.h>
+#include <time.h>
 
 /* Number of the first signal, 0: none yet; and the signals that are waited for. One set per process. */
 static atomic_int first;
@@ -14,10 +15,21 @@ static sigset_t waited;
 
 int run_asked_to_stop (void) { return atomic_load (&first); }
 
-/* The second signal of its kind ends the process at once, as if nobody had listened. */
+/* One request may come as several signals: timeout sends its own to the process and to the group of the
+ * process, a terminal to all that run in it, of which mpirun or a command of many runs passes it on. */
+int command_same_request (const struct timespec *since)
+{
+    const double together = 0.5;                       /* s */
+    struct timespec now;
+    clock_gettime (CLOCK_MONOTONIC, &now);
+    return (double) (now.tv_sec - since->tv_sec) + 1e-9 * (double) (now.tv_nsec - since->tv_nsec) < together;
+}
+
+/* The second request by a signal of one kind ends the process at once, as if nobody had listened. */
 static void *wait_for_signals (void *none)
 {
     int number;
+    struct timespec since[64];                         /* those waited for have small numbers */
     sigset_t seen;
     pg_signals before;
     pg_signals_hold (&before);
@@ -25,9 +37,11 @@ static void *wait_for_signals (void *none)
     while (sigwait (&waited, &number) == 0) {
         if (!sigismember (&seen, number)) {
             sigaddset (&seen, number);
+            clock_gettime (CLOCK_MONOTONIC, &since[number]);
             atomic_store (&first, number);
             continue;
         }
+        if (command_same_request (&since[number])) continue;
         signal (number, SIG_DFL);
         pthread_sigmask (SIG_UNBLOCK, &seen, NULL);
         raise (number);

@@ -1,12 +1,22 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Signals that ask a command of many runs to stop: they are counted, and the runs are asked as often. The
  * first one lets them write checkpoints, the second one ends them at once; this process lives on to say
- * what there is. A single run listens in its own way (signals.c). */
+ * what there is. Those that come at once count as one. A single run listens in its own way (signals.c). */
 #include "cli.h"
+#include <signal.h>
 #include <string.h>
+#include <time.h>
 
 static volatile sig_atomic_t asked;
-static void on_signal (int number) { (void) number, asked = asked + 1; }
+static struct timespec since;                          /* when the first one came */
+
+static void on_signal (int number)
+{
+    (void) number;
+    if (asked == 0) clock_gettime (CLOCK_MONOTONIC, &since);
+    else if (command_same_request (&since)) return;
+    asked = asked + 1;
+}
 
 /* Signals that the caller ignores (nohup) stay ignored, SIGINT excepted. */
 const volatile sig_atomic_t *command_stops (void)

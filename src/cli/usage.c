@@ -25,7 +25,7 @@ static const char run[] =
     "                       and seeds.png (histogram) have the peak loads. Called again it goes on\n"
     "  -q, --quiet          no progress and no summary; warnings are in DIR/report.json\n"
     "  Ctrl-C (SIGINT, SIGTERM, SIGHUP, SIGUSR1) writes a checkpoint after the current break round and\n"
-    "  stops; a second one stops at once.\n";
+    "  stops; a second one, half a second later or more, stops at once.\n";
 
 static const char check[] =
     "perigal check SCENE.yaml [--json] [--solve] [--spectrum [-o DIR]] [--memory SIZE]\n"

@@ -2,7 +2,8 @@
  * A library to be loaded before a program (LD_PRELOAD): it sends the program the signal SIGNAL when the
  * program calls the function CALL for the AT-th time. Calls: rename, remove (before it is done),
  * clock_gettime (somewhere in the run), signal (a library takes SIGTERM for itself: the signal comes just
- * then). COUNTED: a file that gets the number of such calls.
+ * then); twice and late: as rename, and once more a millisecond or 0.6 s after it.
+ * COUNTED: a file that gets the number of such calls.
  */
 #define _GNU_SOURCE
 #include <dlfcn.h>
@@ -18,10 +19,12 @@ static long calls;
 static void count (const char *name)
 {
     const char *call = getenv ("CALL"), *at = getenv ("AT"), *number = getenv ("SIGNAL");
-    if (!call || strcmp (call, name) != 0) return;
+    long again = call && strcmp (call, "twice") == 0 ? 1000 : call && strcmp (call, "late") == 0 ? 600000 : 0;
+    if (!call || strcmp (again ? "rename" : call, name) != 0) return;
     calls++;
     if (!at || atol (at) != calls) return;
     kill (getpid (), number ? atoi (number) : SIGTERM);
+    if (again) usleep ((useconds_t) again), kill (getpid (), number ? atoi (number) : SIGTERM);
     usleep (5000);                                     /* another thread may take it */
 }
 

@@ -78,6 +78,14 @@ run 15 signal 1 block -o "$work/block"
 [ $code -eq 130 ] && grep -q 'continue with' "$work/err" && [ -e "$work/block/checkpoint.nc" ] && [ "$calls" -gt 0 ]
 verdict "TERM while METIS orders the nodes and takes it for a failure of its own: a checkpoint" $?
 
+
+# ---- TERM twice: what comes at once is one request, as of timeout, which sends its signal to process and group
+rm -rf "$work/half"; run 15 twice 1 facets -o "$work/half"
+[ $code -eq 130 ] && grep -q 'continue with\|nothing had been computed yet' "$work/err" && as_if_undisturbed facets "$work/half"
+verdict "TERM twice within a millisecond: a checkpoint or a word, and on to the same files" $?
+rm -rf "$work/half"; run 15 late 1 facets -o "$work/half"
+[ $code -eq 143 ]; verdict "TERM again after more than half a second: the end at once" $?
+
 # ---- KILL: at the last calls that change what the folder holds
 for call in rename remove; do
     run 0 $call 0 facets -o "$work/counted" --force; all=$calls bad_at=
