@@ -277,13 +277,22 @@ static size_t worst_part (const along_motions *w)
     return worst;
 }
 
+/* Parts, and what loads do along their free motions; PG_E_EQUILIBRIUM: some are out of balance. */
+static pg_status judge (along_motions *w, pg_system *s, double t)
+{
+    pg_status status = PG_OK;
+    PG_TRY (look (w, s, t));
+    size_t worst = worst_part (w);
+    if (worst != SIZE_MAX) PG_TRY (refuse (w, worst));
+done:
+    return status;
+}
+
 pg_status body_parts_judge (pg_system *s, double t)
 {
     pg_status status = PG_OK;
     along_motions w = { 0 };
-    PG_TRY (look (&w, s, t));
-    size_t worst = worst_part (&w);
-    if (worst != SIZE_MAX) PG_TRY (refuse (&w, worst));
+    PG_TRY (judge (&w, s, t));
 done:
     clear (&w);
     return status;
@@ -293,9 +302,7 @@ pg_status body_parts_begin (pg_system *s, double t)
 {
     pg_status status = PG_OK;
     along_motions w = { 0 };
-    PG_TRY (look (&w, s, t));
-    size_t worst = worst_part (&w);
-    if (worst != SIZE_MAX) PG_TRY (refuse (&w, worst));
+    PG_TRY (judge (&w, s, t));
     for (size_t r = 0; r < w.parts.n; r++) {
         const body_part *part = &w.parts.part[r];
         words how = { .used = 0 };
@@ -475,9 +482,7 @@ pg_status body_parts_explain (pg_system *s, double t, pg_status failed)
     if (failed != PG_E_EQUILIBRIUM && failed != PG_E_NOT_SPD && failed != PG_E_SINGULAR) return failed;
     snprintf (text, sizeof text, "%s", pg_last_error ());
     if (!s->contact) {
-        PG_TRY (look (&w, s, t));
-        size_t worst = worst_part (&w);
-        if (worst != SIZE_MAX) PG_TRY (refuse (&w, worst));
+        PG_TRY (judge (&w, s, t));
         say_free (&why, &w);
     }
     if (!why.used && !(w.s && say_row (&why, &w))) say_reason (&why, s);
