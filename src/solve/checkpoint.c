@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * What later steps depend on, walked over once for writing and for reading back: the state (also that at the
  * start of a step in its middle), energies, counts, what a method carries from step to step. Caches are not
- * kept: they are functions of the bonds, made again in the same order. The factor of an earlier K is one of
- * them: it is made again from the bonds that lived then. */
+ * kept: they are functions of the bonds and the cracks, made again in the same order. The factor of an
+ * earlier K is one of them: it is made again from the bonds that lived then, and the cracks of then. */
 #include "contact.h"
 #include "event_solver.h"
 #include <string.h>
@@ -235,8 +235,19 @@ done:
 /* Does the force offer K x without a matrix? */
 static int operates (const pg_system *s) { return s->force->operator_ && s->force->operator_ (s->self); }
 
+/* Cracks in the plane of the moment in which `factored` lived. */
+static pg_status keep_earlier_paths (pg_system *s, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    if (s->problem->dim != 2 || !pg_problem_grows (s->problem)) return PG_OK;
+    if (!s->factored_paths) PG_TRY (pg_crack_paths_create (&s->factored_paths, s->problem));
+    PG_TRY (pg_crack_paths_keep (s->factored_paths, s->problem, "system.paths", k));
+done:
+    return status;
+}
+
 /* The multilevel preconditioner and the factor of an earlier K are caches: what is kept is which bonds lived
- * when they were made (`factored`), from which they are made again. */
+ * when they were made (`factored`) and the cracks of that moment, from which they are made again. */
 static pg_status keep_preconditioner (pg_system *s, int solves, long factored, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -252,6 +263,7 @@ static pg_status keep_preconditioner (pg_system *s, int solves, long factored, c
     if (k->reading) s->remake = made != 0;
     if (k->reading && factored && !s->factored) PG_ALLOC (s->factored, nbond);
     if (factored) PG_TRY (keep_flags ("system.factored", nbond, s->factored, k));
+    if (factored) PG_TRY (keep_earlier_paths (s, k));
 done:
     return status;
 }
@@ -371,8 +383,29 @@ done:
     return status;
 }
 
-/* Caches again as they were: the kept factor from the bonds that lived when it was made, all else from those
- * that live now. */
+/* The factor or preconditioner of an earlier K, of the bonds and cracks of that moment. */
+static pg_status rebuild_earlier (pg_solver *s, pg_state *state)
+{
+    pg_status status = PG_OK;
+    pg_system *sys = &s->break_loop.system;
+    unsigned char *alive = state->alive;
+    pg_crack_paths *paths = state->paths;
+    double extra_cost = sys->extra_cost, pace = sys->pace;
+    state->alive = sys->factored;
+    if (sys->factored_paths) state->paths = sys->factored_paths, sys->factored_paths = NULL;
+    PG_TRY (system_refresh (sys, state, NULL));
+    if (sys->remake) {
+        PG_TRY (system_make_preconditioner (sys, sys->made[0], sys->made[1]));
+        sys->extra_cost = extra_cost, sys->pace = pace, sys->remake = 0;
+    } else PG_TRY (system_factorize (sys, s->type->dynamics ? s->type->dynamics (s) : NULL));
+done:
+    if (state->paths != paths) pg_crack_paths_free (&state->paths);
+    state->alive = alive, state->paths = paths;
+    return status;
+}
+
+/* Caches again as they were: the kept factor from what it was made of, all else from the bonds that live
+ * now. */
 static pg_status rebuild (pg_solver *s, pg_state *state)
 {
     pg_status status = PG_OK;
@@ -381,23 +414,9 @@ static pg_status rebuild (pg_solver *s, pg_state *state)
      * did not make, only their seconds. */
     pg_statistics counts = s->report;
     int stale = sys->stale, fresh = sys->guess.fresh;
-    unsigned char *alive = state->alive;
-    double extra_cost = sys->extra_cost, pace = sys->pace;
-    if (sys->remake && sys->factored) {
-        state->alive = sys->factored;
-        status = system_refresh (sys, state, NULL);
-        if (status == PG_OK) status = system_make_preconditioner (sys, sys->made[0], sys->made[1]);
-        state->alive = alive;
-        PG_TRY (status);
-        sys->extra_cost = extra_cost, sys->pace = pace, sys->remake = 0;
-    } else if ((sys->mode == SYSTEM_KEPT_FACTOR || sys->base || !stale) && sys->factored) {
-        state->alive = sys->factored;
-        status = system_refresh (sys, state, NULL);
-        if (status == PG_OK)
-            status = system_factorize (sys, s->type->dynamics ? s->type->dynamics (s) : NULL);
-        state->alive = alive;
-        PG_TRY (status);
-    } else stale = 1;
+    if (sys->factored && (sys->remake || sys->mode == SYSTEM_KEPT_FACTOR || sys->base || !stale))
+        PG_TRY (rebuild_earlier (s, state));
+    else stale = 1;
     PG_TRY (system_refresh (sys, state, NULL));
     sys->stale = stale, sys->guess.fresh = fresh;
     memcpy (counts.seconds, s->report.seconds, sizeof counts.seconds);

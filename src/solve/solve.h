@@ -136,6 +136,9 @@ typedef struct {
     struct system_contact *contact;                    /* of crack faces (contact.h); NULL: none */
     const unsigned char *alive;                        /* of the last refresh, borrowed */
     unsigned char *factored;  /* what lived when the factor or preconditioner was made */
+    /* Cracks of the last refresh, and those of `factored`: cells that end at them follow from them besides
+     * (consistent integration). NULL: cracks do not grow. */
+    pg_crack_paths *paths, *factored_paths;
 } pg_system;
 /* shared_system.c: where ranks share the body; sums over ranks, which leave alone what one process has */
 int       system_is_shared (const pg_system *s);
@@ -185,7 +188,7 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m);
 void      system_forget_preconditioner (pg_system *s);
 int       system_has_preconditioner (const pg_system *s);
 pg_status system_can_precondition (pg_system *s, const dynamics *dyn, int *can);
-pg_status system_remember_alive (pg_system *s);        /* in `factored` */
+pg_status system_remember_alive (pg_system *s);        /* in `factored`, cracks in `factored_paths` */
 pg_status system_guess       (pg_system *s, const dynamics *dyn, double *d, int *used);
 void      system_guess_undo  (pg_system *s, double *d);
 void      system_guess_add   (pg_system *s, const double *step);

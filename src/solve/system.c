@@ -40,6 +40,7 @@ void system_free (pg_system *s)
         pg_free (s->bare);
     pg_free (s->residual), pg_free (s->reduced), pg_free (s->delta), pg_free (s->full), pg_free (s->best),
         pg_free (s->scratch), pg_free (s->touched), pg_free (s->factored);
+    pg_crack_paths_free (&s->paths), pg_crack_paths_free (&s->factored_paths);
     pg_free (s->rough.earlier), pg_free (s->rough.before), pg_free (s->rough.earlier_u);
     for (int k = 0; k < ROUGH_VIEWS; k++) pg_free (s->rough.view[k].delta), pg_free (s->rough.view[k].u);
     pg_free (s->fixed), pg_free (s->own_row), pg_free (s->cg_room.v);
@@ -119,6 +120,17 @@ static void mark_touched (pg_system *s, const pg_state *state)
     }
 }
 
+/* A copy of cracks that grow, in its own memory. */
+static pg_status copy_paths (const pg_system *s, pg_crack_paths **to, const pg_crack_paths *from)
+{
+    pg_status status = PG_OK;
+    if (!from || !pg_problem_grows (s->problem)) return PG_OK;
+    if (!*to) PG_TRY (pg_crack_paths_create (to, s->problem));
+    PG_TRY (pg_crack_paths_copy (*to, from));
+done:
+    return status;
+}
+
 /* The force updates what broken bonds have touched. Where its revision says that this left K as it was
  * (bonds that do not enter K), the factor stays. K of ranks that share the body is another one where that of
  * any of them is: all call after a round of breaking. */
@@ -128,6 +140,7 @@ pg_status system_refresh (pg_system *s, const pg_state *state, const pg_changes 
     pg_status status = s->force->refresh ? s->force->refresh (s->self, state, changes) : PG_OK;
     if (!changes && !s->marked) mark_touched (s, state), s->marked = 1;
     s->alive = state->alive;
+    if (status == PG_OK) status = copy_paths (s, &s->paths, state->paths);
     unsigned long now = s->force->revision ? s->force->revision (s->self) : s->revision + 1;
     double other = now != s->revision;
     if (changes && (s->options->flags & PG_SOLVER_IMPLICIT)) other = system_most (s, other);
@@ -153,8 +166,8 @@ void system_switch (pg_system *s, int mode)
     s->remake = 0;
 }
 
-/* The bonds that live when a factor or preconditioner is made: a resumed run makes the same ones again
- * from them, bit by bit. */
+/* The bonds that live when a factor or preconditioner is made, and the cracks: a resumed run makes the same
+ * ones again from them, bit by bit. */
 pg_status system_remember_alive (pg_system *s)
 {
     pg_status status = PG_OK;
@@ -162,6 +175,7 @@ pg_status system_remember_alive (pg_system *s)
     if (!s->alive) return PG_OK;
     if (!s->factored) PG_ALLOC (s->factored, nbond);
     memcpy (s->factored, s->alive, nbond);
+    PG_TRY (copy_paths (s, &s->factored_paths, s->paths));
 done:
     return status;
 }
