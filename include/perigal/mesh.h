@@ -11,9 +11,11 @@ PG_API_BEGIN
 /* ---- elements ------------------------------------------------------------------------------------------ */
 /* Kinds of elements, nodes in the order of Exodus II: corners, then middles of edges, then (QUAD9, HEX27)
  * centre and middles of faces. Reference elements, coordinates xi: bars, quadrilaterals and hexahedra [-1,
- * 1]^d; triangles and tetrahedra xi >= 0, sum <= 1; wedges triangle x [-1, 1]. */
+ * 1]^d; triangles and tetrahedra xi >= 0, sum <= 1; wedges triangle x [-1, 1]; pyramids 0 <= z <= 1,
+ * |x|, |y| <= 1 - z. */
 typedef enum { PG_POINT1, PG_BAR2, PG_BAR3, PG_TRI3, PG_TRI6, PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TET4, PG_TET10,
-               PG_HEX8, PG_HEX20, PG_HEX27, PG_WEDGE6, PG_WEDGE15, PG_ELEMENTS } pg_element;
+               PG_HEX8, PG_HEX20, PG_HEX27, PG_WEDGE6, PG_WEDGE15, PG_PYRAMID5,
+               PG_ELEMENTS } pg_element;
 /* Most nodes of an element, most points of a quadrature rule. */
 enum { PG_ELEMENT_NODES = 27, PG_ELEMENT_POINTS = 125 };
 
@@ -44,7 +46,7 @@ void       pg_element_shape (pg_element kind, const double *xi, double *N, doubl
  * PG_ELEMENT_POINTS; returns n. Weights are positive, and the rules have the symmetries of the element.
  * Quadrilaterals and hexahedra: order^d Gauss points, the first axis fastest, exact to degree 2 order - 1.
  * Triangles 1, 3, 7, 12, 16 and tetrahedra 1, 4, 14, 24, 46 points, exact to degree 1, 2, 5, 6, 8. Wedges:
- * the product of both. */
+ * the product of both. Pyramids: order^3 points, exact to degree 2 order - 1. */
 int        pg_element_rule  (pg_element kind, int order, double *xi /* n x dim */, double *weight);
 /* Gauss-Legendre points and weights on [-1, 1], order 1 to 5 (other orders are moved into that range). */
 void       pg_gauss_rule    (int order, double *x, double *w);

@@ -43,7 +43,7 @@ static pg_status find_nodes (pg_mesh_builder *m)
                 if (m->index[l] == m->index[k])
                     ELEMENT_FAIL (m, e,
                                   "node %ld is named twice; write collapsed elements as triangles, "
-                                  "tetrahedra or wedges",
+                                  "tetrahedra, pyramids or wedges",
                                   m->list[k]);
         }
 done:
@@ -116,7 +116,7 @@ pg_status builder_resolve (pg_mesh_builder *m)
     if (m->dim == 0)
         PG_FAIL (PG_E_FILE,
                  "%s: points without elements: a mesh needs lines, triangles, quadrilaterals, tetrahedra, "
-                 "hexahedra or wedges",
+                 "hexahedra, pyramids or wedges",
                  m->path);
     PG_TRY (pg_id_table_build (&m->nodes, m->nnode, m->node_id, &twice));
     if (twice < m->nnode) PG_FAIL (PG_E_FILE, "%s: node %ld is there twice", m->path, m->node_id[twice]);

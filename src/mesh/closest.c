@@ -12,9 +12,18 @@ enum { BOUNDS = 6, UNKNOWNS = 6 };
 /* The bounds g[k] . xi <= b[k] of a reference element (n of them). */
 typedef struct { int dim, n; double g[BOUNDS][3], b[BOUNDS]; } bounds;
 
+/* z >= 0, and four faces that meet in the apex: z + x <= 1 and so on. */
+static bounds bounds_of_pyramid (void)
+{
+    bounds s = { .dim = 3, .n = 5, .g = { { 0, 0, -1 } } };
+    for (int k = 0; k < 4; k++) s.g[k + 1][k / 2] = k % 2 ? 1 : -1, s.g[k + 1][2] = s.b[k + 1] = 1;
+    return s;
+}
+
 /* Axes of a simplex: xi >= 0 and their sum <= 1; other axes: -1 <= xi <= 1. */
 static bounds bounds_of (pg_element kind)
 {
+    if (kind == PG_PYRAMID5) return bounds_of_pyramid ();
     bounds s = { .dim = pg_element_types[kind].dim };
     int corners = pg_element_types[kind].corners, simplex = s.dim > 1 && corners == s.dim + 1 ? s.dim
                                                             : corners == 6                    ? 2

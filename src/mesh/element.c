@@ -3,8 +3,11 @@
  * sides are in the order of Exodus II, which fixes all tables here.
  *
  * Shape functions are those of Lagrange (products of polynomials, or barycentric in simplices) and of the
- * serendipity family (quad8, hex20, wedge15); they are 1 at their own node, 0 at all others, and sum to 1. */
+ * serendipity family (quad8, hex20, wedge15); they are 1 at their own node, 0 at all others, and sum to 1.
+ * Those of the pyramid are rational, so that they are linear on its triangles and bilinear on its base
+ * (Bedrosian 1992): it stands between hexahedra and tetrahedra without a gap. */
 #include "element.h"
+#include <math.h>
 #include <string.h>
 
 /* Name, dimension, nodes, corners, order, faces, edges. */
@@ -24,14 +27,16 @@ const pg_element_type pg_element_types[PG_ELEMENTS] = {
     [PG_HEX27]   = { "hex27",   3, 27, 8, 2, 6, 12 },
     [PG_WEDGE6]  = { "wedge6",  3,  6, 6, 1, 5,  9 },
     [PG_WEDGE15] = { "wedge15", 3, 15, 6, 2, 5,  9 },
+    [PG_PYRAMID5] = { "pyramid5", 3, 5, 5, 1, 5, 8 },
 };
 
 /* Shapes of elements; tables are shared by all orders of a shape. */
-typedef enum { POINT, BAR, TRI, QUAD, TET, HEX, WEDGE, FAMILIES } family;
+typedef enum { POINT, BAR, TRI, QUAD, TET, HEX, WEDGE, PYRAMID, FAMILIES } family;
 static const family family_of[PG_ELEMENTS] = {
     [PG_POINT1] = POINT, [PG_BAR2] = BAR,   [PG_BAR3] = BAR,   [PG_TRI3] = TRI,     [PG_TRI6] = TRI,
     [PG_QUAD4] = QUAD,   [PG_QUAD8] = QUAD, [PG_QUAD9] = QUAD, [PG_TET4] = TET,     [PG_TET10] = TET,
-    [PG_HEX8] = HEX,     [PG_HEX20] = HEX,  [PG_HEX27] = HEX,  [PG_WEDGE6] = WEDGE, [PG_WEDGE15] = WEDGE
+    [PG_HEX8] = HEX,     [PG_HEX20] = HEX,  [PG_HEX27] = HEX,  [PG_WEDGE6] = WEDGE, [PG_WEDGE15] = WEDGE,
+    [PG_PYRAMID5] = PYRAMID
 };
 
 /* ---- faces and edges ----------------------------------------------------------------------------------- */
@@ -53,6 +58,7 @@ static const signed char face_nodes[FAMILIES][6][9] = {
                 { 0, 3, 5, 2, 9, 14, 11, 8 },
                 { 0, 2, 1, 8, 7, 6 },
                 { 3, 4, 5, 12, 13, 14 } },
+    [PYRAMID] = { { 0, 1, 4 }, { 1, 2, 4 }, { 2, 3, 4 }, { 0, 4, 3 }, { 0, 3, 2, 1 } },
 };
 
 /* The two corners of each edge. */
@@ -74,6 +80,7 @@ static const signed char edge_nodes[FAMILIES][12][2] = {
               { 6, 7 },
               { 7, 4 } },
     [WEDGE] = { { 0, 1 }, { 1, 2 }, { 2, 0 }, { 0, 3 }, { 1, 4 }, { 2, 5 }, { 3, 4 }, { 4, 5 }, { 5, 3 } },
+    [PYRAMID] = { { 0, 1 }, { 1, 2 }, { 2, 3 }, { 3, 0 }, { 0, 4 }, { 1, 4 }, { 2, 4 }, { 3, 4 } },
 };
 
 /* Kind of face f. */
@@ -89,6 +96,7 @@ static pg_element face_kind (pg_element kind, int f)
     case PG_HEX27: return PG_QUAD9;
     case PG_WEDGE6: return f < 3 ? PG_QUAD4 : PG_TRI3;
     case PG_WEDGE15: return f < 3 ? PG_QUAD8 : PG_TRI6;
+    case PG_PYRAMID5: return f < 4 ? PG_TRI3 : PG_QUAD4;
     default: return PG_POINT1;
     }
 }
@@ -115,8 +123,8 @@ void pg_element_edge (pg_element kind, int e, int node[2])
     node[1] = edge_nodes[family_of[kind]][e][1];
 }
 
-/* Bars turn round; triangles, quadrilaterals and tetrahedra exchange two corners; hexahedra and wedges
- * exchange bottom and top. */
+/* Bars turn round; triangles, quadrilaterals, tetrahedra and pyramids exchange two corners; hexahedra and
+ * wedges exchange bottom and top. */
 const signed char *element_mirror (pg_element kind)
 {
     static const signed char turn[FAMILIES][PG_ELEMENT_NODES] = {
@@ -126,7 +134,8 @@ const signed char *element_mirror (pg_element kind)
         [TET] = { 0, 2, 1, 3, 6, 5, 4, 7, 9, 8 },
         [HEX] = { 4,  5,  6, 7, 0,  1,  2,  3,  16, 17, 18, 19, 12, 13,
                   14, 15, 8, 9, 10, 11, 20, 22, 21, 23, 24, 25, 26 },
-        [WEDGE] = { 3, 4, 5, 0, 1, 2, 12, 13, 14, 9, 10, 11, 6, 7, 8 }
+        [WEDGE] = { 3, 4, 5, 0, 1, 2, 12, 13, 14, 9, 10, 11, 6, 7, 8 },
+        [PYRAMID] = { 0, 3, 2, 1, 4 }
     };
     return turn[family_of[kind]];
 }
@@ -147,6 +156,7 @@ static const signed char rod[3][3] = { { -1 }, { 1 }, { 0 } };
 static const signed char *signs (pg_element kind, int node)
 {
     family f = family_of[kind];
+    if (f == PYRAMID) return square[node];
     return f == HEX ? brick[node] : f == QUAD ? square[node] : rod[node];
 }
 
@@ -159,6 +169,11 @@ void pg_element_node (pg_element kind, int node, double *xi)
     family f = family_of[kind];
     const double (*x)[3] = f == WEDGE ? corner : tet;
     int dim = pg_element_types[kind].dim, corners = pg_element_types[kind].corners, end[2] = { node, node };
+    if (f == PYRAMID) {
+        for (int a = 0; a < 2; a++) xi[a] = node < 4 ? square[node][a] : 0;
+        xi[2] = node == 4;
+        return;
+    }
     if (f != TRI && f != TET && f != WEDGE) {
         for (int a = 0; a < dim; a++) xi[a] = signs (kind, node)[a];
         return;
@@ -272,6 +287,23 @@ static void shape_wedge (pg_element kind, const double *xi, double *N, double *d
     }
 }
 
+/* N of the base (1 - z + s x + t y + s t x y / (1 - z)) / 4, s and t the signs of the corner; of the apex z.
+ * The quotient has no limit at the apex: 0, its mean over the directions there, is taken. */
+static void shape_pyramid (pg_element kind, const double *xi, double *N, double *dN)
+{
+    double x = xi[0], y = xi[1], z = xi[2], up = 1 - z, over = fabs (up) > 1e-12 ? 1 / up : 0;
+    for (int i = 0; i < 4; i++) {
+        double s = signs (kind, i)[0], t = signs (kind, i)[1];
+        N[i] = (up + s * x + t * y + s * t * x * y * over) / 4;
+        if (!dN) continue;
+        dN[3 * i] = (s + s * t * y * over) / 4;
+        dN[3 * i + 1] = (t + s * t * x * over) / 4;
+        dN[3 * i + 2] = (-1 + s * t * x * y * over * over) / 4;
+    }
+    N[4] = z;
+    if (dN) dN[12] = dN[13] = 0, dN[14] = 1;
+}
+
 /* Points have N = 1 and no derivative. */
 void pg_element_shape (pg_element kind, const double *xi, double *N, double *dN)
 {
@@ -279,6 +311,7 @@ void pg_element_shape (pg_element kind, const double *xi, double *N, double *dN)
     case POINT: N[0] = 1; break;
     case TRI: case TET: shape_simplex (kind, xi, N, dN); break;
     case WEDGE: shape_wedge (kind, xi, N, dN); break;
+    case PYRAMID: shape_pyramid (kind, xi, N, dN); break;
     default:
         if (kind == PG_QUAD8 || kind == PG_HEX20) shape_serendipity (kind, xi, N, dN);
         else shape_product (kind, xi, N, dN);

@@ -145,6 +145,7 @@ int pg_element_invert (pg_element kind, const double *x, const double *place, do
 /* The largest violation of a bound of the reference element. */
 double pg_element_outside (pg_element kind, const double *xi)
 {
+    if (kind == PG_PYRAMID5) return fmax (fmax (fabs (xi[0]), fabs (xi[1])) - (1 - xi[2]), -xi[2]);
     int d = pg_element_types[kind].dim, corners = pg_element_types[kind].corners,
         simplex = d > 1 && (corners == d + 1), wedge = corners == 6;
     /* The first axes belong to a simplex (xi >= 0, sum <= 1), the others run over [-1, 1]. */

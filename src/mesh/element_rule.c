@@ -151,6 +151,37 @@ static int wedge_rule (int order, double *xi, double *weight)
     return m * order;
 }
 
+/* Gauss rules in x and y, shrunk with the height, times the rule of Gauss and Jacobi in z for the weight
+ * (1 - z)^2, by which the cross section shrinks. */
+static int pyramid_rule (int order, double *xi, double *weight)
+{
+    static const double Z[5][5] = {
+        { 0.25 },
+        { 0.12251482265544137786, 0.54415184401122528879 },
+        { 0.07299402407314973215, 0.34700376603835188472, 0.70500220988849838312 },
+        { 0.04850054944699732929, 0.23860073755186230505, 0.51704729510436750234, 0.79585141789677286330 },
+        { 0.03457893991821509152, 0.17348032077169572310, 0.38988638706551932824, 0.63433347263088677234,
+          0.85105421294701641811 } };
+    static const double W[5][5] = {
+        { 1.0 / 3 },
+        { 0.23254745125350790274, 0.10078588207982543058 },
+        { 0.15713636106488661331, 0.14624626925986602200, 0.02995070300858069801 },
+        { 0.11088841561127798368, 0.14345878979921420904, 0.06863388717292307531, 0.01035224074991806528 },
+        { 0.08176478428577091790, 0.12619896189991148802, 0.08920016122159000018, 0.03205560072296191925,
+          0.00411382520309900795 } };
+    double x[5], w[5];
+    int n = 0;
+    pg_gauss_rule (order, x, w);
+    for (int c = 0; c < order; c++)
+        for (int b = 0; b < order; b++)
+            for (int a = 0; a < order; a++, n++) {
+                double z = Z[order - 1][c];
+                xi[3 * n] = x[a] * (1 - z), xi[3 * n + 1] = x[b] * (1 - z), xi[3 * n + 2] = z;
+                weight[n] = w[a] * w[b] * W[order - 1][c];
+            }
+    return n;
+}
+
 /* Orders outside 1 to 5 are moved into that range. */
 int pg_element_rule (pg_element kind, int order, double *xi, double *weight)
 {
@@ -159,6 +190,7 @@ int pg_element_rule (pg_element kind, int order, double *xi, double *weight)
     switch (kind) {
     case PG_TRI3: case PG_TRI6: case PG_TET4: case PG_TET10: return simplex_rule (dim, order, xi, weight);
     case PG_WEDGE6: case PG_WEDGE15: return wedge_rule (order, xi, weight);
+    case PG_PYRAMID5: return pyramid_rule (order, xi, weight);
     default: return brick_rule (dim, order, xi, weight);
     }
 }

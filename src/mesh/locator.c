@@ -59,7 +59,8 @@ static box box_of (const pg_mesh_locator *f, size_t e, double *size)
 {
     static const pg_element linear[PG_ELEMENTS] = { PG_POINT1, PG_BAR2,  PG_BAR2,  PG_TRI3,   PG_TRI3,
                                                     PG_QUAD4,  PG_QUAD4, PG_QUAD4, PG_TET4,   PG_TET4,
-                                                    PG_HEX8,   PG_HEX8,  PG_HEX8,  PG_WEDGE6, PG_WEDGE6 };
+                                                    PG_HEX8,   PG_HEX8,  PG_HEX8,  PG_WEDGE6, PG_WEDGE6,
+                                                    PG_PYRAMID5 };
     double x[3 * PG_ELEMENT_NODES], xi[3], N[PG_ELEMENT_NODES], off[3] = { 0 };
     pg_element kind = nodes_of (f, e, x);
     int dim = f->dim, corners = pg_element_types[kind].corners;

@@ -11,6 +11,7 @@
 static const struct { const char *base; abaqus_type type;
 } table[] = {
     { "C3D4", { PG_TET4, 4, 0 } },    { "C3D10", { PG_TET10, 10, 0 } },
+    { "C3D5", { PG_PYRAMID5, 5, 0 } }, { "DC3D5", { PG_PYRAMID5, 5, 0 } },
     { "C3D6", { PG_WEDGE6, 6, 0 } },  { "C3D15", { PG_WEDGE15, 15, 0 } },
     { "C3D8", { PG_HEX8, 8, 0 } },    { "C3D20", { PG_HEX20, 20, 0 } },
     { "SC6", { PG_WEDGE6, 6, 0 } },   { "SC8", { PG_HEX8, 8, 0 } },
@@ -44,7 +45,8 @@ static const struct { const char *base; abaqus_type type;
 };
 
 /* Names to suggest for unknown ones. */
-static const char *const known = "C3D4|C3D6|C3D8|C3D10|C3D15|C3D20|CPS3|CPS4|CPS6|CPS8|CPE3|CPE4|CPE6|CPE8|"
+static const char *const known = "C3D4|C3D5|C3D6|C3D8|C3D10|C3D15|C3D20|CPS3|CPS4|CPS6|CPS8|"
+                                 "CPE3|CPE4|CPE6|CPE8|"
                                  "C2D3|C2D4|C2D6|C2D8|M3D3|M3D4|M3D6|M3D8|"
                                  "S3|S4|S6|S8|T2D2|T3D2|T3D3|B31|B32";
 
@@ -88,10 +90,14 @@ void abaqus_node_order (pg_element kind, int order[PG_ELEMENT_NODES])
 static int solid_side (pg_element kind, int number)
 {
     /* Abaqus begins with the bottom (and the top), Exodus with the upright sides. */
-    static const signed char tet[] = { 3, 0, 1, 2 }, wedge[] = { 3, 4, 0, 1, 2 },
+    static const signed char tet[] = { 3, 0, 1, 2 }, pyramid[] = { 4, 0, 1, 2, 3 },
+                             wedge[] = { 3, 4, 0, 1, 2 },
                              hex[] = { 4, 5, 0, 1, 2, 3 };
     int corners = pg_element_types[kind].corners;
-    return corners == 4 ? tet[number] : corners == 6 ? wedge[number] : hex[number];
+    return corners == 4   ? tet[number]
+           : corners == 5 ? pyramid[number]
+           : corners == 6 ? wedge[number]
+                          : hex[number];
 }
 
 /* The edges of shells are E1, E2 ..., or S3, S4 ... behind their two faces. */

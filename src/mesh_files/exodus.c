@@ -170,7 +170,8 @@ static pg_element kind_of (const char *type, size_t nodes, int *shell)
                   { "SHE", 1, { PG_QUAD4, PG_QUAD8, PG_QUAD9, PG_TRI3 } },
                   { "TET", 0, { PG_TET4, PG_TET10 } },
                   { "HEX", 0, { PG_HEX8, PG_HEX20, PG_HEX27 } },
-                  { "WED", 0, { PG_WEDGE6, PG_WEDGE15 } } };
+                  { "WED", 0, { PG_WEDGE6, PG_WEDGE15 } },
+                  { "PYR", 0, { PG_PYRAMID5 } } };
     for (size_t k = 0; k < sizeof table / sizeof *table; k++) {
         /* Types are written as HEX, HEX8, hex27, SHELL4 and so on: the beginning and the number of nodes
          * decide. */
@@ -205,7 +206,8 @@ static pg_status block_kind (const reader *r, size_t k, long group, size_t *coun
     *kind = kind_of (type, nodes, shell);
     if (*kind == PG_ELEMENTS) {
         snprintf (words, sizeof words, "%.100s: block %ld has elements '%.30s' of %zu nodes; known are BAR, "
-                  "TRI, QUAD, SHELL, TET, WEDGE and HEX of first and second order", r->path, group, type,
+                  "TRI, QUAD, SHELL, TET, WEDGE and HEX of first and second order, PYRAMID of "
+                  "first", r->path, group, type,
                   nodes);
         name_of (r, "eb_names", k, block);
         if (!block[0]) snprintf (block, sizeof block, "%ld", group);

@@ -186,8 +186,8 @@ static const signed char hex_order[27] = { 0,  1,  2,  3,  4,  5,  6,  7,  8,  1
                                            14, 15, 16, 18, 19, 17, 26, 20, 25, 22, 23, 21, 24 };
 static const signed char wedge_order[15] = { 0, 1, 2, 3, 4, 5, 6, 9, 7, 8, 10, 11, 12, 14, 13 };
 
-/* Types by the numbers of the manual; pyramids have no place among the elements here: they, and what else is
- * not known, are passed over, with known = 0. */
+/* Types by the numbers of the manual; what is not known, such as pyramids of second order, is passed over,
+ * with known = 0. */
 pg_status gmsh_kind (gmsh_reader *g, long type, long element, int dim, long group, gmsh_type *out)
 {
     pg_status status = PG_OK;
@@ -195,14 +195,14 @@ pg_status gmsh_kind (gmsh_reader *g, long type, long element, int dim, long grou
         [1] = { 1, PG_BAR2, same_order, 0 },     [2] = { 1, PG_TRI3, same_order, 0 },
         [3] = { 1, PG_QUAD4, same_order, 0 },    [4] = { 1, PG_TET4, same_order, 0 },
         [5] = { 1, PG_HEX8, same_order, 0 },     [6] = { 1, PG_WEDGE6, same_order, 0 },
+        [7] = { 1, PG_PYRAMID5, same_order, 0 },
         [8] = { 1, PG_BAR3, same_order, 0 },     [9] = { 1, PG_TRI6, same_order, 0 },
         [10] = { 1, PG_QUAD9, same_order, 0 },   [11] = { 1, PG_TET10, tet_order, 0 },
         [12] = { 1, PG_HEX27, hex_order, 0 },    [15] = { 1, PG_POINT1, same_order, 0 },
         [16] = { 1, PG_QUAD8, same_order, 0 },   [17] = { 1, PG_HEX20, hex_order, 0 },
         [18] = { 1, PG_WEDGE15, wedge_order, 0 }
     };
-    static const struct { const char *words; int nodes; } other[] = { [7] = { "a pyramid of 5 nodes", 5 },
-                                                                     [13] = { "a wedge of 18 nodes", 18 },
+    static const struct { const char *words; int nodes; } other[] = { [13] = { "a wedge of 18 nodes", 18 },
                                                                      [14] = { "a pyramid of 14 nodes", 14 },
                                                                      [19] = { "a pyramid of 13 nodes", 13 } };
     char block[64], at[40], words[400];
@@ -214,7 +214,8 @@ pg_status gmsh_kind (gmsh_reader *g, long type, long element, int dim, long grou
     int named = type > 0 && k < sizeof other / sizeof *other && other[k].words;
     const char *what = named ? other[k].words : "of a kind of its own";
     snprintf (words, sizeof words, "%.100s, %s: element %ld is %s (type %ld of Gmsh), which is not known; "
-              "use triangles, quadrilaterals, tetrahedra, hexahedra or wedges of order 1 or 2",
+              "use triangles, quadrilaterals, tetrahedra, hexahedra or wedges of order 1 or 2, pyramids of "
+              "order 1",
               g->c.file->path, gmsh_at (g, at), element, what, type);
     *out = (gmsh_type) { .known = 0, .nodes = named ? other[k].nodes : 0 };
     if (g->binary && !out->nodes)                      /* nobody knows where the next one begins */

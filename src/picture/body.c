@@ -17,7 +17,8 @@ static pg_element straight (pg_element kind)
 {
     static const pg_element same[4][9] = { [1] = { [2] = PG_BAR2 },
                                            [2] = { [3] = PG_TRI3, [4] = PG_QUAD4 },
-                                           [3] = { [4] = PG_TET4, [6] = PG_WEDGE6, [8] = PG_HEX8 } };
+                                           [3] = { [4] = PG_TET4, [5] = PG_PYRAMID5, [6] = PG_WEDGE6,
+                                                   [8] = PG_HEX8 } };
     return same[pg_element_types[kind].dim][pg_element_types[kind].corners];
 }
 

@@ -96,6 +96,16 @@ printf 'dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [6, 4]}}}]\nspacing
 "$perigal" run scene.yaml -o ram --quiet > out 2> err
 awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /ram.displacement_y/) c = k } END { exit !($c > -0.0020001 && $c < -0.0019999) }' ram/history.csv; verdict "a platen with ramp: linear has gone its way at the end of an explicit run" $?
 
+# ---- pyramids: on hexahedra, below tetrahedra, and blocks of them left out -----------------------------------------------------------
+printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 0.5 0.5 1.5\n$EndNodes\n$Elements\n2\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 7 2 2 1 5 6 7 8 9\n$EndElements\n' > part.msh
+scene part.msh 'dimension: 3
+boundary: [{name: g, set: bottom, displacement: {x: 0, y: 0, z: 0}}]'
+has "a pyramid on a cube" '1 hex8.*1 pyramid5\|1 pyramid5.*1 hex8' 'volume  *1.1666667 m3, surface 6.4142136 m2'
+! grep -q ' hang' out; verdict "its base is no surface" $?
+sed -i 's/part.msh/part.msh, blocks: [1]/' scene.yaml; has "left out with its block" 'volume  *1 m3, surface 6 m2'
+sed 's/^2 7 2 2/2 19 2 2/; s/5 6 7 8 9$/5 6 7 8 9 5 6 7 8 5 6 7 8/' part.msh > quadratic.msh; sed -i 's/part.msh/quadratic.msh/' scene.yaml
+has "pyramids of second order as well" 'passed over  *elements pyramid of 13 nodes of 2' 'volume  *1 m3'
+
 # ---- nodes that hang on the faces of larger elements ------------------------------------------------------------------------
 printf '*NODE\n1,0,0\n2,2,0\n3,2,2\n4,0,2\n15,2,1\n6,3,0\n7,3,1\n8,3,2\n*ELEMENT,TYPE=CPS4,ELSET=A\n1,1,2,3,4\n2,2,6,7,15\n3,15,7,8,3\n' > job.inp
 scene job.inp "dimension: 2

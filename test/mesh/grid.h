@@ -15,14 +15,21 @@ typedef struct {
     int    single;                                     /* 1: one block "steel", else two */
 } grid;
 
-/* Corners of the pieces of a cube (square, line), in half steps of the cube. */
+/* Corners of the pieces of a cube (square, line), in half steps of the cube; pyramids meet in its middle. */
 static inline int grid_pieces (pg_element kind, int piece, int corner[8][3])
 {
     static const int cube[8][3] = { {0,0,0}, {2,0,0}, {2,2,0}, {0,2,0}, {0,0,2}, {2,0,2}, {2,2,2}, {0,2,2} };
     static const int tri[2][3] = { { 0, 1, 2 }, { 0, 2, 3 } },
                      axes[6][3] = { { 0, 1, 2 }, { 1, 2, 0 }, { 2, 0, 1 },
                                     { 0, 2, 1 }, { 2, 1, 0 }, { 1, 0, 2 } };
+    static const int base[6][4] = { { 0, 1, 2, 3 }, { 4, 7, 6, 5 }, { 0, 4, 5, 1 },
+                                    { 1, 5, 6, 2 }, { 2, 6, 7, 3 }, { 0, 3, 7, 4 } };
     const pg_element_type *t = &pg_element_types[kind];
+    if (t->corners == 5) {
+        for (int k = 0; piece < 6 && k < 4; k++) memcpy (corner[k], cube[base[piece][k]], sizeof *corner);
+        for (int a = 0; a < 3; a++) corner[4][a] = 1;
+        return piece < 6;
+    }
     int pieces = t->dim == 2 && t->corners == 3   ? 2
                  : t->corners == 6                ? 2
                  : t->dim == 3 && t->corners == 4 ? 6
@@ -84,7 +91,8 @@ static inline int gmsh_kind (pg_element kind)
     static const int number[PG_ELEMENTS] = {
         [PG_POINT1] = 15, [PG_BAR2] = 1,   [PG_BAR3] = 8,   [PG_TRI3] = 2,   [PG_TRI6] = 9,
         [PG_QUAD4] = 3,   [PG_QUAD8] = 16, [PG_QUAD9] = 10, [PG_TET4] = 4,   [PG_TET10] = 11,
-        [PG_HEX8] = 5,    [PG_HEX20] = 17, [PG_HEX27] = 12, [PG_WEDGE6] = 6, [PG_WEDGE15] = 18
+        [PG_HEX8] = 5,    [PG_HEX20] = 17, [PG_HEX27] = 12, [PG_WEDGE6] = 6, [PG_WEDGE15] = 18,
+        [PG_PYRAMID5] = 7
     };
     return number[kind];
 }

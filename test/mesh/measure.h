@@ -54,14 +54,17 @@ static inline double surface_area (const pg_mesh *m, double *inside)
     return area;
 }
 
-/* Corners (of the cell's) of the k-th element of `kind` in a cell; 0: there are no more. */
+/* Corners (of the cell's; 8: its middle) of the k-th element of `kind` in a cell; 0: there are no more. */
 static inline const int *cell_part (pg_element kind, int k)
 {
     static const int whole[8] = { 0, 1, 2, 3, 4, 5, 6, 7 }, tri[2][3] = { { 0, 1, 2 }, { 0, 2, 3 } },
                      wedge[2][6] = { { 0, 1, 2, 4, 5, 6 }, { 0, 2, 3, 4, 6, 7 } };
     static const int tet[6][4] = { { 0, 1, 2, 6 }, { 0, 2, 3, 6 }, { 0, 3, 7, 6 },
                                    { 0, 7, 4, 6 }, { 0, 4, 5, 6 }, { 0, 5, 1, 6 } };
+    static const int pyramid[6][5] = { { 0, 1, 2, 3, 8 }, { 4, 7, 6, 5, 8 }, { 0, 4, 5, 1, 8 },
+                                       { 1, 5, 6, 2, 8 }, { 2, 6, 7, 3, 8 }, { 0, 3, 7, 4, 8 } };
     int corners = pg_element_types[kind].corners, dim = pg_element_types[kind].dim;
+    if (corners == 5) return k < 6 ? pyramid[k] : NULL;
     if (corners == 3) return k < 2 ? tri[k] : NULL;
     if (corners == 6) return k < 2 ? wedge[k] : NULL;
     if (corners == 4 && dim == 3) return k < 6 ? tet[k] : NULL;
@@ -71,9 +74,10 @@ static inline const int *cell_part (pg_element kind, int k)
 /* The cube (square, line) [-1, 1]^d in n^d cells cut into elements, every node moved by `map`. */
 static inline pg_mesh block_mesh (pg_element kind, int n, void (*map) (double *x))
 {
-    static const int corner[8][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },
-                                      { 0, 0, 1 }, { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 } };
-    static const pg_element linear[9] = { [2] = PG_BAR2, [3] = PG_TRI3, [6] = PG_WEDGE6, [8] = PG_HEX8 };
+    static const double corner[9][3] = { { 0, 0, 0 }, { 1, 0, 0 }, { 1, 1, 0 }, { 0, 1, 0 },   { 0, 0, 1 },
+                                         { 1, 0, 1 }, { 1, 1, 1 }, { 0, 1, 1 }, { .5, .5, .5 } };
+    static const pg_element linear[9] = { [2] = PG_BAR2, [3] = PG_TRI3, [5] = PG_PYRAMID5,
+                                        [6] = PG_WEDGE6, [8] = PG_HEX8 };
     int dim = pg_element_types[kind].dim, corners = pg_element_types[kind].corners, width = 2 * n + 1,
         cells = 1, id = 1;
     pg_element parent = corners == 4 ? (dim == 2 ? PG_QUAD4 : PG_TET4) : linear[corners];

@@ -198,6 +198,9 @@ static double moment (pg_element kind, const int e[3])
     case PG_WEDGE6:
     case PG_WEDGE15:
         return factorial (e[0]) * factorial (e[1]) / factorial (e[0] + e[1] + 2) * line_moment (e[2]);
+    case PG_PYRAMID5:
+        return line_moment (e[0]) * line_moment (e[1]) * factorial (e[2]) * factorial (e[0] + e[1] + 2)
+               / factorial (e[0] + e[1] + e[2] + 3);
     default:
         return line_moment (e[0]) * (dim_of (kind) > 1 ? line_moment (e[1]) : 1)
                * (dim_of (kind) > 2 ? line_moment (e[2]) : 1);
@@ -299,6 +302,8 @@ static void outside_is_measured_in_reference_units (void **state)
     check_absolute (pg_element_outside (PG_TET4, (double[3]) { 0.25, -0.5, 0.25 }), 0.5, 1e-15);
     check_absolute (pg_element_outside (PG_WEDGE6, (double[3]) { 0.25, 0.25, -2 }), 1, 1e-15);
     assert_true (pg_element_outside (PG_WEDGE15, (double[3]) { 0.25, 0.25, 0 }) < 0);
+    check_absolute (pg_element_outside (PG_PYRAMID5, (double[3]) { 0.25, -0.75, 0.5 }), 0.25, 1e-15);
+    assert_true (pg_element_outside (PG_PYRAMID5, (double[3]) { 0.25, -0.25, 0.5 }) < 0);
     assert_true (pg_element_outside (PG_BAR3, (double[1]) { 0.999 }) < 0);
 }
 

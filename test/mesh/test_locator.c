@@ -11,7 +11,8 @@ static double noise (unsigned k)
 }
 
 static const pg_element solid[] = { PG_BAR2, PG_BAR3,  PG_TRI3,   PG_TRI6,    PG_QUAD4, PG_QUAD8, PG_QUAD9,
-                                    PG_TET4, PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8,  PG_HEX20, PG_HEX27 };
+                                    PG_TET4, PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8,  PG_HEX20, PG_HEX27,
+                                    PG_PYRAMID5 };
 enum { SOLIDS = sizeof solid / sizeof *solid };
 
 static void bend (double *x)

@@ -55,7 +55,7 @@ expect "second order"                 0 "3D, .* hex27" ""                       
 expect "surface of a body"            1 "" "z goes from"                                       "$data/box.geo" o.msh --dim 2
 expect "first order of a mesh"        0 "2D, .* 64 tri3" ""                                    "$data/disk_tri6_22.msh" o.msh --order 1
 expect "size of a mesh is its own"    0 "64 tri6" "has elements already; --size is not used"   "$data/disk_tri6_22.msh" o.msh --size 1
-expect "pyramids"                     1 "" "a pyramid of 5 nodes"                              pyramid.msh o.msh
+expect "pyramids"                     0 "3D, .* pyramid5" ""                                   pyramid.msh o.msh
 expect "an open surface"              1 "" "cut.stl"                                           cut.stl o.msh
 expect "dimension too high"           1 "" "the body has dimension 2; a mesh of dimension 3"   plate.geo o.msh --dim 3
 expect "broken geometry"              1 "" "broken.geo: there is no body and no mesh in it: Gmsh says: .*syntax error" broken.geo fresh.msh

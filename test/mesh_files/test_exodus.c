@@ -178,7 +178,8 @@ static void bend (double *x)
 }
 
 static const pg_element solid[] = { PG_TRI3,  PG_TRI6,   PG_QUAD4,   PG_QUAD8, PG_QUAD9, PG_TET4,
-                                    PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8,  PG_HEX20, PG_HEX27 };
+                                    PG_TET10, PG_WEDGE6, PG_WEDGE15, PG_HEX8,  PG_HEX20, PG_HEX27,
+                                    PG_PYRAMID5 };
 static const int format[] = { 0, NC_64BIT_OFFSET, NC_64BIT_DATA, NC_NETCDF4 };
 
 static void every_kind_is_read_back (void **state)
@@ -188,8 +189,9 @@ static void every_kind_is_read_back (void **state)
                                                     [PG_QUAD4] = "SHELL4",
                                                     [PG_TET10] = "TETRA10",
                                                     [PG_HEX8] = "HEX",
-                                                    [PG_WEDGE6] = "WEDGE" };
-    for (int k = 0; k < 12; k++)
+                                                    [PG_WEDGE6] = "WEDGE",
+                                                    [PG_PYRAMID5] = "PYRAMID" };
+    for (size_t k = 0; k < sizeof solid / sizeof *solid; k++)
         for (int f = 0; f < 4; f++) {
             pg_mesh a = block_mesh (solid[k], 2, bend), b;
             double in_a, in_b, area = surface_area (&a, &in_a);

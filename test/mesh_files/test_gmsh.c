@@ -258,8 +258,8 @@ static void faults_of_2 (void **state)
     fault (HEAD2 "$Nodes\n2\n1 0 0 0\n1 0 0 0\n$EndNodes\n$Elements\n1\n1 1 0 1 1\n$EndElements\n",
            "node 1 is there twice");
     fault (HEAD2 NODES2 "$Elements\n-1\n$EndElements\n", "-1 elements");
-    fault (HEAD2 NODES2 "$Elements\n1\n9 7 2 0 0 1 2 3 4 1\n$EndElements\n",
-           "line 13: element 9 is a pyramid of 5 nodes (type 7 of Gmsh)");
+    fault (HEAD2 NODES2 "$Elements\n1\n9 19 2 0 0 1 2 3 4 1 2 3 4 1 2 3 4 1\n$EndElements\n",
+           "line 13: element 9 is a pyramid of 13 nodes (type 19 of Gmsh)");
     fault (HEAD2 NODES2 "$Elements\n1\n9 92 2 0 0 1 2 3 4 1\n$EndElements\n",
            "element 9 is of a kind of its own (type 92 of Gmsh)");
     fault (HEAD2 NODES2 "$Elements\n1\n9 3 2 0 0 1 2 3\n$EndElements\n",
