@@ -330,6 +330,7 @@ static pg_status open_run (run *r)
     else plan_quiet_warnings (&r->w.early, NULL);
     fflush (stdout);                                   /* progress goes to the other stream */
     r->w.state = p->state, r->w.problem = p->problem;
+    run_opens ();
     PG_TRY (open_result (&r->c, r->folder, p->scene, p->problem, p->solver, &r->w));
 done:
     return status;

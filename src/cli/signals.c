@@ -8,12 +8,24 @@
 #include <signal.h>
 #include <stdatomic.h>
 #include <time.h>
+#include <unistd.h>
 
-/* Number of the first signal, 0: none yet; and the signals that are waited for. One set per process. */
-static atomic_int first;
+/* Number of the first signal, 0: none yet; 1: there is a folder of results to be left in order; and the
+ * signals that are waited for. One set per process. */
+static atomic_int first, opened;
 static sigset_t waited;
 
-int run_asked_to_stop (void) { return atomic_load (&first); }
+int  run_asked_to_stop (void) { return atomic_load (&first); }
+void run_opens (void) { atomic_store (&opened, 1); }
+
+/* Nothing is lost by an end while the scene is read and the run prepared, which may take long and asks nobody. */
+static void end_before_results (void)
+{
+    static const char words[] = "perigal: interrupted: nothing had been computed yet\n";
+    ssize_t unused = write (STDERR_FILENO, words, sizeof words - 1);
+    (void) unused;
+    _exit (130);
+}
 
 /* One request may come as several signals: timeout sends its own to the process and to the group of the
  * process, a terminal to all that run in it, of which mpirun or a command of many runs passes it on. */
@@ -35,6 +47,7 @@ static void *wait_for_signals (void *none)
     pg_signals_hold (&before);
     sigemptyset (&seen);
     while (sigwait (&waited, &number) == 0) {
+        if (!atomic_load (&opened)) end_before_results ();
         if (!sigismember (&seen, number)) {
             sigaddset (&seen, number);
             clock_gettime (CLOCK_MONOTONIC, &since[number]);
