@@ -219,9 +219,9 @@ static int in_midst (const lot *l, size_t k)
     return count > 0 && square < reach * reach;
 }
 
-/* Shares of the places in the midst of irregular points that see less than well, and too little. By places a
- * Gauss point away from some of the nodes, so that all sets of rows of a cloud go by the same: one place may be
- * in two of them, as a point of a facet and of the face of its cell, and must have one support. */
+/* Shares of the places in the midst of irregular points that see less than well, and too little. By places
+ * a Gauss point away from some of the nodes, so that all sets of rows of a cloud go by the same: one place
+ * may be in two of them, as a point of a facet and of the face of its cell, and must have one support. */
 static pg_status look_amidst (const work *w, double *less, double *little)
 {
     pg_status status = PG_OK;
