@@ -60,7 +60,8 @@ void progress_end   (progress *p);
  * second one of its kind, half a second later or more, ends the process (signals.c). */
 void run_listen        (void);
 int  run_asked_to_stop (void);
-/* There is a folder of results now, which a signal has to leave in order: until then it ends the process at once. */
+/* There is a folder of results now, which a signal has to leave in order: until then it ends the process at
+ * once. */
 void run_opens         (void);
 /* 1: a signal that comes now belongs to the request that came `since` then (CLOCK_MONOTONIC). */
 int  command_same_request (const struct timespec *since);

@@ -18,7 +18,8 @@ static sigset_t waited;
 int  run_asked_to_stop (void) { return atomic_load (&first); }
 void run_opens (void) { atomic_store (&opened, 1); }
 
-/* Nothing is lost by an end while the scene is read and the run prepared, which may take long and asks nobody. */
+/* Nothing is lost by an end while the scene is read and the run prepared, which may take long and asks
+ * nobody. */
 static void end_before_results (void)
 {
     static const char words[] = "perigal: interrupted: nothing had been computed yet\n";

@@ -78,7 +78,7 @@ run 15 signal 1 block -o "$work/block"
 [ $code -eq 130 ] && grep -q 'continue with' "$work/err" && [ -e "$work/block/checkpoint.nc" ] && [ "$calls" -gt 0 ]
 verdict "TERM while METIS orders the nodes and takes it for a failure of its own: a checkpoint" $?
 
-rm -rf "$work/half"; run 15 clock_gettime 1 facets -o "$work/half"
+rm -rf "$work/half"; run 15 clock_gettime 3 facets -o "$work/half"
 [ $code -eq 130 ] && grep -q 'nothing had been computed yet' "$work/err" && [ ! -e "$work/half" ]
 verdict "TERM while the run is prepared: the end at once, without a folder" $?
 
