@@ -96,6 +96,39 @@ printf 'dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [6, 4]}}}]\nspacing
 "$perigal" run scene.yaml -o ram --quiet > out 2> err
 awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k ~ /ram.displacement_y/) c = k } END { exit !($c > -0.0020001 && $c < -0.0019999) }' ram/history.csv; verdict "a platen with ramp: linear has gone its way at the end of an explicit run" $?
 
+# ---- a seam: doubled nodes of a mesh are a crack that is open from the start -----------------------------------------------------
+printf '*NODE\n' > job.inp
+awk 'BEGIN { for (j = 0; j < 3; j++) for (i = 0; i < 5; i++) printf "%d,%d,%d\n", 5*j + i + 1, i, j; for (i = 0; i < 2; i++) printf "%d,%d,1\n", 106 + i, i
+    print "*ELEMENT,TYPE=CPS4,ELSET=A"; for (j = 0; j < 2; j++) for (i = 0; i < 4; i++) { a = 5*j + i + 1; b = a + 1; if (j == 1 && i < 2) a += 100; if (j == 1 && i < 1) b += 100; printf "%d,%d,%d,%d,%d\n", 4*j + i + 1, a, b, 5*j + i + 7, 5*j + i + 6 } }' >> job.inp
+scene job.inp 'dimension: 2
+boundary: [{name: g, set: bottom, displacement: {x: 0, y: 0}}, {name: t, set: top, displacement: {y: 1 mm}}]
+output: {gauges: [{name: seam, from: [0, 0.999], to: [0, 1.001]}, {name: joined, from: [4, 0.999], to: [4, 1.001]}], pictures: []}'
+has "doubled nodes are faces" 'points  *17, spacing' 'boundary facets 16' 'bonds across slots, gaps and corners of the body are none'
+"$perigal" run scene.yaml -o seam --quiet > out 2> err
+awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k ~ /^seam/) s = k; if ($k ~ /^joined/) j = k } } END { exit !($s > 20 * $j && $j > 0) }' seam/history.csv; verdict "the seam opens, what is joined does not" $?
+
+# ---- Exodus: numbers of blocks; a node set and a side set of one number -----------------------------------------------------------
+defects=$OLDPWD/test/defects; [ -d "$defects" ] || defects=$(dirname "$0")/../defects
+if command -v ncgen > /dev/null; then
+    ncgen -o block_ids.e "$defects/block_ids.cdl" && ncgen -o set_ids.e "$defects/set_ids.cdl" || exit 1
+    cat > scene.yaml <<'S'
+dimension: 2
+mesh: {file: block_ids.e}
+materials: {soft: {youngs_modulus: 1 GPa, poissons_ratio: 0}, hard: {youngs_modulus: 100 GPa, poissons_ratio: 0}}
+blocks: [{material: soft, block: 1}, {material: hard, block: 2}]
+boundary: [{name: b, set: "1", displacement: {x: 0, y: 0}}, {name: t, set: "2", displacement: {y: 1 mm}}]
+output: {gauges: [{name: low, from: [2, 0], to: [2, 1]}, {name: high, from: [2, 1], to: [2, 2]}], pictures: []}
+method: {accept_inexact: yes}
+S
+    "$perigal" run scene.yaml -o ids --quiet > out 2> err
+    awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) { if ($k ~ /^low/) l = k; if ($k ~ /^high/) h = k } } END { exit !($h > 8 * $l && $l > 0) }' ids/history.csv; verdict "blocks have the numbers of the file: the upper one is soft" $?
+    scene set_ids.e 'dimension: 2
+boundary: [{name: g, set: "1", displacement: {x: 0, y: 0}}]'
+    "$perigal" check scene.yaml > out 2> err; [ $? -eq 65 ] && grep -q 'boundary.0..set = 1: there is no set of this name' err; verdict "a number that two sets have names neither" $?
+else
+    verdict "numbers of blocks and sets of Exodus files # SKIP no ncgen (netcdf-bin)" 0
+fi
+
 # ---- pyramids: on hexahedra, below tetrahedra, and blocks of them left out -----------------------------------------------------------
 printf '$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n9\n1 0 0 0\n2 1 0 0\n3 1 1 0\n4 0 1 0\n5 0 0 1\n6 1 0 1\n7 1 1 1\n8 0 1 1\n9 0.5 0.5 1.5\n$EndNodes\n$Elements\n2\n1 5 2 1 1 1 2 3 4 5 6 7 8\n2 7 2 2 1 5 6 7 8 9\n$EndElements\n' > part.msh
 scene part.msh 'dimension: 3
