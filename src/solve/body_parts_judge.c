@@ -452,7 +452,7 @@ static void say_reason (words *out, const pg_system *s)
     if (penalty)
         say (out, "; the penalty of %s, %.3g E / spacing, makes K ill-conditioned: use essential: "
                   "nitsche%s, or "
-                  "a smaller method.penalty", penalty->name, penalty->penalty,
+                  "a smaller method.penalty_factor", penalty->name, penalty->penalty,
              direct ? "" : " or a direct solver (solver.linear: auto)");
     else
         say (out, "; K is ill-conditioned where points see too few others or materials differ much: use %s",

@@ -115,6 +115,19 @@ grep -q 'at interfaces of materials the error falls with the first power of the 
 "$perigal" check "$work/plate.yaml" --set "$two" --set 'blocks=[{material: a, where: "x < 2"}]' > "$work/out" 2> "$work/err"
 ! grep -q 'at interfaces' "$work/out"; verdict "not where one of them is used" $?
 
+# ---- a penalty that no iteration can follow: the hint names it and a key that there is, not a loose part --------------------------
+cat > "$work/penalty.yaml" <<'S'
+dimension: 3
+body: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]
+spacing: 0.25
+materials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}
+method: {essential: penalty, penalty_factor: 1e11}
+boundary: [{set: left, displacement: {x: 0, y: 0, z: 0}}, {set: right, displacement: {x: 1 mm}}]
+solver: {kind: static, linear: pcg}
+S
+expect "a stiff penalty under pcg in space" 70 '*' 'supports hold every part of the body; the penalty of left, 1e+11 E / spacing.* or a smaller method.penalty_factor' run "$work/penalty.yaml" -o "$work/stiff"
+! grep -q loose "$work/err"; verdict "no word of a loose part" $?
+
 # ---- a full device ----------------------------------------------------------------------------------------------------
 for words in "check small_hole.yaml" "check small_hole.yaml --json" list "help horizon" "help --manual"; do
     "$perigal" $words > /dev/full 2> "$work/err"; [ $? -eq 70 ] && grep -q 'the output cannot be written: No space left on device' "$work/err"
