@@ -137,6 +137,7 @@ static void sound_ones_are_told_to_be (void **state)
         pg_patch p = measured (&sound[k], 1, "");
         print_message ("  %dD, %-30s patch error %.3g\n", sound[k].dim, sound[k].method, p.error);
         check_below (p.error, sound[k].most);
+        check_below (p.rigid, 1e-6);
     }
 }
 
