@@ -2,7 +2,8 @@
  * A run that goes on from the checkpoint of a step makes the next steps bit for bit as the run that was never
  * interrupted: state and tables. Here are runs that keep more than bonds and displacements from step to step:
  * cracks that grow by facets past a kink, whose cells are integrated consistently, solved for with the factor
- * of an earlier matrix. PERIGAL_TEST_SCENE=FILE asks the same of any scene, every step. */
+ * of an earlier matrix; faces that press on each other in motion while cracks grow. PERIGAL_TEST_SCENE=FILE
+ * asks the same of any scene, every step. */
 #include "again.h"
 
 enum { AHEAD = 2, MOST_STEPS = 400 };
@@ -138,6 +139,19 @@ static void with_the_factor_of_a_shorter_crack (void **state)
         "solver: {kind: static, max_events: 6}\noutput: {at: {levels: 10}, pictures: []}\n", 10, 1);
 }
 
+/* Tips that run, a held force behind them, and contact with friction, each with a memory of its own. */
+static void closed_faces_in_motion (void **state)
+{
+    (void) state;
+    from_steps_of (
+        "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 1.2]}}}]\nspacing: 0.05\n"
+        "cracks: [{from: [0.33, 0.41], to: [0.67, 0.76]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, "
+        "poissons_ratio: 0.2, density: 2000}}\nfailure: {criterion: energy_release, fracture_energy: 4 "
+        "J/m2}\ncontact: {kind: friction, coefficient: 0.2}\nboundary: [{name: foot, set: bottom, displacement: "
+        "{x: 0, y: 0}}, {name: head, set: top, velocity: {y: -1 m/s}}]\n"
+        "solver: {kind: newmark, dt: 50 us, time_steps: 24}\noutput: {pictures: []}\n", 8, 5);
+}
+
 static void scene_asked (void **state)
 {
     (void) state;
@@ -151,6 +165,7 @@ static void scene_asked (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (with_the_factor_of_a_shorter_crack),
+                                        cmocka_unit_test (closed_faces_in_motion),
                                         cmocka_unit_test (scene_asked) };
     return cmocka_run_group_tests_name ("results/every_step", tests, NULL, NULL);
 }
