@@ -147,8 +147,8 @@ static void closed_faces_in_motion (void **state)
         "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 1.2]}}}]\nspacing: 0.05\n"
         "cracks: [{from: [0.33, 0.41], to: [0.67, 0.76]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, "
         "poissons_ratio: 0.2, density: 2000}}\nfailure: {criterion: energy_release, fracture_energy: 4 "
-        "J/m2}\ncontact: {kind: friction, coefficient: 0.2}\nboundary: [{name: foot, set: bottom, displacement: "
-        "{x: 0, y: 0}}, {name: head, set: top, velocity: {y: -1 m/s}}]\n"
+        "J/m2}\ncontact: {kind: friction, coefficient: 0.2}\nboundary: [{name: foot, set: bottom, "
+        "displacement: {x: 0, y: 0}}, {name: head, set: top, velocity: {y: -1 m/s}}]\n"
         "solver: {kind: newmark, dt: 50 us, time_steps: 24}\noutput: {pictures: []}\n", 8, 5);
 }
 
