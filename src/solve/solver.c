@@ -3,6 +3,7 @@
 #include "facet_growth.h"
 #include "body_parts.h"
 #include "contact.h"
+#include "trial_facet.h"
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -107,6 +108,19 @@ static pg_status check_parts (pg_solver *s, const pg_state *state)
     return options_fault (&s->options, "boundary", "%s", text);
 }
 
+/* Facets grow from cracks, and from a strength; a body that has neither stays whole. */
+static void doubt_growth (pg_solver *s, const pg_state *state)
+{
+    facet_growth *g = s->break_loop.growth;
+    size_t nfront = 0;
+    if (!g || state->step > 0 || trial_has_strength (s->problem)) return;
+    pg_fronts_of_state (s->problem, state, &nfront);
+    if (nfront > 0 || (state->paths && state->paths->ntip > 0)) return;
+    pg_statistics_warn (&s->report, "no crack can grow: there is no crack, and no strength at which new ones "
+                                    "begin: give `cracks` or failure.tensile_strength");
+    g->said |= FACET_SAID_NOTHING;
+}
+
 pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -116,6 +130,7 @@ pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *
     PG_TRY (contact_check (&s->break_loop.system));
     if (s->type->begin) PG_TRY (s->type->begin (s, state));
     PG_TRY (doubt_loaded_rows (s));
+    doubt_growth (s, state);
     PG_TRY (check_parts (s, state));
     s->begun = 1;
 done:
