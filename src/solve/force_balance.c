@@ -81,7 +81,7 @@ void force_balance (pg_system *s, const double *d, const pg_work_balance *w, con
     const pg_problem *p = s->problem;
     sums all = { .length = 0 };
     double square = 0;
-    if (!w->reaction) return;
+    if (!w->reaction || !p->method) return;            /* no method: a force of the user, without materials */
     for (int k = 0; k < p->dim; k++) square += pow (p->cloud.high[k] - p->cloud.low[k], 2);
     add_loads (p, w, &all);
     if (f) add_forces (s, f, &all);
