@@ -76,6 +76,7 @@ static pg_status create_set (galerkin *g, int s)
     PG_ALLOC (g->s1[s], r->n);
     PG_ALLOC (g->s3[s], r->n);
     PG_ALLOC (g->seen[s], g->n * dim);
+    PG_ALLOC (g->disturbed[s], (r->n + GALERKIN_BLOCK - 1) / GALERKIN_BLOCK);
     PG_ALLOC (g->list[s], r->n);
 done:
     return status;

@@ -77,7 +77,7 @@ typedef struct {
     galerkin_sight *sight[PG_BOND_SETS];               /* NULL until asked for */
     double  *seen[PG_BOND_SETS];                       /* the displacement of the last measure (ndof) */
     /* the measure is that of `seen` and of the rows as they are, but for blocks of points that are disturbed
-     * (NULL: none) */
+     * (1) */
     int      fresh[PG_BOND_SETS];
     unsigned char *disturbed[PG_BOND_SETS];
     /* galerkin_eigenstrain.c: the free strain of every point at that time, s (NULL: the scene has none);

@@ -155,8 +155,7 @@ static void strain_slices (void *context, size_t first, size_t last, int thread)
 static const unsigned char *to_measure (galerkin *g, int set, const double *d)
 {
     unsigned char *active = g->fresh[set] ? galerkin_active (g, set, d, g->seen[set]) : NULL;
-    const unsigned char *disturbed = g->disturbed[set];
-    for (size_t b = 0; active && disturbed && b < blocks_of (g, set); b++) active[b] |= disturbed[b];
+    for (size_t b = 0; active && b < blocks_of (g, set); b++) active[b] |= g->disturbed[set][b];
     return active;
 }
 
@@ -165,7 +164,7 @@ static const unsigned char *to_measure (galerkin *g, int set, const double *d)
 void galerkin_measure (galerkin *g, int set, const double *d)
 {
     size_t bytes = g->n * (size_t) g->dim * sizeof *d, blocks = blocks_of (g, set);
-    int whole = g->fresh[set] && (!g->disturbed[set] || !memchr (g->disturbed[set], 1, blocks));
+    int whole = g->fresh[set] && !memchr (g->disturbed[set], 1, blocks);
     if (whole && memcmp (g->seen[set], d, bytes) == 0) return;
     const unsigned char *active = to_measure (g, set, d);
     memcpy (g->seen[set], d, bytes);
@@ -175,7 +174,7 @@ void galerkin_measure (galerkin *g, int set, const double *d)
         pg_parallel_heavy (g->threads, SLICES, strain_slices, &m);
         pg_parallel (g->threads, blocks, stress_blocks, &m);
     } else pg_parallel (g->threads, blocks, measure_blocks, &m);
-    if (g->disturbed[set]) memset (g->disturbed[set], 0, blocks);
+    memset (g->disturbed[set], 0, blocks);
     if (g->dilatation) galerkin_dilatation_measure (g, set, d);
     g->fresh[set] = 1;
 }
@@ -191,9 +190,7 @@ void galerkin_measure_list (galerkin *g, int set, size_t count, const size_t *li
 /* What was measured at these points belongs to another displacement than what was at all others. */
 static void disturb (galerkin *g, int set, size_t count, const size_t *list)
 {
-    if (!g->disturbed[set]) g->disturbed[set] = pg_calloc (blocks_of (g, set), 1);
-    if (!g->disturbed[set]) g->fresh[set] = 0;         /* without memory nothing is known any more */
-    for (size_t k = 0; k < count && g->disturbed[set]; k++) g->disturbed[set][list[k] / GALERKIN_BLOCK] = 1;
+    for (size_t k = 0; k < count; k++) g->disturbed[set][list[k] / GALERKIN_BLOCK] = 1;
 }
 
 /* Some points at a displacement that is known at some nodes only, all that these points see. */

@@ -231,7 +231,6 @@ void galerkin_runs_find (const galerkin *g, galerkin_run_list *l)
     if (!l->stale) return;
     l->run = NULL, l->entry = NULL, l->stale = 0;
     l->n = l->cap = l->nentry = l->cap_entry = l->bonds = 0;
-    if (!l->known) PG_ALLOC (l->known, l->last - l->first);
     PG_TRY (find_runs (g, l, &old));
     for (size_t i = 0; i < l->last - l->first; i++) l->known[i] &= ALONE;
 done:

@@ -141,6 +141,7 @@ static void every_allocation_of_a_result_may_fail (void **state)
             print_error ("allocation %zu of %zu: '%s'\n", k, calls, pg_last_error ());
         /* the census of the report is worth no failure, nor are pictures */
         assert_true (status == PG_E_MEMORY || status == PG_OK);
+        assert_true (status == PG_E_MEMORY || k > opened);
         reported += status == PG_E_MEMORY;
         if (pg_memory_used () != used)
             print_error ("allocation %zu of %zu: %zu bytes lost\n", k, calls, pg_memory_used () - used);
