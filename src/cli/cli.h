@@ -94,6 +94,8 @@ int       command_unquoted (char *out, size_t size, int argc, char **argv);
 /* Shares processors and memory among so many jobs: threads of each, and its limit of memory as text. threads,
  * memory: what was asked for, 0: nothing (sweep.c). */
 int       command_threads (void);
+/* The exit code of a program that ended with this one: what it printed must have been written. */
+int command_written (const char *program, int code);
 void      command_share (int jobs, int *threads, double memory, char text[32]);
 /* The runs of --seeds; returns the exit code (seeds.c). */
 int       command_seeds (const command *c);

@@ -6,6 +6,7 @@
  * nearest name for a misspelt one, and with exit code 64; messages go to stderr, results to
  * stdout. Nothing is asked interactively, so that every command works in scripts. */
 #include "cli.h"
+#include <errno.h>
 #include <getopt.h>
 #include <math.h>
 #include <stdlib.h>
@@ -301,4 +302,11 @@ void command_again (const command *c)
     for (size_t k = 0; k < c->nset; k++) fputs (" --set ", stderr), put_word (c->set[k]);
     if (c->given) fprintf (stderr, " --threads %s", c->given);
     fputs (" --resume\n", stderr);
+}
+
+int command_written (const char *program, int code)
+{
+    if (fflush (stdout) == 0 && !ferror (stdout)) return code;
+    fprintf (stderr, "%s: the output cannot be written: %s\n", program, strerror (errno ? errno : EIO));
+    return code == PG_EXIT_DONE ? pg_exit_code (PG_E_FILE) : code;
 }

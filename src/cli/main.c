@@ -4,7 +4,6 @@
  * matrix is factored (base/library.c). All else is in the files of the commands. */
 #include "cli.h"
 #include "plot.h"
-#include <errno.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -77,14 +76,6 @@ static void settle_threads (int argc, char **argv)
     setenv ("OPENBLAS_NUM_THREADS", count, 0);
 }
 
-/* The exit code of a command that ended with this one: what it printed must have been written. */
-static int all_written (int code)
-{
-    if (fflush (stdout) == 0 && !ferror (stdout)) return code;
-    fprintf (stderr, "perigal: the output cannot be written: %s\n", strerror (errno ? errno : EIO));
-    return code == PG_EXIT_DONE ? pg_exit_code (PG_E_FILE) : code;
-}
-
 /* Finds the command, keeps freed memory in the process (pg_memory_keep) and runs it. Only run
  * and check (the first two commands) factor matrices and need the changed environment. */
 int main (int argc, char **argv)
@@ -95,17 +86,17 @@ int main (int argc, char **argv)
     }
     if (strcmp (argv[1], "--version") == 0) {
         printf ("perigal " PG_VERSION "\n");
-        return PG_EXIT_DONE;
+        return command_written ("perigal", PG_EXIT_DONE);
     }
     if (strcmp (argv[1], "--help") == 0 || strcmp (argv[1], "-h") == 0) {
         usage (stdout);
-        return all_written (PG_EXIT_DONE);
+        return command_written ("perigal", PG_EXIT_DONE);
     }
     for (size_t k = 0; k < sizeof commands / sizeof *commands; k++)
         if (strcmp (argv[1], commands[k].name) == 0) {
             if (k <= 1) settle_threads (argc, argv);
             pg_memory_keep ();
-            return all_written (commands[k].run (argc - 1, argv + 1));
+            return command_written ("perigal", commands[k].run (argc - 1, argv + 1));
         }
     const char *near =
         pg_nearest_name (argv[1], "run|check|plot|cracks|compare|bench|converge|sweep|new|list|"

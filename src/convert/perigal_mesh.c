@@ -8,6 +8,7 @@
  * sides, write, and read the result again as Perigal would, so that a file which Perigal
  * cannot use is noticed here. Exit codes: 0 done, 1 failed, 2 wrong arguments. */
 #include "perigal/mesh_files.h"
+#include <errno.h>
 #include <gmshc.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -284,12 +285,20 @@ static void start (void)
     gmshLoggerStart (&e);
 }
 
+/* The exit code of a conversion that ended with this one: what it printed must have been written. */
+static int all_written (int code)
+{
+    if (fflush (stdout) == 0 && !ferror (stdout)) return code;
+    fprintf (stderr, "perigal-mesh: the output cannot be written: %s\n", strerror (errno ? errno : EIO));
+    return code ? code : 70;
+}
+
 /* Input and output are tried before Gmsh starts, so that a wrong path is noticed at once. */
 int main (int argc, char **argv)
 {
     request w = { .size = 0 };
     int code = read_arguments (&w, argc, argv), e;
-    if (code < 0) return fputs (usage, stdout) < 0;
+    if (code < 0) return fputs (usage, stdout), all_written (0);
     if (code) return code;
     FILE *f = fopen (w.input, "rb");
     if (!f) {
@@ -311,5 +320,5 @@ int main (int argc, char **argv)
     code = e ? failed ("cannot be opened", w.input) : make_mesh (&w) || write_mesh (&w);
     gmshFinalize (&e);
     if (code && !there) remove (w.output);
-    return code || look_at (&w);
+    return all_written (code || look_at (&w));
 }

@@ -35,15 +35,15 @@ int main (int argc, char **argv)
 {
     if (argc > 1 && strcmp (argv[1], "--version") == 0) {
         printf ("perigal-mpi " PG_VERSION "\n");
-        return PG_EXIT_DONE;
+        return command_written ("perigal-mpi", PG_EXIT_DONE);
     }
     if (argc < 2 || strcmp (argv[1], "--help") == 0 || strcmp (argv[1], "-h") == 0) {
         usage (argc < 2 ? stderr : stdout);
-        return argc < 2 ? PG_EXIT_USAGE : PG_EXIT_DONE;
+        return command_written ("perigal-mpi", argc < 2 ? PG_EXIT_USAGE : PG_EXIT_DONE);
     }
     if (strcmp (argv[1], "check") == 0) {
         petsc_give ();
-        return pg_cli_check (argc - 1, argv + 1);
+        return command_written ("perigal-mpi", pg_cli_check (argc - 1, argv + 1));
     }
     if (strcmp (argv[1], "run") != 0) {
         fprintf (stderr, "perigal-mpi: there is no command %s for several processes: run, check\n", argv[1]);

@@ -130,11 +130,22 @@ S
 expect "a stiff penalty under pcg in space" 70 '*' 'supports hold every part of the body; the penalty of left, 1e+11 E / spacing.* or a smaller method.penalty_factor' run "$work/penalty.yaml" -o "$work/stiff"
 ! grep -q loose "$work/err"; verdict "no word of a loose part" $?
 
-# ---- a full device ----------------------------------------------------------------------------------------------------
-for words in "check small_hole.yaml" "check small_hole.yaml --json" list "help horizon" "help --manual"; do
-    "$perigal" $words > /dev/full 2> "$work/err"; [ $? -eq 70 ] && grep -q 'the output cannot be written: No space left on device' "$work/err"
-    verdict "$words, to a full device" $?
+# ---- a full device: no command says that all went well when nobody could read it --------------------------------------
+full() {
+    "$@" > /dev/full 2> "$work/err"; [ $? -eq 70 ] && grep -q 'the output cannot be written: No space left on device' "$work/err"
+    verdict "${*:2}, to a full device" $?
+}
+"$perigal" run small_hole.yaml -o "$work/result" --quiet > "$work/out" 2>&1
+for words in --version --help "check small_hole.yaml" "check small_hole.yaml --json" list "help horizon" "help --manual" "run small_hole.yaml --force -o $work/full" \
+             "plot $work/result" "cracks contact_strength_elimination.yaml -o $work/cracks.png" "compare $work/result $work/result" "new plate -o $work/new.yaml" \
+             "sweep small_hole.yaml --set solver.tolerance=1e-9,1e-10 -o $work/sweep" "converge small_hole.yaml --spacing 2 --ratio 1.2 -o $work/converge" \
+             "bench small_hole.yaml --spacing 1 -o $work/bench" "run --help" "plot --help"; do
+    full "$perigal" $words
 done
+mesh=$(dirname "$perigal")/perigal-mesh
+[ ! -x "$mesh" ] || full "$mesh" --help
+mpi=$(dirname "$perigal")/perigal-mpi
+[ ! -x "$mpi" ] || full "$mpi" check small_hole.yaml --ranks 2
 
 # ---- long paths: whole, or refused ---------------------------------------------------------------------------------------
 part=$(printf 'x%.0s' $(seq 200)); long=$work/long
