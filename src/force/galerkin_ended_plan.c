@@ -195,6 +195,68 @@ static int part_beyond (const ended_cell *beyond, const double *u, const double 
     return -1;
 }
 
+/* A piece of a side of a part: its ends, the face of the problem that it lies on (SIZE_MAX: none), the cell
+ * beyond (-1: none) and, if that is divided too, its part there (-1: none); whole: it is all of the side of
+ * the cell. */
+typedef struct { double u[2], v[2]; size_t face; int other, to, whole; } piece;
+/* The chords that divide a cell end at most so often on one side. */
+enum { PIECES = 2 * (PG_PARTS - 1) + 1 };
+
+/* For qsort: ascending. */
+static int compare_shares (const void *a, const void *b)
+{
+    double x = *(const double *) a, y = *(const double *) b;
+    return (x > y) - (x < y);
+}
+
+/* Where corners of the parts of a cell lie between the ends of an edge, in shares of the way from u to v,
+ * ascending; the last share is 1. */
+static int corners_on (const pg_cell_parts *parts, const double *u, const double *v, double nothing,
+                       double *share)
+{
+    double d[2] = { v[0] - u[0], v[1] - u[1] }, length = hypot (d[0], d[1]);
+    int n = 0;
+    for (int k = 0; k < parts->n; k++)
+        for (int i = 0; i < parts->part[k].n; i++) {
+            double x[2] = { parts->part[k].x[i][0] - u[0], parts->part[k].x[i][1] - u[1] };
+            double along = (x[0] * d[0] + x[1] * d[1]) / length, off = (x[0] * d[1] - x[1] * d[0]) / length;
+            if (fabs (off) <= nothing && along > nothing && along < length - nothing)
+                share[n++] = along / length;
+        }
+    pg_sort (share, (size_t) n, sizeof *share, compare_shares);
+    share[n++] = 1;
+    return n;
+}
+
+/* Edge i of a part in pieces with one part beyond each: a crack that has a kink on a side of a cell, or
+ * ends on it in the cell beyond alone, divides the cell beyond but not this one. Returns how many. */
+static int pieces_of (const galerkin *g, size_t cell, const pg_cell_part *part, int i, piece *out)
+{
+    const struct galerkin_ended *e = g->ended;
+    const double *u = part->x[i], *v = part->x[(i + 1) % part->n];
+    double share[PG_PARTS * PG_PART_EDGES + 1], last = 0, nothing = 10 * ENDED_NOTHING * g->problem->cloud.h;
+    piece p = { .u = { u[0], u[1] }, .v = { v[0], v[1] }, .other = -1, .to = -1 };
+    int n = 0;
+    p.face = face_of_edge (g, cell, part, i, &p.other, &p.whole);
+    out[0] = p;
+    if (p.face == SIZE_MAX || p.other < 0 || !e->at[p.other]) return 1;
+    const ended_cell *beyond = &e->near[e->at[p.other] - 1];
+    if (beyond->failed) return 1;
+    int corners = corners_on (&beyond->parts, u, v, nothing, share);
+    for (int k = 0; k < corners; k++) {
+        double x[2] = { u[0] + share[k] * (v[0] - u[0]), u[1] + share[k] * (v[1] - u[1]) };
+        if (share[k] == 1) memcpy (x, v, sizeof x);
+        else if ((share[k] - last) * hypot (v[0] - u[0], v[1] - u[1]) <= nothing) continue;
+        last = share[k];
+        p.to = part_beyond (beyond, p.u, x);
+        if ((n > 0 && out[n - 1].to == p.to) || n == PIECES) memcpy (out[n - 1].v, x, sizeof x);
+        else memcpy (p.v, x, sizeof x), out[n++] = p;
+        memcpy (p.u, x, sizeof x);
+    }
+    for (int k = 0; k < n && n > 1; k++) out[k].whole = 0;
+    return n;
+}
+
 /* A part without points leans on the part beyond the longest of its edges. 0: it has none that stands. */
 static int find_host (galerkin *g, size_t at, int part)
 {
@@ -206,16 +268,15 @@ static int find_host (galerkin *g, size_t at, int part)
     if (points_in (g, own->cell, p)) return 1;
     own->host[part][0] = -1;
     for (int i = 0; i < p->n; i++) {
-        const double *u = p->x[i], *v = p->x[(i + 1) % p->n];
-        double length = hypot (v[0] - u[0], v[1] - u[1]);
-        int other, whole, to;
-        if (p->side[i] < 0 || p->crack[i] || length <= longest) continue;
-        if (face_of_edge (g, own->cell, p, i, &other, &whole) == SIZE_MAX || other < 0 || !e->at[other])
-            continue;
-        const ended_cell *beyond = &e->near[e->at[other] - 1];
-        if (beyond->failed || (to = part_beyond (beyond, u, v)) < 0) continue;
-        if (!points_in (g, beyond->cell, &beyond->parts.part[to])) continue;
-        longest = length, own->host[part][0] = e->at[other] - 1, own->host[part][1] = to;
+        piece all[PIECES];
+        int n = p->side[i] < 0 || p->crack[i] ? 0 : pieces_of (g, own->cell, p, i, all);
+        for (int k = 0; k < n; k++) {
+            double length = hypot (all[k].v[0] - all[k].u[0], all[k].v[1] - all[k].u[1]);
+            if (length <= longest || all[k].to < 0) continue;
+            int to = all[k].to, host = e->at[all[k].other] - 1;
+            if (!points_in (g, e->near[host].cell, &e->near[host].parts.part[to])) continue;
+            longest = length, own->host[part][0] = host, own->host[part][1] = to;
+        }
     }
     return own->host[part][0] >= 0;
 }
@@ -249,13 +310,12 @@ static int in_parts (const galerkin *g, const ended_cell *c)
     for (size_t k = all->faces.of[c->cell]; k < all->faces.of[c->cell + 1]; k++)
         if (e->weak[all->faces.face[k]]) return 1;
     for (int i = 0; i < p->n; i++) {
-        int other, whole;
+        piece side[PIECES];
         if (p->crack[i]) return 1;
-        if (face_of_edge (g, c->cell, p, i, &other, &whole) == SIZE_MAX || other < 0 || !e->at[other])
-            continue;
-        const ended_cell *beyond = &e->near[e->at[other] - 1];
-        int to = part_beyond (beyond, p->x[i], p->x[(i + 1) % p->n]);
-        if (!beyond->failed && to >= 0 && beyond->host[to][0] != e->at[other] - 1) return 1;
+        int n = pieces_of (g, c->cell, p, i, side);
+        if (n > 1) return 1;
+        int beyond = side[0].to >= 0 ? e->at[side[0].other] - 1 : -1;
+        if (beyond >= 0 && e->near[beyond].host[side[0].to][0] != beyond) return 1;
     }
     return 0;
 }
@@ -337,36 +397,34 @@ done:
     return status;
 }
 
-/* What the part beyond an edge leans on, in the cell `other`; NULL: that is not treated. */
-static const int *host_beyond (const struct galerkin_ended *e, int other, const double *u, const double *v)
+/* One piece of the border of part p of the cell at place `at`, as far as it is not inside what leans on the
+ * same points. */
+static pg_status add_piece (galerkin *g, size_t at, int p, const piece *one)
 {
-    const ended_cell *beyond = other >= 0 && e->at[other] ? &e->near[e->at[other] - 1] : NULL;
-    int to = beyond && !beyond->failed ? part_beyond (beyond, u, v) : -1;
-    return to >= 0 ? beyond->host[to] : NULL;
+    struct galerkin_ended *e = g->ended;
+    const int *host = e->near[at].host[p];
+    const int *theirs = one->to >= 0 ? e->near[e->at[one->other] - 1].host[one->to] : NULL;
+    if (theirs && theirs[0] == host[0] && theirs[1] == host[1]) return PG_OK;
+    int plain = one->whole && !e->weak[one->face] && host[0] == (int) at;
+    if (plain && (!theirs || theirs[0] == e->at[one->other] - 1)) return add_side (e, host, one->face);
+    return add_edge (g, host, one->u, one->v, theirs ? (long) e->near[theirs[0]].cell : -1, 0);
 }
 
-/* The border of one part, as far as it is not inside what leans on the same points. */
+/* The border of one part. */
 static pg_status add_border (galerkin *g, size_t at, int p)
 {
     pg_status status = PG_OK;
-    struct galerkin_ended *e = g->ended;
-    const ended_cell *own = &e->near[at];
+    const ended_cell *own = &g->ended->near[at];
     const pg_cell_part *part = &own->parts.part[p];
-    const int *host = own->host[p];
     for (int i = 0; i < part->n; i++) {
-        const double *u = part->x[i], *v = part->x[(i + 1) % part->n];
-        int other, whole;
+        piece all[PIECES];
         if (part->crack[i]) {
-            PG_TRY (add_edge (g, host, u, v, -1, 1));
+            PG_TRY (add_edge (g, own->host[p], part->x[i], part->x[(i + 1) % part->n], -1, 1));
             continue;
         }
-        size_t face = face_of_edge (g, own->cell, part, i, &other, &whole);
-        if (face == SIZE_MAX) PG_FAIL (PG_E_USAGE, "a side of a background cell has no face");
-        const int *theirs = host_beyond (e, other, u, v);
-        if (theirs && theirs[0] == host[0] && theirs[1] == host[1]) continue;
-        int plain = whole && !e->weak[face] && host[0] == (int) at;
-        if (plain && (!theirs || theirs[0] == e->at[other] - 1)) PG_TRY (add_side (e, host, face));
-        else PG_TRY (add_edge (g, host, u, v, theirs ? (long) e->near[theirs[0]].cell : -1, 0));
+        int n = pieces_of (g, own->cell, part, i, all);
+        if (all[0].face == SIZE_MAX) PG_FAIL (PG_E_USAGE, "a side of a background cell has no face");
+        for (int k = 0; k < n; k++) PG_TRY (add_piece (g, at, p, &all[k]));
     }
 done:
     return status;
