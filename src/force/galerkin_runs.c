@@ -372,7 +372,7 @@ INLINE void strain_bundle (int dim, const galerkin_bundle *b, double *u, double 
 {
     for (size_t q = b->run->point, p = q + b->lane * b->run->points; q < b->run->point + b->run->points;
          q++, p++) {
-        eight e[6], v[3];
+        eight e[6] = { { 0 } }, v[3] = { { 0 } };
         if (dim == 3) strain_solid (b, q, e, v);
         else strain_plane (b, q, e, v);
         scatter (b, dim == 3 ? 6 : 3, e, p, strain), scatter (b, (size_t) dim, v, p, u);

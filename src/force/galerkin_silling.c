@@ -167,7 +167,7 @@ INLINE void first_pass (int dim, const galerkin_bundle *b, eight_points *e, eigh
     const pg_rows *r = &g->sums;
     size_t p = b->run->point, own = (size_t) r->own[p];
     const double *kept = g->kept + p * KEPT, *here = g->place + 4 * own, *D;
-    eight M[9] = { { 0 } }, strain[6];
+    eight M[9] = { { 0 } }, strain[6] = { { 0 } };
     for (int a = 0; a < dim; a++)
         e->own[a] = *(const eight *) (b->x[a] + own + b->lane), sum[a] = (eight) { 0 };
     for (int k = 0; k < 9; k++) e->H[k] = (eight) { 0 };
