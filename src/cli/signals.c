@@ -22,7 +22,7 @@ void run_opens (void) { atomic_store (&opened, 1); }
  * nobody. */
 static void end_before_results (void)
 {
-    static const char words[] = "perigal: interrupted: nothing had been computed yet\n";
+    static const char words[] = "perigal: interrupted before its first step: the same command begins anew\n";
     ssize_t unused = write (STDERR_FILENO, words, sizeof words - 1);
     (void) unused;
     _exit (130);

@@ -173,20 +173,26 @@ static int same_file (const char *a, const char *b)
            && one.st_dev == other.st_dev;
 }
 
-/* A run in the folder of its own scene leaves that as it is. */
+/* A run in the folder of its own scene leaves that as it is. Written beside: a run that is killed leaves no
+ * part of it, which would pass for a scene of the user. */
 pg_status pg_result_copy_scene (const char *folder, const pg_scene *scene)
 {
     pg_status status = PG_OK;
-    char path[4096], *text = NULL;
+    char path[4096], fresh[4096 + 8], *text = NULL;
     FILE *f = NULL;
     snprintf (path, sizeof path, "%s/scene.yaml", folder);
+    snprintf (fresh, sizeof fresh, "%s.new", path);
     if (same_file (path, pg_scene_file (scene))) goto done;
     PG_TRY (copy_text (&text, scene));
-    PG_TRY (pg_file_create (&f, path));
+    PG_TRY (pg_file_create (&f, fresh));
     size_t n = strlen (text), wrote = fwrite (text, 1, n, f);
     int bad = fclose (f);
     f = NULL;
-    if (bad != 0 || wrote != n) PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (errno));
+    if (bad != 0 || wrote != n || rename (fresh, path) != 0) {
+        int why = errno;
+        remove (fresh);
+        PG_FAIL (PG_E_FILE, "cannot write %s: %s", path, strerror (why));
+    }
 done:
     if (f) fclose (f);
     pg_free (text);

@@ -68,7 +68,7 @@ for k in $(seq 28); do
             [ -e "$out/checkpoint.nc" ] || break
         done
     fi
-    if [ $signal = TERM ] && [ -e "$out/checkpoint.nc" ]; then grep -q -- '--resume' "$work/err" || [ ! -s "$work/err" ]; verdict "$k $kind: TERM tells how to go on" $?; fi
+    if [ $signal = TERM ] && [ -e "$out/checkpoint.nc" ]; then grep -q -- '--resume\|the same command begins anew' "$work/err" || [ ! -s "$work/err" ]; verdict "$k $kind: TERM tells how to go on" $?; fi
     if grep -q '"outcome": "done"' "$out/report.json" 2> /dev/null && [ ! -e "$out/checkpoint.nc" ]; then code=0; else resumed "${scene[@]}" -o "$out"; code=$?; fi
     same "$work/$kind" "$out" > "$work/why" 2>&1; other=$?
     verdict "$k $kind: $times times $signal, then the files of an undisturbed run" $((code + other))
@@ -83,9 +83,9 @@ for _ in $(seq 20); do                                 # 143: before the program
     [ $code -eq 143 ] && delay=$((delay * 3 / 2)) || delay=$((delay / 2))
     rm -rf "$work/early"
 done
-[ $code -eq 130 ] && grep -q 'nothing had been computed yet: the same command begins anew' "$work/err" && ! grep -q -- --resume "$work/err"
+[ $code -eq 130 ] && grep -q 'the same command begins anew' "$work/err" && ! grep -q -- --resume "$work/err"
 verdict "TERM before the first step: said, and what to do" $?
-[ -s "$work/early/report.json" ] && ! ls "$work/early"/*.png > /dev/null 2>&1; verdict "no pictures of nothing" $?
+! ls "$work/early"/*.png > /dev/null 2>&1; verdict "no pictures of nothing" $?
 run plate.yaml --set spacing='1 mm' -o "$work/early"; code=$?; [ $code -eq 0 ] && [ -s "$work/early/damage.png" ]; verdict "the same command begins anew" $?
 
 # ---- refusals

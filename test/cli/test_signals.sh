@@ -68,7 +68,7 @@ for scene in facets closed; do
     for k in 4 $((all / 8)) $((all / 3)) $((all * 2 / 3)) $((all * 9 / 10)); do
         rm -rf "$work/half"
         run 15 clock_gettime "$k" $scene -o "$work/half"
-        { [ $code -eq 0 ] || { [ $code -eq 130 ] && grep -q 'continue with\|nothing had been computed yet' "$work/err"; }; } \
+        { [ $code -eq 0 ] || { [ $code -eq 130 ] && grep -q 'continue with\|the same command begins anew' "$work/err"; }; } \
             && as_if_undisturbed $scene "$work/half" || bad_at="$bad_at $k"
     done
     echo "at $bad_at of $all" > "$work/why"
@@ -79,12 +79,12 @@ run 15 signal 1 block -o "$work/block"
 verdict "TERM while METIS orders the nodes and takes it for a failure of its own: a checkpoint" $?
 
 rm -rf "$work/half"; run 15 clock_gettime 3 facets -o "$work/half"
-[ $code -eq 130 ] && grep -q 'nothing had been computed yet' "$work/err" && [ ! -e "$work/half" ]
+[ $code -eq 130 ] && grep -q 'before its first step: the same command begins anew' "$work/err" && [ ! -e "$work/half" ]
 verdict "TERM while the run is prepared: the end at once, without a folder" $?
 
 # ---- TERM twice: what comes at once is one request, as of timeout, which sends its signal to process and group
 rm -rf "$work/half"; run 15 twice 1 facets -o "$work/half"
-[ $code -eq 130 ] && grep -q 'continue with\|nothing had been computed yet' "$work/err" && as_if_undisturbed facets "$work/half"
+[ $code -eq 130 ] && grep -q 'continue with\|the same command begins anew' "$work/err" && as_if_undisturbed facets "$work/half"
 verdict "TERM twice within a millisecond: a checkpoint or a word, and on to the same files" $?
 rm -rf "$work/half"; run 15 late 1 facets -o "$work/half"
 [ $code -eq 143 ]; verdict "TERM again after more than half a second: the end at once" $?
