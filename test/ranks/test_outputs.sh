@@ -12,6 +12,9 @@ for key in 'seconds peak_bytes ranks division parts skipped patch patch_error no
     report.pop(key, None)
 for key in 'points bonds dofs evaluation_points eroded_points isolated_nodes fragments steps events broken tips'.split():
     assert key in report, key
+# what is left unbalanced is rounding
+balance = report.pop('balance')
+assert balance['states'] > 0 and max(float(balance[key]) for key in ('forces', 'moments') if key in balance) < 1e-10, balance
 print(json.dumps(report, indent=1, sort_keys=True))
 warnings = [w for w in json.load(open(sys.argv[1]))['warnings'] if 'uniform stress' not in w]   # that of the patch test
 print('\n'.join(warnings))
