@@ -91,11 +91,11 @@ int       command_parse (command *c, int argc, char **argv);
 /* 1 if words follow a --set that belong to its value but lost their quotes; `out` gets the
  * message. */
 int       command_unquoted (char *out, size_t size, int argc, char **argv);
+/* The exit code of a program that ended with this one: what it printed must have been written (command.c). */
+int       command_written (const char *program, int code);
+int       command_threads (void);
 /* Shares processors and memory among so many jobs: threads of each, and its limit of memory as text. threads,
  * memory: what was asked for, 0: nothing (sweep.c). */
-int       command_threads (void);
-/* The exit code of a program that ended with this one: what it printed must have been written. */
-int command_written (const char *program, int code);
 void      command_share (int jobs, int *threads, double memory, char text[32]);
 /* The runs of --seeds; returns the exit code (seeds.c). */
 int       command_seeds (const command *c);
@@ -120,10 +120,10 @@ typedef struct {
     pg_solver  *solver;
     pg_state   *state;
 } preparation;
-/* From the scene, which the caller has loaded, to the problem and its patch test; refused where memory is
- * short. thorough: afford_problem. Of ranks that share the body the forecast stays empty. */
 /* The threads of libraries are this program's to settle: once the scene is read, also those of BLAS. */
 void      settle_blas_too (void);
+/* From the scene, which the caller has loaded, to the problem and its patch test; refused where memory is
+ * short. thorough: afford_problem. Of ranks that share the body the forecast stays empty. */
 pg_status prepare_problem (preparation *r, const command *c, int thorough);
 /* The solver, which settles what the options leave open. */
 pg_status prepare_solver  (preparation *r);

@@ -25,7 +25,7 @@ static void end_before_results (void)
     static const char words[] = "perigal: interrupted before its first step: the same command begins anew\n";
     ssize_t unused = write (STDERR_FILENO, words, sizeof words - 1);
     (void) unused;
-    _exit (130);
+    _exit (PG_EXIT_INTERRUPTED);
 }
 
 /* One request may come as several signals: timeout sends its own to the process and to the group of the
