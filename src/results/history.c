@@ -364,10 +364,10 @@ pg_status pg_result_history_row (pg_result *r, const pg_state *state, const pg_s
     PG_TRY (pg_result_tips_row (r, state, step, r->row + n, r->u));
     n += r->ntip;
     PG_TRY (pg_result_paths_row (r, state, r->row + n));
-    n += pg_result_paths_columns (r);
-    PG_TRY (pg_result_crack_row (r, state, r->row + n));
-    for (size_t k = n; k < n + pg_result_crack_columns (r); k++) r->row[k] = pg_result_once (r->row[k]);
-    n += pg_result_crack_columns (r);
+    PG_TRY (pg_result_crack_row (r, state, r->row + n + pg_result_paths_columns (r)));
+    /* of cracks every rank knows the whole */
+    for (size_t end = n + pg_result_paths_columns (r) + pg_result_crack_columns (r); n < end; n++)
+        r->row[n] = pg_result_once (r->row[n]);
     r->row[n++] = report->energy_strain, r->row[n++] = report->energy_kinetic,
     r->row[n++] = report->energy_external;
     r->row[n++] = report->energy_dissipated, r->row[n++] = (double) report->broken,

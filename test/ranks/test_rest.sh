@@ -57,5 +57,12 @@ coarse "coarse levels of PETSc" rest.yaml "4" 'multilevel, .* GAMG .PETSc.' "${o
 equal "coarse levels of PETSc" rest.yaml "4" "${one[@]}" --set "$comb" --set spacing='0.5 mm' --set method.horizon='2.015 spacing'
 equal "points off the lattice" rest.yaml "3" --set solver.steps=2 --set perturb.amount=0.1
 grep -q '"preconditioner": "GAMG (PETSc)' "$work/some/report.json"; verdict "have the preconditioner of PETSc" $?
+# of tips every rank knows the whole, or none may be asked for
+tips=(--set solver.steps=1 --set failure.critical_stretch=10 --set method.force=lps --set materials.steel.poissons_ratio=0.25 --set output.stress_intensity=yes)
+rm -rf "$work/some"
+alone rest.yaml -o "$work/one" --force "${tips[@]}" --set solver.division=auto && ranks 3 rest.yaml -o "$work/some" "${tips[@]}" --set solver.division=matrices \
+    && grep -q 'tip.1.K_I ' "$work/some/history.csv" && alike 1e-8 "$work/one" "$work/some" history.csv residual; verdict "J and K of tips are the same on 3 ranks" $?
+ranks 2 rest.yaml -o "$work/none" "${tips[@]}"
+[ $? -eq 65 ] && grep -q output.stress_intensity "$work/err"; verdict "parts of a body have no J and K, and it is said" $?
 equal "by the diagonal" rest.yaml 3 --set solver.preconditioner=jacobi --set solver.steps=2
 finish
