@@ -303,7 +303,9 @@ done:
 static pg_status keep_system (pg_system *s, int solves, const pg_keeper *k)
 {
     pg_status status = PG_OK;
-    long count[11] = { s->mode,  s->indefinite, s->kept,   s->marked, s->factored != NULL,
+    /* without a factor, and after its preconditioner was dropped, no use is made of `factored` any more */
+    int made_of = s->factored && (system_has_matrix (s) || system_has_preconditioner (s) || s->remake);
+    long count[11] = { s->mode,  s->indefinite, s->kept,   s->marked, made_of,
                       s->stale, s->unshifted,  s->spared, s->base,   s->loose,
                        s->by_columns };
     double number[3] = { s->mean_diagonal, s->shift, s->extra_cost };

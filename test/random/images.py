@@ -67,6 +67,14 @@ class Image:
                 return SIDES[i][pair.index(name) if self.matrix[i][j] > 0 else 1 - pair.index(name)]
         return name
 
+    def axes_of(self, material):
+        """Where the axes of an orthotropic material come to lie."""
+        if self.dimension == 2:
+            a = material.get('angle', 0.0)
+            x, y = self.turned([math.cos(a), math.sin(a)])
+            return {'angle': math.atan2(y, x)}
+        return {key: self.turned(material.get(key, [float(k == n) for k in range(3)])) for n, key in enumerate(('axis_1', 'axis_2'))}
+
     def scene(self, scene):
         return self.walk(copy.deepcopy(scene), '')
 
@@ -84,6 +92,9 @@ class Image:
                 vertices = [self.place(v + [0.0])[:2] for v in value['vertices']]
                 ends = [self.place([0.0, 0.0, value[k]])[2] for k in ('low', 'high')]
                 return {**value, 'vertices': vertices, 'low': min(ends), 'high': max(ends)}
+            if value.get('model') == 'orthotropic':
+                value = {**value, **self.axes_of(value)}
+                return {k: v if k in ('angle', 'axis_1', 'axis_2') else self.walk(v, k) for k, v in value.items()}
             return {k: self.walk(v, k) for k, v in value.items()}
         if isinstance(value, list):
             if key in PLACES:

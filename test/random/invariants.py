@@ -53,8 +53,10 @@ WITHOUT = ('_x', '_y', '_z')
 
 
 def scales(case):
-    """The largest value of each unit over the run; moments at least forces on an arm of the body, energies at least one of them."""
-    scale = {}
+    """The largest value of each unit over the run, but not what rounding leaves of a body that cracks have parted: forces at least 1e-5 of the strength
+    that the loads stand for; moments at least forces on an arm of the body."""
+    size = 1e-5 * 1e6 * case.data.get('thickness', 1.0)
+    scale = {'N': size, 'J': 1e-3 * size}
     for k, name in enumerate(case.base.names):
         values = [abs(row[k]) for row in case.base.rows if math.isfinite(row[k])]
         scale[unit_of(name)] = max([scale.get(unit_of(name), 0.0)] + values)
@@ -63,12 +65,12 @@ def scales(case):
     return scale
 
 
-def differs(case, other, image=None, tolerance=SAME, only_last=False):
+def differs(case, other, image=None, tolerance=SAME, only_first=False):
     """The worst column of the run of an image against the base; '' where all agree."""
     base = case.base
     if not other.done:
         return f'ends with {other.code}: {other.first_words()}'
-    if not base.rows or len(base.rows) != len(other.rows):
+    if not base.rows or not other.rows or len(base.rows) != len(other.rows) and not only_first:
         return f'{len(other.rows)} rows for {len(base.rows)}'
     image = image or Image(case.scene.dimension)
     scale, worst, text = scales(case), 0.0, ''
@@ -81,7 +83,7 @@ def differs(case, other, image=None, tolerance=SAME, only_last=False):
         if any(p not in other.names for p, _ in parts):
             return f'no column {name}'
         where = [(other.names.index(p), w) for p, w in parts]
-        for r in [-1] if only_last else range(len(base.rows)):
+        for r in [0] if only_first else range(len(base.rows)):
             mine, its = factor * base.rows[r][k], sum(w * other.rows[r][j] for j, w in where)
             if math.isnan(mine) and math.isnan(its):
                 continue
@@ -136,10 +138,10 @@ def balanced(case):
             columns = [k for k, n in enumerate(names) if f'.{what}_{a} [' in n]
             if not columns:
                 continue
+            size = max([scales(case)['N']] + [sum(abs(row[k]) for k, n in enumerate(names) if '.force_' in n) for row in case.base.rows])
             for row in case.base.rows:
-                size = sum(abs(row[k]) for k, n in enumerate(names) if '.force_' in n)
                 total = sum(row[k] for k in columns)
-                if size and abs(total) > bound * size:
+                if size and abs(total) > bound * size and not case.base.warned('miss balance'):
                     yield f'{what} {a} out of balance by {total / size:.2e} of the forces'
                     break
 
@@ -156,7 +158,7 @@ def energies(case):
     breaks = 'failure' in case.data
     if not breaks and case.scene.kind in ('elastic', 'tips', 'motion') and abs(e['dissipated']) > 1e-6 * size:
         yield f'elastic, yet {e["dissipated"] / size:.2e} of the energy is lost'
-    if breaks and e['dissipated'] < -1e-6 * size and not case.base.warned('dissipated'):
+    if breaks and e['dissipated'] < -1e-6 * size and not case.base.warned('has fed'):
         yield f'energy is created: {e["dissipated"] / size:.2e}'
 
 
@@ -226,7 +228,8 @@ def nudged(case):
 
 
 def threaded(case):
-    text = differs(case, case.run(options=('--threads', '2')), tolerance=0.0)
+    # BLAS shares the blocks of a factor among threads, which rounds them otherwise
+    text = differs(case, case.run(options=('--threads', '2')), tolerance=EVENTS if 'failure' in case.data else 1e-9)
     if text:
         yield f'two threads: {text}'
 
@@ -316,6 +319,8 @@ def rigid(case):
     if set(next((b for b in case.data['boundary'] if 'displacement' in b), {'displacement': {}})['displacement']) != set('xyz'[:d]):
         return
     run = case.run(stiff)
+    if not run.done and run.code == REFUSED and 'uniform stress' in run.said:
+        return                                          # by the patch test, with this support alone
     if not run.done:
         yield f'moved as a rigid body: ends with {run.code}: {run.first_words()}'
         return
@@ -332,6 +337,9 @@ def turned_little(case):
         return
     if any('box' in part.get('add', part.get('subtract', {})) for part in case.data['body']) or any('model' in m for m in case.data['materials'].values()):
         return
+    acts = [load.get('set', 'all') for load in case.data['boundary']]
+    if any('boundary' not in case.data['sets'].get(name, ['boundary']) for name in acts if name in case.data.get('sets', {})):
+        return                                          # of so few points other ones are taken
     run = case.program.run(turn(2, math.radians(37)).scene(case.data), case.scene.files)
     if not run.done:
         return
@@ -349,7 +357,8 @@ def soft_spring(case):
     def add(data):
         data['boundary'].append({'name': 'soft', 'set': 'all', 'spring': {'all': 1e-9 * 1e9 * data.get('thickness', 1.0)}})
     run = case.run(add)
-    text = differs(case, run, tolerance=1e-4) if run.done or run.code != REFUSED else ''
+    # of a crack that grows the first event: what has nearly come apart hangs on the spring
+    text = differs(case, run, tolerance=1e-4, only_first=case.scene.kind == 'facets') if run.done or run.code != REFUSED else ''
     if text:
         yield f'with a soft spring: {text}'
 
@@ -370,10 +379,14 @@ def loose(case):
     """A second body that nothing holds, under a load, is refused."""
     if case.scene.kind != 'elastic' or not case.lattice or case.scene.dimension == 3 and case.data['method'].get('force') == 'fcbm':
         return
+    if any('spring' in load for load in case.data['boundary']):
+        return                                          # on all points, those of the second body too
     h, d = case.data['spacing'], case.scene.dimension
     def add(data):
         low = [3.0] * d
         data['body'].append({'add': {'box': {'low': low, 'high': [3.0 + 8 * h] * d}}})
+        for places in data.get('sets', {}).values():
+            places['where'] = f"({places['where']}) and x < 2.5"
         data.setdefault('sets', {})['lost'] = {'where': 'x > 2.9'}
         data['boundary'].append({'name': 'lost', 'set': 'lost', 'body_force': {'x': 1e6}})
         # the sides of the bounding box are others now
@@ -422,10 +435,14 @@ def falling(case):
     if case.scene.kind not in ('motion', 'explicit') or not case.base.done:
         return
     d = case.scene.dimension
+    # lumped masses lie at the nodes, and the middle of those of cut cells not quite in the middle of the body, which turns for it
+    exact = case.scene.kind == 'motion' and case.data['method'].get('force', 'galerkin') == 'galerkin'
     def fall(data):
         data.pop('failure', None)
         data.pop('cracks', None)
         data['boundary'] = [{'name': 'weight', 'gravity': [0.0, -10.0, 0.0][:d], 'ramp': 'constant'}]
+        if exact:
+            data['solver']['mass'] = 'consistent'
         data['output']['averages'] = [{'name': 'fall', 'set': 'all', 'field': 'displacement.y'}]
         return data
     run = case.run(fall)
@@ -436,7 +453,7 @@ def falling(case):
         return
     t, u = run.last('time'), run.last('fall')
     right = -5.0 * t * t
-    if run.report['energy']['strain'] > 1e-9 * abs(run.report['energy']['external']) or abs(u - right) > 0.02 * abs(right) + 1e-9:
+    if run.report['energy']['strain'] > (1e-9 if exact else 0.01) * abs(run.report['energy']['external']) or abs(u - right) > 0.02 * abs(right) + 1e-9:
         yield f'free fall: {u:.6g} m for {right:.6g}, strain energy {run.report["energy"]["strain"]:.3g} of work {run.report["energy"]["external"]:.3g} J'
 
 

@@ -44,7 +44,7 @@ class Run:
         return any(all(w in text for w in words) for text in self.report.get('warnings', []))
 
     def first_words(self):
-        lines = [line for line in self.said.splitlines() if line.strip()]
+        lines = [line for line in self.said.splitlines() if line.strip() and 'warning: ' not in line]
         return lines[0][:220] if lines else ''
 
 
