@@ -34,6 +34,9 @@ typedef struct {
      * borders of subdomains counted more than once (pg_set_points, pg_set_facets, pg_set_inner); only where
      * ranks share a run. */
     size_t  all_points, all_facets, all_inner;
+    /* 1: the set was chosen by its faces (a side, a part of a shape, `boundary`, a side set of a mesh), not
+     * by a condition on places: a total force is then spread over its area. */
+    int     by_faces;
 } pg_set;
 /* Numbers of points and facets of the set on all ranks. */
 static inline size_t pg_set_points (const pg_set *s) { return pg_ranks_now () ? s->all_points : s->npoint; }

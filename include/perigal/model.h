@@ -53,6 +53,9 @@ typedef struct pg_load {
     int            turns, finite;  pg_expression *angle[3];
     int            symmetry;                           /* 1 + axis across a plane of symmetry; 0: none */
     int            weighs;                             /* a force per volume times the density */
+    /* m^2: a total force on faces is a traction, its value (N) over this area, thickness included; 0: the
+     * values of other loads are as they stand */
+    double         over_area;
     /* A force or spring at a place `at`, m: shares of the points around it, which sum up to 1 and have their
      * centre there (set->npoint); NULL: all points of the set alike. The set is then the load's own. */
     double         at[3], *share;  pg_set *own;

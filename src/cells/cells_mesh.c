@@ -190,6 +190,7 @@ static pg_status add_given (pg_cells *out, size_t *capacity, marks *k, const cha
     pg_set *set = &out->given[out->ngiven];
     memset (set, 0, sizeof *set);
     snprintf (set->name, sizeof set->name, "%s", name);
+    set->by_faces = sides != 0;
     out->ngiven++;
     PG_TRY (pick (&set->point, &set->npoint, k->point, k->npoint));
     PG_TRY (pick (&set->facet, &set->nfacet, k->facet, k->s->nfacet));

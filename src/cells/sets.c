@@ -10,8 +10,11 @@
 #include <stdio.h>
 #include <string.h>
 
-/* The sets under construction. faces: the present marks are those of faces, so that the set has no inside. */
-typedef struct { pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; int faces; } builder;
+/* The sets under construction. faces: the present marks are those of faces, so that the set has no inside.
+ * by_faces: they are those of a side set of a mesh. */
+typedef struct {
+    pg_sets *out; size_t capacity; pg_marks marks; const pg_scene *scene; int faces, by_faces;
+} builder;
 
 /* ---- from marks to sets -------------------------------------------------------------------------------- */
 /* Indices, ascending, of the marked items among `all`; side >= 0: only those whose position x is beyond the
@@ -64,6 +67,7 @@ static pg_status add_one (builder *b, const char *name, int side)
               side < 0 ? "" : pg_side_names[side]);
     PG_TRY (gather (&s->point, &s->npoint, m, m->point, m->cloud->n, m->cloud->x, side));
     PG_TRY (gather (&s->facet, &s->nfacet, m, m->facet, m->cells->nfacet, m->cells->facet_centre, side));
+    s->by_faces = b->faces || b->by_faces;
     if (!b->faces) PG_TRY (gather_inner (s, m));
     double all[3] = { 0, (double) s->nfacet, 0 };
     for (size_t i = 0; i < s->npoint; i++) all[0] += pg_owns (m->cloud->subdomain, (size_t) s->point[i]);
@@ -102,8 +106,10 @@ static pg_status add_predefined (builder *b)
         if (pg_sets_find (b->out, name)) continue;
         pg_marks_fill (&b->marks, 0);
         pg_marks_boundary (&b->marks, name);
+        b->by_faces = b->marks.cells->given[i].by_faces;
         PG_TRY (add_set (b, name));
     }
+    b->by_faces = 0;
 done:
     return status;
 }

@@ -44,7 +44,8 @@ static const pg_key keys[] = {
     LOAD ("rotation", "rad", "gmpd: prescribed rotation (2D: z)."),
     LOAD ("moment", "N m", "gmpd: total moment, shared equally by the points of the set (2D: z)."),
     LOAD ("traction", "Pa", "Force per area on boundary facets."),
-    LOAD ("force", "N", "Total force, shared equally by the points of the set."),
+    LOAD ("force", "N", "Total force: on a side, a part of a shape or a set with `boundary` evenly over its "
+          "area, as a traction; on other sets in equal shares on their points."),
     LOAD ("body_force", "N/m3", "Force per volume; set all: everywhere, else on the points of the set."),
     { "boundary[].pressure", PG_EXPRESSION, "Pa", NULL, "", NULL, NULL, "load:one",
       "Pressure against the boundary facets (positive pushes inwards)." },

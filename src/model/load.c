@@ -84,6 +84,12 @@ pg_place pg_place_of (int dim, const double *x, double t)
     return at;
 }
 
+/* A total force per area of the faces on which it acts. */
+static double spread (const pg_load *load, double value)
+{
+    return load->over_area > 0 ? value / load->over_area : value;
+}
+
 /* Expression at (x, t) times the factor of t. Radius and angle cost a root and an arc tangent, and are
  * only computed for expressions that use them. */
 double pg_load_value (const pg_load *load, int k, int dim, const double *x, double t)
@@ -98,7 +104,7 @@ double pg_load_value (const pg_load *load, int k, int dim, const double *x, doub
                 || pg_expression_uses (ramp, 'a');
     pg_place at = polar ? pg_place_of (dim, x, t)
                         : (pg_place){ x[0], dim > 1 ? x[1] : 0, dim > 2 ? x[2] : 0, 0, 0, t };
-    return pg_expression_value (load->value[k], &at) * factor_at (load, &at);
+    return spread (load, pg_expression_value (load->value[k], &at)) * factor_at (load, &at);
 }
 
 /* Does the expression change from place to place? */
@@ -131,7 +137,7 @@ double pg_load_pattern (const pg_load *load, int k, int dim, const double *x)
     if (!load->value[k]) return 0;
     pg_place at = pg_place_of (dim, x, 0);
     if (load->turns) return pg_load_turned (load, k, dim, x, &at, 1);
-    return pg_expression_value (load->value[k], &at);
+    return spread (load, pg_expression_value (load->value[k], &at));
 }
 
 /* The ramp as an expression in t. Words: linear (from 0 to 1 over the run) or constant. A velocity's ramp
@@ -419,6 +425,7 @@ static pg_status read_load (pg_problem *problem, pg_load *load, const pg_scene *
                         problem->method->name, pg_methods_with_rotations (problem, names, sizeof names));
     PG_TRY (read_where (problem, load, scene, i));
     if (!load->set) goto done;
+    PG_TRY (pg_load_spread_force (problem, load));
     snprintf (path, sizeof path, "boundary[%zu].set", i);
     if (is_static && load->kind == PG_VELOCITY)
         pg_scene_fault (scene, path, "a static run has no velocity: prescribe a displacement");

@@ -52,6 +52,22 @@ done:
     return status;
 }
 
+/* A total force on a set of faces acts on these, evenly by their area, as a traction does; equal shares of
+ * their points would act up to half a spacing inside the body, and as strongly at a corner as elsewhere. */
+pg_status pg_load_spread_force (const pg_problem *p, pg_load *load)
+{
+    pg_status status = PG_OK;
+    double area = 0;
+    if (load->kind != PG_POINT_FORCE || !load->set->by_faces || pg_set_facets (load->set) == 0) return PG_OK;
+    for (size_t i = 0; i < load->set->nfacet; i++)
+        if (pg_problem_owns_facet (p, (size_t) load->set->facet[i]))
+            area += p->cells.area[load->set->facet[i]];
+    PG_TRY (pg_ranks_sum (1, &area));
+    if (area > 0) load->kind = PG_TRACTION, load->over_area = area;
+done:
+    return status;
+}
+
 /* boundary[].about, or the centre of the set. */
 pg_status pg_load_centre (const pg_problem *p, pg_load *load, const pg_scene *scene, size_t i)
 {

@@ -15,6 +15,7 @@ void      pg_loads_clear (pg_problem *problem);
  * a
  * set; keys that are no maps of components. */
 pg_status pg_load_centre (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
+pg_status pg_load_spread_force (const pg_problem *problem, pg_load *load);
 pg_status pg_load_read_place    (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
 pg_status pg_load_read_turn     (const pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);
 pg_status pg_load_read_symmetry (pg_problem *problem, pg_load *load, const pg_scene *scene, size_t i);

@@ -67,8 +67,8 @@ static void check_all (against *a, const pg_method *method)
         refuse (a, "contact.kind", "contact is for one process only so far");
     if (pg_scene_bool (scene, "output.stress_intensity"))
         refuse (a, "output.stress_intensity",
-                "J and K are taken from fields around each tip, of which a rank that divides the body holds a "
-                "part: use one process, or, for equilibria, division: matrices");
+                "J and K are taken from fields around each tip, of which a rank that divides the body holds "
+                "a part: use one process, or, for equilibria, division: matrices");
     snprintf (text, sizeof text, "%s is not divided among ranks so far", method->name);
     if (method->ghost_cells) check_cells (a);
     if (!(method->ghosts > 0)) refuse (a, "method.force", text);

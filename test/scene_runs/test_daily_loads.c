@@ -64,6 +64,28 @@ static void moments_are_about_the_centre (void **state)
     clear (&r);
 }
 
+/* A total force on a side is a traction there, whatever carries it and wherever the points lie. */
+static void a_force_on_a_side_is_a_traction (void **state)
+{
+    (void) state;
+    static const char *const loads[] = { "force: {x: 2 kN, y: 3 kN}", "traction: {x: 20 kPa, y: 30 kPa}" };
+    for (int k = 0; k < METHODS - 1; k++)
+        for (int cells = 0; cells < 2; cells++) {
+            double strain[2];
+            for (int l = 0; l < 2; l++) {
+                run r = scene_of (1, "%s%slattice: %s\nboundary:\n"
+                                     "  - {set: left, displacement: {x: 0, y: 0}}\n  - {set: right, %s}\n",
+                                  PLATE, methods[k], cells ? "cells" : "nodes", loads[l]);
+                to_the_end (&r);
+                strain[l] = pg_solver_report (r.solver, r.state)->energy_strain;
+                check_relative (r.step.reaction[3], 2e3, 1e-9);
+                check_relative (r.step.reaction[4], 3e3, 1e-9);
+                clear (&r);
+            }
+            check_relative (strain[0], strain[1], 1e-7);
+        }
+}
+
 /* A force at a place between points: resultant and moment are exact, whatever carries it; also beside a
  * crack,
  * whose other side it does not reach. */
@@ -314,6 +336,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (forces_and_moments_close),
         cmocka_unit_test (moments_are_about_the_centre),
+        cmocka_unit_test (a_force_on_a_side_is_a_traction),
         cmocka_unit_test (a_force_at_a_place_is_exact),
         cmocka_unit_test (a_column_weighs),
         cmocka_unit_test (a_spring_in_series),
