@@ -15,7 +15,10 @@ enum { MOST_BY_ELEMENTS = 300 };
 /* On a coarse grid there are more iterations, and each is cheap. */
 enum { MOST_ON_GRID = 1000 };
 
-int system_has_preconditioner (const pg_system *s) { return s->multilevel || s->elements || s->amg; }
+int system_has_preconditioner (const pg_system *s)
+{
+    return s->multilevel || s->elements || s->amg || s->whole_factor;
+}
 
 void system_forget_preconditioner (pg_system *s)
 {
@@ -175,15 +178,17 @@ pg_status system_make_preconditioner (pg_system *s, double k, double m)
 {
     pg_status status = PG_OK;
     double t0 = pg_seconds ();
-    int can;
+    int can, whole;
     system_forget_preconditioner (s);
     /* finds what constraints leave, also in a resumed run */
     PG_TRY (system_can_precondition (s, NULL, &can));
-    PG_TRY (s->force->elements ? make_by_elements (s, k, m)
-            : system_is_shared (s) ? system_make_shared (s, k, m) : make_by_rows (s));
+    s->made[0] = k, s->made[1] = m;
+    PG_TRY (system_make_shared_factor (s, &whole));
+    if (!whole)
+        PG_TRY (s->force->elements ? make_by_elements (s, k, m)
+                : system_is_shared (s) ? system_make_shared (s, k, m) : make_by_rows (s));
     s->report->preconditioners++;
     s->extra_cost = s->pace = 0;
-    s->made[0] = k, s->made[1] = m;
     if (!system_by_ranks (s)) tell (s);
     PG_TRY (system_remember_alive (s));
 done:

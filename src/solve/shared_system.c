@@ -147,10 +147,14 @@ done:
 }
 
 /* 1: the preconditioner at hand is one of the above. */
-int system_by_ranks (const pg_system *s) { return s->amg || (s->multilevel && system_is_shared (s)); }
+int system_by_ranks (const pg_system *s)
+{
+    return s->amg || s->whole_factor || (s->multilevel && system_is_shared (s));
+}
 
 static pg_status solve_together (pg_system *s, const double *r, double *z)
 {
+    if (s->whole_factor) return system_apply_shared_factor (s, r, z);
     if (s->amg) return pg_shared_preconditioner_now ()->solve (s->amg, r, z);
     pg_preconditioner P = pg_multilevel_preconditioner (s->multilevel);
     return P.solve (P.context, r, z);
@@ -197,5 +201,6 @@ done:
 
 void system_free_shared (pg_system *s)
 {
+    system_free_shared_factor (s);
     if (s->amg) pg_shared_preconditioner_now ()->free (&s->amg);
 }

@@ -113,6 +113,7 @@ typedef struct {
     pg_multilevel *multilevel;                         /* NULL: not used, or not made yet */
     pg_element_preconditioner *elements;               /* the same */
     void     *amg;                                     /* the same, of ranks that share the body */
+    struct shared_factor *whole_factor;                /* the same, of ranks that share a small one */
     unsigned char *bare;  /* the same: unknowns that nothing holds any more (ndof); NULL: not asked for */
     double   *whole;  /* ranks that share the body: x of K x with its ghosts (ndof); else NULL */
     double    made[2];                                 /* k and m of the preconditioner */
@@ -155,6 +156,10 @@ pg_status system_find_bare    (pg_system *s, const dynamics *dyn);     /* after 
 void      system_clear_rest   (const pg_system *s, double *z);         /* ghosts, and what nothing holds */
 pg_status system_apply_shared (pg_system *s, const double *r, double *z);
 void      system_free_shared  (pg_system *s);
+/* shared_factor.c: a factor of k K + m M (s->made) that every rank has; *made 0: not of this body */
+pg_status system_make_shared_factor  (pg_system *s, int *made);
+pg_status system_apply_shared_factor (const pg_system *s, const double *r, double *z);
+void      system_free_shared_factor  (pg_system *s);
 int       system_has_matrix (const pg_system *s);       /* the force offers K itself */
 pg_status system_create  (pg_system *s);               /* fields up to report set by the caller */
 void      system_free    (pg_system *s);
