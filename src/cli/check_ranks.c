@@ -16,12 +16,13 @@ typedef struct {
     int         divided, components, rank;             /* numbers a point exchanges; the rank of `largest` */
     const char *join;                                  /* output.join */
     const char *occasion;                              /* when ghosts are exchanged */
+    pg_statistics warned;                              /* of the built problem, as a run warns of it */
 } outlook;
 
 /* ---- finding out --------------------------------------------------------------------------------------- */
-/* All faults that a run on so many ranks would name. Where a part of the body alone fits this machine, those
+/* All faults that a run on so many ranks would name, and what it would warn of. Where a part of the body alone fits this machine, those
  * that show only in the built problem are not looked for (*built 0). */
-static pg_status look_for_faults (const outlook *o, const pg_scene *scene, int *built)
+static pg_status look_for_faults (outlook *o, const pg_scene *scene, int *built)
 {
     pg_status status = PG_OK;
     pg_ranks all;
@@ -35,6 +36,7 @@ static pg_status look_for_faults (const outlook *o, const pg_scene *scene, int *
     else if (o->divided) PG_TRY (pg_subdomain_check (o->whole.method, scene));
 done:
     pg_ranks_join (NULL);
+    if (status == PG_OK && p) pg_solver_doubts (&o->warned, p, &options);
     pg_problem_free (&p);
     return status;
 }
@@ -204,6 +206,7 @@ int check_ranks (const command *c)
         printf ("  too large to be built by this machine as a whole: faults that show only then are not "
                 "known\n");
     if (!c->quiet) print_all (&o);
+    if (!c->quiet) plan_warnings (&o.warned, NULL);
 done:
     if (status != PG_OK) command_complain (status, pg_last_error ());
     pg_scene_free (&counted), pg_scene_free (&scene);

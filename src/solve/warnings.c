@@ -116,14 +116,14 @@ static void doubt_all (pg_statistics *report, const pg_problem *p)
 }
 
 /* How far the points of a set lie inside its facets, m, on the mean; *across: the extent of the body along
- * the normals there, m. 0: it has no facets, or its points lie on them. */
+ * the normals there, m. 0: it has no facets, or its points lie on them. All ranks ask. */
 static double depth_of (const pg_problem *p, const pg_set *set, double *across)
 {
     enum { SAMPLE = 64 };
-    size_t dim = (size_t) p->dim, step = set->nfacet / SAMPLE + 1, looked = 0;
-    double sum = 0;
-    *across = 0;
-    for (size_t f = 0; f < set->nfacet; f += step, looked++) {
+    size_t dim = (size_t) p->dim, step = set->nfacet / SAMPLE + 1;
+    double sum[3] = { 0 };                             /* of depths, of extents, of facets */
+    for (size_t f = 0; f < set->nfacet; f += step) {
+        if (!set->npoint || !pg_problem_owns_facet (p, (size_t) set->facet[f])) continue;
         const double *c = p->cells.facet_centre + (size_t) set->facet[f] * dim,
                      *n = p->cells.normal + (size_t) set->facet[f] * dim;
         double best = INFINITY, deep = 0;
@@ -135,12 +135,12 @@ static double depth_of (const pg_problem *p, const pg_set *set, double *across)
             }
             if (far < best) best = far, deep = along;
         }
-        sum += deep;
-        for (size_t k = 0; k < dim; k++)
-            *across += fabs (n[k]) * (p->cloud.high[k] - p->cloud.low[k]);
+        sum[0] += deep, sum[2] += 1;
+        for (size_t k = 0; k < dim; k++) sum[1] += fabs (n[k]) * (p->cloud.high[k] - p->cloud.low[k]);
     }
-    *across = looked ? *across / (double) looked : 0;
-    return looked ? sum / (double) looked : 0;
+    if (p->cloud.subdomain && pg_ranks_sum (3, sum) != PG_OK) sum[2] = 0;
+    *across = sum[2] > 0 ? sum[1] / sum[2] : 0;
+    return sum[2] > 0 ? sum[0] / sum[2] : 0;
 }
 
 /* Prescribed at points, displacements act where these lie: on a lattice of centres half a spacing inside the
@@ -148,11 +148,11 @@ static double depth_of (const pg_problem *p, const pg_set *set, double *across)
 static void doubt_depth (pg_statistics *report, const pg_problem *p)
 {
     double across;
-    if (!p->method || !p->method->shape_functions || p->cloud.subdomain) return;
+    if (!p->method || !p->method->shape_functions) return;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || load->share
-            || load->set->npoint <= (size_t) p->dim)
+            || pg_set_points (load->set) <= (size_t) p->dim)
             continue;                                  /* so few points are a pin */
         double deep = depth_of (p, load->set, &across);
         if (!(deep > 0.1 * p->cloud.h) || !(across > 0)) continue;

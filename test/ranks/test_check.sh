@@ -26,6 +26,11 @@ refused() {
     [ $k -eq "$code" ] && [ ! -s "$work/out" ] && grep -q "$pattern" "$work/err"; verdict "$name" $?
 }
 touching=(--set contact.kind=normal --set output.at.rows=5)
+# what a run on ranks warns of before its first step, whether or not they divide the body
+told='warning: s acts at points 0.05 m inside the surface, 0.5 spacings: the body is about 5.6 % shorter'
+inside=(../defects/small_hole.yaml --set method.essential=penalty)
+"$perigal" check "${inside[@]}" --ranks 2 > "$work/out" 2> "$work/err" && grep -q "$told" "$work/out"; verdict "supports inside the surface are told" $?
+
 refused "what is not divided so far: key and why" 65 'contact.kind = normal: 3 ranks: contact is for one process only so far' plate.yaml 3 "${touching[@]}"
 sed 's/^failure/contact: {kind: normal}\n&/' plate.yaml > "$work/touching.yaml"
 refused "file and line too" 65 '^[^ ]*touching.yaml:[0-9]*:[0-9]*: contact.kind = normal: 3 ranks: contact' "$work/touching.yaml" 3
@@ -41,6 +46,12 @@ verdict "a body that the machine cannot hold is divided all the same" $?
 if [ ! -x "$mpi" ] || ! command -v mpirun > /dev/null; then finish; fi
 . ./mpirun.sh
 "$mpi" check plate.yaml --ranks 3 > "$work/out" 2> "$work/err" && diff plans/plate.txt "$work/out" > "$work/why"; verdict "perigal-mpi check says the same" $?
+
+for division in matrices subdomains; do
+    ranks 3 "${inside[@]}" -o "$work/inside" --set body='[{add: {box: {low: [0, 0], high: [1, 1]}}}]' --set "solver={kind: static, division: $division}" && grep -q "$told" "$work/err"
+    verdict "by the run too: $division" $?
+    rm -rf "$work/inside"
+done
 
 # met NAME RANKS SCENE ARGUMENTS...: the parts of the report are those of the plan; peak memory of each rank within a quarter
 met() {
