@@ -216,6 +216,10 @@ stress: packages     ## conditions x methods, 45 minutes on two cores; rows in o
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
 	$(Q)test/stress/run $(BUILD) $(SIZE) $(JOBS)
 
+random: packages     ## 2000 random scenes under invariants, 60 minutes on two cores (FROM=seed COUNT=n PART=k/n KIND=.. ONLY=..); goes on where it was broken off
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(MPI)
+	$(Q)test/random/run $(BUILD) FROM=$(or $(FROM),1) COUNT=$(or $(COUNT),2000) JOBS=$(JOBS) PART=$(or $(PART),1/1) KIND=$(KIND) ONLY=$(ONLY)
+
 fresh:               ## make demo and make test on a bare Debian in a folder (root, debootstrap)
 	$(Q).ci/fresh
 
@@ -277,6 +281,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
+.PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress random fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(MPIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)

@@ -6,6 +6,7 @@ nothing. A refusal of an image of a scene that ran is a violation too: whether a
 import copy
 import math
 
+import reference
 from images import Image, mirror, quarter, turn
 from runs import DONE, FAILED, INTERRUPTED, REFUSED, USAGE
 
@@ -349,6 +350,21 @@ def turned_little(case):
         yield f'turned by 37 degrees: strain energy {b:.6g} for {a:.6g}'
 
 
+def as_elements(case):
+    """The strain energy is that of finite elements on the same body, within what the run says of its own error."""
+    if case.scene.kind != 'elastic' or not reference.available() or not reference.serves(case.data) or not case.base.report['energy']['strain']:
+        return
+    h, folder = case.data['spacing'], case.program.folder({}, [])
+    rough, fine = (reference.energy(case.data, folder, size) for size in (h, 0.5 * h))
+    if not rough or not fine or abs(fine - rough) > 0.1 * fine:
+        return                                          # too large for a test, or no reference
+    galerkin = case.data['method'].get('force', 'galerkin') == 'galerkin'
+    told = 3 * case.base.report['patch_error'] + (2 * case.base.report['error_estimate']['relative'] if galerkin else 0)
+    found = case.base.report['energy']['strain'] / fine - 1
+    if abs(found) > told + abs(fine - rough) / fine + 1e-3:
+        yield f'strain energy {100 * found:+.1f} % off that of finite elements, {case.base.report["energy"]["strain"]:.6g} for {fine:.6g} J; told: {100 * told:.1f} %'
+
+
 # ---- small things that must not matter
 def soft_spring(case):
     """A spring of 1e-9 of the stiffness of the body, on any points, changes nothing, J and K included."""
@@ -412,7 +428,7 @@ def slot(case):
     two = case.run(lambda d: d.setdefault('cracks', []).append({'from': [low[0] - 0.3, y], 'to': [x, y], 'width': w}))
     if one.done and two.done:
         a, b = (r.report['energy']['strain'] for r in (one, two))
-        if abs(a - b) > 0.1 * abs(a):
+        if abs(a - b) > max(0.1, one.report.get('error_estimate', {}).get('relative', 0)) * abs(a):
             yield f'a slot {w / case.data["spacing"]:.2f} spacings wide: strain energy {a:.6g} as part of the body, {b:.6g} by cracks'
 
 
@@ -458,5 +474,5 @@ def falling(case):
 
 
 INVARIANTS = [sound, checked, balanced, energies, facets, mirrored, quarter_turned, moved, resized, nudged, threaded, resumed, on_ranks, doubled, superposed,
-              rigid, turned_little, soft_spring, doubled_crack, loose, slot, falling]
+              rigid, turned_little, as_elements, soft_spring, doubled_crack, loose, slot, falling]
 ALWAYS = (sound, checked)

@@ -30,10 +30,15 @@ def serves(data):
             return False
         if shape == 'box' and min(b - a for a, b in zip(values['low'], values['high'])) < data['spacing']:
             return False                                 # a slot that the points do not resolve
+    held = {}
     for load in data['boundary']:
+        for axis, value in load.get('displacement', {}).items():
+            held.setdefault(axis, set()).add(value)
         if 'spring' in load or not ('gravity' in load or 'body_force' in load and load.get('set', 'all') == 'all' or load.get('set') in SIDES):
             return False
-    return True
+    sides = [load['set'] for load in data['boundary'] if 'displacement' in load]
+    opposite = len(sides) == 2 and SIDES[sides[0]][0] == SIDES[sides[1]][0]
+    return opposite or all(len(values) == 1 for values in held.values())    # two values at one edge: its energy is infinite
 
 
 def box_of(data):
@@ -71,6 +76,10 @@ def geometry(data, size):
     return '\n'.join(lines) + '\n'
 
 
+def turns_left(p):
+    return (p[1][0] - p[0][0]) * (p[2][1] - p[0][1]) > (p[1][1] - p[0][1]) * (p[2][0] - p[0][0])
+
+
 def read_mesh(path, dimension):
     """Nodes {number: place}, elements, pieces of the surface, each a list of node numbers."""
     of_bulk, of_surface = (9, 8) if dimension == 2 else (11, 9)
@@ -90,6 +99,8 @@ def read_mesh(path, dimension):
                     bulk.append(at if dimension == 2 else at[:8] + [at[9], at[8]])
                 elif kind == of_surface:
                     surface.append(at)
+    if dimension == 2:                                   # counterclockwise
+        bulk = [e if turns_left([nodes[n] for n in e[:3]]) else [e[0], e[2], e[1], e[5], e[4], e[3]] for e in bulk]
     used = {n for e in bulk for n in e}
     return {n: nodes[n] for n in sorted(used)}, bulk, surface
 
@@ -110,17 +121,27 @@ def pieces_of(data, mesh, side):
     return [s for s in surface if all(abs(nodes[n][axis] - at) < near for n in s if n in nodes) and all(n in nodes for n in s)]
 
 
+def number(value):
+    """CalculiX reads twenty characters of a number."""
+    return f'{value:.12e}'
+
+
+def thin_of(data):
+    """CalculiX makes solid elements of plane ones, which resist that their thickness varies: of a thin body hardly."""
+    return 1e-3 * min(b - a for a, b in zip(*box_of(data)))
+
+
 def input_of(data, mesh):
     """The input file of CalculiX."""
     d = data['dimension']
     nodes, bulk, _ = mesh
     material = next(iter(data['materials'].values()))
-    thickness = data.get('thickness', 1.0) if d == 2 else 1.0
+    thickness, thin = (data.get('thickness', 1.0), thin_of(data)) if d == 2 else (1.0, 1.0)
     kind = {2: 'CPS6' if data.get('plane', 'stress') == 'stress' else 'CPE6', 3: 'C3D10'}[d]
-    text = ['*NODE, NSET=ALL'] + [f'{n}, ' + ', '.join(repr(v) for v in p) for n, p in nodes.items()]
+    text = ['*NODE, NSET=ALL'] + [f'{n}, ' + ', '.join(number(v) for v in p) for n, p in nodes.items()]
     text += [f'*ELEMENT, TYPE={kind}, ELSET=BODY'] + [f'{k}, ' + ', '.join(str(n) for n in e) for k, e in enumerate(bulk, 1)]
-    text += ['*MATERIAL, NAME=ROCK', '*ELASTIC', f'{material["youngs_modulus"]!r}, {material["poissons_ratio"]!r}', '*DENSITY', repr(material['density'])]
-    text += ['*SOLID SECTION, ELSET=BODY, MATERIAL=ROCK', repr(thickness)]
+    text += ['*MATERIAL, NAME=ROCK', '*ELASTIC', f'{number(material["youngs_modulus"])}, {number(material["poissons_ratio"])}', '*DENSITY', number(material['density'])]
+    text += ['*SOLID SECTION, ELSET=BODY, MATERIAL=ROCK', number(thin)]
     held, force, body = {}, {}, [0.0] * 3
     for load in data['boundary']:
         if 'gravity' in load:
@@ -140,12 +161,12 @@ def input_of(data, mesh):
                 for n, w in zip(s, EDGE if d == 2 else FACE):
                     for a, v in load.get('force', load.get('traction')).items():
                         force[n, 'xyz'.index(a)] = force.get((n, 'xyz'.index(a)), 0.0) + w * share * v
-    text += ['*STEP', '*STATIC', '*BOUNDARY'] + [f'{n}, {k + 1}, {k + 1}, {v!r}' for (n, k), v in held.items()]
+    text += ['*STEP', '*STATIC', '*BOUNDARY'] + [f'{n}, {k + 1}, {k + 1}, {number(v)}' for (n, k), v in held.items()]
     if force:
-        text += ['*CLOAD'] + [f'{n}, {k + 1}, {v!r}' for (n, k), v in force.items()]
+        text += ['*CLOAD'] + [f'{n}, {k + 1}, {number(v * thin / thickness)}' for (n, k), v in force.items()]
     size = sum(b * b for b in body) ** 0.5
     if size:
-        text += ['*DLOAD', 'BODY, GRAV, ' + ', '.join(repr(v) for v in [size / material['density']] + [b / size for b in body])]
+        text += ['*DLOAD', 'BODY, GRAV, ' + ', '.join(number(v) for v in [size / material['density']] + [b / size for b in body])]
     text += ['*EL PRINT, ELSET=BODY, TOTALS=ONLY', 'ELSE', '*END STEP', '']
     return '\n'.join(text)
 
@@ -174,7 +195,7 @@ def energy(data, folder, size):
         if 'energy' in words:
             for later in found[k + 1:]:
                 try:
-                    return float(later[-1])
+                    return float(later[-1]) * (data.get('thickness', 1.0) / thin_of(data) if d == 2 else 1.0)
                 except ValueError:
                     continue
     return None

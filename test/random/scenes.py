@@ -38,7 +38,7 @@ class Maker:
 
     def __init__(self, seed, kind=None):
         self.rng = random.Random(seed)
-        self.seed, self.files, self.sets = seed, [], {}
+        self.seed, self.files, self.sets, self.heated = seed, [], {}, False
         self.kind = kind or self.rng.choices([k for k, _ in KINDS], [w for _, w in KINDS])[0]
 
     def chance(self, p):
@@ -128,7 +128,7 @@ class Maker:
         self.regular = True
         if self.chance(0.4):
             data['lattice_offset'] = [self.one(0.0, 0.25, self.between(-0.5, 0.5)) for _ in range(self.dimension)]
-        if self.chance(0.15):
+        if self.chance(0.15) and self.force != 'fcbm':
             data['perturb'] = {'amount': self.between(0.05, 0.3), 'seed': self.rng.randint(1, 99)}
             self.regular = False
         return data
@@ -157,13 +157,14 @@ class Maker:
     # ---- how it is computed
     def method(self):
         if self.force in BOND + ('lps', 'gmpd'):
-            m = {'force': self.force}
+            # coarse bodies are off by more than a user would accept, and are asked all the same
+            m = {'force': self.force, 'accept_inexact': True}
             if self.chance(0.4):
                 m['horizon'] = f'{self.one(2.5, 3.0, 3.015, 3.5, self.between(2.2, 3.6)) if self.dimension == 2 else self.one(2.0, 2.5, 3.0)} spacing'
             if self.chance(0.3):
                 m['kernel'] = self.one('constant', 'conical', 'inverse_r', 'quadratic', 'cubic_spline')
             if self.chance(0.2):
-                m['partial_volume'] = self.one('none', 'linear', 'overlap')
+                m['partial_volume'] = self.one('none', 'linear', 'overlap' if self.regular else 'linear')
             return m
         m = {}
         if self.chance(0.6):
@@ -200,7 +201,7 @@ class Maker:
                 m = {k: v for k, v in m.items() if not k.endswith(('13', '23', '_3')) or self.plane == 'strain' and not k.startswith('shear')}
             return {'materials': {'rock': m}}
         data = {'materials': {'rock': m}}
-        if self.kind in ('elastic', 'tips') and self.chance(0.1):
+        if self.kind in ('elastic', 'tips') and self.force != 'fcbm' and self.chance(0.1):
             data['materials']['soft'] = {**m, 'youngs_modulus': self.modulus * self.one(0.1, 0.5, 3.0)}
             x = self.low[0] + self.between(0.3, 0.7) * (self.high[0] - self.low[0])
             data['blocks'] = [{'material': 'rock', 'where': 'x > -1e9'}, {'material': 'soft', 'where': f'x > {x!r}'}]
@@ -251,11 +252,22 @@ class Maker:
         if self.chance(0.3) and self.kind in ('elastic', 'tips', 'motion', 'explicit'):
             boundary.append(self.extra())
         for entry in boundary:
-            entry['about'] = [0.0] * d
+            if 'temperature' not in entry:
+                entry['about'] = [0.0] * d
         return boundary
 
     def extra(self):
-        which = self.one('body_force', 'gravity', 'spring')
+        offered = ['body_force', 'gravity', 'spring']
+        if self.sides and self.lattice not in ('cloud', 'bare'):
+            offered.append('pressure')
+        if self.force == 'galerkin' and self.kind in ('elastic', 'motion'):
+            offered.append('temperature')
+        which = self.one(*offered)
+        if which == 'pressure':
+            return {'name': 'extra', 'set': self.one('left', 'right', 'bottom', 'top'), 'about': [0.0] * self.dimension, 'pressure': self.stress_level() * self.between(-1, 1)}
+        if which == 'temperature':
+            self.heated = True
+            return {'name': 'extra', 'temperature': self.between(-50, 50)}
         if which == 'body_force':
             return {'name': 'extra', 'set': 'all', 'body_force': self.vector(self.stress_level())}
         if which == 'gravity':
@@ -276,7 +288,7 @@ class Maker:
             return [{'polygon': [[x0, y, z0], [x1, y, z0], [x1, y, z1], [x0, y, z1]]}]
         found = []
         for _ in range(self.one(1, 1, 1, 2)):
-            if self.chance(0.5):                         # from the left side
+            if self.sides and self.chance(0.5):          # from the left side
                 y = self.low[1] + size[1] * (self.between(0.3, 0.7) if self.chance(0.6) else 0.5)
                 x = self.low[0] + size[0] * self.between(0.25, 0.55)
                 slope = self.one(0.0, self.between(-0.5, 0.5))
@@ -295,6 +307,36 @@ class Maker:
             return {'criterion': 'principal_stress', 'tensile_strength': self.modulus * 1e-3 * self.between(0.3, 3)}
         return {'criterion': 'stretch', 'critical_stretch': 1e-3 * self.between(0.3, 3)}
 
+    # ---- what else may be there
+    def press(self, data):
+        """Platens in place of supports: one below that is held, one above that comes down."""
+        d, top = self.dimension, self.dimension - 1
+        middle = self.at(*[0.5] * d)
+        foot, head = list(middle), list(middle)
+        foot[top], head[top] = self.low[top], self.high[top]
+        axis = 'xyz'[top]
+        rub = {'friction': self.between(0.05, 0.6)} if self.chance(0.6) else {}
+        up = [float(k == top) for k in range(d)]
+        down = [-v for v in up]
+        moves = {'displacement': {axis: -1e-3 * (self.high[top] - self.low[top])}} if self.chance(0.5) else {'force': {axis: -2e5}}
+        data['platens'] = [{'name': 'anvil', 'point': foot, 'normal': up, **rub}, {'name': 'ram', 'point': head, 'normal': down, **rub, **moves}]
+        # what friction does not hold is held by springs that are soft
+        data['boundary'] = [{'name': 'soft', 'set': 'all', 'spring': {'all': 1e-4 * self.modulus}}]
+        data.pop('cracks', None)
+
+    def stage(self, data):
+        names = [b['name'] for b in data['boundary'] if any(k in b for k in ('traction', 'force', 'body_force', 'gravity'))
+                 or any(v for v in b.get('displacement', {}).values())]
+        if names:
+            data['stages'] = [{'name': 'first', 'boundary': {names[0]: self.between(0.3, 1)}},
+                              {'name': 'second', 'boundary': {n: self.between(0, 1) for n in names}}]
+
+    def neighbour(self, data):
+        """A second body beside the first, a gap from it that may be narrower than a spacing, on springs of its own."""
+        low = [self.high[0] + self.one(0.05, 0.3, 1.5) * self.h] + self.low[1:]
+        data['body'].append({'add': {'box': {'low': low, 'high': [low[0] + 6 * self.h] + self.high[1:]}}})
+        data['boundary'].append({'name': 'afloat', 'set': 'all', 'spring': {'all': 1e-3 * self.modulus}, 'about': [0.0] * self.dimension})
+
     # ---- all of it
     def choose_force(self):
         if self.kind in ('explicit', 'relaxed'):
@@ -307,6 +349,8 @@ class Maker:
         self.dimension = 3 if self.chance(0.25) else 2
         self.plane = self.one('stress', 'strain')
         self.force = self.choose_force()
+        if self.kind == 'facets' and self.force != 'galerkin':
+            self.dimension = 2                           # facets of bonds are of the plane
         data = {'dimension': self.dimension}
         if self.dimension == 2:
             data.update(plane=self.plane, thickness=self.one(1.0, self.between(0.05, 2)))
@@ -320,10 +364,21 @@ class Maker:
             data['failure'] = self.failure()
         data['boundary'] = self.loads()
         data['solver'] = self.solver(data)
+        if self.heated:
+            for material in data['materials'].values():
+                material['expansion'] = 1e-5
+            if data['solver']['kind'] == 'static':
+                data['solver'].update(stepping='fixed', steps=2)
+        if self.kind == 'contact' and self.sides and self.lattice in ('nodes', 'cells') and self.force == 'galerkin' and self.chance(0.4):
+            self.press(data)
+        elif self.kind in ('elastic', 'strength') and not self.heated and self.chance(0.12):
+            self.stage(data)
+        if self.kind == 'elastic' and data.get('body') and self.lattice in ('nodes', 'cells') and self.sides is False and self.chance(0.3):
+            self.neighbour(data)
         data['output'] = {'at': {'levels': 2}, 'pictures': []}
         if self.kind == 'tips':
             data['output']['stress_intensity'] = True
-        if self.kind == 'contact':
+        if self.kind == 'contact' and 'platens' not in data:
             data['contact'] = self.one({'kind': 'normal'}, {'kind': 'friction', 'coefficient': self.between(0.1, 1)})
         if self.sets:
             data['sets'] = self.sets
@@ -340,7 +395,7 @@ class Maker:
         if self.kind in ('facets', 'strength'):
             return {'kind': 'static', 'max_events': 6}
         if self.kind == 'elastic' and self.chance(0.2):
-            return {'kind': 'static', 'linear': self.one('cholmod', 'umfpack', 'pcg', 'skyline')}
+            return {'kind': 'static', 'linear': 'pcg' if self.force == 'lps' else self.one('cholmod', 'umfpack', 'pcg', 'skyline')}
         return {'kind': 'static'}
 
 
