@@ -284,6 +284,7 @@ pg_status contact_keep (pg_system *s, const pg_keeper *k)
     for (size_t i = 0; k->reading && i < c->pieces.n; i++)
         PG_KEEP_BOUND (k, "the status of a piece", c->status[i], PG_CONTACT_OPEN, PG_CONTACT_SLIDING);
     if (k->reading) contact_recall (c);
+    if (k->reading) platens_gaps (s);                  /* the work of platens is counted from there */
     if (k->reading) pg_sparse_multiply (&c->G, c->force, c->nodal);
     if (k->reading) contact_count (s);
     r->contact_pieces = count[6], r->contact_open = count[7];

@@ -134,7 +134,8 @@ def balanced(case):
     if case.scene.kind in ('motion', 'explicit') or not case.base.done:
         return
     names, bound = case.base.names, 1e-4 if case.scene.kind == 'relaxed' else 1e-7
-    for what in ('force', 'moment'):
+    # moments of platens are about their places
+    for what in ('force',) if 'platens' in case.data else ('force', 'moment'):
         for a in 'xyz':
             columns = [k for k, n in enumerate(names) if f'.{what}_{a} [' in n]
             if not columns:
@@ -263,6 +264,9 @@ def scaled_loads(data, factor, names=None):
                 load[kind] = {a: v * factor for a, v in load[kind].items()}
         if 'gravity' in load:
             load['gravity'] = [v * factor for v in load['gravity']]
+        for kind in ('pressure', 'temperature'):
+            if kind in load:
+                load[kind] *= factor
     return data
 
 
@@ -305,7 +309,7 @@ def superposed(case):
 
 def rigid(case):
     """Supports and loads that move the body as a rigid one strain nothing: no energy, no forces, no J."""
-    if not case.linear or any('spring' in b for b in case.data['boundary']):
+    if not case.linear or 'stages' in case.data or any('spring' in b for b in case.data['boundary']):
         return
     d, angle = case.scene.dimension, 1e-3
     def stiff(data):
@@ -393,7 +397,7 @@ def doubled_crack(case):
 
 def loose(case):
     """A second body that nothing holds, under a load, is refused."""
-    if case.scene.kind != 'elastic' or not case.lattice or case.scene.dimension == 3 and case.data['method'].get('force') == 'fcbm':
+    if case.scene.kind != 'elastic' or 'stages' in case.data or not case.lattice or case.scene.dimension == 3 and case.data['method'].get('force') == 'fcbm':
         return
     if any('spring' in load for load in case.data['boundary']):
         return                                          # on all points, those of the second body too
@@ -428,7 +432,9 @@ def slot(case):
     two = case.run(lambda d: d.setdefault('cracks', []).append({'from': [low[0] - 0.3, y], 'to': [x, y], 'width': w}))
     if one.done and two.done:
         a, b = (r.report['energy']['strain'] for r in (one, two))
-        if abs(a - b) > max(0.1, one.report.get('error_estimate', {}).get('relative', 0)) * abs(a):
+        # the run says of a narrow slot that the points do not resolve it; one that bonds bridge is off by more
+        told = 0.5 if one.warned('do not resolve') else one.report.get('error_estimate', {}).get('relative', 0)
+        if abs(a - b) > max(0.1, told) * abs(a):
             yield f'a slot {w / case.data["spacing"]:.2f} spacings wide: strain energy {a:.6g} as part of the body, {b:.6g} by cracks'
 
 

@@ -18,7 +18,9 @@ def available():
 
 def serves(data):
     """Are the body, the material and all conditions of a kind that the mesh can have?"""
-    if data.get('cracks') or len(data['materials']) > 1 or 'points' in data or 'body' not in data:
+    if data.get('cracks') or 'stages' in data or len(data['materials']) > 1 or 'points' in data or 'body' not in data:
+        return False
+    if any('temperature' in load or 'pressure' in load for load in data['boundary']):
         return False
     if any('model' in m for m in data['materials'].values()):
         return False

@@ -142,6 +142,18 @@ static void with_the_factor_of_a_shorter_crack (void **state)
         "solver: {kind: static, max_events: 6}\noutput: {at: {levels: 10}, pictures: []}\n", 10, 1);
 }
 
+/* Platens on a body that answers in proportion: between its levels nothing is solved, and their work goes on. */
+static void platens_between_levels (void **state)
+{
+    (void) state;
+    from_steps_of (
+        "dimension: 2\nplane: strain\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [1, 0.6]}}}]\n"
+        "spacing: 0.1\nlattice: cells\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
+        "platens: [{name: anvil, point: [0.5, 0], normal: [0, 1], friction: 0.2}, {name: ram, point: [0.5, "
+        "0.6], normal: [0, -1], friction: 0.2, displacement: {y: -0.5 mm}}]\nboundary: [{name: soft, set: "
+        "all, spring: {all: 100 kN/m}}]\noutput: {at: {levels: 3}, pictures: []}\n", 1, 1);
+}
+
 /* Tips that run, a held force behind them, and contact with friction, each with a memory of its own. */
 static void closed_faces_in_motion (void **state)
 {
@@ -171,6 +183,7 @@ static void scene_asked (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (with_the_factor_of_a_shorter_crack),
+                                        cmocka_unit_test (platens_between_levels),
                                         cmocka_unit_test (closed_faces_in_motion),
                                         cmocka_unit_test (scene_asked) };
     return cmocka_run_group_tests_name ("results/every_step", tests, NULL, NULL);
