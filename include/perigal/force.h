@@ -109,7 +109,8 @@ typedef struct {
                                    const double *inertia, pg_work_balance *out);
     /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
-    void      (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+    /* Points of evaluation without a gradient, nodes alone, parts beside the largest one. */
+    pg_status (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
     /* Joins the points that carry forces to each other at the last refresh: sets of points (pg_disjoint, n;
      * of a rank by what its own points take part in). NULL: not known. */
     void      (*join)    (void *self, int *parent);

@@ -20,8 +20,8 @@ typedef struct {
 } outlook;
 
 /* ---- finding out --------------------------------------------------------------------------------------- */
-/* All faults that a run on so many ranks would name, and what it would warn of. Where a part of the body alone fits this machine, those
- * that show only in the built problem are not looked for (*built 0). */
+/* All faults that a run on so many ranks would name, and what it would warn of. Where a part of the body
+ * alone fits this machine, those that show only in the built problem are not looked for (*built 0). */
 static pg_status look_for_faults (outlook *o, const pg_scene *scene, int *built)
 {
     pg_status status = PG_OK;

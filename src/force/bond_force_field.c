@@ -430,19 +430,20 @@ void bond_force_join (void *self, int *parent)
 }
 
 /* Parts of the body that live bonds hold together: points alone, and parts of
- * several points beside the largest one. Without memory all are 0: a census is worth no failure. */
-void bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
+ * several points beside the largest one. */
+pg_status bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
+    pg_status status = PG_OK;
     bond_force *b = self;
-    int *parent = pg_calloc (b->n, sizeof *parent);
-    const pg_subdomain *s = b->problem->cloud.subdomain;
+    int *parent = NULL;
     double parts[2];
     *degenerate = *isolated = *fragments = 0;
-    if (parent) {
-        bond_force_join (b, parent);
-        if (pg_subdomain_count (s, b->n, parent, parts) != PG_OK) parts[0] = parts[1] = 0;
-        *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
-        if (*fragments) --*fragments;                  /* the body itself is none */
-    }
+    PG_ALLOC (parent, b->n);
+    bond_force_join (b, parent);
+    PG_TRY (pg_subdomain_count (b->problem->cloud.subdomain, b->n, parent, parts));
+    *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
+    if (*fragments) --*fragments;                      /* the body itself is none */
+done:
     pg_free (parent);
+    return status;
 }

@@ -342,25 +342,25 @@ void galerkin_join (void *self, int *parent)
 }
 
 /* Points of evaluation without a gradient; nodes that no evaluation point sees together with another one;
- * parts of the body that evaluation points no longer join, the largest not counted. A census is worth no
- * failure: without memory all are 0. */
-void galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
+ * parts of the body that evaluation points no longer join, the largest not counted. */
+pg_status galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
 {
+    pg_status status = PG_OK;
     galerkin *g = self;
     const pg_rows *r = &g->rows[g->bulk];
-    int *parent = pg_calloc (g->n, sizeof *parent);
+    int *parent = NULL;
     double parts[2], flat = 0;
     *degenerate = *isolated = *fragments = 0;
     for (size_t p = 0; p < r->n; p++)
         flat += r->grade[p] >= PG_GRADE_SHEPARD && pg_problem_owns (g->problem, g->bulk, p);
-    if (g->problem->cloud.subdomain && pg_ranks_sum (1, &flat) != PG_OK) flat = 0;
+    PG_ALLOC (parent, g->n);
+    if (g->problem->cloud.subdomain) PG_TRY (pg_ranks_sum (1, &flat));
     *degenerate = (size_t) flat;
-    if (parent) {
-        galerkin_join (g, parent);
-        if (pg_subdomain_count (g->problem->cloud.subdomain, g->n, parent, parts) != PG_OK)
-            parts[0] = parts[1] = 0;
-        *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
-        if (*fragments) --*fragments;                  /* the body itself is none */
-    }
+    galerkin_join (g, parent);
+    PG_TRY (pg_subdomain_count (g->problem->cloud.subdomain, g->n, parent, parts));
+    *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];
+    if (*fragments) --*fragments;                      /* the body itself is none */
+done:
     pg_free (parent);
+    return status;
 }

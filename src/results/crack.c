@@ -50,8 +50,7 @@ static double area_of_point (const pg_problem *p, size_t i, const unsigned char 
 }
 
 /* Uses the bonds of evaluation points where there are some, else those of the points
- * themselves. What pre-cracks cut at the start is found anew for points with dead bonds. A run
- * does not fail for want of memory for this estimate. */
+ * themselves. What pre-cracks cut at the start is found anew for points with dead bonds. */
 pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
 {
     pg_status status = PG_OK;
@@ -80,9 +79,7 @@ pg_status pg_result_crack_measure (pg_result *r, const pg_state *state)
     const size_t *first = p->rows[set].family.start;
     for (size_t i = 0; i < p->rows[set].n; i++)
         widest = first[i + 1] - first[i] > widest ? first[i + 1] - first[i] : widest;
-    start = pg_calloc (widest + 1, 1);
-    if (!start && !pg_ranks_now ()) return PG_OK;
-    if (!start) PG_FAIL (PG_E_MEMORY, "no memory for %zu bytes", widest + 1);
+    PG_ALLOC (start, widest + 1);
     for (size_t i = 0; i < p->rows[set].n; i++) {
         if (set == PG_NODES && !pg_owns (p->cloud.subdomain, i)) continue;
         if (!memchr (state->alive + p->first_bond[set] + first[i], 0, first[i + 1] - first[i])) continue;

@@ -277,7 +277,7 @@ done:
 }
 
 /* The error estimate of the force, where it has one and output.estimate asks for it. A run does not fail
- * for want of memory for it. */
+ * for want of memory for it, which is told. */
 static pg_status estimate (pg_result *r, const pg_state *state)
 {
     void *self;
@@ -285,7 +285,9 @@ static pg_status estimate (pg_result *r, const pg_state *state)
     if (!r->estimating || !force->estimate) return PG_OK;
     pg_status status = force->estimate (self, state->d, &r->estimate, NULL);
     r->estimated = status == PG_OK;
-    return status == PG_E_MEMORY ? PG_OK : status;
+    if (status != PG_E_MEMORY) return status;
+    pg_solver_warn (r->solver, "the error of the stress could not be estimated: %.160s", pg_last_error ());
+    return PG_OK;
 }
 
 const pg_estimate *pg_result_estimate (const pg_result *r) { return r->estimated ? &r->estimate : NULL; }

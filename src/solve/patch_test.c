@@ -541,11 +541,12 @@ static void clear (probe *t)
 }
 
 /* What the intact body lacks: points that carry no stress, and parts that hang together by nothing. */
-static void count_defects (probe *t)
+static pg_status count_defects (probe *t)
 {
     const pg_rows *bulk = &t->p->rows[t->p->integration->at_nodes ? PG_NODES : PG_POINTS];
     t->out.points = bulk->n;
-    if (t->force->census) t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments);
+    if (!t->force->census) return PG_OK;
+    return t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments);
 }
 
 /* Measures the error under each stress; with supports on points that bear on facets a second time with
@@ -561,7 +562,7 @@ pg_status pg_patch_probe (pg_problem *problem)
     PG_TRY (pg_problem_bare (&bare, problem));
     t.p = bare, t.rows = borne_by_rows (problem);
     PG_TRY (prepare (&t));
-    count_defects (&t);
+    PG_TRY (count_defects (&t));
     int held = bare->nload == 0 || (t.out.fragments && !problem->method->shape_functions);
     PG_TRY (make_factor (&t, problem, held));
     measure_unit_strains (&t);

@@ -416,9 +416,11 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
 const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
 {
     pg_system *sys = &s->break_loop.system;
-    if (sys->force->census)
-        sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
-                            &s->report.fragments);
+    if (sys->force->census
+        && sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
+                               &s->report.fragments) != PG_OK)
+        pg_statistics_warn (&s->report, "points that see too little, points alone and parts of the body could "
+                                        "not be counted: %.120s", pg_last_error ());
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
     if (pg_ranks_most (1, &s->report.overlap_max) != PG_OK) s->report.overlap_max = NAN;
     if (sys->force->unended) s->report.unended_cells = sys->force->unended (sys->self);

@@ -140,7 +140,7 @@ static void sweep_some (const char *text, size_t first, size_t rest, int breaks,
                          pg_memory_used () - used);
         assert_true (status == PG_E_MEMORY || status == PG_OK);
         assert_int_equal (pg_memory_used (), used);
-        unharmed += status == PG_OK;                   /* the census of the report is worth no failure */
+        unharmed += status == PG_OK;                   /* pictures and the error of the stress, which warn */
     }
     if (unharmed * 20 > tried + 20)
         print_error ("%zu of %zu failing allocations went unseen\n", unharmed, tried);
