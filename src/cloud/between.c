@@ -124,6 +124,46 @@ static double spacing_at (const pg_between *b, const double *x)
     return i < 0 ? b->cloud->h : b->cloud->size[i];
 }
 
+/* How far below the middle of a smooth surface its chord is moved: so many times the rise of the surface
+ * over the chord, and so much of its length. */
+static const double BELOW_RISE = 2, BELOW = 0.02;
+
+/* Does the gap, moved into the body by `depth` against a direction, cross a slot? */
+static int crosses_below (const pg_between *b, const between_gap *g, const between_way *w,
+                          const double *outward, double depth)
+{
+    between_way below = { .dim = w->dim, .near = w->near, .length = (g->t[1] - g->t[0]) * w->length };
+    between_gaps met;
+    double size = 0, slack = 4 * w->near / below.length;
+    for (int k = 0; k < w->dim; k++) size += outward[k] * outward[k];
+    for (int k = 0; k < w->dim; k++) {
+        below.x[k] = w->x[k] + g->t[0] * w->d[k] - depth * outward[k] / sqrt (size);
+        below.d[k] = (g->t[1] - g->t[0]) * w->d[k];
+    }
+    gaps_along (&met, b, NULL, &below);                /* which leaves the box of an outlook */
+    for (int i = 0; i < met.n; i++) {
+        const between_gap *m = &met.gap[i];
+        double turn = 0;
+        for (int k = 0; k < w->dim; k++) turn += m->normal[0][k] * m->normal[1][k];
+        if (m->t[0] > -slack && m->t[1] < 1 + slack && turn < AWAY) return 1;
+    }
+    return 0;
+}
+
+/* A chord of one smooth surface may pass over the mouth of a slot, whose two sides are parted: moved into
+ * the body, below the surface, it then crosses the slot. same: cosine between the normals at its ends; at
+ * the edge of a mouth one of them may be that of the slot. */
+static int over_a_mouth (const pg_between *b, const between_gap *g, const between_way *w, double same)
+{
+    double length = (g->t[1] - g->t[0]) * w->length, mean[3] = { 0 };
+    double rise = 0.5 * length * tan (0.25 * acos (fmax (-1, fmin (1, same))));
+    double depth = BELOW_RISE * rise + BELOW * length + 8 * w->near;
+    if (!(length > 8 * w->near)) return 0;
+    for (int k = 0; k < w->dim; k++) mean[k] = g->normal[0][k] + g->normal[1][k];
+    return crosses_below (b, g, w, mean, depth) || crosses_below (b, g, w, g->normal[0], depth)
+           || crosses_below (b, g, w, g->normal[1], depth);
+}
+
 /* Does this gap part the ends of the way? */
 static int parts (const pg_between *b, const between_gap *g, const between_way *w)
 {
@@ -134,7 +174,8 @@ static int parts (const pg_between *b, const between_gap *g, const between_way *
         same += g->normal[0][k] * g->normal[1][k];
         middle[k] = w->x[k] + 0.5 * (g->t[0] + g->t[1]) * w->d[k];
     }
-    if (same > SMOOTH || (same >= AWAY && wide <= LONG * spacing_at (b, middle))) return 0;
+    if (same > SMOOTH || (same >= AWAY && wide <= LONG * spacing_at (b, middle)))
+        return over_a_mouth (b, g, w, same);
     /* A way along a face runs in the body. */
     return wide <= 2 * w->near || !on_face (b, middle);
 }

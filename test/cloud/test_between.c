@@ -152,6 +152,36 @@ static void smooth_chords_stay (void **state)
     unmake (&m);
 }
 
+/* A slot from outside into a hole: the chord of the hole that passes over its mouth parts, as do ways that
+ * end at the edges of the mouth; chords beside it stay. */
+static void chords_over_a_mouth_part (void **state)
+{
+    (void) state;
+    for (double width = 0.02; width < 1; width *= 2.3)
+        for (double end = 4.99; end < 8; end += 1.7)   /* where the slot ends: at the hole, in it */
+            for (int dim = 2; dim <= 3; dim++) {
+                made m;
+                char body[400];
+                snprintf (body, sizeof body,
+                          dim == 2 ? "  - add: {box: {low: [0, 0], high: [20, 20]}}\n"
+                                     "  - subtract: {disk: {center: [10, 10], radius: 5}}\n"
+                                     "  - subtract: {box: {low: [-1, %g], high: [%g, %g]}}\n"
+                                   : "  - add: {box: {low: [0, 0, 0], high: [20, 20, 4]}}\n"
+                                     "  - subtract: {cylinder: {center: [10, 10, 0], radius: 5, length: 4}}\n"
+                                     "  - subtract: {box: {low: [-1, %g, 0], high: [%g, %g, 4]}}\n",
+                          10 - width / 2, end + 0.02, 10 + width / 2);
+                make (&m, dim, body, "");
+                for (double y = 0.6; y < 3; y += 0.7)
+                    for (double x = 4.7; x < 5.3; x += 0.1) {
+                        const double a[3] = { x, 10 - y, 2 }, b[3] = { 5, 10.55 + y / 3, 2 };
+                        assert_true (parted (&m, a, b));
+                    }
+                const double c[3] = { 10 - 4.4, 7.4, 2 }, d[3] = { 10 - 3.4, 6.2, 2 };
+                assert_false (parted (&m, c, d));
+                unmake (&m);
+            }
+}
+
 /* Cylinders, spheres, prisms, plates (cracks with a width) and boxes in space. */
 static void the_same_in_space (void **state)
 {
@@ -206,7 +236,8 @@ int main (void)
         cmocka_unit_test (ends_on_a_face_of_the_block_are_void),
         cmocka_unit_test (one_convex_shape_parts_nothing), cmocka_unit_test (a_slot_parts_however_narrow),
         cmocka_unit_test (another_body_is_apart),          cmocka_unit_test (smooth_chords_stay),
-        cmocka_unit_test (the_same_in_space),              cmocka_unit_test (families_end_at_a_slot),
+        cmocka_unit_test (chords_over_a_mouth_part),       cmocka_unit_test (the_same_in_space),
+        cmocka_unit_test (families_end_at_a_slot),
     };
     return cmocka_run_group_tests_name ("what lies between two points", tests, NULL, NULL);
 }

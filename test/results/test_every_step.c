@@ -142,7 +142,8 @@ static void with_the_factor_of_a_shorter_crack (void **state)
         "solver: {kind: static, max_events: 6}\noutput: {at: {levels: 10}, pictures: []}\n", 10, 1);
 }
 
-/* Platens on a body that answers in proportion: between its levels nothing is solved, and their work goes on. */
+/* Platens on a body that answers in proportion: between its levels nothing is solved, and their work goes
+ * on. */
 static void platens_between_levels (void **state)
 {
     (void) state;
