@@ -127,6 +127,7 @@ pg_status touched_grow (event_solver *e, size_t count, const size_t *dof)
     PG_TRY (touched_reserve (e, e->t + count));
     PG_GROW (e->group, e->room_group, e->ngroup + 1);
     e->group[e->ngroup++] = count;
+    e->factored = 0;                                   /* which is that of a smaller matrix */
     for (size_t k = 0; k < count; k++) {
         e->dof[e->t] = dof[k];
         e->at[dof[k]] = (int) ++e->t;

@@ -218,6 +218,24 @@ static pg_status check_rest (pg_solver *s, const pg_state *state)
     return body_parts_check (sys, state->factor, state->d, !sys->contact);
 }
 
+/* Energies of an accepted state are numbers, on every rank; explicit steps watch the energy by themselves. */
+static pg_status check_numbers (pg_solver *s)
+{
+    pg_status status = PG_OK;
+    const pg_statistics *r = &s->report;
+    if (s->options.flags & PG_SOLVER_EXPLICIT) return PG_OK;
+    double wrong = !isfinite (r->energy_strain + r->energy_kinetic + s->break_loop.work);
+    PG_TRY (pg_ranks_most (1, &wrong));
+    if (wrong > 0)
+        PG_FAIL (PG_E_EQUILIBRIUM,
+                 "energies of the state are no finite numbers (strain %g J, motion %g J, work of the loads "
+                 "%g J): next to nothing resists a part of the body, or loads are too large for it; try "
+                 "another solver.linear, and tell us",
+                 r->energy_strain, r->energy_kinetic, s->break_loop.work);
+done:
+    return status;
+}
+
 /* The method advances the state. What fails leaves the last accepted state behind, and a message with the
  * step and the load it was at. */
 pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
@@ -238,6 +256,7 @@ pg_status pg_solver_step (pg_solver *s, pg_state *state, pg_step *step)
     step->number = state->step + 1;
     PG_TRY (s->type->step (s, state, step));
     PG_TRY (check_rest (s, state));
+    PG_TRY (check_numbers (s));
     state->step++;
     state->iterations += step->iterations;
     state->work = s->break_loop.work;

@@ -41,6 +41,30 @@ static run plate (int c, int plain)
                      cases[c], plain ? "true" : "false");
 }
 
+/* Loads that follow shape functions touch unknowns which no change of the stiffness does, after the system of
+ * those before was factored; a factor that leaves much to correct uses it at once. */
+static void loads_touch_more (void **state)
+{
+    (void) state;
+    run r[2];
+    for (int plain = 0; plain < 2; plain++) {
+        r[plain] = scene_of (
+            1, "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [0, 0], high: [1, "
+               "0.8]}}}]\nspacing: 0.1\nperturb: {amount: 0.1}\nmaterials: {rock: {youngs_modulus: 1 GPa, "
+               "poissons_ratio: 0.25}}\nmethod: {integration: gauss}\nfailure: {criterion: principal_stress, "
+               "tensile_strength: 0.4 MPa}\nboundary: [{set: left, displacement: {x: 0}}, {set: bottom, "
+               "displacement: {y: 0}}, {set: top, traction: {x: 494582.5324465672, y: -594494.7353081806}}]\n"
+               "solver: {max_events: 12, linear: umfpack, plain: %s}\noutput: {at: {levels: 2}}\n",
+            plain ? "true" : "false");
+        to_the_end (&r[plain]);
+    }
+    assert_memory_equal (r[0].state->alive, r[1].state->alive, r[0].state->nbond);
+    check_scaled (r[0].state->factor, r[1].state->factor, 1e-8, r[1].state->factor);
+    check_below (largest_difference (r[0].state->d, r[1].state->d, r[0].state->ndof),
+                 1e-8 * largest_of (r[1].state->d, r[1].state->ndof));
+    for (int plain = 0; plain < 2; plain++) clear (&r[plain]);
+}
+
 /* Event by event: the same bonds, at the same load, the same displacement. */
 static void the_same_bonds_break (void **state)
 {
@@ -251,6 +275,7 @@ static void settling_corrects_the_displacement (void **state)
 int main (void)
 {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test (loads_touch_more),
         cmocka_unit_test (the_same_bonds_break),
         cmocka_unit_test (mechanisms_do_not_move_the_load),
         cmocka_unit_test (blocks_and_going_back),
