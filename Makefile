@@ -55,7 +55,7 @@ OBJECTS := $(SOURCES:src/%.c=$(BUILD)/src/%.o)
 CLIOBJ  := $(CLI:src/%.c=$(BUILD)/src/%.o)
 TESTBIN := $(TESTS:test/%.c=$(BUILD)/test/%)
 # tests that replace a function of the C library, which the other tests of their folder must not see
-ALONE   := $(BUILD)/test/results/test_durable $(BUILD)/test/results/test_killed $(BUILD)/test/scene/test_locale
+ALONE   := $(BUILD)/test/output/test_interrupted $(BUILD)/test/results/test_durable $(BUILD)/test/results/test_killed $(BUILD)/test/scene/test_locale
 BENCHBIN:= $(TOOLS:bench/%.c=$(BUILD)/bench/%)
 RANKSBIN = $(if $(PETSC),$(patsubst bench/%.c,$(BUILD)/bench/%,$(wildcard bench/ranks/*.c)))
 LIB     := $(BUILD)/libperigal.a
@@ -209,8 +209,8 @@ $(BUILD)/test/fuzz/fuzz_%: test/fuzz/fuzz_%.c $(LIB)
 	@mkdir -p $(@D)
 	$(Q)$(CC) $(CFLAGS) -Itest -MMD -MP -MF $@.d $< -fsanitize=fuzzer,address,undefined $(LIB) $(LIBS) -o $@
 
-mutate: packages     ## plants the bugs of test/mutate (T=folder: of one) one at a time in a copy and counts those that the tests find
-	$(Q).ci/mutate $(if $(T),-f $(T)) $(if $(MUTANTS),-n $(MUTANTS)) -j $(JOBS)
+mutate: packages     ## plants the bugs of test/mutate (T=folder: of one, PART=k/8: an eighth) one at a time in a copy and counts those that the tests find
+	$(Q).ci/mutate $(if $(T),-f $(T)) $(if $(PART),-p $(PART)) $(if $(MUTANTS),-n $(MUTANTS)) -j $(JOBS)
 
 stress: packages     ## conditions x methods, 45 minutes on two cores; rows in out/stress/stress.csv (SIZE=short|long: a sample)
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal

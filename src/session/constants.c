@@ -61,6 +61,14 @@ done:
     return status;
 }
 
+/* 1: Poisson's ratio and kernel allow for micropolar bonds, of these moduli. */
+static int has_beams (const pg_bond_choice *c, const pg_kernel *kernel, double *axial, double *shear)
+{
+    return c->mode != PG_LINE && c->poisson <= pg_beam_poisson (c->mode) + 1e-9
+           && pg_beam_moduli (axial, shear, c->mode, kernel, c->horizon, c->modulus, c->poisson, c->thickness)
+                  == PG_OK;
+}
+
 /* What the sums of bonds make of constants: factors and energies of straight cuts. */
 typedef struct {
     double calibration, toughness, state_toughness, growth;
@@ -73,6 +81,7 @@ static pg_status measure (factors *f, const pg_bond_choice *c, const pg_kernel *
     pg_status status = PG_OK;
     pg_cloud block = { 0 };
     pg_sums *sums[3] = { NULL };
+    double axial, shear;
     pg_sum_rule rule = { .mode = c->mode, .kernel = kernel, .horizon = c->horizon, .calibrate = 1 };
     rule.partial = !kernel->closed && c->mode != PG_SOLID ? PG_PARTIAL_NONE : PG_PARTIAL_OVERLAP;
     PG_TRY (make_block (&block, dimension_of (c->mode), c->horizon, c->spacing, c->thickness));
@@ -83,6 +92,8 @@ static pg_status measure (factors *f, const pg_bond_choice *c, const pg_kernel *
     if (c->mode != PG_LINE) {
         PG_TRY (pg_sums_create (&sums[1], &rule, &block, NULL));
         f->state_toughness = pg_sums_toughness (sums[1], c->modulus, c->poisson);
+    }
+    if (has_beams (c, kernel, &axial, &shear)) {
         rule.state = 0, rule.beams = 1;
         PG_TRY (pg_sums_create (&sums[2], &rule, &block, NULL));
         PG_TRY (pg_beam_measure (&f->beams, sums[2]));
@@ -100,7 +111,8 @@ static pg_status of_theory (factors *f, const pg_bond_choice *c, const pg_kernel
     pg_cloud block = { 0 };
     pg_sums *sums = NULL;
     pg_sum_rule rule = { .mode = c->mode, .kernel = kernel, .horizon = c->horizon, .beams = 1 };
-    if (c->mode == PG_LINE) return PG_OK;
+    double axial, shear;
+    if (!has_beams (c, kernel, &axial, &shear)) return PG_OK;
     PG_TRY (make_block (&block, dimension_of (c->mode), c->horizon, c->horizon, c->thickness));
     PG_TRY (pg_sums_create (&sums, &rule, &block, NULL));
     PG_TRY (pg_beam_measure (&f->beams, sums));
@@ -138,10 +150,7 @@ static void find_beams (pg_bond_constants *out, const pg_bond_choice *c, const p
     for (int k = 0; k < 3; k++) out->beam_limit[k] = NAN;
     if (c->mode == PG_LINE) return;
     out->beam_poisson = pg_beam_poisson (c->mode);
-    if (c->poisson > out->beam_poisson + 1e-9
-        || pg_beam_moduli (&axial, &shear, c->mode, kernel, c->horizon, c->modulus, c->poisson, c->thickness)
-               != PG_OK)
-        return;
+    if (!has_beams (c, kernel, &axial, &shear)) return;
     out->axial = f->calibration * axial;
     out->shear = out->bending = f->beams.calibration * shear;
     const double cut[3] = { 0.5 * out->axial * f->beams.along, 6 * out->shear * f->beams.across,

@@ -124,6 +124,34 @@ static void one_block_goes_to_and_fro (void **state)
     assert_int_equal (r.track.leaps, 0);
 }
 
+/* A pair comes to touch while it is sheared: at the apex of its cone the rates decide, mu f_n' against what
+ * would hold it. C_nn = 2, C_tt = 4, gap 1 - s: from s = 1 on f_n = (s - 1) / 2, and mu = 0.25 holds a rate
+ * of slip up to 0.5; beyond it the pair slides at once, either way, by rate s less 0.5. */
+static void shear_begins_at_the_apex_of_the_cone (void **state)
+{
+    static const double rates[] = { 0.4, -0.4, 3, -3 };
+    (void) state;
+    for (size_t i = 0; i < 4; i++) {
+        room r = { .C = { 2, 0, 0, 4 }, .gap = { 1, 0 }, .rate = { -1, rates[i] }, .mu = { 0.25 } };
+        int slides = fabs (rates[i]) > 0.5;
+        double sign = rates[i] < 0 ? -1 : 1;
+        set_up (&r, 1);
+        check_ok (pg_contact_begin (&r.track, &r.path, 0, NULL));
+        for (int guard = 0; r.track.s != 2; guard++) {
+            assert_true (guard < 10);
+            check_ok (pg_contact_stretch (&r.track, &r.path, 2));
+            if (r.track.s >= 1 - 1e-12)
+                assert_int_equal (r.status[0], !slides ? PG_CONTACT_STICK : sign > 0 ? PG_CONTACT_FORWARD
+                                  : PG_CONTACT_BACKWARD);
+            pg_contact_go (&r.track, &r.path, r.track.end);
+        }
+        check_absolute (r.force[0], 0.5, 1e-14);
+        check_absolute (r.force[1], slides ? -0.125 * sign : -rates[i] / 4, 1e-14);
+        /* what it has slipped before it touched is where friction begins */
+        check_absolute (r.now[1], rates[i] + (slides ? rates[i] - 0.5 * sign : 0), 1e-14);
+    }
+}
+
 /* The pressure falls while the shear stays: it slides when mu f_n has come down to it, opens at f_n = 0,
  * closes on the way back where it is, and has then forgotten its slip. */
 static void a_block_is_lifted_and_put_down (void **state)
@@ -313,6 +341,7 @@ int main (void)
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (one_block_goes_to_and_fro),
         cmocka_unit_test (a_block_is_lifted_and_put_down),
+        cmocka_unit_test (shear_begins_at_the_apex_of_the_cone),
         cmocka_unit_test (cohesion_is_lost_at_once),
         cmocka_unit_test (changes_are_found_one_after_the_other),
         cmocka_unit_test (states_are_no_means_across_a_change),

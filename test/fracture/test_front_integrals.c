@@ -14,6 +14,7 @@ typedef struct {
     double E, nu, origin[3], axes[9];
     penny crack;                                       /* radius > 0; else a straight front along axis 3 */
     double K[2][3], T, along;                          /* of the straight front; strain along it */
+    double b[3];                                       /* body force in those axes, N/m^3 */
 } exact;
 
 static void straight_gradient (const exact *m, int at, const double *y, double *G)
@@ -29,6 +30,13 @@ static void straight_gradient (const exact *m, int at, const double *y, double *
     G[6] = -m->K[at][2] * sin (theta / 2) / (mu * sqrt (2 * pi * r));
     G[7] = m->K[at][2] * cos (theta / 2) / (mu * sqrt (2 * pi * r));
     if (at) return;
+    /* stresses -b_1 y_1 along e, -b_2 y_2 along n, -b_3 y_1 in e and t, which leave the faces free */
+    double across = m->nu * (1 + m->nu) / m->E;
+    G[0] += across * m->b[1] * y[1] - plane * m->b[0] * y[0];
+    G[1] += across * (m->b[1] * y[0] - m->b[0] * y[1]);
+    G[3] += across * (m->b[0] * y[1] - m->b[1] * y[0]);
+    G[4] += across * m->b[0] * y[0] - plane * m->b[1] * y[1];
+    G[6] -= m->b[2] / mu * y[0];
     G[0] += plane * m->T - m->nu * m->along, G[8] += m->along;
     G[4] -= m->nu * (1 + m->nu) / m->E * m->T + m->nu * m->along;
 }
@@ -70,6 +78,12 @@ static pg_status sample (void *self, const pg_state *state, const double *d, siz
 
 typedef struct { pg_scene *scene; pg_problem *problem; pg_state *state; pg_force_type force; } tested;
 
+/* Component of the body force along a coordinate axis. */
+static double along_axis (const exact *m, int k)
+{
+    return m->b[0] * m->axes[k] + m->b[1] * m->axes[3 + k] + m->b[2] * m->axes[6 + k];
+}
+
 /* A cube of half width 1 unit, 20 spacings across it. */
 static tested make (const exact *m, double unit, const char *cracks)
 {
@@ -80,8 +94,10 @@ static tested make (const exact *m, double unit, const char *cracks)
               "%.17g]}}}]\nlattice: cells\nspacing: %.17g\n"
               "materials: {a: {youngs_modulus: %g, poissons_ratio: %g}}\n"
               "method: {gauss_points: 1, horizon: 1.3 spacing}\ncracks: [%s]\n"
-              "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}]\n",
-              -unit, -unit, -unit, unit, unit, unit, unit / 10, m->E, m->nu, cracks);
+              "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: all, body_force: "
+              "{x: %.17g, y: %.17g, z: %.17g}}]\n",
+              -unit, -unit, -unit, unit, unit, unit, unit / 10, m->E, m->nu, cracks, along_axis (m, 0),
+              along_axis (m, 1), along_axis (m, 2));
     check_ok (pg_scene_parse (&t.scene, text, "test.yaml"));
     check_ok (pg_problem_build (&t.problem, t.scene, 1));
     check_ok (pg_state_create (&t.state, t.problem, 3));
@@ -111,7 +127,7 @@ static void axes_about (const double *normal, double *axes)
 static double dot (const double *a, const double *b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
 /* Largest errors along the front of a penny-shaped crack, of the largest K. */
-typedef struct { double K[3], wide[3], J, mean_J; } errors;
+typedef struct { double K[3], wide[3], J, mean_J, T[2]; } errors;
 static errors of_penny (exact *m, double unit, const double *normal, double radius)
 {
     char crack[300];
@@ -144,6 +160,7 @@ static errors of_penny (exact *m, double unit, const double *normal, double radi
             double size = sqrt (largest * E);
             out.J = fmax (out.J, fabs (f[i].J[0][0] - J) / largest);
             out.mean_J += (f[i].J[0][0] - J) / largest / (double) n;
+            out.T[0] = fmin (out.T[0], f[i].T[0]), out.T[1] = fmax (i ? out.T[1] : -INFINITY, f[i].T[0]);
             for (int k = 0; k < 3; k++) {
                 out.K[k] = fmax (out.K[k], fabs (f[i].K[k][0] - K[k]) / size);
                 out.wide[k] = fmax (out.wide[k], fabs (f[i].K_wide[k][0] - K[k]) / size);
@@ -151,9 +168,10 @@ static errors of_penny (exact *m, double unit, const double *normal, double radi
         }
     check_relative (length, 2 * pi * radius, 1e-3);
     print_message (
-        "a/h %.1f p %g tau %g: J %.4f (mean %+.4f)  K_I %.4f %.4f  K_II %.4f %.4f  K_III %.4f %.4f\n",
+        "a/h %.1f p %g tau %g: J %.4f (mean %+.4f)  K_I %.4f %.4f  K_II %.4f %.4f  K_III %.4f %.4f  T %g "
+            "%g\n",
         radius / unit * 10, m->crack.p, m->crack.tau, out.J, out.mean_J, out.K[0], out.wide[0], out.K[1],
-        out.wide[1], out.K[2], out.wide[2]);
+        out.wide[1], out.K[2], out.wide[2], out.T[0], out.T[1]);
     free (f);
     clear (&t);
     return out;
@@ -170,6 +188,8 @@ static void pennies_come_back (void **state)
         errors e = of_penny (&m, unit, normal[k], radius);
         check_below (e.J, 0.0015); check_below (e.K[0], 1e-3); check_below (e.wide[0], 1e-3);
         check_below (e.K[1], 1e-4); check_below (e.K[2], 1e-4);
+        /* T = -(1/2 + nu) p; a part of the strain along the front is that of K on a front with a radius */
+        for (int end = 0; end < 2; end++) check_relative (e.T[end], -(0.5 + m.nu) * 1e6, 0.06);
         /* K_II and K_III go as the cosine around the front, of which the hat and the smoothing leave 0.960 */
         m.crack.p = 0, m.crack.tau = 1e6;
         e = of_penny (&m, unit, normal[k], radius);
@@ -201,7 +221,7 @@ static void check_straight (exact *m, double unit, size_t margin, int nfield)
     assert_int_equal (tst.problem->nfront, 1);
     size_t n = tst.problem->front[0].n, seen = 0;
     pg_tip_field *f = calloc (n, sizeof *f);
-    double *second = calloc (tst.state->ndof, sizeof *second), factor[2] = { 0, 1 },
+    double *second = calloc (tst.state->ndof, sizeof *second), factor[2] = { 1, 1 },
            E = m->E / (1 - m->nu * m->nu), mu = m->E / (2 * (1 + m->nu));
     const double *d[2] = { tst.state->d, second };
     second[0] = 1;
@@ -270,6 +290,21 @@ static void straight_fronts_come_back (void **state)
         for (int c = 0; c < 3; c++) m.origin[c] = 0.02 * unit;
         m.T = 1e5 / sqrt (unit), m.along = 0;
         check_straight (&m, unit, 8, 2);
+    }
+}
+
+/* Forces in the body, which make the strain at the end of the tube as large as that of the front: J, K and T
+ * are those at the front. */
+static void forces_in_the_body_count (void **state)
+{
+    (void) state;
+    exact m = { .E = 3e9, .nu = 0.3, .K = { { 1e6, -4e5, 3e5 } }, .origin = { 0.02, -0.03, 0.01 }, .T = 2e5 };
+    static const double axes[9] = { 0.8, 0, -0.6, -0.36, 0.8, -0.48, 0.48, 0.6, 0.64 };
+    memcpy (m.axes, axes, sizeof axes);
+    for (int k = 0; k < 3; k++) {
+        memset (m.b, 0, sizeof m.b);
+        m.b[k] = 2e6 * (k == 1 ? -1 : 1);
+        check_straight (&m, 1, 8, 1);
     }
 }
 
@@ -352,6 +387,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = { cmocka_unit_test (straight_fronts_come_back),
                                         cmocka_unit_test (intensities_of_what_slides),
+                                        cmocka_unit_test (forces_in_the_body_count),
                                         cmocka_unit_test (pennies_come_back),
                                         cmocka_unit_test (tubes_hold_nothing_else),
                                         cmocka_unit_test (what_cannot_be_measured) };

@@ -11,6 +11,11 @@
     "output: {pictures: [damage], estimate: " \
     "off, at: {levels: 1}, gauges: [{name: mouth, from: [0.5, 0.2], to: [0.5, 0.8]}]}\n"
 
+#define MOVING \
+    "dimension: 2\nthickness: 0.1\nbody: [{add: {box: {low: [0, 0], high: [1, 1]}}}]\nspacing: 0.25\n" \
+    "materials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2, density: 1000}}\n" \
+    "output: {pictures: [], estimate: off}\n"
+
 static char where[64], *report, *history, words[3][400];
 
 static void play (const char *format, const char *more)
@@ -102,6 +107,27 @@ static void the_axis_that_pulls_is_drawn (void **state)
     assert_true (json_number (report, "peak", "force") > 0);
     check_relative (json_number (report, "peak", "force"), number_at (history, 2, "head.force_y [N]"), 1e-15);
     tidy ();
+}
+
+/* A support that is moved by a velocity beside one that is displaced: the curve is that of the displacement,
+ * whichever is named first, however fast the other one is; alone the velocity has it. */
+static void a_displacement_is_preferred_to_a_velocity (void **state)
+{
+    (void) state;
+    static const char *const moves[] = {
+        "{name: fast, set: right, velocity: {x: 2 m/s}}, {name: head, set: top, displacement: {y: 1 um}}",
+        "{name: head, set: top, displacement: {y: -1 um}}, {name: fast, set: right, velocity: {x: 2 m/s}}",
+        "{name: fast, set: right, velocity: {x: 2 m/s}}",
+    };
+    for (int i = 0; i < 3; i++) {
+        char more[500];
+        snprintf (more, sizeof more, "lattice: cells\nboundary: [{name: foot, set: bottom, displacement: "
+                  "{x: 0, y: 0}}, %s]\n"
+                  "solver: {kind: newmark, dt: 1 us, end: 4 us}\n", moves[i]);
+        play (MOVING, more);
+        check_contains (words[0], i < 2 ? "of head" : "of fast");
+        tidy ();
+    }
 }
 
 /* A cycle: the curve comes back, and the peak is on its way. */
@@ -331,6 +357,7 @@ int main (void)
         cmocka_unit_test (a_push_is_negative),
         cmocka_unit_test (the_axis_that_pulls_is_drawn),
         cmocka_unit_test (the_load_that_comes_last_is_drawn),
+        cmocka_unit_test (a_displacement_is_preferred_to_a_velocity),
         cmocka_unit_test (unloading_is_drawn_and_a_constant_load_has_no_origin),
         cmocka_unit_test (the_peak_of_events_is_that_of_the_history),
         cmocka_unit_test (a_plane_of_broken_bonds_has_its_area),
