@@ -172,8 +172,9 @@ pg_status             pg_linear_analyse (const pg_linear_type **type, void **sel
 const char           *pg_linear_names (void);
 
 /* Threads that the BLAS under factorizations uses from here on. BLAS is loaded with the first factorization,
- * and until then this does nothing: the variable OPENBLAS_NUM_THREADS of the environment counts then. */
-void pg_linear_threads (int threads);
+ * and until then this does nothing: the variable OPENBLAS_NUM_THREADS of the environment counts then. Returns
+ * how many it used before. */
+int  pg_linear_threads (int threads);
 
 /* Predicts what the factor of a matrix with dense blocks (block x block) on `graph` will hold and cost: the
  * same ordering, and a symbolic analysis of the graph of the nodes alone. graph: upper triangle, diagonal

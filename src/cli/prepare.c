@@ -24,6 +24,16 @@ static void settle_blas (const pg_problem *p)
     pg_linear_threads (threads);
 }
 
+/* A method that cannot even begin with this body is a fault of the scene. */
+static pg_status refuse (const preparation *r, pg_status status)
+{
+    char text[1024];
+    if (status != PG_E_SINGULAR && status != PG_E_NOT_SPD && status != PG_E_EQUILIBRIUM) return status;
+    snprintf (text, sizeof text, "%s", pg_last_error ());
+    pg_scene_fault (r->scene, "method", "%s", text);
+    return pg_scene_verdict (r->scene);
+}
+
 pg_status prepare_problem (preparation *r, const command *c, int thorough)
 {
     pg_status status = PG_OK;
@@ -34,7 +44,7 @@ pg_status prepare_problem (preparation *r, const command *c, int thorough)
     if (alone) PG_TRY (afford_problem (c, &r->forecast, r->problem, thorough));
     if (alone) PG_TRY (pg_patch_probe (r->problem));
 done:
-    return status;
+    return refuse (r, status);
 }
 
 pg_status prepare_solver (preparation *r)
@@ -43,7 +53,7 @@ pg_status prepare_solver (preparation *r)
     PG_TRY (pg_solver_create (&r->solver, r->problem, &r->options));
     PG_TRY (pg_patch_refuse (r->problem, r->scene));
 done:
-    return status;
+    return refuse (r, status);
 }
 
 pg_status prepare_start (preparation *r)
@@ -53,7 +63,7 @@ pg_status prepare_start (preparation *r)
     PG_TRY (pg_solver_begin (r->solver, r->state, r->scene));
     PG_TRY (pg_result_plan (r->scene, r->problem, r->solver));
 done:
-    return status;
+    return refuse (r, status);
 }
 
 void prepare_free (preparation *r)

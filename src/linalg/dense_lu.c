@@ -6,9 +6,11 @@
 #include <math.h>
 
 /* Until BLAS is loaded, the environment says how many threads it starts with. */
-void pg_linear_threads (int threads)
+int pg_linear_threads (int threads)
 {
+    int before = pg_blas.openblas_get_num_threads ? openblas_get_num_threads () : threads;
     if (pg_blas.openblas_set_num_threads) openblas_set_num_threads (threads);
+    return before;
 }
 
 pg_status pg_dense_lu (size_t n, double *A, size_t nrhs, double *b)

@@ -96,9 +96,9 @@ static pg_status factor_coarsest (pg_multilevel *m, level *l)
         pg_sparse_clear (&A);
         PG_TRY (coarsest_matrix (&A, l, lift));
         if (!m->factor) PG_TRY (m->direct->analyse (&m->factor, &A, &o));
-        pg_linear_threads (1);
+        int threads = pg_linear_threads (1);
         pg_status now = m->direct->factor (m->factor, &A);
-        pg_linear_threads (l->threads);
+        pg_linear_threads (threads);
         if (now == PG_E_NOT_SPD && lift < 1e-5) continue;
         PG_TRY (now);
         break;

@@ -186,9 +186,9 @@ pg_status multilevel_cycle (pg_multilevel *m, int k, const double *b, double *z)
     level *l = &m->at[k];
     /* On one thread: BLAS adds in another order on two, and the bits must not depend on their number. */
     if (k + 1 == m->count && m->factor) {
-        pg_linear_threads (1);
+        int threads = pg_linear_threads (1);
         status = m->direct->solve (m->factor, 1, b, z);
-        pg_linear_threads (l->threads);
+        pg_linear_threads (threads);
         return status;
     }
     PG_TRY (smooth (l, m->degree, b, z));

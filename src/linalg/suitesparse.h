@@ -34,11 +34,13 @@ void dtrmm_ (const char *side, const char *uplo, const char *trans, const char *
              const int *n, const double *alpha, const double *a, const int *lda, double *b, const int *ldb);
 /* OpenBLAS's own. */
 void openblas_set_num_threads (int threads);
+int  openblas_get_num_threads (void);
 
 /* BLAS and LAPACK, of OpenBLAS: every function, as X (name), and the table of pointers. */
 #define PG_BLAS_CALLS(X) \
     X (dgesv_) X (dgetrf_) X (dgetrs_) X (dgemm_) X (dgemv_) X (dsyrk_) X (dpotrf_) \
-    X (dpotrs_) X (dtrsm_) X (dtrmm_) X (dsymm_) X (openblas_set_num_threads)
+    X (dpotrs_) X (dtrsm_) X (dtrmm_) X (dsymm_) X (openblas_set_num_threads) \
+    X (openblas_get_num_threads)
 struct pg_blas_calls {
 #define X(name) __typeof__ (name) *name;
     PG_BLAS_CALLS (X)
@@ -60,6 +62,7 @@ pg_status pg_blas_load (void);
 #define dtrmm_(...)                   pg_blas.dtrmm_ (__VA_ARGS__)
 #define dsymm_(...)                   pg_blas.dsymm_ (__VA_ARGS__)
 #define openblas_set_num_threads(...) pg_blas.openblas_set_num_threads (__VA_ARGS__)
+#define openblas_get_num_threads(...) pg_blas.openblas_get_num_threads (__VA_ARGS__)
 
 /* Up to version 6 the functions by which all of SuiteSparse gets its memory are a variable. */
 #if SUITESPARSE_MAIN_VERSION < 7

@@ -230,8 +230,7 @@ def nudged(case):
 
 
 def threaded(case):
-    # BLAS shares the blocks of a factor among threads, which rounds them otherwise
-    text = differs(case, case.run(options=('--threads', '2')), tolerance=EVENTS if 'failure' in case.data else 1e-9)
+    text = differs(case, case.run(options=('--threads', '2')), tolerance=0.0)
     if text:
         yield f'two threads: {text}'
 
