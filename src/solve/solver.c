@@ -438,8 +438,10 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
     if (sys->force->census
         && sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
                                &s->report.fragments) != PG_OK)
-        pg_statistics_warn (&s->report, "points that see too little, points alone and parts of the body could "
-                                        "not be counted: %.120s", pg_last_error ());
+        pg_statistics_warn (&s->report,
+                            "points that see too little, points alone and parts of the body could not be "
+                            "counted: %.120s",
+                            pg_last_error ());
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
     if (pg_ranks_most (1, &s->report.overlap_max) != PG_OK) s->report.overlap_max = NAN;
     if (sys->force->unended) s->report.unended_cells = sys->force->unended (sys->self);

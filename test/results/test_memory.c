@@ -148,7 +148,8 @@ static void every_allocation_of_a_result_may_fail (void **state)
         pg_status status = write_result (where, &one, k > opened);
         pg_memory_fail_at (0);
         if ((status != PG_OK && status != PG_E_MEMORY) || (status == PG_OK && !said (&one)))
-            print_error ("allocation %zu of %zu: %s, '%s'\n", k, calls, pg_status_text (status), pg_last_error ());
+            print_error ("allocation %zu of %zu: %s, '%s'\n", k, calls, pg_status_text (status),
+                         pg_last_error ());
         assert_true (status == PG_E_MEMORY || (status == PG_OK && k > opened && said (&one)));
         reported += status == PG_E_MEMORY;
         clear (&one);
