@@ -15,6 +15,7 @@
  * the vector registers. Where ranks share the operator, their sums are added in turn. */
 #include "perigal/linalg.h"
 #include "perigal/ranks.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -197,6 +198,9 @@ pg_status pg_conjugate_gradients_watched (const pg_operator *A, const pg_precond
     first_residual (A, b, &v);
     double size = sqrt (dot (&v, b, b)), goal = tolerance * size, rz = 0, rr = sqrt (dot (&v, v.r, v.r));
     int stop = 0;
+    /* a residual whose square is hardly a number any more, such as what a load that has returned to zero
+     * leaves behind: it is as good as none, and products with it would vanish */
+    if (rr * rr < DBL_MIN / DBL_EPSILON) goal = fmax (goal, rr);
     if (watch && watch->local && !P && !v.shared && rr > goal) find_least (&v, goal);
     for (k = 0; rr > goal && k < limit && !stop; k++) {
         PG_TRY (precondition (P, &v));

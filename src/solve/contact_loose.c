@@ -14,11 +14,13 @@ enum { MOST_MODES = 120 };
 
 /* Adds `count` motions of a part, and an unknown for each that tells them apart: the largest entry of what is
  * left of its column once those of the others are eliminated. */
-static pg_status add_motions (const pg_problem *p, const body_parts *parts, contact_loose *l, size_t number)
+static pg_status add_motions (const pg_system *s, const body_parts *parts, contact_loose *l, size_t number)
 {
     pg_status status = PG_OK;
+    const pg_problem *p = s->problem;
     const body_part *part = &parts->part[number];
-    size_t dim = (size_t) p->dim, ndof = p->cloud.n * dim, first = l->n, count = part->n;
+    size_t dim = (size_t) p->dim, each = (size_t) s->components, ndof = p->cloud.n * each, first = l->n;
+    size_t count = part->n;
     double *left = NULL;
     PG_ALLOC (left, count * ndof);
     PG_GROW (l->mode, l->cap_mode, (first + count) * ndof);
@@ -29,9 +31,9 @@ static pg_status add_motions (const pg_problem *p, const body_parts *parts, cont
     for (size_t i = 0; i < p->cloud.n; i++) {
         if ((size_t) parts->of[i] != number) continue;
         for (size_t m = 0; m < count; m++) {
-            double u[3];
-            body_part_move (part, p->dim, p->cloud.x + i * dim, part->motion[m], u);
-            memcpy (l->mode + (first + m) * ndof + i * dim, u, dim * sizeof *u);
+            double u[6];
+            body_part_shift (s, part, p->cloud.x + i * dim, part->motion[m], u);
+            memcpy (l->mode + (first + m) * ndof + i * each, u, each * sizeof *u);
         }
     }
     memcpy (left, l->mode + first * ndof, count * ndof * sizeof *left);
@@ -58,7 +60,6 @@ pg_status loose_refresh (contact_loose *l, const pg_system *s)
     const pg_problem *p = s->problem;
     body_parts parts = { 0 };
     l->n = 0;
-    if (s->components != p->dim) return PG_OK;
     PG_TRY (body_parts_find (&parts, s));
     for (size_t r = 0; r < parts.n; r++) {
         if (parts.part[r].points <= (size_t) p->dim) continue;
@@ -68,7 +69,7 @@ pg_status loose_refresh (contact_loose *l, const pg_system *s)
                      "too many for equilibria: prescribe displacements of these parts, or use a solver of "
                      "motion",
                      MOST_MODES);
-        if (parts.part[r].n) PG_TRY (add_motions (p, &parts, l, r));
+        if (parts.part[r].n) PG_TRY (add_motions (s, &parts, l, r));
     }
     PG_GROW (l->amount, l->cap_amount, l->n);
     PG_GROW (l->target, l->cap_target, l->n);

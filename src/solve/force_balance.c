@@ -3,7 +3,8 @@
  * so should their moments, since no motion of the body as a whole strains it: what they miss is what the
  * solver has left, or an error of the method. Sums are over loads and supports as the force tells them
  * (pg_work_balance) and over what else acts on nodes: inertia, damping, contact. They are compared with the
- * sum of the sizes of all these forces. */
+ * sum of the sizes of all these forces; where these are next to none (a load that has returned to zero, free
+ * strains that nothing hinders) with what the residual is compared with (refinement.c). */
 #include "solve.h"
 #include <float.h>
 #include <math.h>
@@ -89,6 +90,8 @@ void force_balance (pg_system *s, const double *d, const pg_work_balance *w, con
     all.length = sqrt (square);
     double size = all.size + rounding (s, d) / BALANCED;
     if (!(size > 0)) return;
+    double missed = fmax (norm (all.force), norm (all.moment) / all.length);
+    if (missed > BALANCED * size) size = fmax (size, fmax (s->reference, s->borne));
     /* arms of forces that turn with finite displacements are not those of the places at rest */
     pg_statistics *r = s->report;
     r->balances++;

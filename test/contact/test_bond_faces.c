@@ -314,6 +314,38 @@ static void runs_go_on_bit_by_bit (void **state)
     }
 }
 
+/* The upper half of a block that is cut through rests on the lower one: the faces bear what presses it, and
+ * nothing holds it but them; points with rotations of their own turn with it. */
+static void parts_are_held_by_contact_alone (void **state)
+{
+    (void) state;
+    static const char *const forces[] = { "bond", "gmpd" };
+    for (int dim = 2; dim <= 3; dim++)
+        for (size_t k = 0; k < 2; k++) {
+            run r = scene_of (1, "dimension: %d\nbody: [{add: {box: {low: [0, 0%s], high: [1, 1%s]}}}]\n"
+                                 "spacing: 0.2\ncracks: [{%s}]\n"
+                                 "contact: {kind: friction, coefficient: 0.5}\n"
+                                 "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.2}}\n"
+                                 "method: {force: %s, accept_inexact: yes}\nboundary:\n"
+                                 "  - {set: bottom, displacement: {x: 0, y: 0%s}}\n"
+                                 "  - {set: top, traction: {x: 0.2, y: -1}}\n"
+                                 "output: {at: {levels: 1}}\n", dim,
+                              dim == 3 ? ", 0" : "", dim == 3 ? ", 1" : "",
+                              dim == 2 ? "from: [-1, 0.5], to: [2, 0.5]"
+                                       : "polygon: [[-1, 0.5, -1], [2, 0.5, -1], [2, 0.5, 2], [-1, 0.5, 2]]",
+                              forces[k], dim == 3 ? ", z: 0" : "");
+            size_t n;
+            double pressed = 0, rubbed = 0;
+            to_the_end (&r);
+            const pg_contact_values *v = pg_solver_contact (r.solver, &n);
+            for (size_t i = 0; i < n; i++)
+                pressed += v[i].pressure * v[i].area, rubbed += v[i].shear[0] * v[i].area;
+            check_relative (pressed, 1, 1e-7);
+            check_relative (fabs (rubbed), 0.2, 1e-7);
+            clear (&r);
+        }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -324,6 +356,7 @@ int main (void)
         cmocka_unit_test (motion_keeps_its_momenta),
         cmocka_unit_test (runs_go_on_bit_by_bit),
         cmocka_unit_test (discs_close_in_space),
+        cmocka_unit_test (parts_are_held_by_contact_alone),
     };
     return cmocka_run_group_tests_name ("contact/bond_faces", tests, NULL, NULL);
 }

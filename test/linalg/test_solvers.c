@@ -314,6 +314,9 @@ static void conjugate_gradients_say_when_they_do_not_arrive (void **state)
     double zero[162] = { 0 }, z[162] = { 0 };
     check_ok (pg_conjugate_gradients (&op, zero, z, 1e-12, 10000, &used));
     for (int i = 0; i < 162; i++) assert_true (z[i] == 0);
+    for (int i = 0; i < 162; i++) b[i] *= 1e-160;      /* their squares vanish */
+    check_ok (pg_conjugate_gradients (&op, b, z, 1e-12, 10000, &used));
+    for (int i = 0; i < 162; i++) check_below (fabs (z[i]), 1e-150);
     pg_sparse_clear (&A);
     dense_free (&D);
 }

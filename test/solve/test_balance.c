@@ -52,6 +52,11 @@ static const way ways[] = {
     { "closed crack",
       BOX "cracks: [{from: [0.8, 0.3], to: [1.3, 0.7]}]\ncontact: {kind: friction, coefficient: 0.3}\n", "",
       "boundary: [" HELD "}, {set: right, traction: {x: -30, y: -2}}]\n", DIRECT, 1e-9 },
+    { "states, a load that returns to zero",
+      BOX "cracks: [{from: [-0.1, 0.47], to: [2.1, 0.47]}]\ncontact: {kind: normal}\n", "force: lps",
+      "boundary: [{set: left, displacement: {x: 0}}, {set: bottom, displacement: {y: 0}}, "
+      "{set: top, displacement: {y: -1e-3}, table: [[0, 0], [0.5, 1], [1, -1]]}]\n",
+      "stepping: fixed, steps: 4", 1e-7 },
 };
 
 static void balanced (const run *r, const char *name, double limit)
@@ -81,8 +86,27 @@ static void every_way_of_stepping_balances (void **state)
     }
 }
 
+/* A body that is free to expand bears no load at all: what its solver leaves is measured by the forces that
+ * would hold it. */
+static void free_strains_balance (void **state)
+{
+    (void) state;
+    run r = scene_of (1, "dimension: 3\nspacing: 0.2\n"
+                         "body: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]\n"
+                         "materials: {m: {youngs_modulus: 1e9, poissons_ratio: 0.2, expansion: 1e-5}}\n"
+                         "boundary: [{set: left, displacement: {x: 0}}, {set: bottom, displacement: {y: 0}}, "
+                         "{set: back, displacement: {z: 0}}, {name: warmer, temperature: 100 K}]\n"
+                         "solver: {stepping: fixed, steps: 2}\noutput: {at: {levels: 1}}\n");
+    to_the_end (&r);
+    balanced (&r, "free strains", 1e-8);
+    clear (&r);
+}
+
 int main (void)
 {
-    const struct CMUnitTest tests[] = { cmocka_unit_test (every_way_of_stepping_balances) };
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test (every_way_of_stepping_balances),
+        cmocka_unit_test (free_strains_balance),
+    };
     return cmocka_run_group_tests_name ("solve/balance", tests, NULL, NULL);
 }
