@@ -5,12 +5,28 @@ A method is a name, the changes that it makes to a scene, and the family of cond
 """
 import subprocess
 
+# Criteria read what bonds show: those of shape functions show stress and stretch, those of points stretch, energy, or (gmpd) bending. The rest of the pairs is
+# not offered, so that there are no cells of them; a criterion or a force that is not named here is paired with all.
+NOT_OFFERED = {('bond', 'principal_stress'), ('fcbm', 'principal_stress'), ('lps', 'principal_stress'), ('gmpd', 'principal_stress'),
+               ('bond', 'mohr_coulomb'), ('fcbm', 'mohr_coulomb'), ('lps', 'mohr_coulomb'), ('gmpd', 'mohr_coulomb'),
+               ('galerkin', 'node_energy'), ('gmpd', 'node_energy'),
+               ('galerkin', 'beam_limits'), ('bond', 'beam_limits'), ('fcbm', 'beam_limits'), ('lps', 'beam_limits')}
 BOND_POISSON = {('stress', 2): 1 / 3, ('strain', 2): 1 / 4, ('', 3): 1 / 4}
 
 
 class Method:
     def __init__(self, name, changes, kinds, force='galerkin'):
         self.name, self.changes, self.kinds, self.force = name, changes, kinds, force
+
+    @property
+    def needs_lattice(self):
+        """Sums by Fourier transforms take points of a lattice alone: clouds, meshes and moved points are not offered."""
+        return self.force == 'fcbm'
+
+    @property
+    def takes_bars(self):
+        """State-based and micropolar forces are those of bonds in one dimension, and are not offered there."""
+        return self.force not in ('lps', 'gmpd')
 
     def poisson(self, plane, dimension):
         """Poisson's ratio of conditions that do not set one: what pair forces carry, else that of rock."""
@@ -60,7 +76,7 @@ def methods(program):
             if kinds:
                 found.append(Method(f'{force}, {solver}', {'method': {'force': force}, 'solver': {'kind': solver}}, kinds, force))
     for criterion in has['failure.criterion']:
-        for force in has['method.force']:
+        for force in (f for f in has['method.force'] if (f, criterion) not in NOT_OFFERED):
             changes = {'method': {'force': force}, 'failure': {'criterion': criterion}}
             found.append(Method(f'{force}, {criterion}', changes, {'criterion'}, force))
     return found

@@ -1,13 +1,20 @@
 """The cells of the matrix, or a sample of them that never changes and holds each condition and each method."""
 import hashlib
+from collections import Counter
 
 import breaking
+import contact
 import elastic
+import growth
+import laws
 import motion
+import ranks
+from cells import has_ranks
 from methods import methods
 
 SAMPLE = {'short': 500, 'long': 2500}
 LONGEST = 60
+LEAST = 4                    # cells of each condition in every sample
 
 
 def order(cell):
@@ -15,16 +22,18 @@ def order(cell):
 
 
 def chosen(program, size):
-    """All cells for `full`; else the first of each condition and method in an order that is as good as random, and more up to SAMPLE."""
-    cells = [cell for method in methods(program) for part in (elastic, breaking, motion) for cell in part.cells(method)]
+    """All cells for `full`; else the first of each method and LEAST of each condition in an order that is as good as random, and more up to SAMPLE."""
+    parts = [elastic, laws, breaking, growth, contact, motion] + ([ranks] if has_ranks(program) else [])
+    cells = [cell for method in methods(program) for part in parts for cell in part.cells(method)]
     if size == 'full':
         return cells
     ranked = sorted((c for c in cells if c.seconds <= LONGEST), key=order)
-    names, seen = set(), set()
+    names, conditions, found = set(), Counter(), set()
     for cell in ranked:
-        if cell.condition not in seen or cell.method not in seen:
+        if conditions[cell.condition] < LEAST or cell.method not in found:
             names.add(cell.name())
-            seen.update((cell.condition, cell.method))
+            conditions[cell.condition] += 1
+            found.add(cell.method)
     rest = [c.name() for c in ranked if c.name() not in names]
     names.update(rest[:max(0, SAMPLE[size] - len(names))])
     return [c for c in cells if c.name() in names]

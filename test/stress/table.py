@@ -1,7 +1,8 @@
-"""The matrix as tables for doc/stability.md: a row a condition, the worst number of what was accepted in silence, and why cells were refused."""
+"""The matrix as tables for doc/stability.md: a row a condition, a row a method with what it bears, and why cells were refused."""
 import re
 from collections import Counter
 
+RATIO = "Poisson's ratio"
 VERDICTS = ('ok', 'refused', 'inexact', 'defect')
 
 
@@ -17,30 +18,95 @@ def kind(reason):
     return text if len(text) <= 110 else text[:110].rsplit(' ', 1)[0] + ' ...'
 
 
+def expected_to_run(rows):
+    return sum(r['expected'] == 'runs' for r in rows)
+
+
+def shares(rows):
+    return [float(r['number']) / float(r['limit']) for r in rows if r['number'] and float(r['limit']) > 0]
+
+
 def condition_table(rows):
-    out = ['| condition | cells | ok | refused | inexact | defect | worst share of the limit among ok | worst inexact number |', '|---|---|---|---|---|---|---|---|']
+    out = ['| condition | cells | ok | of these refused as they must be | refused | inexact | defect | worst share of the limit among ok | worst share among inexact |',
+           '|---|---|---|---|---|---|---|---|---|']
     for condition in dict.fromkeys(r['condition'] for r in rows):
         own = [r for r in rows if r['condition'] == condition]
         count = Counter(r['verdict'] for r in own)
-        share = [r['number'] / r['limit'] for r in own if r['verdict'] == 'ok' and r['limit'] > 0]
-        far = [r['number'] for r in own if r['verdict'] == 'inexact']
-        out.append(f"| {condition} | {len(own)} | " + ' | '.join(str(count[v]) for v in VERDICTS)
-                   + (f' | {max(share):.2g} |' if share else ' | |') + (f' {max(far):.3g} |' if far else ' |'))
+        must = sum(r['verdict'] == 'ok' and r['expected'] != 'runs' for r in own)
+        good, far = shares(r for r in own if r['verdict'] == 'ok'), shares(r for r in own if r['verdict'] == 'inexact')
+        out.append(f"| {condition} | {len(own)} | {count['ok']} | {must or ''} | {count['refused'] or ''} | {count['inexact'] or ''} | {count['defect']} | "
+                   + (f'{max(good):.2g}' if good else '') + ' | ' + (f'{max(far):.2g}' if far else '') + ' |')
     return out
 
 
-def refusal_table(rows, most=15):
+def must_table(rows):
+    """What must be refused, and is."""
+    count = Counter((r['condition'], r['expected'][len('refused: '):]) for r in rows if r['expected'] != 'runs')
+    return ['| condition | must be refused, since | cells |', '|---|---|---|'] + [f'| {c} | {why} | {n} |' for (c, why), n in count.items()]
+
+
+def refusal_table(rows):
+    """Every reason for which sound input was refused."""
     count = Counter((r['condition'], kind(r['reason'])) for r in rows if r['verdict'] == 'refused')
-    out = ['| condition | refused because | cells |', '|---|---|---|']
-    for (condition, why), n in sorted(count.items(), key=lambda item: -item[1])[:most]:
-        out.append(f"| {condition} | {why.replace('|', '/')} | {n} |")
-    rest = sum(count.values()) - sum(n for _, n in count.most_common(most))
-    return out + ([f'| others | | {rest} |'] if rest else [])
+    return ['| condition | refused because | cells |', '|---|---|---|'] + [f"| {c} | {why.replace('|', '/')} | {n} |"
+                                                                       for (c, why), n in sorted(count.items(), key=lambda item: -item[1])]
 
 
-def write(path, rows, size, seconds):
-    total = Counter(r['verdict'] for r in rows)
+# ---- what each method bears --------------------------------------------------------------------------------------------
+
+def value_of(row):
+    return re.match(r'[^\s,|]+', row['value']).group(0).replace('1:', '')
+
+
+def reach(rows, method, condition, where, largest=True):
+    """The values of a condition up to which all cells of a method are ok, from the mildest on; '-' where not even that is."""
+    own = [r for r in rows if r['condition'] == condition and r['method'] == method and where in r['value'] and r['expected'] == 'runs']
+    if not own:
+        return ''
+    verdicts = {}
+    for r in own:
+        verdicts.setdefault(float(value_of(r)), []).append(r['verdict'])
+    good = []
+    for v in sorted(verdicts, reverse=not largest):
+        if set(verdicts[v]) != {'ok'}:
+            if good:
+                break
+            continue
+        good.append(v)
+    if not good:
+        return '-'
+    low, high = min(good), max(good)
+    return f'{low:g}' if low == high else f'{low:g} to {high:g}'
+
+
+def method_table(rows):
+    """Per method the values within which the patch error stays below 5 %, by dimension where they differ."""
+    out = ['| method | horizon, spacings: bar; plane; 3D | points moved by, spacings: plane; 3D | graded mesh, plane; 3D | Poisson\'s ratio: plane stress; plane strain; 3D |',
+           '|---|---|---|---|---|']
+    for method in dict.fromkeys(r['method'] for r in rows if r['condition'] == 'horizon'):
+        def of(condition, *where):
+            return '; '.join(reach(rows, method, condition, w) for w in where)
+        out.append(f"| {method} | {of('horizon', '1D', '2D', '3D')} | {of('moved lattice points', '2D', '3D')} | {of('graded mesh', '2D', '3D')} | "
+                   f"{of(RATIO, 'plane stress', 'plane strain', '3D')} |")
+    return out
+
+
+def step_table(rows):
+    """Per solver in motion the largest time step that ran and kept its energy, and the stable one that a refusal named."""
+    out = ['| method | largest of the steps 1e-9 to 1e-3 s that keeps the energy | stable up to, as the refusal of the next says |', '|---|---|---|']
+    for method in dict.fromkeys(r['method'] for r in rows if r['condition'] == 'time step'):
+        own = [r for r in rows if r['condition'] == 'time step' and r['method'] == method]
+        good = [float(value_of(r)) for r in own if r['verdict'] == 'ok' and not r['reason']]
+        named = [m.group(1) for r in own for m in [re.search(r'stable up to (\S+) s', r['reason'])] if m]
+        out.append(f"| {method} | {max(good):g} s | {named[0] + ' s' if named else 'any'} |" if good else f'| {method} | - | |')
+    return out
+
+
+def write(path, rows, size):
+    total, should = Counter(r['verdict'] for r in rows), expected_to_run(rows)
+    minutes = sum(float(r['seconds']) for r in rows) / 60
     with open(path, 'w') as out:
-        out.write(f"{len(rows)} cells ({size}) in {seconds / 60:.0f} minutes: " + ', '.join(f'{total[v]} {v}' for v in VERDICTS)
-                  + f"; {100 * total['refused'] / max(1, len(rows)):.1f} % refused.\n\n")
-        out.write('\n'.join(condition_table(rows)) + '\n\n' + '\n'.join(refusal_table(rows)) + '\n')
+        out.write(f"{len(rows)} cells ({size}), {minutes:.0f} minutes of them one after the other: " + ', '.join(f'{total[v]} {v}' for v in VERDICTS)
+                  + f"; of the {should} that should run {100 * total['refused'] / max(1, should):.1f} % are refused.\n\n")
+        for part in (condition_table, method_table, step_table, must_table, refusal_table):
+            out.write('\n'.join(part(rows)) + '\n\n')
