@@ -212,9 +212,9 @@ $(BUILD)/test/fuzz/fuzz_%: test/fuzz/fuzz_%.c $(LIB)
 mutate: packages     ## plants the bugs of test/mutate (T=folder: of one, PART=k/8: an eighth) one at a time in a copy and counts those that the tests find
 	$(Q).ci/mutate $(if $(T),-f $(T)) $(if $(PART),-p $(PART)) $(if $(MUTANTS),-n $(MUTANTS)) -j $(JOBS)
 
-stress: packages     ## conditions x methods, 45 minutes on two cores; rows in out/stress/stress.csv (SIZE=short|long: a sample)
-	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal
-	$(Q)test/stress/run $(BUILD) $(SIZE) $(JOBS)
+stress: packages     ## conditions x methods, an hour on two cores; rows in out/stress/stress.csv (SIZE=short|long: a sample; PART=k/n, ONLY=text: a part)
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(MPI)
+	$(Q)PART=$(PART) ONLY="$(ONLY)" test/stress/run $(BUILD) $(SIZE) $(JOBS)
 
 random: packages     ## 2000 random scenes under invariants, 60 minutes on two cores (FROM=seed COUNT=n PART=k/n KIND=.. ONLY=..); goes on where it was broken off
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(MPI)
