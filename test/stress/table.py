@@ -58,25 +58,25 @@ def value_of(row):
     return re.match(r'[^\s,|]+', row['value']).group(0).replace('1:', '')
 
 
-def reach(rows, method, condition, where, largest=True):
-    """The values of a condition up to which all cells of a method are ok, from the mildest on; '-' where not even that is."""
+def reach(rows, method, condition, where):
+    """The values of a condition whose cells are all ok, from the mildest on, and behind them in brackets how far a run goes on with a warning; '-': none."""
     own = [r for r in rows if r['condition'] == condition and r['method'] == method and where in r['value'] and r['expected'] == 'runs']
-    if not own:
-        return ''
     verdicts = {}
     for r in own:
         verdicts.setdefault(float(value_of(r)), []).append(r['verdict'])
-    good = []
-    for v in sorted(verdicts, reverse=not largest):
-        if set(verdicts[v]) != {'ok'}:
-            if good:
-                break
-            continue
-        good.append(v)
-    if not good:
-        return '-'
-    low, high = min(good), max(good)
-    return f'{low:g}' if low == high else f'{low:g} to {high:g}'
+    values = sorted(verdicts)
+    if not values:
+        return ''
+    fine = [set(verdicts[v]) == {'ok'} for v in values]
+    begin = next((k for k, well in enumerate(fine) if well), None)
+    end = begin if begin is not None else -1
+    while begin is not None and end + 1 < len(values) and fine[end + 1]:
+        end += 1
+    span = '-' if begin is None else f'{values[begin]:g}' if begin == end else f'{values[begin]:g} to {values[end]:g}'
+    warned = [v for k, v in enumerate(values) if k > end and 'refused' not in verdicts[v] and all('refused' not in verdicts[w] for w in values[end + 1:k])]
+    if begin is None:                                          # not from the smallest on, which are refused
+        warned = [v for v in values if 'refused' not in verdicts[v]]
+    return span + (f' ({warned[-1]:g})' if warned else '')
 
 
 def method_table(rows):
