@@ -461,13 +461,14 @@ typedef struct {
     size_t *kept;
 } sifting;
 
-/* The box of a centre and its family. */
-static void box_of (const sifting *s, size_t i, double *low, double *high)
+/* The box of a centre, here at `place`, and of its family: where the nodes are or, eyes 1, look from. */
+static void box_of (const sifting *s, size_t i, const double *place, int eyes, double *low, double *high)
 {
     size_t dim = (size_t) s->b->dim;
-    memcpy (low, s->centre + i * dim, dim * sizeof *low), memcpy (high, low, dim * sizeof *high);
+    memcpy (low, place, dim * sizeof *low), memcpy (high, low, dim * sizeof *high);
     for (size_t e = s->f->start[i]; e < s->f->start[i + 1]; e++) {
-        const double *x = s->b->cloud->x + (size_t) s->f->node[e] * dim;
+        size_t node = (size_t) s->f->node[e];
+        const double *x = eyes ? pg_between_eye_of (s->b, node) : s->b->cloud->x + node * dim;
         for (size_t k = 0; k < dim; k++) low[k] = fmin (low[k], x[k]), high[k] = fmax (high[k], x[k]);
     }
 }
@@ -483,11 +484,16 @@ static void sift_those (void *context, size_t first, size_t last, int thread)
         pg_outlook o;
         size_t begin = s->f->start[i], n = begin;
         s->kept[i] = s->f->start[i + 1] - begin;
-        box_of (s, i, low, high);
+        box_of (s, i, s->centre + i * dim, 0, low, high);
+        double reach = REACH * spacing_at (s->b, s->centre + i * dim);
+        for (size_t k = 0; k < dim; k++) low[k] -= reach, high[k] += reach;
         if (!pg_between_look (s->b, low, high, &o)) continue;
         if (s->own && s->own[i] >= 0)
             memcpy (eye, pg_between_eye_of (s->b, (size_t) s->own[i]), dim * sizeof *eye);
         else pg_between_eye (s->b, (s->eye ? s->eye : s->centre) + i * dim, eye);
+        /* all that any two of them can meet, so that they are asked the same from either end */
+        box_of (s, i, eye, 1, low, high);
+        if (!pg_between_look (s->b, low, high, &o)) continue;
         for (size_t e = begin; e < s->f->start[i + 1]; e++) {
             int j = s->f->node[e];
             s->f->node[n] = j;

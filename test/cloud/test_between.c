@@ -230,6 +230,34 @@ static void families_end_at_a_slot (void **state)
     unmake (&m);
 }
 
+/* Who sees whom is the same from either end, points in gaps included, which look from the nearest body. */
+static void points_see_each_other_or_do_not (void **state)
+{
+    (void) state;
+    for (int k = 0; k < 12; k++) {
+        made m;
+        char body[300], more[100];
+        double gap = 0.05 + 0.21 * k;
+        snprintf (body, sizeof body, "  - add: {disk: {center: [5, 5], radius: 5}}\n"
+                                     "  - subtract: {disk: {center: [5, 5], radius: 2.2}}\n"
+                                     "  - add: {box: {low: [%g, 0], high: [%g, 10]}}\n", 10 + gap, 16 + gap);
+        snprintf (more, sizeof more, "lattice: nodes\nlattice_offset: [%g, %g]\n", 0.17 * k - 0.9, 0.07 * k);
+        make (&m, 2, body, more);
+        pg_family f;
+        size_t dropped;
+        check_ok (pg_family_build (&f, &m.cloud, m.cloud.n, m.cloud.x, 3.015, PG_RADIAL, 1));
+        check_ok (pg_between_sift (m.between, &f, m.cloud.x, NULL, NULL, 1, &dropped));
+        for (size_t i = 0; i < f.n; i++)
+            for (size_t e = f.start[i]; e < f.start[i + 1]; e++) {
+                size_t j = (size_t) f.node[e], back = f.start[j];
+                while (back < f.start[j + 1] && (size_t) f.node[back] != i) back++;
+                assert_true (back < f.start[j + 1]);
+            }
+        pg_family_clear (&f);
+        unmake (&m);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -237,7 +265,7 @@ int main (void)
         cmocka_unit_test (one_convex_shape_parts_nothing), cmocka_unit_test (a_slot_parts_however_narrow),
         cmocka_unit_test (another_body_is_apart),          cmocka_unit_test (smooth_chords_stay),
         cmocka_unit_test (chords_over_a_mouth_part),       cmocka_unit_test (the_same_in_space),
-        cmocka_unit_test (families_end_at_a_slot),
+        cmocka_unit_test (families_end_at_a_slot),         cmocka_unit_test (points_see_each_other_or_do_not),
     };
     return cmocka_run_group_tests_name ("what lies between two points", tests, NULL, NULL);
 }
