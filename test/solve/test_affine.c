@@ -50,6 +50,40 @@ static void a_bar_breaks_in_closed_form (void **state)
         }
 }
 
+/* Two bodies, of which one is pulled apart while the other bears a constant load: what is left of the
+ * stiffness
+ * against the load that grows ends the run, as it does without the other one. */
+static void what_ends_a_run_is_the_growing_part (void **state)
+{
+    (void) state;
+    for (int constant = 0; constant < 2; constant++) {
+        run r = scene_of (
+            1,
+            "dimension: 2\nplane: stress\nthickness: 1 mm\nbody: [{add: {box: {low: [0, 0], high: [10 "
+                "mm, 10 mm]}}}, "
+            "{add: {box: {low: [20 mm, 0], high: [30 mm, 10 mm]}}}]\nspacing: 1.25 mm\nlattice: cells\n"
+            "cracks: [{from: [-1 mm, 5 mm], to: [4 mm, 5 mm]}]\n"
+            "materials: {glass: {youngs_modulus: 72 GPa, poissons_ratio: 0.3333333333333333}}\n"
+            "method: {force: bond, horizon: 2.5 spacing}\nfailure: {criterion: stretch, "
+                "critical_stretch: 1e-3, exclude: [other]}\n"
+            "sets: {lid: {where: x < 15 mm and y > 8.7 mm}, other: {where: x > 15 mm}}\n"
+            "boundary:\n  - {set: bottom, displacement: {x: 0, y: 0}}\n  - {set: lid, displacement: {y: "
+                "40 um}}\n"
+            "  - {set: right, traction: {x: 100 MPa}%s}\n"
+            "solver: {stepping: event, stop: {stiffness: 20 %%}, max_events: 400}\noutput: {at: {levels: "
+                "1}}\n",
+            constant ? ", ramp: constant" : ", ramp: 0");
+        int told = 0;
+        to_the_end (&r);
+        const pg_statistics *report = pg_solver_report_now (r.solver);
+        for (size_t k = 0; k < report->nwarning; k++)
+            told |= strstr (report->warning[k], "the body has separated") != NULL;
+        print_message ("constant %d: %ld events, factor %g\n", constant, report->events, r.state->factor);
+        assert_true (told && report->events < 400);
+        clear (&r);
+    }
+}
+
 /* Nothing breaks: zero, the levels, the end. */
 static void a_run_without_events_ends_with_its_last_level (void **state)
 {
@@ -236,6 +270,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_bar_breaks_in_closed_form),
+        cmocka_unit_test (what_ends_a_run_is_the_growing_part),
         cmocka_unit_test (a_run_without_events_ends_with_its_last_level),
         cmocka_unit_test (without_a_constant_part_the_events_are_the_same),
         cmocka_unit_test (states_under_a_constant_part_are_admitted),

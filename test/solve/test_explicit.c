@@ -376,6 +376,51 @@ static void bits_do_not_depend_on_rows_threads_or_looks (void **state)
     }
 }
 
+/* ---- a row that is repeated ---------------------------------------------------------------------------- */
+static int balances, fails_at;
+static pg_status failing_balance (void *self, double t, const double *d, double *residual, double *reference)
+{
+    if (++balances == fails_at) return pg_error (PG_E_MEMORY, PG_HERE, "no memory");
+    return chain_balance (self, t, d, residual, reference);
+}
+
+/* Energies of a damped chain in rows of ten time steps; of an evaluation that fails the row is made again. */
+static void energies_of_rows (const char *kind, int fails, double *out)
+{
+    linked l;
+    pg_step step;
+    pg_force_type type = chain_type;
+    int refused = 0;
+    the = (chain) { .n = 12, .k = 1e4, .ground = 1e4, .m = 1, .push = swing };
+    pg_solver_options o = options_of (kind, 1e-3, 60);
+    o.rows = 6, PG_OWN (pg_explicit_options, &o)->rayleigh_mass = 5;
+    type.balance = failing_balance;
+    balances = 0, fails_at = fails;
+    link_up (&l, &o, &type);
+    while (!pg_solver_done (l.solver, l.state)) {
+        pg_status status = pg_solver_step (l.solver, l.state, &step);
+        refused += status != PG_OK;
+        assert_true (status == PG_OK || (status == PG_E_MEMORY && refused == 1));
+    }
+    assert_int_equal (refused, fails > 0);
+    const pg_statistics *r = pg_solver_report_now (l.solver);
+    out[0] = r->energy_external, out[1] = r->energy_damping, out[2] = r->energy_kinetic, out[3] =
+        r->energy_dissipated;
+    unlink_all (&l);
+}
+
+static void a_row_that_is_repeated_damps_once (void **state)
+{
+    (void) state;
+    for (int kind = 0; kind < 2; kind++) {
+        double whole[4], again[4];
+        energies_of_rows (kinds[kind], 0, whole), energies_of_rows (kinds[kind], 38, again);
+        assert_true (whole[1] > 0.01 * fabs (whole[0]));
+        for (int k = 0; k < 3; k++) check_relative (again[k], whole[k], 1e-12);
+        check_scaled (again[3], whole[3], 1e-11, fabs (whole[0]));
+    }
+}
+
 /* ---- refusals ------------------------------------------------------------------------------------------ */
 static double burst (double t) { return t > 0.05 ? DBL_MAX : 0; }
 
@@ -444,6 +489,7 @@ int main (void)
         cmocka_unit_test (the_frequency_itself_decides_beyond_the_bound),
         cmocka_unit_test (rows_and_levels_are_met),
         cmocka_unit_test (bits_do_not_depend_on_rows_threads_or_looks),
+        cmocka_unit_test (a_row_that_is_repeated_damps_once),
         cmocka_unit_test (refusals_say_what_to_do),
         cmocka_unit_test (every_allocation_may_fail),
     };
