@@ -97,6 +97,22 @@ static void pull_of (const pg_load *load, size_t i, const double *x, const doubl
                                                                                           t)) : 0;
 }
 
+/* A point that no other one sees, such as one on a crack, has no gradient, and what pulls it pulls nothing
+ * else. */
+static int pass_over_alone (tip_sample *f, size_t k)
+{
+    double sum = f->excess ? f->excess[k] : 0;
+    for (size_t c = 0; c < 2; c++) sum += f->u[2*k + c];
+    for (size_t c = 0; c < 4; c++) sum += f->H[4*k + c];
+    for (size_t c = 0; c < 3; c++) sum += f->stress[3*k + c];
+    if (isfinite (sum)) return 0;
+    for (size_t c = 0; c < 2; c++) f->u[2*k + c] = 0;
+    for (size_t c = 0; c < 4; c++) f->H[4*k + c] = 0;
+    for (size_t c = 0; c < 3; c++) f->stress[3*k + c] = 0;
+    if (f->excess) f->excess[k] = 0;
+    return 1;
+}
+
 pg_status tip_springs_sample (tip_springs *s, int at, const pg_tip_field *tip, const tip_material *material,
                               const pg_problem *p, const pg_force_type *force, void *self,
                               const pg_state *state, const mean_motion *d, const double *t)
@@ -113,8 +129,8 @@ pg_status tip_springs_sample (tip_springs *s, int at, const pg_tip_field *tip, c
         const pg_load *load = &p->load[l];
         for (size_t i = 0; load->kind == PG_SPRING && i < load->set->npoint; i++) {
             if (!reaches (p, load, i, tip, offset)) continue;
-            double pull[2];
-            pull_of (load, i, g->x + 2*k, f->u + 2*k, at, tip->e, t, pull);
+            double pull[2] = { 0 };
+            if (!pass_over_alone (f, k)) pull_of (load, i, g->x + 2*k, f->u + 2*k, at, tip->e, t, pull);
             tip_turn (tip->e, pull, f->load + 2*k), k++;
         }
     }

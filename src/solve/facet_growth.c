@@ -214,6 +214,24 @@ void facet_settle_energy (pg_tip_field *f, int nfield)
         }
 }
 
+/* Integrals that are no numbers judge nothing: the tip has no rings, and it is said. */
+static void drop_nan (pg_system *s, pg_tip_field *f, long id, int nfield)
+{
+    double sum = 0;
+    if (isnan (f->near)) return;
+    for (int a = 0; a < nfield; a++) {
+        for (int c = 0; c < nfield; c++) sum += f->J[a][c];
+        sum += f->K[0][a] + f->K[1][a];
+    }
+    if (isfinite (sum)) return;
+    f->near = f->wide = NAN;
+    pg_statistics_warn_once (s->report,
+                             "J of crack tip %ld at (%.6g, %.6g) m is no number, since some point within "
+                             "its rings sees no other: the tip is not judged; a lattice offset that puts no "
+                             "point on the crack, or a smaller spacing, helps",
+                             id, f->x[0], f->x[1]);
+}
+
 /* One tip; with contact its faces may touch. */
 static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, const double *const *d,
                               const double *times)
@@ -228,6 +246,7 @@ static pg_status measure_tip (break_loop *b, const pg_state *state, size_t i, co
     PG_TRY (pg_tip_measure_faces (f, s->problem, s->force, s->self, state, i, g->nfield, d, times,
                                   s->contact ? &faces : NULL, facet));
     if (s->contact) facet_settle_energy (f, g->nfield);
+    drop_nan (s, f, state->paths->tip[i].id, g->nfield);
 done:
     return status;
 }
