@@ -195,7 +195,8 @@ pg_status contact_check (const pg_system *s)
         PG_TRY (options_fault (s->options, "method.force",
                                "parts of the body that contact alone holds need a factor of K, and force: %s "
                                "makes no matrix: prescribe a displacement of each part or hold it by "
-                               "springs, or use another force", s->problem->method->name));
+                               "springs, or use another force",
+                               s->problem->method->name));
     if (c->loose.n && !has_factor (s))
         PG_TRY (options_fault (s->options, "solver.linear",
                                "parts of the body that contact alone holds need a factor of K: use auto"));
