@@ -104,9 +104,8 @@ def step_table(rows):
 
 def write(path, rows, size):
     total, should = Counter(r['verdict'] for r in rows), expected_to_run(rows)
-    minutes = sum(float(r['seconds']) for r in rows) / 60
     with open(path, 'w') as out:
-        out.write(f"{len(rows)} cells ({size}), {minutes:.0f} minutes of them one after the other: " + ', '.join(f'{total[v]} {v}' for v in VERDICTS)
+        out.write(f"{len(rows)} cells ({size}): " + ', '.join(f'{total[v]} {v}' for v in VERDICTS)
                   + f"; of the {should} that should run {100 * total['refused'] / max(1, should):.1f} % are refused.\n\n")
         for part in (condition_table, method_table, step_table, must_table, refusal_table):
             out.write('\n'.join(part(rows)) + '\n\n')
