@@ -1,0 +1,11 @@
+#!/bin/bash
+# test_random.sh BUILD: some of the random scenes of make random, each asked every invariant. PERIGAL_TEST_SIZE=short takes 30 seeds, long 100 others.
+build=$1
+out=$(mktemp -d) || exit 1
+trap 'rm -rf "$out"' EXIT
+# python of the system: a plain python3 on the path may be a slow wrapper
+python=/usr/bin/python3; [ -x "$python" ] || python=python3
+first=1 count=30; [ "$PERIGAL_TEST_SIZE" = long ] && first=101 count=100
+command -v ccx > /dev/null && command -v gmsh > /dev/null || echo "# skipped: finite elements to compare with (packages calculix-ccx and gmsh)"
+[ -x "$build/perigal-mpi" ] || echo "# skipped: ranks (packages petsc-dev, mpi-default-dev and mpi-default-bin)"
+"$python" "$(dirname "$0")/run" "$build" FROM=$first COUNT=$count JOBS=1 SHRINK=0 TAP=1 OUT="$out"
