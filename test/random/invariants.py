@@ -174,6 +174,18 @@ def facets(case):
         yield f'{ratio:.2f} of the fracture energy was taken, without a word'
 
 
+def prescribed(case):
+    """What a support of shape functions is said to move by is what is prescribed."""
+    if not case.base.done or case.data['method'].get('force', 'galerkin') != 'galerkin' or 'stages' in case.data or case.scene.kind in ('explicit', 'relaxed'):
+        return
+    factor = case.base.last('load_factor')
+    for load in case.data['boundary']:
+        for axis, value in load.get('displacement', {}).items():
+            found = case.base.last(f'{load["name"]}.displacement_{axis}')
+            if abs(found - factor * value) > 1e-9 * abs(value):
+                yield f'{load["name"]}.displacement_{axis} is {found:.9g}, prescribed {factor * value:.9g}'
+
+
 # ---- images
 def image_of(case, image, tolerance, what, files=None):
     breaks = 'failure' in case.data
@@ -479,6 +491,6 @@ def falling(case):
         yield f'free fall: {u:.6g} m for {right:.6g}, strain energy {run.report["energy"]["strain"]:.3g} of work {run.report["energy"]["external"]:.3g} J'
 
 
-INVARIANTS = [sound, checked, balanced, energies, facets, mirrored, quarter_turned, moved, resized, nudged, threaded, resumed, on_ranks, doubled, superposed,
-              rigid, turned_little, as_elements, soft_spring, doubled_crack, loose, slot, falling]
+INVARIANTS = [sound, checked, balanced, energies, facets, prescribed, mirrored, quarter_turned, moved, resized, nudged, threaded, resumed, on_ranks, doubled,
+              superposed, rigid, turned_little, as_elements, soft_spring, doubled_crack, loose, slot, falling]
 ALWAYS = (sound, checked)

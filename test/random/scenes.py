@@ -388,8 +388,10 @@ class Maker:
         if self.kind == 'motion':
             return {'kind': 'newmark', 'dt': self.h / math.sqrt(self.modulus / 2500) * self.between(0.5, 3), 'time_steps': self.rng.randint(4, 12)}
         if self.kind == 'explicit':
-            return {'kind': self.one('verlet', 'central'), 'time_steps': self.rng.randint(20, 60),
-                    'dt': 0.15 * self.h / math.sqrt(self.modulus / 2500)}
+            how = {'dt': 0.15 * self.h / math.sqrt(self.modulus / 2500), 'time_steps': self.rng.randint(20, 60)}
+            if self.chance(0.3):                         # as many steps as are stable
+                how = {'end': self.between(4, 12) * self.h / math.sqrt(self.modulus / 2500)}
+            return {'kind': self.one('verlet', 'central'), **how}
         if self.kind == 'relaxed':
             return {'kind': self.one('adr', 'relax'), 'stages': self.rng.randint(1, 3)}
         if self.kind in ('facets', 'strength'):
