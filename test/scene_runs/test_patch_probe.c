@@ -79,6 +79,22 @@ static double tension_error (const tension *c)
     return sqrt (wrong / all);
 }
 
+/* In full size (3 s): iterations that 3e8 visits of bonds do not bring to an end are not settled, and the
+ * error is
+ * said to be at least so much. */
+static void what_iterations_have_not_found_is_a_bound (void **state)
+{
+    (void) state;
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    tension c = { .method = "approximation: nosb, integration: nodal, horizon: 3.01 spacing",
+                  .more = "perturb: {amount: 0.3}\n", .dim = 3, .spacing = 0.05, .size = { 1, 1, 1 } };
+    if (!size || strcmp (size, "long") != 0) c.spacing = 0.125;
+    pg_patch p = measured (&c, 1, "");
+    print_message ("  spacing %g: error %g, settled %d after %d iterations\n", c.spacing, p.error,
+                   p.settled, (int) p.iterations);
+    assert_int_equal (p.settled, c.spacing > 0.1);
+}
+
 #define MOVED "perturb: {amount: 0.2}\n"
 static const tension cases[] = {
     { "force: bond", "lattice: cells\n", 2, 0.1, { 1, 0.1, 0 }, 0.9, 1.5 },
@@ -352,6 +368,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (it_tells_what_uniform_tension_comes_out_as),
+        cmocka_unit_test (what_iterations_have_not_found_is_a_bound),
         cmocka_unit_test (sound_ones_are_told_to_be),
         cmocka_unit_test (units_and_cracks_leave_it_as_it_is),
         cmocka_unit_test (points_without_a_surface_are_measured_inside),
