@@ -41,12 +41,21 @@ MAY_REFUSE = (
 
 
 # Several ranks on one machine: root may run them, more than there are cores too, without a look for fast networks.
-LAUNCH = ('mpirun', '--oversubscribe', '--allow-run-as-root')
+LAUNCH = ['mpirun', '--oversubscribe', '--allow-run-as-root']
 os.environ.update(OMPI_MCA_mpi_yield_when_idle='1', OMPI_MCA_btl_vader_single_copy_mechanism='none', OMPI_MCA_pml='ob1', OMPI_MCA_hwloc_base_binding_policy='none')
 
 
 def program_of_ranks(program):
     return program + '-mpi'
+
+
+def ranks_sleep(folder):
+    """A rank that waits for another one asks again and again; beside other work it is better to sleep in between, as the tests of ranks do."""
+    source, library = os.path.join(folder, 'sleep.c'), os.path.abspath(os.path.join(folder, 'sleep.so'))
+    with open(source, 'w') as out:
+        out.write('#include <time.h>\nint sched_yield (void) { struct timespec t = { 0, 1000 }; return nanosleep (&t, 0); }\n')
+    if subprocess.run([os.environ.get('CC', 'gcc'), '-shared', '-fPIC', '-o', library, source], capture_output=True).returncode == 0:
+        LAUNCH.extend(['-x', f'LD_PRELOAD={library}'])
 
 
 def has_ranks(program):
