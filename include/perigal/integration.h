@@ -118,10 +118,11 @@ typedef struct {
     /* Faces whose fluxes were changed so that their cells close (faces); cells whose quadrature misses the
      * divergence theorem without that, or could for products (cells). */
     unsigned char *amended, *uneven;
-    /* A small cell keeps its direct derivatives, and its host obeys the identity of both: the host of each
-     * cell, -1: it has none (cells), and the small cells of each host. */
-    int      *host;
-    pg_family guests;
+    /* A small cell keeps its direct derivatives, and its host obeys the identity of both: the hosts of each
+     * cell, several where its neighbours have equal claims, the small cells of each host, and the share of
+     * the identity of each of these that the host takes (as guests.node). */
+    pg_family hosts, guests;
+    double   *guest_share;
     /* The cells that must have all their bonds for the derivatives of a cell to be corrected: it and those
      * beside it, and the same of its guests; the other way round, the cells that are no longer corrected
      * when a cell loses a bond. */

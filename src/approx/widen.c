@@ -134,7 +134,8 @@ static int nodes_within (const work *w)
         for (int j = -most[1]; j <= most[1]; j++)
             for (int k = -most[2]; k <= most[2]; k++) {
                 double z[3] = { i * c->step[0], j * c->step[1], k * c->step[2] };
-                if (w->a.shape == PG_TENSOR || hypot (hypot (z[0], z[1]), z[2]) < w->a.horizon) count++;
+                double away = hypot (hypot (z[0], z[1]), z[2]);
+                count += w->a.shape == PG_TENSOR || away < w->a.horizon * (1 - 1e-9);
             }
     return count;
 }

@@ -22,6 +22,9 @@ typedef struct cut_work cut_work;
  * rounding, far below any length that matters. */
 static const double cut_snap = 1e-10;
 
+/* Numbers of size 1 that differ by less are equal but for rounding. */
+static const double cut_equal = 1e-9;
+
 /* The quadratic function x.A x + b.x + c; A is symmetric, entries beyond dim are zero. */
 typedef struct { double A[3][3], b[3], c; } cut_quadric;
 
@@ -69,9 +72,10 @@ void cells_put_face (pg_cells *out, size_t at, int face, const double *step);
 /* ---- polynomials --------------------------------------------------------------------------------------- */
 /* Degree of the polynomials that arise at most: the resultant of two conics has degree 4. */
 enum { CUT_DEGREE = 4 };
-/* Real roots of sum_k c[k] x^k within [low, high], ascending; also double roots that only touch zero, to
- * rounding. Returns how many; `root` has room for degree + 2. */
-int  cut_roots (int degree, const double *c, double low, double high, double *root);
+/* Real roots of sum_k c[k] x^k within [low, high], ascending; also double roots that only touch zero: of
+ * degree 2 where the discriminant is below `rounding` of its terms. Returns how many; `root` has room for
+ * degree + 2. */
+int  cut_roots (int degree, const double *c, double rounding, double low, double high, double *root);
 /* Gauss-Legendre points and weights on [0, 1]. */
 void cut_gauss (int n, double *x, double *w);
 
@@ -128,6 +132,10 @@ typedef struct {
     /* Of each surface: its facets, NULL: it is no region of any; 1: this walk passes it over (n). */
     const pg_facets **facets;
     unsigned char *mute;
+    /* Places nearer than this are one, local: rounding, more of it far from the origin. */
+    double rounding;
+    /* 1: all surfaces are planes across the axes. Each then divides the whole cell. */
+    int square;
     /* Edges of the regions that come near the cell, local: two ends (2D: one), 6 numbers each, and the
      * surface of each. */
     double *edge;  int *edge_of;  size_t nedge, edge_room, edge_of_room;
@@ -145,6 +153,16 @@ void cut_split (cut_slices *s, int k);
 /* Is s->at within the box of surface i, to 1e-7 of the cell? */
 int  cut_within (const cut_slices *s, size_t i);
 
+/* Orders of the axes for a walk over the cell (surface -1) or that surface of it, outermost first; returns
+ * how many, and sets s->square. The height is the axis that the normals follow most, so that surfaces are
+ * graphs over the other axes as far as possible; the axis they follow least is outermost. Of two that they
+ * follow equally the surfaces are less bent along the inner one. Equal ones come in every order, so that
+ * neither rounding nor the numbers of the axes choose: each order gets its share of the weight. Between
+ * planes across the axes any order gives the same points. fixed: the axis that comes first in a face of
+ * the cell, and its side; -1: none. */
+int  cut_axes (cut_slices *s, const struct pg_cut *cut, int surface, int fixed, int side, int order[6][3]);
+/* Does surface i come near a face of the cell? The cells on both sides find the same ones there. */
+int  cut_on_face (const cut_slices *s, size_t i, int axis, int side);
 /* Are both regions of the same facets? Such meet at edges of theirs alone. */
 int  cut_same_facets (const cut_slices *s, size_t i, size_t j);
 
@@ -167,6 +185,8 @@ typedef struct { double size, centre[3], normal[3]; } cut_piece;
 /* These of the body in the cell, or of one part of a surface, by raising the order until the size changes
  * by less than 1e-13 of the cell. */
 pg_status cut_work_piece  (cut_work *w, int surface, int part, cut_piece *piece);
+/* The size of the present cell, thickness included, from its corners as they are rounded, m^3. */
+double    cut_work_size      (const cut_work *w);
 /* Of all pieces so far that did not settle: the largest change of a size by the last raise of the order (27
  * to 40 points), over that of a whole cell (of its largest face); 0: all have settled. */
 double    cut_work_unsettled (const cut_work *w);

@@ -9,12 +9,11 @@
  * cells and facets of the uncut lattice. Results do not depend on threads: everything here runs in the
  * order of the lattice. */
 #include "cut.h"
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
 
-/* A box that holds less than this share of its volume is no cell: it is rounding. */
-static const double least_share = 1e-13;
 enum { NONE, WHOLE, CUT };
 /* A facet to be: cell number in pg_cells, surface number in pg_cut, face of the box if it covers one
  * entirely (else -1), part between dividing half-planes, and its measures. */
@@ -34,6 +33,9 @@ typedef struct {
     double *volume;
     /* Volume of a whole box, thickness included, m^3. */
     double  whole;
+    /* A box that holds less than this share of its volume is no cell, and a smaller share of its largest face
+     * no facet: it is rounding, more of it far from the origin. */
+    double  least;
     /* The last surface entered in the list of each box, while regions of facets are entered (n). */
     int    *last;
     one_facet *facet;  size_t nfacet, capacity;
@@ -205,8 +207,8 @@ static pg_status classify (builder *m, size_t c)
     else {
         PG_TRY (into_cell (m, c));
         PG_TRY (cut_work_piece (m->cut->work, -1, 0, &piece));
-        double share = piece.size / m->whole;
-        m->state[c] = share > 1 - least_share ? WHOLE : share > least_share ? CUT : NONE;
+        double share = piece.size / cut_work_size (m->cut->work);
+        m->state[c] = share > 1 - m->least ? WHOLE : share > m->least ? CUT : NONE;
         m->volume[c] = piece.size;
     }
     if (m->state[c] == WHOLE) m->volume[c] = m->whole;
@@ -244,7 +246,7 @@ done:
 }
 
 /* Adds the parts of surface f.surface in the prepared cell that have an area. A part that covers a whole
- * face of the box (to 1e-12) becomes that face, with nodes of its own. */
+ * face of the box (to m->least) becomes that face, with nodes of its own. */
 static pg_status find_parts (builder *m, one_facet f)
 {
     pg_status status = PG_OK;
@@ -252,8 +254,8 @@ static pg_status find_parts (builder *m, one_facet f)
     double full = m->whole / m->l->step[face >= 0 ? face / 2 : 0];
     for (f.part = 0; f.part < parts; f.part++) {
         PG_TRY (cut_work_piece (m->cut->work, f.surface, f.part, &f.piece));
-        if (!(f.piece.size > 1e-13 * full)) continue;
-        f.face = face >= 0 && f.piece.size >= (1 - 1e-12) * full ? face : -1;
+        if (!(f.piece.size > m->least * full)) continue;
+        f.face = face >= 0 && f.piece.size >= (1 - m->least) * full ? face : -1;
         PG_TRY (put (m, &f));
     }
 done:
@@ -370,8 +372,12 @@ static pg_status prepare (builder *m, const pg_body *body, double thickness, siz
 {
     pg_status status = PG_OK;
     m->n = (size_t) m->l->count[0] * (size_t) m->l->count[1] * (size_t) m->l->count[2];
-    m->whole = m->l->dim == 3 ? 1 : thickness;
-    for (int k = 0; k < m->l->dim; k++) m->whole *= m->l->step[k];
+    m->whole = m->l->dim == 3 ? 1 : thickness, m->least = 1e-13;
+    for (int k = 0; k < m->l->dim; k++) {
+        double far = fmax (fabs (m->l->origin[k]), fabs (m->l->high[k]));
+        m->whole *= m->l->step[k];
+        m->least = fmax (m->least, 1e-13 + 16 * DBL_EPSILON * far / m->l->step[k]);
+    }
     PG_ALLOC (m->cut, 1);
     PG_TRY (cut_surfaces (m->cut, body, m->l, nray, ray));
     PG_TRY (cut_work_create (&m->cut->work, m->cut, m->l->dim == 3 ? 1 : thickness));

@@ -13,6 +13,7 @@
  * (a soft split). The substitution x = e +- s^2 makes the integrand smooth again, so that the error falls
  * exponentially with the order there too. */
 #include "cut.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -148,6 +149,9 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
     while (w->real > 0 && w->cut->surface[near[w->real - 1]].shape < 0) w->real--;
     for (int k = 0; k < s->dim; k++)
         w->centre[k] = 0.5 * (low[k] + high[k]), w->half[k] = 0.5 * (high[k] - low[k]);
+    s->rounding = 1e-13;
+    for (int k = 0; k < s->dim; k++)
+        s->rounding = fmax (s->rounding, 1e-13 + 4 * DBL_EPSILON * fabs (w->centre[k]) / w->half[k]);
     for (size_t i = 0; i < n; i++) {
         const cut_surface *f = &w->cut->surface[near[i]];
         s->number[i] = near[i];
@@ -226,7 +230,7 @@ static int line_roots (cut_work *w, const cut_quadric *q)
     for (size_t i = 0; i < s->n; i++) {
         if (s->mute[i]) continue;
         double c[3] = {q[i].c, q[i].b[z], q[i].A[z][z]}, root[2];
-        int n = cut_roots (2, c, -1 - cut_snap, 1 + cut_snap, root);
+        int n = cut_roots (2, c, s->rounding, -1 - cut_snap, 1 + cut_snap, root);
         for (int r = 0; r < n; r++) {
             double t = fabs (root[r]) >= 1 - cut_snap ? copysign (1, root[r]) : root[r];
             s->at[z] = t;
@@ -266,7 +270,7 @@ static int line_between_facets (cut_work *w, double weight)
     const cut_slices *s = &w->slices;
     const pg_facets *f = w->face < 0 ? only_facets (w) : NULL;
     int z = s->axis[s->dim - 1], sense[CROSSINGS], above = 0, known[2] = { -1, -1 };
-    double x[3] = { 0, 0, 0 }, at[CROSSINGS], from = 0, to = -2, low = -1;
+    double x[3] = { 0, 0, 0 }, at[CROSSINGS], from = 0, to = -3, low = -1;
     if (!f) return 0;
     for (int k = 0; k < s->dim; k++)
         x[k] = w->centre[k] + w->half[k] * (k == z ? 0 : s->at[k]), weight *= w->half[k];
@@ -277,10 +281,10 @@ static int line_between_facets (cut_work *w, double weight)
         double high = i < n ? fmin (1, fmax (-1, (at[i] - w->centre[z]) / w->half[z])) : 1;
         int in = above > 0;
         if (fabs (high) >= 1 - cut_snap) high = copysign (1, high);
-        if (high - low > 1e-14) {
+        if (high - low > s->rounding) {
             if (known[in] < 0) known[in] = inside (w, 0.5 * (low + high));
             if (known[in]) {
-                if (to != low) fill_piece (w, from, to, weight), from = low;
+                if (!(low - to <= s->rounding)) fill_piece (w, from, to, weight), from = low;
                 to = high;
             }
         }
@@ -292,17 +296,18 @@ static int line_between_facets (cut_work *w, double weight)
 }
 
 /* Volume points on the present line. Neighbouring pieces that both lie in the body are joined, as no
- * surface of the body separates them, only the continuation of one; fewer points suffice then. */
+ * surface of the body separates them, only the continuation of one; fewer points suffice then. Not between
+ * planes across the axes, where the points must not depend on the order of these. */
 static void line_volume (cut_work *w, const cut_quadric *q, double weight)
 {
     if (line_between_facets (w, weight)) return;
     int m = line_roots (w, q), dim = w->slices.dim;
-    double from = 0, to = -2;
+    double from = 0, to = -3, rounding = w->slices.rounding;
     for (int k = 0; k < dim; k++) weight *= w->half[k];
     for (int k = 0; k <= m; k++) {
         double a = w->node[k], b = w->node[k + 1];
-        if (b - a <= 1e-14 || !inside (w, 0.5 * (a + b))) continue;
-        if (to != a) fill_piece (w, from, to, weight), from = a;
+        if (b - a <= rounding || !inside (w, 0.5 * (a + b))) continue;
+        if (!(a - to <= rounding) || w->slices.square) fill_piece (w, from, to, weight), from = a;
         to = b;
     }
     fill_piece (w, from, to, weight);
@@ -328,9 +333,9 @@ static int owned (cut_work *w, int k, int m)
     if (w->owner[k] != w->surface) return 0;
     s->at[z] = w->node[k];
     if (!reaches (w, (size_t) w->surface)) return 0;
-    for (int i = k; i-- > 1 && w->node[k] - w->node[i] < 1e-13;)
+    for (int i = k; i-- > 1 && w->node[k] - w->node[i] < s->rounding;)
         if (w->owner[i] < w->surface && reaches (w, (size_t) w->owner[i])) return 0;
-    for (int i = k + 1; i <= m && w->node[i] - w->node[k] < 1e-13; i++)
+    for (int i = k + 1; i <= m && w->node[i] - w->node[k] < s->rounding; i++)
         if (w->owner[i] < w->surface && reaches (w, (size_t) w->owner[i])) return 0;
     return 1;
 }
@@ -364,14 +369,14 @@ static void emit_surface (cut_work *w, double t, int under, double weight)
 static void line_surface (cut_work *w, const cut_quadric *q, double weight)
 {
     int m = line_roots (w, q);
-    const double *t = w->node;
+    const double *t = w->node, rounding = w->slices.rounding;
     for (int k = 1; k <= m; k++) {
         int a = k, b = k;
         if (!owned (w, k, m)) continue;
-        while (a > 0 && t[k] - t[a] < 1e-13) a--;
-        while (b < m + 1 && t[b] - t[k] < 1e-13) b++;
-        double low = 0.5 * (t[k] + (t[k] - t[a] < 1e-13 ? -1 - beyond : t[a])),
-               high = 0.5 * (t[k] + (t[b] - t[k] < 1e-13 ? 1 + beyond : t[b]));
+        while (a > 0 && t[k] - t[a] < rounding) a--;
+        while (b < m + 1 && t[b] - t[k] < rounding) b++;
+        double low = 0.5 * (t[k] + (t[k] - t[a] < rounding ? -1 - beyond : t[a])),
+               high = 0.5 * (t[k] + (t[b] - t[k] < rounding ? 1 + beyond : t[b]));
         /* Other regions of the same facets are passed over, and may lie near. */
         if (w->slices.facets[w->surface]) low = t[k] - beyond, high = t[k] + beyond;
         int under = inside (w, low), over = inside (w, high);
@@ -414,13 +419,13 @@ static void interval (cut_work *w, int k, double a, double b, double root, doubl
 
 /* The soft split nearest to the end `at` of an interval, on its outer side (before: below it) and no
  * farther away than the interval is long; NAN: none. Farther ones leave the integrand smooth enough. */
-static double nearest (const cut_list *soft, double at, int before, double length)
+static double nearest (const cut_list *soft, double at, int before, double length, double rounding)
 {
     double best = NAN;
     for (size_t i = 0; i < soft->n; i++) {
         double gap = before ? at - soft->at[i] : soft->at[i] - at;
-        if (gap < -1e-12 || gap > length) continue;
-        double root = gap < 0 ? at : soft->at[i];
+        if (gap < -fmax (1e-12, rounding) || gap > length * (1 + cut_equal)) continue;
+        double root = gap < rounding ? at : soft->at[i];
         if (isnan (best) || fabs (root - at) < fabs (best - at)) best = root;
     }
     return best;
@@ -453,37 +458,16 @@ static void walk (cut_work *w, int k, double weight)
     double a = -1;
     for (size_t i = 0; i <= s->level[k].hard.n; i++) {
         double b = i < s->level[k].hard.n ? s->level[k].hard.at[i] : 1;
-        if (b - a < 1e-12) continue;
-        double left = nearest (&s->level[k].soft, a, 1, b - a),
-               right = nearest (&s->level[k].soft, b, 0, b - a), middle = 0.5 * (a + b);
+        if (1 - b < s->rounding) b = 1;
+        if (b - a < fmax (1e-12, s->rounding)) continue;
+        double left = nearest (&s->level[k].soft, a, 1, b - a, s->rounding),
+               right = nearest (&s->level[k].soft, b, 0, b - a, s->rounding), middle = 0.5 * (a + b);
         if (!isnan (left) && !isnan (right)) {
             interval (w, k, a, middle, left, weight);
             interval (w, k, middle, b, right, weight);
         } else interval (w, k, a, b, isnan (left) ? right : left, weight);
         a = b;
     }
-}
-
-/* Orders the axes for this walk: the height is the axis that the normals at the centre of the cell follow
- * most, so that surfaces are graphs over the other axes as far as possible; the axis they follow least is
- * outermost. */
-static void choose_axes (cut_work *w)
-{
-    cut_slices *s = &w->slices;
-    double steep[3] = {0, 0, 0}, origin[3] = {0, 0, 0};
-    for (size_t i = 0; i < s->n; i++) {
-        double g[3], size = 0;
-        if (w->surface >= 0 && (size_t) w->surface != i) continue;
-        cut_gradient (&s->level[0].q[i], origin, g);
-        for (int k = 0; k < s->dim; k++) size = fmax (size, fabs (g[k]));
-        for (int k = 0; k < s->dim && size > 0; k++) steep[k] += fabs (g[k]) / size;
-    }
-    for (int k = 0; k < s->dim; k++) s->axis[k] = k;
-    for (int i = 1; i < s->dim; i++)
-        for (int k = i; k > 0 && steep[s->axis[k - 1]] > steep[s->axis[k]]; k--) {
-            int t = s->axis[k];
-            s->axis[k] = s->axis[k - 1], s->axis[k - 1] = t;
-        }
 }
 
 size_t cut_work_half_planes (const cut_work *w)
@@ -501,8 +485,11 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
     /* A region of facets ends at edges of its own: the other regions do not matter to it. */
     for (size_t i = 0; i < s->n; i++)
         s->mute[i] = w->surface >= 0 && (int) i != w->surface && cut_same_facets (s, i, (size_t) w->surface);
-    choose_axes (w);
-    walk (w, 0, w->surface < 0 ? w->thickness : 1);
+    int order_of[6][3], orders = cut_axes (s, w->cut, w->surface, -1, 0, order_of);
+    for (int k = 0; k < orders && s->status == PG_OK; k++) {
+        memcpy (s->axis, order_of[k], sizeof s->axis);
+        walk (w, 0, (w->surface < 0 ? w->thickness : 1) / orders);
+    }
     return s->status;
 }
 
@@ -511,18 +498,25 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
 pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
 {
     cut_slices *s = &w->slices;
-    int axis = face / 2, side = face % 2 ? 1 : -1, k = 0;
+    int axis = face / 2, side = face % 2 ? 1 : -1, order_of[6][3];
     s->n = w->real;
-    for (size_t i = 0; i < s->n; i++) s->mute[i] = 0;
+    for (size_t i = 0; i < s->n; i++) s->mute[i] = (unsigned char) !cut_on_face (s, i, axis, side);
     w->surface = -1, w->out = out, w->order = order < 1 ? 1 : order > RULE ? RULE : order;
-    choose_axes (w);
-    while (s->axis[k] != axis) k++;
-    for (; k > 0; k--) s->axis[k] = s->axis[k - 1];
-    s->axis[0] = axis;
+    int orders = cut_axes (s, w->cut, -1, axis, side, order_of);
     w->face = face;
-    if (s->dim > 1) go_on (w, 0, side, w->thickness / w->half[axis]);
+    for (int k = 0; k < orders && s->dim > 1 && s->status == PG_OK; k++) {
+        memcpy (s->axis, order_of[k], sizeof s->axis);
+        go_on (w, 0, side, w->thickness / w->half[axis] / orders);
+    }
     w->face = -1;
     return s->status;
+}
+
+double cut_work_size (const cut_work *w)
+{
+    double size = w->thickness;
+    for (int k = 0; k < w->cut->dim; k++) size *= 2 * w->half[k];
+    return size;
 }
 
 double cut_work_unsettled (const cut_work *w) { return w->unsettled; }
@@ -569,8 +563,7 @@ pg_status cut_work_piece (cut_work *w, int surface, int part, cut_piece *piece)
     static const int orders[] = {2, 3, 5, 8, 12, 18, 27, 40};
     pg_status status = PG_OK;
     pg_cut_points p = {0};
-    double whole = w->thickness, before = NAN, change = NAN;
-    for (int k = 0; k < w->cut->dim; k++) whole *= 2 * w->half[k];
+    double whole = cut_work_size (w), before = NAN, change = NAN;
     if (surface >= 0)
         whole /= 2
                  * fmin (w->half[0], fmin (w->cut->dim > 1 ? w->half[1] : INFINITY,

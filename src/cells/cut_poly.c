@@ -23,12 +23,12 @@ static double size_of (int degree, const double *c, double far)
     return size;
 }
 
-/* Roots of c[0] + c[1] x + c[2] x^2, ascending. A discriminant within 1e-14 of zero, relative to its terms,
- * is zero: the surfaces touch, and rounding alone would tear the double root apart or lose it (the two
- * roots then differ by no more than 1e-7 of their size). The formula for q avoids cancellation. */
-static int quadratic (const double *c, double *root)
+/* Roots of c[0] + c[1] x + c[2] x^2, ascending. A discriminant within `rounding` of zero, relative to its
+ * terms, is zero: the surfaces touch, and rounding alone would tear the double root apart or lose it. The
+ * formula for q avoids cancellation. */
+static int quadratic (const double *c, double rounding, double *root)
 {
-    double D = c[1] * c[1] - 4 * c[0] * c[2], tiny = 1e-14 * (c[1] * c[1] + fabs (4 * c[0] * c[2]));
+    double D = c[1] * c[1] - 4 * c[0] * c[2], tiny = rounding * (c[1] * c[1] + fabs (4 * c[0] * c[2]));
     if (D < -tiny) return 0;
     if (D <= tiny) {
         root[0] = -0.5 * c[1] / c[2];
@@ -60,12 +60,13 @@ static double between (int degree, const double *c, double a, double b)
 
 /* Roots of a polynomial of degree 3 or 4 in [low, high]. A stationary point (or an end) where the value is
  * within `touch` of zero is a root itself: there the polynomial touches zero. */
-static int wider (int degree, const double *c, double low, double high, double touch, double *root)
+static int wider (int degree, const double *c, double rounding, double low, double high, double touch,
+                  double *root)
 {
     double slope[CUT_DEGREE], turn[CUT_DEGREE + 2];
     int n = 0;
     for (int k = 0; k < degree; k++) slope[k] = (k + 1) * c[k + 1];
-    int turns = cut_roots (degree - 1, slope, low, high, turn + 1);
+    int turns = cut_roots (degree - 1, slope, rounding, low, high, turn + 1);
     turn[0] = low, turn[turns + 1] = high;
     for (int i = 0; i <= turns; i++) {
         double p = value (degree, c, turn[i]), q = value (degree, c, turn[i + 1]);
@@ -81,15 +82,15 @@ static int wider (int degree, const double *c, double low, double high, double t
 
 /* Leading coefficients that contribute less than 1e-14 of the size are dropped, as they would only produce
  * roots far outside. A polynomial that is constant has no roots. */
-int cut_roots (int degree, const double *c, double low, double high, double *root)
+int cut_roots (int degree, const double *c, double rounding, double low, double high, double *root)
 {
     double far = fmax (fabs (low), fabs (high)), size = size_of (degree, c, far), found[2];
     int n = 0, kept = 0;
     while (degree > 0 && fabs (c[degree]) * pow (far, degree) <= 1e-14 * size) degree--;
     if (degree == 0) return 0;
-    if (degree > 2) return wider (degree, c, low, high, 1e-12 * size, root);
+    if (degree > 2) return wider (degree, c, rounding, low, high, 1e-12 * size, root);
     if (degree == 1) found[0] = -c[0] / c[1], n = 1;
-    else n = quadratic (c, found);
+    else n = quadratic (c, rounding, found);
     for (int i = 0; i < n; i++) if (found[i] >= low && found[i] <= high) root[kept++] = found[i];
     return kept;
 }

@@ -68,7 +68,7 @@ static void split_faces (cut_slices *s, cut_level *out, size_t i, const conic *p
 {
     for (int side = -1; side <= 1; side += 2) {
         double c[3] = {p->C[0] + side * p->B[0] + p->a, p->C[1] + side * p->B[1], p->C[2]}, root[2];
-        int n = cut_roots (2, c, -1, 1, root);
+        int n = cut_roots (2, c, s->rounding, -1, 1, root);
         for (int r = 0; r < n; r++) {
             s->at[y] = root[r], s->at[z] = side;
             if (cut_within (s, i)) push (s, &out->hard, root[r]);
@@ -84,10 +84,10 @@ static void split_turns (cut_slices *s, cut_level *out, const conic *p)
     if (fabs (p->a) < flat) return;
     double D[3] = { p->B[0] * p->B[0] - 4 * p->a * p->C[0], 2 * p->B[0] * p->B[1] - 4 * p->a * p->C[1],
                     p->B[1] * p->B[1] - 4 * p->a * p->C[2] };
-    int n = cut_roots (2, D, -3, 3, root);
+    int n = cut_roots (2, D, s->rounding, -3 * near_box, 3 * near_box, root);
     for (int r = 0; r < n; r++) {
         double z = -at_B (p, root[r]) / (2 * p->a);
-        if (fabs (z) > 2) continue;
+        if (fabs (z) > 2 * near_box) continue;
         push (s, &out->soft, root[r]);
         if (fabs (root[r]) < 1 && fabs (z) <= near_box) push (s, &out->hard, root[r]);
     }
@@ -137,10 +137,10 @@ static int resultant (const conic *p, const conic *q, double *R)
 
 /* The heights z of conic p at y, within the cell and 1e-6 beyond it. Near a tangent the discriminant may
  * come out slightly negative; the double root counts then. */
-static int heights (const conic *p, double y, double *z)
+static int heights (const cut_slices *s, const conic *p, double y, double *z)
 {
     double c[3] = {at_C (p, y), at_B (p, y), p->a};
-    int n = cut_roots (2, c, -1 - 1e-6, 1 + 1e-6, z);
+    int n = cut_roots (2, c, s->rounding, -1 - 1e-6, 1 + 1e-6, z);
     if (n == 0 && fabs (p->a) > flat && fabs (at_B (p, y) / (2 * p->a)) < 1
         && fabs (c[1] * c[1] - 4 * p->a * c[0]) < 1e-9)
         /* The discriminant of a tangent may come out slightly negative. */
@@ -154,9 +154,9 @@ static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const
                         int y, int z)
 {
     double R[5], root[CUT_DEGREE + 2], at[2];
-    int n = cut_roots (resultant (p, q, R), R, -1, 1, root);
+    int n = cut_roots (resultant (p, q, R), R, s->rounding, -1, 1, root);
     for (int r = 0; r < n; r++) {
-        int m = heights (p, root[r], at), meet = 0;
+        int m = heights (s, p, root[r], at), meet = 0;
         for (int k = 0; k < m; k++) {
             s->at[y] = root[r], s->at[z] = at[k];
             meet |= fabs (at_C (q, root[r]) + at[k] * (at_B (q, root[r]) + at[k] * q->a)) < 1e-6
@@ -218,10 +218,10 @@ static void split_ends (cut_slices *s, cut_level *out, const cut_quadric *q, int
         v[i] = cut_value (q, at[i]);
     }
     double poly[3] = {v[1], 0.5 * (v[2] - v[0]), 0.5 * (v[2] + v[0]) - v[1]};
-    int n = cut_roots (2, poly, -3, 3, root);
+    int n = cut_roots (2, poly, s->rounding, -3 * near_box, 3 * near_box, root);
     for (int r = 0; r < n; r++) {
         double Y = at[1][y] + root[r] * (at[2][y] - at[1][y]), Z = at[1][z] + root[r] * (at[2][z] - at[1][z]);
-        if (fabs (Y) > 2 || fabs (Z) > 2) continue;
+        if (fabs (Y) > 2 * near_box || fabs (Z) > 2 * near_box) continue;
         push (s, &out->soft, root[r]);
         if (fabs (root[r]) < 1 && fabs (Y) <= near_box && fabs (Z) <= near_box) push (s, &out->hard, root[r]);
     }
@@ -351,7 +351,7 @@ static void split_edge_crossings (cut_slices *s, cut_list *hard, const double *e
             v[e] = cut_value (&s->level[0].q[i], x);
         }
         double poly[3] = { v[0], 4 * v[1] - 3 * v[0] - v[2], 2 * (v[0] + v[2]) - 4 * v[1] };
-        int n = cut_roots (2, poly, -1e-9, 1 + 1e-9, root);
+        int n = cut_roots (2, poly, s->rounding, -1e-9, 1 + 1e-9, root);
         for (int r = 0; r < n; r++) {
             for (int k = 0; k < 3; k++) s->at[k] = x[k] = edge[k] + root[r] * (edge[3 + k] - edge[k]);
             if (cut_within (s, i)) push_place (s, hard, x, along, -1);
@@ -380,6 +380,16 @@ static void split_edges (cut_slices *s, int level, cut_list *hard)
     }
 }
 
+/* Splits at planes across the axis of this level, also where they do not bound the body. */
+static void split_square (cut_slices *s, int level, cut_list *hard)
+{
+    int along = s->axis[level];
+    for (size_t i = 0; i < s->n; i++) {
+        double c = s->level[0].q[i].c, b = s->level[0].q[i].b[along];
+        if (!s->mute[i] && b != 0 && fabs (c) < fabs (b)) push (s, hard, -c / b);
+    }
+}
+
 void cut_split (cut_slices *s, int k)
 {
     cut_level *out = &s->level[k];
@@ -387,4 +397,5 @@ void cut_split (cut_slices *s, int k)
     if (k == s->dim - 2) split_slice (s, out->q, out, s->axis[k], s->axis[k + 1]);
     else split_solid (s, out->q, out);
     split_edges (s, k, &out->hard);
+    if (s->square) split_square (s, k, &out->hard);
 }

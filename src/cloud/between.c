@@ -13,6 +13,7 @@
 #include "between.h"
 #include "shape.h"
 #include "solid.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -23,7 +24,8 @@ struct pg_between {
     int     dim;
     /* 1: one shape, or a mesh: where no face is met all is inside. */
     int     alone;
-    /* Places so near to a surface lie on it, m. */
+    /* Places so near to a surface lie on it, m: a share of the spacing, wherever the body lies, and the
+     * rounding of coordinates far from the origin. */
     double  near;
     const pg_body *body;
     const pg_cloud *cloud;
@@ -43,6 +45,8 @@ static const double AWAY = -0.02, SMOOTH = 0.5, LONG = 0.5;
 static const double REACH = 2, WITHIN = 1e-6, INWARD = 1e-5;
 /* How far beside a place on the surface the body is looked for, times `near`. */
 static const double BESIDE = 16;
+/* Lengths and angles that differ less than this, relatively, differ by rounding. */
+static const double EQUAL = 1e-9;
 
 /* ---- one way ------------------------------------------------------------------------------------------- */
 /* Of an alpha shape with a rim a gap of its simplices counts only where it is wider than the rim fills. */
@@ -174,8 +178,8 @@ static int parts (const pg_between *b, const between_gap *g, const between_way *
         same += g->normal[0][k] * g->normal[1][k];
         middle[k] = w->x[k] + 0.5 * (g->t[0] + g->t[1]) * w->d[k];
     }
-    if (same > SMOOTH || (same >= AWAY && wide <= LONG * spacing_at (b, middle)))
-        return over_a_mouth (b, g, w, same);
+    int narrow = same >= AWAY && wide <= (1 + EQUAL) * LONG * spacing_at (b, middle);
+    if (same > SMOOTH - EQUAL || narrow) return over_a_mouth (b, g, w, same);
     /* A way along a face runs in the body. */
     return wide <= 2 * w->near || !on_face (b, middle);
 }
@@ -276,42 +280,73 @@ static int stands (const pg_between *b, const double *x, double *eye)
     return 1;
 }
 
-/* The nearest place of the body along the axes and the diagonals from `from`, a place outside, if it is
- * nearer than *best. */
-static void seek (const pg_between *b, const double *from, double h, double *best, double *found)
+/* The nearest places of the body as seen from a point: how far the nearest is, over REACH spacings, one of
+ * the equally near ones, how many these are, and the sum of the ways to them, m. */
+typedef struct { double best, found[3], sum[3]; int n; } outcome;
+
+/* Looks for the body along d, a unit vector, from `from`, a place outside; x: the point that looks. */
+static void seek_along (const pg_between *b, const double *x, const double *from, const double *d, double h,
+                        outcome *o)
+{
+    between_way w = { .dim = b->dim, .near = b->near, .length = REACH * h };
+    between_gaps g;
+    for (int k = 0; k < b->dim; k++) w.x[k] = from[k], w.d[k] = d[k] * w.length;
+    gaps_along (&g, b, NULL, &w);
+    for (int i = 0; i < g.n; i++) {
+        double t = g.gap[i].t[1], place[3];
+        if (g.gap[i].t[0] > 0 || !(t >= 0 && t <= 1) || !(t <= o->best * (1 + EQUAL))) continue;
+        for (int k = 0; k < b->dim; k++) place[k] = from[k] + (t + WITHIN / REACH) * w.d[k];
+        if (!meshed (b) && !pg_body_inside (b->body, place, -b->near)) continue;
+        if (t < o->best * (1 - EQUAL)) {
+            *o = (outcome) { .best = t };
+            memcpy (o->found, place, (size_t) b->dim * sizeof *place);
+        }
+        for (int k = 0; k < b->dim; k++) o->sum[k] += place[k] - x[k];
+        o->n++;
+    }
+}
+
+/* Along the axes and the diagonals. */
+static void seek (const pg_between *b, const double *x, const double *from, double h, outcome *o)
 {
     for (int c = 0; c < directions (b->dim); c++) {
-        between_way w = { .dim = b->dim, .near = b->near, .length = REACH * h };
-        between_gaps g;
-        direction (b->dim, c, w.d);
-        for (int k = 0; k < b->dim; k++) w.x[k] = from[k], w.d[k] *= w.length;
-        gaps_along (&g, b, NULL, &w);
-        for (int i = 0; i < g.n; i++) {
-            double t = g.gap[i].t[1], place[3];
-            if (g.gap[i].t[0] > 0 || !(t >= 0 && t <= 1) || !(t < *best * (1 - 1e-9))) continue;
-            for (int k = 0; k < b->dim; k++) place[k] = from[k] + (t + WITHIN / REACH) * w.d[k];
-            if (!meshed (b) && !pg_body_inside (b->body, place, -b->near)) continue;
-            *best = t;
-            memcpy (found, place, (size_t) b->dim * sizeof *found);
-        }
+        double d[3];
+        direction (b->dim, c, d);
+        seek_along (b, x, from, d, h, o);
     }
+}
+
+/* Among several places equally near none is taken by its direction, or by rounding, but the place that lies
+ * along the sum of the ways to them, such as a corner between two faces. On opposite sides, as from the
+ * middle of a slot, they have no such sum: then the first one. */
+static void settle (const pg_between *b, const double *x, double h, outcome *o)
+{
+    double size = 0, d[3];
+    outcome middle = { .best = INFINITY };
+    for (int k = 0; k < b->dim; k++) size += o->sum[k] * o->sum[k];
+    size = sqrt (size);
+    if (o->n < 2 || !(size > 1e-3 * h * o->best)) return;
+    for (int k = 0; k < b->dim; k++) d[k] = o->sum[k] / size;
+    seek_along (b, x, x, d, h, &middle);
+    if (middle.best <= 1) *o = middle;
 }
 
 void pg_between_eye (const pg_between *b, const double *x, double *eye)
 {
-    double best = INFINITY, h, found[3] = { 0 };
+    outcome o = { .best = INFINITY };
+    double h;
     memcpy (eye, x, (size_t) b->dim * sizeof *x);
     if (!b->body || stands (b, x, eye)) return;
     h = spacing_at (b, x);
-    if (!pg_body_inside (b->body, x, b->near)) seek (b, x, h, &best, found);
+    if (!pg_body_inside (b->body, x, b->near)) seek (b, x, x, h, &o), settle (b, x, h, &o);
     else
         for (int c = 0; c < directions (b->dim); c++) {
             double from[3];
             direction (b->dim, c, from);
             for (int k = 0; k < b->dim; k++) from[k] = x[k] + BESIDE * b->near * from[k];
-            seek (b, from, h, &best, found);
+            seek (b, x, from, h, &o);
         }
-    if (best <= 1) memcpy (eye, found, (size_t) b->dim * sizeof *x);
+    if (o.best <= 1) memcpy (eye, o.found, (size_t) b->dim * sizeof *x);
 }
 
 const double *pg_between_eye_of (const pg_between *b, size_t i)
@@ -428,7 +463,7 @@ pg_status pg_between_create (pg_between **out, const pg_body *body, const pg_mes
     b->dim = cloud->dim, b->cloud = cloud;
     for (int k = 0; k < cloud->dim; k++)
         size = fmax (size, fmax (fabs (cloud->low[k]), fabs (cloud->high[k])));
-    b->near = 1e-12 * size;
+    b->near = 1e-9 * cloud->h + 16 * DBL_EPSILON * size;
     if (part->mesh.n) PG_TRY (add_mesh (b, &part->mesh));
     else PG_TRY (add_shapes (b, body));
     if (!b->member->shape && !b->member->faces) goto done;

@@ -229,10 +229,13 @@ static pg_status add_hosts (const galerkin *g, size_t **list, size_t *n)
     const pg_consistency *c = g->problem->consistency;
     size_t cap = 0, count = *n, kept = 0;
     for (size_t k = 0; k < *n; k++) {
-        size_t cell = (*list)[k], from = c->guests.start[cell], more = c->guests.start[cell + 1] - from + 1;
-        PG_GROW (*list, cap, count + more);
-        if (c->host[cell] >= 0) (*list)[count++] = (size_t) c->host[cell];
-        for (size_t e = 0; e + 1 < more; e++) (*list)[count++] = (size_t) c->guests.node[from + e];
+        size_t cell = (*list)[k], guests = c->guests.start[cell + 1] - c->guests.start[cell],
+               hosts = c->hosts.start[cell + 1] - c->hosts.start[cell];
+        PG_GROW (*list, cap, count + hosts + guests);
+        for (size_t e = c->hosts.start[cell]; e < c->hosts.start[cell + 1]; e++)
+            (*list)[count++] = (size_t) c->hosts.node[e];
+        for (size_t e = c->guests.start[cell]; e < c->guests.start[cell + 1]; e++)
+            (*list)[count++] = (size_t) c->guests.node[e];
     }
     if (count == *n) return PG_OK;
     pg_sort (*list, count, sizeof **list, compare);

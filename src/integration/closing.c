@@ -13,6 +13,7 @@
  *
  * with s = 1 on curved facets and FLAT on flat ones. Faces between cells keep their fluxes. */
 #include "consistent.h"
+#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -27,6 +28,8 @@ typedef struct {
     const pg_rows *points;
     size_t cell, dim;
     double centre[3], size, border, volume;
+    /* What counts as rounding, over the border: more for coordinates far from the origin. */
+    double rounding;
     /* Matrix of the facets, sum s |F| q q', and what is missed: by component, over the border. */
     double A[SIZE * SIZE], r[3][SIZE];
 } closing;
@@ -69,7 +72,9 @@ static void find_middle (closing *l)
     for (size_t q = c->first[l->cell]; q < c->first[l->cell + 1]; q++)
         for (size_t k = 0; k < l->dim; k++)
             l->centre[k] += l->points->weight[q] / l->volume * l->points->x[q * l->dim + k];
+    double far = 0;
     l->size = l->border = 0;
+    for (size_t k = 0; k < l->dim; k++) far = fmax (far, fabs (l->centre[k]));
     for (size_t e = c->faces.of[l->cell]; e < c->faces.of[l->cell + 1]; e++) {
         size_t face = (size_t) c->faces.face[e];
         for (size_t q = c->faces.start[face]; q < c->faces.start[face + 1]; q++) {
@@ -78,6 +83,7 @@ static void find_middle (closing *l)
                 l->size = fmax (l->size, fabs (c->faces.x[q * l->dim + k] - l->centre[k]));
         }
     }
+    l->rounding = ROUNDING + DBL_EPSILON * far / l->size;
 }
 
 /* What the theorem misses by, and the matrix. Returns the largest miss over the border. */
@@ -174,8 +180,8 @@ static void close_cell (closing *l)
     if (!(l->volume > 0) || !(l->border > 0) || !(l->size > 0)) return;
     for (int time = 0; time < TIMES; time++) {
         double by = miss (l), cut = LEFT_OUT;
-        if (time == 0) l->c->uneven[l->cell] = by > ROUNDING * 50 || !is_even (l->c->cells, l->cell);
-        if (!(by > ROUNDING * (time ? 1 : 50))) return;
+        if (time == 0) l->c->uneven[l->cell] = by > l->rounding * 50 || !is_even (l->c->cells, l->cell);
+        if (!(by > l->rounding * (time ? 1 : 50))) return;
         pg_dense_eigen ((int) l->dim + 1, l->A, lambda, V);
         if (!(lambda[0] > 0)) return;
         for (int k = 0; k < 6; k++, cut *= RAISE) {

@@ -143,10 +143,11 @@ void pg_consistency_free (pg_consistency **out)
     pg_rows_clear (&c->face);
     pg_family_clear (&c->family);
     pg_family_clear (&c->cell_family);
+    pg_family_clear (&c->hosts);
     pg_family_clear (&c->guests);
     pg_family_clear (&c->needs);
     pg_family_clear (&c->opens);
-    pg_free (c->first), pg_free (c->amended), pg_free (c->uneven), pg_free (c->host);
+    pg_free (c->first), pg_free (c->amended), pg_free (c->uneven), pg_free (c->guest_share);
     pg_free (c->widened.blind);
     pg_free (c);
     *out = NULL;
@@ -291,13 +292,13 @@ static void add_rate (size_t m, size_t dim, const double *rate, const double *N,
     else add_value (m, *rate, N, rest);
 }
 
-/* Adds the volume terms of one point to the residual, - w (p,k N + p dN,k), into rest (polynomials x nodes x
- * dim). */
-static void add_point (const job *j, const space *s, size_t q, size_t m, const double *N, const double *dN,
-                       double *rest)
+/* Adds that share of the volume terms of one point to the residual, - w (p,k N + p dN,k), into rest
+ * (polynomials x nodes x dim). */
+static void add_point (const job *j, const space *s, size_t q, double share, size_t m, const double *N,
+                       const double *dN, double *rest)
 {
     size_t dim = (size_t) s->dim, n = (size_t) s->n;
-    double p[POLYNOMIALS], slope[3 * POLYNOMIALS], weight = j->points->weight[q];
+    double p[POLYNOMIALS], slope[3 * POLYNOMIALS], weight = share * j->points->weight[q];
     polynomials (s, j->points->x + q * dim, p, slope);
     for (size_t k = 0; k < n * dim; k++) slope[k] *= -weight;
     for (size_t a = 0; a < n; a++) {
@@ -312,7 +313,7 @@ static void add_points (const job *j, const space *s, size_t cell, size_t m, dou
     const pg_rows *w = j->wide;
     size_t dim = (size_t) s->dim;
     for (size_t q = j->c->first[cell]; q < j->c->first[cell + 1]; q++)
-        add_point (j, s, q, m, w->N + j->c->family.start[q], w->dN + j->c->family.start[q] * dim, rest);
+        add_point (j, s, q, 1, m, w->N + j->c->family.start[q], w->dN + j->c->family.start[q] * dim, rest);
 }
 
 /* Writes the direct values of a point into a longer list of nodes. */
@@ -326,10 +327,10 @@ static void widen (const job *j, size_t q, size_t m, const int *node, double *N,
     spread (n, r->family.node + from, dim, r->dN + from * dim, node, dN);
 }
 
-/* Adds the surface term, oint p N n dS, over all faces of the cell; flux points out of the first cell of a
- * face. */
-static void add_faces (const job *j, const space *s, size_t cell, size_t m, const int *node, double *rest,
-                       double *N)
+/* Adds that share of the surface term, oint p N n dS, over all faces of the cell; flux points out of the
+ * first cell of a face. */
+static void add_faces (const job *j, const space *s, size_t cell, double share, size_t m, const int *node,
+                       double *rest, double *N)
 {
     const pg_consistency *c = j->c;
     const pg_faces *f = &c->faces;
@@ -337,7 +338,7 @@ static void add_faces (const job *j, const space *s, size_t cell, size_t m, cons
     double p[POLYNOMIALS], slope[3 * POLYNOMIALS], rate[3];
     for (size_t e = f->of[cell]; e < f->of[cell + 1]; e++) {
         size_t face = (size_t) f->face[e];
-        double sign = f->cell[2 * face] == (int) cell ? 1 : -1;
+        double sign = f->cell[2 * face] == (int) cell ? share : -share;
         for (size_t q = f->start[face]; q < f->start[face + 1]; q++) {
             size_t start = c->face.family.start[q];
             memset (N, 0, m * sizeof *N);
@@ -457,16 +458,17 @@ static void obey (const job *j, size_t cell, size_t m, const int *node, double *
     double *rest = workspace, *N = workspace + m * dim * POLYNOMIALS, *dN = N + m;
     memset (rest, 0, m * dim * POLYNOMIALS * sizeof *rest);
     add_points (j, &s, cell, m, rest);
-    add_faces (j, &s, cell, m, node, rest, N);
+    add_faces (j, &s, cell, 1, m, node, rest, N);
     for (size_t k = c->guests.start[cell]; k < c->guests.start[cell + 1]; k++) {
         size_t guest = (size_t) c->guests.node[k];
+        double share = c->guest_share[k];
         if (!j->whole[guest]) continue;
         guests++;
         for (size_t q = c->first[guest]; q < c->first[guest + 1]; q++) {
             widen (j, q, m, node, N, dN);
-            add_point (j, &s, q, m, N, dN, rest);
+            add_point (j, &s, q, share, m, N, dN, rest);
         }
-        add_faces (j, &s, guest, m, node, rest, N);
+        add_faces (j, &s, guest, share, m, node, rest, N);
     }
     for (int pass = 0; pass < 2 && (guests || c->uneven[cell]); pass++) project (j, &s, cell, m, node, rest);
     correct (j, &s, cell, m, rest);
@@ -484,7 +486,8 @@ static void treat (const job *j, size_t cell, double *workspace)
     size_t m = c->family.start[first + 1] - c->family.start[first];
     for (size_t q = first; q < last; q++)
         widen (j, q, m, node, j->wide->N + c->family.start[q], j->wide->dN + c->family.start[q] * dim);
-    if (j->whole[cell] && c->host[cell] < 0) obey (j, cell, m, node, workspace);
+    int is_guest = c->hosts.start[cell] < c->hosts.start[cell + 1];
+    if (j->whole[cell] && !is_guest) obey (j, cell, m, node, workspace);
 }
 
 /* The cells first .. last - 1 of a thread. */

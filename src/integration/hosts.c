@@ -2,15 +2,22 @@
  * Small cells lean on a neighbour: a cut cell of next to no volume, whose derivatives the divergence identity
  * would make as large as its size is small, keeps its direct derivatives, and the identity of its host is
  * that of both (cell aggregation: Badia, Verdugo, Martin 2018, doi 10.1016/j.cma.2018.03.022). The host is
- * the cell beyond its largest inner face, or the host of that if it is small as well. */
+ * the cell beyond its largest inner face, or the host of that if it is small as well. A cell with several
+ * such faces, as in the corner of a cell between two neighbours, has as many hosts, which share its
+ * identity: none of them is chosen by rounding, or by its number. */
 #include "consistent.h"
 #include <math.h>
 #include <string.h>
 
 /* Share of the volume of a whole cell below which a cut cell is small. */
 static const double SMALL = 0.1;
-/* Hosts of small cells among small cells are sought so many times over. */
-enum { PASSES = 4 };
+/* Volumes and areas that differ less than this, relatively, differ by rounding. */
+static const double EQUAL = 1e-9;
+/* Hosts of small cells among small cells are sought so many times over; a cell has so many hosts at most. */
+enum { PASSES = 4, HOSTS = 16 };
+
+/* The hosts of a cell, and the share of it that each takes. */
+typedef struct { int n, cell[HOSTS]; double share[HOSTS]; } lodging;
 
 static int is_small (const pg_cells *c, size_t cell)
 {
@@ -24,7 +31,7 @@ static int is_small (const pg_cells *c, size_t cell)
         }
         whole *= high - low;
     }
-    return c->volume[cell] < SMALL * whole;
+    return c->volume[cell] < (1 - EQUAL) * SMALL * whole;
 }
 
 static double area_of (const pg_faces *f, size_t face)
@@ -38,64 +45,115 @@ static double area_of (const pg_faces *f, size_t face)
     return sum;
 }
 
-/* The host of a small cell beyond its largest inner face to a cell that is not small or has a host (so far:
- * before this pass); -1: there is none. */
-static int host_of (const pg_consistency *c, size_t cell, const unsigned char *small, const int *so_far)
+static void add_host (lodging *l, int cell, double share)
 {
-    const pg_faces *f = &c->faces;
-    double most = 0;
-    int host = -1;
-    for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++) {
-        size_t face = (size_t) f->face[k];
-        int other = f->cell[2 * face] == (int) cell ? f->cell[2 * face + 1] : f->cell[2 * face];
-        if (other < 0 || c->first[other] == c->first[other + 1]) continue;
-        if (small[other] && so_far[other] < 0) continue;
-        double area = area_of (f, face);
-        if (!(area > most)) continue;
-        most = area, host = small[other] ? so_far[other] : other;
-    }
-    return host;
+    int k = 0;
+    while (k < l->n && l->cell[k] != cell) k++;
+    if (k == HOSTS) return;
+    if (k == l->n) l->cell[l->n] = cell, l->share[l->n++] = 0;
+    l->share[k] += share;
 }
 
-/* Compressed rows of pairs (from -> to), in the order of `from`, ascending in `to` if they come so. */
-static pg_status gather (pg_family *out, size_t n, size_t npair, const int *pair)
+/* The cell beyond a face to a cell that is not small or has a host (so far: before this pass); -1: none. */
+static int beyond (const pg_consistency *c, size_t face, size_t cell, const unsigned char *small,
+                   const lodging *so_far)
+{
+    const pg_faces *f = &c->faces;
+    int other = f->cell[2 * face] == (int) cell ? f->cell[2 * face + 1] : f->cell[2 * face];
+    if (other < 0 || c->first[other] == c->first[other + 1]) return -1;
+    return small[other] && so_far[other].n == 0 ? -1 : other;
+}
+
+/* The hosts of a small cell: the cell beyond its largest inner face, or the hosts of that; beyond faces of
+ * the same size each takes the same share. */
+static lodging lodge (const pg_consistency *c, size_t cell, const unsigned char *small, const lodging *so_far)
+{
+    const pg_faces *f = &c->faces;
+    lodging out = { 0 };
+    double most = 0, sum = 0;
+    for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++)
+        if (beyond (c, (size_t) f->face[k], cell, small, so_far) >= 0)
+            most = fmax (most, area_of (f, (size_t) f->face[k]));
+    for (size_t k = f->of[cell]; most > 0 && k < f->of[cell + 1]; k++) {
+        int other = beyond (c, (size_t) f->face[k], cell, small, so_far);
+        if (other < 0 || area_of (f, (size_t) f->face[k]) < (1 - EQUAL) * most) continue;
+        if (!small[other]) add_host (&out, other, 1);
+        for (int h = 0; small[other] && h < so_far[other].n; h++)
+            add_host (&out, so_far[other].cell[h], so_far[other].share[h]);
+    }
+    for (int h = 0; h < out.n; h++) sum += out.share[h];
+    for (int h = 0; h < out.n; h++) out.share[h] /= sum;
+    return out;
+}
+
+/* Compressed rows of pairs (from -> to), in the order of `from`, ascending in `to` if they come so; with
+ * `value`, one of each pair, in the same order in *sorted. */
+static pg_status gather (pg_family *out, size_t n, size_t npair, const int *pair, const double *value,
+                         double **sorted)
 {
     pg_status status = PG_OK;
     size_t *next = NULL;
     out->n = n;
     PG_ALLOC (out->start, n + 1);
     PG_ALLOC (out->node, npair);
+    if (value) PG_ALLOC (*sorted, npair);
     PG_ALLOC (next, n);
     for (size_t k = 0; k < npair; k++) out->start[pair[2*k] + 1]++;
     for (size_t i = 0; i < n; i++) out->start[i + 1] += out->start[i], next[i] = out->start[i];
-    for (size_t k = 0; k < npair; k++) out->node[next[pair[2*k]]++] = pair[2*k + 1];
+    for (size_t k = 0; k < npair; k++) {
+        if (value) (*sorted)[next[pair[2*k]]] = value[k];
+        out->node[next[pair[2*k]]++] = pair[2*k + 1];
+    }
 done:
     pg_free (next);
+    return status;
+}
+
+/* The hosts of each cell and the guests of each, from what has been found. */
+static pg_status enter (pg_consistency *c, const lodging *of)
+{
+    pg_status status = PG_OK;
+    size_t n = c->cells->n, count = 0;
+    int *pair = NULL;
+    double *share = NULL;
+    for (size_t cell = 0; cell < n; cell++) count += (size_t) of[cell].n;
+    PG_ALLOC (pair, 2 * count);
+    PG_ALLOC (share, count);
+    count = 0;
+    for (size_t cell = 0; cell < n; cell++)
+        for (int h = 0; h < of[cell].n; h++, count++) {
+            pair[2 * count] = of[cell].cell[h], pair[2 * count + 1] = (int) cell;
+            share[count] = of[cell].share[h];
+        }
+    PG_TRY (gather (&c->guests, n, count, pair, share, &c->guest_share));
+    for (size_t k = 0; k < count; k++) {
+        int t = pair[2*k];
+        pair[2*k] = pair[2*k + 1], pair[2*k + 1] = t;
+    }
+    PG_TRY (gather (&c->hosts, n, count, pair, NULL, NULL));
+done:
+    pg_free (pair), pg_free (share);
     return status;
 }
 
 static pg_status find_hosts (pg_consistency *c)
 {
     pg_status status = PG_OK;
-    size_t n = c->cells->n, count = 0;
+    size_t n = c->cells->n;
     unsigned char *small = NULL;
-    int *before = NULL, *pair = NULL;
-    PG_ALLOC (c->host, n);
+    lodging *now = NULL, *before = NULL;
     PG_ALLOC (small, n);
+    PG_ALLOC (now, n);
     PG_ALLOC (before, n);
-    for (size_t cell = 0; cell < n; cell++)
-        small[cell] = (unsigned char) is_small (c->cells, cell), c->host[cell] = -1;
+    for (size_t cell = 0; cell < n; cell++) small[cell] = (unsigned char) is_small (c->cells, cell);
     for (int pass = 0; pass < PASSES; pass++) {
-        memcpy (before, c->host, n * sizeof *before);
+        memcpy (before, now, n * sizeof *before);
         for (size_t cell = 0; cell < n; cell++)
-            if (small[cell] && before[cell] < 0) c->host[cell] = host_of (c, cell, small, before);
+            if (small[cell] && before[cell].n == 0) now[cell] = lodge (c, cell, small, before);
     }
-    PG_ALLOC (pair, 2 * n);
-    for (size_t cell = 0; cell < n; cell++)
-        if (c->host[cell] >= 0) pair[2 * count] = c->host[cell], pair[2 * count++ + 1] = (int) cell;
-    PG_TRY (gather (&c->guests, n, count, pair));
+    PG_TRY (enter (c, now));
 done:
-    pg_free (small), pg_free (before), pg_free (pair);
+    pg_free (small), pg_free (before), pg_free (now);
     return status;
 }
 
@@ -120,12 +178,12 @@ static pg_status find_needs (pg_consistency *c)
                     pair[2 * count] = (int) cell, pair[2 * count++ + 1] = beside;
                 }
         }
-    PG_TRY (gather (&c->needs, n, count, pair));
+    PG_TRY (gather (&c->needs, n, count, pair, NULL, NULL));
     for (size_t k = 0; k < count; k++) {
         int t = pair[2*k];
         pair[2*k] = pair[2*k + 1], pair[2*k + 1] = t;
     }
-    PG_TRY (gather (&c->opens, n, count, pair));
+    PG_TRY (gather (&c->opens, n, count, pair, NULL, NULL));
 done:
     pg_free (seen), pg_free (pair);
     return status;

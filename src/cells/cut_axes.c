@@ -1,0 +1,65 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * In which order the quadrature of a cut cell takes the axes. Where the shape of the surfaces leaves a
+ * choice, nothing else may make it: a body in another unit, moved, mirrored or turned by 90 degrees has the
+ * same points. */
+#include "cut.h"
+#include <math.h>
+#include <string.h>
+
+/* How steep the surfaces of this walk are along each axis: components of their normals at `centre`, over the
+ * largest of each, summed; and how bent. */
+static void find_steepness (const cut_slices *s, int surface, const double *centre, double *steep,
+                            double *bent)
+{
+    for (int k = 0; k < 3; k++) steep[k] = bent[k] = 0;
+    for (size_t i = 0; i < s->n; i++) {
+        const cut_quadric *q = &s->level[0].q[i];
+        double g[3], size = 0;
+        if (s->mute[i] || (surface >= 0 && (size_t) surface != i)) continue;
+        cut_gradient (q, centre, g);
+        for (int k = 0; k < s->dim; k++) size = fmax (size, fabs (g[k])), bent[k] += fabs (q->A[k][k]);
+        /* of a round surface about the centre of the cell only rounding is left */
+        if (size < cut_equal) continue;
+        for (int k = 0; k < s->dim; k++) steep[k] += fabs (g[k]) / size;
+    }
+}
+
+int cut_axes (cut_slices *s, const struct pg_cut *cut, int surface, int fixed, int side, int order[6][3])
+{
+    static const int all[6][3] = { { 0, 1, 2 }, { 1, 0, 2 }, { 0, 2, 1 },
+                                   { 2, 0, 1 }, { 1, 2, 0 }, { 2, 1, 0 } };
+    int n = 0, dim = s->dim;
+    double steep[3], bent[3], centre[3] = { 0, 0, 0 };
+    s->square = 1;
+    for (size_t i = 0; i < s->n; i++)
+        s->square &= s->mute[i] || (cut->surface[s->number[i]].axis >= 0 && !s->facets[i]);
+    if (fixed >= 0) centre[fixed] = side;
+    find_steepness (s, surface, centre, steep, bent);
+    if (fixed >= 0) steep[fixed] = -1;
+    for (int p = 0; p < (dim == 3 ? 6 : dim); p++) {
+        int rises = 1;
+        for (int k = 1; k < dim; k++) {
+            int a = all[p][k - 1], b = all[p][k];
+            double rise = steep[b] - steep[a];
+            if (fabs (rise) <= cut_equal) rise = bent[a] - bent[b];
+            rises &= rise >= -cut_equal;
+        }
+        if (rises && !(n > 0 && s->square)) memcpy (order[n++], all[p], sizeof *order);
+    }
+    /* rounding in a circle of near ties: any */
+    for (int p = 0; n == 0; p++)
+        if (fixed < 0 || all[p][0] == fixed) memcpy (order[n++], all[p], sizeof *order);
+    return n;
+}
+
+int cut_on_face (const cut_slices *s, size_t i, int axis, int side)
+{
+    double centre[3] = { 0, 0, 0 }, half[3] = { 0, 0, 0 };
+    for (int k = 0; k < s->dim; k++) {
+        if (k == axis) centre[k] = side;
+        else half[k] = 1;
+        if (s->low[3*i + (size_t) k] > centre[k] + half[k] + 1e-7
+            || s->high[3*i + (size_t) k] < centre[k] - half[k] - 1e-7) return 0;
+    }
+    return cut_meets (&s->level[0].q[i], centre, half, 2 * cut_snap);
+}
