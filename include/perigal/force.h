@@ -109,8 +109,9 @@ typedef struct {
                                    const double *inertia, pg_work_balance *out);
     /* The largest overlap of broken bonds (m). */
     double    (*overlap) (void *self, const pg_state *state, const double *d);
-    /* Points of evaluation without a gradient, nodes alone, parts beside the largest one. */
-    pg_status (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+    /* Points of evaluation without a gradient, nodes alone, parts beside the largest one; where the first of
+     * those points is, m (at: 3, left alone where there is none). */
+    pg_status (*census)  (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at);
     /* Joins the points that carry forces to each other at the last refresh: sets of points (pg_disjoint, n;
      * of a rank by what its own points take part in). NULL: not known. */
     void      (*join)    (void *self, int *parent);

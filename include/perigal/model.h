@@ -171,6 +171,8 @@ typedef struct {
     size_t iterations;                                 /* of conjugate gradients, all states */
     /* of evaluation; of these without a strain; points without a bond; parts beside the largest */
     size_t points, degenerate, isolated, fragments;
+    double blind[3];                                   /* where the first of `degenerate` is, m */
+    double worst[3];                                   /* the node whose displacement is furthest off, m */
     double seconds;
 } pg_patch;
 typedef struct { char name[32]; double from[3], to[3]; } pg_gauge;      /* opening along from -> to, m */

@@ -97,6 +97,7 @@ pg_status pg_patch_refuse (const pg_problem *problem, const pg_scene *scene);
 const char *pg_patch_state (const pg_problem *problem);                            /* "xx", "xy" ... */
 /* How far off, and by what; what to do about it. */
 void      pg_patch_words  (const pg_problem *problem, char *out, size_t size);
+void      pg_patch_place  (const pg_problem *problem, const double *x, char *out, size_t size);
 void      pg_patch_remedy (const pg_problem *problem, char *out, size_t size);
 
 /* ---- strength where cracks begin
@@ -128,6 +129,7 @@ typedef struct {                                       /* of the run so far */
     long   steps, events, iterations, broken, bonds_over_limit, factorizations, updates, solves;
     long   preconditioners;                            /* made (multilevel) */
     size_t cg_iterations, degenerate_points, isolated_nodes, fragments, unended_cells;
+    double degenerate_at[3];                           /* where the first of degenerate_points is, m */
     double utilisation_max, residual_max, overlap_max; /* over accepted steps; m */
     /* What loads, reactions, inertia and damping miss of balance: the largest sum of forces over that of
      * their sizes, of moments over that times the body's diagonal; in how many states (0: not measured). */

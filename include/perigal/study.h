@@ -301,4 +301,10 @@ typedef struct {
     const char  *refused;
 } pg_first_break;
 pg_status pg_first_break_find (pg_first_break *out, const pg_problem *p, const pg_solver_options *o);
+/* The text of folder/report.json, to be freed by pg_free; NULL: it cannot be read. */
+char  *pg_report_load   (const char *folder);
+/* The number behind a key of that text, in the first block of that name (NULL: anywhere); NAN: it is not
+ * there. text may be NULL. */
+double pg_report_number (const char *text, const char *block, const char *key);
+
 #endif

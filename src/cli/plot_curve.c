@@ -48,10 +48,12 @@ typedef struct {
     /* Labels "name (unit)" of x and y; name in the legend. */
     char    column[2][CELL], name[CELL];
     run_kind kind;
-    /* Number of places of the line that is drawn (the rows, or their envelope), and the one
-     * with the peak. */
-    size_t  nline, peak;
-    double *line[2];
+    /* Number of places of the line that is drawn (the rows, or their envelope), and where its peak is. */
+    size_t  nline;
+    double *line[2], peak[2];
+    /* The step of the peak that the report of the run names for this y, of rows in which every crack tip was
+     * judged; NAN: it names none. step: of each row (n). */
+    double  named, *step;
 } run_curve;
 
 /* The help of plot --curve. */
@@ -165,50 +167,84 @@ static void read_kind (run_kind *out, const char *directory, const char *const *
 }
 
 /* ---- one run ------------------------------------------------------------------------------------------- */
+/* The step of the peak in report.json, where it is that of a column of forces: the load and the axis of the
+ * curve are named before it. */
+static double named_peak (const char *directory, const char *wanted)
+{
+    double step = NAN;
+    char *text = is_table (directory) ? NULL : pg_report_load (directory);
+    const char *curve = text ? strstr (text, "\"curve\": {") : NULL;
+    const char *load = curve ? strstr (curve, "\"load\": \"") : NULL;
+    const char *axis = load ? strstr (load, "\"component\": \"") : NULL;
+    if (axis) {
+        char name[CELL];
+        load += strlen ("\"load\": \""), axis += strlen ("\"component\": \"");
+        snprintf (name, sizeof name, "%.*s.force_%c", (int) strcspn (load, "\""), load, *axis);
+        if (strcmp (name, wanted) == 0) step = pg_report_number (text, "peak", "step");
+    }
+    pg_free (text);
+    return step;
+}
+
 /* Reads both columns of a run, and its load factors where the table has them (0 otherwise). A
  * table without rows belongs to a run that has just begun. */
 static pg_status read_rows (run_curve *c, const char *directory, const char *const *wanted)
 {
     pg_status status = PG_OK;
     char table[LIST];
-    long column[2], factor;
+    long column[2], factor, step;
     pg_csv csv = { 0 };
     snprintf (table, sizeof table, "%s%s", directory, is_table (directory) ? "" : "/history.csv");
     PG_TRY (pg_csv_read (&csv, table));
     for (int k = 0; k < 2; k++) PG_TRY (find_column (table, &csv, wanted[k], &column[k], c->column[k]));
-    factor = pg_csv_column (&csv, "load_factor");
+    factor = pg_csv_column (&csv, "load_factor"), step = pg_csv_column (&csv, "step");
     c->n = csv.nrow;
     if (c->n == 0) PG_FAIL (PG_E_FILE, "%s has no rows yet", table);
     for (int k = 0; k < 2; k++) PG_ALLOC (c->at[k], c->n);
     PG_ALLOC (c->factor, c->n);
+    PG_ALLOC (c->step, c->n);
     for (size_t i = 0; i < c->n; i++) {
         const double *row = csv.value + i * csv.ncolumn;
         for (int k = 0; k < 2; k++) c->at[k][i] = row[column[k]];
         c->factor[i] = factor < 0 ? 0 : row[factor];
+        c->step[i] = step < 0 ? NAN : row[step];
     }
 done:
     pg_csv_clear (&csv);
     return status;
 }
 
+/* The peak: place `peak` of the line, or the row that the report names. */
+static void choose_peak (run_curve *c, size_t peak)
+{
+    size_t row = SIZE_MAX;
+    for (size_t i = 0; i < c->n; i++)
+        if (c->step[i] == c->named && (row == SIZE_MAX || fabs (c->at[1][i]) > fabs (c->at[1][row]))) row = i;
+    for (int k = 0; k < 2; k++) c->peak[k] = row == SIZE_MAX ? c->line[k][peak] : c->at[k][row];
+}
+
 /* The line that is drawn: the rows, from the origin on where the run starts unloaded; of a
  * path of events on which the load factor falls and rises, its envelope. Without such a fall
- * the path is its own envelope. c->peak: the place of largest |y|. */
+ * the path is its own envelope. c->peak: the place of largest |y|, of the rows of the step that the report
+ * names where it does. */
 static pg_status choose_line (const request *q, run_curve *c)
 {
     pg_status status = PG_OK;
     int falls = 0;
+    size_t peak = 0;
     for (size_t i = 1; i < c->n; i++) falls |= c->factor[i] < c->factor[i - 1];
     c->kind.events &= falls && !q->markers;
     for (int k = 0; k < 2; k++) PG_ALLOC (c->line[k], 2 * c->n + 2);
     if (c->kind.events) {
-        c->nline = pg_envelope (c->n, c->at[0], c->at[1], c->kind.linear, c->line[0], c->line[1], &c->peak);
+        c->nline = pg_envelope (c->n, c->at[0], c->at[1], c->kind.linear, c->line[0], c->line[1], &peak);
+        choose_peak (c, peak);
         goto done;
     }
     c->nline = (size_t) (c->kind.at_rest && !q->markers);
     for (size_t i = 0; i < c->n; i++)
         c->line[0][c->nline] = c->at[0][i], c->line[1][c->nline++] = c->at[1][i];
-    for (size_t i = 0; i < c->nline; i++) if (fabs (c->line[1][i]) > fabs (c->line[1][c->peak])) c->peak = i;
+    for (size_t i = 0; i < c->nline; i++) if (fabs (c->line[1][i]) > fabs (c->line[1][peak])) peak = i;
+    choose_peak (c, peak);
 done:
     return status;
 }
@@ -310,7 +346,7 @@ static void mark_peaks (const request *q, run_curve *c, pg_chart_mark *mark, cha
 {
     char value[CELL / 4], place[CELL / 4];
     for (size_t i = 0; i < q->n; i++) {
-        double x = c[i].line[0][c[i].peak], y = c[i].line[1][c[i].peak];
+        double x = c[i].peak[0], y = c[i].peak[1];
         size_t used = strlen (c[i].name);
         mark[i] = (pg_chart_mark) { i, x, y, q->n == 1 ? note : NULL };
         quantity_of (c[i].column[1], y, value, sizeof value);
@@ -333,6 +369,7 @@ static pg_status read_all (const request *q, run_curve *c)
                 PG_FAIL (PG_E_USAGE, "%s has %s and %s has %s: one picture needs one unit", q->directory[0],
                          c[0].column[k], q->directory[i], c[i].column[k]);
         read_kind (&c[i].kind, q->directory[i], wanted);
+        c[i].named = named_peak (q->directory[i], q->y);
     }
 done:
     return status;
@@ -379,7 +416,7 @@ static pg_status draw (const request *q, const char *path)
 done:
     for (size_t i = 0; c && i < q->n; i++)
         pg_free (c[i].at[0]), pg_free (c[i].at[1]), pg_free (c[i].factor), pg_free (c[i].line[0]),
-            pg_free (c[i].line[1]);
+            pg_free (c[i].line[1]), pg_free (c[i].step);
     pg_free (c);
     return status;
 }

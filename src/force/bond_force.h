@@ -139,7 +139,8 @@ pg_status bond_force_sample (void *self, const pg_state *state, const double *d,
                              double *u, double *stress, double *gradient);
 double    bond_force_overlap (void *self, const pg_state *state, const double *d);
 void      bond_force_join   (void *self, int *parent);
-pg_status bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+pg_status bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments,
+                             double *at);
 /* contact of crack faces by the bonds that crossed them (bond_faces.c) */
 pg_status bond_force_jump (void *self, const pg_state *state, size_t n, const double *x, const double *normal,
                            double radius, pg_jump_rows *out);

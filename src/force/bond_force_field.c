@@ -431,8 +431,9 @@ void bond_force_join (void *self, int *parent)
 
 /* Parts of the body that live bonds hold together: points alone, and parts of
  * several points beside the largest one. */
-pg_status bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
+pg_status bond_force_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at)
 {
+    (void) at;
     pg_status status = PG_OK;
     bond_force *b = self;
     int *parent = NULL;

@@ -427,7 +427,7 @@ pg_status galerkin_judge_group (void *self, const pg_state *state, const pg_bond
 pg_status galerkin_judge_others (void *self, const pg_state *state, const unsigned char *left_out,
                                  int of_unit, size_t count, const double *d, double *top);
 double galerkin_overlap (void *self, const pg_state *state, const double *d);
-pg_status galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments);
+pg_status galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at);
 void galerkin_join (void *self, int *parent);
 /* The force's refresh, for who asks before the first one. */
 pg_status galerkin_refresh (void *self, const pg_state *state, const pg_changes *changes);

@@ -341,21 +341,39 @@ void galerkin_join (void *self, int *parent)
     }
 }
 
+/* Evaluation points without a gradient, which carry no stress, and where the first of them is: the first of
+ * this rank, or of the lowest rank that has one. */
+static pg_status count_flat (const galerkin *g, size_t *count, double *at)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim, n = 0;
+    double flat = 0, first[3] = { 0 }, *all = NULL;
+    for (size_t p = r->n; p-- > 0;) {
+        if (r->grade[p] < PG_GRADE_SHEPARD || !pg_problem_owns (g->problem, g->bulk, p)) continue;
+        flat++;
+        memcpy (first, r->x + p * dim, dim * sizeof *first);
+    }
+    PG_TRY (pg_ranks_share (flat > 0 ? 3 : 0, first, &n, &all));
+    if (n) memcpy (at, all, sizeof first);
+    if (g->problem->cloud.subdomain) PG_TRY (pg_ranks_sum (1, &flat));
+    *count = (size_t) flat;
+done:
+    pg_free (all);
+    return status;
+}
+
 /* Points of evaluation without a gradient; nodes that no evaluation point sees together with another one;
  * parts of the body that evaluation points no longer join, the largest not counted. */
-pg_status galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments)
+pg_status galerkin_census (void *self, size_t *degenerate, size_t *isolated, size_t *fragments, double *at)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
-    const pg_rows *r = &g->rows[g->bulk];
     int *parent = NULL;
-    double parts[2], flat = 0;
+    double parts[2];
     *degenerate = *isolated = *fragments = 0;
-    for (size_t p = 0; p < r->n; p++)
-        flat += r->grade[p] >= PG_GRADE_SHEPARD && pg_problem_owns (g->problem, g->bulk, p);
     PG_ALLOC (parent, g->n);
-    if (g->problem->cloud.subdomain) PG_TRY (pg_ranks_sum (1, &flat));
-    *degenerate = (size_t) flat;
+    PG_TRY (count_flat (g, degenerate, at));
     galerkin_join (g, parent);
     PG_TRY (pg_subdomain_count (g->problem->cloud.subdomain, g->n, parent, parts));
     *isolated = (size_t) parts[0], *fragments = (size_t) parts[1];

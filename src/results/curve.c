@@ -173,6 +173,45 @@ static double initial_stiffness (const pg_result *r, size_t peak)
     return r->curve_x[0] != 0 ? r->curve_y[0] / r->curve_x[0] : NAN;
 }
 
+/* What a load does over its set: the least and the largest of component k, the largest of the others. Those
+ * that follow facets are asked there. */
+static void range_of (const pg_problem *p, const pg_load *load, int k, double *least, double *most,
+                      double *others)
+{
+    size_t dim = (size_t) p->dim, n = load->set->npoint ? load->set->npoint : load->set->nfacet;
+    for (size_t i = 0; i < n; i++) {
+        const double *x = load->set->npoint ? p->cloud.x + (size_t) load->set->point[i] * dim
+                                            : p->cells.facet_centre + (size_t) load->set->facet[i] * dim;
+        for (int c = 0; c < p->dim; c++) {
+            double value = load->value[c] ? pg_load_value (load, c, p->dim, x, 1e-9) : 0,
+                   later = load->value[c] ? pg_load_value (load, c, p->dim, x, 1) : 0;
+            if (fabs (later) > fabs (value)) value = later;
+            if (c != k) *others = fmax (*others, fabs (value));
+            else *least = fmin (*least, value), *most = fmax (*most, value);
+        }
+    }
+}
+
+/* Is the force of the curve times the displacement of the curve the work of the load? Where the load acts
+ * along one axis, alike at all points: the mean displacement does not tell the work of tractions that turn
+ * over the set or balance themselves, and the ratio of both is no stiffness. */
+static int is_conjugate (const pg_problem *p, const pg_load *load, int k)
+{
+    double least = INFINITY, most = -INFINITY, others = 0;
+    if (load->platen || !load->set || load->share) return 1;
+    if (load->turns || pg_load_rotates (load)) return 0;
+    if (load->kind == PG_PRESSURE) {
+        for (size_t f = 0; f < load->set->nfacet; f++) {
+            const double *n = p->cells.normal + (size_t) load->set->facet[f] * (size_t) p->dim;
+            least = fmin (least, n[k]), most = fmax (most, n[k]);
+            for (int c = 0; c < p->dim; c++) if (c != k) others = fmax (others, fabs (n[c]));
+        }
+    } else range_of (p, load, k, &least, &most, &others);
+    least = -most_of_ranks (-least), most = most_of_ranks (most), others = most_of_ranks (others);
+    double size = fmax (fabs (least), fabs (most));
+    return most - least <= 1e-6 * size && others <= 1e-6 * size;
+}
+
 static const double *more_of (const pg_result *r, size_t row)
 {
     return r->curve_more + row * (FIRST_GAUGE + r->problem->ngauge);
@@ -196,6 +235,7 @@ void pg_result_curve_read (pg_result *r)
                              .step = more[STEP], .time = more[TIME], .factor = more[FACTOR], .initial = NAN,
                              .secant = NAN, .judged = judged > 0, .left_out = judged ? n - judged : 0 };
     if (!from_rest (r->problem)) return;
+    if (!is_conjugate (r->problem, &r->problem->load[r->curve_load], r->curve_component)) return;
     r->peak.initial = initial_stiffness (r, row);
     if (r->peak.displacement != 0) r->peak.secant = r->peak.force / r->peak.displacement;
 }

@@ -135,6 +135,11 @@ static void run_block (pg_json *j, const pg_result *res, const pg_statistics *r,
     pg_json_count (j, "solves", (size_t) r->solves);
     pg_json_count (j, "cg_iterations", r->cg_iterations);
     pg_json_count (j, "degenerate_points", r->degenerate_points);
+    if (r->degenerate_points) {
+        pg_json_open (j, "degenerate_at", '[');
+        for (int k = 0; k < 3; k++) pg_json_number (j, NULL, r->degenerate_at[k]);
+        pg_json_shut (j);
+    }
     pg_json_count (j, "unended_cells", r->unended_cells);
     pg_json_count (j, "isolated_nodes", r->isolated_nodes);
     pg_json_count (j, "fragments", r->fragments);

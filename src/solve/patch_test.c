@@ -404,6 +404,18 @@ static void measure_rigid_work (probe *t, double volume)
     }
 }
 
+/* The node whose displacement (q: less the linear one) is furthest off. */
+static void find_worst (probe *t)
+{
+    double most = -1;
+    for (size_t i = 0; i < t->n; i++) {
+        double size = dot (t->dim, t->q + i * t->dim, t->q + i * t->dim);
+        if (!(size > most)) continue;
+        most = size;
+        memcpy (t->out.worst, t->p->cloud.x + i * t->dim, t->dim * sizeof *t->out.worst);
+    }
+}
+
 /* A bar's displacement has half the size about its middle that it has about its end, from which displacements
  * are commonly counted: what is not linear in the error is measured against that. Held or read off where it
  * bears loads, the body moves by what its surface gives way: that is in the work of the tractions. */
@@ -441,6 +453,7 @@ static pg_status measure_state (probe *t, size_t v)
     if (t->out.measured && !(error > (1 + 1e-6) * t->out.error) && !isnan (error)) goto done;
     t->out.measured = 1, t->out.error = isnan (error) ? INFINITY : error, t->out.state = (int) v;
     t->out.compliance = compliance;
+    find_worst (t);
 done:
     return status;
 }
@@ -546,7 +559,8 @@ static pg_status count_defects (probe *t)
     const pg_rows *bulk = &t->p->rows[t->p->integration->at_nodes ? PG_NODES : PG_POINTS];
     t->out.points = bulk->n;
     if (!t->force->census) return PG_OK;
-    return t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments);
+    return t->force->census (t->self, &t->out.degenerate, &t->out.isolated, &t->out.fragments,
+                             t->out.blind);
 }
 
 /* Measures the error under each stress; with supports on points that bear on facets a second time with

@@ -12,6 +12,15 @@ const char *pg_patch_state (const pg_problem *p)
     return names[p->dim == 2 && p->patch.state == 2 ? 3 : p->patch.state];
 }
 
+/* A place, such as (0.1, 0.2) m */
+void pg_patch_place (const pg_problem *p, const double *x, char *out, size_t size)
+{
+    int n = snprintf (out, size, "(");
+    for (int k = 0; k < p->dim && (size_t) n < size; k++)
+        n += snprintf (out + n, size - (size_t) n, k ? ", %.6g" : "%.6g", x[k]);
+    if ((size_t) n < size) snprintf (out + n, size - (size_t) n, ") m");
+}
+
 /* Per cent, to two digits */
 static double percent (double share)
 {
@@ -97,20 +106,22 @@ void pg_patch_remedy (const pg_problem *p, char *out, size_t size)
 pg_status pg_patch_refuse (const pg_problem *p, const pg_scene *scene)
 {
     const pg_patch *t = &p->patch;
-    char words[240], remedy[240];
+    char words[240], remedy[240], at[100];
     if (!t->measured) return PG_OK;
+    pg_patch_place (p, 4 * t->degenerate > t->points ? t->blind : t->worst, at, sizeof at);
     if (4 * t->degenerate > t->points)
         pg_scene_fault (scene, "method.horizon",
-                        "%zu of %zu evaluation points see too few points for a strain and would carry no "
-                        "stress: use a larger horizon%s "
+                        "%zu of %zu evaluation points, such as that at %s, see too few points for a strain "
+                        "and would carry no stress: use a larger horizon%s "
                         "(now %.4g spacings), or a finer spacing",
-                        t->degenerate, t->points, p->approx.order == 2 ? ", or basis: linear" : "",
+                        t->degenerate, t->points, at, p->approx.order == 2 ? ", or basis: linear" : "",
                         p->approx.horizon / p->cloud.h);
     else if (!(t->error <= PG_PATCH_REFUSED) && !p->accept_inexact) {
         pg_patch_words (p, words, sizeof words);
         pg_patch_remedy (p, remedy, sizeof remedy);
-        pg_scene_fault (scene, "method", "%s; %s, or method.accept_inexact: yes to run all the same", words,
-                        remedy);
+        pg_scene_fault (scene, "method",
+                        "%s; most of all at %s; %s, or method.accept_inexact: yes to run all the same",
+                        words, at, remedy);
     }
     return pg_scene_verdict (scene);
 }

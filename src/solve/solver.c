@@ -121,6 +121,31 @@ static void doubt_growth (pg_solver *s, const pg_state *state)
     g->said |= FACET_SAID_NOTHING;
 }
 
+/* Points that see too little, points alone, parts of the body, as the bonds are now. */
+static pg_status count_points (pg_solver *s)
+{
+    pg_system *sys = &s->break_loop.system;
+    pg_statistics *r = &s->report;
+    if (!sys->force->census) return PG_OK;
+    return sys->force->census (sys->self, &r->degenerate_points, &r->isolated_nodes, &r->fragments,
+                               r->degenerate_at);
+}
+
+/* Once: points that see too little beside cracks, more than the bare body has, which its patch test tells. */
+static void tell_blind (pg_solver *s)
+{
+    char at[100];
+    const pg_statistics *r = &s->report;
+    if (s->warned_blind || r->degenerate_points <= s->problem->patch.degenerate) return;
+    s->warned_blind = 1;
+    pg_patch_place (s->problem, r->degenerate_at, at, sizeof at);
+    pg_statistics_warn (&s->report,
+                        "%zu evaluation point%s beside cracks, such as that at %s, see%s too little for a "
+                        "strain and carr%s no stress: a smaller spacing there helps",
+                        r->degenerate_points, r->degenerate_points == 1 ? "" : "s", at,
+                        r->degenerate_points == 1 ? "s" : "", r->degenerate_points == 1 ? "ies" : "y");
+}
+
 pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -132,6 +157,10 @@ pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *
     PG_TRY (doubt_loaded_rows (s));
     doubt_growth (s, state);
     PG_TRY (check_parts (s, state));
+    if (state->step == 0) {
+        PG_TRY (count_points (s));
+        tell_blind (s);
+    }
     s->begun = 1;
 done:
     status = options_blame (status, &s->options, "solver");
@@ -441,13 +470,12 @@ static void warn_at_end (pg_solver *s, const pg_state *state)
 const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
 {
     pg_system *sys = &s->break_loop.system;
-    if (sys->force->census
-        && sys->force->census (sys->self, &s->report.degenerate_points, &s->report.isolated_nodes,
-                               &s->report.fragments) != PG_OK)
+    if (count_points (s) != PG_OK)
         pg_statistics_warn (&s->report,
                             "points that see too little, points alone and parts of the body could not be "
                             "counted: %.120s",
                             pg_last_error ());
+    if (s->break_loop.growth) tell_blind (s);
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
     if (pg_ranks_most (1, &s->report.overlap_max) != PG_OK) s->report.overlap_max = NAN;
     if (sys->force->unended) s->report.unended_cells = sys->force->unended (sys->self);

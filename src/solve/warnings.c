@@ -250,13 +250,15 @@ static int warns (const char *note) { return strncmp (note, PG_WARNING, strlen (
 /* What the patch test has found: an error worth a warning, points without strain, parts of the body. */
 static void doubt_patch (pg_statistics *report, const pg_problem *p)
 {
-    char words[240], remedy[240];
+    char words[240], remedy[240], at[100];
     const pg_patch *t = &p->patch;
     if (!t->measured) return;
+    pg_patch_place (p, t->blind, at, sizeof at);
     if (t->degenerate)
-        pg_statistics_warn (
-            report, "%zu of %zu evaluation points see too few points for a strain and carry no stress",
-            t->degenerate, t->points);
+        pg_statistics_warn (report,
+                            "%zu of %zu evaluation points, such as that at %s, see too few points for a "
+                            "strain and carry no stress",
+                            t->degenerate, t->points, at);
     if (t->isolated)
         pg_statistics_warn (report, "%zu point%s by no bond on any other", t->isolated,
                             t->isolated == 1 ? " hangs" : "s hang");

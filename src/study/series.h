@@ -4,12 +4,6 @@
 #define PG_STUDY_SERIES_H
 #include "perigal/study.h"
 
-/* The text of folder/report.json, to be freed by pg_free; NULL: it cannot be read. */
-char  *pg_report_load   (const char *folder);
-/* The number behind a key of that text, in the first block of that name (NULL: anywhere); NAN: it is not
- * there. text may be NULL. */
-double pg_report_number (const char *text, const char *block, const char *key);
-
 /* A factor for numbers of N, m, J or Pa of that size (largest magnitude), and the unit with its prefix:
  * 1e-3 and "kN"; other units stay. */
 double pg_chart_unit (double size, const char *unit, char *out, size_t bytes);

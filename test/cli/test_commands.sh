@@ -88,6 +88,15 @@ done
 pen_of() { grep "stroke-width:$2;" "$1" | grep -oE ' d="M [^"]*"' | awk 'length ($0) > n { n = length ($0); d = $0 } END { print d }'; }
 goes_back() { tr -d 'dML="' | awk '{ for (i = 3; i < NF; i += 2) if ($i < $(i - 2) - 1e-3) back = 1 } END { exit !back }'; }
 "$perigal" run plate.yaml --quiet --threads 1 --set solver.max_events=20 -o "$work/events" > "$work/out" 2> "$work/err"        # by three events the load rises on
+# the ring is where the report has the peak: the largest row in which every crack tip was judged
+mkdir -p "$work/ring" && printf 'step [1],u [m],a.force_x [N]\n0,0,0\n1,1,3\n2,2,4\n3,3,9\n' > "$work/ring/history.csv"
+for step in 3 2; do
+    printf '{\n  "curve": {\n    "load": "a",\n    "component": "x",\n    "peak": {\n      "step": %d\n    }\n  }\n}\n' $step > "$work/ring/report.json"
+    "$perigal" plot "$work/ring" --curve u a.force_x --out "$work/ring$step.svg" > "$work/out" 2> "$work/err"; verdict "plot of a peak in step $step" $?
+done
+rm "$work/ring/report.json"; "$perigal" plot "$work/ring" --curve u a.force_x --out "$work/ring.svg" > "$work/out"
+cmp -s "$work/ring.svg" "$work/ring3.svg" && ! cmp -s "$work/ring.svg" "$work/ring2.svg"; verdict "plot --curve rings the peak of the report" $?
+
 "$perigal" plot "$work/events" --curve pull.displacement_y pull.force_y --out "$work/events.svg" > "$work/out" 2> "$work/err"
 pen_of "$work/events.svg" 1 | goes_back && ! pen_of "$work/events.svg" 3 | goes_back; verdict "plot --curve: the line of an event path is its envelope" $?
 expect "plot names the nearest curve option"  64 '' 'did you mean --labels' plot "$out" --curve step pull.force_y --label a

@@ -288,7 +288,7 @@ static void exempt_points_and_materials (void **unused)
         pg_free (c.bond);
     }
     size_t degenerate, isolated, fragments;
-    check_ok (b.force->census (b.self, &degenerate, &isolated, &fragments));
+    check_ok (b.force->census (b.self, &degenerate, &isolated, &fragments, (double[3]) { 0 }));
     assert_true (killed[0] > 10 && spared > 10 && isolated >= killed[0] + killed[1]);
     for (size_t i = 0; i < b.n; i++)                                   /* iron keeps its own */
         for (size_t e = f->start[i]; e < f->start[i + 1]; e++)

@@ -155,6 +155,29 @@ static void the_load_that_comes_last_is_drawn (void **state)
     }
 }
 
+/* A traction that bends, or one that pulls obliquely, does work that the mean displacement along one axis
+ * does not tell: no stiffness is printed. One along an axis, alike at all points, has one. */
+static void only_a_load_with_a_conjugate_displacement_has_a_stiffness (void **state)
+{
+    (void) state;
+    static const char *const loads[] = { "{y: 1 MPa}", "{y: \"10 MPa * x / 1 m\"}",
+                                         "{x: 0.7 MPa, y: 0.7 MPa}" };
+    for (int i = 0; i < 3; i++) {
+        char more[300];
+        snprintf (more, sizeof more,
+                  "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, {name: head, set: top, "
+                  "traction: %s}]\nsolver: {kind: static, stepping: fixed, steps: 2}\n", loads[i]);
+        play (PLATE, more);
+        check_contains (words[0], "peak load");
+        if (i == 0) check_contains (words[1], "secant stiffness");
+        else {
+            check_contains (report, "\"stiffness_initial\": null");
+            assert_string_equal (words[1], "");
+        }
+        tidy ();
+    }
+}
+
 static void unloading_is_drawn_and_a_constant_load_has_no_origin (void **state)
 {
     (void) state;
@@ -358,6 +381,7 @@ int main (void)
         cmocka_unit_test (the_axis_that_pulls_is_drawn),
         cmocka_unit_test (the_load_that_comes_last_is_drawn),
         cmocka_unit_test (a_displacement_is_preferred_to_a_velocity),
+        cmocka_unit_test (only_a_load_with_a_conjugate_displacement_has_a_stiffness),
         cmocka_unit_test (unloading_is_drawn_and_a_constant_load_has_no_origin),
         cmocka_unit_test (the_peak_of_events_is_that_of_the_history),
         cmocka_unit_test (a_plane_of_broken_bonds_has_its_area),

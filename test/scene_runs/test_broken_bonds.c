@@ -170,7 +170,7 @@ static void separated_parts_move_freely (void **state)
             worst = fmax (worst,
                           largest_difference (u + 2 * i, (double[2]){ up ? 2e-4 : 0, up ? 1e-3 : 0 }, 2));
         }
-        check_ok (force->census (self, &degenerate, &isolated, &fragments));
+        check_ok (force->census (self, &degenerate, &isolated, &fragments, (double[3]) { 0 }));
         print_message ("%s %s %s %s: displacement off by %.1e, stress %.1e of E pull / height, %ld step, %zu "
                        "degenerate, %zu fragments\n",
                        methods[m].approximation, methods[m].integration, methods[m].essential,
