@@ -24,6 +24,19 @@ static void find_steepness (const cut_slices *s, int surface, const double *cent
     }
 }
 
+/* Does this order take the axes as the surfaces grow steeper along them, and of equally steep ones first that
+ * along which they are bent more? */
+static int rises (const int *order, int dim, const double *steep, const double *bent)
+{
+    for (int k = 1; k < dim; k++) {
+        int a = order[k - 1], b = order[k];
+        double rise = steep[b] - steep[a];
+        if (fabs (rise) <= cut_equal) rise = bent[a] - bent[b];
+        if (rise < -cut_equal) return 0;
+    }
+    return 1;
+}
+
 int cut_axes (cut_slices *s, const struct pg_cut *cut, int surface, int fixed, int side, int order[6][3])
 {
     static const int all[6][3] = { { 0, 1, 2 }, { 1, 0, 2 }, { 0, 2, 1 },
@@ -36,16 +49,9 @@ int cut_axes (cut_slices *s, const struct pg_cut *cut, int surface, int fixed, i
     if (fixed >= 0) centre[fixed] = side;
     find_steepness (s, surface, centre, steep, bent);
     if (fixed >= 0) steep[fixed] = -1;
-    for (int p = 0; p < (dim == 3 ? 6 : dim); p++) {
-        int rises = 1;
-        for (int k = 1; k < dim; k++) {
-            int a = all[p][k - 1], b = all[p][k];
-            double rise = steep[b] - steep[a];
-            if (fabs (rise) <= cut_equal) rise = bent[a] - bent[b];
-            rises &= rise >= -cut_equal;
-        }
-        if (rises && !(n > 0 && s->square)) memcpy (order[n++], all[p], sizeof *order);
-    }
+    for (int p = 0; p < (dim == 3 ? 6 : dim); p++)
+        if (rises (all[p], dim, steep, bent) && !(n > 0 && s->square))
+            memcpy (order[n++], all[p], sizeof *order);
     /* rounding in a circle of near ties: any */
     for (int p = 0; n == 0; p++)
         if (fixed < 0 || all[p][0] == fixed) memcpy (order[n++], all[p], sizeof *order);

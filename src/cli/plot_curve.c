@@ -84,8 +84,19 @@ static int is_column (const char *column, const char *wanted)
     return n == strlen (wanted) && strncmp (column, wanted, n) == 0;
 }
 
-/* Finds a column of a table and makes its label for an axis, without a unit where that is 1.
- * PG_E_USAGE with all names if there is none. */
+/* The label of a column for an axis, without a unit where that is 1. */
+static void label_of (const char *name, char *label)
+{
+    snprintf (label, CELL, "%s", name);
+    char *open = strrchr (label, '['), *close = strrchr (label, ']');
+    if (open && close > open + 1 && strcmp (open, "[1]") != 0) *open = '(', *close = ')';
+    else if (open) label[pg_csv_name (label)] = 0;
+    /* the unit of stress intensity, "Pa m^(1/2)", with its exponent raised */
+    char *power = strstr (label, "^("), *end = power ? strchr (power, ')') : NULL;
+    if (end) power[1] = '{', *end = '}';
+}
+
+/* Finds a column of a table, and its label. PG_E_USAGE with all names if there is none. */
 static pg_status find_column (const char *path, const pg_csv *csv, const char *wanted, long *column,
                               char *label)
 {
@@ -103,13 +114,7 @@ static pg_status find_column (const char *path, const pg_csv *csv, const char *w
     if (*column < 0)
         PG_FAIL (PG_E_USAGE, "%s has no column '%s'%s%s%s; it has %s", path, wanted,
                  near ? " (did you mean '" : "", near ? near : "", near ? "'?)" : "", all);
-    snprintf (label, CELL, "%s", csv->name[*column]);
-    char *open = strrchr (label, '['), *close = strrchr (label, ']');
-    if (open && close > open + 1 && strcmp (open, "[1]") != 0) *open = '(', *close = ')';
-    else if (open) label[pg_csv_name (label)] = 0;
-    /* the unit of stress intensity, "Pa m^(1/2)", with its exponent raised */
-    char *power = strstr (label, "^("), *end = power ? strchr (power, ')') : NULL;
-    if (end) power[1] = '{', *end = '}';
+    label_of (csv->name[*column], label);
 done:
     return status;
 }
