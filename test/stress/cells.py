@@ -54,7 +54,7 @@ def ranks_sleep(folder):
     source, library = os.path.join(folder, 'sleep.c'), os.path.abspath(os.path.join(folder, 'sleep.so'))
     with open(source, 'w') as out:
         out.write('#include <time.h>\nint sched_yield (void) { struct timespec t = { 0, 1000 }; return nanosleep (&t, 0); }\n')
-    if subprocess.run([os.environ.get('CC', 'gcc'), '-shared', '-fPIC', '-o', library, source], capture_output=True).returncode == 0:
+    if subprocess.run([*os.environ.get('CC', 'gcc').split(), '-shared', '-fPIC', '-o', library, source], capture_output=True).returncode == 0:
         LAUNCH.extend(['-x', f'LD_PRELOAD={library}'])
 
 
