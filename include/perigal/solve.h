@@ -159,7 +159,7 @@ typedef struct {                                       /* of the run so far */
     double motion_time, switch_jump;
     char   ordering[16], solver[16], preconditioner[128];
     pg_skip skipped[16];  size_t nskipped;
-    char   warning[16][256]; size_t nwarning;
+    char   warning[48][400]; size_t nwarning;          /* where they are more the last one says so */
     /* what ended the run before its loads were reached, static text; NULL: see warnings */
     const char *ended_by;
 } pg_statistics;

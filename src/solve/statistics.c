@@ -5,11 +5,16 @@
 #include <stdio.h>
 #include <string.h>
 
-/* Warnings beyond the room for them are dropped: the first are the ones that matter. */
+/* Where there is no room for more the last one says so. */
 static void warn (pg_statistics *report, const char *format, va_list args)
 {
-    if (report->nwarning >= sizeof report->warning / sizeof *report->warning) return;
-    vsnprintf (report->warning[report->nwarning++], sizeof *report->warning, format, args);
+    size_t room = sizeof report->warning / sizeof *report->warning;
+    if (report->nwarning < room)
+        vsnprintf (report->warning[report->nwarning++], sizeof *report->warning, format, args);
+    else
+        snprintf (report->warning[room - 1], sizeof *report->warning,
+                  "more warnings than the %zu before this one, which are not kept: see to those first",
+                  room - 1);
 }
 
 void pg_statistics_warn (pg_statistics *report, const char *format, ...)
