@@ -11,7 +11,9 @@ static double value (const char *load, const char *rest, int k, double t)
     char text[1000];
     snprintf (text, sizeof text, PLATE "boundary: [{set: right, %s}]\n%s", load, rest);
     built b = build (text);
-    double v = pg_load_value (&b.problem->load[0], k, 2, here, t);
+    const pg_load *l = &b.problem->load[0];
+    double v = pg_load_value (l, k, 2, here, t);
+    if (l->over_area > 0) v *= l->over_area;           /* a total force on a side is a traction there */
     unbuild (&b);
     return v;
 }
