@@ -12,7 +12,7 @@ import ranks
 from cells import has_ranks
 from methods import methods
 
-SAMPLE = {'short': 500, 'long': 2500}
+SAMPLE = {'short': 340, 'long': 2500}
 LONGEST = 60
 LEAST = 4                    # cells of each condition in every sample
 
