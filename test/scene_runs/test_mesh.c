@@ -400,6 +400,126 @@ static void consistent_patches_on_every_element (void **state)
     }
 }
 
+/* ---- elements of several kinds ------------------------------------------------------------------------- */
+/* Three slabs of 2 x 2 cells along x: hexahedra; pyramids about the middles of the cells, with tetrahedra on
+ * their last faces; tetrahedra. Planes at uneven distances, middles aside, the whole sheared. */
+enum { MIXED_X = 3, MIXED_Y = 2, MIXED_ACROSS = 2 * MIXED_X + 1, MIXED_HIGH = 2 * MIXED_Y + 1 };
+
+static long mixed_node (const int *cell, const int *corner)
+{
+    return 1 + 2*cell[0] + corner[0]
+           + MIXED_ACROSS * (2*cell[1] + corner[1] + (long) MIXED_HIGH * (2*cell[2] + corner[2]));
+}
+
+static void mixed_element (FILE *f, long *n, pg_element kind, const int *cell, int corner[8][3])
+{
+    long node[PG_ELEMENT_NODES];
+    for (int k = 0; k < pg_element_types[kind].corners; k++) node[k] = mixed_node (cell, corner[k]);
+    ++*n;
+    if (f) fprintf (f, "%ld %d 2 1 1", *n, gmsh_kind (kind)), grid_write (f, kind, node);
+}
+
+/* Elements of all cells; f NULL: only counts. */
+static long mixed_elements (FILE *f)
+{
+    static const pg_element of_slab[MIXED_X] = { PG_HEX8, PG_PYRAMID5, PG_TET4 };
+    long n = 0;
+    int cell[3], corner[8][3], half[8][3];
+    for (cell[2] = 0; cell[2] < MIXED_Y; cell[2]++)
+        for (cell[1] = 0; cell[1] < MIXED_Y; cell[1]++)
+            for (cell[0] = 0; cell[0] < MIXED_X; cell[0]++)
+                for (int piece = 0; grid_pieces (of_slab[cell[0]], piece, corner); piece++) {
+                    int last = cell[0] == 1;
+                    for (int k = 0; k < 4; k++) last &= corner[k][0] == 2;
+                    if (!last) {
+                        mixed_element (f, &n, of_slab[cell[0]], cell, corner);
+                        continue;
+                    }
+                    /* its base in two, from the lowest corner to the highest */
+                    for (int part = 0; part < 2; part++) {
+                        const int of[4] = { 0, 1 + part, 2 + part, 4 };
+                        for (int k = 0; k < 4; k++) memcpy (half[k], corner[of[k]], sizeof *half);
+                        mixed_element (f, &n, PG_TET4, cell, half);
+                    }
+                }
+    return n;
+}
+
+static void mixed_file (void)
+{
+    static const double along[] = { 0, 0.13, 0.3, 0.49, 0.6, 0.8, 1 }, across[] = { 0, 0.17, 0.4, 0.65, 0.8 },
+                        up[] = { 0, 0.21, 0.35, 0.5, 0.7 };
+    FILE *f = fopen (path, "w");
+    assert_non_null (f);
+    fprintf (f, "$MeshFormat\n2.2 0 8\n$EndMeshFormat\n$Nodes\n%d\n", MIXED_ACROSS * MIXED_HIGH * MIXED_HIGH);
+    for (int k = 0, n = 0; k < MIXED_HIGH; k++)
+        for (int j = 0; j < MIXED_HIGH; j++)
+            for (int i = 0; i < MIXED_ACROSS; i++)
+                fprintf (f, "%d %.17g %.17g %.17g\n", ++n, along[i] + 0.2 * across[j],
+                         across[j] - 0.1 * up[k], up[k]);
+    fprintf (f, "$EndNodes\n$Elements\n%ld\n", mixed_elements (NULL));
+    mixed_elements (f);
+    fprintf (f, "$EndElements\n");
+    fclose (f);
+}
+
+/* Translation, rotation and uniform strain prescribed on the surface: displacements and stresses inside. */
+static void patches_on_mixed_elements (void **state)
+{
+    (void) state;
+    static const struct { const char *name, *text; double shift[3], gradient[9]; } motion[] = {
+        { "translation", "x: 1e-3, y: -2e-3, z: 5e-4", { 1e-3, -2e-3, 5e-4 }, { 0 } },
+        { "rotation", "x: '1e-3*y + 5e-4*z', y: '-1e-3*x - 7e-4*z', z: '-5e-4*x + 7e-4*y'", { 0 },
+          { 0, 1e-3, 5e-4, -1e-3, 0, -7e-4, -5e-4, 7e-4, 0 } },
+        { "strain", "x: '1e-3*x + 3e-4*y', y: '-2e-4*y + 4e-4*z', z: '5e-4*z + 6e-4*x'", { 0 },
+          { 1e-3, 3e-4, 0, 0, -2e-4, 4e-4, 6e-4, 0, 5e-4 } },
+    };
+    static const int pair[6][2] = { { 0, 0 }, { 1, 1 }, { 2, 2 }, { 0, 1 }, { 1, 2 }, { 2, 0 } };
+    for (size_t m = 0; m < sizeof motion / sizeof *motion; m++) {
+        run r = { 0 };
+        grid g = { .kind = PG_HEX8 };
+        char more[600];
+        const double *G = motion[m].gradient, trace = G[0] + G[4] + G[8];
+        int components;
+        mixed_file ();
+        snprintf (more, sizeof more,
+                  "%smethod: {approximation: rkpm, integration: consistent}\nsets: {rim: {boundary: all}}\n"
+                  "boundary: [{set: rim, displacement: {%s}}]\n" STATIC, rock, motion[m].text);
+        check_ok (scene_text (&r.scene, &g, "", more));
+        check_ok (pg_problem_build (&r.problem, r.scene, 1));
+        check_ok (pg_solver_options_read (&r.options, r.problem, r.scene));
+        check_ok (pg_solver_create (&r.solver, r.problem, &r.options));
+        check_ok (pg_state_create (&r.state, r.problem, pg_solver_components (r.solver)));
+        int count[PG_ELEMENTS] = { 0 };
+        for (size_t e = 0; e < r.problem->part.mesh.n; e++) count[r.problem->part.mesh.kind[e]]++;
+        assert_int_equal (count[PG_HEX8], 4);
+        assert_int_equal (count[PG_PYRAMID5], 20);
+        assert_int_equal (count[PG_TET4], 32);
+        to_the_end (&r);
+        size_t n = r.problem->cloud.n;
+        double off = 0, most = 0, stress = 0, *u = field_of (&r, NULL, "displacement", NULL),
+               *sigma = field_of (&r, NULL, "stress", &components);
+        assert_int_equal (components, 6);
+        for (size_t i = 0; i < n; i++) for (int a = 0; a < 3; a++) {
+            const double *x = r.problem->cloud.x + 3*i;
+            double exact = motion[m].shift[a] + G[3*a] * x[0] + G[3*a + 1] * x[1] + G[3*a + 2] * x[2];
+            off = fmax (off, fabs (u[3*i + (size_t) a] - exact)), most = fmax (most, fabs (exact));
+        }
+        /* both constants of Lame are 4 GPa */
+        for (size_t i = 0; i < n; i++) for (int c = 0; c < 6; c++) {
+            int a = pair[c][0], b = pair[c][1];
+            double exact = 4e9 * ((a == b ? trace : 0) + G[3*a + b] + G[3*b + a]);
+            stress = fmax (stress, fabs (sigma[6*i + (size_t) c] - exact));
+        }
+        print_message ("hexahedra, pyramids and tetrahedra, %s: %.2g of u, %.2g of E u / length\n",
+                       motion[m].name, off / most, stress / (10e9 * most));
+        check_below (off / most, 1e-12);
+        check_below (stress / (10e9 * most), 1e-11);
+        pg_free (u), pg_free (sigma);
+        clear (&r);
+    }
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
@@ -415,6 +535,7 @@ int main (void)
         cmocka_unit_test (patches_on_every_element),
         cmocka_unit_test (the_number_of_threads_changes_no_bit),
         cmocka_unit_test (consistent_patches_on_every_element),
+        cmocka_unit_test (patches_on_mixed_elements),
     };
     return cmocka_run_group_tests_name ("scene_runs/mesh", tests, make_folder, drop_folder);
 }
