@@ -487,7 +487,7 @@ def falling(case):
         return
     t, u = run.last('time'), run.last('fall')
     right = -5.0 * t * t
-    if run.report['energy']['strain'] > (1e-9 if exact else 0.01) * abs(run.report['energy']['external']) or abs(u - right) > 0.02 * abs(right) + 1e-9:
+    if run.report['energy']['strain'] > (1e-9 if exact else 0.02) * abs(run.report['energy']['external']) or abs(u - right) > 0.02 * abs(right) + 1e-9:
         yield f'free fall: {u:.6g} m for {right:.6g}, strain energy {run.report["energy"]["strain"]:.3g} of work {run.report["energy"]["external"]:.3g} J'
 
 
