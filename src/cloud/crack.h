@@ -36,6 +36,8 @@ typedef struct {
     char    at[64];
     /* Its width, m; 0: sharp. */
     double  width;
+    /* Cracks of the random networks so far. */
+    long    drawn;
 } crack_list;
 /* An empty crack at the end of the list; NULL: no memory. It has the entry's number and width. */
 pg_crack *crack_next (crack_list *list);

@@ -271,6 +271,9 @@ static int complete (const network *w, long n, double size, double removed)
     return size >= ask->intensity * w->measure;
 }
 
+/* Cracks that the networks above this one leave it. */
+static long most_left (const network *w) { return CRACK_MOST - w->list->drawn; }
+
 /* The fault says how far it came. */
 static void give_up (const network *w, long n, double size, double removed)
 {
@@ -284,13 +287,15 @@ static void give_up (const network *w, long n, double size, double removed)
     else
         snprintf (what, sizeof what, "cracks, an intensity of %.4g /m instead of %.4g /m", size / w->measure,
                   ask->intensity);
-    if (w->tries >= ALL_TRIES || n >= CRACK_MOST) {
-        char most[64];
-        snprintf (most, sizeof most, "before their number was %d, the most that are drawn", CRACK_MOST);
+    long left = most_left (w);
+    if (w->tries >= ALL_TRIES || n >= left) {
+        char most[96];
+        snprintf (most, sizeof most, "before their number was %ld, the most that are drawn%s", left,
+                  w->list->drawn ? " beside the networks above" : "");
         pg_scene_fault (w->list->scene, path,
                         "only %ld %s found a place %s; ask for fewer, shorter or nearer "
                         "ones (distance, margin), or for inside: middle", n, what,
-                        n >= CRACK_MOST ? most : "in 10000000 tries");
+                        n >= left ? most : "in 10000000 tries");
         return;
     }
     pg_scene_fault (
@@ -313,21 +318,34 @@ static double mean_size (const crack_request *ask, int dim)
     return sum / SAMPLE * (dim == 2 || ask->shape == CRACK_RECTANGLE ? 1 : 0.785398163397448);
 }
 
-/* An amount that would take more cracks than a network may have is refused before the first is drawn. */
+/* What would take more cracks than the networks of a scene may have together is refused before the first is
+ * drawn. */
 static int affordable (const network *w)
 {
-    char path[96];
+    char path[96], beside[96] = "";
     const crack_request *ask = w->ask;
-    double size = mean_size (ask, w->body.dim), most = CRACK_MOST * size / w->measure;
-    const char *key = ask->fraction > 0 ? "fraction" : "intensity", *unit = ask->fraction > 0 ? "" : " 1/m";
+    long left = most_left (w);
+    double size = mean_size (ask, w->body.dim), most = (double) left * size / w->measure;
+    const char *key = ask->count          ? "count"
+                      : ask->fraction > 0 ? "fraction"
+                                          : "intensity",
+               *unit = ask->count || ask->fraction > 0 ? "" : " 1/m";
     double asked = ask->fraction > 0 ? ask->fraction : ask->intensity;
     if (ask->fraction > 0) most *= ask->width;
-    if (ask->count || !(asked > most)) return 1;
     snprintf (path, sizeof path, "%s.random.%s", w->list->at, key);
+    if (w->list->drawn)
+        snprintf (beside, sizeof beside, " in all networks together, %ld of them in those above",
+                  w->list->drawn);
+    if (left == 0 || (ask->count && ask->count > left)) {
+        pg_scene_fault (w->list->scene, path, "at most %d cracks are drawn%s: %s [1, %ld]", CRACK_MOST,
+                        beside, left ? "must lie in" : "none is left of", left ? left : CRACK_MOST);
+        return 0;
+    }
+    if (ask->count || !(asked > most)) return 1;
     pg_scene_fault (w->list->scene, path,
-                    "takes about %.2g cracks of this length, and at most %d are drawn: must lie in (0, %.3g]"
-                    "%s",
-                    asked / most * CRACK_MOST, CRACK_MOST, most, unit);
+                    "takes about %.2g cracks of this length, and at most %d are drawn%s: must lie in "
+                    "(0, %.3g]%s",
+                    asked / most * (double) left, CRACK_MOST, beside, most, unit);
     return 0;
 }
 
@@ -373,7 +391,7 @@ pg_status crack_read_random (crack_list *list)
     while (!complete (&w, n, size, removed)) {
         int found = 0, vain = 0;
         for (; vain < CRACKS && !found; vain += !found) PG_TRY (add_crack (&w, &found));
-        if (!found || n >= CRACK_MOST) {
+        if (!found || n >= most_left (&w)) {
             give_up (&w, n, size, removed);
             break;
         }
@@ -381,6 +399,7 @@ pg_status crack_read_random (crack_list *list)
         c->vain = vain;
         n++, size += pg_crack_size (c, w.body.dim), removed += crack_removed (c, w.body.dim);
     }
+    list->drawn += n;
 done:
     crack_grid_clear (&w.grid);
     pg_free (w.ball);

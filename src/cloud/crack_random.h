@@ -40,7 +40,7 @@ typedef struct {
     /* Width of the slots, m; 0: sharp. */
     double width;
 } crack_request;
-/* Cracks of a network, at most. */
+/* Cracks of all networks of a scene together, at most. */
 enum { CRACK_MOST = 20000 };
 pg_status crack_request_read (crack_request *out, const crack_list *list);
 /* A number of the distribution; an angle of von Mises' distribution is drawn by its direction instead. */

@@ -90,6 +90,10 @@ answered "5000 sets" 'sets: has 5000 entries; their number must lie in .0, 1000.
 { printf "$plate"; echo cracks:; awk 'BEGIN { for (k = 1; k <= 11000; k++) print "  - {from: [0.1, 0." k "], to: [0.2, 0." k "]}" }'; } > "$work/cracks.yaml"
 answered "11000 cracks" 'cracks: has 11000 entries; their number must lie in .0, 10000.' "$work/cracks.yaml"
 answered "a million random cracks" 'random.count = 1000000: must lie in .1, 20000.' "$work/plate.yaml" 'cracks=[{random: {count: 1000000, length: 0.1}}]'
+for more in 'count: 15000' 'intensity: 1500'; do
+    answered "two networks that are too much together, the second by ${more%%:*}" "cracks.1..random.${more%%:*} = 15000*: .*at most 20000 .*drawn in all networks together, 6000 of them in those above: must lie in .[01], 1[0-9.e+]*" "$work/plate.yaml" \
+        "cracks=[{random: {count: 6000, length: 0.1, inside: middle}}, {random: {$more, length: 0.1, inside: middle}}]"
+done
 answered "an absurd intensity" 'random.intensity = 1e12: takes about 1e+13 cracks .*(0, 2e+03. 1/m' "$work/plate.yaml" 'cracks=[{random: {intensity: 1e12, length: 0.1}}]'
 answered "a fraction of slots of no width" 'random.fraction = 0.9: takes about 9e+09 cracks' "$work/plate.yaml" 'cracks=[{random: {fraction: 0.9, length: 0.1}, width: 1e-9}]'
 answered "cracks that find no place" 'only [0-9]* of 1000 cracks found a place' "$work/plate.yaml" 'cracks=[{random: {count: 1000, length: 0.9, distance: 0.2}}]'
