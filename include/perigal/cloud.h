@@ -251,6 +251,8 @@ typedef struct {
     double  low[3], high[3];
     /* Which of the points this rank owns, where ranks share the run (perigal/ranks.h); NULL: alone. */
     pg_subdomain *subdomain;
+    /* Columns of the file of points that are not used: "id", "id, label"; "": there are none. */
+    char    passed[64];
     /* What parts the points; NULL: nothing. Borrowed. */
     const struct pg_between *between;
 } pg_cloud;

@@ -111,6 +111,8 @@ typedef struct {
     size_t  npassed, nforeign;
     pg_mesh_passed  *passed;
     pg_mesh_foreign *foreign;
+    /* Type of elements that the file means for plane strain (CPE4), the first of them; "": there are none. */
+    char    plane_strain[32];
 } pg_mesh;
 /* Frees what the mesh holds and zeroes it. */
 void      pg_mesh_clear (pg_mesh *mesh);
@@ -144,6 +146,8 @@ pg_status pg_mesh_builder_pass    (pg_mesh_builder *m, const char *format, ...)
  * block ("": none). */
 pg_status pg_mesh_builder_foreign (pg_mesh_builder *m, const char *type, const char *block,
                                    const char *words);
+/* Notes that elements of this type are meant for plane strain. */
+void      pg_mesh_builder_plane_strain (pg_mesh_builder *m, const char *type);
 /* The name of a group that has got one, else its number; dim 0: of any dimension. */
 void      pg_mesh_builder_group_name (const pg_mesh_builder *m, int dim, long group, char name[64]);
 /* Resolves numbers, checks everything and sorts; `out` becomes the mesh. On failure nothing remains in it. */

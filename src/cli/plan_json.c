@@ -17,6 +17,7 @@ static void counts (pg_json *j, const plan *p)
     pg_json_text (j, "title", q->title);
     pg_json_count (j, "dimension", (size_t) q->dim);
     pg_json_count (j, "points", q->cloud.n);
+    if (*q->cloud.passed) pg_json_text (j, "columns_passed_over", q->cloud.passed);
     pg_json_open (j, "spacing", '[');
     for (int k = 0; k < q->dim; k++) pg_json_number (j, NULL, q->cloud.step[k]);
     pg_json_shut (j);

@@ -56,11 +56,15 @@ static void print_renamed (const pg_mesh *m)
     }
 }
 
-/* What of the file is not in the mesh; sets that have the name of a side of the body but for their case. */
+/* What of the files of a mesh and of points is not used; sets that have the name of a side of the body but
+ * for their case. */
 void plan_passed (const pg_problem *p)
 {
     const pg_mesh *m = &p->part.mesh;
     static const char *const sides[] = { "left", "right", "bottom", "top", "back", "front", "all" };
+    if (*p->cloud.passed)
+        printf ("  passed over         column%s %s\n", strchr (p->cloud.passed, ',') ? "s" : "",
+                p->cloud.passed);
     for (size_t k = 0; k < m->npassed; k++) {
         printf ("  passed over         %s", m->passed[k].what);
         if (m->passed[k].n > 1) printf (", %zu times", m->passed[k].n);
@@ -74,14 +78,17 @@ void plan_passed (const pg_problem *p)
                         "letters counts\n", p->cells.given[k].name, sides[s]);
 }
 
-/* Nothing is printed for bodies without a mesh. Volume and surface show a wrong length unit;
- * the worst quality (scaled Jacobian, 1 is perfect) shows a bad element with its number. */
+/* Of bodies without a mesh only what of a file of points is not used. Volume and surface show a wrong length
+ * unit; the worst quality (scaled Jacobian, 1 is perfect) shows a bad element with its number. */
 void plan_mesh (const pg_problem *p)
 {
     const pg_mesh_body *b = &p->part;
     const pg_cells *c = &p->cells;
     double volume = 0, area = 0;
-    if (b->mesh.n == 0) return;
+    if (b->mesh.n == 0) {
+        plan_passed (p);
+        return;
+    }
     print_elements (b);
     for (size_t k = 0; k < c->ngiven && k < MOST; k++)
         printf ("  set %-14s  %zu points, %zu facets\n", c->given[k].name, c->given[k].npoint,

@@ -6,7 +6,7 @@
  *     x [mm], y [mm], volume [mm3], block
  *     0.5, 0.5, 1, 0
  *
- * A column of numbers of the points (id) is passed over.
+ * A column of numbers of the points (id) is not used, which is noted in the cloud.
  *
  * Two points at one position are a fault, because a bond between them would have no length. */
 #include "csv_line.h"
@@ -45,6 +45,8 @@ typedef struct {
     size_t  column[ROLES];
     /* SI units per unit of that column. */
     double  scale[ROLES];
+    /* As in pg_cloud. */
+    char    passed[sizeof ((pg_cloud *) 0)->passed];
     /* 1: a header has named the columns. */
     int     headed;
     size_t  capacity;
@@ -155,7 +157,11 @@ static pg_status read_name (reader *r, size_t k, char *cell, size_t dim)
     int closed = pg_column_cut (cell, &unit) == PG_OK;
     while (what < ROLES && (strcasecmp (cell, role[what].name) != 0 || (what >= dim && what < VOLUME)))
         what++;
-    if (what == ROLES && is_number_column (cell)) return PG_OK;
+    if (what == ROLES && is_number_column (cell)) {
+        size_t n = strlen (r->passed);
+        snprintf (r->passed + n, sizeof r->passed - n, "%s%s", n ? ", " : "", cell);
+        return PG_OK;
+    }
     if (what == ROLES && r->places && strcasecmp (cell, "z") != 0) return PG_OK;
     if (what == ROLES) {
         if (r->places)
@@ -357,6 +363,7 @@ static pg_status read_text (reader *r, pg_cloud *cloud)
     r->line = 0;
     if (cloud->n == 0) PG_TRY (WRONG (r, "has no points"));
     if (!r->places) PG_TRY (find_twins (r, cloud));
+    memcpy (cloud->passed, r->passed, sizeof cloud->passed);
 done:
     return status;
 }

@@ -183,6 +183,12 @@ done:
     return status;
 }
 
+/* The first counts. */
+void pg_mesh_builder_plane_strain (pg_mesh_builder *m, const char *type)
+{
+    if (!*m->plane_strain) copy_text (m->plane_strain, sizeof m->plane_strain, type);
+}
+
 pg_status pg_mesh_builder_foreign (pg_mesh_builder *m, const char *type, const char *block,
                                    const char *words)
 {
@@ -297,6 +303,7 @@ pg_status pg_mesh_builder_finish (pg_mesh_builder *m, pg_mesh *out)
     PG_TRY (builder_solids (m));
     PG_TRY (builder_sets (m));
     out->passed = m->passed, out->npassed = m->npassed, m->passed = NULL;
+    memcpy (out->plane_strain, m->plane_strain, sizeof out->plane_strain);
     out->foreign = m->foreign, out->nforeign = m->nforeign, m->foreign = NULL;
 done:
     if (status != PG_OK) pg_mesh_clear (out);

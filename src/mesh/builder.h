@@ -42,6 +42,8 @@ struct pg_mesh_builder {
     long      *set_node, *side_element;
     int       *side;
     size_t     npassed, passed_cap, nforeign, foreign_cap;
+    /* As in pg_mesh. */
+    char       plane_strain[32];
     pg_mesh_passed  *passed;
     pg_mesh_foreign *foreign;
     /* From here on: filled while finishing. Largest dimension of all elements. */

@@ -187,9 +187,7 @@ static pg_status begin_elements (reader *r)
     /* the set may be named by others, and by sections */
     if (found != 1 && set && *set) PG_TRY (abaqus_set_get (&r->data.elset, set, &r->set));
     if (found != 1) goto done;
-    if (strncmp (capitals, "CPE", 3) == 0)
-        PG_TRY (pg_mesh_builder_pass (r->data.builder, "plane strain of elements %.30s (key `plane` of the "
-                                      "scene decides)", type));
+    if (strncmp (capitals, "CPE", 3) == 0) pg_mesh_builder_plane_strain (r->data.builder, capitals);
     abaqus_node_order (r->type.kind, r->order);
     if (set && *set) {
         PG_TRY (name_of (r, "ELSET", NULL, name));

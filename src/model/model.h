@@ -85,6 +85,7 @@ void      pg_remark_units    (pg_problem *problem, const pg_scene *scene);
 void      pg_remark_clouds   (pg_problem *problem);
 /* The same of graded points, meshes and interfaces (remark_mesh.c); interfaces: once the bonds are there. */
 pg_status pg_remark_hanging  (pg_problem *problem);
+void      pg_remark_plane    (pg_problem *problem);
 void      pg_remark_graded   (pg_problem *problem, const pg_scene *scene);
 void      pg_remark_interfaces (pg_problem *problem);
 pg_status pg_remark_parts    (pg_problem *problem);

@@ -407,6 +407,7 @@ pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
     pg_remark_units (p, scene);
     pg_remark_clouds (p);
     PG_TRY (pg_remark_hanging (p));
+    pg_remark_plane (p);
     PG_TRY (pg_bonds_build (p, scene));
     pg_remark_graded (p, scene);
     pg_remark_interfaces (p);

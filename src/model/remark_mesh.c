@@ -50,18 +50,21 @@ static int in_triangle (const double *x, const double *a, const double *b, const
            && off <= rounding * rounding * (uu + vv);
 }
 
-/* Corners of face f of element e, as nodes of the mesh. */
-static int corners_of (const pg_mesh *m, int e, int f, int corner[9])
+/* Nodes of face f of element e, its corners first, as nodes of the mesh; *nodes: how many. Returns how many
+ * of them are corners. */
+static int corners_of (const pg_mesh *m, int e, int f, int corner[9], int *nodes)
 {
     int local[9];
     pg_element face = pg_element_face ((pg_element) m->kind[e], f, local);
     const int *node = m->node + m->start[e];
-    for (int k = 0; k < pg_element_types[face].nodes; k++) corner[k] = node[local[k]];
+    *nodes = pg_element_types[face].nodes;
+    for (int k = 0; k < *nodes; k++) corner[k] = node[local[k]];
     return pg_element_types[face].corners;
 }
 
-/* Does the node lie on the face with these corners and is none of them? */
-static int hangs (const pg_mesh *m, const int *corner, int n, int node)
+/* Does the node lie on the face with these nodes, the first n of them corners, and is no corner of it? Of a
+ * curved face its middle nodes are known, and the plane or line of its corners. */
+static int hangs (const pg_mesh *m, const int *corner, int n, int nodes, int node)
 {
     const double *x = m->x + 3 * (size_t) node, *c[4] = { x, x, x, x };
     double size = 0;
@@ -69,6 +72,8 @@ static int hangs (const pg_mesh *m, const int *corner, int n, int node)
     for (int k = 1; k < n; k++) size = fmax (size, apart (c[0], c[k]));
     /* doubled nodes of a seam stand on corners */
     for (int k = 0; k < n; k++) if (apart (x, c[k]) <= rounding * size) return 0;
+    for (int k = n; k < nodes; k++)
+        if (apart (x, m->x + 3 * (size_t) corner[k]) <= rounding * size) return 1;
     if (n == 2) return on_segment (x, c[0], c[1]);
     return in_triangle (x, c[0], c[1], c[2]) || (n == 4 && in_triangle (x, c[0], c[2], c[3]));
 }
@@ -82,7 +87,7 @@ static pg_status sort_corners (const pg_mesh *m, size_t n, const int *element, c
     size_t k = 0;
     PG_ALLOC (on, m->nnode);
     for (size_t f = 0; f < n; f++) {
-        int corner[9], corners = corners_of (m, element[f], side[f], corner);
+        int corner[9], nodes, corners = corners_of (m, element[f], side[f], corner, &nodes);
         for (int i = 0; i < corners; i++) k += !on[corner[i]], on[corner[i]] = 1;
     }
     *nspot = k, k = 0;
@@ -117,15 +122,16 @@ static pg_status find_hanging (const pg_mesh *m, unsigned char *hanging)
     PG_TRY (pg_mesh_surface (m, &n, &element, &side));
     PG_TRY (sort_corners (m, n, element, side, &nspot, &all));
     for (size_t f = 0; f < n; f++) {
-        int corner[9], corners = corners_of (m, element[f], side[f], corner);
+        int corner[9], nodes, corners = corners_of (m, element[f], side[f], corner, &nodes);
         double low = INFINITY, high = -INFINITY;
-        for (int k = 0; k < corners; k++) {
+        for (int k = 0; k < nodes; k++) {
             double s = along (m->x + 3 * (size_t) corner[k]);
             low = fmin (low, s), high = fmax (high, s);
         }
         double slack = rounding * (high - low);
         for (size_t k = first_from (all, nspot, low - slack); k < nspot && all[k].along <= high + slack; k++)
-            if (!hanging[all[k].node] && hangs (m, corner, corners, all[k].node)) hanging[all[k].node] = 1;
+            if (!hanging[all[k].node] && hangs (m, corner, corners, nodes, all[k].node))
+                hanging[all[k].node] = 1;
     }
 done:
     pg_free (element), pg_free (side), pg_free (all);
@@ -155,6 +161,18 @@ pg_status pg_remark_hanging (pg_problem *p)
 done:
     pg_free (hanging);
     return status;
+}
+
+/* What the file of a mesh means, and what the scene computes. */
+void pg_remark_plane (pg_problem *p)
+{
+    const pg_mesh *m = &p->part.mesh;
+    if (m->n == 0 || m->dim != 2 || !*m->plane_strain || p->mode != PG_PLANE_STRESS) return;
+    pg_problem_note (p,
+                     PG_WARNING "elements %s of the mesh are meant for plane strain, and the scene has "
+                                "plane: stress, which is softer: give plane: strain unless the body is a "
+                                "thin plate",
+                     m->plane_strain);
 }
 
 /* Is a length given as a multiple of the spacing? */

@@ -17,7 +17,14 @@ has "an indented keyword is one; cards that are not used are told once each" '2 
 "$perigal" check scene.yaml --json | grep -q '"\*CLOAD": 2'; verdict "and as JSON" $?
 
 printf '** a tool\n*\n'"$nodes"'*ELEMENT,TYPE=CPE4,ELSET=A\n1,1,2,5,4,0\n2,2,3,6,5,0\n*SUBMODEL,TYPE=NODE,INPUT=coarse.frd\nA\n*NSET,NSET=TOP\n4,6\n' > job.inp
-has "numbers behind the nodes, a lone asterisk, plane strain, sets but for their case" '2 quad4' 'numbers behind the last node.*2 times' 'plane strain of elements CPE4' 'set TOP  *of the mesh is not .top.'
+scene job.inp "dimension: 2
+plane: stress
+$held"
+has "numbers behind the nodes, a lone asterisk, sets but for their case" '2 quad4' 'numbers behind the last node.*2 times' 'set TOP  *of the mesh is not .top.'
+strain='warning: elements CPE4 of the mesh are meant for plane strain, and the scene has plane: stress'
+has "elements of plane strain in a scene of plane stress" "$strain"
+"$perigal" run scene.yaml -o cpe > out 2> err; awk '/ steps, / { exit } 1' out | grep -q "$strain"; verdict "told before the first step as well" $?
+sed -i 's/^plane: stress/plane: strain/' scene.yaml; "$perigal" check scene.yaml > out 2> err && ! grep -q CPE4 out; verdict "no word of it in plane strain" $?
 
 printf "$nodes"'11,0,1\n12,1,1\n*ELEMENT,TYPE=CPS4,ELSET=A\n1,1,2,5,4\n*ELEMENT,TYPE=COH2D4,ELSET=COH\n7,4,5,12,11\n*ELSET,ELSET=ALL\n1,7\n' > job.inp
 scene job.inp "dimension: 2
@@ -155,13 +162,20 @@ printf "$nodes"'*ELEMENT,TYPE=CPS4,ELSET=A\n1,1,2,5,4\n2,2,3,6,5\n' > job.inp
 scene job.inp "dimension: 2
 $held"
 "$perigal" check scene.yaml > out 2> err && ! grep -q ' hang' out; verdict "none in a mesh that fits" $?
+printf '*NODE\n1,0,0\n2,2,0\n3,2,2\n4,0,2\n5,1,0\n6,2.1,1\n7,1,2\n8,0,1\n9,3,0\n10,3,1\n11,2.5,0\n12,3,.5\n13,2.55,1\n14,2.075,.5\n15,3,2\n16,3,1.5\n17,2.5,2\n18,2.075,1.5\n*ELEMENT,TYPE=CPS8,ELSET=A\n1,1,2,3,4,5,6,7,8\n2,2,9,10,6,11,12,13,14\n3,6,10,15,3,13,16,17,18\n' > job.inp
+scene job.inp "dimension: 2
+$held"
+has "a corner on the middle node of a curved edge" 'warning: 1 node of the mesh, node 6 at (2.1, 1) m first, hangs on faces'
 
 # ---- tables of points: semicolons, decimal commas, numbers of the points; keys in spacings beside graded points --------------------------
 table() { printf 'dimension: 2\nthickness: 1 mm\npoints: p.csv\nmaterials: {a: {youngs_modulus: 1 GPa, poissons_ratio: 0.3}}\nmethod: {integration: nodal, accept_inexact: yes}\n%s\n' "$held" > scene.yaml; }
 awk 'BEGIN { print "id;x [mm];y [mm];volume [mm3]"; for (j = 0; j < 5; j++) for (i = 0; i < 5; i++) printf "%d;%d,5;%d,5;1\n", 7 + i + 5*j, i, j }' > p.csv
 table; has "semicolons, decimal commas and an id column" 'points  *25, spacing' 'x 0.0005 to 0.0045 m'
 sed 's/,5/.5/g; s/;/,/g' p.csv > q.csv; cp q.csv p.csv
-has "an id column among commas" 'points  *25, spacing' 'x 0.0005 to 0.0045 m'
+has "an id column among commas" 'points  *25, spacing' 'x 0.0005 to 0.0045 m' 'passed over  *column id$'
+"$perigal" run scene.yaml -o ids_run > out 2> err; grep -q 'passed over  *column id$' out; verdict "passed over also at the start of a run" $?
+"$perigal" check scene.yaml --json | grep -q '"columns_passed_over": "id"'; verdict "and as JSON" $?
+sed -i '1s/^id,/Label,/' p.csv; has "under another name" 'passed over  *column Label$'
 printf '*NODE\n' > job.inp
 awk 'BEGIN { split ("0 .1 .2 .3 .4 .5 1 1.5 2 2.5", x, " "); for (j = 0; j < 6; j++) for (i = 1; i <= 10; i++) printf "%d,%s,%g\n", 10*j + i, x[i], .2 * j
     print "*ELEMENT,TYPE=CPS4,ELSET=A"; for (j = 0; j < 5; j++) for (i = 1; i < 10; i++) printf "%d,%d,%d,%d,%d\n", 10*j + i, 10*j + i, 10*j + i + 1, 10*j + i + 11, 10*j + i + 10 }' >> job.inp
