@@ -34,6 +34,13 @@ run "voids between points: told"   0 'points looked at have voids beside them, 0
 run "shapes as the surface: the crack runs through"   0 'the body has separated' '*' voids.yaml 'body=[{add: {box: {low: [0, 0], high: [40 mm, 12 mm]}}}]'
 ! grep -q 'voids beside them' "$work/out"; verdict "shapes as the surface: no word of voids" $?
 
+# ---- a hole within 1.5 spacings of a path -----------------------------------------------------------------------------------
+aside='went aside into the surface since it came within [01][.0-9]* spacings of it (1.5 are needed to judge it): refine to decide'
+run "a hole beside a path: told"   0 "warning: crack tip 1 at (0.9.*, 0.05.*) m $aside" '*' hole_beside_path.yaml
+grep -q "$aside" "$out/report.json"; verdict "in the report as well" $?
+run "a hole ahead: entered"        0 'no open tip any more' '*' hole_beside_path.yaml 'body=[{add: {box: {low: [0, -0.5], high: [2, 0.5]}}}, {subtract: {disk: {center: [1, 0.01], radius: 0.15}}}]'
+! grep -q 'went aside' "$work/out"; verdict "without a word of it" $?
+
 # ---- points that do not see each other, and what hangs on nothing --------------------------------------------------------
 run "points apart: refused with the point"   65 '' 'method.horizon = 2.2 spacing: point 19 at (0.868337) m sees 1 points, too few .* a column spacing' cloud_apart.yaml
 [ ! -e "$out" ]; verdict "points apart: no results" $?
