@@ -257,6 +257,12 @@ static int look_at (const request *w)
         fprintf (stderr, "perigal-mesh: was written, but cannot be used: %s\n", pg_last_error ());
         return 1;
     }
+    if (mesh.nforeign) {
+        fprintf (stderr, "perigal-mesh: was written, but has elements that Perigal does not know%s: %s\n",
+                 w->order == 2 ? " (--order 1 has fewer kinds)" : "", mesh.foreign[0].words);
+        pg_mesh_clear (&mesh);
+        return 1;
+    }
     for (size_t k = 0; k < mesh.n; k++) count[mesh.kind[k]]++;
     printf ("%s: %dD, %zu nodes", w->output, mesh.dim, mesh.nnode);
     for (int k = 0; k < PG_ELEMENTS; k++)

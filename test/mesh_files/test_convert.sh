@@ -56,6 +56,17 @@ expect "surface of a body"            1 "" "z goes from"                        
 expect "first order of a mesh"        0 "2D, .* 64 tri3" ""                                    "$data/disk_tri6_22.msh" o.msh --order 1
 expect "size of a mesh is its own"    0 "64 tri6" "has elements already; --size is not used"   "$data/disk_tri6_22.msh" o.msh --size 1
 expect "pyramids"                     0 "3D, .* pyramid5" ""                                   pyramid.msh o.msh
+# hexahedra, pyramids on them, tetrahedra
+cat > layers.geo <<END
+Point(1) = {0, 0, 0}; Point(2) = {1, 0, 0}; Point(3) = {1, 1, 0}; Point(4) = {0, 1, 0};
+Line(1) = {1, 2}; Line(2) = {2, 3}; Line(3) = {3, 4}; Line(4) = {4, 1};
+Curve Loop(1) = {1, 2, 3, 4}; Plane Surface(1) = {1};
+Transfinite Curve{1, 2, 3, 4} = 3; Transfinite Surface{1}; Recombine Surface{1};
+a[] = Extrude {0, 0, 1} { Surface{1}; Layers{2}; Recombine; };
+b[] = Extrude {0, 0, 1} { Surface{a[0]}; Layers{2}; QuadTriAddVerts; Recombine; };
+END
+expect "pyramids beside others"       0 "3D, .* tet4, 8 hex8, [0-9]* pyramid5" ""              layers.geo o.msh
+expect "pyramids of second order"     1 "" "elements that Perigal does not know (--order 1 .*pyramid" layers.geo o.msh --order 2
 expect "an open surface"              1 "" "cut.stl"                                           cut.stl o.msh
 expect "dimension too high"           1 "" "the body has dimension 2; a mesh of dimension 3"   plate.geo o.msh --dim 3
 expect "broken geometry"              1 "" "broken.geo: there is no body and no mesh in it: Gmsh says: .*syntax error" broken.geo fresh.msh
