@@ -37,7 +37,7 @@ static const char *const checkpoint_scene[] = {
 };
 enum {
     CHECKPOINT_SCENES = sizeof checkpoint_scene / sizeof *checkpoint_scene,
-    MOST_PARTS = 160,
+    MOST_PARTS = 256,
     MOST_STEPS = 3
 };
 static char checkpoint_folder[] = "/tmp/perigal_checkpoint_XXXXXX";
