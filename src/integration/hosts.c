@@ -109,6 +109,15 @@ done:
     return status;
 }
 
+/* The same pairs, from the other end. */
+static void turn_pairs (int *pair, size_t count)
+{
+    for (size_t k = 0; k < count; k++) {
+        int t = pair[2*k];
+        pair[2*k] = pair[2*k + 1], pair[2*k + 1] = t;
+    }
+}
+
 /* The hosts of each cell and the guests of each, from what has been found. */
 static pg_status enter (pg_consistency *c, const lodging *of)
 {
@@ -126,10 +135,7 @@ static pg_status enter (pg_consistency *c, const lodging *of)
             share[count] = of[cell].share[h];
         }
     PG_TRY (gather (&c->guests, n, count, pair, share, &c->guest_share));
-    for (size_t k = 0; k < count; k++) {
-        int t = pair[2*k];
-        pair[2*k] = pair[2*k + 1], pair[2*k + 1] = t;
-    }
+    turn_pairs (pair, count);
     PG_TRY (gather (&c->hosts, n, count, pair, NULL, NULL));
 done:
     pg_free (pair), pg_free (share);
@@ -179,10 +185,7 @@ static pg_status find_needs (pg_consistency *c)
                 }
         }
     PG_TRY (gather (&c->needs, n, count, pair, NULL, NULL));
-    for (size_t k = 0; k < count; k++) {
-        int t = pair[2*k];
-        pair[2*k] = pair[2*k + 1], pair[2*k + 1] = t;
-    }
+    turn_pairs (pair, count);
     PG_TRY (gather (&c->opens, n, count, pair, NULL, NULL));
 done:
     pg_free (seen), pg_free (pair);
