@@ -6,7 +6,7 @@ The layout of the structures is that of include/perigal of the same version.
 import ctypes
 import os
 from collections import namedtuple
-from ctypes import POINTER, byref, c_char_p, c_double, c_int, c_long, c_size_t, c_ubyte, c_void_p
+from ctypes import POINTER, byref, c_char, c_char_p, c_double, c_int, c_long, c_size_t, c_ubyte, c_void_p
 
 import numpy
 
@@ -55,7 +55,7 @@ class _Words(str):
 
 
 class _Structure(ctypes.Structure):
-    """A structure that shows its values, not its address."""
+    """A structure of the library's headers (`of` names it there), field by field; it shows its values, not its address."""
 
     def __repr__(self):
         parts = [f'{field[0]}={_shown(getattr(self, field[0]))!r}' if not _is_address(field[1]) else
@@ -68,22 +68,27 @@ def _is_address(kind):
 
 
 class _Matrix(_Structure):
+    of = 'pg_sparse'
     _fields_ = [('nrow', c_size_t), ('ncol', c_size_t), ('symmetric', c_int), ('start', POINTER(c_long)),
                 ('row', POINTER(c_long)), ('value', POINTER(c_double))]
 
 
 class _Family(_Structure):
+    of = 'pg_family'
     _fields_ = [('n', c_size_t), ('start', POINTER(c_size_t)), ('node', POINTER(c_int))]
 
 
 class _Cloud(_Structure):
+    of = 'pg_cloud'
     _fields_ = [('dim', c_int), ('n', c_size_t), ('x', c_void_p), ('volume', c_void_p), ('block', c_void_p),
                 ('size', c_void_p), ('metric', c_void_p), ('h', c_double), ('step', c_double * 3),
                 ('regular', c_int), ('centred', c_int), ('thickness', c_double), ('low', c_double * 3),
-                ('high', c_double * 3), ('subdomain', c_void_p), ('between', c_void_p)]
+                ('high', c_double * 3), ('subdomain', c_void_p), ('passed', c_char * 64),
+                ('between', c_void_p)]
 
 
 class _Rows(_Structure):
+    of = 'pg_rows'
     _fields_ = [('dim', c_int), ('n', c_size_t), ('x', c_void_p), ('weight', c_void_p), ('own', c_void_p),
                 ('cell', c_void_p), ('family', _Family), ('N', POINTER(c_double)), ('dN', POINTER(c_double)),
                 ('w', c_void_p), ('at', c_void_p), ('wide', c_void_p), ('grade', POINTER(c_ubyte)), ('copied', c_size_t),
@@ -91,11 +96,13 @@ class _Rows(_Structure):
 
 
 class _Choice(_Structure):
+    of = 'pg_shape_choice'
     _fields_ = [('approximation', c_char_p), ('kernel', c_char_p), ('support', c_char_p), ('weights', c_char_p),
                 ('degenerate', c_char_p), ('order', c_int), ('horizon', c_double)]
 
 
 class _Equations(_Structure):
+    of = 'pg_equations'
     _fields_ = [('n', c_size_t), ('unknowns', c_int), ('dim', c_int), ('K', _Matrix), ('f', POINTER(c_double)),
                 ('T', _Matrix), ('g', POINTER(c_double)), ('N', _Matrix), ('selects', c_int),
                 ('free', POINTER(c_size_t)), ('idle', c_size_t)]
@@ -249,7 +256,8 @@ def shape_functions(x, horizon, places=None, volume=None, spacing=None, thicknes
 
 
 class _Kernel(_Structure):
-    _fields_ = [('name', c_char_p), ('summary', c_char_p), ('closed', c_int)]
+    of = 'pg_kernel'
+    _fields_ = [('name', c_char_p), ('summary', c_char_p), ('closed', c_int), ('value', c_void_p)]
 
 
 def kernel_is_closed(name):

@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """checks.py ROOT FOLDER: the Python package, its answers and its errors, as TAP (run by test_package.sh)."""
+import ctypes
 import os
+import subprocess
 import sys
 import warnings
 
@@ -137,7 +139,18 @@ refused('run: no file', perigal.SceneError, 'missing.yaml', lambda: perigal.run(
 refused('run: memory', perigal.Failed, 'memory', lambda: perigal.run(demo, os.path.join(there, 'm'), memory='1 kB'))
 refused('run: memory, not a size', perigal.UsageError, 'size', lambda: perigal.run(demo, there, memory='much'))
 refused('run: not a number', ValueError, '', lambda: perigal.run(dict(scene, spacing=float('nan')), there))
-# the library itself
+# the library itself: each structure has the fields, places and size that it has in the headers
+kinds = perigal.library._Structure.__subclasses__()
+with open(os.path.join(work, 'layout.c'), 'w') as file:
+    file.write('#include "perigal/session.h"\n#include <stddef.h>\n#include <stdio.h>\nint main (void)\n{\n' + ''.join(
+        ''.join(f'    printf ("{kind.of} {field[0]} %zu\\n", offsetof ({kind.of}, {field[0]}));\n' for field in kind._fields_)
+        + f'    printf ("{kind.of} size %zu\\n", sizeof ({kind.of}));\n' for kind in kinds) + '    return 0;\n}\n')
+subprocess.run([*os.environ.get('CC', 'gcc').split(), '-std=c17', '-I' + os.path.join(root, 'include'), '-o', os.path.join(work, 'layout'),
+                file.name], check=True)
+there_is = subprocess.run([os.path.join(work, 'layout')], check=True, capture_output=True, text=True).stdout.split('\n')[:-1]
+verdict('structures: laid out as in the headers', len(kinds) == 7 and there_is == [
+    line for kind in kinds for line in [*(f'{kind.of} {field[0]} {getattr(kind, field[0]).offset}' for field in kind._fields_),
+                                        f'{kind.of} size {ctypes.sizeof(kind)}']])
 rng = numpy.random.default_rng(5)
 x = rng.random((80, 3))
 start, node = perigal.families(x, .4)
