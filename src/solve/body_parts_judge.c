@@ -447,8 +447,7 @@ static void say_reason (words *out, const pg_system *s)
 {
     const pg_load *penalty = stiffest_penalty (s);
     int direct = s->linear->factors;
-    say (out, s->contact ? "; nothing but contact may hold a part of the body"
-                         : "; supports hold every part of the body");
+    say (out, "; supports hold every part of the body");
     if (penalty)
         say (out, "; the penalty of %s, %.3g E / spacing, makes K ill-conditioned: use essential: "
                   "nitsche%s, or "
@@ -460,14 +459,15 @@ static void say_reason (words *out, const pg_system *s)
                                                                          "auto)");
 }
 
-/* Parts that are free to move although their loads balance. */
+/* Parts that are free to move although their loads balance, or that contact alone holds. */
 static void say_free (words *out, const along_motions *w)
 {
     char place[BODY_PART_WORDS];
+    const char *holds = w->s->contact ? "contact alone" : "nothing";
     for (size_t r = 0; r < w->parts.n; r++) {
         if (!w->parts.part[r].n) continue;
         body_part_place (w->s->problem, &w->parts.part[r], place, sizeof place);
-        say (out, "; nothing holds a part of the body, %s: it is free to move ", place);
+        say (out, "; %s holds a part of the body, %s: it is free to move ", holds, place);
         say_motions (out, w, r, 0);
         return;
     }
@@ -481,10 +481,9 @@ pg_status body_parts_explain (pg_system *s, double t, pg_status failed)
     along_motions w = { 0 };
     if (failed != PG_E_EQUILIBRIUM && failed != PG_E_NOT_SPD && failed != PG_E_SINGULAR) return failed;
     snprintf (text, sizeof text, "%s", pg_last_error ());
-    if (!s->contact) {
-        PG_TRY (judge (&w, s, t));
-        say_free (&why, &w);
-    }
+    if (s->contact) PG_TRY (look (&w, s, t));
+    else PG_TRY (judge (&w, s, t));
+    say_free (&why, &w);
     if (!why.used && !(w.s && say_row (&why, &w))) say_reason (&why, s);
     status = pg_error (failed, PG_HERE, "%s%s", text, why.text);
 done:

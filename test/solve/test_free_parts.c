@@ -98,6 +98,28 @@ static void a_free_rotation_is_named (void **state)
     refused (&r, "nothing holds the body", "about z through (0.0005, 0.0005) m");
 }
 
+/* A front cuts off a part that slides along its faces: an equilibrium that contact alone holds is looked for, none
+ * is found, and the part is named (auto; the matrix loses its Cholesky factor on the way). */
+static void what_contact_alone_holds_is_named (void **state)
+{
+    (void) state;
+    pg_status status = PG_OK;
+    run r = scene_of (1, "dimension: 3\nspacing: 0.2\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 0.6]}}}]\n"
+                         "materials: {m: {youngs_modulus: 1e9, poissons_ratio: 0.25}}\n"
+                         "cracks: [{polygon: [[-0.1, 0.43, -0.1], [0.45, 0.57, -0.1], [0.45, 0.57, 0.7],\n"
+                         "  [-0.1, 0.43, 0.7]]}]\nmethod: {horizon: 2 spacing}\ncontact: {kind: normal}\n"
+                         "failure: {criterion: energy_release, fracture_energy: 100}\n"
+                         "boundary: [{name: foot, set: bottom, displacement: {x: 0, y: 0, z: 0}},\n"
+                         "  {name: head, set: top, displacement: {y: -0.001}}]\n"
+                         "solver: {stepping: fixed, steps: 2}\noutput: {at: {levels: 1}}\n");
+    while (status == PG_OK && !pg_solver_done (r.solver, r.state))
+        status = pg_solver_step (r.solver, r.state, &r.step);
+    assert_int_equal (status, PG_E_EQUILIBRIUM);
+    check_contains (pg_last_error (), "contact alone holds a part of the body, 46 of its 144 points");
+    check_contains (pg_last_error (), "free to move along x, along z and about y");
+    clear (&r);
+}
+
 /* Both ends pulled: nothing is held, and nothing moves but by strain. Springs hold. */
 static void loads_that_balance_are_borne (void **state)
 {
@@ -141,6 +163,7 @@ int main (void)
         cmocka_unit_test (every_linear_solver_refuses),
         cmocka_unit_test (every_way_of_stepping_refuses),
         cmocka_unit_test (a_free_rotation_is_named),
+        cmocka_unit_test (what_contact_alone_holds_is_named),
         cmocka_unit_test (loads_that_balance_are_borne),
     };
     return cmocka_run_group_tests_name ("solve/free_parts", tests, NULL, NULL);
