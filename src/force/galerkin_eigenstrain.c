@@ -43,11 +43,17 @@ void galerkin_eigen_free (galerkin *g)
     pg_free (g->eigen_pattern);
 }
 
+/* A point that sees too little for a strain has no free one either: it carries no stress. */
+static double free_strain (const galerkin *g, int set, size_t p)
+{
+    return g->rows[set].grade[p] < PG_GRADE_SHEPARD ? g->eigen[set][p] : 0;
+}
+
 /* Stress at a point by its strain e less the free one. */
 void galerkin_eigen_stress (const galerkin *g, int set, size_t p, const double *e)
 {
     const pg_material *m = galerkin_material (g, set, p);
-    double elastic[6], free = g->eigen[set][p], part = held (m) * free;
+    double elastic[6], free = free_strain (g, set, p), part = held (m) * free;
     memcpy (elastic, e, (size_t) g->nv * sizeof *e);
     for (int k = 0; k < g->dim; k++) elastic[k] -= part;
     m->type->stress (m, 1, elastic, g->stress[set] + p * (size_t) g->nv, g->zz[set] + p);
@@ -138,7 +144,7 @@ static double pressure (const galerkin *g, size_t p)
 /* What the energy of total strains at a point has too much, J/m^3. */
 double galerkin_eigen_energy (const galerkin *g, size_t p)
 {
-    return g->eigen[PG_NODES] ? 0.5 * pressure (g, p) * g->eigen[g->bulk][p] : 0;
+    return g->eigen[PG_NODES] ? 0.5 * pressure (g, p) * free_strain (g, g->bulk, p) : 0;
 }
 
 size_t galerkin_eigen_pairs (const galerkin *g) { return g->eigen[PG_NODES] ? g->sums.n + g->nnitsche : 0; }
@@ -167,11 +173,11 @@ void galerkin_eigen_work (const galerkin *g, double t, pg_work_balance *out, siz
     if (!g->eigen[PG_NODES]) return;
     for (size_t p = 0; p < g->sums.n; p++, at++) {
         out->force[at] = pg_problem_owns (g->problem, g->bulk, p) ? -g->sums.weight[p] * pressure (g, p) : 0;
-        out->displacement[at] = g->eigen[g->bulk][p];
+        out->displacement[at] = free_strain (g, g->bulk, p);
     }
     for (size_t i = 0; i < g->nnitsche; i++, at++) {
         out->force[at] = pg_problem_owns (g->problem, PG_FACETS, g->nitsche[i].point)
                              ? on_gap (g, &g->nitsche[i], t) : 0;
-        out->displacement[at] = g->eigen[PG_FACETS][g->nitsche[i].point];
+        out->displacement[at] = free_strain (g, PG_FACETS, g->nitsche[i].point);
     }
 }

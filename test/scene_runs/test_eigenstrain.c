@@ -71,6 +71,19 @@ static void a_free_body_has_no_stress (void **state)
             }
 }
 
+/* Nor do places between two cracks that see too little for a strain: they carry no stress, warm or not. */
+static void places_without_a_strain_have_no_free_one (void **state)
+{
+    (void) state;
+    run r = box ("method: {integration: gauss}\n"
+                 "cracks: [{from: [1, 1.56], to: [3, 1.56]}, {from: [1, 1.65], to: [3, 1.65]}]\n",
+                 2, 1, "  - {temperature: 100 K}\nsolver: {steps: 2, linear: cholmod}\n");
+    to_the_end (&r);
+    assert_true (pg_solver_report_now (r.solver)->degenerate_points > 0);
+    check_free (&r, free_strain, 1e-11);
+    clear (&r);
+}
+
 /* Mean of component v of the stress over all points. */
 static double mean_stress (run *r, int v)
 {
@@ -218,6 +231,7 @@ int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (a_free_body_has_no_stress),
+        cmocka_unit_test (places_without_a_strain_have_no_free_one),
         cmocka_unit_test (a_held_bar_bears_what_it_may_not_grow),
         cmocka_unit_test (pore_pressure_goes_by_biot),
         cmocka_unit_test (a_profile_of_temperature_bends_nothing),
