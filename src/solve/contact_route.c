@@ -141,6 +141,8 @@ pg_status contact_route_begin (pg_system *s, double from, double *base, double *
                  "a part of the body that contact alone holds is not known to event stepping under loads "
                  "with a constant part, or in stages: use stepping: fixed");
     PG_TRY (make_room (s));
+    /* the end of a stage that takes all loads off bears nothing, and comes first */
+    s->borne = fmax (s->borne, r->reference);
     *residual = r->reference = 0, r->from = from, c->active = 0, r->touches = 0;
     PG_TRY (contact_factor (s));
     for (int i = 1; i >= 0; i--) {

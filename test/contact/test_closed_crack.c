@@ -369,6 +369,31 @@ static void stages_go_around_a_loop (void **state)
     clear (&r);
 }
 
+/* A stage at whose end nothing loads the body any more: what is left is rounding, and no reason to refuse. */
+static void a_load_returns_to_zero (void **state)
+{
+    (void) state;
+    static const char *const pull[] = { "0.01", "-0.01" };
+    for (size_t k = 0; k < 2; k++) {
+        run r = scene_of (1,
+            "dimension: 2\nplane: stress\nthickness: 1\nbody: [{add: {box: {low: [-2, -2], high: [2, 2]}}}]\n"
+            "spacing: 0.2\nlattice: cells\ncracks: [{from: [-0.7, -0.71], to: [0.7, 0.71]}]\n"
+            "materials: {m: {youngs_modulus: 1000, poissons_ratio: 0.25}}\ncontact: {kind: normal}\n"
+            "boundary:\n  - {name: foot, set: bottom, displacement: {x: 0, y: 0}}\n"
+            "  - {name: head, set: top, displacement: {x: 0.003, y: %s}}\n"
+            "stages:\n  - {name: there, boundary: {head: 1}}\n  - {name: back, boundary: {head: 0}}\n"
+            "solver: {kind: static}\noutput: {at: {levels: 2}}\n", pull[k]);
+        double most = 0;
+        while (!pg_solver_done (r.solver, r.state)) {
+            advance (&r);
+            most = fmax (most, pg_solver_report_now (r.solver)->energy_strain);
+        }
+        assert_true (r.options.event && most > 0);
+        check_below (pg_solver_report_now (r.solver)->energy_strain / most, 1e-12);
+        clear (&r);
+    }
+}
+
 /* What is not built is refused with words. */
 static void the_rest_is_refused (void **state)
 {
@@ -410,6 +435,7 @@ int main (void)
         cmocka_unit_test (short_wings_have_the_intensities_of_their_path),
         cmocka_unit_test (overlap_is_seen_on_the_faces),
         cmocka_unit_test (stages_go_around_a_loop),
+        cmocka_unit_test (a_load_returns_to_zero),
         cmocka_unit_test (the_rest_is_refused),
     };
     return cmocka_run_group_tests (tests, NULL, NULL);
