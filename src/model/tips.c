@@ -160,7 +160,8 @@ static void add_front (const surroundings *s, size_t crack, const double *x, con
     int steps = 0;
     do for (int k = 0; k < s->p->dim; k++) place[k] = x[k] + (0.25 + 0.5 * steps) * h * ahead[k];
     while (pg_problem_has_body (s->p, place) && ++steps < FAR);
-    e->ligament = e->front > 0 ? fmin (e->ligament, 0.5 * h * steps) : 0.5 * h * steps;
+    double ligament = 0.5 * h * fmax (steps, 0.5);     /* less is not resolved */
+    e->ligament = e->front > 0 ? fmin (e->ligament, ligament) : ligament;
     e->spacing = fmax (e->spacing, h);
     e->front += length;
 }
