@@ -5,6 +5,7 @@ nothing. A refusal of an image of a scene that ran is a violation too: whether a
 """
 import copy
 import math
+import re
 
 import reference
 from images import Image, mirror, quarter, turn
@@ -39,6 +40,15 @@ class Case:
     @property
     def linear(self):
         return self.scene.kind in LINEAR and 'contact' not in self.data
+
+    @property
+    def sided_platens(self):
+        """Platens, if there are any, lie on whole sides of the body from the beginning."""
+        return 'platens' not in self.data or 'box' in self.data['body'][0].get('add', {})
+
+    def of_faces(self, name):
+        """Is a set one of faces? Others are of points, on which a total force acts inside the body too."""
+        return name in ('left', 'right', 'bottom', 'top', 'back', 'front') or 'boundary' in self.data.get('sets', {}).get(name, {})
 
     @property
     def names_sides(self):
@@ -100,6 +110,9 @@ def differs(case, other, image=None, tolerance=SAME, only_first=False):
 def sound(case):
     """It ends, with a result or with a reason; numbers are finite, steps in equilibrium, nothing over its limit is left."""
     run = case.base
+    odd = re.search(r'.*(?<![a-z])(nan|inf)(?![a-z]).*', '\n'.join([run.said] + run.report.get('warnings', [])))
+    if odd:
+        yield f'a message names what is no number: {odd.group(0)}'
     if run.code not in (DONE, USAGE, REFUSED, FAILED):
         yield f'exit code {run.code}: {run.first_words()}'
     elif run.code != DONE:
@@ -120,13 +133,26 @@ def sound(case):
 
 
 def checked(case):
-    """`check` refuses what a run refuses at its start, and nothing else, with the same words."""
+    """`check` refuses what a run refuses at its start, and nothing else: of the scene, and of all others made of it that were refused."""
     code, said = case.program.check(case.data, case.scene.files)
     refused = case.base.code in (REFUSED, USAGE)
     if code not in (DONE, REFUSED):
         yield f'check ends with {code}: {said.strip()[:200]}'
     elif (code == REFUSED) != refused:
         yield f'check ends with {code}, the run with {case.base.code}: {case.base.first_words()}'
+    for data, files, run in case.program.alone():
+        if run.code not in (REFUSED, USAGE) or run is case.base:
+            continue
+        code, _ = case.program.check(data, files)
+        if code != REFUSED:
+            yield f'check ends with {code}, the run with {run.code}: {run.first_words()}'
+            return
+
+
+def force_before(case):
+    """Of a relaxation that ends with the body in pieces: the force that its work stands for."""
+    moved = max((abs(v) for b in case.data['boundary'] for v in b.get('displacement', {}).values()), default=0.0)
+    return case.base.report['energy']['external'] / moved if case.scene.kind == 'relaxed' and moved else 0.0
 
 
 def balanced(case):
@@ -140,7 +166,7 @@ def balanced(case):
             columns = [k for k, n in enumerate(names) if f'.{what}_{a} [' in n]
             if not columns:
                 continue
-            size = max([scales(case)['N']] + [sum(abs(row[k]) for k, n in enumerate(names) if '.force_' in n) for row in case.base.rows])
+            size = max([scales(case)['N'], force_before(case)] + [sum(abs(row[k]) for k, n in enumerate(names) if '.force_' in n) for row in case.base.rows])
             for row in case.base.rows:
                 total = sum(row[k] for k in columns)
                 if size and abs(total) > bound * size and not case.base.warned('miss balance'):
@@ -257,15 +283,99 @@ def resumed(case):
 
 
 def on_ranks(case):
-    run = case.run(options=(), ranks=2)
+    ranks = 2 + case.scene.seed % 2
+    def divide(data):
+        if case.scene.seed % 3 == 0 and data['solver']['kind'] in ('static', 'newmark'):
+            data['solver']['division'] = 'subdomains'
+    run = case.run(divide, options=(), ranks=ranks)
+    if run.code is None:
+        return
     if run.code in (REFUSED, USAGE):
+        if 'rank' not in run.said:
+            yield f'{ranks} ranks: refused without naming them: {run.first_words()}'
         return
     text = differs(case, run, tolerance=1e-4 if case.scene.kind == 'relaxed' else EVENTS)
     if text:
-        yield f'two ranks: {text}'
+        yield f'{ranks} ranks: {text}'
+
+
+# ---- other ways to the same answer
+def same_way(case, run, what, tolerance=SAME):
+    """A refusal is an answer: this way is not open to this scene; and one that is slower is not wrong."""
+    if run.code in (REFUSED, USAGE, None):
+        return
+    breaks = 'failure' in case.data or 'contact' in case.data or 'platens' in case.data
+    text = differs(case, run, tolerance=1e-4 if case.scene.kind == 'relaxed' else max(tolerance, EVENTS) if breaks else tolerance)
+    if text:
+        yield f'{what}: {text}'
+
+
+def plain(case):
+    """What spares work changes no answer."""
+    run = case.run(options=('--threads', '1', '--plain'))
+    if run.code in (REFUSED, USAGE):
+        yield f'--plain is refused: {run.first_words()}'
+    yield from same_way(case, run, '--plain')
+
+
+def summed_otherwise(case):
+    """Sums over bonds by a stencil, by lists or by transforms."""
+    if case.data['method'].get('force', 'galerkin') == 'galerkin':
+        return
+    for way in ('list', 'stencil', 'fft'):
+        yield from same_way(case, case.run(lambda d, way=way: d['method'].update(evaluation=way)), f'evaluation: {way}')
+
+
+def solved_otherwise(case):
+    """By another linear solver."""
+    if case.data['solver']['kind'] != 'static':
+        return
+    ways = [w for w in ('cholmod', 'umfpack', 'pcg', 'skyline') if w != case.data['solver'].get('linear')]
+    way = ways[case.scene.seed % len(ways)]
+    yield from same_way(case, case.run(lambda d: d['solver'].update(linear=way)), f'linear: {way}', tolerance=EVENTS)
+
+
+def as_total(case):
+    """What a traction adds up to, given as a total force on the same faces, is that traction."""
+    if case.data['solver']['kind'] != 'static' or 'stages' in case.data:
+        return
+    loads = [b['name'] for b in case.data['boundary'] if 'traction' in b and case.of_faces(b['set'])]
+    factors = case.base.column('load_factor')
+    row = max(range(len(factors)), key=lambda r: abs(factors[r]), default=None)
+    if not loads or row is None or not factors[row]:
+        return
+    def total(data):
+        for load in data['boundary']:
+            if load['name'] in loads:
+                load['force'] = {a: case.base.column(f'{load["name"]}.force_{a}')[row] / factors[row] for a in load.pop('traction')}
+    run = case.run(total)
+    text = differs(case, run, tolerance=EVENTS if 'failure' in case.data or 'contact' in case.data else SAME)
+    if text:
+        yield f'tractions as total forces: {text}'
+
+
+def retimed(case):
+    """In another unit of time, seconds that are so much shorter."""
+    if case.scene.kind not in ('motion', 'explicit', 'relaxed'):
+        return
+    for T in (1e-3, 60.0):
+        image = Image(case.scene.dimension)
+        image.factors.update({'m/s': 1 / T, 'm/s2': 1 / T ** 2, 'kg/m3': T ** 2, 'kg': T ** 2, 's': T})
+        data = image.scene(case.data)
+        for key in ('dt', 'end'):
+            if key in data['solver']:
+                data['solver'][key] *= T
+        run = case.program.run(data, case.scene.files)
+        text = differs(case, run, image, 1e-4 if case.scene.kind == 'relaxed' else EVENTS if 'failure' in data else 1e-6)
+        if text:
+            yield f'seconds {1 / T:g} times as long: {text}'
+            return
 
 
 # ---- linear bodies
+POWERS = {'N': 1, 'm': 1, 'N m': 1, 'J': 2, 'Pa m^(1/2)': 1, 'J/m^2': 2}
+
+
 def scaled_loads(data, factor, names=None):
     for load in data['boundary']:
         if names is not None and load['name'] not in names:
@@ -278,24 +388,33 @@ def scaled_loads(data, factor, names=None):
         for kind in ('pressure', 'temperature'):
             if kind in load:
                 load[kind] *= factor
+    for platen in data.get('platens', []):
+        for kind in ('displacement', 'force'):
+            if kind in platen:
+                platen[kind] = {a: v * factor for a, v in platen[kind].items()}
     return data
 
 
-def doubled(case):
-    if not case.linear:
-        return
-    run = case.run(lambda d: scaled_loads(d, 2.0))
-    if not run.done:
-        yield f'twice the load ends with {run.code}: {run.first_words()}'
-        return
-    for name in case.base.names:
-        word = name.rsplit(' [', 1)[0]
-        unit = unit_of(name)
-        if unit in ('N', 'm', 'N m', 'J') and not word.startswith(('tip.', 'front.')):
-            size = scales(case)[unit]
-            factor = 4.0 if unit == 'J' else 2.0
-            if size and abs(run.last(word) - factor * case.base.last(word)) > SAME * factor * size:
-                yield f'twice the load: {name} {run.last(word):.9g} for {factor * case.base.last(word):.9g}'
+def proportional(case):
+    """Twice the load, backwards, and the smallest load: all answers in proportion, energies and J as its square. Contact is as proportional, but not backwards."""
+    contact = case.scene.kind == 'contact' and case.sided_platens and 'stages' not in case.data
+    for factor in (-2.0, 3e-12):
+        if not case.linear and not (contact and factor > 0):
+            continue
+        run = case.run(lambda d, factor=factor: scaled_loads(d, factor))
+        if not run.done:
+            yield f'{factor:g} times the load ends with {run.code}: {run.first_words()}'
+            return
+        for name in case.base.names:
+            word, unit = name.rsplit(' [', 1)[0], unit_of(name)
+            size, power = scales(case).get(unit, 0), POWERS.get(unit, 0)
+            if not size or not power or word.startswith(('tip.', 'front.')) and word[-2:] in ('.x', '.y', '.z'):
+                continue
+            mine, its = factor ** power * case.base.last(word), run.last(word)
+            if math.isnan(mine) and math.isnan(its):
+                continue
+            if not abs(its - mine) <= (EVENTS if contact else SAME) * abs(factor) ** power * size:
+                yield f'{factor:g} times the load: {name} {its:.9g} for {mine:.9g}'
                 return
 
 
@@ -345,6 +464,95 @@ def rigid(case):
     energy = run.report['energy']['strain']
     if not abs(energy) <= 1e-12 * size:
         yield f'moved as a rigid body: strain energy {energy:.3g} J, {energy / size:.1e} of that of a strain as large'
+
+
+def carried(case):
+    """A rigid motion of all supports on top of the loads changes no force, no J and no K."""
+    if not case.linear or 'stages' in case.data or any('spring' in b for b in case.data['boundary']):
+        return
+    d, angle = case.scene.dimension, 1e-2
+    motion = {'x': f'0.02 m - {angle}*y', 'y': f'-0.01 m + {angle}*x', 'z': '0.03 m'}
+    def carry(data):
+        for load in data['boundary']:
+            if 'displacement' in load:
+                load['displacement'] = {a: f'{v!r} m + {motion[a]}' for a, v in load['displacement'].items()}
+    if case.data['method'].get('essential') == 'penalty':
+        return                                          # which is not exact
+    run = case.run(carry)
+    if run.code == REFUSED and 'uniform stress' in run.said:
+        return
+    if not run.done or len(run.rows) != len(case.base.rows):
+        yield f'carried along: ends with {run.code}: {run.first_words()}'
+        return
+    scale = scales(case)
+    for name in case.base.names:
+        word, unit = name.rsplit(' [', 1)[0], unit_of(name)
+        if unit not in ('N', 'Pa m^(1/2)', 'J/m^2') or not scale.get(unit):
+            continue
+        # rounding of displacements a thousand times as large
+        off = abs(run.last(word) - case.base.last(word)) / scale[unit]
+        if off > 1e-5 or math.isnan(run.last(word)) != math.isnan(case.base.last(word)):
+            yield f'carried along: {name} {run.last(word):.9g} for {case.base.last(word):.9g}'
+            return
+
+
+def heated(case):
+    """Warm all over, held where it would go by itself: no stress."""
+    if not case.linear or case.data['method'].get('force', 'galerkin') != 'galerkin' or case.data.get('plane') == 'strain':
+        return
+    held = next((b for b in case.data['boundary'] if set(b.get('displacement', {})) == set('xyz'[:case.scene.dimension])), None)
+    if not held:
+        return
+    strain = 1e-3
+    def warm(data):
+        for material in data['materials'].values():
+            material['expansion'] = 1e-5
+        data.pop('stages', None)
+        data['solver'] = {**data['solver'], 'stepping': 'fixed', 'steps': 2}
+        data['boundary'] = [{**held, 'displacement': {a: f'{strain}*{a}' for a in held['displacement']}}, {'name': 'warmth', 'temperature': strain / 1e-5}]
+    run = case.run(warm)
+    if run.code == REFUSED and 'uniform stress' in run.said:
+        return
+    if not run.done:
+        yield f'warm without hindrance: ends with {run.code}: {run.first_words()}'
+        return
+    size = 1e9 * strain ** 2 * case.data.get('thickness', 1.0) * 0.1
+    energy = run.report['energy']['strain']
+    if not abs(energy) <= 1e-10 * size:
+        yield f'warm without hindrance: strain energy {energy:.3g} J, {energy / size:.1e} of that of a strain as large'
+    elif run.warned('miss balance') and not case.base.warned('miss balance'):
+        yield f'warm without hindrance: {next(t for t in run.report["warnings"] if "miss balance" in t)}'
+    def hold(data):
+        warm(data)
+        data.setdefault('sets', {})['skin'] = {'boundary': ['all']}
+        data['boundary'][0] = {**held, 'set': 'skin', 'displacement': {a: 0.0 for a in held['displacement']}}
+    run = case.run(hold)
+    if case.lattice and run.code not in (REFUSED, USAGE) and not run.done:
+        yield f'warm and held all round: ends with {run.code}: {run.first_words()}'
+
+
+def returned(case):
+    """Loads that return to zero leave an elastic body as it was."""
+    if 'stages' in case.data or case.scene.kind not in ('elastic', 'tips', 'contact') or case.data.get('contact', {}).get('kind') == 'friction' or 'platens' in case.data:
+        return
+    names = [b['name'] for b in case.data['boundary'] if any(k in b for k in ('traction', 'force', 'body_force', 'gravity', 'pressure'))
+             or any(v for v in b.get('displacement', {}).values())]
+    if not names or any('temperature' in b for b in case.data['boundary']):
+        return
+    def there_and_back(data):
+        data['stages'] = [{'name': 'there', 'boundary': {n: 1.0 for n in names}}, {'name': 'back', 'boundary': {n: 0.0 for n in names}}]
+    run = case.run(there_and_back)
+    if not run.done:
+        yield f'there and back: ends with {run.code}: {run.first_words()}'
+        return
+    scale = scales(case)
+    for name in case.base.names:
+        word, unit = name.rsplit(' [', 1)[0], unit_of(name)
+        if unit in ('N', 'm') and not word.startswith(('tip.', 'front.')) and scale[unit] and not abs(run.last(word)) <= 1e-6 * scale[unit]:
+            yield f'there and back: {name} {run.last(word):.3g}, on the way {scale[unit]:.3g}'
+            return
+    if run.warned('miss balance') and not case.base.warned('miss balance'):
+        yield f'there and back: {next(t for t in run.report["warnings"] if "miss balance" in t)}'
 
 
 def turned_little(case):
@@ -426,20 +634,27 @@ def loose(case):
     if case.names_sides:
         return
     run = case.run(add)
-    if run.done:
-        yield 'a body that nothing holds, under a load, is not refused'
+    if run.code != REFUSED:
+        yield f'a body that nothing holds, under a load, ends with {run.code}'
     elif not any(w in run.said for w in ('hold', 'held', 'loose', 'free')):
         yield f'a body that nothing holds: the reason is not named: {run.first_words()}'
 
 
 def slot(case):
     """A slot cut out of a body is the slot that `cracks` makes of the same width, however narrow."""
-    if case.scene.kind != 'elastic' or not case.lattice or case.scene.dimension != 2 or case.names_sides or 'offset' in case.data:
+    if case.scene.kind != 'elastic' or not case.lattice or case.scene.dimension != 2 or any(b.get('set') == 'left' for b in case.data['boundary']):
         return
     low = [min(c) for c in zip(*corners(case.data))]
     high = [max(c) for c in zip(*corners(case.data))]
     y, w = low[1] + 0.52 * (high[1] - low[1]), (0.05 + 0.5 * ((case.scene.seed * 7919) % 97) / 97) * case.data['spacing']
     x = low[0] + 0.45 * (high[0] - low[0])
+    if any('box' in part.get('subtract', {}) for part in case.data['body']):
+        return                                          # what is left beside two slots may be as narrow as a spacing
+    holes = [part['subtract']['disk'] for part in case.data['body'] if 'disk' in part.get('subtract', {})]
+    if len(holes) > 1:
+        return
+    if holes:                                           # into it
+        x, y = holes[0]['center'][0], holes[0]['center'][1] + 0.3 * holes[0]['radius']
     one = case.run(lambda d: d['body'].append({'subtract': {'box': {'low': [low[0] - 0.3, y - w / 2], 'high': [x, y + w / 2]}}}))
     two = case.run(lambda d: d.setdefault('cracks', []).append({'from': [low[0] - 0.3, y], 'to': [x, y], 'width': w}))
     if one.done and two.done:
@@ -491,6 +706,20 @@ def falling(case):
         yield f'free fall: {u:.6g} m for {right:.6g}, strain energy {run.report["energy"]["strain"]:.3g} of work {run.report["energy"]["external"]:.3g} J'
 
 
-INVARIANTS = [sound, checked, balanced, energies, facets, prescribed, mirrored, quarter_turned, moved, resized, nudged, threaded, resumed, on_ranks, doubled,
-              superposed, rigid, turned_little, as_elements, soft_spring, doubled_crack, loose, slot, falling]
+def pushed(case):
+    """A platen that lies on the body and moves into it bears from the first step."""
+    for platen in case.data.get('platens', []):
+        if 'displacement' not in platen or not case.base.done:
+            continue
+        axis = next(iter(platen['displacement']))
+        factors, forces = case.base.column('load_factor'), case.base.column(f'{platen["name"]}.force_{axis}')
+        for factor, force in zip(factors, forces):
+            if factor > 0 and not force * platen['displacement'][axis] > 0:
+                yield f'{platen["name"]} moved {factor * platen["displacement"][axis]:.3g} m into the body, its force is {force:.3g} N'
+                break
+
+
+INVARIANTS = [sound, balanced, energies, facets, prescribed, pushed, mirrored, quarter_turned, moved, resized, nudged, threaded, plain, summed_otherwise,
+              solved_otherwise, resumed, on_ranks, retimed, proportional, superposed, rigid, carried, heated, returned, turned_little, as_total, as_elements,
+              soft_spring, doubled_crack, loose, slot, falling, checked]
 ALWAYS = (sound, checked)

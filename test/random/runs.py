@@ -3,6 +3,7 @@ import csv
 import json
 import math
 import os
+import resource
 import shutil
 import signal
 import subprocess
@@ -49,11 +50,12 @@ class Run:
 
 
 class Program:
-    """Starts the program in folders of its own, each once for the same scene and options."""
+    """Starts the program in folders of its own, each once for the same scene and options. A run has so many seconds of a processor, and ten times as long
+    by the clock, since others may be at work."""
 
     def __init__(self, build, work, seconds=60):
         self.program, self.mpi = os.path.abspath(os.path.join(build, 'perigal')), os.path.abspath(os.path.join(build, 'perigal-mpi'))
-        self.work, self.seconds, self.count, self.known = work, seconds, 0, {}
+        self.work, self.seconds, self.count, self.known, self.asked = work, seconds, 0, {}, []
         self.spent = 0.0
 
     def folder(self, data, files):
@@ -70,20 +72,22 @@ class Program:
 
     def call(self, words, kill_after=None, where=None):
         """Exit code and what it said; kill_after (bytes of history.csv): SIGTERM once so much is written."""
-        child = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, errors='replace')
+        child = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, errors='replace',
+                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (self.seconds, self.seconds)))
         if kill_after is not None:
             rows, began = os.path.join(where, 'history.csv'), time.monotonic()
-            while child.poll() is None and time.monotonic() < began + self.seconds and not (os.path.exists(rows) and os.path.getsize(rows) > kill_after):
+            while child.poll() is None and time.monotonic() < began + 10 * self.seconds and not (os.path.exists(rows) and os.path.getsize(rows) > kill_after):
                 time.sleep(0.002)
             if child.poll() is None:
                 child.send_signal(signal.SIGTERM)
         try:
-            said, _ = child.communicate(timeout=self.seconds)
-            return child.returncode, said
+            said, _ = child.communicate(timeout=10 * self.seconds)
+            if child.returncode != -signal.SIGKILL and 'signal 9' not in said:
+                return child.returncode, said
         except subprocess.TimeoutExpired:
             child.kill()
             child.communicate()
-            return None, f'no end within {self.seconds} s'
+        return None, f'no end within {self.seconds} s of a processor'
 
     def run(self, data, files=(), options=('--threads', '1'), kill_after=None, ranks=0):
         key = json.dumps([data, list(files), list(options), kill_after, ranks], sort_keys=True)
@@ -96,7 +100,13 @@ class Program:
             if kill_after is not None and code not in (DONE, REFUSED) and os.path.exists(os.path.join(out, 'checkpoint.nc')):
                 code, said = self.call(words + ['--resume'])
             self.known[key] = Run(code, said, out)
+            if not ranks and kill_after is None and '--plain' not in options:
+                self.asked.append((data, files, self.known[key]))
         return self.known[key]
+
+    def alone(self):
+        """Scene, files and run of all that ran on one process, undisturbed."""
+        return self.asked
 
     def check(self, data, files=()):
         folder = self.folder(data, files)

@@ -37,7 +37,7 @@ class Maker:
     """What the choices so far have fixed: the body's box, its spacing, names of the places where it can be held and loaded."""
 
     def __init__(self, seed, kind=None):
-        self.rng = random.Random(seed)
+        self.rng, self.rare = random.Random(seed), random.Random(f'rare {seed}')        # the second: what was added since changes no other seed
         self.seed, self.files, self.sets, self.heated = seed, [], {}, False
         self.kind = kind or self.rng.choices([k for k, _ in KINDS], [w for _, w in KINDS])[0]
 
@@ -371,6 +371,8 @@ class Maker:
                 data['solver'].update(stepping='fixed', steps=2)
         if self.kind == 'contact' and self.sides and self.lattice in ('nodes', 'cells') and self.force == 'galerkin' and self.chance(0.4):
             self.press(data)
+        elif self.kind == 'contact' and not self.sides and self.lattice in ('nodes', 'cells') and self.force == 'galerkin' and self.rare.random() < 0.4:
+            self.press(data)                             # on a round body, that they touch in one place
         elif self.kind in ('elastic', 'strength') and not self.heated and self.chance(0.12):
             self.stage(data)
         if self.kind == 'elastic' and data.get('body') and self.lattice in ('nodes', 'cells') and self.sides is False and self.chance(0.3):
@@ -395,7 +397,10 @@ class Maker:
         if self.kind == 'relaxed':
             return {'kind': self.one('adr', 'relax'), 'stages': self.rng.randint(1, 3)}
         if self.kind in ('facets', 'strength'):
-            return {'kind': 'static', 'max_events': 6}
+            how = {'kind': 'static', 'max_events': 6}
+            if self.rare.random() < 0.2:
+                how['linear'] = self.rare.choice(('cholmod', 'umfpack', 'pcg', 'skyline')) if self.force != 'lps' else 'pcg'
+            return how
         if self.kind == 'elastic' and self.chance(0.2):
             return {'kind': 'static', 'linear': 'pcg' if self.force == 'lps' else self.one('cholmod', 'umfpack', 'pcg', 'skyline')}
         return {'kind': 'static'}
