@@ -331,6 +331,7 @@ struct pg_problem {
     pg_expression *initial[3];  /* velocity at the start per component, m/s; NULL: at rest */
     pg_initial *motion;  size_t nmotion;               /* velocities of sets in its place; later ones count */
     pg_rows  rows[PG_BOND_SETS];                       /* geometry only: N, dN, w, grade are NULL */
+    int      wide_at_cracks;  /* 1: cracks make supports of nodes or evaluation points wider */
     pg_held_points held[PG_BOND_SETS];                 /* of ranks that share the body; else NULL */
     double  *facet_normal;  /* outward unit normal at the points of PG_FACETS (n x dim) */
     size_t   first_bond[PG_BOND_SETS + 1];             /* bond b of set k is alive[first_bond[k] + b] */

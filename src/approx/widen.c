@@ -146,8 +146,11 @@ static int suspect (const work *w, size_t i)
 {
     const pg_cloud *c = w->cloud;
     const pg_family *f = &w->rows->family;
-    if (!c->regular || c->size || w->sees) return 1;
-    return (double) (f->start[i + 1] - f->start[i]) < complete * whole_support (w);
+    size_t seen = f->start[i + 1] - f->start[i];
+    if (!c->regular || c->size) return 1;
+    for (size_t e = f->start[i]; w->sees && e < f->start[i + 1]; e++)
+        seen -= !w->sees (w->context, i, f->node[e]);
+    return (double) seen < complete * whole_support (w);
 }
 
 /* A node that sees no other one within its horizon is joined to none: that is told, not mended. */

@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Private: the Galerkin force. Files: galerkin.c (life cycle, refresh, balance), galerkin_bulk.c (stress,
  * blocks, energy), galerkin_gradients.c (rows of K),
- * galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_basis.c (elimination),
+ * galerkin_nitsche.c (Nitsche, penalty, loads), galerkin_place.c (where these act), galerkin_basis.c
+ * (elimination),
  * galerkin_sum.c (forces of all points), galerkin_measure.c (their strains),
  * galerkin_runs.c (points that are alike), galerkin_silling.c (stabilisation), galerkin_operator.c (K x, K),
  * galerkin_bonds.c (utilisation, overlap, census), galerkin_worst.c (the worst bonds),
@@ -272,16 +273,20 @@ void galerkin_consistent_free (galerkin *g);
 /* Brings `sums` in line with the rows of the bulk: all, or cells with the touched points of g->list[bulk],
  * whose number grows to all points of the cells that changed. */
 pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int all, size_t *count);
+/* place: where a point of a set is for loads and supports, m (at: room for 3 numbers), and what is prescribed
+ * there of a constraint on facets or nodes, m. */
+const double *galerkin_place (const galerkin *g, int set, size_t point, double *at);
+double galerkin_prescribed (const galerkin *g, const constraint *q, int set, double t);
 /* ended: cells that end at cracks; whole cells near them by values of live bonds on their borders */
 pg_status galerkin_ended_create (galerkin *g);
 void galerkin_ended_free (galerkin *g);
-/* How each cell near the cracks of the state is treated, and the values on their borders; g->whole follows.
- * *moved: the cracks are others than at the last call. */
+/* How each cell near the cracks of the state is treated, and the values on their borders. *moved: the cracks
+ * are others than at the last call. */
 pg_status galerkin_ended_plan (galerkin *g, const pg_state *state, int *moved);
 size_t galerkin_unended (const void *self);            /* pg_force_type.unended */
-int galerkin_ended_treats (const galerkin *g, size_t cell); /* 1: the cell ends at cracks, or could */
 size_t galerkin_ended_near (const galerkin *g, size_t *cell); /* cells near cracks (NULL: their number) */
-const double *galerkin_ended_faces (const galerkin *g);                /* for pg_consistency_apply */
+const pg_rows *galerkin_ended_faces (const galerkin *g);  /* values and grades at the faces of cells */
+void galerkin_ended_mark (galerkin *g);                       /* whole: of the cells that end at cracks */
 /* Weights of these cells' points, and the derivatives of those in parts, after pg_consistency_apply. */
 pg_status galerkin_ended_apply (galerkin *g, size_t count, const size_t *list);
 /* Puts the values by which the cells integrate in the place of others, where a place is on their border. */

@@ -260,8 +260,9 @@ const pg_sparse *galerkin_basis (void *self)
 /* What the load prescribes at slave s, m, at time t (s; quasi-static: the load factor). */
 static double goal_of (const galerkin *g, const elimination *e, size_t s, double t)
 {
+    double at[3];
     return pg_load_value (&g->problem->load[e->load[s]], e->component, g->dim,
-                          g->problem->cloud.x + (size_t) e->slave[s] * (size_t) g->dim, t);
+                          galerkin_place (g, PG_NODES, (size_t) e->slave[s], at), t);
 }
 
 /* d_s = C_s^-1 (g - C_m d_m): sets the slaves' coefficients so that the displacement there is the
@@ -295,7 +296,7 @@ size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residua
     for (size_t k = 0; k < dim; k++) {
         const elimination *e = &g->side[k];
         for (size_t s = 0; s < e->n; s++, at++) {
-            double force = 0;
+            double force = 0, place[3];
             if (!e->inverse) force = -residual[(size_t) e->slave[s] * dim + k];
             else
                 for (size_t j = 0; j < e->n; j++)
@@ -304,7 +305,7 @@ size_t galerkin_basis_work_balance (galerkin *g, double t, const double *residua
             out->force[at] = force, out->displacement[at] = goal_of (g, e, s, t);
             out->reaction[e->load[s] * 3 + (int) k] += force;
             pg_load_add_moment (&g->problem->load[e->load[s]], g->dim,
-                                g->problem->cloud.x + (size_t) e->slave[s] * dim, (int) k, force,
+                                galerkin_place (g, PG_NODES, (size_t) e->slave[s], place), (int) k, force,
                                 out->reaction + 3 * (g->problem->nload + (size_t) e->load[s]));
         }
     }

@@ -43,12 +43,13 @@ void galerkin_consistent_free (galerkin *g)
 static int bonds_complete (const galerkin *g, const pg_state *state, size_t cell)
 {
     const pg_consistency *c = g->problem->consistency;
+    const unsigned char *grade = galerkin_ended_faces (g)->grade;
     for (size_t p = c->first[cell]; p < c->first[cell + 1]; p++)
         if (g->rows[g->bulk].grade[p] > PG_GRADE_LOWERED) return 0;
     for (size_t k = c->faces.of[cell]; k < c->faces.of[cell + 1]; k++) {
         size_t face = (size_t) c->faces.face[k];
         for (size_t q = c->faces.start[face]; q < c->faces.start[face + 1]; q++)
-            if (c->face.grade[q] > PG_GRADE_LOWERED) return 0;
+            if (grade[q] > PG_GRADE_LOWERED) return 0;
     }
     const size_t *start = g->rows[g->bulk].family.start;
     const unsigned char *alive = state->alive + g->problem->first_bond[g->bulk];
@@ -94,12 +95,21 @@ static int compare (const void *a, const void *b)
     return (i > j) - (i < j);
 }
 
+/* Puts numbers in order, each once; returns how many are left. */
+static size_t unique (size_t *list, size_t n)
+{
+    size_t kept = 0;
+    pg_sort (list, n, sizeof *list, compare);
+    for (size_t k = 0; k < n; k++) if (kept == 0 || list[k] != list[kept - 1]) list[kept++] = list[k];
+    return kept;
+}
+
 /* Cells of the touched points and those that change with them, each once, ascending. */
 static pg_status changed_cells (galerkin *g, const pg_state *state, size_t count, size_t **out, size_t *n)
 {
     pg_status status = PG_OK;
     const pg_rows *r = &g->rows[g->bulk];
-    size_t *list = NULL, most = g->problem->consistency->cells->n, kept = 0;
+    size_t *list = NULL, most = g->problem->consistency->cells->n;
     PG_ALLOC (list, count + most);
     *n = 0;
     for (size_t k = 0; k < count; k++) {
@@ -107,9 +117,7 @@ static pg_status changed_cells (galerkin *g, const pg_state *state, size_t count
         *n = judge_around (g, state, cell, list, *n);
         list[(*n)++] = cell;
     }
-    pg_sort (list, *n, sizeof *list, compare);
-    for (size_t k = 0; k < *n; k++) if (k == 0 || list[k] != list[k - 1]) list[kept++] = list[k];
-    *n = kept, *out = list;
+    *n = unique (list, *n), *out = list;
 done:
     return status;
 }
@@ -198,7 +206,7 @@ static pg_status near_cells (galerkin *g, const pg_state *state, size_t **list, 
 {
     pg_status status = PG_OK;
     int moved;
-    size_t *out = NULL, before = galerkin_ended_near (g, NULL), count = *n, kept = 0;
+    size_t *out = NULL, *changed = NULL, m = 0, before = galerkin_ended_near (g, NULL), count = *n;
     if (!g->ended) return PG_OK;
     PG_ALLOC (out, before);
     galerkin_ended_near (g, out);
@@ -209,15 +217,15 @@ static pg_status near_cells (galerkin *g, const pg_state *state, size_t **list, 
     size_t *grown = *list;
     memcpy (grown + count, out, before * sizeof *out);
     galerkin_ended_near (g, grown + count + before);
-    count += before + now;
-    pg_sort (grown, count, sizeof *grown, compare);
-    for (size_t k = 0; k < count; k++) if (kept == 0 || grown[k] != grown[kept - 1]) grown[kept++] = grown[k];
-    *n = kept;
-    for (size_t k = 0; k < kept; k++)
-        if (!galerkin_ended_treats (g, grown[k]))
-            g->whole[grown[k]] = (unsigned char) complete_around (g, state, grown[k]);
+    count = unique (grown, count + before + now);
+    PG_ALLOC (changed, g->problem->consistency->cells->n);
+    for (size_t k = 0; k < count; k++) m = judge_around (g, state, grown[k], changed, m);
+    galerkin_ended_mark (g);
+    PG_GROW (*list, cap, count + m);
+    memcpy (*list + count, changed, m * sizeof *changed);
+    *n = unique (*list, count + m);
 done:
-    pg_free (out);
+    pg_free (out), pg_free (changed);
     return status;
 }
 
@@ -227,7 +235,7 @@ static pg_status add_hosts (const galerkin *g, size_t **list, size_t *n)
 {
     pg_status status = PG_OK;
     const pg_consistency *c = g->problem->consistency;
-    size_t cap = 0, count = *n, kept = 0;
+    size_t cap = 0, count = *n;
     for (size_t k = 0; k < *n; k++) {
         size_t cell = (*list)[k], guests = c->guests.start[cell + 1] - c->guests.start[cell],
                hosts = c->hosts.start[cell + 1] - c->hosts.start[cell];
@@ -237,11 +245,7 @@ static pg_status add_hosts (const galerkin *g, size_t **list, size_t *n)
         for (size_t e = c->guests.start[cell]; e < c->guests.start[cell + 1]; e++)
             (*list)[count++] = (size_t) c->guests.node[e];
     }
-    if (count == *n) return PG_OK;
-    pg_sort (*list, count, sizeof **list, compare);
-    for (size_t k = 0; k < count; k++)
-        if (kept == 0 || (*list)[k] != (*list)[kept - 1]) (*list)[kept++] = (*list)[k];
-    *n = kept;
+    if (count > *n) *n = unique (*list, count);
 done:
     return status;
 }
@@ -251,8 +255,8 @@ static pg_status renew (galerkin *g, size_t n, const size_t *cell)
 {
     pg_status status = PG_OK;
     const pg_rows *r = &g->rows[g->bulk];
-    PG_TRY (pg_consistency_apply (g->problem->consistency, r, &g->sums, g->whole, galerkin_ended_faces (g), n,
-                                  cell, g->threads));
+    PG_TRY (pg_consistency_apply (g->problem->consistency, r, &g->sums, g->whole,
+                                  galerkin_ended_faces (g)->N, n, cell, g->threads));
     PG_TRY (galerkin_ended_apply (g, n, cell));
 done:
     return status;
@@ -269,13 +273,14 @@ pg_status galerkin_consistent_update (galerkin *g, const pg_state *state, int al
     kept_rows old = { 0 };
     int moved = 0;
     if (all) {
+        if (!g->borrows[g->bulk]) PG_TRY (galerkin_ended_plan (g, state, &moved));
         memset (g->whole, 1, c->cells->n);
         for (size_t cell = 0; cell < c->cells->n; cell++)
             if (!bonds_complete (g, state, cell)) open_around (g, cell);
         if (g->borrows[g->bulk]) return PG_OK;
-        PG_TRY (galerkin_ended_plan (g, state, &moved));
-        PG_TRY (
-            pg_consistency_apply (c, r, &g->sums, g->whole, galerkin_ended_faces (g), 0, NULL, g->threads));
+        galerkin_ended_mark (g);
+        PG_TRY (pg_consistency_apply (c, r, &g->sums, g->whole, galerkin_ended_faces (g)->N, 0, NULL,
+                                      g->threads));
         PG_ALLOC (cells, c->cells->n);
         for (n = 0; n < c->cells->n; n++) cells[n] = n;
         PG_TRY (galerkin_ended_apply (g, n, cells));

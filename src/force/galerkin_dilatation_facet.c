@@ -200,8 +200,7 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
         galerkin_part *a = part_behind (g, q->point);
         if (!a) continue;
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component]
-                     - pg_load_value (&g->problem->load[q->load], q->component, g->dim, r->x + q->point * dim,
-                                      t);
+                     - galerkin_prescribed (g, q, PG_FACETS, t);
         galerkin_dilatation_polynomials (g, a, r->x + q->point * dim, psi);
         for (int m = 0; m < a->terms; m++)
             a->gap[m] += r->weight[q->point] * psi[m] * normal (g, q->point, q->component) * gap;

@@ -158,9 +158,8 @@ static double on_gap (const galerkin *g, const constraint *q, double t)
     const pg_material *m = galerkin_material (g, PG_FACETS, q->point);
     const double *normal = g->problem->facet_normal + q->point * dim;
     double e[6] = { 0 }, s[6], zz, traction = 0,
-           goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
-                                 g->rows[PG_FACETS].x + q->point * dim, t),
-           gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
+           gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component]
+                 - galerkin_prescribed (g, q, PG_FACETS, t);
     for (size_t k = 0; k < dim; k++) e[k] = held (m);
     m->type->stress (m, 1, e, s, &zz);
     for (int c = 0; c < g->dim; c++) traction += s[pg_voigt_at (g->dim, q->component, c)] * normal[c];

@@ -254,7 +254,11 @@ static void treat (galerkin *g, size_t k, int p, double *sum)
     }
 }
 
-const double *galerkin_ended_faces (const galerkin *g) { return g->ended ? g->ended->face.N : NULL; }
+/* Those of the intact body until there are others. */
+const pg_rows *galerkin_ended_faces (const galerkin *g)
+{
+    return g->ended && g->ended->face.N ? &g->ended->face : &g->problem->consistency->face;
+}
 
 pg_status galerkin_ended_plan (galerkin *g, const pg_state *state, int *moved)
 {
@@ -263,22 +267,21 @@ pg_status galerkin_ended_plan (galerkin *g, const pg_state *state, int *moved)
     *moved = e && ended_moved (g, state);
     if (!e || (!*moved && e->n == 0)) return PG_OK;
     PG_TRY (ended_plan (g, state));
-    for (size_t k = 0; k < e->n; k++)
-        if (!e->near[k].failed) g->whole[e->near[k].cell] = e->near[k].kind == ENDED_PLAIN;
 done:
     return status;
+}
+
+void galerkin_ended_mark (galerkin *g)
+{
+    const struct galerkin_ended *e = g->ended;
+    for (size_t k = 0; e && k < e->n; k++)
+        if (!e->near[k].failed) g->whole[e->near[k].cell] = e->near[k].kind == ENDED_PLAIN;
 }
 
 size_t galerkin_unended (const void *self)
 {
     const galerkin *g = self;
     return g->ended ? g->ended->blocked : 0;
-}
-
-int galerkin_ended_treats (const galerkin *g, size_t cell)
-{
-    const struct galerkin_ended *e = g->ended;
-    return e && e->at[cell] && !e->near[e->at[cell] - 1].failed;
 }
 
 size_t galerkin_ended_near (const galerkin *g, size_t *cell)

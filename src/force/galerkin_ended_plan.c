@@ -9,13 +9,27 @@
 
 static double spacing (const galerkin *g, const double *x) { return pg_problem_spacing_at (g->problem, x); }
 
-/* How far the points of a cell see, m. */
+/* How far the points of cells see by a support that is no wider than usual, m. */
 static double reach_of (const galerkin *g)
 {
     const pg_cloud *c = &g->problem->cloud;
     double most = 1;
     for (size_t i = 0; c->size && i < c->n; i++) most = fmax (most, pg_cloud_ratio (c, i));
     return most * g->problem->approx.horizon;
+}
+
+/* The widest support of the points of a cell and of its faces, over the usual one. */
+static double widest_of (const galerkin *g, size_t cell)
+{
+    const pg_consistency *c = g->problem->consistency;
+    const double *points = g->rows[g->bulk].wide, *faces = c->face.wide;
+    double most = 1;
+    for (size_t q = c->first[cell]; points && q < c->first[cell + 1]; q++) most = fmax (most, points[q]);
+    for (size_t k = c->faces.of[cell]; faces && k < c->faces.of[cell + 1]; k++) {
+        size_t face = (size_t) c->faces.face[k];
+        for (size_t q = c->faces.start[face]; q < c->faces.start[face + 1]; q++) most = fmax (most, faces[q]);
+    }
+    return most;
 }
 
 /* ---- cells near cracks --------------------------------------------------------------------------------- */
@@ -62,8 +76,9 @@ static pg_status find_near (galerkin *g, const pg_cracks *cracks)
     e->nseen = 6 * cracks->n;
     PG_ALLOC (listed, cells->n);
     for (size_t c = 0; c < cells->n; c++) {
+        double far = reach * widest_of (g, c);
         box_of (cells, c, low, high);
-        for (int k = 0; k < 2; k++) low[k] -= reach, high[k] += reach;
+        for (int k = 0; k < 2; k++) low[k] -= far, high[k] += far;
         if (!pg_cracks_near (cracks, low, high)) continue;
         for (size_t k = f->of[c]; k < f->of[c + 1]; k++)
             for (int side = 0; side < 2; side++)
@@ -107,7 +122,7 @@ static void look_for_tips (galerkin *g, const pg_cracks *cracks)
                 box_of (&g->problem->cells, e->near[c].cell, low, high);
                 double a = fmax (fmax (low[0] - x[0], x[0] - high[0]), 0),
                        b = fmax (fmax (low[1] - x[1], x[1] - high[1]), 0);
-                if (hypot (a, b) <= reach) e->near[c].failed = 1;
+                if (hypot (a, b) <= reach * widest_of (g, e->near[c].cell)) e->near[c].failed = 1;
             }
         }
 }

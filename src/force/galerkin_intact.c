@@ -38,13 +38,15 @@ static int same_stiffness (const galerkin *g, const pg_problem *run)
     return g->K && !g->all_stale && run->nmaterial == 1 && run->nlaw == 1 && !g->dilatation;
 }
 
-/* Boundary facets of the bare problem are others than those of the run: only nodes and points are kept. */
+/* Boundary facets of the bare problem are others than those of the run: only nodes and points are kept,
+ * unless their supports are others too. */
 pg_status galerkin_lend (void *self, const pg_state *state, pg_problem *problem)
 {
     pg_status status = PG_OK;
     galerkin *g = self;
     pg_intact *kept = NULL;
-    if (problem->intact || g->borrows[PG_NODES] || g->borrows[PG_POINTS]) return PG_OK;
+    if (problem->intact || g->borrows[PG_NODES] || g->borrows[PG_POINTS] || g->problem->wide_at_cracks)
+        return PG_OK;
     if (!galerkin_all_alive (g, PG_NODES, state)
         || !galerkin_all_alive (g, PG_POINTS, state)) return PG_OK;
     PG_ALLOC (kept, 1);

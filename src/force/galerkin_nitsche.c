@@ -319,8 +319,7 @@ static void visit_supports (galerkin *g, double t, visitor visit, void *context)
     for (size_t i = 0; i < g->nnitsche; i++) {
         const constraint *q = &g->nitsche[i];
         double u = g->u[PG_FACETS][q->point * dim + (size_t) q->component];
-        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
-                                     g->rows[PG_FACETS].x + q->point * dim, t);
+        double goal = galerkin_prescribed (g, q, PG_FACETS, t);
         visit (context, PG_FACETS, q->point, q->load, q->component,
                g->rows[PG_FACETS].weight[q->point]
                    * (nitsche_traction (g, q, u - goal) + galerkin_dilatation_traction (g, q)),
@@ -330,8 +329,7 @@ static void visit_supports (galerkin *g, double t, visitor visit, void *context)
         const constraint *q = &g->penalty[i];
         size_t node = (size_t) g->penalty_node[q->point];
         double u = g->u[PG_NODES][node * dim + (size_t) q->component];
-        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
-                                     g->rows[PG_NODES].x + node * dim, t);
+        double goal = galerkin_prescribed (g, q, PG_NODES, t);
         visit (context, PG_NODES, node, q->load, q->component, -penalty (g, q) * (u - goal), goal);
     }
 }
@@ -478,8 +476,7 @@ static void add_adjoint (galerkin *g, double t, double *f)
     size_t dim = (size_t) g->dim;
     for (size_t i = 0; i < g->nnitsche; i++) {
         const constraint *q = &g->nitsche[i];
-        double QD[6], part[3],
-            goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim, r->x + q->point * dim, t);
+        double QD[6], part[3], goal = galerkin_prescribed (g, q, PG_FACETS, t);
         double gap = r->weight[q->point] * (g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal);
         traction_of_strain (g, q->point, q->component, QD);
         for (size_t e = r->family.start[q->point]; e < r->family.start[q->point + 1]; e++) {
@@ -527,8 +524,7 @@ double galerkin_boundary_energy (galerkin *g, double t)
     for (size_t i = 0; i < g->nnitsche; i++) {
         const constraint *q = &g->nitsche[i];
         if (!pg_problem_owns (g->problem, PG_FACETS, q->point)) continue;
-        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
-                                     g->rows[PG_FACETS].x + q->point * dim, t);
+        double goal = galerkin_prescribed (g, q, PG_FACETS, t);
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component] - goal;
         sum -= g->rows[PG_FACETS].weight[q->point] * gap * 0.5
                * (nitsche_traction (g, q, gap) + nitsche_traction (g, q,
@@ -538,8 +534,7 @@ double galerkin_boundary_energy (galerkin *g, double t)
         const constraint *q = &g->penalty[i];
         size_t node = (size_t) g->penalty_node[q->point];
         if (!pg_problem_owns (g->problem, PG_NODES, node)) continue;
-        double goal = pg_load_value (&g->problem->load[q->load], q->component, g->dim,
-                                     g->rows[PG_NODES].x + node * dim, t);
+        double goal = galerkin_prescribed (g, q, PG_NODES, t);
         double gap = g->u[PG_NODES][node * dim + (size_t) q->component] - goal;
         sum += 0.5 * penalty (g, q) * gap * gap;
     }
@@ -574,8 +569,9 @@ static void write_pair (void *context, int set, size_t point, int load, int k, d
 {
     writing *w = context;
     const pg_problem *p = w->g->problem;
+    double at[3];
     if (!pg_problem_owns (p, set, point)) force = 0;
-    pg_load_add_moment (&p->load[load], p->dim, w->g->rows[set].x + point * (size_t) p->dim, k, force,
+    pg_load_add_moment (&p->load[load], p->dim, galerkin_place (w->g, set, point, at), k, force,
                         w->out->reaction + 3 * (p->nload + (size_t) load));
     w->out->force[w->at] = force, w->out->displacement[w->at++] = displacement;
     w->out->reaction[load * 3 + k] += force;

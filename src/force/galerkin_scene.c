@@ -146,8 +146,9 @@ static int projects (const pg_scene *scene)
 }
 
 /* Spacings by which wider supports (pg_rows_widen) reach beyond a horizon (at most 1.6 in 130 random bodies
- * at horizons of 1.5 to 3.5); cells between a host and its small guests and what these need, twice. */
-enum { WIDER = 2, HOSTS = 2 };
+ * at horizons of 1.5 to 3.5, at most 3 beside cracks of 80 more); cells between a host and its small guests
+ * and what these need, twice. */
+enum { WIDER = 2, WIDER_AT_CRACKS = 4, HOSTS = 2 };
 
 /* Of ranks that share the body. The row of an owned node is made of the points within one horizon of it,
  * whose shape functions lean on nodes within one horizon of theirs. With consistent integration all points
@@ -158,10 +159,11 @@ enum { WIDER = 2, HOSTS = 2 };
 double galerkin_ghost_cells (const pg_scene *scene, double *beyond)
 {
     int patches = projects (scene),
-        consistent = pg_integration_of (scene, 1)->consistent;
-    double cells = (patches ? 8 : 2) + WIDER + (consistent ? HOSTS : 0);
+        consistent = pg_integration_of (scene, 1)->consistent,
+        wider = pg_scene_given (scene, "cracks") ? WIDER_AT_CRACKS : WIDER;
+    double cells = (patches ? 8 : 2) + wider + (consistent ? HOSTS : 0);
     *beyond = cells;
-    return cells + 1 + WIDER;
+    return cells + 1 + wider;
 }
 
 /* One line for the plan. */

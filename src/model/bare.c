@@ -40,6 +40,32 @@ done:
     return status;
 }
 
+/* Nodes and evaluation points with the supports that they have without the cracks: wider ones show the intact
+ * body so evenly that it may be soft in modes that the cracked one has not. */
+static pg_status make_uncracked (pg_problem *out, const pg_problem *p)
+{
+    pg_status status = PG_OK;
+    pg_family_search *search = NULL;
+    pg_widened w = { 0 };
+    out->rows[PG_NODES] = out->rows[PG_POINTS] = (pg_rows) { 0 }, out->consistency = NULL;
+    out->wide_at_cracks = 1;
+    PG_TRY (pg_rows_search (&search, &p->approx, &p->cloud));
+    for (int s = PG_NODES; s <= PG_POINTS; s++) {
+        const pg_rows *r = &p->rows[s];
+        pg_free (w.blind), w.blind = NULL;
+        PG_TRY (pg_rows_place (&out->rows[s], search, &p->cloud, r->n, r->x, r->weight, r->own, r->cell,
+                               r->eye, p->threads));
+        PG_TRY (pg_rows_widen (&out->rows[s], &p->approx, &p->cloud, NULL, NULL, p->threads, &w));
+    }
+    if (p->consistency)
+        PG_TRY (pg_consistency_create (&out->consistency, &p->cells, &p->approx, &p->cloud,
+                                       &out->rows[PG_POINTS], p->facet_order, p->threads));
+done:
+    pg_free (w.blind);
+    pg_family_search_free (&search);
+    return status;
+}
+
 /* A traction of no size: it says which facets there are, and how deep below them points bear it. */
 static pg_status make_load (pg_problem *out, const pg_problem *p)
 {
@@ -65,10 +91,10 @@ done:
     return status;
 }
 
-/* Copies the struct and replaces what it does not share. Shared are cloud, cells, body and the bonds of
- * points; its own are the points on facets, the marks of bonds (none broken), one load, one material and
- * one criterion. Whoever frees it must use pg_problem_bare_free: pg_problem_free would take the shared
- * parts along. */
+/* Copies the struct and replaces what it does not share. Shared are cloud, cells, body and, unless cracks
+ * have made supports wider, the bonds of points; its own are the points on facets, the marks of bonds (none
+ * broken), one load, one material and one criterion. Whoever frees it must use pg_problem_bare_free:
+ * pg_problem_free would take the shared parts along. */
 pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
 {
     pg_status status = PG_OK;
@@ -78,7 +104,7 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     *b = *p;
     b->cracks = b->slots = (pg_cracks) { 0 }, b->tip = NULL, b->ntip = 0, b->front = NULL, b->nfront = 0;
     b->criterion = NULL, b->load = NULL, b->nload = 0, b->facet_normal = NULL;
-    b->rows[PG_FACETS] = (pg_rows) { 0 };
+    b->rows[PG_FACETS] = (pg_rows) { 0 }, b->wide_at_cracks = 0;
     for (int s = 0; s < PG_BOND_SETS; s++)
         b->block[s] = b->law_of[s] = b->limit_of[s] = NULL, b->exempt[s] = NULL;
     b->vary = NULL, b->law = NULL, b->limit = NULL, b->nlaw = b->nlimit = 1;
@@ -90,6 +116,8 @@ pg_status pg_problem_bare (pg_problem **out, const pg_problem *p)
     *b->material = *stiffest (p);
     PG_ALLOC (b->criterion, 1);
     b->law = b->material, b->limit = b->criterion;
+    /* patches of the dilatation know the nodes of points */
+    if (p->wide_at_cracks && !p->patches) PG_TRY (make_uncracked (b, p));
     if (p->method->shape_functions) PG_TRY (make_surface (b, p));
     else b->rows[PG_FACETS] = p->rows[PG_FACETS];
     PG_TRY (make_load (b, p));
@@ -119,6 +147,10 @@ void pg_problem_bare_free (pg_problem **bare)
     if (b->method->shape_functions) {
         pg_rows_clear (&b->rows[PG_FACETS]);
         pg_free (b->facet_normal);
+    }
+    if (b->wide_at_cracks) {
+        pg_rows_clear (&b->rows[PG_NODES]), pg_rows_clear (&b->rows[PG_POINTS]);
+        pg_consistency_free (&b->consistency);
     }
     for (int s = 0; s < PG_BOND_SETS; s++) pg_free (b->block[s]), pg_free (b->exempt[s]);
     pg_free (b->spacing[PG_FACETS]), pg_free (b->material), pg_free (b->criterion), pg_free (b->borne);

@@ -77,21 +77,88 @@ static void tell_blind (pg_problem *p, const char *what, const pg_rows *r, const
     if (own)
         pg_problem_note (p,
                          PG_WARNING "%zu %s%s, such as that at (%s) m, see%s too little for a strain even "
-                                    "within %g horizons: the body is thinner there than the spacing; use a "
-                                    "smaller spacing",
+                                    "within %g horizons: the body, or what cracks leave of it, is thinner "
+                                    "there than the spacing; use a smaller "
+                                    "spacing",
                          own, what, own == 1 ? "" : "s", at, own == 1 ? "s" : "", PG_WIDEST_SUPPORT);
 }
 
-/* Wider supports for the places of a set that see too little. */
+/* Places of a set, and which of them are so near to a crack that it may hide a node. */
+typedef struct { const pg_problem *p; const pg_rows *rows; unsigned char *near; } looking;
+
+/* Does a bond between place and node live when the run begins? */
+static int sees (void *context, size_t place, int node)
+{
+    const looking *l = context;
+    size_t dim = (size_t) l->p->dim;
+    return !l->near[place] || node == l->rows->own[place]
+           || !pg_bond_cut_first (l->p, l->rows->x + place * dim, l->p->cloud.x + (size_t) node * dim);
+}
+
+/* The places whose supports, however wide, end at a crack. */
+static pg_status find_near (looking *l)
+{
+    pg_status status = PG_OK;
+    const pg_problem *p = l->p;
+    size_t dim = (size_t) p->dim;
+    double low[3], high[3], ratio = 1;
+    for (size_t i = 0; p->cloud.size && i < p->cloud.n; i++)
+        ratio = fmax (ratio, pg_cloud_ratio (&p->cloud, i));
+    PG_ALLOC (l->near, l->rows->n);
+    for (size_t q = 0; q < l->rows->n; q++) {
+        for (size_t k = 0; k < dim; k++) {
+            double reach = PG_WIDEST_SUPPORT * ratio * p->approx.horizon;
+            low[k] = l->rows->x[q * dim + k] - reach, high[k] = l->rows->x[q * dim + k] + reach;
+        }
+        l->near[q] = pg_cracks_near (pg_state_cracks (p, NULL), low, high)
+                     || pg_cracks_near (&p->slots, low, high);
+    }
+done:
+    return status;
+}
+
+/* Does a crack hide a node of a place? */
+static int is_beside (looking *l, size_t q)
+{
+    const pg_family *f = &l->rows->family;
+    for (size_t e = f->start[q]; l->near[q] && e < f->start[q + 1]; e++)
+        if (!sees (l, q, f->node[e])) return 1;
+    return 0;
+}
+
+/* Is a support wider that ends at a crack? On ranks that share the body: on any of them. */
+static pg_status note_wide (pg_problem *p, looking *l)
+{
+    pg_status status = PG_OK;
+    const pg_rows *r = l->rows;
+    double wide = 0;
+    for (size_t q = 0; r->wide && q < r->n && wide == 0; q++) wide = r->wide[q] > 1 && is_beside (l, q);
+    if (p->cloud.subdomain) PG_TRY (pg_ranks_sum (1, &wide));
+    if (wide > 0) p->wide_at_cracks = 1;
+done:
+    return status;
+}
+
+/* Wider supports for the places of a set that see too little, whether the body ends there or a crack runs
+ * by. Of those inside that still see too little beside a crack the run tells, as of those beside cracks that
+ * have grown. */
 static pg_status widen (pg_problem *p, int set)
 {
     static const char *const what[PG_BOND_SETS] = { "point", "evaluation point", "boundary point" };
     pg_status status = PG_OK;
     pg_widened w = { 0 };
-    PG_TRY (pg_rows_widen (&p->rows[set], &p->approx, &p->cloud, NULL, NULL, p->threads, &w));
+    looking l = { .p = p, .rows = &p->rows[set] };
+    int cracked = p->cracks.n + p->slots.n > 0;
+    if (cracked) PG_TRY (find_near (&l));
+    PG_TRY (pg_rows_widen (&p->rows[set], &p->approx, &p->cloud, cracked ? sees : NULL, &l, p->threads, &w));
+    if (cracked && set != PG_FACETS) PG_TRY (note_wide (p, &l));
+    size_t blind = w.nblind;
+    w.nblind = 0;
+    for (size_t k = 0; k < blind; k++)
+        if (!cracked || set == PG_FACETS || !is_beside (&l, w.blind[k])) w.blind[w.nblind++] = w.blind[k];
     tell_blind (p, what[set], &p->rows[set], &w, p->held[set].owned);
 done:
-    pg_free (w.blind);
+    pg_free (w.blind), pg_free (l.near);
     return status;
 }
 

@@ -6,7 +6,8 @@
 #include <math.h>
 #include <stdlib.h>
 
-/* How far apart the ends of a bond may be along an axis, m. Partial volumes reach half a cell further. */
+/* How far apart the ends of a bond may be along an axis, m, where supports are no wider than usual. Partial
+ * volumes reach half a cell further. */
 static double reach_of (const pg_problem *p)
 {
     double largest = 1, reach = 0;
@@ -64,15 +65,16 @@ pg_status pg_bonds_cut_by (const pg_state *s, const pg_problem *p, pg_crack *pie
     PG_TRY (pg_cracks_index (&fresh));
     for (size_t c = 0; c < n; c++)
         for (size_t k = 0; k < dim; k++)
-            all[k] = fmin (all[k], fresh.box[2 * dim * c + k] - reach),
-            all[3 + k] = fmax (all[3 + k], fresh.box[2 * dim * c + dim + k] + reach);
+            all[k] = fmin (all[k], fresh.box[2 * dim * c + k]),
+            all[3 + k] = fmax (all[3 + k], fresh.box[2 * dim * c + dim + k]);
     for (int set = 0; set < PG_BOND_SETS; set++)
         for (size_t q = 0; q < p->rows[set].n; q++) {
             const double *x = p->rows[set].x + dim * q;
+            double far = p->rows[set].wide ? reach * p->rows[set].wide[q] : reach;
             int away = 0;
-            for (size_t k = 0; k < dim && !away; k++) away = x[k] < all[k] || x[k] > all[3 + k];
+            for (size_t k = 0; k < dim; k++) low[k] = x[k] - far, high[k] = x[k] + far;
+            for (size_t k = 0; k < dim && !away; k++) away = high[k] < all[k] || low[k] > all[3 + k];
             if (away) continue;
-            for (size_t k = 0; k < dim; k++) low[k] = x[k] - reach, high[k] = x[k] + reach;
             if (pg_cracks_near (&fresh, low, high)) PG_TRY (cut_at (s, p, &fresh, set, q, cut));
         }
     if (before) sort_changes (cut);

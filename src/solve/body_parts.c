@@ -229,24 +229,70 @@ static pg_status square_motions (const body_parts *out, const pg_problem *p, dou
     return pg_ranks_sum (SQUARES * out->n, moved);
 }
 
+/* For pg_search. */
+static int ascending_facets (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
+
+/* The part that a point of a facet lies on, by the nearest of the nodes that it sees, -1: it sees none. */
+static long part_at (const body_parts *out, const pg_system *s, size_t q)
+{
+    const pg_problem *p = s->problem;
+    const pg_rows *r = &p->rows[PG_FACETS];
+    size_t dim = (size_t) p->dim;
+    double best = INFINITY;
+    long part = -1;
+    for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {
+        double square = 0;
+        size_t node = (size_t) r->family.node[e];
+        if (s->alive && !s->alive[p->first_bond[PG_FACETS] + e]) continue;
+        for (size_t k = 0; k < dim; k++) square += pow (p->cloud.x[node * dim + k] - r->x[q * dim + k], 2);
+        if (square < best) best = square, part = out->of[node];
+    }
+    return part;
+}
+
+/* What a support resists that acts on facets, which a set may have where it has no points. */
+static void resist_facets (const body_parts *out, const pg_system *s, const pg_load *load, double *A)
+{
+    const pg_problem *p = s->problem;
+    const pg_rows *r = &p->rows[PG_FACETS];
+    for (size_t q = 0; q < r->n; q++) {
+        if (!pg_problem_owns (p, PG_FACETS, q)
+            || !pg_search (&r->cell[q], load->set->facet, load->set->nfacet, sizeof (int), ascending_facets))
+            continue;
+        long part = part_at (out, s, q);
+        if (part >= 0)
+            resist (&out->part[part], p->dim, load, r->x + q * (size_t) p->dim, A + SQUARES * (size_t) part);
+    }
+}
+
+/* What a load resists of the motions of all parts. */
+static void resist_all (const body_parts *out, const pg_system *s, const pg_load *load, double *A)
+{
+    const pg_problem *p = s->problem;
+    if (pg_load_prescribes (load) && load->essential == PG_ESSENTIAL_NITSCHE) {
+        resist_facets (out, s, load, A);
+        return;
+    }
+    for (size_t i = 0; i < load->set->npoint; i++) {
+        size_t at = (size_t) load->set->point[i], r = (size_t) out->of[at];
+        if (pg_owns (p->cloud.subdomain, at))
+            resist (&out->part[r], p->dim, load, p->cloud.x + at * (size_t) p->dim, A + SQUARES * r);
+    }
+}
+
 /* The motions of every part that nothing resists. */
 static pg_status find_free (body_parts *out, const pg_system *s)
 {
     pg_status status = PG_OK;
     const pg_problem *p = s->problem;
     const int *which;
-    size_t dim = (size_t) p->dim, n = numbers_of (p->dim, &which);
+    size_t n = numbers_of (p->dim, &which);
     double *A = NULL, *moved = NULL;
     PG_ALLOC (A, SQUARES * out->n);
     PG_ALLOC (moved, SQUARES * out->n);
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
-        if (!pg_load_prescribes (load) && load->kind != PG_SPRING) continue;
-        for (size_t i = 0; i < load->set->npoint; i++) {
-            size_t at = (size_t) load->set->point[i], r = (size_t) out->of[at];
-            if (pg_owns (p->cloud.subdomain, at))
-                resist (&out->part[r], p->dim, load, p->cloud.x + at * dim, A + SQUARES * r);
-        }
+        if (pg_load_prescribes (load) || load->kind == PG_SPRING) resist_all (out, s, load, A);
     }
     PG_TRY (pg_ranks_sum (SQUARES * out->n, A));
     PG_TRY (square_motions (out, p, moved));

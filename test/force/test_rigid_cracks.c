@@ -116,11 +116,125 @@ static void rigid_motions_strain_nothing (void **state)
     assert_int_equal (wrong, 0);
 }
 
+/* A coarse body with cracks, held where `held` says and moved as a rigid one by that support alone: the
+ * energy of its strains over that of a strain as large as the turn. *few: share of the points of evaluation
+ * that see too little. */
+static double energy_of_turn (int dim, const char *method, double spacing, const char *lattice,
+                              const char *cracks, const char *held, double *few)
+{
+    run r = scene_of (1, "dimension: %d\nbody: [{add: {box: {low: [0, 0%s], high: [1, 0.8%s]}}}]\n"
+                         "spacing: %.15g\n%scracks: [%s]\n"
+                         "materials: {m: {youngs_modulus: 1, poissons_ratio: 0.3}}\n"
+                         "method: {%s}\nsets: {held: {boundary: [all], where: \"%s\"}}\n"
+                         "boundary: [{set: held, displacement: {x: \"0.002 m - 0.001*y\", "
+                         "y: \"-0.001 m + 0.001*x\"%s}}]\nsolver: {kind: static}\n",
+                      dim, dim == 3 ? ", 0" : "", dim == 3 ? ", 0.6" : "", spacing, lattice, cracks, method,
+                      held, dim == 3 ? ", z: 0.003" : "");
+    to_the_end (&r);
+    const pg_statistics *s = pg_solver_report (r.solver, r.state);
+    double energy = s->energy_strain / (0.5 * 1e-6);
+    *few = (double) s->degenerate_points / (double) r.problem->rows[PG_POINTS].n;
+    if (energy > 1e-12)
+        print_message ("  %dD %s: %.1e at spacing %g, %scracks: %s held: %s\n", dim, method, energy, spacing,
+                       lattice, cracks, held);
+    clear (&r);
+    return energy;
+}
+
+/* One to three cracks anywhere in a body of 1 x 0.8 (x 0.6), of two segments (in space: a triangle) each. */
+static void random_cracks (unsigned *seed, int dim, char *out, size_t size)
+{
+    int n = 1 + (int) between (seed, 0, 2.999), used = 0;
+    for (int k = 0; k < n; k++) {
+        used += snprintf (out + used, size - (size_t) used, "%s{%s: [", k ? ", " : "",
+                          dim == 3 ? "polygon" : "polyline");
+        double x[3] = { between (seed, 0.1, 0.9), between (seed, 0.1, 0.7), between (seed, 0.1, 0.5) };
+        for (int v = 0; v < 3; v++) {
+            used += snprintf (out + used, size - (size_t) used, "%s[%.15g, %.15g", v ? ", " : "", x[0], x[1]);
+            used += snprintf (out + used, size - (size_t) used, dim == 3 ? ", %.15g]" : "]", x[2]);
+            for (int c = 0; c < 3; c++) x[c] += between (seed, -0.35, 0.35);
+        }
+        used += snprintf (out + used, size - (size_t) used, "]}");
+    }
+}
+
+static void supports_turn_coarse_bodies (void **state)
+{
+    static const char *const held[] = { "x > -1", "x < 0.3", "y < 0.2", "x > 0.99" },
+                      *const plane[] = { "integration: consistent, horizon: 1.6 spacing",
+                                         "integration: consistent", "integration: gauss" };
+    const char *size = getenv ("PERIGAL_TEST_SIZE"), *given = getenv ("PERIGAL_SEED");
+    int times = size && strcmp (size, "long") == 0 ? 300 : 24, wrong = 0;
+    unsigned seed = given ? (unsigned) strtoul (given, NULL, 10) : 1;
+    double few = 0;
+    (void) state;
+    for (int k = 0; k < times; k++) {
+        char cracks[700] = "", lattice[100] = "lattice: cells\n";
+        int dim = k % 3 == 2 ? 3 : 2;
+        double share, h = 1 / between (&seed, dim == 3 ? 5 : 7, dim == 3 ? 7 : 14);
+        random_cracks (&seed, dim, cracks, sizeof cracks);
+        if (between (&seed, 0, 1) < 0.4)
+            snprintf (lattice, sizeof lattice, "lattice: cells\nlattice_offset: [%.15g, %.15g%s]\n",
+                      between (&seed, 0, 1), between (&seed, 0, 1), dim == 3 ? ", 0.3" : "");
+        wrong += !(energy_of_turn (dim, plane[k % 4 % 3], h, lattice, cracks,
+                                   held[(int) between (&seed, 0, 3.999)], &share) <= 1e-12);
+        few += share / times;
+    }
+    print_message ("  %d of %d bodies; %.2g of the points see too little\n", wrong, times, few);
+    assert_int_equal (wrong, 0);
+    check_below (few, 0.006);
+}
+
+/* Cracks of a coarse body grow by facets, three events or as many as there are: a rigid motion strains
+ * nothing afterwards, and derivatives are to the last bit those that are evaluated anew for the grown
+ * cracks. */
+static void grown_cracks_strain_nothing (void **state)
+{
+    const char *size = getenv ("PERIGAL_TEST_SIZE"), *given = getenv ("PERIGAL_SEED");
+    unsigned seed = given ? (unsigned) strtoul (given, NULL, 10) : 7;
+    int times = size && strcmp (size, "long") == 0 ? 60 : 6, grown = 0;
+    (void) state;
+    for (int k = 0; k < times; k++) {
+        char crack[400] = "";
+        double x[VERTICES][2], offset[2] = { between (&seed, 0, 1), between (&seed, 0, 1) };
+        int n = polyline (&seed, offset, 0, x), used = 0;
+        for (int v = 0; v < n; v++)
+            used += snprintf (crack + used, sizeof crack - (size_t) used, "%s[%.15g, %.15g]", v ? ", " : "",
+                              0.8 + 1.5 * x[v][0], 0.8 + 1.5 * x[v][1]);
+        run r = scene_of (1, "dimension: 2\nbody: [{add: {box: {low: [0, 0], high: [1.6, 1.6]}}}]\n"
+                             "spacing: 0.1\nlattice: cells\nlattice_offset: [%.15g, %.15g]\n"
+                             "cracks: [{polyline: [%s]}]\n"
+                             "materials: {m: {youngs_modulus: 1e9, poissons_ratio: 0.3}}\n"
+                             "failure: {criterion: energy_release, fracture_energy: 10}\n"
+                             "method: {integration: consistent, horizon: 1.6 spacing}\n"
+                             "boundary: [{set: bottom, displacement: {x: 0, y: 0}}, "
+                             "{set: top, displacement: {x: 0.0004, y: 0.001}}]\nsolver: {max_events: 3}\n",
+                          offset[0], offset[1], crack);
+        void *self;
+        const pg_force_type *force = pg_solver_force (r.solver, &self);
+        const galerkin *g = self;
+        to_the_end (&r);
+        grown += r.state->events > 0;
+        size_t numbers = 2 * g->sums.family.start[g->sums.n];
+        double *before = pg_calloc (numbers, sizeof *before);
+        memcpy (before, g->sums.dN, numbers * sizeof *before);
+        check_below (fmax (largest (g, 0), largest (g, 1)), 1e-9);
+        check_ok (force->refresh (self, r.state, NULL));
+        assert_memory_equal (before, g->sums.dN, numbers * sizeof *before);
+        pg_free (before);
+        clear (&r);
+    }
+    print_message ("  %d of %d cracks have grown\n", grown, times);
+    assert_true (2 * grown >= times);
+}
+
 int main (void)
 {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test (rigid_motions_strain_nothing),
         cmocka_unit_test (a_kink_on_a_side_divides_the_side),
+        cmocka_unit_test (supports_turn_coarse_bodies),
+        cmocka_unit_test (grown_cracks_strain_nothing),
     };
     return cmocka_run_group_tests_name ("force/rigid_cracks", tests, NULL, NULL);
 }
