@@ -75,6 +75,9 @@ void      pg_body_clear (pg_body *body);
 /* Does x lie in the body? Shapes act in their order; a position within `tolerance` (m) of a surface is
  * inside. */
 int       pg_body_inside (const pg_body *body, const double *x, double tolerance);
+/* What rounding leaves unknown of places within a box, m: four units in the last place of its largest
+ * coordinate. Far from the origin it is more than any share of the spacing that tolerances take. */
+double    pg_rounding (int dim, const double *low, const double *high);
 /* Index of the shape whose surface is nearest to x, and its distance (m; may be NULL). */
 size_t    pg_body_nearest (const pg_body *body, const double *x, double *distance);
 /* What the scene calls this kind: "box", "disk" ... */
@@ -297,6 +300,8 @@ double    pg_cloud_length2 (const pg_cloud *cloud, size_t i, const double *z);
 double    pg_cloud_slender (const pg_cloud *cloud, size_t i);
 /* Smallest local spacing, m. */
 double    pg_cloud_finest (const pg_cloud *cloud);
+/* Places nearer than this are the same, m: 1e-9 spacings, and the rounding of the points. */
+double    pg_cloud_same (const pg_cloud *cloud);
 
 /* ---- points of a mesh ---------------------------------------------------------------------------------- */
 /* The body as a mesh; mesh.n = 0: the scene has none. */

@@ -19,22 +19,25 @@ typedef struct {
     /* Scratch space, and surroundings evaluated lately, one for each thread. */
     pg_neighbourhood *around;
     congruent *known;
+    /* A node nearer than this to a place is at it, m. */
+    double same;
 } evaluation;
 
 #define INLINE static inline __attribute__ ((always_inline))
 
 /* Kernel and, where slopes are asked for, its derivative at q (n). Arguments are limited to 1: a family that
- * includes its edge may hold bonds that are longer by rounding. */
-static void kernel_at (const pg_kernel *kernel, size_t n, double *q, double *k, double *dk)
+ * includes its edge may hold bonds that are longer by rounding; those below `nothing` are 0: at a node a
+ * kernel may have a kink, and rounding would give it a direction. */
+static void kernel_at (const pg_kernel *kernel, double nothing, size_t n, double *q, double *k, double *dk)
 {
-    for (size_t i = 0; i < n; i++) if (q[i] > 1) q[i] = 1;
+    for (size_t i = 0; i < n; i++) q[i] = q[i] > 1 ? 1 : q[i] < nothing ? 0 : q[i];
     kernel->value (n, q, k, dk);
 }
 
 /* Weights and slopes of anisotropic supports: q = sqrt (z' A z) a / a_j, A the measure of the neighbour, and
  * a dw/dx = - w' (a / a_j)^2 A z / q. s->slope holds A z until the kernel is known. */
-INLINE void stretched (size_t dim, const pg_kernel *kernel, const pg_cloud *cloud, const int *node,
-                       pg_neighbourhood *s)
+INLINE void stretched (size_t dim, const pg_kernel *kernel, double nothing, const pg_cloud *cloud,
+                       const int *node, pg_neighbourhood *s)
 {
     const double *metric = cloud->metric, *z = s->z, *ratio = s->ratio;
     const size_t *entry = s->entry;
@@ -50,7 +53,7 @@ INLINE void stretched (size_t dim, const pg_kernel *kernel, const pg_cloud *clou
         }
         q[j] = sqrt (sum) * ratio[j];
     }
-    kernel_at (kernel, s->n, q, s->k, s->sloped ? dk : NULL);
+    kernel_at (kernel, nothing, s->n, q, s->k, s->sloped ? dk : NULL);
     memcpy (s->w, s->k, s->n * sizeof *s->w);
     for (size_t j = 0; s->sloped && j < s->n; j++) {
         double rate = q[j] > 0 ? -dk[j] / q[j] * ratio[j] * ratio[j] : 0;
@@ -59,7 +62,7 @@ INLINE void stretched (size_t dim, const pg_kernel *kernel, const pg_cloud *clou
 }
 
 /* Weights w (|z_j| a / a_j) and slopes a dw/dx = - w' z / |z|. */
-INLINE void radial (size_t dim, const pg_kernel *kernel, pg_neighbourhood *s)
+INLINE void radial (size_t dim, const pg_kernel *kernel, double nothing, pg_neighbourhood *s)
 {
     const double *z = s->z, *ratio = s->ratio;
     double *slope = s->slope, *q = s->q, *dk = s->dk;
@@ -68,7 +71,7 @@ INLINE void radial (size_t dim, const pg_kernel *kernel, pg_neighbourhood *s)
         for (size_t k = 0; k < dim; k++) sum += z[j*dim + k] * z[j*dim + k];
         q[j] = ratio ? sqrt (sum) * ratio[j] : sqrt (sum);
     }
-    kernel_at (kernel, s->n, q, s->k, s->sloped ? dk : NULL);
+    kernel_at (kernel, nothing, s->n, q, s->k, s->sloped ? dk : NULL);
     memcpy (s->w, s->k, s->n * sizeof *s->w);
     for (size_t j = 0; s->sloped && j < s->n; j++) {
         double rate = q[j] > 0 ? -dk[j] / q[j] : 0;
@@ -78,17 +81,17 @@ INLINE void radial (size_t dim, const pg_kernel *kernel, pg_neighbourhood *s)
 }
 
 /* Weights prod_k w (|z_k|) and their slopes by the product rule. */
-static void tensor (const pg_kernel *kernel, pg_neighbourhood *s)
+static void tensor (const pg_kernel *kernel, double nothing, pg_neighbourhood *s)
 {
     size_t dim = (size_t) s->dim;
     for (size_t i = 0; i < s->n * dim; i++)
         s->q[i] = s->ratio ? fabs (s->z[i]) * s->ratio[i / dim] : fabs (s->z[i]);
-    kernel_at (kernel, s->n * dim, s->q, s->k, s->dk);
+    kernel_at (kernel, nothing, s->n * dim, s->q, s->k, s->dk);
     for (size_t j = 0; j < s->n; j++) {
-        const double *z = s->z + j * dim, *w = s->k + j * dim, *dw = s->dk + j * dim;
+        const double *z = s->z + j * dim, *w = s->k + j * dim, *dw = s->dk + j * dim, *q = s->q + j * dim;
         double all = 1;
         for (size_t k = 0; k < dim; k++) {
-            double part = z[k] > 0 ? -dw[k] : z[k] < 0 ? dw[k] : 0;
+            double part = q[k] > 0 ? (z[k] > 0 ? -dw[k] : dw[k]) : 0;
             for (size_t l = 0; l < dim; l++) if (l != k) part *= w[l];
             s->slope[j*dim + k] = s->ratio ? part * s->ratio[j] : part;
             all *= w[k];
@@ -189,9 +192,10 @@ static int gather_rounded (const evaluation *g, size_t i, pg_neighbourhood *s)
 INLINE void weigh_those (const evaluation *g, size_t i, size_t dim, pg_neighbourhood *s)
 {
     size_t first = g->rows->family.start[i], kept = 0;
-    if (g->cloud->metric) stretched (dim, g->a->kernel, g->cloud, g->rows->family.node + first, s);
-    else if (g->a->shape == PG_TENSOR) tensor (g->a->kernel, s);
-    else radial (dim, g->a->kernel, s);
+    double nothing = g->same / s->a;
+    if (g->cloud->metric) stretched (dim, g->a->kernel, nothing, g->cloud, g->rows->family.node + first, s);
+    else if (g->a->shape == PG_TENSOR) tensor (g->a->kernel, nothing, s);
+    else radial (dim, g->a->kernel, nothing, s);
     const int *node = g->rows->family.node + first;
     const double *volume = g->cloud->volume;
     double total = 0, *influence = g->rows->w ? g->rows->w + first : NULL;
@@ -352,7 +356,7 @@ pg_status pg_moment_evaluate (const pg_formula *formula, const pg_approx *a, con
 {
     pg_status status = PG_OK;
     size_t slots = threads < 1 ? 1 : (size_t) threads, most = 0;
-    evaluation g = { formula, a, cloud, rows, alive, list, NULL, NULL };
+    evaluation g = { formula, a, cloud, rows, alive, list, NULL, NULL, pg_cloud_same (cloud) };
     int dim = rows->dim;
     if (dim < 1 || dim > 3 || a->order < 1 || a->order > 2 || !(a->horizon > 0))
         PG_FAIL (PG_E_USAGE, "approximation of order %d in %d dimensions with horizon %g m", a->order, dim,

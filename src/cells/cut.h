@@ -18,8 +18,8 @@
 #include "perigal/cells.h"
 
 typedef struct cut_work cut_work;
-/* A surface this near to a face of the cell, in local coordinates, counts as lying on it: far above
- * rounding, far below any length that matters. */
+/* A surface this near to a face of the cell, in local coordinates, counts as lying on it: far above the
+ * rounding of the computation, far below any length that matters. The rounding of coordinates is added. */
 static const double cut_snap = 1e-10;
 
 /* Numbers of size 1 that differ by less are equal but for rounding. */
@@ -60,6 +60,8 @@ struct pg_cut {
     size_t *start;  int *near;
     /* For each facet: on which sides of the dividing half-planes of its cell it lies, one bit each. */
     int *part;
+    /* Rounding of the coordinates of body and lattice, m. */
+    double rounding;
     /* Workspace of the quadrature, shared by all calls: hence not thread-safe. */
     cut_work *work;
 };
@@ -132,8 +134,10 @@ typedef struct {
     /* Of each surface: its facets, NULL: it is no region of any; 1: this walk passes it over (n). */
     const pg_facets **facets;
     unsigned char *mute;
-    /* Places nearer than this are one, local: rounding, more of it far from the origin. */
-    double rounding;
+    /* Local: places nearer than `rounding` are one, a surface nearer than `snap` to a face of the cell lies
+     * on it, numbers of size 1 that differ by less than `equal` are equal. Each with the rounding of
+     * coordinates. */
+    double rounding, snap, equal;
     /* 1: all surfaces are planes across the axes. Each then divides the whole cell. */
     int square;
     /* Edges of the regions that come near the cell, local: two ends (2D: one), 6 numbers each, and the

@@ -19,20 +19,20 @@ static void find_steepness (const cut_slices *s, int surface, const double *cent
         cut_gradient (q, centre, g);
         for (int k = 0; k < s->dim; k++) size = fmax (size, fabs (g[k])), bent[k] += fabs (q->A[k][k]);
         /* of a round surface about the centre of the cell only rounding is left */
-        if (size < cut_equal) continue;
+        if (size < s->equal) continue;
         for (int k = 0; k < s->dim; k++) steep[k] += fabs (g[k]) / size;
     }
 }
 
 /* Does this order take the axes as the surfaces grow steeper along them, and of equally steep ones first that
  * along which they are bent more? */
-static int rises (const int *order, int dim, const double *steep, const double *bent)
+static int rises (const cut_slices *s, const int *order, const double *steep, const double *bent)
 {
-    for (int k = 1; k < dim; k++) {
+    for (int k = 1; k < s->dim; k++) {
         int a = order[k - 1], b = order[k];
         double rise = steep[b] - steep[a];
-        if (fabs (rise) <= cut_equal) rise = bent[a] - bent[b];
-        if (rise < -cut_equal) return 0;
+        if (fabs (rise) <= s->equal) rise = bent[a] - bent[b];
+        if (rise < -s->equal) return 0;
     }
     return 1;
 }
@@ -50,7 +50,7 @@ int cut_axes (cut_slices *s, const struct pg_cut *cut, int surface, int fixed, i
     find_steepness (s, surface, centre, steep, bent);
     if (fixed >= 0) steep[fixed] = -1;
     for (int p = 0; p < (dim == 3 ? 6 : dim); p++)
-        if (rises (all[p], dim, steep, bent) && !(n > 0 && s->square))
+        if (rises (s, all[p], steep, bent) && !(n > 0 && s->square))
             memcpy (order[n++], all[p], sizeof *order);
     /* rounding in a circle of near ties: any */
     for (int p = 0; n == 0; p++)
@@ -67,5 +67,5 @@ int cut_on_face (const cut_slices *s, size_t i, int axis, int side)
         if (s->low[3*i + (size_t) k] > centre[k] + half[k] + 1e-7
             || s->high[3*i + (size_t) k] < centre[k] - half[k] - 1e-7) return 0;
     }
-    return cut_meets (&s->level[0].q[i], centre, half, 2 * cut_snap);
+    return cut_meets (&s->level[0].q[i], centre, half, 2 * s->snap);
 }

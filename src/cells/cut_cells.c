@@ -9,7 +9,6 @@
  * cells and facets of the uncut lattice. Results do not depend on threads: everything here runs in the
  * order of the lattice. */
 #include "cut.h"
-#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -66,12 +65,12 @@ static void box_of (const pg_lattice *l, const int *i, double *low, double *high
 /* Is entry k of the lists a dividing half-plane? They come last in each list. */
 static int is_half_plane (const builder *m, size_t k) { return m->cut->surface[m->near[k]].shape < 0; }
 
-/* The face of box i (-x +x -y +y -z +z) on which a plane surface lies, to half of cut_snap; -1: none. */
+/* The face of box i (-x +x -y +y -z +z) on which a plane surface lies, to cut_snap and rounding; -1: none. */
 static int face_of (const builder *m, const int *i, int surface)
 {
     const cut_surface *s = &m->cut->surface[surface];
     if (s->axis < 0) return -1;
-    double at = s->origin[s->axis], tolerance = 0.5 * cut_snap * m->l->step[s->axis];
+    double at = s->origin[s->axis], tolerance = 0.5 * cut_snap * m->l->step[s->axis] + m->cut->rounding;
     for (int side = 0; side < 2; side++)
         if (fabs (at - pg_lattice_at (m->l, s->axis, i[s->axis] + side)) <= tolerance)
             return 2 * s->axis + side;
@@ -79,18 +78,19 @@ static int face_of (const builder *m, const int *i, int surface)
 }
 
 /* ---- which surfaces are near --------------------------------------------------------------------------- */
-/* Can the surface come within 2 cut_snap of box i? First by its bounding box, then by a bound of psi in
- * local coordinates (cut_meets). */
+/* Can the surface come within 2 cut_snap, and rounding, of box i? First by its bounding box, then by a bound
+ * of psi in local coordinates (cut_meets). */
 static int is_near (const builder *m, const cut_surface *s, const int *i)
 {
-    double low[3], high[3], centre[3], half[3], all[3] = {1, 1, 1}, origin[3] = {0, 0, 0};
+    double low[3], high[3], centre[3], half[3], all[3] = {1, 1, 1}, origin[3] = {0, 0, 0}, least = INFINITY;
     box_of (m->l, i, low, high);
     for (int k = 0; k < m->l->dim; k++) {
         centre[k] = 0.5 * (low[k] + high[k]), half[k] = 0.5 * (high[k] - low[k]);
+        least = fmin (least, half[k]);
         if (s->low[k] > high[k] + 1e-7 * half[k] || s->high[k] < low[k] - 1e-7 * half[k]) return 0;
     }
     cut_quadric q = cut_local (s, m->l->dim, centre, half);
-    return cut_meets (&q, origin, all, 2 * cut_snap);
+    return cut_meets (&q, origin, all, 2 * (cut_snap + m->cut->rounding / least));
 }
 
 /* For the planes of a mesh seen as a staircase: does the staircase have a step at that face of box i? */
@@ -246,7 +246,8 @@ done:
 }
 
 /* Adds the parts of surface f.surface in the prepared cell that have an area. A part that covers a whole
- * face of the box (to m->least) becomes that face, with nodes of its own. */
+ * face of the box but for what a surface takes that counts as lying on the next one becomes that face, with
+ * nodes of its own. */
 static pg_status find_parts (builder *m, one_facet f)
 {
     pg_status status = PG_OK;
@@ -255,7 +256,7 @@ static pg_status find_parts (builder *m, one_facet f)
     for (f.part = 0; f.part < parts; f.part++) {
         PG_TRY (cut_work_piece (m->cut->work, f.surface, f.part, &f.piece));
         if (!(f.piece.size > m->least * full)) continue;
-        f.face = face >= 0 && f.piece.size >= (1 - m->least) * full ? face : -1;
+        f.face = face >= 0 && f.piece.size >= (1 - m->least - cut_snap) * full ? face : -1;
         PG_TRY (put (m, &f));
     }
 done:
@@ -373,12 +374,13 @@ static pg_status prepare (builder *m, const pg_body *body, double thickness, siz
     pg_status status = PG_OK;
     m->n = (size_t) m->l->count[0] * (size_t) m->l->count[1] * (size_t) m->l->count[2];
     m->whole = m->l->dim == 3 ? 1 : thickness, m->least = 1e-13;
-    for (int k = 0; k < m->l->dim; k++) {
-        double far = fmax (fabs (m->l->origin[k]), fabs (m->l->high[k]));
-        m->whole *= m->l->step[k];
-        m->least = fmax (m->least, 1e-13 + 16 * DBL_EPSILON * far / m->l->step[k]);
-    }
     PG_ALLOC (m->cut, 1);
+    m->cut->rounding = fmax (pg_rounding (m->l->dim, m->l->origin, m->l->high),
+                             pg_rounding (m->l->dim, body->low, body->high));
+    for (int k = 0; k < m->l->dim; k++) {
+        m->whole *= m->l->step[k];
+        m->least = fmax (m->least, 1e-13 + 4 * m->cut->rounding / m->l->step[k]);
+    }
     PG_TRY (cut_surfaces (m->cut, body, m->l, nray, ray));
     PG_TRY (cut_work_create (&m->cut->work, m->cut, m->l->dim == 3 ? 1 : thickness));
     PG_TRY (find_near (m));

@@ -13,7 +13,6 @@
  * (a soft split). The substitution x = e +- s^2 makes the integrand smooth again, so that the error falls
  * exponentially with the order there too. */
 #include "cut.h"
-#include <float.h>
 #include <math.h>
 #include <string.h>
 
@@ -149,9 +148,10 @@ pg_status cut_work_cell (cut_work *w, const double *low, const double *high, siz
     while (w->real > 0 && w->cut->surface[near[w->real - 1]].shape < 0) w->real--;
     for (int k = 0; k < s->dim; k++)
         w->centre[k] = 0.5 * (low[k] + high[k]), w->half[k] = 0.5 * (high[k] - low[k]);
-    s->rounding = 1e-13;
-    for (int k = 0; k < s->dim; k++)
-        s->rounding = fmax (s->rounding, 1e-13 + 4 * DBL_EPSILON * fabs (w->centre[k]) / w->half[k]);
+    double least = w->half[0];
+    for (int k = 1; k < s->dim; k++) least = fmin (least, w->half[k]);
+    s->rounding = 1e-13 + w->cut->rounding / least;
+    s->snap = cut_snap + s->rounding, s->equal = cut_equal + s->rounding;
     for (size_t i = 0; i < n; i++) {
         const cut_surface *f = &w->cut->surface[near[i]];
         s->number[i] = near[i];
@@ -191,7 +191,7 @@ static int side_of_half_planes (const cut_work *w, const double *at)
 {
     int part = 0;
     for (size_t i = w->real; i < w->all && i < w->real + CUT_HALF_PLANES; i++)
-        part |= (cut_value (&w->slices.level[0].q[i], at) > 1e-9) << (i - w->real);
+        part |= (cut_value (&w->slices.level[0].q[i], at) > w->slices.equal) << (i - w->real);
     return part;
 }
 
@@ -222,7 +222,7 @@ done:
 }
 
 /* Intersections of the present line with all surfaces, ascending in node[1..m] with their owners; those
- * within cut_snap of an end are moved onto it. node[0] = -1 and node[m + 1] = 1 are the ends. Returns m. */
+ * within s->snap of an end are moved onto it. node[0] = -1 and node[m + 1] = 1 are the ends. Returns m. */
 static int line_roots (cut_work *w, const cut_quadric *q)
 {
     cut_slices *s = &w->slices;
@@ -230,9 +230,9 @@ static int line_roots (cut_work *w, const cut_quadric *q)
     for (size_t i = 0; i < s->n; i++) {
         if (s->mute[i]) continue;
         double c[3] = {q[i].c, q[i].b[z], q[i].A[z][z]}, root[2];
-        int n = cut_roots (2, c, s->rounding, -1 - cut_snap, 1 + cut_snap, root);
+        int n = cut_roots (2, c, s->rounding, -1 - s->snap, 1 + s->snap, root);
         for (int r = 0; r < n; r++) {
-            double t = fabs (root[r]) >= 1 - cut_snap ? copysign (1, root[r]) : root[r];
+            double t = fabs (root[r]) >= 1 - s->snap ? copysign (1, root[r]) : root[r];
             s->at[z] = t;
             if (s->facets[i] && !cut_within (s, i)) continue;
             int k = ++m;
@@ -280,7 +280,7 @@ static int line_between_facets (cut_work *w, double weight)
     for (int i = 0; i <= n; i++) {
         double high = i < n ? fmin (1, fmax (-1, (at[i] - w->centre[z]) / w->half[z])) : 1;
         int in = above > 0;
-        if (fabs (high) >= 1 - cut_snap) high = copysign (1, high);
+        if (fabs (high) >= 1 - s->snap) high = copysign (1, high);
         if (high - low > s->rounding) {
             if (known[in] < 0) known[in] = inside (w, 0.5 * (low + high));
             if (known[in]) {

@@ -23,12 +23,14 @@ static double size_of (int degree, const double *c, double far)
     return size;
 }
 
-/* Roots of c[0] + c[1] x + c[2] x^2, ascending. A discriminant within `rounding` of zero, relative to its
- * terms, is zero: the surfaces touch, and rounding alone would tear the double root apart or lose it. The
- * formula for q avoids cancellation. */
+/* Roots of c[0] + c[1] x + c[2] x^2, ascending. A discriminant that may be zero but for an error
+ * `rounding` in each coefficient is zero: the surfaces touch, and rounding alone would tear the double root
+ * apart or lose it. (The error is not relative to the terms, which vanish where surfaces touch in the middle:
+ * it is that of a cell, in which all has size 1.) The formula for q avoids cancellation. */
 static int quadratic (const double *c, double rounding, double *root)
 {
-    double D = c[1] * c[1] - 4 * c[0] * c[2], tiny = rounding * (c[1] * c[1] + fabs (4 * c[0] * c[2]));
+    double D = c[1] * c[1] - 4 * c[0] * c[2],
+           tiny = rounding * (2 * fabs (c[1]) + 4 * fabs (c[2]) + 4 * fabs (c[0]));
     if (D < -tiny) return 0;
     if (D <= tiny) {
         root[0] = -0.5 * c[1] / c[2];
@@ -88,7 +90,7 @@ int cut_roots (int degree, const double *c, double rounding, double low, double 
     int n = 0, kept = 0;
     while (degree > 0 && fabs (c[degree]) * pow (far, degree) <= 1e-14 * size) degree--;
     if (degree == 0) return 0;
-    if (degree > 2) return wider (degree, c, rounding, low, high, 1e-12 * size, root);
+    if (degree > 2) return wider (degree, c, rounding, low, high, fmax (1e-12, rounding) * size, root);
     if (degree == 1) found[0] = -c[0] / c[1], n = 1;
     else n = quadratic (c, rounding, found);
     for (int i = 0; i < n; i++) if (found[i] >= low && found[i] <= high) root[kept++] = found[i];

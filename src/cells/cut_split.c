@@ -14,9 +14,11 @@
 #include "cut.h"
 #include <math.h>
 
-/* near_box: positions this near outside the cell count as in it. flat: a coefficient below this is zero
- * (coefficients have size 1). */
-static const double near_box = 1 + 1e-9, flat = 1e-13;
+/* A coefficient below this is zero (coefficients have size 1). */
+static const double flat = 1e-13;
+
+/* Positions this far from the middle of the cell count as in it. */
+static double near_box (const cut_slices *s) { return 1 + s->equal; }
 
 /* Appends a value. A failed allocation is noted in s->status. */
 static void push (cut_slices *s, cut_list *list, double value)
@@ -68,7 +70,7 @@ static void split_faces (cut_slices *s, cut_level *out, size_t i, const conic *p
 {
     for (int side = -1; side <= 1; side += 2) {
         double c[3] = {p->C[0] + side * p->B[0] + p->a, p->C[1] + side * p->B[1], p->C[2]}, root[2];
-        int n = cut_roots (2, c, s->rounding, -1, 1, root);
+        int n = cut_roots (2, c, s->snap, -1, 1, root);
         for (int r = 0; r < n; r++) {
             s->at[y] = root[r], s->at[z] = side;
             if (cut_within (s, i)) push (s, &out->hard, root[r]);
@@ -84,12 +86,12 @@ static void split_turns (cut_slices *s, cut_level *out, const conic *p)
     if (fabs (p->a) < flat) return;
     double D[3] = { p->B[0] * p->B[0] - 4 * p->a * p->C[0], 2 * p->B[0] * p->B[1] - 4 * p->a * p->C[1],
                     p->B[1] * p->B[1] - 4 * p->a * p->C[2] };
-    int n = cut_roots (2, D, s->rounding, -3 * near_box, 3 * near_box, root);
+    int n = cut_roots (2, D, s->snap, -3 * near_box (s), 3 * near_box (s), root);
     for (int r = 0; r < n; r++) {
         double z = -at_B (p, root[r]) / (2 * p->a);
-        if (fabs (z) > 2 * near_box) continue;
+        if (fabs (z) > 2 * near_box (s)) continue;
         push (s, &out->soft, root[r]);
-        if (fabs (root[r]) < 1 && fabs (z) <= near_box) push (s, &out->hard, root[r]);
+        if (fabs (root[r]) < 1 && fabs (z) <= near_box (s)) push (s, &out->hard, root[r]);
     }
 }
 
@@ -142,7 +144,7 @@ static int heights (const cut_slices *s, const conic *p, double y, double *z)
     double c[3] = {at_C (p, y), at_B (p, y), p->a};
     int n = cut_roots (2, c, s->rounding, -1 - 1e-6, 1 + 1e-6, z);
     if (n == 0 && fabs (p->a) > flat && fabs (at_B (p, y) / (2 * p->a)) < 1
-        && fabs (c[1] * c[1] - 4 * p->a * c[0]) < 1e-9)
+        && fabs (c[1] * c[1] - 4 * p->a * c[0]) < s->equal)
         /* The discriminant of a tangent may come out slightly negative. */
         z[0] = -c[1] / (2 * p->a), n = 1;
     return n;
@@ -154,7 +156,7 @@ static void split_pair (cut_slices *s, cut_level *out, size_t i, size_t j, const
                         int y, int z)
 {
     double R[5], root[CUT_DEGREE + 2], at[2];
-    int n = cut_roots (resultant (p, q, R), R, s->rounding, -1, 1, root);
+    int n = cut_roots (resultant (p, q, R), R, s->snap, -1, 1, root);
     for (int r = 0; r < n; r++) {
         int m = heights (s, p, root[r], at), meet = 0;
         for (int k = 0; k < m; k++) {
@@ -218,12 +220,13 @@ static void split_ends (cut_slices *s, cut_level *out, const cut_quadric *q, int
         v[i] = cut_value (q, at[i]);
     }
     double poly[3] = {v[1], 0.5 * (v[2] - v[0]), 0.5 * (v[2] + v[0]) - v[1]};
-    int n = cut_roots (2, poly, s->rounding, -3 * near_box, 3 * near_box, root);
+    int n = cut_roots (2, poly, s->snap, -3 * near_box (s), 3 * near_box (s), root);
     for (int r = 0; r < n; r++) {
         double Y = at[1][y] + root[r] * (at[2][y] - at[1][y]), Z = at[1][z] + root[r] * (at[2][z] - at[1][z]);
-        if (fabs (Y) > 2 * near_box || fabs (Z) > 2 * near_box) continue;
+        if (fabs (Y) > 2 * near_box (s) || fabs (Z) > 2 * near_box (s)) continue;
         push (s, &out->soft, root[r]);
-        if (fabs (root[r]) < 1 && fabs (Y) <= near_box && fabs (Z) <= near_box) push (s, &out->hard, root[r]);
+        if (fabs (root[r]) < 1 && fabs (Y) <= near_box (s) && fabs (Z) <= near_box (s))
+            push (s, &out->hard, root[r]);
     }
 }
 
@@ -238,7 +241,7 @@ static void split_points (cut_slices *s, cut_level *out, const cut_quadric *thre
     s->given_up += (size_t) given_up;
     for (int r = 0; r < n; r++) {
         int in = 1;
-        for (int k = 0; k < 3; k++) s->at[k] = at[3*r + k], in &= fabs (at[3*r + k]) <= near_box;
+        for (int k = 0; k < 3; k++) s->at[k] = at[3*r + k], in &= fabs (at[3*r + k]) <= near_box (s);
         if (number == 2) push (s, &out->soft, at[3*r + x]);
         for (int k = 0; k < number; k++) in &= cut_within (s, which[k]);
         if (in) push (s, &out->hard, at[3*r + x]);
@@ -325,7 +328,7 @@ static int edge_at (const double *edge, int k, double at, double *x)
 static void push_place (cut_slices *s, cut_list *hard, const double *x, int along, int free)
 {
     for (int k = 0; k < s->dim; k++)
-        if (k != along && k != free && fabs (x[k]) > near_box) return;
+        if (k != along && k != free && fabs (x[k]) > near_box (s)) return;
     if (fabs (x[along]) < 1) push (s, hard, x[along]);
 }
 
@@ -351,7 +354,7 @@ static void split_edge_crossings (cut_slices *s, cut_list *hard, const double *e
             v[e] = cut_value (&s->level[0].q[i], x);
         }
         double poly[3] = { v[0], 4 * v[1] - 3 * v[0] - v[2], 2 * (v[0] + v[2]) - 4 * v[1] };
-        int n = cut_roots (2, poly, s->rounding, -1e-9, 1 + 1e-9, root);
+        int n = cut_roots (2, poly, s->snap, -s->equal, 1 + s->equal, root);
         for (int r = 0; r < n; r++) {
             for (int k = 0; k < 3; k++) s->at[k] = x[k] = edge[k] + root[r] * (edge[3 + k] - edge[k]);
             if (cut_within (s, i)) push_place (s, hard, x, along, -1);
@@ -374,7 +377,8 @@ static void split_edges (cut_slices *s, int level, cut_list *hard)
             split_edge (s, hard, edge, along, -1);
             split_edge_crossings (s, hard, edge, (size_t) s->edge_of[e], along);
         }
-        else if (fabs (edge[fixed] - s->at[fixed]) < 1e-9 && fabs (edge[3 + fixed] - s->at[fixed]) < 1e-9)
+        else if (fabs (edge[fixed] - s->at[fixed]) < s->equal
+                 && fabs (edge[3 + fixed] - s->at[fixed]) < s->equal)
             split_edge (s, hard, edge, along, fixed);
         else if (edge_at (edge, fixed, s->at[fixed], x)) push_place (s, hard, x, along, fixed);
     }

@@ -23,7 +23,7 @@ static int on_the_face (const pg_marks *m, size_t f, int n, int *point)
     for (int k = 0; s && s->axis >= 0 && k < n; k++) {
         double off = m->cloud->x[(size_t) point[k] * (size_t) m->cells->dim + (size_t) s->axis]
                      - s->origin[s->axis];
-        if (fabs (off) <= 1e-9 * m->cloud->step[s->axis]) some[kept++] = point[k];
+        if (fabs (off) <= pg_cloud_same (m->cloud)) some[kept++] = point[k];
     }
     if (kept) memcpy (point, some, (size_t) kept * sizeof *point);
     return kept ? kept : n;
@@ -248,7 +248,7 @@ int pg_marks_boundary (pg_marks *m, const char *name)
 int pg_marks_beyond (const pg_marks *m, int side, const double *x)
 {
     double d = x[side / 2] - m->centre[side / 2];
-    return (side % 2 ? d : -d) > 1e-9 * m->size;
+    return (side % 2 ? d : -d) > 1e-9 * m->size + pg_rounding (m->cloud->dim, m->low, m->high);
 }
 
 /* Facets are judged by their centroid. */

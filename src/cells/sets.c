@@ -171,8 +171,10 @@ typedef struct { size_t n; double *range; } ranges;
 static int in_ranges (const pg_marks *m, const double *x, const void *context)
 {
     const ranges *r = context;
-    double dx = x[0] - m->centre[0], dy = x[1] - m->centre[1], turn = 2 * acos (-1), tolerance = 1e-9;
-    if (!(hypot (dx, dy) > 1e-9 * m->size)) return 0;
+    double dx = x[0] - m->centre[0], dy = x[1] - m->centre[1], turn = 2 * acos (-1),
+           same = 1e-9 * m->size + pg_rounding (m->cloud->dim, m->low, m->high), away = hypot (dx, dy),
+           tolerance = 1e-9 + same / away;
+    if (!(away > same)) return 0;
     for (size_t i = 0; i < r->n; i++) {
         /* Angle past the beginning of the range, in [0, 2 pi). */
         double past = fmod (angle_of (dy, dx) - r->range[2*i], turn);

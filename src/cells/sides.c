@@ -5,7 +5,6 @@
  * really ends in that plane. */
 #include "cut.h"
 #include "mark.h"
-#include <float.h>
 #include <math.h>
 
 /* Coordinate of the plane of a side, m. */
@@ -14,18 +13,17 @@ static double plane_of (const pg_marks *m, int side)
     return side % 2 ? m->high[side / 2] : m->low[side / 2];
 }
 
-/* Distance (m) within which a surface lies in the plane at `face`: relative to the size of the body, and
- * the rounding of coordinates far from the origin. */
-static double slack (const pg_marks *m, double face)
+/* Distance (m) within which a surface lies in a plane of the bounding box. */
+static double slack (const pg_marks *m)
 {
-    return 1e-9 * m->size + 8 * DBL_EPSILON * fabs (face);
+    return 1e-9 * m->size + 2 * pg_rounding (m->cloud->dim, m->low, m->high);
 }
 
 /* A flat surface whose box lies in the plane. */
 static int surface_lies_in (const pg_marks *m, const cut_surface *s, int side)
 {
     /* Files of meshes round coordinates to six or seven digits. */
-    double face = plane_of (m, side), tolerance = s->facets ? 1e-6 * m->size : slack (m, face);
+    double face = plane_of (m, side), tolerance = s->facets ? 1e-6 * m->size : slack (m);
     return s->flat && fabs (s->low[side / 2] - face) <= tolerance
            && fabs (s->high[side / 2] - face) <= tolerance;
 }
@@ -47,7 +45,7 @@ static int body_reaches (const pg_marks *m, size_t f, int side)
 {
     size_t dim = (size_t) m->cells->dim;
     int axis = side / 2, aside = dim > 1 ? 1 << (dim - 1) : 0, reached = aside == 0;
-    double face = plane_of (m, side), depth = pg_body_meshes (m->body) ? 1e-6 * m->size : slack (m, face);
+    double face = plane_of (m, side), depth = pg_body_meshes (m->body) ? 1e-6 * m->size : slack (m);
     /* The last place is the centre. */
     for (int q = 0; q <= aside; q++) {
         double x[3] = {0};

@@ -456,14 +456,11 @@ pg_status pg_between_create (pg_between **out, const pg_body *body, const pg_mes
 {
     pg_status status = PG_OK;
     pg_between *b = NULL;
-    double size = 0;                                   /* of all ranks, so that all answer alike */
     *out = NULL;
     if (pg_body_parts (body, part) <= 0) return PG_OK;
     PG_ALLOC (b, 1);
     b->dim = cloud->dim, b->cloud = cloud;
-    for (int k = 0; k < cloud->dim; k++)
-        size = fmax (size, fmax (fabs (cloud->low[k]), fabs (cloud->high[k])));
-    b->near = 1e-9 * cloud->h + 16 * DBL_EPSILON * size;
+    b->near = pg_cloud_same (cloud);
     if (part->mesh.n) PG_TRY (add_mesh (b, &part->mesh));
     else PG_TRY (add_shapes (b, body));
     if (!b->member->shape && !b->member->faces) goto done;

@@ -3,6 +3,7 @@
  * body. Later shapes win: what is subtracted may be filled again by a shape that is added after it. */
 #include "crack.h"
 #include "shape.h"
+#include <float.h>
 #include <math.h>
 #include <stdio.h>
 #include <string.h>
@@ -168,6 +169,13 @@ static int misses_slot (const pg_shape *s, int dim, const double *x)
 {
     for (int k = 0; k < dim; k++) if (x[k] < s->box[k] || x[k] > s->box[3 + k]) return 1;
     return 0;
+}
+
+double pg_rounding (int dim, const double *low, const double *high)
+{
+    double far = 0;
+    for (int k = 0; k < dim; k++) far = fmax (far, fmax (fabs (low[k]), fabs (high[k])));
+    return 4 * DBL_EPSILON * far;
 }
 
 /* 1 for places in the body or within `tolerance` (m) of its surface, on either side of it: a subtracted

@@ -8,7 +8,6 @@
  * that plane would hold rounding only. */
 #include "shape.h"
 #include "solid.h"
-#include <float.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -61,7 +60,7 @@ static double normal_of (int dim, const double *x, double *n)
 static double snapped (const pg_lattice *l, int k, double x)
 {
     double i = floor ((x - l->origin[k]) / l->step[k] + 0.5), plane = pg_lattice_at (l, k, i);
-    return i >= 0 && i <= l->count[k] && fabs (x - plane) <= 1e-9 * l->step[k] ? plane : x;
+    return i >= 0 && i <= l->count[k] && fabs (x - plane) <= pg_lattice_tolerance (l) ? plane : x;
 }
 
 /* Appends a piece with these corners (dim each; id: their numbers), unless it has no size. */
@@ -454,11 +453,9 @@ done:
 /* The tolerance of planes: 1e-11 of the size of the mesh, and the rounding of its coordinates. */
 static double tolerance_of (const pg_lattice *l)
 {
-    double size = 0, far = 0;
-    for (int k = 0; k < l->dim; k++)
-        size = fmax (size, l->high[k] - l->origin[k]),
-        far = fmax (far, fmax (fabs (l->high[k]), fabs (l->origin[k])));
-    return 1e-11 * size + 16 * DBL_EPSILON * far;
+    double size = 0;
+    for (int k = 0; k < l->dim; k++) size = fmax (size, l->high[k] - l->origin[k]);
+    return 1e-11 * size + 4 * pg_rounding (l->dim, l->origin, l->high);
 }
 
 pg_status pg_faceted_create (pg_shape *out, const pg_shape *mesh, const pg_lattice *lattice)

@@ -19,7 +19,8 @@ enum { CLASSES = 40 };
 
 struct pg_family_search {
     const pg_cloud *cloud;
-    double   reach;
+    /* Of a family, and the distance up to which points belong to it, m. */
+    double   reach, edge;
     pg_nearness near;
     pg_boxes boxes[CLASSES];
     size_t   n;
@@ -63,7 +64,7 @@ done:
 /* How far point i is seen, m. */
 static double reach_of (const pg_family_search *s, size_t i)
 {
-    double far = pg_family_edge (s->reach, s->near);
+    double far = s->edge;
     return s->cloud->size ? far * pg_cloud_ratio (s->cloud, i) : far;
 }
 
@@ -85,7 +86,7 @@ static int meets_box (const pg_family_search *s, size_t i, const double *box)
 static void choose_width (const pg_family_search *s, double least, double *width)
 {
     const pg_cloud *c = s->cloud;
-    double ratio = least / pg_family_edge (s->reach, s->near), filled = 1, axes = 0, extent[3] = { 0 };
+    double ratio = least / s->edge, filled = 1, axes = 0, extent[3] = { 0 };
     for (int k = 0; k < c->dim; k++) {
         double low = INFINITY, high = -INFINITY;
         for (size_t i = 0; i < c->n; i++) {
@@ -198,6 +199,7 @@ pg_status pg_family_search_create (pg_family_search **out, const pg_cloud *cloud
     PG_TRY (check_points (cloud, reach));
     PG_ALLOC (s, 1);
     s->cloud = cloud, s->reach = reach, s->near = (pg_nearness) { shape, closed };
+    s->edge = pg_family_edge (cloud, reach, s->near);
     PG_TRY (sort_points (s, NULL));
     *out = s, s = NULL;
 done:
@@ -498,6 +500,7 @@ pg_status pg_family_build (pg_family *out, const pg_cloud *cloud, size_t n, cons
 {
     pg_status status = PG_OK;
     pg_family_search s = { .cloud = cloud, .reach = reach, .near = { shape, closed } };
+    s.edge = pg_family_edge (cloud, reach, s.near);
     double box[6];
     memset (out, 0, sizeof *out);
     PG_TRY (check_points (cloud, reach));

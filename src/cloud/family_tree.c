@@ -90,8 +90,9 @@ pg_status pg_family_by_tree (pg_family *out, const pg_cloud *cloud, size_t n, co
 {
     pg_status status = PG_OK;
     pg_tree tree = { 0 };
-    double far = pg_family_edge (reach, near);
-    search s = { .tree = &tree, .reach = reach * (1 + 1e-8), .shape = near.shape, .closed = near.closed,
+    double far = pg_family_edge (cloud, reach, near);
+    search s = { .tree = &tree, .reach = fmax (reach, far) * (1 + 1e-8),
+                 .shape = near.shape, .closed = near.closed,
                  .limit = near.shape == PG_RADIAL ? far * far : far,
                  .anisotropic = cloud->metric ? cloud : NULL };
     memset (out, 0, sizeof *out);

@@ -4,23 +4,17 @@
  * counts as inside (to 1e-9 of a step), whichever side it is approached from, so that symmetric bodies have
  * symmetric lattices. */
 #include "perigal/cloud.h"
-#include <float.h>
 #include <limits.h>
 #include <math.h>
 #include <string.h>
 
-/* Far from the origin the rounding of coordinates is coarser than 1e-9 of a step. */
 double pg_lattice_tolerance (const pg_lattice *l)
 {
-    double step = INFINITY, size = 0;
+    double step = INFINITY;
     const double *origin = l->whole[0] ? l->whole_origin : l->origin,
                  *high = l->whole[0] ? l->whole_high : l->high;
-    for (int k = 0; k < l->dim; k++) {
-        step = fmin (step, l->step[k]);
-        size = fmax (size, fmax (fabs (origin[k]), fabs (high[k])));
-    }
-    /* The second term is the rounding of coordinates far from the origin. */
-    return 1e-9 * step + 8 * DBL_EPSILON * size;
+    for (int k = 0; k < l->dim; k++) step = fmin (step, l->step[k]);
+    return 1e-9 * step + pg_rounding (l->dim, origin, high);
 }
 
 /* Number of cells of the body without its layers, in [low, high]; *more: those of the layers on both

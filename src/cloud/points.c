@@ -491,6 +491,11 @@ double pg_cloud_finest (const pg_cloud *cloud)
     return least;
 }
 
+double pg_cloud_same (const pg_cloud *cloud)
+{
+    return 1e-9 * cloud->h + pg_rounding (cloud->dim, cloud->low, cloud->high);
+}
+
 void pg_cloud_clear (pg_cloud *cloud)
 {
     pg_free (cloud->size);

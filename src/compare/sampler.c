@@ -86,7 +86,7 @@ typedef struct {
 static int cut (const pg_problem *p, const double *x, int node)
 {
     return pg_cracks_cut (pg_state_cracks (p, NULL), x, p->cloud.x + (size_t) node * (size_t) p->dim,
-                          1e-9 * p->cloud.h) != NULL;
+                          pg_cloud_same (&p->cloud)) != NULL;
 }
 
 /* If a place has a torn point in reach, gives it the displacement of the nearest point and no

@@ -86,7 +86,8 @@ static pg_status list_broken (faces *w, const pg_cracks *cracks)
         for (size_t e = from; e < to; e++) {
             size_t j = (size_t) w->family->node[e];
             if (w->alive[e] || j <= i || !w->bears[j]
-                || pg_cracks_cut (cracks, x + w->dim * i, x + w->dim * j, 1e-9 * w->p->cloud.h)) continue;
+                || pg_cracks_cut (cracks, x + w->dim * i, x + w->dim * j, pg_cloud_same (&w->p->cloud)))
+                continue;
             PG_GROW (w->broken, w->cap, w->n + 1);
             broken *b = &w->broken[w->n];
             memset (b, 0, sizeof *b);

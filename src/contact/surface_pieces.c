@@ -97,7 +97,8 @@ static pg_status add_cell (surface *w, const pg_crack *c, const sheet *s, const 
         double x[3], u = (double) row + (i / PARTS + 0.5) / PARTS,
                v = (double) column + (i % PARTS + 0.5) / PARTS;
         place (s, s->low[0] + cell[0] * u, s->low[1] + cell[1] * v, x);
-        if (!pg_crack_touches (c, 3, x, 1e-9 * w->p->cloud.h) || !pg_problem_has_body (w->p, x)) continue;
+        if (!pg_crack_touches (c, 3, x, pg_cloud_same (&w->p->cloud))) continue;
+        if (!pg_problem_has_body (w->p, x)) continue;
         in++;
         for (int k = 0; k < 3; k++) d.x[k] += x[k];
     }

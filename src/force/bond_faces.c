@@ -95,7 +95,7 @@ static pg_status search_point (search *s, size_t i)
         size_t place = place_crossed (s, x + dim * i, x + dim * j, &turned);
         /* one that broke beside a crack belongs to no face of it, but to those that it left (add_listed) */
         if (place == SIZE_MAX
-            || !pg_cracks_cut (s->cracks, x + dim * i, x + dim * j, 1e-9 * b->problem->cloud.h))
+            || !pg_cracks_cut (s->cracks, x + dim * i, x + dim * j, pg_cloud_same (&b->problem->cloud)))
             continue;
         if (!bonds.node) point_bonds_at (b, i, 0, &bonds);
         PG_TRY (add_crossing (s, i, &bonds, e, place, turned));

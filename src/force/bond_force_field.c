@@ -312,7 +312,7 @@ static int hidden (void *context, const double *place, size_t point)
     const view *v = context;
     const pg_problem *p = v->problem;
     return pg_cracks_cut (v->cracks, place, p->cloud.x + point * (size_t) p->dim,
-                          1e-9 * p->cloud.h) != NULL;
+                          pg_cloud_same (&p->cloud)) != NULL;
 }
 
 /* Displacement at place x by a first-order expansion about the nearest point on the same side of the

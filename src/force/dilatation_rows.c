@@ -44,9 +44,8 @@ static size_t nearest (const bond_force *b, size_t i, int *node)
 {
     const pg_family *f = b->family;
     double h = pg_problem_spacing (b->problem, PG_NODES, i), ratio = h / b->problem->cloud.h, xi[3];
-    double half = 0.5 * b->problem->sums->rule.horizon * ratio
-                  * (b->problem->sums->rule.kernel->closed ? 1 + 1e-9 : 1 - 1e-9),
-           reach = fmin (half, 1.5 * h * (1 + 1e-9));
+    double half = 0.5 * b->problem->sums->rule.horizon * ratio, same = pg_cloud_same (&b->problem->cloud),
+           reach = fmin (half + (b->problem->sums->rule.kernel->closed ? same : -same), 1.5 * h + same);
     size_t m = 0;
     for (size_t e = f->start[i]; e < f->start[i + 1] && m < NEAR; e++) {
         double rr = 0;

@@ -281,7 +281,7 @@ static double overlap_by_bond (const galerkin *g, const pg_state *state, size_t 
     const double *x = g->rows[PG_NODES].x;
     double n[3] = { 0 }, along = 0, size = 0;
     const pg_crack *c = pg_cracks_cut (pg_state_cracks (g->problem, state), x + p * dim, x + j * dim,
-                                       1e-9 * g->problem->cloud.h);
+                                       pg_cloud_same (&g->problem->cloud));
     if (!c && pg_problem_grows (g->problem)) return 0;
     for (size_t a = 0; a < dim; a++) size += xi[a] * xi[a], along += c ? xi[a] * c->normal[a] : 0;
     size = sqrt (size);

@@ -54,7 +54,8 @@ static void look (void *context, size_t first, size_t last, int thread)
         size_t q = l->list ? l->list[i] : i;
         for (size_t b = l->rows->family.start[q]; b < l->rows->family.start[q + 1]; b++)
             l->alive[b] = !pg_cracks_cut (l->cracks, l->eye + 2 * q,
-                                          cloud->x + 2 * (size_t)l->rows->family.node[b], 1e-9 * cloud->h);
+                                          cloud->x + 2 * (size_t)l->rows->family.node[b],
+                                          pg_cloud_same (cloud));
     }
 }
 

@@ -32,7 +32,7 @@ typedef struct {
 static int cut (const sampling *s, const double *x, const double *y)
 {
     const pg_problem *p = s->g->problem;
-    return pg_cracks_cut (pg_state_cracks (p, s->state), x, y, 1e-9 * p->cloud.h) != NULL;
+    return pg_cracks_cut (pg_state_cracks (p, s->state), x, y, pg_cloud_same (&p->cloud)) != NULL;
 }
 
 static const double *node_at (const galerkin *g, int node)
@@ -192,6 +192,45 @@ static void add_pressure (const sampling *s, const pg_rows *r, size_t at, size_t
     for (int k = 0; k < 3 && share > 0.1; k++) stress[k] += sum / share;
 }
 
+/* Evaluation points as near to a place as the nearest, at most. */
+enum { TIES = 16 };
+typedef struct { const sampling *s; size_t n, point[TIES]; } nearest_points;
+
+static int passed_over (void *context, const double *place, size_t point)
+{
+    const nearest_points *t = context;
+    for (size_t k = 0; k < t->n; k++) if (t->point[k] == point) return 1;
+    return !t->s->intact && cut (t->s, place, t->s->g->rows[t->s->g->bulk].x + point * (size_t) t->s->g->dim);
+}
+
+/* u and its gradient at x as those of the nearest evaluation point q go on, in the mean of all that are as
+ * near: numbers and rounding choose none of them. */
+static void go_on_from (const sampling *s, const double *x, size_t q, double *u, double *H)
+{
+    const galerkin *g = s->g;
+    const pg_rows *bulk = &g->rows[g->bulk];
+    size_t dim = (size_t) g->dim;
+    double from[3], G[9], first = 0;
+    nearest_points t = { .s = s };
+    memset (u, 0, 3 * sizeof *u), memset (H, 0, 9 * sizeof *H);
+    for (long j = (long) q; j >= 0;
+         j = t.n < TIES ? pg_nearest_find (g->near_point, x, passed_over, &t) : -1) {
+        double away = 0, z[3];
+        for (size_t k = 0; k < dim; k++)
+            z[k] = x[k] - bulk->x[(size_t) j * dim + k], away = hypot (away, z[k]);
+        if (t.n == 0) first = away;
+        if (away > first + 1e-6 * g->problem->cloud.h) break;
+        t.point[t.n++] = (size_t) j;
+        gradient (s, bulk, (size_t) j, from, G);
+        for (size_t c = 0; c < dim; c++) {
+            u[c] += from[c];
+            for (size_t k = 0; k < dim; k++) u[c] += G[c * dim + k] * z[k], H[c * dim + k] += G[c * dim + k];
+        }
+    }
+    for (size_t c = 0; c < 3; c++) u[c] /= (double) t.n;
+    for (size_t c = 0; c < 9; c++) H[c] /= (double) t.n;
+}
+
 static void evaluate (void *context, size_t first, size_t last, int thread)
 {
     const sampling *s = context;
@@ -206,12 +245,7 @@ static void evaluate (void *context, size_t first, size_t last, int thread)
             q = (size_t) pg_nearest_find (g->near_point, s->rows.x + p * dim, NULL, NULL);
         int whole = s->rows.grade[p] <= bulk->grade[q];
         if (whole) gradient (s, &s->rows, p, u, H);
-        else {
-            gradient (s, bulk, q, u, H);
-            for (size_t c = 0; c < dim; c++)
-                for (size_t k = 0; k < dim; k++)
-                    u[c] += H[c * dim + k] * (s->rows.x[p * dim + k] - bulk->x[q * dim + k]);
-        }
+        else go_on_from (s, s->rows.x + p * dim, q, u, H);
         if (s->gradient) memcpy (s->gradient + 9*p, H, sizeof H);
         if (!s->stress) continue;
         pg_stress_of_gradient (galerkin_plain (g, g->bulk, q), g->dim, H, s->stress + 6*p);
@@ -230,7 +264,7 @@ static void find_nodes (const galerkin *g, size_t n, const double *x, int *own)
             double step = x[p * (size_t) g->dim + (size_t) k] - node_at (g, (int) j)[k];
             away += step * step;
         }
-        own[p] = away <= 1e-18 * g->problem->cloud.h * g->problem->cloud.h ? (int) j : -1;
+        own[p] = sqrt (away) <= pg_cloud_same (&g->problem->cloud) ? (int) j : -1;
     }
 }
 

@@ -42,8 +42,8 @@ static int sees (void *context, size_t q, int node)
         return l->side * off > 0;
     }
     for (size_t k = 0; k < dim; k++) eye[k] = x[k] + away * normal[k];
-    return !pg_cracks_cut (l->cracks, eye, to, 1e-9 * p->cloud.h)
-           && !pg_cracks_cut (&p->slots, eye, to, 1e-9 * p->cloud.h);
+    return !pg_cracks_cut (l->cracks, eye, to, pg_cloud_same (&p->cloud))
+           && !pg_cracks_cut (&p->slots, eye, to, pg_cloud_same (&p->cloud));
 }
 
 static void look (void *context, size_t first, size_t last, int thread)

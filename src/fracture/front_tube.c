@@ -52,7 +52,7 @@ static void ray_at (const view *v, double r, double theta, double *x)
 
 static int is_cut (const view *v, const double *x, const double *y)
 {
-    return pg_cracks_cut (v->cracks, x, y, 1e-9 * v->p->cloud.h) != NULL;
+    return pg_cracks_cut (v->cracks, x, y, pg_cloud_same (&v->p->cloud)) != NULL;
 }
 
 /* Whether the ray is free up to r: no surface, or no other crack. */

@@ -56,7 +56,7 @@ static int hidden (void *context, const double *place, size_t point)
 {
     const view *v = context;
     const pg_problem *p = v->problem;
-    return pg_cracks_cut (v->cracks, place, p->cloud.x + point * (size_t) p->dim, 1e-9 * p->cloud.h)
+    return pg_cracks_cut (v->cracks, place, p->cloud.x + point * (size_t) p->dim, pg_cloud_same (&p->cloud))
            != NULL;
 }
 

@@ -77,13 +77,14 @@ pg_status mean_motion_take (mean_motion *out, const pg_problem *p, const pg_stat
 {
     pg_status status = PG_OK;
     size_t n = p->cloud.n, dim = (size_t) p->dim, stride = state->ndof / n;
-    double low[3], high[3];
+    /* A ring that ends at a side of the body has nodes on the border of the box: they are in it. */
+    double low[3], high[3], same = pg_cloud_same (&p->cloud);
     memset (out, 0, sizeof *out);
     for (size_t k = 0; k < dim; k++) {
         low[k] = INFINITY, high[k] = -INFINITY;
         for (size_t i = 0; i < nplace; i++)
-            low[k] = fmin (low[k], place[i * dim + k] - reach),
-            high[k] = fmax (high[k], place[i * dim + k] + reach);
+            low[k] = fmin (low[k], place[i * dim + k] - reach - same),
+            high[k] = fmax (high[k], place[i * dim + k] + reach + same);
     }
     PG_ALLOC (out->d, state->ndof);
     memcpy (out->d, d, state->ndof * sizeof *d);

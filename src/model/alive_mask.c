@@ -38,7 +38,7 @@ static int far_from_cracks (const pg_problem *p, const pg_rows *rows, size_t q)
  * look at each of their bonds. */
 static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
 {
-    double low[3], high[3], slack = 1e-8 * p->cloud.h; /* more than the tolerance of a cut */
+    double low[3], high[3], slack = 10 * pg_cloud_same (&p->cloud); /* more than the tolerance of a cut */
     const pg_cracks *cracks = pg_state_cracks (p, NULL);
     size_t dim = (size_t) p->dim;
     if (cracks->n + p->slots.n == 0 || far_from_cracks (p, rows, q)) return 0;
@@ -54,7 +54,7 @@ static int may_be_cut (const pg_problem *p, const pg_rows *rows, size_t q)
 
 int pg_bond_cut_first (const pg_problem *p, const double *x, const double *y)
 {
-    double tolerance = 1e-9 * p->cloud.h;
+    double tolerance = pg_cloud_same (&p->cloud);
     return pg_cracks_cut (pg_state_cracks (p, NULL), x, y, tolerance)
            || pg_cracks_cut (&p->slots, x, y, tolerance);
 }

@@ -103,7 +103,7 @@ void pg_blocks_place (const pg_problem *p, int set, size_t point, double *x)
     size_t cell = (size_t) c->facet_cell[p->rows[set].cell[point]], first = c->start[cell],
            corners = c->start[cell + 1] - first;
     if (c->facet_kind[p->rows[set].cell[point]] == PG_CUT) {
-        for (size_t k = 0; k < dim; k++) x[k] -= 1e-9 * p->cloud.h * p->facet_normal[point * dim + k];
+        for (size_t k = 0; k < dim; k++) x[k] -= pg_cloud_same (&p->cloud) * p->facet_normal[point * dim + k];
         return;
     }
     const double *corner = c->x + first * dim;

@@ -440,7 +440,7 @@ static pg_status count_eroded (pg_problem *p, const pg_scene *scene)
     char way[96] = "move them off it";
     for (size_t i = 0; i < p->cloud.n; i++) {
         const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, NULL),
-                                              p->cloud.x + i * (size_t) p->dim, 1e-9 * p->cloud.h);
+                                              p->cloud.x + i * (size_t) p->dim, pg_cloud_same (&p->cloud));
         eroded += on && pg_owns (p->cloud.subdomain, i);
         if (!first) first = on;
     }

@@ -45,7 +45,7 @@ static pg_status cut_at (const pg_state *s, const pg_problem *p, const pg_cracks
         size_t bond = p->first_bond[set] + e;
         int j = r->family.node[e];
         if (!s->alive[bond] || j == r->own[q]
-            || !pg_cracks_cut (cracks, x, p->cloud.x + dim * (size_t) j, 1e-9 * p->cloud.h))
+            || !pg_cracks_cut (cracks, x, p->cloud.x + dim * (size_t) j, pg_cloud_same (&p->cloud)))
             continue;
         PG_GROW (cut->bond, cut->cap, cut->n + 1);
         cut->bond[cut->n++] = bond;

@@ -15,7 +15,7 @@ static int ascending (const void *a, const void *b)
 pg_status pg_crack_breaks (const pg_problem *p, const double *a, const double *b, size_t *n, double **share)
 {
     pg_status status = PG_OK;
-    double *all = NULL, nothing = 1e-9 * p->cloud.h, length = hypot (b[0] - a[0], b[1] - a[1]), in[2];
+    double *all = NULL, nothing = pg_cloud_same (&p->cloud), length = hypot (b[0] - a[0], b[1] - a[1]), in[2];
     size_t cap = 0, count = 2, kept = 0;
     PG_GROW (all, cap, 2);
     all[0] = 0, all[1] = 1;

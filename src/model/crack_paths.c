@@ -386,7 +386,7 @@ void pg_tip_draw_back (pg_state *s, const pg_problem *p, size_t tip, double offs
                 if (!alive[e])
                     alive[e] = !pg_cracks_cut (&s->paths->cracks, rows->x + q * dim,
                                                p->cloud.x + (size_t) rows->family.node[e] * dim,
-                                               1e-9 * p->cloud.h);
+                                               pg_cloud_same (&p->cloud));
     }
 }
 

@@ -330,7 +330,7 @@ static pg_status read_gauges (pg_problem *p, const pg_scene *scene)
             PG_TRY (pg_ranks_most (1, &seen));
             if (!(seen > 0))
                 pg_scene_fault (scene, path, "lies outside the body: no point within the horizon");
-            if (pg_cracks_touch (pg_state_cracks (p, NULL), place, 1e-9 * p->cloud.h))
+            if (pg_cracks_touch (pg_state_cracks (p, NULL), place, pg_cloud_same (&p->cloud)))
                 pg_problem_note (p,
                                  PG_WARNING "gauge %s: %s lies on a crack, whose two faces move apart: "
                                             "which of them it follows is chance; "

@@ -151,7 +151,7 @@ static int is_cut (const pg_problem *p, size_t i, size_t j)
 static int on_a_crack (const pg_problem *p, size_t i)
 {
     return pg_cracks_touch (pg_state_cracks (p, NULL), p->cloud.x + i * (size_t) p->dim,
-                            1e-9 * p->cloud.h) != NULL;
+                            pg_cloud_same (&p->cloud)) != NULL;
 }
 
 /* Which points hang together by bonds that no crack cuts: their sets (parent, a union); of a rank what its

@@ -22,7 +22,7 @@ static int seen (const pg_problem *p, const pg_state *state, const double *x, co
     place_at (x, direction, from, a);
     place_at (x, direction, s, b);
     if (!pg_problem_has_body (p, b)) return PG_MEETS_SURFACE;
-    return pg_cracks_cut (pg_state_cracks (p, state), a, b, 1e-9 * p->cloud.h) ? PG_MEETS_CRACK
+    return pg_cracks_cut (pg_state_cracks (p, state), a, b, pg_cloud_same (&p->cloud)) ? PG_MEETS_CRACK
                                                                                         : PG_MEETS_NOTHING;
 }
 

@@ -92,6 +92,8 @@ class Image:
                 vertices = [self.place(v + [0.0])[:2] for v in value['vertices']]
                 ends = [self.place([0.0, 0.0, value[k]])[2] for k in ('low', 'high')]
                 return {**value, 'vertices': vertices, 'low': min(ends), 'high': max(ends)}
+            if key == 'cylinder':                       # its axis is z where none is given
+                value = {'axis': [0.0, 0.0, 1.0], **value}
             if value.get('model') == 'orthotropic':
                 value = {**value, **self.axes_of(value)}
                 return {k: v if k in ('angle', 'axis_1', 'axis_2') else self.walk(v, k) for k, v in value.items()}
