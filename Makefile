@@ -1,4 +1,4 @@
-# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long test-full stress fresh fuzz mutate compilers lint doc accuracy fracture bench install clean
+# Perigal: make [MODE=release|debug|asan|tsan] [V=1];  targets: all demo test test-long test-full stress random kills fresh fuzz mutate compilers lint doc accuracy fracture bench install clean
 MODE    ?= release
 prefix  ?= /usr/local
 CC      ?= gcc
@@ -220,6 +220,10 @@ random: packages     ## 2000 random scenes under invariants, 60 minutes on two c
 	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(MPI)
 	$(Q)test/random/run $(BUILD) FROM=$(or $(FROM),1) COUNT=$(or $(COUNT),2000) JOBS=$(JOBS) PART=$(or $(PART),1/1) KIND=$(KIND) ONLY=$(ONLY)
 
+kills: packages      ## 300 runs that are interrupted at any instant and resumed, 25 minutes (FROM=number COUNT=n PART=k/n KIND=..); goes on where it was broken off
+	$(Q)$(MAKE) --no-print-directory $(PARALLEL) perigal $(MPI)
+	$(Q)test/kills/run $(BUILD) FROM=$(or $(FROM),1) COUNT=$(or $(COUNT),300) JOBS=$(JOBS) PART=$(or $(PART),1/1) KIND=$(KIND)
+
 fresh:               ## make demo and make test on a bare Debian in a folder (root, debootstrap)
 	$(Q).ci/fresh
 
@@ -281,6 +285,6 @@ FORCE:
 print-%:
 	@echo '$($*)'
 
-.PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress random fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
+.PHONY: FORCE all perigal mex packages test-packages demo test test-long test-programs stress random kills fresh fuzz mutate compilers lint doc accuracy fracture bench bench-programs install clean
 .SECONDARY:
 -include $(OBJECTS:.o=.d) $(CLIOBJ:.o=.d) $(BUILD)/src/convert/perigal_mesh.d $(MPIOBJ:.o=.d) $(TESTBIN:=.d) $(BENCHBIN:=.d)

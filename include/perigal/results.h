@@ -93,7 +93,8 @@ int       pg_result_due    (const pg_result *result);
 typedef struct { long step, rounds; double seconds; int threads, ranks; } pg_resumed;
 /* Brings solver and state to where the checkpoint of the folder was written and cuts off what
  * the files have got since, so that the run goes on with the same bits; of another number of ranks (or none)
- * to where its last step was made, so that it goes on but for rounding. PG_E_USAGE: no
+ * to where its last step was made, so that it goes on but for rounding. *out NULL: this run was killed in the
+ * folder before its first checkpoint, so that it begins anew by pg_result_open. PG_E_USAGE: no
  * checkpoint, or one of another scene, version or points; PG_E_FILE: a damaged one. */
 pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene *scene,
                             const pg_problem *problem, pg_solver *solver, pg_state *state, pg_resumed *from);

@@ -210,6 +210,12 @@ static pg_status open_result (const command *c, const char *folder, const pg_sce
     if (c->force) PG_TRY (pg_result_discard (folder));
     if (!c->resume) return pg_result_open (&w->result, folder, scene, problem, solver);
     PG_TRY (pg_result_resume (&w->result, folder, scene, problem, solver, w->state, &from));
+    if (!w->result) {
+        if (pg_rank () == 0)
+            fprintf (stderr, "perigal: the run in %s ended before its first checkpoint: it begins anew\n",
+                     folder);
+        return pg_result_open (&w->result, folder, scene, problem, solver);
+    }
     if (from.threads != problem->threads)
         fprintf (stderr,
                  "perigal: the checkpoint was written with %d threads, now there are %d: the last digits may "

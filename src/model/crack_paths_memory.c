@@ -129,13 +129,16 @@ void pg_crack_paths_free (pg_crack_paths **paths)
 }
 
 /* ---- checkpoints --------------------------------------------------------------------------------------- */
-/* Pieces: four whole numbers and seven numbers each. */
+/* Pieces: four whole numbers and nine numbers each. The normal is one of them: that of a piece of which a
+ * part was split off, or of a crack of the scene, is another in its last digit than what its ends would
+ * give. */
 static void give_piece (void *context, size_t i, long *count, double *number)
 {
     const pg_crack_paths *w = context;
     count[0] = w->cracks.crack[i].sided, count[1] = w->parent[i] == SIZE_MAX ? -1 : (long) w->parent[i];
     count[2] = (long) w->path[i], count[3] = w->owner[i];
     memcpy (number, w->store + 6*i, 6 * sizeof *number), number[6] = w->cracks.crack[i].width;
+    memcpy (number + 7, w->cracks.crack[i].normal, 2 * sizeof *number);
 }
 
 static pg_status take_piece (void *context, size_t i, const long *c, const double *number,
@@ -147,8 +150,10 @@ static pg_status take_piece (void *context, size_t i, const long *c, const doubl
     PG_KEEP_BOUND (k, "the sides of a crack", c[0], 0, 1);
     PG_KEEP_BOUND (k, "the parent of a crack", c[1], -1, n - 1);
     PG_KEEP_BOUND (k, "the path of a crack", c[2], 0, n - 1);
-    w->cracks.crack[i]
-        = (pg_crack) { .kind = PG_CRACK_SEGMENT, .nvertex = 2, .sided = (int) c[0], .width = number[6] };
+    pg_crack *piece = &w->cracks.crack[i];
+    if (i >= w->nfirst) *piece = (pg_crack) { .kind = PG_CRACK_SEGMENT, .nvertex = 2 };
+    piece->sided = (int) c[0], piece->width = number[6];
+    memcpy (piece->normal, number + 7, 2 * sizeof *number);
     w->parent[i] = c[1] < 0 ? SIZE_MAX : (size_t) c[1], w->path[i] = (size_t) c[2], w->owner[i] = c[3];
     memcpy (w->store + 6*i, number, 6 * sizeof *number);
 done:
@@ -200,7 +205,7 @@ pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const cha
     snprintf (tips, sizeof tips, "%s.tips", name);
     snprintf (tip_places, sizeof tip_places, "%s.tip_places", name);
     const pg_records list[2] = {
-        { .count_name = pieces, .number_name = places, .n = w->cracks.n, .counts = 4, .numbers = 7,
+        { .count_name = pieces, .number_name = places, .n = w->cracks.n, .counts = 4, .numbers = 9,
           .give = give_piece, .take = take_piece, .context = w },
         { .count_name = tips, .number_name = tip_places, .n = w->ntip, .counts = 4, .numbers = 4,
           .give = give_tip, .take = take_tip, .context = w },
@@ -208,7 +213,6 @@ pg_status pg_crack_paths_keep (pg_crack_paths *w, const pg_problem *p, const cha
     for (int i = 0; i < 2; i++) PG_TRY (pg_keep_records (k, &list[i]));
     if (!k->reading) goto done;
     point_into_store (w);
-    for (size_t i = 0; i < w->cracks.n; i++) pg_crack_orient (&w->cracks.crack[i]);
     PG_TRY (pg_cracks_index (&w->cracks));
 done:
     if (status != PG_OK && k->reading) w->cracks.n = w->ntip = 0;

@@ -285,6 +285,20 @@ done:
     return status;
 }
 
+/* Its copy of the scene comes before all else but the lock. */
+int pg_result_left_early (const char *folder, const pg_scene *scene)
+{
+    char path[4096], *present = NULL, *copy = NULL;
+    snprintf (path, sizeof path, "%s/scene.yaml", folder);
+    int ran = there_is (folder, "run.lock") || there_is (folder, "history.csv");
+    int same = same_file (path, pg_scene_file (scene));
+    if (ran && !same && read_text (path, &present) == PG_OK)
+        same = present ? copy_text (&copy, scene) == PG_OK && strcmp (present, copy) == 0
+                       : !there_is (folder, "scene.yaml") && !there_is (folder, "history.csv");
+    pg_free (present), pg_free (copy);
+    return ran && same;
+}
+
 /* The report of a finished run is not touched: it does not keep another run from opening the
  * folder. */
 pg_status pg_result_discard (const char *folder)

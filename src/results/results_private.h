@@ -205,6 +205,8 @@ pg_status pg_result_history_create (pg_result *r, const result_marks *from);
 /* Writes the rows of a step to both. */
 pg_status pg_result_history_row    (pg_result *r, const pg_state *state, const pg_step *step);
 /* Locks a folder; PG_E_USAGE if another run uses it. *lock is what pg_result_unlock takes. */
+/* 1: a run of this scene ended in the folder before it wrote a checkpoint, which is not looked for. */
+int       pg_result_left_early     (const char *folder, const pg_scene *scene);
 pg_status pg_result_lock           (const char *folder, int *lock);
 void      pg_result_unlock         (const char *folder, int *lock);
 /* Writes scene.yaml: the scene as it was read, with its origin and the --set options as

@@ -367,8 +367,9 @@ static pg_status of_other_moments (const char *path)
 
 /* A run that was killed while it wrote checkpoints may have left those of one moment under two names: some
  * ranks have renamed theirs already (then all have written them), or some have no new one yet (then nobody
- * has renamed his). The newest that all ranks have gets the name that is read. All ranks call. */
-static pg_status choose_checkpoint (const char *path)
+ * has renamed his). The newest that all ranks have gets the name that is read. *anew: there is none, as the
+ * run was killed before it wrote its first one. All ranks call. */
+static pg_status choose_checkpoint (const char *path, const char *folder, const pg_scene *scene, int *anew)
 {
     pg_status status = PG_OK;
     char fresh[4100];
@@ -384,7 +385,11 @@ static pg_status choose_checkpoint (const char *path)
         PG_TRY (pg_ranks_agree (status));
         pg_checkpoint_drop (path);                     /* of another moment, or half a file */
     }
-    if (access (path, F_OK) != 0)
+    int there = access (path, F_OK) == 0;
+    double any[2] = { there, pg_rank () == 0 && pg_result_left_early (folder, scene) };
+    PG_TRY (pg_ranks_ask (2, any));
+    *anew = any[0] <= 0 && any[1] > 0;
+    if (!there && !*anew)
         status = pg_error (PG_E_USAGE, PG_HERE, "there is no %s to continue from: run without --resume",
                            path);
     PG_TRY (pg_ranks_agree (status));
@@ -445,7 +450,12 @@ pg_status pg_result_resume (pg_result **out, const char *folder, const pg_scene 
     PG_TRY (pg_result_check (scene, problem));
     PG_TRY (moved_find (&others, folder));
     int moves = moved_from_others (&others);
-    if (!moves) PG_TRY (choose_checkpoint (path));
+    int anew = 0;
+    if (!moves) PG_TRY (choose_checkpoint (path, folder, scene, &anew));
+    if (anew) {
+        *out = NULL, *from = (pg_resumed) { 0 };
+        goto done;
+    }
     PG_ALLOC (r, 1);
     m.r = r;
     PG_TRY (pg_result_prepare (r, folder, scene, problem, solver));

@@ -5,6 +5,7 @@
  * earlier K is one of them: it is made again from the bonds that lived then, and the cracks of then. */
 #include "contact.h"
 #include "event_solver.h"
+#include "facet_growth.h"
 #include <string.h>
 
 static const long most = 1L << 50;                     /* of any count */
@@ -260,7 +261,10 @@ static pg_status keep_preconditioner (pg_system *s, int solves, long factored, c
     PG_TRY (k->numbers (k->context, "system.pace", 1, &s->pace));
     PG_TRY (k->numbers (k->context, "system.made", 2, s->made));
     PG_TRY (k->numbers (k->context, "system.borne", 1, &s->borne));
-    if (k->reading) s->remake = made != 0;
+    if (k->reading) {                                  /* the start of the run may have made one */
+        system_forget_preconditioner (s);
+        s->remake = made != 0;
+    }
     if (k->reading && factored && !s->factored) PG_ALLOC (s->factored, nbond);
     if (factored) PG_TRY (keep_flags ("system.factored", nbond, s->factored, k));
     if (factored) PG_TRY (keep_earlier_paths (s, k));
@@ -275,6 +279,7 @@ static pg_status keep_following (pg_system *s, const pg_keeper *k)
     long count = s->following && s->mode == SYSTEM_KEPT_FACTOR;
     PG_TRY (k->counts (k->context, "system.following", 1, &count));
     PG_KEEP_BOUND (k, "what follows a factor", count, 0, s->mode == SYSTEM_KEPT_FACTOR ? 1 : 0);
+    if (!count && k->reading) event_solver_free (&s->following);
     if (count && !s->following) PG_TRY (event_solver_create (&s->following, s, 0, NULL));
     if (count && s->following) PG_TRY (event_solver_keep (s->following, k));
 done:
@@ -463,6 +468,7 @@ pg_status pg_solver_keep (pg_solver *s, pg_state *state, const pg_keeper *k)
     PG_TRY (stages_keep (s, k));
     PG_TRY (keep_system (&s->break_loop.system, (s->type->flags & PG_SOLVER_IMPLICIT) != 0, k));
     if (s->type->keep) PG_TRY (s->type->keep (s, k));
+    PG_TRY (facet_keep_measured (&s->break_loop, state, k));
     if (k->reading) PG_TRY (rebuild (s, state));
     PG_TRY (contact_keep (&s->break_loop.system, k));
 done:

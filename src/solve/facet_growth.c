@@ -77,7 +77,7 @@ void facet_free (break_loop *b)
     b->growth = NULL;
 }
 
-/* What was measured follows from the displacement and the cracks, so that it is measured anew. */
+/* What was measured: facet_memory.c, which comes later. */
 pg_status facet_keep (break_loop *b, const pg_keeper *k)
 {
     pg_status status = PG_OK;

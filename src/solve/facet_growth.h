@@ -104,6 +104,7 @@ static const double facet_tie = 1e-3;
 pg_status facet_create  (break_loop *b);               /* where the criterion judges tips, else nothing */
 void      facet_free    (break_loop *b);
 pg_status facet_keep    (break_loop *b, const pg_keeper *keeper);
+pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_keeper *keeper);
 /* Measures all open tips, and asks for trial facets. base NULL: the one field `unit`, with the loads of t;
  * else the fields base (loads of t - 1) and unit - base, and load factors are counted from there. */
 pg_status facet_measure (break_loop *b, const pg_state *state, const double *base, const double *unit,

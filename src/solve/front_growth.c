@@ -202,6 +202,19 @@ static void tell (const break_loop *b, const pg_front *front, size_t nfront, lon
     g->said |= FACET_SAID_NOTHING;
 }
 
+pg_status fronts_lay_out (break_loop *b, const pg_state *state)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (b->system.problem, state, &nfront);
+    if (!g->fronts) PG_ALLOC (g->fronts, 1);
+    PG_TRY (lay_out (g->fronts, front, nfront));
+    PG_TRY (fronts_couple (g->fronts, front));
+done:
+    return status;
+}
+
 pg_status fronts_measure (break_loop *b, const pg_state *state, const double *const *d, const double *t)
 {
     pg_status status = PG_OK;
@@ -211,10 +224,8 @@ pg_status fronts_measure (break_loop *b, const pg_state *state, const double *co
     pg_front_faces *faces = NULL;
     size_t nfront, cap_faces = 0;
     const pg_front *front = pg_fronts_of_state (s->problem, state, &nfront);
-    if (!g->fronts) PG_ALLOC (g->fronts, 1);
+    PG_TRY (fronts_lay_out (b, state));
     front_growth *f = g->fronts;
-    PG_TRY (lay_out (f, front, nfront));
-    PG_TRY (fronts_couple (f, front));
     PG_ALLOC (known, f->n);
     for (size_t k = 0; k < nfront; k++) {
         f->blind[k] = 0;

@@ -37,6 +37,8 @@ typedef struct front_growth {
 void      fronts_free    (front_growth **fronts);
 /* Measures the fronts of the state under the fields of growth (facet_measure). */
 pg_status fronts_measure (break_loop *b, const pg_state *state, const double *const *d, const double *t);
+/* Room for the fields of all vertices, and what depends on the shape of the fronts alone. */
+pg_status fronts_lay_out (break_loop *b, const pg_state *state);
 /* The plan of the next advance at a load factor, and its utilisation: sqrt of the energy that the advance
  * sets free over what it takes. */
 double    fronts_utilisation (const break_loop *b, const pg_state *state, double factor);

@@ -93,6 +93,16 @@ run plate.yaml --set spacing='1 mm' -o "$work/early"; code=$?; [ $code -eq 0 ] &
 verdict "a finished run has nothing to go on with" $?
 run plate.yaml -o "$work/none" --resume; [ $? -eq 64 ] && grep -q 'no .*checkpoint.nc' "$work/err" && [ ! -e "$work/none" ]
 verdict "no checkpoint: said, nothing made" $?
+# killed before its first checkpoint, it begins anew; so it does not in the folder of another scene
+longer=("${newmark[@]}" --set output.checkpoint=0); delay=$((took[newmark] * 6 / 10))
+until "$perigal" run "${longer[@]}" --quiet --threads 1 -o "$work/killed" > "$work/out" 2> "$work/err" & pid=$!
+    sleep "$(printf '%d.%03d' $((delay / 1000)) $((delay % 1000)))"; kill -KILL $pid 2> /dev/null; wait $pid 2> /dev/null; [ $? -eq 137 ] && [ -e "$work/killed/history.csv" ]
+do [ -e "$work/killed/report.json" ] && delay=$((delay / 2)) || delay=$((delay * 3 / 2 + 1)); rm -rf "$work/killed"; done
+"$perigal" run "${longer[@]}" --set solver.dt='1e-7 s' --quiet --threads 1 -o "$work/killed" --resume > "$work/out" 2> "$work/err"
+[ $? -eq 64 ] && grep -q 'no .*checkpoint.nc' "$work/err"; verdict "killed before its first checkpoint: another scene is refused" $?
+"$perigal" run "${longer[@]}" --quiet --threads 1 -o "$work/killed" --resume > "$work/out" 2> "$work/err"; code=$?
+[ $code -eq 0 ] && grep -q 'before its first checkpoint: it begins anew' "$work/err" && cmp "$work/newmark/history.csv" "$work/killed/history.csv" > "$work/why" 2>&1 && [ ! -e "$work/killed/run.lock" ]
+verdict "it begins anew by --resume, to the files of an undisturbed run" $?
 delay=$((took[event] * 7 / 10))
 for _ in $(seq 60); do                                 # too late: earlier; before there was anything to go on with: later
     if ! disturb TERM $delay "${event[@]}" -o "$work/half"; then delay=$((delay * 9 / 10)); continue; fi

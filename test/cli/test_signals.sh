@@ -1,10 +1,10 @@
 #!/bin/bash
-# test_signals.sh BUILD: signals at chosen calls of a run (signal_at.c). TERM at any moment ends in a checkpoint or in words, KILL while a
+# test_signals.sh BUILD: signals at chosen calls of a run (test/kills/signal_at.c). TERM at any moment ends in a checkpoint or in words, KILL while a
 # run finishes can be gone on with: then the files are those of a run that nobody disturbed.
 . "$(dirname "$0")/expect.sh"
 cd "$(dirname "$0")" || exit 1
 case $1 in *asan*|*tsan*) echo "ok 1 - # SKIP a sanitizer wants to be loaded first"; echo 1..1; exit 0 ;; esac
-${CC:-gcc} -shared -fPIC -o "$work/at.so" signal_at.c -ldl > "$work/out" 2> "$work/err" || { verdict "signal_at.c" 1; finish; }
+${CC:-gcc} -shared -fPIC -o "$work/at.so" ../kills/signal_at.c -ldl > "$work/out" 2> "$work/err" || { verdict "signal_at.c" 1; finish; }
 
 cat > "$work/facets.yaml" <<'S'
 dimension: 2

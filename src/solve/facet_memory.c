@@ -1,0 +1,118 @@
+/* SPDX-License-Identifier: GPL-3.0-or-later
+ * What was measured of tips and fronts, in checkpoints. A measurement that is at hand is kept with all its
+ * digits and not made again: trial facets are solved for, with factors and preconditioners as they are at
+ * that moment, so that a second measurement differs from the first one in its last digits, and counts. */
+#include "front_growth.h"
+#include <stddef.h>
+#include <string.h>
+
+/* Runs of numbers between the whole numbers of pg_tip_field. */
+enum {
+    FIRST = offsetof (pg_tip_field, limit) / sizeof (double),
+    LAST = (sizeof (pg_tip_field) - offsetof (pg_tip_field, kink)) / sizeof (double),
+    NUMBERS = FIRST + 2 + LAST,
+    COUNTS = 6
+};
+
+static void give_field (void *context, size_t i, long *count, double *number)
+{
+    const pg_tip_field *f = (const pg_tip_field *) context + i;
+    const long whole[COUNTS] = { f->limit, f->load, f->extrapolated, f->interface, f->closed, f->kinked };
+    memcpy (count, whole, sizeof whole);
+    memcpy (number, f->J, FIRST * sizeof *number);
+    number[FIRST] = f->modulus, number[FIRST + 1] = f->antiplane;
+    memcpy (number + FIRST + 2, f->kink, LAST * sizeof *number);
+}
+
+static pg_status take_field (void *context, size_t i, const long *count, const double *number,
+                             const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    pg_tip_field *f = (pg_tip_field *) context + i;
+    PG_KEEP_BOUND (k, "what ends the room of a tip", count[0], PG_ROOM_FREE, PG_ROOM_FACES);
+    for (int m = 2; m < COUNTS; m++) PG_KEEP_BOUND (k, "what is known of a tip", count[m], 0, 1);
+    memcpy (f->J, number, FIRST * sizeof *number);
+    f->limit = (int) count[0], f->load = (int) count[1], f->extrapolated = (int) count[2];
+    f->interface = (int) count[3], f->closed = (int) count[4], f->kinked = (int) count[5];
+    f->modulus = number[FIRST], f->antiplane = number[FIRST + 1];
+    memcpy (f->kink, number + FIRST + 2, LAST * sizeof *number);
+done:
+    return status;
+}
+
+static void give_trial (void *context, size_t i, long *count, double *number)
+{
+    const facet_candidate *c = &((const facet_growth *) context)->trial[i];
+    const long whole[4] = { c->tip, c->open, c->close, c->slides };
+    const double real[17] = {
+        c->from[0], c->from[1], c->from[2], c->to[0], c->to[1], c->to[2], c->radius, c->across[0],
+        c->across[1], c->across[2], c->energy, c->release[0][0], c->release[0][1], c->release[1][0],
+        c->release[1][1], c->stress[0], c->stress[1]
+    };
+    memcpy (count, whole, sizeof whole), memcpy (number, real, sizeof real);
+}
+
+static pg_status take_trial (void *context, size_t i, const long *count, const double *n, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = context;
+    PG_KEEP_BOUND (k, "the tip of a trial facet", count[0], -1, (long) g->ntip - 1);
+    PG_KEEP_BOUND (k, "the tips of a new crack", count[1], 0, 3);
+    for (int m = 2; m < 4; m++) PG_KEEP_BOUND (k, "what a trial facet does", count[m], 0, 1);
+    g->trial[i] = (facet_candidate) {
+        .tip = count[0], .from = { n[0], n[1], n[2] }, .to = { n[3], n[4], n[5] }, .radius = n[6],
+        .across = { n[7], n[8], n[9] }, .open = (int) count[1], .close = (int) count[2],
+        .slides = (int) count[3], .energy = n[10], .release = { { n[11], n[12] }, { n[13], n[14] } },
+        .stress = { n[15], n[16] }
+    };
+done:
+    return status;
+}
+
+/* The fields of tips, or of the vertices of fronts with the fronts that have no room. */
+static pg_status keep_fields (break_loop *b, const pg_state *state, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    const int space = b->system.problem->dim == 3;
+    if (space && k->reading) PG_TRY (fronts_lay_out (b, state));
+    if (k->reading && !space) PG_GROW (g->field, g->cap_field, g->ntip);
+    size_t n = space ? g->fronts->n : g->ntip;
+    const pg_records fields = { .count_name = "facets.field", .number_name = "facets.field_numbers", .n = n,
+                                .counts = COUNTS, .numbers = NUMBERS, .give = give_field,
+                                .take = take_field, .context = space ? g->fronts->field : g->field };
+    if (n) PG_TRY (pg_keep_records (k, &fields));
+    if (!space || !g->fronts->nfront) goto done;
+    PG_TRY (k->bytes (k->context, "facets.blind", g->fronts->nfront, g->fronts->blind));
+    for (size_t i = 0; i < g->fronts->nfront; i++)
+        PG_KEEP_BOUND (k, "whether a front has room", g->fronts->blind[i], 0, 1);
+done:
+    return status;
+}
+
+pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_keeper *k)
+{
+    pg_status status = PG_OK;
+    facet_growth *g = b->growth;
+    if (!g) return PG_OK;
+    long fresh = g->fresh && !g->moving, most = (long) b->system.problem->first_bond[PG_BOND_SETS];
+    long count[3] = { fresh, fresh ? g->nfield : 1, fresh ? (long) g->ntrial : 0 };
+    PG_TRY (k->counts (k->context, "facets.measured", 3, count));
+    PG_KEEP_BOUND (k, "whether tips were measured", count[0], 0, 1);
+    PG_KEEP_BOUND (k, "the fields around tips", count[1], 1, 2);
+    PG_KEEP_BOUND (k, "the number of trial facets", count[2], 0, most);
+    if (!count[0]) goto done;
+    if (k->reading) {
+        g->nfield = (int) count[1], g->ntrial = (size_t) count[2];
+        g->ntip = state->paths ? state->paths->ntip : 0;
+        PG_GROW (g->trial, g->cap_trial, g->ntrial);
+    }
+    PG_TRY (keep_fields (b, state, k));
+    const pg_records trials = { .count_name = "facets.trial", .number_name = "facets.trial_numbers",
+                                .n = g->ntrial, .counts = 4, .numbers = 17, .give = give_trial,
+                                .take = take_trial, .context = g };
+    if (g->ntrial) PG_TRY (pg_keep_records (k, &trials));
+    if (k->reading) g->fresh = 1;
+done:
+    return status;
+}
