@@ -1,7 +1,9 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Whole runs with all shortcuts beside the same with `solver.plain`, which factors at every change of K and
  * looks at every bond and evaluates all anew: the same bonds die in the same steps, load factors,
- * times, energies and displacements agree to 1e-8 of the largest. Solves leave a residual of 1e-11. */
+ * times, energies and displacements agree to 1e-8 of the largest. Solves leave a residual of 1e-11. Where a
+ * part of a broken body hangs by a few bonds it moves by that residual over their stiffness: steps end
+ * before. */
 #include "run.h"
 #include <string.h>
 
@@ -50,7 +52,7 @@ static const pair pairs[] = {
     { "events in space", BLOCK FLAW ROCK PULL_3D STRETCH, EVENTS, 25, 1 },
     { "fixed steps",
       PLATE "spacing: 0.05 m\n" EDGE ROCK PULL STRETCH,
-      "solver: {stepping: fixed, steps: 20, tolerance: 1e-11, break: fraction, break_fraction: 10 %", 14, 1 },
+      "solver: {stepping: fixed, steps: 20, tolerance: 1e-11, break: fraction, break_fraction: 10 %", 11, 1 },
     { "newmark, in space",
       BLOCK FLAW ROCK "boundary: [{set: bottom, displacement: {x: 0, y: 0, z: 0}}, {set: top, "
                       "velocity: {y: 0.5 m/s}}]\nmethod: {essential: transformation}\nfailure: {criterion: "
