@@ -2,6 +2,7 @@
  * From the scene to a problem: body, points, cells, sets, cracks, laws, loads, bonds. Faults of all stages
  * are collected. */
 #include "model.h"
+#include <float.h>
 #include <math.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -153,6 +154,23 @@ done:
     return status;
 }
 
+/* Refuses a body so far from the origin that the rounding of its coordinates is no longer far below the
+ * widths within which the cells look for surfaces, 1e-7 of half a spacing. */
+static void refuse_far (const pg_problem *p, const pg_scene *scene)
+{
+    double rounding = pg_rounding (p->dim, p->cloud.low, p->cloud.high), least = pg_cloud_finest (&p->cloud);
+    if (rounding <= 5e-8 * least) return;
+    pg_scene_fault (scene,
+                    p->part.mesh.n                     ? "mesh"
+                    : pg_scene_given (scene, "points") ? "points"
+                                                       : "body",
+                    "lies %.3g m away from the origin, where coordinates are rounded to %.2g m, and its "
+                    "points are %.3g m apart: what lies on a surface, or at the end of a horizon, cannot be "
+                    "told from what lies beside it; move it nearer, within %.2g m",
+                    rounding / (4 * DBL_EPSILON), rounding / 8, least,
+                    5e-8 * least / (4 * DBL_EPSILON));
+}
+
 /* Body, cracks, points, cells, sets, in this order; a verdict follows where the next step could not do
  * without the former. */
 static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
@@ -169,6 +187,7 @@ static pg_status build_geometry (pg_problem *p, const pg_scene *scene)
         if (pg_ranks_now ()) PG_TRY (pg_subdomain_check (p->method, scene));
     } else if (pg_ranks_now ()) PG_TRY (build_subdomain (p, scene));
     else PG_TRY (pg_cloud_build (&p->cloud, &p->lattice, &p->body, scene));
+    refuse_far (p, scene);
     PG_TRY (pg_scene_verdict (scene));
     PG_TRY (side_cracks (p, scene));
     p->cells.dim = p->dim;
