@@ -458,8 +458,8 @@ static void walk (cut_work *w, int k, double weight)
     double a = -1;
     for (size_t i = 0; i <= s->level[k].hard.n; i++) {
         double b = i < s->level[k].hard.n ? s->level[k].hard.at[i] : 1;
-        if (1 - b < s->rounding) b = 1;
-        if (b - a < fmax (1e-12, s->rounding)) continue;
+        if (1 - b < s->snap) b = 1;                    /* what splits beside a face splits on it */
+        if (b - a < (a == -1 ? s->snap : fmax (1e-12, s->rounding))) continue;
         double left = nearest (&s->level[k].soft, a, 1, b - a, s->rounding),
                right = nearest (&s->level[k].soft, b, 0, b - a, s->rounding), middle = 0.5 * (a + b);
         if (!isnan (left) && !isnan (right)) {
