@@ -49,7 +49,7 @@ double system_take_residual (pg_system *s)
     return s->scale > 0 ? s->unbalanced / s->scale : 0;
 }
 
-/* Between two rounds, for a run that goes on later. */
+/* What forces are compared with, and between two rounds the residual, for a run that goes on later. */
 pg_status system_keep_residual (pg_system *s, const pg_keeper *k)
 {
     pg_status status = PG_OK;
@@ -58,10 +58,9 @@ pg_status system_keep_residual (pg_system *s, const pg_keeper *k)
     PG_TRY (k->counts (k->context, "system.at_hand", 1, &at_hand));
     PG_KEEP_BOUND (k, "a residual at hand", at_hand, 0, 1);
     s->at_hand = at_hand != 0;
-    if (!at_hand) goto done;
     PG_TRY (k->numbers (k->context, "system.references", 2, number));
-    PG_TRY (k->numbers (k->context, "system.residual", s->ndof, s->residual));
     s->reference = number[0], s->scale = number[1];
+    if (at_hand) PG_TRY (k->numbers (k->context, "system.residual", s->ndof, s->residual));
 done:
     return status;
 }
