@@ -35,21 +35,32 @@ static void cross (const double *a, const double *b, double *out)
     for (int k = 0; k < 3; k++) out[k] = a[(k + 1) % 3] * b[(k + 2) % 3] - a[(k + 2) % 3] * b[(k + 1) % 3];
 }
 
-/* Mean place and displacement of the nodes in the box, and their spin; returns how many nodes there are. */
-static size_t find (mean_motion *m, const pg_cloud *c, size_t stride, const double *d, const double *low,
-                    const double *high)
+/* Does node i, such as one on a crack, see no other one? It stays behind when the body moves. */
+static int is_alone (const pg_problem *p, const pg_state *state, size_t i)
 {
-    size_t dim = (size_t) c->dim, count = 0;
+    const pg_family *f = &p->rows[PG_NODES].family;
+    if (p->method->shape_functions || !f->start) return 0;
+    for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
+        if (state->alive[p->first_bond[PG_NODES] + e] && (size_t) f->node[e] != i) return 0;
+    return 1;
+}
+
+/* Mean place and displacement of the nodes in the box, and their spin; returns how many nodes there are. */
+static size_t find (mean_motion *m, const pg_problem *p, const pg_state *state, const double *d,
+                    const double *low, const double *high)
+{
+    const pg_cloud *c = &p->cloud;
+    size_t dim = (size_t) c->dim, stride = state->ndof / c->n, count = 0;
     double J[9] = { 0 }, L[3] = { 0 };
     for (size_t i = 0; i < c->n; i++) {
-        if (!inside (c->x + i * dim, dim, low, high)) continue;
+        if (!inside (c->x + i * dim, dim, low, high) || is_alone (p, state, i)) continue;
         count++;
         for (size_t k = 0; k < dim; k++) m->at[k] += c->x[i * dim + k], m->shift[k] += d[i * stride + k];
     }
     for (size_t k = 0; k < dim && count; k++) m->at[k] /= (double) count, m->shift[k] /= (double) count;
     for (size_t i = 0; i < c->n; i++) {
         double x[3] = { 0 }, u[3] = { 0 }, l[3], square = 0;
-        if (!inside (c->x + i * dim, dim, low, high)) continue;
+        if (!inside (c->x + i * dim, dim, low, high) || is_alone (p, state, i)) continue;
         for (size_t k = 0; k < dim; k++)
             x[k] = c->x[i * dim + k] - m->at[k], u[k] = d[i * stride + k] - m->shift[k],
             square += x[k] * x[k];
@@ -88,7 +99,7 @@ pg_status mean_motion_take (mean_motion *out, const pg_problem *p, const pg_stat
     }
     PG_ALLOC (out->d, state->ndof);
     memcpy (out->d, d, state->ndof * sizeof *d);
-    if (!find (out, &p->cloud, stride, d, low, high)) goto done;
+    if (!find (out, p, state, d, low, high)) goto done;
     for (size_t i = 0; i < n; i++) {
         double u[3];
         mean_motion_at (out, p->cloud.x + i * dim, p->dim, u);

@@ -285,8 +285,8 @@ def resumed(case):
 def on_ranks(case):
     ranks = 2 + case.scene.seed % 2
     def divide(data):
-        if case.scene.seed % 3 == 0 and data['solver']['kind'] in ('static', 'newmark'):
-            data['solver']['division'] = 'subdomains'
+        if data['solver']['kind'] in ('static', 'newmark'):
+            data['solver']['division'] = ('auto', 'subdomains', 'matrices')[case.scene.seed % 3]
     run = case.run(divide, options=(), ranks=ranks)
     if run.code is None:
         return
@@ -500,6 +500,8 @@ def heated(case):
     """Warm all over, held where it would go by itself: no stress."""
     if not case.linear or case.data['method'].get('force', 'galerkin') != 'galerkin' or case.data.get('plane') == 'strain':
         return
+    if any('spring' in b for b in case.data['boundary']):
+        return                                          # which may hold a second body
     held = next((b for b in case.data['boundary'] if set(b.get('displacement', {})) == set('xyz'[:case.scene.dimension])), None)
     if not held:
         return
@@ -511,8 +513,8 @@ def heated(case):
         data['solver'] = {**data['solver'], 'stepping': 'fixed', 'steps': 2}
         data['boundary'] = [{**held, 'displacement': {a: f'{strain}*{a}' for a in held['displacement']}}, {'name': 'warmth', 'temperature': strain / 1e-5}]
     run = case.run(warm)
-    if run.code == REFUSED and 'uniform stress' in run.said:
-        return
+    if run.code == REFUSED and ('uniform stress' in run.said or 'dilatation' in run.said):
+        return                                          # by the patch test; near Poisson's ratio 1/2
     if not run.done:
         yield f'warm without hindrance: ends with {run.code}: {run.first_words()}'
         return
