@@ -33,7 +33,7 @@ void galerkin_ended_free (galerkin *g)
     pg_free (e->face.N), pg_free (e->face.grade);
     pg_free (e->extra.x), pg_free (e->extra.family.start), pg_free (e->extra.family.node),
         pg_free (e->extra.N);
-    pg_free (e->extra.grade), pg_free (e->extra.own);
+    pg_free (e->extra.grade), pg_free (e->extra.own), pg_free (e->extra.wide);
     pg_free (e->eye), pg_free (e->flux), pg_free (e->part), pg_free (e->crack), pg_free (e->sight);
     pg_free (e->side), pg_free (e->first), pg_free (e->next_point), pg_free (e->next_side);
     pg_free (e);
@@ -109,6 +109,27 @@ done:
     return status;
 }
 
+/* Where that is too little for a linear field the first wider support serves that is enough, over the same
+ * nodes. */
+static pg_status widen_extra (galerkin *g, const pg_approx *a)
+{
+    static const double wider[] = { 1.15, 1.3, 1.6, 2, PG_WIDEST_SUPPORT };
+    pg_status status = PG_OK;
+    struct galerkin_ended *e = g->ended;
+    size_t *list = NULL;
+    PG_ALLOC (list, e->nextra);
+    for (size_t k = 0; k < sizeof wider / sizeof *wider; k++) {
+        size_t n = 0;
+        for (size_t q = 0; q < e->nextra; q++)
+            if (e->extra.grade[q] > PG_GRADE_FULL) e->extra.wide[q] = wider[k], list[n++] = q;
+        if (n == 0) break;
+        PG_TRY (a->type->evaluate (a, &g->problem->cloud, &e->extra, e->sight, n, list, g->threads));
+    }
+done:
+    pg_free (list);
+    return status;
+}
+
 /* Values on cracks and pieces of sides. */
 static pg_status evaluate_extra (galerkin *g, const pg_cracks *cracks)
 {
@@ -125,10 +146,12 @@ static pg_status evaluate_extra (galerkin *g, const pg_cracks *cracks)
     PG_GROW (e->extra.grade, e->cap_grade, e->nextra);
     PG_GROW (e->extra.own, e->cap_own, e->nextra);
     PG_GROW (e->sight, e->cap_sight, bonds);
-    for (size_t q = 0; q < e->nextra; q++) e->extra.own[q] = -1;
+    PG_GROW (e->extra.wide, e->cap_wide, e->nextra);
+    for (size_t q = 0; q < e->nextra; q++) e->extra.own[q] = -1, e->extra.wide[q] = 1;
     looking l = { g, cracks, &e->extra, e->eye, NULL, e->sight };
     pg_parallel (g->threads, e->nextra, look, &l);
     PG_TRY (a.type->evaluate (&a, &p->cloud, &e->extra, e->sight, e->nextra, NULL, g->threads));
+    PG_TRY (widen_extra (g, &a));
 done:
     return status;
 }

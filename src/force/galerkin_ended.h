@@ -35,7 +35,7 @@ struct galerkin_ended {
     int   (*part)[2];
     unsigned char *crack;
     unsigned char *sight;  size_t cap_sight;           /* live bonds of these points */
-    size_t  cap_N, cap_grade, cap_own;
+    size_t  cap_N, cap_grade, cap_own, cap_wide;
     /* Whole sides of parts: the face, and the part (place in the list, part). */
     struct { size_t face; int part[2]; } *side;  size_t nside, cap_side;
     /* The points and sides of part p of the cell at place k: a chain from first[PG_PARTS k + p], numbers + 1;
