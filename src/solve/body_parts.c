@@ -232,37 +232,32 @@ static pg_status square_motions (const body_parts *out, const pg_problem *p, dou
 /* For pg_search. */
 static int ascending_facets (const void *a, const void *b) { return *(const int *) a - *(const int *) b; }
 
-/* The part that a point of a facet lies on, by the nearest of the nodes that it sees, -1: it sees none. */
-static long part_at (const body_parts *out, const pg_system *s, size_t q)
+/* What a support resists that acts at a point of a facet: motions of each part of which the point sees a
+ * node. Cracks may leave parts of one node each beside it. */
+static void resist_facet (const body_parts *out, const pg_system *s, const pg_load *load, size_t q, double *A)
 {
+    enum { PARTS = 16 };
     const pg_problem *p = s->problem;
     const pg_rows *r = &p->rows[PG_FACETS];
-    size_t dim = (size_t) p->dim;
-    double best = INFINITY;
-    long part = -1;
-    for (size_t e = r->family.start[q]; e < r->family.start[q + 1]; e++) {
-        double square = 0;
-        size_t node = (size_t) r->family.node[e];
+    int seen[PARTS], n = 0;
+    for (size_t e = r->family.start[q]; e < r->family.start[q + 1] && n < PARTS; e++) {
+        int part = out->of[r->family.node[e]], known = 0;
         if (s->alive && !s->alive[p->first_bond[PG_FACETS] + e]) continue;
-        for (size_t k = 0; k < dim; k++) square += pow (p->cloud.x[node * dim + k] - r->x[q * dim + k], 2);
-        if (square < best) best = square, part = out->of[node];
+        for (int k = 0; k < n; k++) known |= seen[k] == part;
+        if (known) continue;
+        seen[n++] = part;
+        resist (&out->part[part], p->dim, load, r->x + q * (size_t) p->dim, A + SQUARES * (size_t) part);
     }
-    return part;
 }
 
 /* What a support resists that acts on facets, which a set may have where it has no points. */
 static void resist_facets (const body_parts *out, const pg_system *s, const pg_load *load, double *A)
 {
-    const pg_problem *p = s->problem;
-    const pg_rows *r = &p->rows[PG_FACETS];
-    for (size_t q = 0; q < r->n; q++) {
-        if (!pg_problem_owns (p, PG_FACETS, q)
-            || !pg_search (&r->cell[q], load->set->facet, load->set->nfacet, sizeof (int), ascending_facets))
-            continue;
-        long part = part_at (out, s, q);
-        if (part >= 0)
-            resist (&out->part[part], p->dim, load, r->x + q * (size_t) p->dim, A + SQUARES * (size_t) part);
-    }
+    const pg_rows *r = &s->problem->rows[PG_FACETS];
+    for (size_t q = 0; q < r->n; q++)
+        if (pg_problem_owns (s->problem, PG_FACETS, q)
+            && pg_search (&r->cell[q], load->set->facet, load->set->nfacet, sizeof (int), ascending_facets))
+            resist_facet (out, s, load, q, A);
 }
 
 /* What a load resists of the motions of all parts. */
