@@ -98,13 +98,14 @@ static void a_free_rotation_is_named (void **state)
     refused (&r, "nothing holds the body", "about z through (0.0005, 0.0005) m");
 }
 
-/* A front cuts off a part that slides along its faces: an equilibrium that contact alone holds is looked for, none
- * is found, and the part is named (auto; the matrix loses its Cholesky factor on the way). */
+/* A front cuts off a part that slides along its faces: an equilibrium that contact alone holds is looked for,
+ * none is found, and the part is named (auto; the matrix loses its Cholesky factor on the way). */
 static void what_contact_alone_holds_is_named (void **state)
 {
     (void) state;
     pg_status status = PG_OK;
-    run r = scene_of (1, "dimension: 3\nspacing: 0.2\nbody: [{add: {box: {low: [0, 0, 0], high: [1, 1, 0.6]}}}]\n"
+    run r = scene_of (1, "dimension: 3\nspacing: 0.2\n"
+                         "body: [{add: {box: {low: [0, 0, 0], high: [1, 1, 0.6]}}}]\n"
                          "materials: {m: {youngs_modulus: 1e9, poissons_ratio: 0.25}}\n"
                          "cracks: [{polygon: [[-0.1, 0.43, -0.1], [0.45, 0.57, -0.1], [0.45, 0.57, 0.7],\n"
                          "  [-0.1, 0.43, 0.7]]}]\nmethod: {horizon: 2 spacing}\ncontact: {kind: normal}\n"
