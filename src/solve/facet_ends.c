@@ -64,6 +64,8 @@ void facet_tell_lost (break_loop *b, const pg_state *state)
     }
 }
 
+void facet_note_end (pg_statistics *report) { report->ended_by = "the measure of a crack tip ended"; }
+
 int facet_measure_ends (pg_solver *s, const pg_state *state, double factor)
 {
     break_loop *b = &s->break_loop;
@@ -72,7 +74,7 @@ int facet_measure_ends (pg_solver *s, const pg_state *state, double factor)
     if (b->system.problem->dim == 3) return 0;
     while (lost < g->ntip && !(state->paths->tip[lost].grown > 0 && is_lost (b, state, lost))) lost++;
     if (lost == g->ntip || facet_utilisation (b, state, 1) >= 1) return 0;
-    s->report.ended_by = "the measure of a crack tip ended";
+    facet_note_end (&s->report);
     pg_statistics_warn (&s->report,
                         "the measure of crack tip %ld has ended and nothing else grows up to full load: "
                         "the run "

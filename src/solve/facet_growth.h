@@ -136,6 +136,7 @@ long      facet_unjudged (const break_loop *b, const pg_state *state, double fac
 void      facet_tell_lost (break_loop *b, const pg_state *state);
 /* After an event, at that load: there is such a tip and nothing else grows up to full load: the run ends. */
 int       facet_measure_ends (pg_solver *s, const pg_state *state, double factor);
+void      facet_note_end    (pg_statistics *report);   /* says so */
 
 /* ---- facet_energy.c ------------------------------------------------------------------------------------ */
 /* After a step that ended at t: have facets in motion taken .9 to 1.1 of the fracture energy? Said once. */

@@ -96,11 +96,14 @@ pg_status facet_keep_measured (break_loop *b, const pg_state *state, const pg_ke
     facet_growth *g = b->growth;
     if (!g) return PG_OK;
     long fresh = g->fresh && !g->moving, most = (long) b->system.problem->first_bond[PG_BOND_SETS];
-    long count[3] = { fresh, fresh ? g->nfield : 1, fresh ? (long) g->ntrial : 0 };
-    PG_TRY (k->counts (k->context, "facets.measured", 3, count));
+    long count[4] = { fresh, fresh ? g->nfield : 1, fresh ? (long) g->ntrial : 0,
+                      b->system.report->ended_by != NULL };
+    PG_TRY (k->counts (k->context, "facets.measured", 4, count));
     PG_KEEP_BOUND (k, "whether tips were measured", count[0], 0, 1);
     PG_KEEP_BOUND (k, "the fields around tips", count[1], 1, 2);
     PG_KEEP_BOUND (k, "the number of trial facets", count[2], 0, most);
+    PG_KEEP_BOUND (k, "whether the measure ended", count[3], 0, 1);
+    if (k->reading && count[3]) facet_note_end (b->system.report);
     if (!count[0]) goto done;
     if (k->reading) {
         g->nfield = (int) count[1], g->ntrial = (size_t) count[2];

@@ -368,16 +368,19 @@ done:
     return status;
 }
 
-/* Starts the check of the next run, unless the run is finished or goes on. */
+/* Starts the check of the next run, unless the run is finished or goes on: then the file of a check that was
+ * killed with an earlier command goes. */
 static pg_status check_next (series *s, slot *at)
 {
     pg_status status = PG_OK;
     const pg_series_run *run = &s->q->run[s->next];
-    char folder[FOLDER];
+    char folder[FOLDER], left[FOLDER + 8];
     int held = 0;
     PG_TRY (name_folder (folder, s->q, run));
     PG_TRY (pg_series_look (&held, s->q, run));
-    if (!held && !exists (folder, "checkpoint.nc")) {
+    snprintf (left, sizeof left, "%s.check", folder);
+    if (held || exists (folder, "checkpoint.nc")) remove (left);
+    else {
         PG_TRY (start (at, s->q, s->next, 1));
         s->busy++;
     }

@@ -63,7 +63,9 @@ expect "a run goes on from its checkpoint, not from a damaged one" 70 '11 of 12 
 grep -q '^3,.*failed,.*checkpoint' "$work/c/sweep.csv"; verdict "and its row says so" $?
 done_at=$(stat -c %Y.%s "$work/b/critical_stretch=0.0015_time_steps=40/result.e")
 expect "a sweep that is there is not touched unasked" 64 '' 'holds a sweep: --resume' sweep "$scene" "${twelve[@]}" -o "$work/b"
+touch "$caught.check"                                  # of a check that was killed
 expect "resumed" 0 '12 of 12 runs are done' '' sweep "$scene" "${twelve[@]}" -o "$work/b" --resume -j 3
+[ ! -e "$caught.check" ]; verdict "nothing is left of a check that was killed" $?
 [ "$done_at" = "$(stat -c %Y.%s "$work/b/critical_stretch=0.0015_time_steps=40/result.e")" ]; verdict "what was finished was kept" $?
 without_seconds() { awk -F, 'NR == 1 { for (k = 1; k <= NF; k++) if ($k == "seconds [s]") at = k } { $at = ""; print }' "$1"; }
 cmp <(without_seconds "$a") <(without_seconds "$b") > "$work/why" 2>&1; verdict "the table is that of the uninterrupted sweep, seconds aside" $?

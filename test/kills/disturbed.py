@@ -56,6 +56,8 @@ def first_difference(name, a, b):
 def report_difference(a, b, at=''):
     if isinstance(a, dict) and isinstance(b, dict) and a.keys() == b.keys():
         return next((d for d in (report_difference(a[k], b[k], f'{at}.{k}' if at else k) for k in a) if d), '')
+    if isinstance(a, dict) and isinstance(b, dict):
+        return f'report.json, {at}: {sorted(a.keys() ^ b.keys())} more or less'
     if isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
         return next((d for d in (report_difference(x, y, f'{at}[{k}]') for k, (x, y) in enumerate(zip(a, b))) if d), '')
     return '' if json.dumps(a) == json.dumps(b) else f'report.json, {at}: {json.dumps(b)[:120]} for {json.dumps(a)[:120]}'

@@ -10,9 +10,9 @@ python=/usr/bin/python3; [ -x "$python" ] || python=python3
 kills() { "$python" "$(dirname "$0")/run" "$build" "$@" JOBS=1 OUT="$out"; }
 if [ "$PERIGAL_TEST_SIZE" = long ]; then kills FROM=101 COUNT=64 TAP=1; exit; fi
 kills FROM=1 COUNT=16 TAP=1; code=$?
-# a measurement of tips that was made twice; a preconditioner that the start of a resumed run had left
+# a measurement of tips that was made twice; a preconditioner that the start of a resumed run had left; why a run ended
 n=17
-for one in "16 facets" "20 facets"; do
+for one in "16 facets" "20 facets" "256 facets"; do
     kills FROM="${one% *}" COUNT=1 KIND="${one#* }" > "$out/said" && word=ok || { word="not ok" code=1; sed 's/^/# /' "$out/said"; }
     echo "$word $n - number ${one% *}, ${one#* }"; n=$((n + 1))
 done
