@@ -285,12 +285,23 @@ done:
     return status;
 }
 
+/* As a run leaves it that is killed before it has locked it. */
+static int is_empty (const char *folder)
+{
+    int n = 0;
+    DIR *open = opendir (folder);
+    while (open && n < 3 && readdir (open)) n++;
+    if (!open) return 0;
+    closedir (open);
+    return n < 3;                                      /* itself and the one that it is in */
+}
+
 /* Its copy of the scene comes before all else but the lock. */
 int pg_result_left_early (const char *folder, const pg_scene *scene)
 {
     char path[4096], *present = NULL, *copy = NULL;
     snprintf (path, sizeof path, "%s/scene.yaml", folder);
-    int ran = there_is (folder, "run.lock") || there_is (folder, "history.csv");
+    int ran = there_is (folder, "run.lock") || there_is (folder, "history.csv") || is_empty (folder);
     int same = same_file (path, pg_scene_file (scene));
     if (ran && !same && read_text (path, &present) == PG_OK)
         same = present ? copy_text (&copy, scene) == PG_OK && strcmp (present, copy) == 0
