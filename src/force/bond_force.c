@@ -65,13 +65,17 @@ done:
 }
 
 /* A loop over bonds with the constants of the theory. limit: critical stretches, NULL: nothing breaks in
- * it. */
+ * it. What it cannot sum the scene asks for, not the caller. */
 static pg_status make_loop (bond_force *b, pg_bond_loop **out, const pg_sums *sums, const double *limit)
 {
     pg_bond_loop_setting *s = &b->setting;             /* constants: of the theory */
     s->sums = sums, s->family = b->family, s->limit = limit, s->threads = b->threads;
     s->exempt = b->problem->exempt[PG_NODES], s->plain = b->problem->plain;
-    return pg_bond_loop_create (out, s);
+    pg_status status = pg_bond_loop_create (out, s);
+    if (status != PG_E_USAGE) return status;
+    char why[512];
+    snprintf (why, sizeof why, "%s", pg_last_error ());
+    return pg_error (PG_E_SCENE, PG_HERE, "method.evaluation: %s", why);
 }
 
 /* The order matters: constants before the loop, the loop before weighted volumes, which it sums. */

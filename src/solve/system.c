@@ -229,7 +229,8 @@ static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, doub
         int gone = !(now > 1e-12 * fmax (first, 1e-9 * s->mean_diagonal));
         if (m == 0 && weak && s->shift == 0 && gone)
             value[q] += first > 1e-9 * s->mean_diagonal ? first : s->mean_diagonal;
-        else if (m == 0 && weak) value[q] += s->shift * s->mean_diagonal;
+        else if (m == 0 && weak)
+            value[q] += s->shift * (gone || first > 1e-9 * s->mean_diagonal ? s->mean_diagonal : now);
     }
     if (m == 0) loose_matrix (s, K, value);
     if (m != 0) system_add_mass_matrix (s, m, K, value);

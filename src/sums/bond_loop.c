@@ -90,7 +90,7 @@ static pg_status choose_kind (const pg_bond_loop_kind **out, const pg_bond_loop_
         if (!why) *out = kinds[k];
     }
     if (!*out)
-        PG_FAIL (PG_E_SCENE, "method.evaluation: %s cannot sum these bonds: %s; try auto",
+        PG_FAIL (PG_E_USAGE, "evaluation %s cannot sum these bonds: %s; try evaluation: auto",
                  only ? only : "auto", why);
 done:
     return status;

@@ -22,6 +22,10 @@ static void what_is_not_of_this_run_is_refused (void **state)
     (void) state;
     char where[64], changed[2048];
     make_folder (where);
+    /* an empty folder is what a run leaves that is killed before its first file; this one holds another's */
+    FILE *file = fopen (inside (where, "notes"), "w");
+    assert_non_null (file);
+    fclose (file);
     refused (scenes[1].text, where, "there is no");
     assert_int_equal (stop_at (scenes[1].text, where, 5), 1);
     snprintf (changed, sizeof changed, "title: another\n%s", scenes[1].text);
