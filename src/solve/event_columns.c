@@ -12,8 +12,8 @@
 /* Operations a second of products of large dense matrices, in the measure of system_factor_cost. */
 static const double dense_rate = 20e9;
 
-/* Writes T' e_i of the unknowns first .. t - 1 into the right-hand sides. While a resumed run makes its columns
- * again group by group, unknowns of later groups are touched already. */
+/* Writes T' e_i of the unknowns first .. t - 1 into the right-hand sides. While a resumed run makes its
+ * columns again group by group, unknowns of later groups are touched already. */
 static void unit_forces (event_solver *e, size_t first, const pg_sparse *T)
 {
     size_t count = e->t - first;
@@ -25,7 +25,8 @@ static void unit_forces (event_solver *e, size_t first, const pg_sparse *T)
     for (size_t j = 0; j < T->ncol; j++)
         for (long q = T->start[j]; q < T->start[j + 1]; q++) {
             int at = e->at[T->row[q]];
-            if (at > (int) first && at <= (int) e->t) e->rhs[((size_t) at - 1 - first) * e->nred + j] = T->value[q];
+            if (at <= (int) first || at > (int) e->t) continue;
+            e->rhs[((size_t) at - 1 - first) * e->nred + j] = T->value[q];
         }
 }
 
