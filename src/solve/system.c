@@ -215,7 +215,8 @@ done:
 }
 
 /* value = k K + m M, and a shift on weak unknowns: those of touched nodes, those without stiffness from
- * the start, and those whose diagonal has changed. With a mass nothing is singular but what has no mass
+ * the start, and those whose diagonal has changed. Next to no stiffness from the start is shifted by a share
+ * of itself, which refinement can take out again. With a mass nothing is singular but what has no mass
  * either. */
 static void combine (pg_system *s, const pg_sparse *K, const dynamics *dyn, double *value)
 {

@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * A pressure on the faces of cracks opens them as a tension of that size on the body does, for both differ
  * by a uniform stress across the crack: the same K_I and T. It follows the faces that come into being. */
-#include "scene_runs/run.h"
+#include "first_tip.h"
 
 #define TENSION "{set: top, traction: {y: 2}}, {set: bottom, traction: {y: -2}}"
 #define PRESSURE "{set: cracks, pressure: 2}"
@@ -24,12 +24,8 @@ static run notch (double unit, const char *loads, const char *more)
 static pg_tip_field opened (double unit, const char *loads)
 {
     run r = notch (unit, loads, "solver: {kind: static}\noutput: {at: {levels: 1}}\n");
-    void *self;
-    const pg_force_type *force = pg_solver_force (r.solver, &self);
-    pg_tip_field f;
     to_the_end (&r);
-    const double *d = r.state->d, one = 1;
-    check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one));
+    pg_tip_field f = first_tip (&r);
     const pg_statistics *now = pg_solver_report_now (r.solver);
     check_relative (now->energy_external, now->energy_strain, 1e-9);
     clear (&r);
@@ -57,13 +53,9 @@ static void and_in_affine_loads (void **state)
     pg_tip_field all = opened (1, PRESSURE);
     run r = notch (1, "{set: cracks, pressure: 2, ramp: constant}, " TENSION,
                    "solver: {kind: static, steps: 1}\noutput: {at: {levels: 1}}\n");
-    void *self;
-    const pg_force_type *force = pg_solver_force (r.solver, &self);
-    pg_tip_field f;
     to_the_end (&r);
     /* both at once: J is that of the sum only if the pressure counts in full */
-    const double *d = r.state->d, one = 1;
-    check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one));
+    pg_tip_field f = first_tip (&r);
     check_relative (f.J[0][0], 4 * all.J[0][0], 0.02);
     check_relative (f.K_wide[0][0], 2 * all.K_wide[0][0], 0.01);
     clear (&r);

@@ -3,8 +3,7 @@
  * under forces J is what the work of the forces gains per length of crack, under springs whose ends move
  * what the energy loses. Springs far too soft to matter change nothing. */
 #include <math.h>
-#include "scene_runs/run.h"
-#include "perigal/fracture.h"
+#include "first_tip.h"
 
 static const double h = 1.0 / 40, thickness = 0.3;
 
@@ -26,14 +25,10 @@ static answer edge (double a, const char *method, const char *boundary)
                       "boundary: [%s, {set: pin, displacement: {x: 0, y: 0}, essential: penalty}]\n"
                       "solver: {kind: static}\noutput: {at: {levels: 1}}\n",
                       thickness, h, offset, a, method, 1 - 1.01 * h, 1.01 * h, boundary);
-    void *self;
-    pg_tip_field f;
     answer out;
-    const double one = 1, *d;
+    const double one = 1;
     to_the_end (&r);
-    d = r.state->d;
-    const pg_force_type *force = pg_solver_force (r.solver, &self);
-    check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one));
+    pg_tip_field f = first_tip (&r);
     out = (answer){ f.J[0][0], { f.K_wide[0][0], f.K_wide[1][0] }, pg_tip_uncertainty (&f, 1, &one),
                     pg_solver_report_now (r.solver)->energy_external };
     clear (&r);
@@ -55,13 +50,8 @@ static double turned (double angle)
                       "  - {set: bottom, displacement: {x: \"%g*y\", y: \"%g*x\"}}\n"
                       "  - {set: top, displacement: {x: \"%g*y\", y: \"1e-3 m + %g*x\"}}\n"
                       "solver: {kind: static}\noutput: {at: {levels: 1}}\n", -angle, angle, -angle, angle);
-    void *self;
-    pg_tip_field f;
-    const double one = 1, *d;
     to_the_end (&r);
-    d = r.state->d;
-    const pg_force_type *force = pg_solver_force (r.solver, &self);
-    check_ok (pg_tip_measure (&f, r.problem, force, self, r.state, 0, 1, &d, &one));
+    pg_tip_field f = first_tip (&r);
     clear (&r);
     return f.J[0][0];
 }

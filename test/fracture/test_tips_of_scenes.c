@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Tips of cracks as the program solves them: the field of given K_I, K_II held on the outline of a square, in
  * which the tip must show them again, and the edge crack of the handbooks. */
-#include "scene_runs/run.h"
+#include "first_tip.h"
 
 static const double pi = 3.14159265358979323846;
 
@@ -14,14 +14,9 @@ typedef struct {
 /* The last tip of a state that is solved. */
 static pg_tip_field measured (const run *r)
 {
-    void *self;
-    const pg_force_type *force = pg_solver_force (r->solver, &self);
-    const double *d = r->state->d, one = 1;
-    pg_tip_field f;
     assert_non_null (r->state->paths);
     assert_int_equal (r->state->paths->ntip, 1);
-    check_ok (pg_tip_measure (&f, r->problem, force, self, r->state, 0, 1, &d, &one));
-    return f;
+    return first_tip (r);
 }
 
 /* A square of half width 1 unit with 20 spacings across it, cut from its outline to the middle along
