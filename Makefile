@@ -232,6 +232,7 @@ compilers: packages  ## gcc -O0, gcc -O3, clang, warnings being errors; the shor
 
 lint:                ## the house rules of doc/architecture.md; make lint WHY=--why names every offence against those not met yet
 	$(Q).ci/lint $(WHY) $(ORDER)
+	$(Q)out=$$(.ci/mutate --list) || { echo "$$out"; exit 1; }
 
 doc: perigal         ## doc/input.md, from the tables that check a scene
 	$(Q)./perigal help --manual > doc/input.md.new && mv doc/input.md.new doc/input.md
