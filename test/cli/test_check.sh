@@ -47,12 +47,12 @@ if [ "$asan" -eq 0 ]; then
     disc='[{disc: {center: [0.52, 0.51, 0.53], normal: [0, 0, 1], radius: 0.2}}]'
     compare "no factor" 0.3 "$work/solid.yaml" --set solver.linear=pcg --set cracks="$disc"
     compare "no factor, shared rows" 0.3 "$work/solid.yaml" --set solver.linear=pcg --set failure='{criterion: none}' --set spacing=0.05
-    bond=(--set method.force=bond --set failure='{criterion: stretch, critical_stretch: 1 %}' --set spacing=0.02)
+    bond=(--set method.force=bond --set failure='{criterion: stretch, critical_stretch: 1 %}' --set spacing=0.03)
     moving=(--set solver='{kind: verlet, time_steps: 2, dt: 1 ns}')
     compare "bonds, no factor" 0.2 "$work/solid.yaml" "${bond[@]}" --set solver.linear=pcg
     compare "bonds that cannot break" 0.2 "$work/solid.yaml" "${bond[@]}" --set solver.linear=pcg --set failure='{criterion: none}'
     compare "bonds by stencil" 0.2 "$work/solid.yaml" "${bond[@]}" "${moving[@]}"
-    compare "bonds by list" 0.2 "$work/solid.yaml" "${bond[@]}" "${moving[@]}" --set method.evaluation=list
+    compare "bonds by list" 0.2 "$work/solid.yaml" "${bond[@]}" "${moving[@]}" --set method.evaluation=list --set spacing=0.04
     compare "small time steps" 0.3 "$work/solid.yaml" --set solver='{kind: newmark, dt: 2 us, end: 4 us}' --set failure='{criterion: none}'
 fi
 

@@ -24,7 +24,7 @@ report "folders of doc/architecture.md are those of src, in the order of make li
 # solids on the lattice of twice their spacing, or where they do not suit it, and with PERIGAL_TEST_SIZE=long, as they stand
 . test/cli/coarse.sh
 right() {
-    [ "$PERIGAL_TEST_SIZE" != long ] && grep -q '^dimension: 3' "$1" && coarse "$1" && "$perigal" check "$1" -q --set spacing="$twice" > /dev/null 2>&1 && return
+    [ "$PERIGAL_TEST_SIZE" != long ] && coarse "$1" && "$perigal" check "$1" -q --set spacing="$twice" > /dev/null 2>&1 && return
     "$perigal" check "$1" -q 2>&1 > /dev/null
 }
 report "every scene of data/ is right" "$(for s in data/*/scene*.yaml; do right "$s"; done)"

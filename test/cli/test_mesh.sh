@@ -70,11 +70,11 @@ output: {at: {levels: 1}, pictures: []}"
 mkdir "$work/pictures"
 pictures=$(ls data/mesh/*.msh data/mesh/ccx/*.frd | wc -l); pictures=$((pictures + 3))
 for file in data/mesh/*.msh; do
-    case $file in */disk_*) scene "$file" 2 mm '0.2 mm' ;; *) scene "$file" 3 mm '0.25 mm' ;; esac
+    case $file in */disk_*) scene "$file" 2 mm '0.2 mm' ;; *) scene "$file" 3 mm '0.5 mm' ;; esac
 done
 scene test/fuzz/seed_mesh/tri.e 2 mm '0.1 mm'
 scene test/fuzz/seed_mesh/plane.inp 2 mm '0.1 mm'
-scene data/bracket/bracket.inp 3 mm '6 mm'
+scene data/bracket/bracket.inp 3 mm '12 mm'
 for file in data/mesh/ccx/*.frd; do
     "$perigal" plot "$file" --field stress --out "$work/pictures/$(basename "$file").png" > "$work/out" 2> "$work/err"; verdict "$(basename "$file"): a picture of its stress" $?
 done

@@ -30,7 +30,11 @@ pair() {
     *)  verdict "$name: exit code $code" 1 ;;
     esac
 }
-for force in $forces; do for solver in $solvers; do pair "$force x $solver" "$force" "$solver"; done; done
+# shape functions in motion: less of the load breaks some bonds, the whole of it nearly all, which takes twenty times as long
+for force in $forces; do for solver in $solvers; do
+    case "$force $solver" in 'galerkin newmark') less=('boundary[0].displacement.y=8 um' 'boundary[1].displacement.y=-8 um' 'solver.end=25 us') ;; *) less=() ;; esac
+    pair "$force x $solver" "$force" "$solver" "${less[@]}"
+done; done
 # a Poisson's ratio beyond that of bonds, with the dilatation that bears the difference
 for solver in $solvers; do pair "gmpd x $solver, volumetric" gmpd $solver method.volumetric=on materials.glass.poissons_ratio=0.4; grep -q runs <<< "$latest" || bad=1; done
 pair "gmpd x static, more than bonds bear" gmpd static materials.glass.poissons_ratio=0.4; grep -q 'refused.*0.333333' <<< "$latest" || bad=1
@@ -42,5 +46,9 @@ pair "bond x static, energies of points, fixed steps" bond static "$energy" 'sol
 turning=(materials.glass.poissons_ratio=0.2 'failure={criterion: beam_limits, fracture_energy: 400 J/m2, exclude: [top_grip, bottom_grip]}')
 for solver in $solvers; do pair "gmpd x $solver, points that turn" gmpd "$solver" "${turning[@]}"; grep -q runs <<< "$latest" || bad=1; done
 # what was refused above for its time step
-for solver in verlet central relax; do pair "galerkin x $solver, a stable time step" galerkin $solver solver.dt='15 ns'; grep -q 'runs\|ends' <<< "$latest" || bad=1; done
+for solver in verlet central relax; do
+    # motion that comes to rest takes the most steps: fewer points, which bear larger steps
+    case $solver in relax) stable=('solver.dt=30 ns' 'spacing=1.25 mm') ;; *) stable=('solver.dt=15 ns') ;; esac
+    pair "galerkin x $solver, a stable time step" galerkin $solver "${stable[@]}"; grep -q 'runs\|ends' <<< "$latest" || bad=1
+done
 finish

@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_resume.sh BUILD: runs that are interrupted at random moments (14 by TERM, 14 by KILL, some again while they go on) and resumed end
+# test_resume.sh BUILD: runs that are interrupted at random moments (short: 5 by TERM and 6 by KILL, long: 14 each, some again while they go on) and resumed end
 # with the files of a run that nobody disturbed; finished, foreign and missing checkpoints; disks that are full or read-only.
 . "$(dirname "$0")/expect.sh"
 cd "$(dirname "$0")" || exit 1
@@ -53,7 +53,8 @@ resumed() {
 }
 RANDOM=20220
 kinds=(event fixed newmark explicit relaxed)
-for k in $(seq 28); do
+numbers='1 4 7 10 13 16 19 21 24 25 28'; [ "$PERIGAL_TEST_SIZE" = long ] && numbers=$(seq 28)
+for k in $numbers; do
     [ $k -le 20 ] && kind=${kinds[$((k % 5))]} || kind=dying
     [ $k -le 22 ] || kind=state
     [ $k -le 24 ] || kind=turning

@@ -18,11 +18,13 @@ grows() {
         alike 1e-8 "$work/one" "$work/some" events.csv; verdict "$name: the same bonds on $r ranks" $?
     done
 }
-grows "several cracks" facets.yaml tips.csv 2 3 8
-more=
-[ "$PERIGAL_TEST_SIZE" = long ] && more=8
-grows "a closed crack with friction" contact.yaml tips.csv 2 3 $more
-grows "in space" space.yaml fronts.csv 2 3 $more
+on() { numbers=$1; [ "$PERIGAL_TEST_SIZE" = long ] && numbers='2 3 8'; }
+on 8
+grows "several cracks" facets.yaml tips.csv $numbers
+on 2
+grows "a closed crack with friction" contact.yaml tips.csv $numbers
+on 3
+grows "in space" space.yaml fronts.csv $numbers
 
 # fields too, and what is left behind
 ranks 3 facets.yaml -o "$work/some" --force && [ ! -e "$work/some/ranks" ] && [ ! -e "$work/some/checkpoint.nc" ] && [ -s "$work/some/result.e" ]

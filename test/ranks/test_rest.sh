@@ -7,8 +7,8 @@ equal() {
     local name=$1 scene=$2 numbers=$3 r; shift 3
     alone "$scene" -o "$work/one" --force "$@"; verdict "$name: one process" $?
     for r in $numbers; do
-        rm -rf "$work/some"
-        ranks "$r" "$scene" -o "$work/some" "$@"; verdict "$name: $r ranks" $?
+        # as coarse has made it, where that asked for the same run
+        [ "$r" = "$made" ] || { rm -rf "$work/some"; ranks "$r" "$scene" -o "$work/some" "$@"; }; verdict "$name: $r ranks" $?
         [ "$r" = 1 ] || grep -q '"division": "subdomains"' "$work/some/report.json"; verdict "$name: they divide the body" $?
         "$perigal" compare "$work/one" "$work/some" --json > "$work/norms" 2> "$work/why"
         python3 -c 'import json, sys; n = json.load(open(sys.argv[1]))["displacement_l2"]; print(n); sys.exit(not n["relative"] < 1e-9)' "$work/norms" > "$work/why" 2>&1
@@ -17,7 +17,7 @@ equal() {
         alike 1e-7 "$work/one" "$work/some" events.csv; verdict "$name: the same bonds on $r ranks" $?
     done
 }
-all='1 2 4'
+all='1 4' made=
 [ "$PERIGAL_TEST_SIZE" = long ] && all='1 2 3 4'
 equal "bond" rest.yaml "$all"
 [ "$(wc -l < "$work/one/events.csv")" -gt 20 ]; verdict "something breaks" $?
@@ -54,7 +54,9 @@ one=(--set solver.steps=1 --set failure.critical_stretch=10)
 coarse "a cracked plate" rest.yaml "$all" 'multilevel, .* on every rank' "${one[@]}" --set "$comb" --set spacing='1 mm'
 coarse "a cracked plate, lps" rest.yaml "1 4" 'multilevel, .* on every rank' "${one[@]}" --set "$comb" --set spacing='1 mm' --set method.force=lps
 coarse "coarse levels of PETSc" rest.yaml "4" 'multilevel, .* GAMG .PETSc.' "${one[@]}" --set "$comb" --set spacing='0.5 mm' --set method.horizon='2.015 spacing'
+made=4
 equal "coarse levels of PETSc" rest.yaml "4" "${one[@]}" --set "$comb" --set spacing='0.5 mm' --set method.horizon='2.015 spacing'
+made=
 equal "points off the lattice" rest.yaml "3" --set solver.steps=2 --set perturb.amount=0.1
 grep -q '"preconditioner": "GAMG (PETSc)' "$work/some/report.json"; verdict "have the preconditioner of PETSc" $?
 # of tips every rank knows the whole, or none may be asked for

@@ -85,13 +85,14 @@ static const struct { const char *name, *text; int whole;
 };
 enum { SCENES = sizeof scenes / sizeof *scenes };
 
-/* left: looks until it stops; negative: it stops after this step */
-typedef struct { pg_result *result; pg_state *state; long left; int within; } visit;
+/* left: looks until it stops; negative: it stops after this step; looks: how many there were */
+typedef struct { pg_result *result; pg_state *state; long left, looks; int within; } visit;
 
 static inline pg_status look (void *context, const pg_state *state, const pg_step *so_far)
 {
     visit *v = context;
     pg_status status = pg_result_stage (v->result, state, so_far);
+    v->looks++;
     if (status == PG_OK && v->left > 0 && --v->left == 0)
         v->within = 1, status = pg_error (PG_E_INTERRUPTED, PG_HERE, "a test");
     return status;
@@ -107,6 +108,7 @@ static inline int go (run *r, visit *v)
         if (v->within) return 1;
         check_ok (status);
         check_ok (pg_result_step (v->result, r->state, &r->step));
+        v->looks++;
         if (v->left == -r->state->step || (v->left > 0 && --v->left == 0)) return 1;
     }
     check_ok (pg_result_finish (v->result, r->state, NULL, 0, 0));
@@ -114,14 +116,15 @@ static inline int go (run *r, visit *v)
 }
 
 /* Stops at the k-th look, leaves a checkpoint and a little more than it knows of. 0: the run was over
- * before. */
-static inline int stop_at (const char *text, const char *where, long k)
+ * before. *looks: how many there were. */
+static inline int stop_after (const char *text, const char *where, long k, long *looks)
 {
     run r = prepare (1, text);
     visit v = { .left = k };
     check_ok (pg_result_discard (where));
     check_ok (pg_result_open (&v.result, where, r.scene, r.problem, r.solver));
     int stopped = go (&r, &v);
+    *looks = v.looks;
     if (stopped) {
         check_ok (pg_result_checkpoint (v.result, r.state));
         check_ok (pg_result_finish (v.result, r.state, "stopped", 0, 0));
@@ -129,6 +132,12 @@ static inline int stop_at (const char *text, const char *where, long k)
     pg_result_free (&v.result);
     clear (&r);
     return stopped;
+}
+
+static inline int stop_at (const char *text, const char *where, long k)
+{
+    long looks;
+    return stop_after (text, where, k, &looks);
 }
 
 static inline pg_status resume (const char *text, const char *where, run *r, visit *v, pg_resumed *from)

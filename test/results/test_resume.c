@@ -57,39 +57,42 @@ static void from_moment (const char *text, const char *plain, const char *where,
     same_files (plain, where);
 }
 
-/* From the end of the first three steps, and from every moment (long), else from some. */
-static void from_every_moment (int i, long some)
+/* From the end of the first three steps, and from every moment; short: of the first two, and from four more
+ * moments or five, spread over the run. */
+static void from_every_moment (int i)
 {
     const char *size = getenv ("PERIGAL_TEST_SIZE"), *text = scenes[i].text;
     char plain[64], where[64];
-    long stride = size && strcmp (size, "long") == 0 ? 1 : some, within = 0, moments = 0;
+    long within = 0, moments = 0, looks, longer = size && strcmp (size, "long") == 0;
     make_folder (plain), make_folder (where);
-    assert_int_equal (stop_at (text, plain, 0), 0);
-    for (long k = 1; k <= 3 && stop_at (text, where, -k); k++) from_moment (text, plain, where, &within);
+    assert_int_equal (stop_after (text, plain, 0, &looks), 0);
+    for (long k = 1; k <= 2 + longer && stop_at (text, where, -k); k++)
+        from_moment (text, plain, where, &within);
     assert_int_equal (within, 0);
-    for (long k = 1; stop_at (text, where, k); k += stride, moments++)
+    long stride = longer || looks < 8 ? 1 : looks / 4;
+    for (long k = longer ? 1 : 1 + stride / 2; stop_at (text, where, k); k += stride, moments++)
         from_moment (text, plain, where, &within);
     assert_true (moments > 3 && (within == 0) == scenes[i].whole);
     remove_folder (plain), remove_folder (where);
 }
-static void from_every_event (void **state) { (void) state; from_every_moment (0, 5); }
-static void from_every_round_of_load_steps (void **state) { (void) state; from_every_moment (1, 7); }
-static void from_every_round_with_elimination (void **state) { (void) state; from_every_moment (2, 9); }
-static void from_every_round_of_nodal_integration (void **state) { (void) state; from_every_moment (3, 5); }
-static void from_every_round_of_time_steps (void **state) { (void) state; from_every_moment (4, 13); }
+static void from_every_event (void **state) { (void) state; from_every_moment (0); }
+static void from_every_round_of_load_steps (void **state) { (void) state; from_every_moment (1); }
+static void from_every_round_with_elimination (void **state) { (void) state; from_every_moment (2); }
+static void from_every_round_of_nodal_integration (void **state) { (void) state; from_every_moment (3); }
+static void from_every_round_of_time_steps (void **state) { (void) state; from_every_moment (4); }
 static void from_every_event_with_an_old_preconditioner (void **state)
 {
     (void) state;
-    from_every_moment (5, 5);
+    from_every_moment (5);
 }
-static void from_every_facet (void **state) { (void) state; from_every_moment (6, 3); }
-static void from_every_round_of_facets (void **state) { (void) state; from_every_moment (7, 3); }
-static void from_every_step_of_a_front (void **state) { (void) state; from_every_moment (8, 1); }
-static void from_every_wing (void **state) { (void) state; from_every_moment (9, 2); }
-static void from_every_round_of_wings (void **state) { (void) state; from_every_moment (10, 3); }
-static void from_every_stretch_of_confined_wings (void **state) { (void) state; from_every_moment (11, 2); }
-static void from_every_step_between_platens (void **state) { (void) state; from_every_moment (12, 1); }
-static void from_every_round_of_drying (void **state) { (void) state; from_every_moment (13, 7); }
+static void from_every_facet (void **state) { (void) state; from_every_moment (6); }
+static void from_every_round_of_facets (void **state) { (void) state; from_every_moment (7); }
+static void from_every_step_of_a_front (void **state) { (void) state; from_every_moment (8); }
+static void from_every_wing (void **state) { (void) state; from_every_moment (9); }
+static void from_every_round_of_wings (void **state) { (void) state; from_every_moment (10); }
+static void from_every_stretch_of_confined_wings (void **state) { (void) state; from_every_moment (11); }
+static void from_every_step_between_platens (void **state) { (void) state; from_every_moment (12); }
+static void from_every_round_of_drying (void **state) { (void) state; from_every_moment (13); }
 
 /* ---- stages, full disks -------------------------------------------------------------------------------- */
 static void stages_within_a_step_ascend_in_time (void **state)

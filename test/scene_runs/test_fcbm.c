@@ -17,6 +17,12 @@ static const example own[] = { { "data/zhou_1/scene.yaml", "spacing=0.5 mm", { "
                                  { "solver.dt=1.3367e-8 s", "output.at.rows=1000",
                                    "failure.critical_stretch=0.04472" } } };
 
+/* without failure the sums are the same on twice that spacing too */
+static const example coarser[] = { { "data/zhou_1/scene.yaml", "spacing=2 mm", { "output.at.rows=1000" } },
+                                   { "data/zhou_2/scene.yaml",
+                                     "spacing=0.5 mm",
+                                     { "solver.dt=3.341e-8 s", "output.at.rows=1000" } } };
+
 static run load (const example *e, const char *evaluation, const char *failure)
 {
     const char *set[6] = { evaluation, e->spacing };
@@ -47,9 +53,10 @@ static const example *which (void) { return getenv ("PERIGAL_LONG") ? own : coar
 static void elastic_fields (void **unused)
 {
     (void) unused;
+    const example *e = which () == own ? own : coarser;
     for (int k = 0; k < 2; k++) {
-        run a = load (&which ()[k], "method.evaluation=stencil", "failure.critical_stretch=1000"),
-            b = load (&which ()[k], "method.evaluation=fft", "failure.critical_stretch=1000");
+        run a = load (&e[k], "method.evaluation=stencil", "failure.critical_stretch=1000"),
+            b = load (&e[k], "method.evaluation=fft", "failure.critical_stretch=1000");
         for (int n = 1; n <= 1000; n++) {
             advance (&a), advance (&b);
             if (n != 750 && n != 1000) continue;

@@ -39,28 +39,30 @@ static double radius (const double *x, const void *centre)
 /* ---- a straight front ---------------------------------------------------------------------------------- */
 /* A strip between clamps, H high, 1 m the spacing: far ahead of the front a displacement u stores M u^2 / (2
  * H) per area, M = E (1 - nu) / ((1 + nu) (1 - 2 nu)), and nothing behind it: that is G. constant: share of
- * it that is there at load factor 0. */
-static run strip (double shift, double amount, int seed, double constant, int events, int threads)
+ * it that is there at load factor 0. depth: along the front. */
+static run strip (int depth, double amount, int seed, double constant, int events, int threads)
 {
-    const double H = 10, M = E * (1 - NU) / ((1 + NU) * (1 - 2 * NU)), u = 2 * sqrt (2 * H * G0 / M);
+    const double shift = 0.31, H = 10, M = E * (1 - NU) / ((1 + NU) * (1 - 2 * NU)),
+                 u = 2 * sqrt (2 * H * G0 / M);
     return scene_of (threads, "dimension: 3\nspacing: 1 m\nperturb: {amount: %g, seed: %d}\n"
-                        "body: [{add: {box: {low: [0, -5, 0], high: [%d, 5, 8]}}}]\n"
-                        "cracks: [{polygon: [[-0.6, %g, -0.6], [%g, %g, -0.6], [%g, %g, 8.6], [-0.6, %g, "
-                        "8.6]]}]\n"
+                        "body: [{add: {box: {low: [0, -5, 0], high: [%d, 5, %d]}}}]\n"
+                        "cracks: [{polygon: [[-0.6, %g, -0.6], [%g, %g, -0.6], [%g, %g, %g], [-0.6, %g, "
+                        "%g]]}]\n"
                         "materials: {glass: {youngs_modulus: %g, poissons_ratio: %g}}\n"
                         "boundary: [{set: bottom, displacement: {x: 0, y: %.17g, z: 0}, ramp: constant}, "
                         "{set: top, displacement: {x: 0, y: %.17g, z: 0}}, "
                         "{set: back, displacement: {z: 0}}, {set: front, displacement: {z: 0}}]\n"
                         "method: {horizon: 2.01 spacing}\n"
                         "failure: {criterion: energy_release, fracture_energy: %g}\n"
-                        "solver: {max_events: %d}\n", amount, seed, events > 5 ? 34 : 22, shift, 8 + shift,
-                     shift, 8 + shift, shift, shift, E, NU, -constant * u, u, G0, events);
+                        "solver: {max_events: %d}\n", amount, seed, events > 5 ? 34 : 22, depth, shift,
+                     8 + shift, shift, 8 + shift, shift, depth + 0.6, shift, depth + 0.6, E, NU,
+                     -constant * u, u, G0, events);
 }
 
 /* Over so many events; the first front is drawn straight, and the load falls to its own within the first. */
-static void stays_straight (int seed, int events)
+static void stays_straight (int seed, int events, int depth)
 {
-    run r = strip (0.31, 0.2, seed, 0, events, 2);
+    run r = strip (depth, 0.2, seed, 0, events, 2);
     double before = 0, spent = 0, load = 0, worst = 0;
     int event = 0;
     while (!pg_solver_done (r.solver, r.state)) {
@@ -80,17 +82,22 @@ static void stays_straight (int seed, int events)
     check_relative (load, 1, 0.025);
     check_relative (spent, G0 * r.state->surfaces->area, 0.05);
     /* vertices behind the first go less */
-    check_relative (r.state->surfaces->area, 0.96 * events * 8, 0.05);
+    check_relative (r.state->surfaces->area, 0.96 * events * depth, 0.05);
     clear (&r);
+}
+
+static int longer (void)
+{
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    return size && strcmp (size, "long") == 0;
 }
 
 /* PERIGAL_TEST_SIZE=long: over ten spacings, on points moved in three ways. */
 static void a_straight_front_stays_straight (void **state)
 {
     (void) state;
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    int longer = size && strcmp (size, "long") == 0;
-    for (int seed = 1; seed <= (longer ? 3 : 1); seed++) stays_straight (seed, longer ? 10 : 5);
+    for (int seed = 1; seed <= (longer () ? 3 : 1); seed++)
+        stays_straight (seed, longer () ? 10 : 5, longer () ? 8 : 6);
 }
 
 /* Whatever part of the opening is there from the beginning, growth begins at the same opening. Two threads
@@ -98,8 +105,9 @@ static void a_straight_front_stays_straight (void **state)
 static void loads_may_have_a_constant_part (void **state)
 {
     (void) state;
-    run r[3] = { strip (0.31, 0.2, 1, 0, 1, 1), strip (0.31, 0.2, 1, 0, 1, 2), strip (0.31, 0.2, 1, 0.3, 1,
-                                                                                      1) };
+    const int depth = longer () ? 8 : 5;
+    run r[3] = { strip (depth, 0.2, 1, 0, 1, 1), strip (depth, 0.2, 1, 0, 1, 2),
+                 strip (depth, 0.2, 1, 0.3, 1, 1) };
     for (int k = 0; k < 3; k++) while (r[k].state->events == 0) advance (&r[k]);
     size_t n = r[0].state->ndof * sizeof (double);
     assert_memory_equal (r[0].state->d, r[1].state->d, n);
@@ -127,22 +135,23 @@ static run cube (double L, const char *crack, double scale, double amount, int e
                          events);
 }
 
-/* An ellipse of 3.2 by 5.4 spacings, as a polygon, in a plane that lies in none of the lattice's. */
+/* An ellipse of 3.2 by 5.4 spacings (short: 0.8 of that), as a polygon, in a plane that lies in none of the
+ * lattice's. */
 static void an_ellipse_becomes_round (void **state)
 {
     (void) state;
     enum { SIDES = 28 };
     char crack[4000] = "{polygon: [";
-    const double c[3] = { 0.2, 0.31, 0.1 };
+    const double c[3] = { 0.2, 0.31, 0.1 }, part = longer () ? 1 : 0.8;
     size_t at = strlen (crack);
     for (int k = 0; k < SIDES; k++) {
-        double t = 2 * acos (-1) * k / SIDES, a = 5.4 * cos (t), b = 3.2 * sin (t), turn = 0.35;
+        double t = 2 * acos (-1) * k / SIDES, a = 5.4 * part * cos (t), b = 3.2 * part * sin (t), turn = 0.35;
         at += (size_t) snprintf (crack + at, sizeof crack - at, "%s[%.9g, %.9g, %.9g]", k ? ", " : "",
                                  c[0] + a * cos (turn) - b * sin (turn), c[1],
                                  c[2] + a * sin (turn) + b * cos (turn));
     }
     snprintf (crack + at, sizeof crack - at, "]}");
-    run r = cube (11.5, crack, 1, 0.1, 4);
+    run r = cube (longer () ? 11.5 : 9, crack, 1, 0.1, 4);
     double spent = 0, first = 0;
     while (!pg_solver_done (r.solver, r.state)) {
         advance (&r);
@@ -156,45 +165,60 @@ static void an_ellipse_becomes_round (void **state)
     }
     spread s = of_fronts (&r, radius, c);
     check_below (s.high / s.low, 1.15);
-    check_relative (spent, G0 * r.state->surfaces->area, 0.06);
+    /* the smaller the rounder its front: 1.074 found, 1.03 of the larger one */
+    check_relative (spent, G0 * r.state->surfaces->area, longer () ? 0.06 : 0.09);
     clear (&r);
 }
 
+/* The ends of the one front along the steepest line of a disc, and how far they are off its plane, in m. */
+typedef struct { double at[2], off[2]; } wings;
+
+static wings wings_of (const run *r, double m)
+{
+    wings w = { .at = { 0, 0 } };
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (r->problem, r->state, &nfront);
+    assert_int_equal (nfront, 1);
+    for (size_t i = 0; i < front->n; i++) {
+        const double *x = front->x + 3*i;
+        /* along the steepest line (1, -1, 0) and across the disc (1, 1, 0) */
+        double s = (x[0] / m - 0.2 - x[1] / m + 0.31) / sqrt (2),
+               n = (x[0] / m - 0.2 + x[1] / m - 0.31) / sqrt (2);
+        if (s > w.at[1]) w.at[1] = s, w.off[1] = n;
+        if (s < w.at[0]) w.at[0] = s, w.off[0] = n;
+    }
+    print_message ("ends at %.3f %.3f, off the plane by %.3f %.3f\n", w.at[0], w.at[1], w.off[0], w.off[1]);
+    return w;
+}
+
 /* A disc tilted by 45 degrees: at the ends of the steepest line it kinks towards the plane across the load,
- * at the sides it does not; both ends alike; the same with millimetres for metres. */
+ * at the sides it does not; both ends alike; the same with millimetres for metres (short: in the first event
+ * of two). */
 static void a_tilted_disc_grows_wings (void **state)
 {
     (void) state;
-    double kink[2][2];
+    wings w[2][2];
     for (int unit = 0; unit < 2; unit++) {
-        double m = unit ? 1e-3 : 1, ends[2] = { 0, 0 };
+        const int events = unit && !longer () ? 1 : 2;
+        double m = unit ? 1e-3 : 1;
         char crack[200];
         snprintf (crack, sizeof crack, "{disc: {center: [%.17g, %.17g, %.17g], normal: [1, 1, 0], "
                                        "radius: %.17g}}",
                   0.2 * m, 0.31 * m, 0.1 * m, 4.5 * m);
-        run r = cube (8, crack, m, 0, 2);
-        while (!pg_solver_done (r.solver, r.state)) advance (&r);
-        size_t nfront;
-        const pg_front *front = pg_fronts_of_state (r.problem, r.state, &nfront);
-        assert_int_equal (nfront, 1);
-        for (size_t i = 0; i < front->n; i++) {
-            const double *x = front->x + 3*i;
-            /* along the steepest line (1, -1, 0) and across the disc (1, 1, 0) */
-            double s = (x[0] / m - 0.2 - x[1] / m + 0.31) / sqrt (2),
-                n = (x[0] / m - 0.2 + x[1] / m - 0.31) / sqrt (2);
-            if (s > ends[1]) ends[1] = s, kink[unit][1] = n;
-            if (s < ends[0]) ends[0] = s, kink[unit][0] = n;
+        run r = cube (8, crack, m, 0, events);
+        for (int event = 0; !pg_solver_done (r.solver, r.state); ) {
+            advance (&r);
+            if (r.step.event) w[unit][event++] = wings_of (&r, m);
         }
-        print_message ("ends at %.3f %.3f, off the plane by %.3f %.3f\n", ends[0], ends[1], kink[unit][0],
-                       kink[unit][1]);
-        check_below (5, ends[1]);
-        check_below (ends[0], -5);
-        /* from (1, -1) towards (1, 0): n > 0 there */
-        check_below (0.3, kink[unit][1]);
-        check_below (kink[unit][0], -0.3);
+        for (int event = 0; unit && event < events; event++)
+            for (int q = 0; q < 2; q++) check_relative (w[1][event].off[q], w[0][event].off[q], 1e-3);
         clear (&r);
     }
-    for (int q = 0; q < 2; q++) check_relative (kink[1][q], kink[0][q], 1e-3);
+    check_below (5, w[0][1].at[1]);
+    check_below (w[0][1].at[0], -5);
+    /* from (1, -1) towards (1, 0): n > 0 there */
+    check_below (0.3, w[0][1].off[1]);
+    check_below (w[0][1].off[0], -0.3);
 }
 
 /* ---- new cracks ---------------------------------------------------------------------------------------- */

@@ -12,9 +12,9 @@ import ranks
 from cells import has_ranks
 from methods import methods
 
-SAMPLE = {'short': 340, 'long': 2500}
+SAMPLE = {'short': 0, 'long': 2500}       # at least so many cells
 LONGEST = 60
-LEAST = 4                    # cells of each condition in every sample
+LEAST = {'short': 3, 'long': 4}             # cells of each condition
 
 
 def order(cell):
@@ -30,7 +30,7 @@ def chosen(program, size):
     ranked = sorted((c for c in cells if c.seconds <= LONGEST), key=order)
     names, conditions, found = set(), Counter(), set()
     for cell in ranked:
-        if conditions[cell.condition] < LEAST or cell.method not in found:
+        if conditions[cell.condition] < LEAST[size] or cell.method not in found:
             names.add(cell.name())
             conditions[cell.condition] += 1
             found.add(cell.method)
