@@ -268,7 +268,7 @@ static void discs_keep_their_distance (void **state)
 {
     (void) state;
     pg_cracks c =
-        network_of (CUBE, "cracks: [{random: {seed: 4, count: 60, length: {distribution: uniform, min: "
+        network_of (CUBE, "cracks: [{random: {seed: 4, count: 35, length: {distribution: uniform, min: "
                           "5 cm, max: 40 cm}, distance: 2 cm}}]");
     double least = INFINITY;
     for (size_t i = 0; i < c.n; i++)

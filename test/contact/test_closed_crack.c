@@ -50,16 +50,19 @@ static void measure (const closed_case *l, int threads, double K[2], pg_statisti
     clear (&r);
 }
 
-/* On all lattices of closed_lattices. */
+/* On all lattices of closed_lattices; short: the second load alone, the others on two of five. */
 static void a_closed_crack_slides_as_in_theory (void **state)
 {
     (void) state;
     static const struct { double degrees, friction; } load[] = {
         { 45, 0 }, { 30, 0.3 }, { 45, 0.6 }, { 60, 0.6 }
     };
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    const int longer = size && strcmp (size, "long") == 0;
     for (size_t i = 0; i < sizeof load / sizeof *load; i++) {
+        const size_t some = longer || i == 1 ? 1 : 2;
         double mean = 0;
-        for (size_t k = 0; k < 5; k++) {
+        for (size_t k = some - 1; k < 5; k += some) {
             double K[2];
             pg_statistics s;
             const closed_lattice *at = &closed_lattices[k];
@@ -81,7 +84,7 @@ static void a_closed_crack_slides_as_in_theory (void **state)
             }
             assert_int_equal (s.contact_stick, 0);
             check_relative (K[0], 1, 0.02), check_relative (K[1], 1, 0.02);
-            mean += 0.1 * (K[0] + K[1]);
+            mean += (some == 1 ? 0.1 : 0.25) * (K[0] + K[1]);
         }
         if (load[i].degrees < 60) check_relative (mean, 1, 0.01);
     }

@@ -78,12 +78,12 @@ met "at rest in space" 2 ../../bench/ranks/rest.yaml --set spacing='3 mm'
 met "shape functions" 3 galerkin.yaml --set spacing='0.5 mm' --set solver.steps=1 --set failure.tensile_strength='8 GPa'
 met "shape functions in space" 2 solid.yaml --set spacing='1 mm' --set solver.steps=1 --set failure.tensile_strength='1 GPa'
 met "shape functions, perturbed" 2 galerkin.yaml --set spacing='0.5 mm' --set perturb.amount=0.25 --set solver.steps=1 --set failure.tensile_strength='8 GPa'
-python3 meshed.py 140 > "$work/mesh.inp"
+python3 meshed.py 100 > "$work/mesh.inp"
 sed '/^body:/,/^spacing/c mesh: {file: mesh.inp, unit: mm}' galerkin.yaml > "$work/mesh.yaml"
 met "shape functions on a mesh" 2 "$work/mesh.yaml" --set solver.steps=1 --set failure.tensile_strength='8 GPa' --set solver.preconditioner=multilevel
 [ "$PERIGAL_TEST_SIZE" != long ] || met "shape functions on a mesh in space" 2 ../../data/bracket/scene.yaml --set solver.division=subdomains
 # eight small parts of many points, all of which each reads
-python3 scattered.py 2 250 > "$work/cloud.csv"; cp cloud.yaml "$work/"
+python3 scattered.py 2 180 > "$work/cloud.csv"; cp cloud.yaml "$work/"
 met "points of a file" 8 "$work/cloud.yaml" --set 'cracks=[]' --set solver.time_steps=1 --set solver.dt='1 ns' --set output.at.levels=1 --set 'output.gauges=[]' --set output.join=no
 met "shared factor" 2 facets.yaml --set spacing='0.8 mm' --set solver.linear=petsc --set solver.max_events=1
 "$perigal" check plate.yaml --ranks 3 "${touching[@]}" 2> "$work/words" > "$work/out"

@@ -26,7 +26,7 @@ static const struct {
     { "stress", "mohr_coulomb, tensile_strength: 30 MPa, cohesion: 40 MPa, friction_angle: 30 deg",
       "nodal", "nitsche", "0.5 us", "20 us", "fraction" },
     { "stress", "stretch, critical_stretch: 5e-4", "gauss", "penalty", "0.1 us", "4 us", "fraction" },
-    { "strain", "principal_stress, tensile_strength: 30 MPa", "gauss, dilatation: projected", "nitsche",
+    { "strain", "principal_stress, tensile_strength: 90 MPa", "gauss, dilatation: projected", "nitsche",
       "0.5 us", "5 us", "worst" },
 };
 
