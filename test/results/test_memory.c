@@ -77,10 +77,10 @@ static void sweep (const char *name, const char *text, size_t dense, size_t most
 static void every_allocation_of_a_run_may_fail (void **state)
 {
     (void) state;
-    /* long: every one; else the first 60, then about 12 of the rest */
+    /* long: every one; else the first 60, then about 25 of the rest */
     const char *size = getenv ("PERIGAL_TEST_SIZE");
     for (int i = 0; i < SCENES; i++)
-        sweep (scenes[i].name, scenes[i].text, size && strcmp (size, "long") == 0 ? 1000000 : 60, 12);
+        sweep (scenes[i].name, scenes[i].text, size && strcmp (size, "long") == 0 ? 1000000 : 60, 25);
 }
 
 static void the_scene_too (void **state)
