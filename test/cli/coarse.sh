@@ -1,3 +1,9 @@
 # coarse.sh, to be read by tests that ask `check` about many scenes.
-# coarse SCENE: sets $twice to twice the spacing of a lattice; fails where the scene names none.
-coarse() { twice=$(sed -nE 's/^spacing: ([0-9.]+) *([a-z]*) *(#.*)?$/\1 \2/p' "$1" | awk '{ print 2 * $1, $2 }'); [ -n "$twice" ]; }
+# coarse SCENE TIMES: sets $wide to so many times the spacing of a lattice; fails where the scene names none.
+coarse() { wide=$(sed -nE 's/^spacing: ([0-9.]+) *([a-z]*) *(#.*)?$/\1 \2/p' "$1" | awk -v k="$2" '{ print k * $1, $2 }'); [ -n "$wide" ]; }
+# wider SCENE LIST OPTIONS...: `check` agrees on a lattice of one of these multiples of the spacing, whose words are in $work/out and $work/err
+wider() {
+    local scene=$1 list=$2 k; shift 2
+    for k in $list; do coarse "$scene" "$k" && "$perigal" check "$scene" "$@" --set spacing="$wide" > "$work/out" 2> "$work/err" && return; done
+    return 1
+}
