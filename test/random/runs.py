@@ -94,9 +94,7 @@ class Program:
         if key not in self.known:
             folder = self.folder(data, files)
             out = os.path.join(folder, 'out')
-            # what MPI keeps is no leak of ours
-            quiet = ['-x', f'ASAN_OPTIONS={os.environ.get("ASAN_OPTIONS", "")}:detect_leaks=0'] if 'asan' in self.mpi else []
-            program = ['mpirun', '--allow-run-as-root', '--oversubscribe', *quiet, '-n', str(ranks), self.mpi] if ranks else [self.program]
+            program = ['mpirun', '--allow-run-as-root', '--oversubscribe', '-n', str(ranks), self.mpi] if ranks else [self.program]
             words = program + ['run', os.path.join(folder, 'scene.yaml'), '-o', out, '--quiet', *options]
             code, said = self.call(words, kill_after, out)
             if kill_after is not None and code not in (DONE, REFUSED) and os.path.exists(os.path.join(out, 'checkpoint.nc')):

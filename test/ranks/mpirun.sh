@@ -9,8 +9,7 @@ launch=(mpirun --oversubscribe)
 # milliseconds, at every message. Here it sleeps for a moment instead: a third of the time where ranks are more than cores.
 printf '#include <time.h>\nint sched_yield (void) { struct timespec t = { 0, 1000 }; return nanosleep (&t, 0); }\n' > "$work/sleep.c"
 case $mpi in
-    *asan*) launch+=(-x ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0") ;;                # what MPI keeps is not ours
-    *tsan*) ;;                                         # its own library wants to be the first, as that of asan does
+    *asan*|*tsan*) ;;                                  # their own library wants to be the first
     *) ${CC:-gcc} -shared -fPIC -o "$work/sleep.so" "$work/sleep.c" 2> /dev/null && launch+=(-x LD_PRELOAD="$work/sleep.so") ;;
 esac
 bare=(--set 'output.pictures=[]' --set 'output.views=[]')                              # ranks draw none
