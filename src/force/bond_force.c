@@ -101,6 +101,7 @@ pg_status bond_force_make (void **self, const pg_problem *problem, const bond_th
     PG_ALLOC (b->workspace, (size_t) b->threads * b->widest * (size_t) (b->dim + 2));
     PG_ALLOC (b->work, ndof (b));
     PG_ALLOC (b->stale, b->n);
+    PG_ALLOC (b->diagonal, ndof (b));
     PG_TRY (theory->create (b));
     PG_TRY (make_limits (b));
     PG_TRY (make_loop (b, &b->loop, problem->sums, b->limit));

@@ -84,7 +84,7 @@ struct bond_force {
     /* columns of K to be made again: all, or those marked */
     int       all_stale;
     unsigned char *stale;
-    double   *diagonal;  unsigned long diagonal_of;    /* of K at that revision (ndof); NULL: not made yet */
+    double   *diagonal;  unsigned long diagonal_of;    /* of K at that revision (ndof); 0: not made yet */
     unsigned long revision;
     /* row of blocks of a point with all its bonds, the own one last; NULL: not the same for all */
     double   *whole; int searched;

@@ -160,18 +160,14 @@ void bond_force_diagonal (void *context, double *d)
 {
     bond_force *b = context;
     size_t ndof = b->n * (size_t) b->stride;
-    if (b->diagonal && b->diagonal_of == b->revision) {
-        memcpy (d, b->diagonal, ndof * sizeof *d);
-        return;
+    if (b->diagonal_of != b->revision) {
+        job w = { b, b->diagonal, NULL };
+        find_whole (b);
+        dilatation_weigh (b);
+        pg_parallel (b->threads, b->n, diagonal_points, &w);
+        b->diagonal_of = b->revision;
     }
-    job w = { b, d, NULL };
-    find_whole (b);
-    dilatation_weigh (b);
-    pg_parallel (b->threads, b->n, diagonal_points, &w);
-    if (!b->diagonal) b->diagonal = pg_calloc (ndof, sizeof *b->diagonal);
-    if (!b->diagonal) return;                          /* it is made anew each time */
-    memcpy (b->diagonal, d, ndof * sizeof *d);
-    b->diagonal_of = b->revision;
+    memcpy (d, b->diagonal, ndof * sizeof *d);
 }
 
 /* Adds the sums of |entries| over each row of a block. */
