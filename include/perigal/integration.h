@@ -149,15 +149,19 @@ pg_status pg_consistency_apply (const pg_consistency *c, const pg_rows *points, 
 /* ---- patches of the dilatation ------------------------------------------------------------------------ */
 /* Near Poisson's ratio 1/2 a condition on the dilatation at every evaluation point leaves the displacement
  * too little freedom (volumetric locking). The dilatation that carries the pressure is then the mean over
- * patches of about 2 cells, or 3 points of nodal integration, per axis. Patches are disjoint, of one
- * material each, and none has less than 0.4 of the full volume where there is a neighbour to join. */
+ * patches of about 2 cells, or 3 points of nodal integration, per axis. Patches are of one material each,
+ * and none has less than 0.4 of the full volume where there is a neighbour to join. They are disjoint but
+ * where what joins has several neighbours that are as near: each takes an equal share of its points. */
 typedef struct {
     /* Number of patches. */
     size_t  n;
-    /* Evaluation points of patch c, ascending: point[first[c]] .. point[first[c + 1] - 1]. */
-    size_t *first, *point;
-    /* Patch of each evaluation point; -1: none, its material needs no projection. */
-    long   *of;
+    /* Evaluation points of patch c, ascending: point[i] for its entries i = first[c] .. first[c + 1] - 1;
+     * share[i]: how much of the weight of the point counts there; of[i]: c. */
+    size_t *first, *point, *of;
+    double *share;
+    /* Entries of point p, whose shares sum to 1: entry[start[p]] .. entry[start[p + 1] - 1]; none where its
+     * material needs no projection. */
+    size_t *start, *entry;
     /* The nodes that the points of each patch see. */
     pg_family family;
     /* Volume that a complete patch has there, m^3 (less where the body is thinner than a patch) (n). */
@@ -191,7 +195,8 @@ typedef struct {
     /* First Lame constant of every material, Pa; 0: not projected. */
     const double     *lambda;
 } pg_patch_source;
-/* Forms the patches; they depend on the order of points only where distances tie. PG_E_MEMORY. */
+/* Forms the patches. An image of the body has the image of its patches: they depend neither on axes nor on
+ * the order of cells or, but for points between which nothing else tells, of nodes. PG_E_MEMORY. */
 pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source);
 void      pg_patches_free   (pg_patches **patches);
 

@@ -5,7 +5,8 @@
  * psi_m (p) psi_n (p) = delta_mn, and g_m = sum_p w_p psi_m (p) grad N (p), the patch adds (lambda / 2) sum_m
  * (g_m . d)^2 to the energy: K stays symmetric, and what it loses against pointwise is positive. Linear
  * displacements have constant dilatation: nothing changes for them. Where bonds are dead a patch falls apart
- * into the parts that live bonds of neighbours still join, each with polynomials of its own. */
+ * into the parts that live bonds of neighbours still join, each with polynomials of its own. Of a point that
+ * several patches share each has its share of the weight, and the pressure there is the mean of theirs. */
 #include "galerkin_dilatation.h"
 #include <math.h>
 #include <string.h>
@@ -28,10 +29,13 @@ void galerkin_dilatation_polynomials (const galerkin *g, const galerkin_part *a,
     }
 }
 
-/* Weight of an evaluation point, m^3; 0 where it has no gradient and so carries no stress. */
-static double weight (const galerkin *g, size_t p)
+/* What entry i of the patches has of the weight of its point, m^3; 0 where that has no gradient and so
+ * carries no stress. */
+static double weight (const galerkin *g, size_t i)
 {
-    return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : g->sums.weight[p];
+    const pg_patches *q = g->problem->patches;
+    size_t p = q->point[i];
+    return g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD ? 0 : q->share[i] * g->sums.weight[p];
 }
 
 /* Volume (m^3), centroid and half width (m) of the points of patch c that belong to part k: with these
@@ -45,14 +49,14 @@ static void measure_part (const galerkin *g, size_t c, int k, part *a, double *v
     memset (a->centre, 0, sizeof a->centre);
     for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
         size_t p = q->point[i];
-        if (d->part_of[p] != k) continue;
-        *volume += weight (g, p);
-        for (size_t m = 0; m < dim; m++) a->centre[m] += weight (g, p) * g->sums.x[p * dim + m];
+        if (d->part_of[i] != k) continue;
+        *volume += weight (g, i);
+        for (size_t m = 0; m < dim; m++) a->centre[m] += weight (g, i) * g->sums.x[p * dim + m];
     }
     for (size_t m = 0; m < dim; m++) a->centre[m] /= *volume;
     for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
         size_t p = q->point[i];
-        if (d->part_of[p] != k) continue;
+        if (d->part_of[i] != k) continue;
         for (size_t m = 0; m < dim; m++)
             a->size = fmax (a->size, fabs (g->sums.x[p * dim + m] - a->centre[m]));
     }
@@ -75,11 +79,11 @@ static void find_polynomials (const galerkin *g, size_t c, int k, part *a)
         memset (a->L, 0, sizeof a->L);
         for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
             size_t p = q->point[i];
-            if (d->part_of[p] != k) continue;
+            if (d->part_of[i] != k) continue;
             z[0] = 1;
             for (size_t m = 0; m < dim; m++) z[m + 1] = (g->sums.x[p * dim + m] - a->centre[m]) / a->size;
             for (int r = 0; r < n; r++)
-                for (int s = 0; s <= r; s++) a->L[r * n + s] += weight (g, p) / volume * z[r] * z[s];
+                for (int s = 0; s <= r; s++) a->L[r * n + s] += weight (g, i) / volume * z[r] * z[s];
         }
         if (pg_dense_cholesky (n, a->L, 1e-3) == 0 || n == 1) break;
     }
@@ -99,13 +103,13 @@ static void sum_rows (const galerkin *g, size_t c, int k, part *a)
     memset (a->g, 0, (size_t) a->terms * m * dim * sizeof *a->g);
     for (size_t i = q->first[c]; i < q->first[c + 1]; i++) {
         size_t p = q->point[i], at = 0, offset = pg_rows_offset (r, p);
-        if (d->part_of[p] != k) continue;
+        if (d->part_of[i] != k) continue;
         galerkin_dilatation_polynomials (g, a, r->x + p * dim, psi);
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++, at++) {
             while (node[at] != r->family.node[e]) at++;
             for (int t = 0; t < a->terms; t++)
                 for (size_t s = 0; s < dim; s++)
-                    a->g[((size_t) t * m + at) * dim + s] += weight (g, p) * psi[t]
+                    a->g[((size_t) t * m + at) * dim + s] += weight (g, i) * psi[t]
                                                          * r->dN[(e + offset) * dim + s];
         }
     }
@@ -179,7 +183,7 @@ static pg_status divide (galerkin *g, const pg_state *state, size_t c, int *coun
     size_t n = q->first[c + 1] - q->first[c];
     int *parent = NULL, *name = NULL;
     *count = 1;
-    for (size_t i = 0; i < n; i++) d->part_of[q->point[q->first[c] + i]] = 0;
+    for (size_t i = 0; i < n; i++) d->part_of[q->first[c] + i] = 0;
     if (whole (g, state, c)) return PG_OK;
     PG_ALLOC (parent, n);
     PG_ALLOC (name, n);
@@ -187,12 +191,11 @@ static pg_status divide (galerkin *g, const pg_state *state, size_t c, int *coun
     *count = 0;
     for (size_t i = 0; i < n; i++) name[i] = -1;
     for (size_t i = 0; i < n; i++) {
-        size_t p = q->point[q->first[c] + i];
-        int r = pg_disjoint_root (parent, (int) i);
-        d->part_of[p] = -1;
-        if (g->rows[g->bulk].grade[p] >= PG_GRADE_SHEPARD) continue;
+        int r = pg_disjoint_root (parent, (int) i), *its = &d->part_of[q->first[c] + i];
+        *its = -1;
+        if (g->rows[g->bulk].grade[q->point[q->first[c] + i]] >= PG_GRADE_SHEPARD) continue;
         if (name[r] < 0) name[r] = (*count)++;
-        d->part_of[p] = name[r];
+        *its = name[r];
     }
 done:
     pg_free (parent), pg_free (name);
@@ -242,7 +245,7 @@ pg_status galerkin_dilatation_create (galerkin *g)
     g->dilatation = d;
     PG_ALLOC (d->plain, p->nmaterial);
     PG_ALLOC (d->patch, p->patches->n);
-    PG_ALLOC (d->part_of, g->rows[g->bulk].n);
+    PG_ALLOC (d->part_of, p->patches->first[p->patches->n]);
     PG_ALLOC (d->stamp, g->n);
     PG_ALLOC (d->mark, p->patches->n);
     PG_ALLOC (d->amount, g->n);
@@ -282,6 +285,12 @@ const pg_material *galerkin_plain (const galerkin *g, int set, size_t p)
     return carried ? &g->dilatation->plain[block] : galerkin_material (g, set, p);
 }
 
+/* Marks the patches of evaluation point p. */
+static void mark_patches (galerkin_dilatation *d, const pg_patches *q, size_t p)
+{
+    for (size_t k = q->start[p]; k < q->start[p + 1]; k++) d->mark[q->of[q->entry[k]]] = 1;
+}
+
 /* Patches of points that lost a bond, or that a supported facet leans on, are built anew; their nodes'
  * rows of K become stale. */
 pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int all, const size_t *count)
@@ -290,13 +299,10 @@ pg_status galerkin_dilatation_update (galerkin *g, const pg_state *state, int al
     galerkin_dilatation *d = g->dilatation;
     const pg_patches *q = g->problem->patches;
     memset (d->mark, all, q->n);
-    for (size_t k = 0; !all && k < count[g->bulk]; k++) {
-        long c = q->of[g->list[g->bulk][k]];
-        if (c >= 0) d->mark[c] = 1;
-    }
+    for (size_t k = 0; !all && k < count[g->bulk]; k++) mark_patches (d, q, g->list[g->bulk][k]);
     for (size_t k = 0; !all && k < count[PG_FACETS]; k++) {
         long home = d->home[g->list[PG_FACETS][k]];
-        if (home >= 0) d->mark[q->of[home]] = 1;
+        if (home >= 0) mark_patches (d, q, (size_t) home);
     }
     for (size_t c = 0; c < q->n; c++) {
         if (!d->mark[c]) continue;
@@ -428,17 +434,20 @@ void galerkin_dilatation_diagonal (galerkin *g, double *d)
 }
 
 /* ---- pressures ----------------------------------------------------------------------------------------- */
-/* lambda P (div u) at x, of the part of bulk point q; Pa */
-static double pressure_at (const galerkin *g, size_t q, const double *x)
+/* lambda P (div u) at x, of the parts of bulk point p; Pa */
+static double pressure_at (const galerkin *g, size_t p, const double *x)
 {
     const galerkin_dilatation *d = g->dilatation;
-    long c = g->problem->patches->of[q];
+    const pg_patches *q = g->problem->patches;
     double psi[4], sum = 0;
-    if (c < 0 || d->part_of[q] < 0) return 0;
-    const part *a = &d->patch[c].part[d->part_of[q]];
-    galerkin_dilatation_polynomials (g, a, x, psi);
-    for (int t = 0; t < a->terms; t++) sum += psi[t] * a->amount[t];
-    return lambda_of (g, (size_t) c) * sum;
+    for (size_t k = q->start[p]; k < q->start[p + 1]; k++) {
+        size_t i = q->entry[k], c = q->of[i];
+        if (d->part_of[i] < 0) continue;
+        const part *a = &d->patch[c].part[d->part_of[i]];
+        galerkin_dilatation_polynomials (g, a, x, psi);
+        for (int t = 0; t < a->terms; t++) sum += lambda_of (g, c) * q->share[i] * psi[t] * a->amount[t];
+    }
+    return sum;
 }
 
 /* A pressure is on all normal stresses, in a plane also on the one across it. */
@@ -454,11 +463,12 @@ static void add_pressure (galerkin *g, int set, size_t p, double value)
 static void node_pressures (galerkin *g, double *value, double *share)
 {
     const pg_rows *r = &g->rows[g->bulk];
+    const pg_patches *q = g->problem->patches;
     size_t dim = (size_t) g->dim;
     memset (value, 0, g->n * sizeof *value);
     memset (share, 0, g->n * sizeof *share);
     for (size_t p = 0; p < r->n; p++) {
-        if (g->dilatation->part_of[p] < 0 || g->problem->patches->of[p] < 0) continue;
+        if (q->start[p] == q->start[p + 1] || g->dilatation->part_of[q->entry[q->start[p]]] < 0) continue;
         for (size_t e = r->family.start[p]; e < r->family.start[p + 1]; e++) {
             size_t j = (size_t) r->family.node[e];
             double w = r->w[e + pg_rows_offset (r, p)] / g->problem->cloud.volume[j] * r->weight[p];

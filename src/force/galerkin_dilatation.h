@@ -20,13 +20,14 @@ typedef struct { size_t n, workspace, room_g; galerkin_part *part; double *g; } 
 struct galerkin_dilatation {
     pg_material    *plain;                             /* of every material: D without lambda */
     galerkin_patch *patch;
-    int            *part_of;  /* part of every evaluation point in its patch; -1: carries no stress */
+    int            *part_of;  /* part of every entry of the patches; -1: its point carries no stress */
     int            *stamp;                             /* scratch: per node */
     unsigned char  *mark;                              /* patches that changed */
     double         *amount, *share;                    /* scratch: per node */
     /* of every facet point: the evaluation point whose patch goes on there; -1: none */
     long           *home;
-    size_t         *facet_start, *facet;               /* supported facet points of every patch */
+    size_t         *facet_start, *facet;               /* supported facet points of every patch, and */
+    size_t         *facet_entry;                       /* the entry of the patch that they lean on */
     pg_family       family;                            /* nodes of every patch and of these points */
 };
 

@@ -22,6 +22,9 @@ static double distance2 (int dim, const double *x, const double *y)
     return s;
 }
 
+/* Does evaluation point p belong to a patch? */
+static int is_covered (const pg_patches *q, size_t p) { return q->start[p + 1] > q->start[p]; }
+
 /* The evaluation point whose patch goes on at each facet point: the nearest one of the cell behind it
  * that belongs to a patch, else the nearest of all; with nodal integration, whose points lie in no cell,
  * always that. -1: no patch is there. */
@@ -43,10 +46,10 @@ static pg_status find_homes (galerkin *g)
         long home = -1;
         for (size_t q = first[cell]; q < first[cell + 1]; q++) {
             double d = distance2 (g->dim, r->x + f * dim, b->x + q * dim);
-            if (p->patches->of[q] >= 0 && d < best) best = d, home = (long) q;
+            if (is_covered (p->patches, q) && d < best) best = d, home = (long) q;
         }
         if (home < 0) home = pg_nearest_find (grid, r->x + f * dim, NULL, NULL);
-        g->dilatation->home[f] = p->patches->of[home] >= 0 ? home : -1;
+        g->dilatation->home[f] = is_covered (p->patches, (size_t) home) ? home : -1;
     }
 done:
     pg_nearest_free (&grid);
@@ -54,11 +57,15 @@ done:
     return status;
 }
 
-/* Patch of a supported facet point; -1: none, or not supported. */
-static long patch_of (const galerkin *g, size_t f)
+/* The entries of the patches that a supported facet point leans on, and how many; 0: none, or it is not
+ * supported. */
+static size_t behind (const galerkin *g, size_t f, const size_t **entry)
 {
-    if (g->nitsche_start[f + 1] == g->nitsche_start[f] || g->dilatation->home[f] < 0) return -1;
-    return g->problem->patches->of[g->dilatation->home[f]];
+    const pg_patches *q = g->problem->patches;
+    long home = g->dilatation->home[f];
+    if (g->nitsche_start[f + 1] == g->nitsche_start[f] || home < 0) return 0;
+    *entry = q->entry + q->start[home];
+    return q->start[home + 1] - q->start[home];
 }
 
 /* Supported facet points by their patch, in compressed rows. */
@@ -66,15 +73,21 @@ static pg_status sort_facets (galerkin *g)
 {
     pg_status status = PG_OK;
     galerkin_dilatation *d = g->dilatation;
-    size_t n = g->problem->patches->n, *next = NULL;
+    const pg_patches *q = g->problem->patches;
+    const size_t *entry = NULL;
+    size_t n = q->n, *next = NULL;
     PG_ALLOC (d->facet_start, n + 1);
-    PG_ALLOC (d->facet, g->rows[PG_FACETS].n);
     PG_ALLOC (next, n);
     for (size_t f = 0; f < g->rows[PG_FACETS].n; f++)
-        if (patch_of (g, f) >= 0) d->facet_start[patch_of (g, f) + 1]++;
+        for (size_t k = behind (g, f, &entry); k-- > 0;) d->facet_start[q->of[entry[k]] + 1]++;
     for (size_t c = 0; c < n; c++) d->facet_start[c + 1] += d->facet_start[c], next[c] = d->facet_start[c];
+    PG_ALLOC (d->facet, d->facet_start[n]);
+    PG_ALLOC (d->facet_entry, d->facet_start[n]);
     for (size_t f = 0; f < g->rows[PG_FACETS].n; f++)
-        if (patch_of (g, f) >= 0) d->facet[next[patch_of (g, f)]++] = f;
+        for (size_t k = behind (g, f, &entry); k-- > 0;) {
+            size_t at = next[q->of[entry[k]]]++;
+            d->facet[at] = f, d->facet_entry[at] = entry[k];
+        }
 done:
     pg_free (next);
     return status;
@@ -133,7 +146,7 @@ done:
 void galerkin_dilatation_facets_free (galerkin *g)
 {
     galerkin_dilatation *d = g->dilatation;
-    pg_free (d->home), pg_free (d->facet_start), pg_free (d->facet);
+    pg_free (d->home), pg_free (d->facet_start), pg_free (d->facet), pg_free (d->facet_entry);
     pg_family_clear (&d->family);
 }
 
@@ -157,25 +170,25 @@ void galerkin_dilatation_facet_rows (const galerkin *g, size_t c, int k, galerki
     memset (a->s, 0, (size_t) a->terms * m * dim * sizeof *a->s);
     for (size_t i = d->facet_start[c]; i < d->facet_start[c + 1]; i++) {
         size_t f = d->facet[i], at = 0;
-        if (d->part_of[d->home[f]] != k) continue;
+        double weight = r->weight[f] * g->problem->patches->share[d->facet_entry[i]];
+        if (d->part_of[d->facet_entry[i]] != k) continue;
         galerkin_dilatation_polynomials (g, a, r->x + f * dim, psi);
         for (size_t e = r->family.start[f]; e < r->family.start[f + 1]; e++, at++) {
             while (node[at] != r->family.node[e]) at++;
             for (size_t q = g->nitsche_start[f]; q < g->nitsche_start[f + 1]; q++)
                 for (int t = 0; t < a->terms; t++)
                     a->s[((size_t) t * m + at) * dim + (size_t) g->nitsche[q].component] +=
-                        r->weight[f] * psi[t] * normal (g, f, g->nitsche[q].component) * r->N[e];
+                        weight * psi[t] * normal (g, f, g->nitsche[q].component) * r->N[e];
         }
     }
 }
 
 /* ---- gaps ---------------------------------------------------------------------------------------------- */
-/* The part of a patch that a supported facet point leans on; NULL: none. */
-static galerkin_part *part_behind (const galerkin *g, size_t f)
+/* The part of a patch that entry i belongs to; NULL: none. */
+static galerkin_part *part_of (const galerkin *g, size_t i)
 {
     const galerkin_dilatation *d = g->dilatation;
-    long c = d ? patch_of (g, f) : -1;
-    return c < 0 || d->part_of[d->home[f]] < 0 ? NULL : &d->patch[c].part[d->part_of[d->home[f]]];
+    return d->part_of[i] < 0 ? NULL : &d->patch[g->problem->patches->of[i]].part[d->part_of[i]];
 }
 
 /* Its lambda, Pa. */
@@ -191,30 +204,39 @@ void galerkin_dilatation_gaps (galerkin *g, double t)
     galerkin_dilatation *d = g->dilatation;
     const pg_rows *r = &g->rows[PG_FACETS];
     size_t dim = (size_t) g->dim;
+    const size_t *entry = NULL;
     double psi[4];
     for (size_t c = 0; d && c < g->problem->patches->n; c++)
         for (size_t k = 0; k < d->patch[c].n; k++)
             memset (d->patch[c].part[k].gap, 0, sizeof d->patch[c].part[k].gap);
     for (size_t i = 0; d && i < g->nnitsche; i++) {
         const constraint *q = &g->nitsche[i];
-        galerkin_part *a = part_behind (g, q->point);
-        if (!a) continue;
         double gap = g->u[PG_FACETS][q->point * dim + (size_t) q->component]
                      - galerkin_prescribed (g, q, PG_FACETS, t);
-        galerkin_dilatation_polynomials (g, a, r->x + q->point * dim, psi);
-        for (int m = 0; m < a->terms; m++)
-            a->gap[m] += r->weight[q->point] * psi[m] * normal (g, q->point, q->component) * gap;
+        for (size_t k = behind (g, q->point, &entry); k-- > 0;) {
+            galerkin_part *a = part_of (g, entry[k]);
+            if (!a) continue;
+            galerkin_dilatation_polynomials (g, a, r->x + q->point * dim, psi);
+            for (int m = 0; m < a->terms; m++)
+                a->gap[m] += r->weight[q->point] * g->problem->patches->share[entry[k]] * psi[m]
+                             * normal (g, q->point, q->component) * gap;
+        }
     }
 }
 
 /* What the patch adds to the traction of one constraint, Pa: -(1 + factor) lambda n_k sum_m psi_m c_m. */
 double galerkin_dilatation_traction (const galerkin *g, const constraint *q)
 {
-    const galerkin_part *a = part_behind (g, q->point);
+    const size_t *entry = NULL;
     double psi[4], sum = 0;
-    if (!a) return 0;
-    galerkin_dilatation_polynomials (g, a, g->rows[PG_FACETS].x + q->point * (size_t) g->dim, psi);
-    for (int m = 0; m < a->terms; m++) sum += psi[m] * a->gap[m];
+    size_t n = g->dilatation ? behind (g, q->point, &entry) : 0;
+    for (size_t k = 0; k < n; k++) {
+        const galerkin_part *a = part_of (g, entry[k]);
+        if (!a) continue;
+        galerkin_dilatation_polynomials (g, a, g->rows[PG_FACETS].x + q->point * (size_t) g->dim, psi);
+        for (int m = 0; m < a->terms; m++) sum += g->problem->patches->share[entry[k]] * psi[m] * a->gap[m];
+    }
+    if (n == 0) return 0;
     return -(1 + g->options->nitsche) * lambda_behind (g, q->point) * normal (g, q->point, q->component)
            * sum;
 }

@@ -3,8 +3,10 @@
  *
  * Units are cells, or points with nodal integration. On a lattice so many units per axis form a group,
  * divided evenly between the ends of the body, so that a mirrored body has mirrored patches. Elsewhere a
- * set of roots is chosen that keep a distance from each other, and every unit goes to the nearest root.
- * Groups are then divided by material, and those that are too small join a neighbour. */
+ * set of roots is chosen that keep a distance from each other, from the middle of the body outwards, and
+ * every unit goes to the nearest root. Groups are then divided by material, and those that are too small
+ * join their neighbours: the nearest one, or in equal shares all that are as near, as the two beside the
+ * corner of a square. Neither axes nor the numbers of cells decide. */
 #include "perigal/integration.h"
 #include <math.h>
 #include <stdlib.h>
@@ -15,6 +17,9 @@
 static const double too_small = 0.4;
 /* Least distance of two roots, in widths of a patch. */
 static const double apart = 0.875;
+/* Lengths and volumes that differ less than this, relatively, differ by rounding: a body whose coordinates
+ * have fewer digits is refused. */
+static const double equal = 1e-6;
 
 /* The patches under construction. */
 typedef struct {
@@ -32,13 +37,15 @@ typedef struct {
     long   *group;
     /* Number of groups. */
     size_t  groups;
+    /* Group of each evaluation point; -1: none (n). */
+    long   *of;
     /* Of each group: volume of its points (m^3), their centroid (m, groups x dim), volume of a complete
      * group (m^3). */
     double *volume, *middle, *full;
     /* Material of each evaluation point (n). */
     int    *material;
-    /* Extent of the centres of units plus one spacing, and their middle, along each axis, m. */
-    double  extent[3], body[3];
+    /* Extent of the centres of units plus one spacing along each axis, m. */
+    double  extent[3];
 } builder;
 
 /* The unit of evaluation point p. */
@@ -80,7 +87,7 @@ static pg_status measure_units (builder *b)
                 end[0] = fmax (end[0], -b->centre[u * dim + k]),
                 end[1] = fmax (end[1], b->centre[u * dim + k]);
         if (b->s->cloud->subdomain) PG_TRY (pg_ranks_most (2, end));
-        b->extent[k] = end[1] + end[0] + b->s->cloud->h, b->body[k] = (end[1] - end[0]) / 2;
+        b->extent[k] = end[1] + end[0] + b->s->cloud->h;
     }
 done:
     return status;
@@ -155,17 +162,60 @@ static double distance (const builder *b, size_t u, size_t v)
     return sqrt (s);
 }
 
-/* Chooses roots in the order of the units: a unit becomes one unless a root is near. Every other unit then
- * goes to the nearest root, measured in local spacings; among equals to the first. near: units within reach
- * of each. */
+/* When a unit may become a root: its distance from the middle of the body, m; for those as far away, what
+ * tells the nodes that it sees, whichever cells these are numbered by. */
+typedef struct { double away; uint64_t seen; size_t unit; } candidate;
+
+/* For qsort. */
+static int earlier (const void *a, const void *b)
+{
+    const candidate *c = a, *d = b;
+    if (c->away != d->away) return c->away < d->away ? -1 : 1;
+    if (c->seen != d->seen) return c->seen < d->seen ? -1 : 1;
+    return c->unit < d->unit ? -1 : 1;
+}
+
+/* The units in the order in which they may become roots. */
+static void order_units (const builder *b, candidate *list)
+{
+    const pg_family *f = b->s->family;
+    size_t dim = (size_t) b->dim;
+    double middle[3] = { 0 }, all = 0, class = 0, last = 0;
+    for (size_t u = 0; u < b->units; u++) {
+        all += b->size[u];
+        for (size_t k = 0; k < dim; k++) middle[k] += b->size[u] * (b->centre[u * dim + k] - b->centre[k]);
+    }
+    for (size_t u = 0; u < b->units; u++) {
+        list[u] = (candidate) { .unit = u };
+        for (size_t k = 0; k < dim; k++)
+            list[u].away = hypot (list[u].away, b->centre[u * dim + k] - b->centre[k] - middle[k] / all);
+    }
+    for (size_t p = 0; p < b->n; p++)
+        for (size_t e = f->start[p]; e < f->start[p + 1]; e++)
+            list[unit_of (b, p)].seen += pg_fingerprint (PG_FINGERPRINT, &f->node[e], sizeof f->node[e]);
+    pg_sort (list, b->units, sizeof *list, earlier);
+    for (size_t i = 0; i < b->units; i++) {                /* those as far away become equal */
+        double away = list[i].away;
+        if (i == 0 || away > last + equal * b->s->cloud->h) class = away;
+        last = away, list[i].away = class;
+    }
+    pg_sort (list, b->units, sizeof *list, earlier);
+}
+
+/* Chooses roots: a unit becomes one unless a root is near. Every other unit then goes to the nearest root,
+ * measured in local spacings; among equals to the first. near: units within reach of each. */
 static pg_status root_units (builder *b, const double *local, const pg_family *near)
 {
     pg_status status = PG_OK;
+    candidate *list = NULL;
     long *root = NULL;
     PG_ALLOC (root, b->units);
+    PG_ALLOC (list, b->units);
+    order_units (b, list);
     b->groups = 0;
     for (size_t u = 0; u < b->units; u++) root[u] = -1;
-    for (size_t u = 0; u < b->units; u++) {
+    for (size_t i = 0; i < b->units; i++) {
+        size_t u = list[i].unit;
         int covered = !(b->size[u] > 0);
         for (size_t e = near->start[u]; e < near->start[u + 1] && !covered; e++) {
             size_t v = (size_t) near->node[e];
@@ -174,16 +224,19 @@ static pg_status root_units (builder *b, const double *local, const pg_family *n
         if (!covered) root[u] = (long) b->groups++;
     }
     for (size_t u = 0; u < b->units; u++) {
-        double best = INFINITY;
+        double least = INFINITY;
         b->group[u] = root[u] < 0 ? 0 : root[u];
-        for (size_t e = near->start[u]; e < near->start[u + 1] && root[u] < 0; e++) {
-            size_t v = (size_t) near->node[e];
-            double d = root[v] >= 0 ? distance (b, u, v) / local[v] : INFINITY;
-            if (d < best * (1 - 1e-6)) best = d, b->group[u] = root[v];
-        }
+        for (int pass = 0; pass < 2 && root[u] < 0; pass++)
+            for (size_t e = near->start[u], found = 0; e < near->start[u + 1]; e++) {
+                size_t v = (size_t) near->node[e];
+                double d = root[v] >= 0 ? distance (b, u, v) / local[v] : INFINITY;
+                if (pass == 0) least = fmin (least, d);
+                else if (d <= least * (1 + equal) && root[v] >= 0 && (!found++ || root[v] < b->group[u]))
+                    b->group[u] = root[v];
+            }
     }
 done:
-    pg_free (root);
+    pg_free (root), pg_free (list);
     return status;
 }
 
@@ -207,39 +260,50 @@ done:
 }
 
 /* ---- groups of one material ---------------------------------------------------------------------------- */
-/* Volumes, centroids and complete volumes of the groups that `group` assigns to the points. A complete
- * group has `across` spacings along each axis, or the extent of the body where that is less. */
-static pg_status measure_groups (builder *b, const long *group)
+/* Volume of a complete group around point p, m^3: it has `across` spacings along each axis, or the extent of
+ * the body where that is less. */
+static double complete (const builder *b, size_t p)
+{
+    double volume = b->dim == 3 ? 1 : b->s->cloud->thickness;
+    for (int k = 0; k < b->dim; k++)
+        volume *= fmin (b->s->across, b->extent[k] / b->s->cloud->h) * spacing_at (b, p);
+    return volume;
+}
+
+/* Volumes, centroids and complete volumes of the groups of points. */
+static pg_status measure_groups (builder *b)
 {
     pg_status status = PG_OK;
     const pg_rows *r = b->s->points;
     size_t dim = (size_t) b->dim;
-    pg_free (b->volume), pg_free (b->middle), pg_free (b->full);
-    b->volume = b->middle = b->full = NULL;
     PG_ALLOC (b->volume, b->groups);
     PG_ALLOC (b->middle, b->groups * dim);
     PG_ALLOC (b->full, b->groups);
     for (size_t p = 0; p < b->n; p++) {
-        if (group[p] < 0) continue;
-        size_t c = (size_t) group[p];
+        if (b->of[p] < 0) continue;
+        size_t c = (size_t) b->of[p];
         b->volume[c] += r->weight[p];
-        b->full[c] = fmax (b->full[c], spacing_at (b, p));
+        b->full[c] = fmax (b->full[c], complete (b, p));
         for (size_t k = 0; k < dim; k++) b->middle[c * dim + k] += r->weight[p] * r->x[p * dim + k];
     }
-    for (size_t c = 0; c < b->groups; c++) {
-        double thick = dim == 3 ? 1 : b->s->cloud->thickness, h = b->full[c];
-        b->full[c] = thick;
-        for (size_t k = 0; k < dim; k++) {
-            b->full[c] *= fmin (b->s->across, b->extent[k] / b->s->cloud->h) * h;
-            if (b->volume[c] > 0) b->middle[c * dim + k] /= b->volume[c];
-        }
-    }
+    for (size_t i = 0; i < b->groups * dim; i++)
+        if (b->volume[i / dim] > 0) b->middle[i] /= b->volume[i / dim];
 done:
     return status;
 }
 
-/* Context of `unfit`: groups of the same material other than `own`, without those already found (tied). */
-typedef struct { const builder *b; const int *material; size_t own; const long *tied; size_t ntied; } choice;
+static int is_small (const builder *b, size_t c)
+{
+    return b->volume[c] < too_small * b->full[c] * (1 - equal);
+}
+
+/* Groups that are as near as each other, at most. */
+enum { MOST_TIED = 16 };
+/* The groups that take the points of a group, each an equal share: itself, or those that it joins. */
+typedef struct { int n; size_t group[MOST_TIED]; } lodging;
+
+/* Context of `unfit`: groups of the same material other than `own`, without those already found. */
+typedef struct { const builder *b; const int *material; size_t own; const lodging *found; } choice;
 
 /* Refuses groups that are no candidates (a pg_refuse): found already, itself, of another material, too
  * small. */
@@ -247,13 +311,10 @@ static int unfit (void *context, const double *place, size_t c)
 {
     const choice *h = context;
     (void) place;
-    for (size_t k = 0; k < h->ntied; k++) if (h->tied[k] == (long) c) return 1;
+    for (int k = 0; k < h->found->n; k++) if (h->found->group[k] == c) return 1;
     return c == h->own || h->material[c] != h->material[h->own] || !(h->b->volume[c] > 0)
-           || h->b->volume[c] < too_small * h->b->full[c];
+           || is_small (h->b, c);
 }
-
-/* Candidates compared that are equally near. */
-enum { MOST_TIED = 8 };
 
 /* Distance of two positions, m. */
 static double away (const builder *b, const double *x, const double *y)
@@ -263,68 +324,54 @@ static double away (const builder *b, const double *x, const double *y)
     return sqrt (s);
 }
 
-/* The nearest group that is large enough; among those equally near the one nearer to the middle of the
- * body, so that mirrored bodies have mirrored patches, then the first. -1: there is none. */
-static long neighbour (const builder *b, const pg_nearest *grid, const int *material, size_t c)
+/* The nearest groups that are large enough; itself where there is none. */
+static void lodge (const builder *b, const pg_nearest *grid, const int *material, size_t c, lodging *out)
 {
-    size_t dim = (size_t) b->dim;
-    const double *x = b->middle + c * dim;
-    long tied[MOST_TIED], best = -1;
-    choice h = { b, material, c, tied, 0 };
-    double least = INFINITY, first = INFINITY;
-    while (h.ntied < MOST_TIED) {
+    const double *x = b->middle + c * (size_t) b->dim;
+    choice h = { b, material, c, out };
+    double first = INFINITY;
+    out->n = 0;
+    while (out->n < MOST_TIED) {
         long d = pg_nearest_find (grid, x, unfit, &h);
-        if (d < 0) break;
-        const double *y = b->middle + (size_t) d * dim;
-        double r = away (b, x, y), m = away (b, y, b->body), eps = 1e-6 * b->s->cloud->h;
-        if (h.ntied && r > first + eps) break;
-        if (h.ntied == 0) first = r;
-        if (best < 0 || m < least - eps || (m <= least + eps && d < best)) best = d, least = m;
-        tied[h.ntied++] = d;
+        double r = d < 0 ? INFINITY : away (b, x, b->middle + (size_t) d * (size_t) b->dim);
+        if (d < 0 || r > first * (1 + equal)) break;
+        if (out->n == 0) first = r;
+        out->group[out->n++] = (size_t) d;
     }
-    return best;
+    if (out->n == 0) out->group[out->n++] = c;
 }
 
-/* Gives the points of small groups to a neighbour. Where each goes is decided before any is moved, so that
- * the order does not matter. */
-static pg_status join_small (builder *b, long *group)
+/* Where the points of each group go. */
+static pg_status join_small (const builder *b, lodging *to)
 {
     pg_status status = PG_OK;
     pg_nearest *grid = NULL;
     int *material = NULL;
-    long *to = NULL;
     PG_ALLOC (material, b->groups);
-    PG_ALLOC (to, b->groups);
-    for (size_t p = 0; p < b->n; p++) if (group[p] >= 0) material[group[p]] = b->material[p];
+    for (size_t p = 0; p < b->n; p++) if (b->of[p] >= 0) material[b->of[p]] = b->material[p];
     PG_TRY (pg_nearest_create (&grid, b->dim, b->groups, b->middle));
-    for (size_t c = 0; c < b->groups; c++) {
-        to[c] = (long) c;
-        if (!(b->volume[c] > 0) || b->volume[c] >= too_small * b->full[c]) continue;
-        long other = neighbour (b, grid, material, c);
-        if (other >= 0) to[c] = other;
-    }
-    for (size_t p = 0; p < b->n; p++) if (group[p] >= 0) group[p] = to[group[p]];
+    for (size_t c = 0; c < b->groups; c++)
+        if (b->volume[c] > 0 && is_small (b, c)) lodge (b, grid, material, c, &to[c]);
+        else to[c] = (lodging) { 1, { c } };
 done:
     pg_nearest_free (&grid);
-    pg_free (material), pg_free (to);
+    pg_free (material);
     return status;
 }
 
-/* Renumbers the groups without gaps, in the order of their first points; groups of different materials
- * become different groups. */
-static pg_status number (builder *b, long *group, size_t materials)
+/* Renumbers the groups without gaps, in their order; groups of different materials become different
+ * groups. */
+static pg_status number (builder *b, size_t materials)
 {
     pg_status status = PG_OK;
     long *name = NULL;
     size_t n = 0, all = b->groups * materials;
     PG_ALLOC (name, all);
-    for (size_t c = 0; c < all; c++) name[c] = -1;
-    for (size_t p = 0; p < b->n; p++) {
-        if (group[p] < 0) continue;
-        long *to = &name[(size_t) group[p] * materials + (materials > 1 ? (size_t) b->material[p] : 0)];
-        if (*to < 0) *to = (long) n++;
-        group[p] = *to;
-    }
+    for (size_t p = 0; p < b->n; p++)
+        if (b->of[p] >= 0)
+            b->of[p] = b->of[p] * (long) materials + b->material[p], name[b->of[p]] = 1;
+    for (size_t c = 0; c < all; c++) if (name[c]) name[c] = (long) n++;
+    for (size_t p = 0; p < b->n; p++) if (b->of[p] >= 0) b->of[p] = name[b->of[p]];
     b->groups = n;
 done:
     pg_free (name);
@@ -361,59 +408,80 @@ done:
     return status;
 }
 
-/* Lists the points of each patch, ascending. */
-static pg_status collect (pg_patches *out, const builder *b, const long *group)
+/* Counts the patches, their entries and those of each point, from where the points of each group go; name:
+ * the patch of each group. */
+static pg_status count (pg_patches *out, const builder *b, const lodging *to, size_t *name)
 {
     pg_status status = PG_OK;
-    size_t *next = NULL;
-    out->n = b->groups;
+    for (size_t c = 0; c < b->groups; c++) if (to[c].group[0] == c) name[c] = out->n++;
     PG_ALLOC (out->first, out->n + 1);
-    PG_ALLOC (out->of, b->n);
-    PG_ALLOC (out->point, b->n);
     PG_ALLOC (out->full, out->n);
-    PG_ALLOC (next, out->n + 1);
-    for (size_t p = 0; p < b->n; p++) if (group[p] >= 0) out->first[group[p] + 1]++;
-    for (size_t c = 0; c < out->n; c++)
-        out->first[c + 1] += out->first[c], next[c] = out->first[c], out->full[c] = b->full[c];
+    PG_ALLOC (out->start, b->n + 1);
     for (size_t p = 0; p < b->n; p++) {
-        out->of[p] = group[p];
-        if (group[p] >= 0) out->point[next[group[p]]++] = p;
+        const lodging *l = b->of[p] < 0 ? NULL : &to[b->of[p]];
+        out->start[p + 1] = out->start[p] + (l ? (size_t) l->n : 0);
+        for (int k = 0; l && k < l->n; k++) out->first[name[l->group[k]] + 1]++;
     }
-    PG_TRY (see (out, b->s->family, b->s->cloud->n));
+    for (size_t c = 0; c < out->n; c++) out->first[c + 1] += out->first[c];
 done:
-    pg_free (next);
     return status;
 }
 
-/* Points of materials without lambda belong to no patch (-1). */
+/* Lists the entries of each patch, ascending by their points. */
+static pg_status collect (pg_patches *out, const builder *b, const lodging *to)
+{
+    pg_status status = PG_OK;
+    size_t *next = NULL, *name = NULL;
+    PG_ALLOC (name, b->groups);
+    PG_TRY (count (out, b, to, name));
+    size_t entries = out->first[out->n];
+    PG_ALLOC (out->point, entries);
+    PG_ALLOC (out->share, entries);
+    PG_ALLOC (out->of, entries);
+    PG_ALLOC (out->entry, entries);
+    PG_ALLOC (next, out->n);
+    memcpy (next, out->first, out->n * sizeof *next);
+    for (size_t p = 0; p < b->n; p++)
+        for (size_t k = out->start[p]; k < out->start[p + 1]; k++) {
+            const lodging *l = &to[b->of[p]];
+            size_t c = name[l->group[k - out->start[p]]], i = next[c]++;
+            out->point[i] = p, out->of[i] = c, out->share[i] = 1.0 / l->n, out->entry[k] = i;
+            out->full[c] = fmax (out->full[c], complete (b, p));
+        }
+    PG_TRY (see (out, b->s->family, b->s->cloud->n));
+done:
+    pg_free (next), pg_free (name);
+    return status;
+}
+
+/* Points of materials without lambda belong to no patch. */
 pg_status pg_patches_create (pg_patches **out, const pg_patch_source *source)
 {
     pg_status status = PG_OK;
     builder b = { .s = source, .n = source->points->n, .dim = source->cloud->dim };
     pg_patches *made = NULL;
-    long *group = NULL;
+    lodging *to = NULL;
     PG_ALLOC (made, 1);
     PG_ALLOC (made->lambda, source->materials);
     memcpy (made->lambda, source->lambda, source->materials * sizeof *made->lambda);
     PG_ALLOC (b.material, b.n);
-    PG_ALLOC (group, b.n);
+    PG_ALLOC (b.of, b.n);
     PG_TRY (measure_units (&b));
     if (source->lattice) PG_TRY (bin_units (&b));
     else PG_TRY (group_by_roots (&b));
     for (size_t p = 0; p < b.n; p++) {
         b.material[p] = source->block[p];
-        group[p] = source->lambda[source->block[p]] > 0 ? b.group[unit_of (&b, p)] : -1;
+        b.of[p] = source->lambda[source->block[p]] > 0 ? b.group[unit_of (&b, p)] : -1;
     }
-    PG_TRY (number (&b, group, source->materials));
-    PG_TRY (measure_groups (&b, group));
-    PG_TRY (join_small (&b, group));
-    PG_TRY (number (&b, group, 1));
-    PG_TRY (measure_groups (&b, group));
-    PG_TRY (collect (made, &b, group));
+    PG_TRY (number (&b, source->materials));
+    PG_TRY (measure_groups (&b));
+    PG_ALLOC (to, b.groups);
+    PG_TRY (join_small (&b, to));
+    PG_TRY (collect (made, &b, to));
     *out = made, made = NULL;
 done:
     pg_patches_free (&made);
-    pg_free (group), pg_free (b.centre), pg_free (b.size), pg_free (b.group), pg_free (b.volume),
+    pg_free (to), pg_free (b.centre), pg_free (b.size), pg_free (b.group), pg_free (b.of), pg_free (b.volume),
         pg_free (b.middle), pg_free (b.full), pg_free (b.material);
     return status;
 }
@@ -423,7 +491,8 @@ void pg_patches_free (pg_patches **patches)
     pg_patches *p = *patches;
     if (!p) return;
     pg_family_clear (&p->family);
-    pg_free (p->first), pg_free (p->point), pg_free (p->of), pg_free (p->full), pg_free (p->lambda);
+    pg_free (p->first), pg_free (p->point), pg_free (p->share), pg_free (p->of), pg_free (p->start),
+        pg_free (p->entry), pg_free (p->full), pg_free (p->lambda);
     pg_free (p);
     *patches = NULL;
 }
