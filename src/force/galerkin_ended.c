@@ -8,8 +8,8 @@
  * (with a linear basis and the reach that contact has, among the nodes of the cell), on sides of cells those
  * that the part beyond has as well. A linear displacement on each side of a crack that bears a uniform
  * pressure then is in equilibrium as it is without the crack. Parts without evaluation points are added to
- * the part beyond their longest side. Chen, Hillman and Rueter 2013, doi 10.1002/nme.4512 (identity);
- * doc/method.md, Cells that end at cracks. */
+ * the part beyond their longest side, in equal shares where several sides are as long. Chen, Hillman and
+ * Rueter 2013, doi 10.1002/nme.4512 (identity); doc/method.md, Cells that end at cracks. */
 #include "galerkin_ended.h"
 #include <math.h>
 #include <string.h>
@@ -241,8 +241,7 @@ static double volume_of (const galerkin *g, size_t k, int p)
             if (other < 0 || (size_t) other == cell || !e->at[other]) continue;
             const ended_cell *c = &e->near[e->at[other] - 1];
             for (int q = 0; q < c->parts.n && !c->failed; q++)
-                if (c->host[q][0] == (int)k && c->host[q][1] == p)
-                    sum += pg_cell_part_area (&c->parts.part[q]);
+                sum += ended_share (&c->host[q], k, p) * pg_cell_part_area (&c->parts.part[q]);
         }
     return sum * g->problem->cells.thickness;
 }
@@ -336,7 +335,7 @@ pg_status galerkin_ended_apply (galerkin *g, size_t count, const size_t *list)
         size_t at = (size_t) e->at[list[k]] - 1;
         const ended_cell *cell = &e->near[at];
         for (int p = 0; p < cell->parts.n && cell->kind == ENDED_PARTS; p++)
-            if (cell->host[p][0] == (int) at && cell->host[p][1] == p) treat (g, at, p, sum);
+            if (ended_stands (e, at, p)) treat (g, at, p, sum);
     }
 done:
     pg_free (sum);

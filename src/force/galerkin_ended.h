@@ -4,20 +4,22 @@
 #define PG_GALERKIN_ENDED_H
 #include "galerkin.h"
 
-/* Lengths in spacings: what counts as none; how far beside a face a place looks from. */
-#define ENDED_NOTHING 1e-9
+/* Lengths in spacings: how far beside a face a place looks from. */
 #define ENDED_BESIDE  (5 * PG_NO_LENGTH)
 #define ENDED_RADIUS 3.0 /* how far places on cracks and on pieces of sides see */
 
 /* How a cell near a crack is treated: as it was without this; by its own border, whose values are of live
  * bonds; the same in parts. */
 enum { ENDED_NOT, ENDED_PLAIN, ENDED_PARTS };
+/* Whose evaluation points stand for a part: places in the list and parts, each for an equal share. */
+enum { ENDED_HOSTS = 4 };
+typedef struct { int n, at[ENDED_HOSTS], part[ENDED_HOSTS]; } ended_hosts;
 /* A cell near a crack. */
 typedef struct {
     size_t cell;
     int    kind, failed, blocked;  /* blocked: a crack runs through it, and it keeps direct derivatives */
     pg_cell_parts parts;
-    int host[PG_PARTS][2]; /* place in the list and part whose evaluation points stand for each part */
+    ended_hosts host[PG_PARTS];
     int    guest;                  /* 1: parts of other cells lean on its points */
 } ended_cell;
 
@@ -46,6 +48,14 @@ struct galerkin_ended {
 
 /* Cells near the cracks of the state, how each is treated, and all values on borders. */
 pg_status ended_plan  (galerkin *g, const pg_state *state);
+/* Does part p of the cell at place k stand for itself? */
+static inline int ended_stands (const struct galerkin_ended *e, size_t k, int p)
+{
+    const ended_hosts *h = &e->near[k].host[p];
+    return h->n == 1 && h->at[0] == (int) k && h->part[0] == p;
+}
+/* The share of a part that part p of the cell at place k stands for. */
+double    ended_share (const ended_hosts *of, size_t k, int p);
 /* Are the cracks others than at the last call? */
 int       ended_moved (const galerkin *g, const pg_state *state);
 /* Values on borders for the bonds that the cracks leave; cells with places that see too little fail: 1. */

@@ -113,7 +113,8 @@ static int is_tip (const galerkin *g, const pg_cracks *cracks, size_t k, int end
 static void look_for_tips (galerkin *g, const pg_cracks *cracks)
 {
     struct galerkin_ended *e = g->ended;
-    double low[2], high[2], reach = reach_of (g) * (g->problem->approx.kernel->closed ? 1 + 1e-9 : 1 - 1e-9);
+    double low[2], high[2], reach = reach_of (g), same = pg_cloud_same (&g->problem->cloud),
+                            beyond = g->problem->approx.kernel->closed ? same : -same;
     for (size_t k = 0; k < cracks->n; k++)
         for (int end = 0; end < 2; end++) {
             const double *x = cracks->crack[k].vertex + 2 * end;
@@ -122,7 +123,7 @@ static void look_for_tips (galerkin *g, const pg_cracks *cracks)
                 box_of (&g->problem->cells, e->near[c].cell, low, high);
                 double a = fmax (fmax (low[0] - x[0], x[0] - high[0]), 0),
                        b = fmax (fmax (low[1] - x[1], x[1] - high[1]), 0);
-                if (hypot (a, b) <= reach * widest_of (g, e->near[c].cell)) e->near[c].failed = 1;
+                if (hypot (a, b) <= reach * widest_of (g, e->near[c].cell) + beyond) e->near[c].failed = 1;
             }
         }
 }
@@ -138,7 +139,7 @@ static int explained (const galerkin *g, const pg_state *state, const pg_cracks 
         if (pg_cracks_touch (cracks, r->x + 2*p, PG_NO_LENGTH * cloud->h)) return 0;
         for (size_t b = r->family.start[p]; b < r->family.start[p + 1]; b++) {
             int cut = pg_cracks_cut (cracks, r->x + 2*p, cloud->x + 2 * (size_t) r->family.node[b],
-                                     1e-9 * cloud->h) != NULL;
+                                     pg_cloud_same (cloud)) != NULL;
             if (cut == alive[b]) return 0;
         }
     }
@@ -200,11 +201,12 @@ static int is_open (const galerkin *g, const ended_cell *c)
     return 0;
 }
 
-/* The part of a cell of the list that lies beyond the middle of an edge. */
-static int part_beyond (const ended_cell *beyond, const double *u, const double *v)
+/* The part of a cell of the list that lies beyond the middle of an edge, by more than rounding (nothing,
+ * m). */
+static int part_beyond (const ended_cell *beyond, const double *u, const double *v, double nothing)
 {
-    double length = hypot (v[0] - u[0], v[1] - u[1]),
-           x[2] = { 0.5 * (u[0] + v[0]) + 1e-7 * (v[1] - u[1]), 0.5 * (u[1] + v[1]) - 1e-7 * (v[0] - u[0]) };
+    double length = hypot (v[0] - u[0], v[1] - u[1]), away = fmax (1e-7, nothing / length),
+           x[2] = { 0.5 * (u[0] + v[0]) + away * (v[1] - u[1]), 0.5 * (u[1] + v[1]) - away * (v[0] - u[0]) };
     if (!(length > 0)) return -1;
     for (int k = 0; k < beyond->parts.n; k++) if (pg_cell_part_holds (&beyond->parts.part[k], x)) return k;
     return -1;
@@ -249,7 +251,7 @@ static int pieces_of (const galerkin *g, size_t cell, const pg_cell_part *part, 
 {
     const struct galerkin_ended *e = g->ended;
     const double *u = part->x[i], *v = part->x[(i + 1) % part->n];
-    double share[PG_PARTS * PG_PART_EDGES + 1], last = 0, nothing = 10 * ENDED_NOTHING * g->problem->cloud.h;
+    double share[PG_PARTS * PG_PART_EDGES + 1], last = 0, nothing = 10 * pg_cloud_same (&g->problem->cloud);
     piece p = { .u = { u[0], u[1] }, .v = { v[0], v[1] }, .other = -1, .to = -1 };
     int n = 0;
     p.face = face_of_edge (g, cell, part, i, &p.other, &p.whole);
@@ -263,7 +265,7 @@ static int pieces_of (const galerkin *g, size_t cell, const pg_cell_part *part, 
         if (share[k] == 1) memcpy (x, v, sizeof x);
         else if ((share[k] - last) * hypot (v[0] - u[0], v[1] - u[1]) <= nothing) continue;
         last = share[k];
-        p.to = part_beyond (beyond, p.u, x);
+        p.to = part_beyond (beyond, p.u, x, 0.2 * nothing);
         if ((n > 0 && out[n - 1].to == p.to) || n == PIECES) memcpy (out[n - 1].v, x, sizeof x);
         else memcpy (p.v, x, sizeof x), out[n++] = p;
         memcpy (p.u, x, sizeof x);
@@ -272,28 +274,39 @@ static int pieces_of (const galerkin *g, size_t cell, const pg_cell_part *part, 
     return n;
 }
 
-/* A part without points leans on the part beyond the longest of its edges. 0: it has none that stands. */
+/* A part without points leans on the part beyond the longest of its edges, or on those beyond all that are as
+ * long: a crack at 45 degrees cuts corners off cells that have two. 0: it has none that stands. */
 static int find_host (galerkin *g, size_t at, int part)
 {
     struct galerkin_ended *e = g->ended;
     ended_cell *own = &e->near[at];
     const pg_cell_part *p = &own->parts.part[part];
-    double longest = 0;
-    own->host[part][0] = (int) at, own->host[part][1] = part;
+    ended_hosts *h = &own->host[part];
+    double longest = 0, same = 10 * pg_cloud_same (&g->problem->cloud);
+    *h = (ended_hosts) { 1, { (int) at }, { part } };
     if (points_in (g, own->cell, p)) return 1;
-    own->host[part][0] = -1;
+    h->n = 0;
     for (int i = 0; i < p->n; i++) {
         piece all[PIECES];
         int n = p->side[i] < 0 || p->crack[i] ? 0 : pieces_of (g, own->cell, p, i, all);
         for (int k = 0; k < n; k++) {
             double length = hypot (all[k].v[0] - all[k].u[0], all[k].v[1] - all[k].u[1]);
-            if (length <= longest || all[k].to < 0) continue;
+            if (length < longest - same || all[k].to < 0) continue;
             int to = all[k].to, host = e->at[all[k].other] - 1;
             if (!points_in (g, e->near[host].cell, &e->near[host].parts.part[to])) continue;
-            longest = length, own->host[part][0] = host, own->host[part][1] = to;
+            if (length > longest + same) h->n = 0;
+            longest = fmax (longest, length);
+            if (h->n < ENDED_HOSTS && ended_share (h, (size_t) host, to) == 0)
+                h->at[h->n] = host, h->part[h->n++] = to;
         }
     }
-    return own->host[part][0] >= 0;
+    return h->n > 0;
+}
+
+double ended_share (const ended_hosts *of, size_t k, int p)
+{
+    for (int i = 0; i < of->n; i++) if (of->at[i] == (int) k && of->part[i] == p) return 1.0 / of->n;
+    return 0;
 }
 
 /* Parts, and what they lean on, until nothing fails any more. */
@@ -309,7 +322,8 @@ static void find_hosts (galerkin *g)
     }
     for (size_t k = 0; k < e->n; k++)
         for (int p = 0; p < e->near[k].parts.n && !e->near[k].failed; p++)
-            if (e->near[k].host[p][0] != (int) k) e->near[e->near[k].host[p][0]].guest = 1;
+            for (int i = 0; i < e->near[k].host[p].n; i++)
+                if (e->near[k].host[p].at[i] != (int) k) e->near[e->near[k].host[p].at[i]].guest = 1;
 }
 
 /* Is any edge of the cell on a crack, a piece of a side, or beside a part that leans on another cell? Or do
@@ -330,59 +344,76 @@ static int in_parts (const galerkin *g, const ended_cell *c)
         int n = pieces_of (g, c->cell, p, i, side);
         if (n > 1) return 1;
         int beyond = side[0].to >= 0 ? e->at[side[0].other] - 1 : -1;
-        if (beyond >= 0 && e->near[beyond].host[side[0].to][0] != beyond) return 1;
+        if (beyond >= 0 && !ended_stands (e, (size_t) beyond, side[0].to)) return 1;
     }
     return 0;
 }
 
 /* ---- borders ------------------------------------------------------------------------------------------- */
-/* Nodes that both lists, ascending, have (other NULL: those of the first). */
-static pg_status add_family (struct galerkin_ended *e, const pg_family *f, size_t cell, long other)
+/* The parts on whose points an edge of the border leans: those of the part that it belongs to (own) and of
+ * the part beyond (NULL: none). */
+typedef struct { const ended_hosts *own, *beyond; } leaning;
+
+/* The nodes that all these cells have in their lists, which are ascending. */
+static pg_status add_family (struct galerkin_ended *e, const pg_family *f, leaning on)
 {
     pg_status status = PG_OK;
-    size_t n = e->extra.family.start ? e->extra.family.start[e->nextra] : 0;
+    size_t n = e->extra.family.start ? e->extra.family.start[e->nextra] : 0, at[2 * ENDED_HOSTS],
+           end[2 * ENDED_HOSTS], lists = 0;
+    for (int side = 0; side < 2; side++) {
+        const ended_hosts *h = side ? on.beyond : on.own;
+        for (int i = 0; h && i < h->n; i++, lists++) {
+            size_t cell = e->near[h->at[i]].cell;
+            at[lists] = f->start[cell], end[lists] = f->start[cell + 1];
+        }
+    }
     PG_GROW (e->extra.family.start, e->cap_start, e->nextra + 2);
     if (e->nextra == 0) e->extra.family.start[0] = 0;
-    for (size_t k = f->start[cell], l = other < 0 ? 0 : f->start[other]; k < f->start[cell + 1]; k++) {
-        while (other >= 0 && l < f->start[other + 1] && f->node[l] < f->node[k]) l++;
-        if (other >= 0 && (l == f->start[other + 1] || f->node[l] != f->node[k])) continue;
+    for (; at[0] < end[0]; at[0]++) {
+        int node = f->node[at[0]], all = 1;
+        for (size_t l = 1; l < lists; l++) {
+            while (at[l] < end[l] && f->node[at[l]] < node) at[l]++;
+            all &= at[l] < end[l] && f->node[at[l]] == node;
+        }
+        if (!all) continue;
         PG_GROW (e->extra.family.node, e->cap_node, n + 1);
-        e->extra.family.node[n++] = f->node[k];
+        e->extra.family.node[n++] = node;
     }
     e->extra.family.start[e->nextra + 1] = n;
 done:
     return status;
 }
 
-/* A point of the border of part `part` of the cell at place `at`: its place, weight (m), the outward normal,
- * and the cell beyond on whose points the part there leans, -1: none. */
-static pg_status add_point (galerkin *g, const int *part, const double *x, const double *normal,
-                            double weight, long beyond, int crack)
+/* A point of the border, for each of the parts that stand for what is behind it: its place, weight (m), and
+ * the outward normal. */
+static pg_status add_point (galerkin *g, leaning on, const double *x, const double *normal, double weight,
+                            int crack)
 {
     pg_status status = PG_OK;
     struct galerkin_ended *e = g->ended;
-    size_t q = e->nextra;
-    PG_GROW (e->extra.x, e->cap_x, 2 * (q + 1));
-    PG_GROW (e->eye, e->cap_eye, 2 * (q + 1));
-    PG_GROW (e->flux, e->cap_flux, 2 * (q + 1));
-    PG_GROW (e->part, e->cap_part, q + 1);
-    PG_GROW (e->crack, e->cap_crack, q + 1);
-    PG_TRY (add_family (e, &g->problem->consistency->cell_family, e->near[part[0]].cell, beyond));
     double away = crack ? ENDED_BESIDE * spacing (g, x) : 0;
-    for (size_t k = 0; k < 2; k++) {
-        e->extra.x[2*q + k] = x[k], e->eye[2*q + k] = x[k] - away * normal[k];
-        e->flux[2*q + k] = weight * g->problem->cells.thickness * normal[k];
+    for (int i = 0; i < on.own->n; i++) {
+        size_t q = e->nextra;
+        PG_GROW (e->extra.x, e->cap_x, 2 * (q + 1));
+        PG_GROW (e->eye, e->cap_eye, 2 * (q + 1));
+        PG_GROW (e->flux, e->cap_flux, 2 * (q + 1));
+        PG_GROW (e->part, e->cap_part, q + 1);
+        PG_GROW (e->crack, e->cap_crack, q + 1);
+        PG_TRY (add_family (e, &g->problem->consistency->cell_family, on));
+        for (size_t k = 0; k < 2; k++) {
+            e->extra.x[2*q + k] = x[k], e->eye[2*q + k] = x[k] - away * normal[k];
+            e->flux[2*q + k] = weight / on.own->n * g->problem->cells.thickness * normal[k];
+        }
+        e->part[q][0] = on.own->at[i], e->part[q][1] = on.own->part[i], e->crack[q] = (unsigned char) crack;
+        e->nextra++;
     }
-    e->part[q][0] = part[0], e->part[q][1] = part[1], e->crack[q] = (unsigned char) crack;
-    e->nextra++;
 done:
     return status;
 }
 
 /* Points on an edge of the border: on cracks those at which contact looks at the gap, elsewhere Gauss
  * points. */
-static pg_status add_edge (galerkin *g, const int *part, const double *u, const double *v, long beyond,
-                           int crack)
+static pg_status add_edge (galerkin *g, leaning on, const double *u, const double *v, int crack)
 {
     pg_status status = PG_OK;
     double length = hypot (v[0] - u[0], v[1] - u[1]),
@@ -395,21 +426,29 @@ static pg_status add_edge (galerkin *g, const int *part, const double *u, const 
         double s = crack ? ((double) i + 0.5) / (double) n : 0.5 + 0.5 * place[i],
                w = crack ? 1 / (double) n : 0.5 * share[i], x[3] = { 0 };
         for (int k = 0; k < 2; k++) x[k] = u[k] + s * (v[k] - u[k]);
-        PG_TRY (add_point (g, part, x, normal, w * length, beyond, crack));
+        PG_TRY (add_point (g, on, x, normal, w * length, crack));
     }
 done:
     return status;
 }
 
-/* A side that is whole, with the points of its face. */
-static pg_status add_side (struct galerkin_ended *e, const int *part, size_t face)
+/* A side of a part that is whole, with the points of its face. */
+static pg_status add_side (struct galerkin_ended *e, size_t at, int part, size_t face)
 {
     pg_status status = PG_OK;
     PG_GROW (e->side, e->cap_side, e->nside + 1);
     e->side[e->nside].face = face;
-    e->side[e->nside].part[0] = part[0], e->side[e->nside++].part[1] = part[1];
+    e->side[e->nside].part[0] = (int) at, e->side[e->nside++].part[1] = part;
 done:
     return status;
+}
+
+/* Do two parts lean on the same points? */
+static int alike (const ended_hosts *a, const ended_hosts *b)
+{
+    int same = a->n == b->n;
+    for (int i = 0; i < a->n; i++) same &= ended_share (b, (size_t) a->at[i], a->part[i]) > 0;
+    return same;
 }
 
 /* One piece of the border of part p of the cell at place `at`, as far as it is not inside what leans on the
@@ -417,12 +456,13 @@ done:
 static pg_status add_piece (galerkin *g, size_t at, int p, const piece *one)
 {
     struct galerkin_ended *e = g->ended;
-    const int *host = e->near[at].host[p];
-    const int *theirs = one->to >= 0 ? e->near[e->at[one->other] - 1].host[one->to] : NULL;
-    if (theirs && theirs[0] == host[0] && theirs[1] == host[1]) return PG_OK;
-    int plain = one->whole && !e->weak[one->face] && host[0] == (int) at;
-    if (plain && (!theirs || theirs[0] == e->at[one->other] - 1)) return add_side (e, host, one->face);
-    return add_edge (g, host, one->u, one->v, theirs ? (long) e->near[theirs[0]].cell : -1, 0);
+    const ended_hosts *host = &e->near[at].host[p];
+    size_t beyond = one->to >= 0 ? (size_t) e->at[one->other] - 1 : 0;
+    const ended_hosts *theirs = one->to >= 0 ? &e->near[beyond].host[one->to] : NULL;
+    if (theirs && alike (host, theirs)) return PG_OK;
+    int plain = one->whole && !e->weak[one->face] && ended_stands (e, at, p);
+    if (plain && (!theirs || ended_stands (e, beyond, one->to))) return add_side (e, at, p, one->face);
+    return add_edge (g, (leaning) { host, theirs }, one->u, one->v, 0);
 }
 
 /* The border of one part. */
@@ -434,7 +474,8 @@ static pg_status add_border (galerkin *g, size_t at, int p)
     for (int i = 0; i < part->n; i++) {
         piece all[PIECES];
         if (part->crack[i]) {
-            PG_TRY (add_edge (g, own->host[p], part->x[i], part->x[(i + 1) % part->n], -1, 1));
+            leaning on = { &own->host[p], NULL };
+            PG_TRY (add_edge (g, on, part->x[i], part->x[(i + 1) % part->n], 1));
             continue;
         }
         int n = pieces_of (g, own->cell, part, i, all);
@@ -480,7 +521,7 @@ pg_status ended_plan (galerkin *g, const pg_state *state)
         if (c->failed) continue;
         c->blocked = !explained (g, state, cracks, c->cell)
                      || !pg_cell_divide (&c->parts, &g->problem->cells, c->cell, cracks,
-                                         ENDED_NOTHING * g->problem->cloud.h);
+                                         pg_cloud_same (&g->problem->cloud));
         c->failed = c->blocked || (g->problem->cloud.subdomain && is_open (g, c));
     }
     for (int again = 1; again;) {

@@ -11,7 +11,8 @@
 
 /* Share of the volume of a whole cell below which a cut cell is small. */
 static const double SMALL = 0.1;
-/* Volumes and areas that differ less than this, relatively, differ by rounding. */
+/* Volumes and areas that differ less than this, relatively, differ by rounding, as do those that differ by
+ * what a surface sweeps that moves by the rounding of its coordinates. */
 static const double EQUAL = 1e-9;
 /* Hosts of small cells among small cells are sought so many times over; a cell has so many hosts at most. */
 enum { PASSES = 4, HOSTS = 16 };
@@ -19,19 +20,32 @@ enum { PASSES = 4, HOSTS = 16 };
 /* The hosts of a cell, and the share of it that each takes. */
 typedef struct { int n, cell[HOSTS]; double share[HOSTS]; } lodging;
 
-static int is_small (const pg_cells *c, size_t cell)
+/* Lengths of the sides of a cell's box, m. */
+static void sides_of (const pg_cells *c, size_t cell, double *side)
 {
-    double whole = c->dim == 3 ? 1 : c->thickness;
-    if (c->kind[cell] != PG_CUT || c->dim == 1) return 0;
     for (int k = 0; k < c->dim; k++) {
         double low = INFINITY, high = -INFINITY;
         for (size_t i = c->start[cell]; i < c->start[cell + 1]; i++) {
             double x = c->x[i * (size_t) c->dim + (size_t) k];
             low = fmin (low, x), high = fmax (high, x);
         }
-        whole *= high - low;
+        side[k] = high - low;
     }
-    return c->volume[cell] < (1 - EQUAL) * SMALL * whole;
+}
+
+static double rounding_of (const pg_consistency *c)
+{
+    return pg_rounding (c->cloud->dim, c->cloud->low, c->cloud->high);
+}
+
+static int is_small (const pg_consistency *of, size_t cell)
+{
+    const pg_cells *c = of->cells;
+    double side[3], whole = c->dim == 3 ? 1 : c->thickness, least = INFINITY;
+    if (c->kind[cell] != PG_CUT || c->dim == 1) return 0;
+    sides_of (c, cell, side);
+    for (int k = 0; k < c->dim; k++) whole *= side[k], least = fmin (least, side[k]);
+    return c->volume[cell] < ((1 - EQUAL) * SMALL - rounding_of (of) / least) * whole;
 }
 
 static double area_of (const pg_faces *f, size_t face)
@@ -70,13 +84,16 @@ static lodging lodge (const pg_consistency *c, size_t cell, const unsigned char 
 {
     const pg_faces *f = &c->faces;
     lodging out = { 0 };
-    double most = 0, sum = 0;
+    double most = 0, sum = 0, side[3], breadth = c->cells->thickness;
+    sides_of (c->cells, cell, side);
+    if (f->dim == 3) breadth = fmax (fmax (side[0], side[1]), side[2]);
     for (size_t k = f->of[cell]; k < f->of[cell + 1]; k++)
         if (beyond (c, (size_t) f->face[k], cell, small, so_far) >= 0)
             most = fmax (most, area_of (f, (size_t) f->face[k]));
+    double least = (1 - EQUAL) * most - rounding_of (c) * breadth;
     for (size_t k = f->of[cell]; most > 0 && k < f->of[cell + 1]; k++) {
         int other = beyond (c, (size_t) f->face[k], cell, small, so_far);
-        if (other < 0 || area_of (f, (size_t) f->face[k]) < (1 - EQUAL) * most) continue;
+        if (other < 0 || area_of (f, (size_t) f->face[k]) < least) continue;
         if (!small[other]) add_host (&out, other, 1);
         for (int h = 0; small[other] && h < so_far[other].n; h++)
             add_host (&out, so_far[other].cell[h], so_far[other].share[h]);
@@ -151,7 +168,7 @@ static pg_status find_hosts (pg_consistency *c)
     PG_ALLOC (small, n);
     PG_ALLOC (now, n);
     PG_ALLOC (before, n);
-    for (size_t cell = 0; cell < n; cell++) small[cell] = (unsigned char) is_small (c->cells, cell);
+    for (size_t cell = 0; cell < n; cell++) small[cell] = (unsigned char) is_small (c, cell);
     for (int pass = 0; pass < PASSES; pass++) {
         memcpy (before, now, n * sizeof *before);
         for (size_t cell = 0; cell < n; cell++)

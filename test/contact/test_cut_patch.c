@@ -1,8 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Patch test of a body that is cut in two and pressed together: with consistent integration, whose cells end
  * at the cut, displacement and stress are those of the uncut body. Cuts are frictionless, stuck or open,
- * level, tilted and kinked, along sides of cells and close to them, on lattices and on points moved at
- * random. While cracks grow, what is renewed of the stiffness equals a fresh one. */
+ * level, tilted, kinked, at 45 degrees, along sides of cells and close to them, on lattices and on points
+ * moved at random. While cracks grow, what is renewed of the stiffness equals a fresh one. */
 #include "scene_runs/run.h"
 
 static const double nu = 0.25;
@@ -68,6 +68,8 @@ static void measure (const cut *c, double *displacement, double *stress)
 #define TILTED "[{from: [-0.1, 0.337], to: [1.1, 0.681]}]"
 #define BLOCK  "[{from: [0.513, 0.207], to: [0.81, 0.52]}, {from: [0.81, 0.52], to: [0.48, 0.83]}, " \
                "{from: [0.48, 0.83], to: [0.17, 0.46]}, {from: [0.17, 0.46], to: [0.513, 0.207]}]"
+#define SLOPES "[{from: [0.53, 0.2], to: [0.83, 0.5]}, {from: [0.83, 0.5], to: [0.53, 0.8]}, " \
+               "{from: [0.53, 0.8], to: [0.23, 0.5]}, {from: [0.23, 0.5], to: [0.53, 0.2]}]"
 static const char *const exact = "integration: consistent";
 
 static void cut_bodies_are_whole (void **unused)
@@ -86,6 +88,7 @@ static void cut_bodies_are_whole (void **unused)
           "integration: consistent, horizon: 2.5 spacing", 0.4, 0, -3 },
         { "a block cut out, pressed from all sides", "plane: strain", "nodes", BLOCK, NORMAL, exact, 0.3, -3,
           -3 },
+        { "a block with sides at 45 degrees", "plane: strain", "cells", SLOPES, NORMAL, exact, 0, -3, -3 },
         { "quadratic basis", "plane: stress", "cells", TILTED, ROUGH,
           "integration: consistent, basis: quadratic, horizon: 3 spacing", 0.2, 0, -3 },
         { "open, along the load", "plane: stress", "cells", "[{from: [0.5, -0.1], to: [0.5, 1.1]}]", "",
