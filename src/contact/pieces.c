@@ -295,9 +295,9 @@ static double end_of (size_t at, size_t pieces, int met)
 static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_t to)
 {
     pg_status status = PG_OK;
-    double whole = 0, passed = 0, arc = 0;
+    double whole = 0, passed = 0, arc = 0, same = pg_cloud_same (&d->p->cloud);
     for (size_t i = from; i < to; i++) whole += d->link[i].length / d->link[i].h;
-    size_t even = (size_t) fmax (1, round (whole / PG_CONTACT_PIECE)), at = 0;
+    size_t even = (size_t) fmax (1, round (whole / PG_CONTACT_PIECE * (1 - 1e-9))), at = 0;
     int met = whole > PG_CONTACT_HALVED ? d->link[from].met : 0;
     size_t pieces = even + (size_t) (met & 1) + (size_t) (met >> 1 && (even > 1 || !(met & 1)));
     double each = whole / (double) even, begins = 0;
@@ -309,7 +309,7 @@ static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_
         double size = l->length / l->h, u = 0;
         while (u < 1) {
             double goal = end_of (at, even, met) * each, v = (goal - passed) / size;
-            int ends = at + 1 < pieces && v < (d->p->consistency ? 1.5 : 1 + 1e-9);
+            int ends = at + 1 < pieces && v < (d->p->consistency ? 1.5 : 1) + same / l->length;
             if (!ends || v > 1 || d->p->consistency) v = 1;        /* intervals stay whole */
             PG_TRY (add_points (d, out, l, u, v));
             if (ends) {

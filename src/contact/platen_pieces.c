@@ -21,13 +21,14 @@ static const double FACES = 0.5, HIDES = 1.5, BOX = 0.5;
 /* Points further apart along the platen belong to two stretches, spacings. */
 static const double APART = 1.25;
 
-/* A point of the surface: where it lies along the platen, m, and how far from it. */
-typedef struct { size_t at; double s[2], distance, h, normal[3]; long box[2]; } candidate;
+/* A point of the surface, or its half on one side of a border of pieces: where it lies along the platen, m,
+ * how far from it, and what it counts (area, m^2). */
+typedef struct { size_t at; double s[2], distance, h, normal[3], weight; long box[2]; } candidate;
 typedef struct {
     const pg_problem *p;
     const pg_platen *platen;
     const pg_quadrature *q;
-    candidate *point;  size_t n;
+    candidate *point;  size_t n, capacity;
     double along[2][3];                                /* directions along the platen, at its `point` */
 } facing;
 
@@ -131,9 +132,10 @@ static pg_status find_points (facing *f)
 {
     pg_status status = PG_OK;
     size_t dim = (size_t) f->p->dim;
-    PG_ALLOC (f->point, f->q->n);
+    PG_GROW (f->point, f->capacity, f->q->n);
     for (size_t i = 0; i < f->q->n; i++) {
-        candidate c = { .at = i, .h = pg_problem_spacing_at (f->p, f->q->x + i * dim) };
+        candidate c = { .at = i, .weight = f->q->weight[i],
+                        .h = pg_problem_spacing_at (f->p, f->q->x + i * dim) };
         c.distance = pg_platen_distance (f->platen, f->p->dim, f->q->x + i * dim, c.normal);
         if (!isfinite (c.distance) || dot (f->q->normal + i * dim, c.normal, dim) > -FACES) continue;
         if (fabs (c.distance) <= PG_NO_LENGTH * c.h) c.distance = 0;
@@ -154,83 +156,131 @@ static int compare_places (const void *a, const void *b)
     return (i->at > j->at) - (i->at < j->at);
 }
 
+/* Point i lies at `place` along an axis with n pieces of the length `each` (m): sets box[axis]. On the border
+ * of two it goes half to each: rounding, and the sense in which they are counted, would choose one of
+ * them. */
+static pg_status put_in_piece (facing *f, size_t i, int axis, double place, double each, long n)
+{
+    pg_status status = PG_OK;
+    long border = lround (place / each), k = (long) floor (place / each);
+    f->point[i].box[axis] = k < 0 ? 0 : k < n ? k : n - 1;
+    if (border <= 0 || border >= n
+        || fabs (place - (double) border * each) > pg_cloud_same (&f->p->cloud)) return PG_OK;
+    PG_GROW (f->point, f->capacity, f->n + 1);
+    f->point[i].weight *= 0.5, f->point[i].box[axis] = border;
+    f->point[f->n] = f->point[i];
+    f->point[f->n++].box[axis] = border - 1;
+done:
+    return status;
+}
+
 /* Plane: number of the piece of each point (box[0]), along stretches without breaks, by equal lengths in
  * local spacings. */
-static long divide_line (facing *f)
+static pg_status divide_line (facing *f)
 {
+    pg_status status = PG_OK;
+    size_t points = f->n;                              /* what comes behind them are halves */
     long pieces = 0;
     double thick = f->p->cloud.thickness;
     pg_sort (f->point, f->n, sizeof *f->point, compare_places);
-    for (size_t from = 0, to; from < f->n; from = to) {
+    for (size_t from = 0, to; from < points; from = to) {
         double whole = 0, passed = 0;
-        for (to = from; to < f->n; to++) {
-            if (to > from && f->point[to].s[0] - f->point[to - 1].s[0] > APART * f->point[to].h) break;
-            whole += f->q->weight[f->point[to].at] / thick / f->point[to].h;
+        for (to = from; to < points; to++) {
+            const candidate *c = &f->point[to];
+            if (to > from && c->s[0] - c[-1].s[0] > APART * fmax (c->h, c[-1].h)) break;
+            whole += c->weight / thick / c->h;
         }
         long n = (long) fmax (1, round (whole / PG_CONTACT_PIECE * (1 - 1e-9)));
         for (size_t i = from; i < to; i++) {
-            double part = f->q->weight[f->point[i].at] / thick / f->point[i].h;
-            long k = (long) floor ((passed + 0.5 * part) / whole * (double) n);
-            f->point[i].box[0] = pieces + (k < n ? k : n - 1), f->point[i].box[1] = 0;
+            double h = f->point[i].h, part = f->point[i].weight / thick / h;
+            size_t half = f->n;
+            PG_TRY (put_in_piece (f, i, 0, (passed + 0.5 * part) * h, whole / (double) n * h, n));
+            f->point[i].box[0] += pieces;
+            if (f->n > half) f->point[half].box[0] += pieces;
             passed += part;
         }
         pieces += n;
     }
-    return pieces;
+done:
+    return status;
 }
 
-/* Space: boxes of a grid along the platen, of equal sizes. */
-static long divide_grid (facing *f)
+/* Space: boxes of a grid along the platen, of equal sizes; *boxes: how many. */
+static pg_status divide_grid (facing *f, long *boxes)
 {
+    pg_status status = PG_OK;
     double low[2] = { INFINITY, INFINITY }, high[2] = { -INFINITY, -INFINITY }, h = INFINITY;
-    long n[2];
+    long n[2] = { 0 };
     for (size_t i = 0; i < f->n; i++) {
-        double half = 0.5 * sqrt (f->q->weight[f->point[i].at]);
+        double half = 0.5 * sqrt (f->point[i].weight);
         h = fmin (h, f->point[i].h);
         for (int a = 0; a < 2; a++)
             low[a] = fmin (low[a], f->point[i].s[a] - half),
             high[a] = fmax (high[a], f->point[i].s[a] + half);
     }
-    for (int a = 0; a < 2 && f->n; a++)
+    for (int a = 0; a < 2 && f->n; a++) {
         n[a] = (long) fmax (1, round ((high[a] - low[a]) / (PG_CONTACT_PIECE * h) * (1 - 1e-9)));
-    for (size_t i = 0; i < f->n; i++)
-        for (int a = 0; a < 2; a++) {
-            long k = (long) floor ((f->point[i].s[a] - low[a]) / (high[a] - low[a]) * (double) n[a]);
-            f->point[i].box[a] = k < 0 ? 0 : k < n[a] ? k : n[a] - 1;
-        }
+        for (size_t i = 0, points = f->n; i < points; i++)
+            PG_TRY (put_in_piece (f, i, a, f->point[i].s[a] - low[a], (high[a] - low[a]) / (double) n[a],
+                                  n[a]));
+    }
     for (size_t i = 0; i < f->n; i++) f->point[i].box[0] += f->point[i].box[1] * n[0], f->point[i].box[1] = 0;
-    return f->n ? n[0] * n[1] : 0;
+    *boxes = n[0] * n[1];
+done:
+    return status;
 }
 
-/* Boxes with less than a third of a whole one go to the box that is nearest to their middle. */
+/* Area (squares of spacings) and middle (m) of what is in a box. */
+typedef struct { double area, middle[2]; } filling;
+
+static double between (const filling *a, const filling *b)
+{
+    return hypot (a->middle[0] - b->middle[0], a->middle[1] - b->middle[1]);
+}
+
+/* Less than a third of a whole box. */
+static int is_small (const filling *box) { return box->area < PG_CONTACT_PIECE * PG_CONTACT_PIECE / 3.0; }
+
+/* Point i goes to the box that is nearest to the middle of its own, in equal parts to those that are as
+ * near. */
+static pg_status move_to_nearest (facing *f, const filling *box, long boxes, size_t i)
+{
+    pg_status status = PG_OK;
+    const candidate c = f->point[i];
+    const filling *own = &box[c.box[0]];
+    double least = INFINITY, same = pg_cloud_same (&f->p->cloud);
+    size_t first = f->n, found = 0;
+    for (long j = 0; j < boxes; j++) if (!is_small (&box[j])) least = fmin (least, between (own, &box[j]));
+    for (long j = 0; j < boxes; j++) {
+        if (is_small (&box[j]) || between (own, &box[j]) > least + same) continue;
+        PG_GROW (f->point, f->capacity, f->n + 1);
+        candidate *to = found++ ? &f->point[f->n++] : &f->point[i];
+        *to = c, to->box[0] = j;
+    }
+    if (found) f->point[i].weight /= (double) found;
+    for (size_t k = first; k < f->n; k++) f->point[k].weight /= (double) found;
+done:
+    return status;
+}
+
+/* Small boxes are joined to others. */
 static pg_status join_small (facing *f, long boxes)
 {
     pg_status status = PG_OK;
-    double *area = NULL, (*middle)[2] = NULL;
-    long *to = NULL;
-    PG_ALLOC (area, (size_t) boxes);
-    PG_ALLOC (middle, (size_t) boxes);
-    PG_ALLOC (to, (size_t) boxes);
+    filling *box = NULL;
+    PG_ALLOC (box, (size_t) boxes);
     for (size_t i = 0; i < f->n; i++) {
         const candidate *c = &f->point[i];
-        double w = f->q->weight[c->at] / (c->h * c->h);
-        area[c->box[0]] += w;
-        for (int a = 0; a < 2; a++) middle[c->box[0]][a] += w * c->s[a];
+        double w = c->weight / (c->h * c->h);
+        box[c->box[0]].area += w;
+        for (int a = 0; a < 2; a++) box[c->box[0]].middle[a] += w * c->s[a];
     }
     for (long k = 0; k < boxes; k++)
-        for (int a = 0; a < 2 && area[k] > 0; a++) middle[k][a] /= area[k];
-    for (long k = 0; k < boxes; k++) {
-        const double whole = PG_CONTACT_PIECE * PG_CONTACT_PIECE, small = whole / 3;
-        double least = INFINITY;
-        to[k] = k;
-        for (long j = 0; area[k] > 0 && area[k] < small && j < boxes; j++) {
-            double away = hypot (middle[k][0] - middle[j][0], middle[k][1] - middle[j][1]);
-            if (j != k && area[j] >= small && away < least) least = away, to[k] = j;
-        }
-    }
-    for (size_t i = 0; i < f->n; i++) f->point[i].box[0] = to[f->point[i].box[0]];
+        for (int a = 0; a < 2 && box[k].area > 0; a++) box[k].middle[a] /= box[k].area;
+    for (size_t i = 0, points = f->n; i < points; i++)
+        if (is_small (&box[f->point[i].box[0]])) PG_TRY (move_to_nearest (f, box, boxes, i));
 done:
-    pg_free (area), pg_free (middle), pg_free (to);
+    pg_free (box);
     return status;
 }
 
@@ -273,7 +323,7 @@ static pg_status collect (facing *f, pg_contact_pieces *out, double **gap)
         const candidate *c = &f->point[i];
         if (i && c->box[0] != f->point[i - 1].box[0]) end_piece (out, f, *gap, weight), weight = 0;
         pg_contact_piece *k = &out->piece[out->n];
-        double w = f->q->weight[c->at], t[2][3];
+        double w = c->weight, t[2][3];
         size_t q = out->npoint++;
         tangents (c->normal, f->along[0], dim, t);
         memcpy (out->x + q * dim, f->q->x + c->at * dim, dim * sizeof *out->x);
@@ -294,13 +344,17 @@ pg_status pg_platen_pieces_create (pg_contact_pieces *out, double **gap, const p
     pg_status status = PG_OK;
     pg_quadrature q = { 0 };
     facing f = { .p = p, .platen = &p->platen[platen], .q = &q };
+    long boxes = 0;
     memset (out, 0, sizeof *out);
     *gap = NULL;
     out->dim = (size_t) p->dim;
     PG_TRY (pg_facet_points (&q, &p->cells, p->facet_order));
     PG_TRY (find_points (&f));
-    if (p->dim == 2) divide_line (&f);
-    else PG_TRY (join_small (&f, divide_grid (&f)));
+    if (p->dim == 2) PG_TRY (divide_line (&f));
+    else {
+        PG_TRY (divide_grid (&f, &boxes));
+        PG_TRY (join_small (&f, boxes));
+    }
     pg_sort (f.point, f.n, sizeof *f.point, compare_pieces);
     PG_TRY (collect (&f, out, gap));
     for (size_t k = 0; k < out->n; k++) out->piece[k].platen = platen + 1;
