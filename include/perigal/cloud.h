@@ -384,6 +384,10 @@ int       pg_between_look   (const pg_between *between, const double *low, const
  * and x. outlook: of a box that holds both; NULL: of the whole body. */
 int       pg_between_parted (const pg_between *between, const pg_outlook *outlook, const double *x,
                              const double *y);
+/* The first stretch of the segment from x to y, behind the share `after` of it, that lies outside the body:
+ * out[0] to out[1], shares of the segment. 0: there is none; -1: there are too many to tell. */
+int       pg_between_outside (const pg_between *between, const double *x, const double *y, double after,
+                              double out[2]);
 /* Where a place looks from: itself or, outside the body, the nearest place in it; where point i of the cloud
  * does, which may be a little way inside of a face. */
 void      pg_between_eye    (const pg_between *between, const double *x, double *eye);

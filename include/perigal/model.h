@@ -569,7 +569,7 @@ int       pg_problem_has_body (const pg_problem *problem, const double *x);
 /* Local spacing at x: that of the nearest point, m. */
 double    pg_problem_spacing_at (const pg_problem *problem, const double *x);
 /* How far from a tip in a direction (unit vector) the body ends, or a crack lies across, m; *what says
- * which. At most `limit`. Gaps in the body of less than an eighth of the spacing may be missed. */
+ * which. At most `limit`. Gaps in a mesh of less than an eighth of the spacing may be missed. */
 double    pg_tip_ahead (const pg_problem *problem, const pg_state *state, size_t tip, const double *direction,
                         double limit, int *what);
 /* Distance from a tip to the nearest place of the surface, of another path, or of another open tip, m; at

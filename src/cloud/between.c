@@ -208,6 +208,19 @@ int pg_between_parted (const pg_between *b, const pg_outlook *o, const double *x
     return 0;
 }
 
+int pg_between_outside (const pg_between *b, const double *x, const double *y, double after, double out[2])
+{
+    between_way w;
+    between_gaps g;
+    if (!way_from (&w, b, x, y)) return 0;
+    gaps_along (&g, b, NULL, &w);
+    for (int i = 0; i < g.n && !g.full; i++) {
+        out[0] = fmax (after, g.gap[i].t[0]), out[1] = fmin (1, g.gap[i].t[1]);
+        if (out[1] > out[0]) return 1;
+    }
+    return g.full ? -1 : 0;
+}
+
 /* ---- what can be met in a box -------------------------------------------------------------------------- */
 /* Does this convex shape hold the whole box? */
 static int holds (const pg_between *b, const member *m, const double *low, const double *high)

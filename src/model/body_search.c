@@ -58,3 +58,55 @@ int pg_problem_has_body (const pg_problem *p, const double *x)
         d = hypot (d, p->cloud.x[(size_t) i * (size_t) p->dim + (size_t) k] - x[k]);
     return i >= 0 && d <= (p->dim == 3 ? 0.87 : 0.71) * pg_problem_spacing_at (p, x);
 }
+
+/* Steps of a way in a spacing; halvings of the last one: 2^-44 of it is rounding. */
+enum { STEPS = 8, HALVINGS = 44 };
+
+static int body_at (const pg_problem *p, const double *x, const double *e, double r)
+{
+    double place[3] = { 0 };
+    for (int k = 0; k < p->dim; k++) place[k] = x[k] + r * e[k];
+    return pg_problem_has_body (p, place);
+}
+
+/* Between a place with body and one without it. */
+static double halve (const pg_problem *p, const double *x, const double *e, double near, double far)
+{
+    for (int k = 0; k < HALVINGS; k++) {
+        double middle = 0.5 * (near + far);
+        if (body_at (p, x, e, middle)) near = middle;
+        else far = middle;
+    }
+    return near;
+}
+
+/* Of shapes all that they leave empty is known, slots that are narrower than any step too. 0: not known. */
+static int way_in_shapes (const pg_problem *p, const double *x, const double *e, double limit, double first,
+                          double *way)
+{
+    double end[3] = { 0 }, gap[2], near = 0;
+    int found;
+    if (!p->body.n || !p->between) return 0;
+    for (int k = 0; k < p->dim; k++) end[k] = x[k] + limit * e[k];
+    *way = limit;
+    for (; (found = pg_between_outside (p->between, x, end, near / limit, gap)) > 0; near = gap[1] * limit) {
+        double far = 0.5 * (gap[0] + gap[1]) * limit;
+        if (gap[1] * limit <= first || body_at (p, x, e, far)) continue;
+        *way = halve (p, x, e, near, far);
+        return 1;
+    }
+    return !found;
+}
+
+/* A place within rounding of the surface has some body to one side only, so the first step counts as a
+ * whole. */
+double pg_problem_way_out (const pg_problem *p, const double *x, const double *e, double limit)
+{
+    double step = pg_problem_spacing_at (p, x) / STEPS, near = 0, far, way;
+    if (way_in_shapes (p, x, e, limit, fmin (step, limit), &way)) return way;
+    for (long i = 1; near < limit; i++, near = far) {
+        far = fmin ((double) i * step, limit);
+        if (!body_at (p, x, e, far)) return halve (p, x, e, near, far);
+    }
+    return limit;
+}

@@ -86,7 +86,7 @@ static pg_status beyond_end (stride *s, unsigned char meets, const double *end, 
     double e[3], out[3], h = pg_problem_spacing_at (s->p, end);
     for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
     if (meets == PG_MEETS_NOTHING || !unit3 (e)) return PG_OK;
-    double a = meets == PG_MEETS_SURFACE ? space_to_surface (s->p, end, e, h) : surface_flap * h;
+    double a = meets == PG_MEETS_SURFACE ? pg_problem_way_out (s->p, end, e, h) : surface_flap * h;
     shift3 (end, e, a, out);
     if (meets == PG_MEETS_SURFACE) shift3 (end, e, a + (a < h ? space_beyond (s->p, out, e) : 0), out);
     PG_TRY (to_line (s, out, normal));
@@ -220,7 +220,7 @@ static pg_status around_edge (stride *s, size_t i, size_t j)
         return PG_OK;
     for (int k = 0; k < 3; k++) middle[k] = 0.5 * (x[k] + y[k]), way[k] = a[k] + b[k];
     if (!unit3 (way) || !pg_problem_has_body (s->p, middle)) return PG_OK;
-    double r = space_to_surface (s->p, middle, way, surface_run_out * h);
+    double r = pg_problem_way_out (s->p, middle, way, surface_run_out * h);
     shift3 (middle, way, r, out);
     s->w->area += triangle_area3 (x, out, y);
     shift3 (out, way, space_beyond (s->p, out, way), out);

@@ -59,8 +59,6 @@ pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface
 double triangle_area3 (const double *a, const double *b, const double *c);
 
 /* ---- crack_surfaces_meet.c ----------------------------------------------------------------------------- */
-/* Distance from x in direction e (unit) to the first place without body, at most `limit`, m. */
-double space_to_surface (const pg_problem *p, const double *x, const double *e, double limit);
 /* How far a crack that ends on the surface at x, going in direction e, cuts beyond it. */
 double space_beyond (const pg_problem *p, const double *x, const double *e);
 /* The place of the surface nearest to x within the plane of e (unit, about towards the surface) and u (unit,

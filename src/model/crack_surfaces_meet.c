@@ -6,8 +6,8 @@
 #include "crack_surfaces.h"
 #include <string.h>
 
-/* Steps of a ray in a spacing; halvings of the last one: 2^-44 of it is rounding. */
-enum { STEPS = 8, HALVINGS = 44 };
+/* Steps of a way in a spacing. */
+enum { STEPS = 8 };
 static const double to_surface = 1.5, to_crack = 0.6;  /* spacings */
 /* A surface at an angle is looked for so far away, spacings. */
 static const double seen_to = 10;
@@ -24,24 +24,6 @@ static int body_at (const pg_problem *p, const double *x, const double *e, doubl
     double place[3];
     for (int k = 0; k < 3; k++) place[k] = x[k] + r * e[k];
     return pg_problem_has_body (p, place);
-}
-
-/* A vertex within rounding of the surface has some body to one side only, so the first step counts as a
- * whole. */
-double space_to_surface (const pg_problem *p, const double *x, const double *e, double limit)
-{
-    double step = pg_problem_spacing_at (p, x) / STEPS, near = 0, far;
-    for (long i = 1; near < limit; i++, near = far) {
-        far = fmin ((double) i * step, limit);
-        if (body_at (p, x, e, far)) continue;
-        for (int k = 0; k < HALVINGS; k++) {
-            double middle = 0.5 * (near + far);
-            if (body_at (p, x, e, middle)) near = middle;
-            else far = middle;
-        }
-        return near;
-    }
-    return limit;
 }
 
 /* Not into body that follows. */
@@ -134,7 +116,7 @@ int space_foot (const pg_problem *p, const double *x, const double *e, const dou
     double c = sqrt (0.75), hit[2][3], way[3], d[3];
     for (int side = 0; side < 2; side++) {
         for (int k = 0; k < 3; k++) way[k] = c * e[k] + (side ? 0.5 : -0.5) * u[k];
-        double r = space_to_surface (p, x, way, limit);
+        double r = pg_problem_way_out (p, x, way, limit);
         if (!(r < limit)) return 0;
         shift3 (x, way, r, hit[side]);
     }
@@ -159,7 +141,7 @@ double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front,
     const double *x = w->front[front].x + 3*i;
     double h = pg_problem_spacing_at (p, x), way = d, goal[3];
     *meets = PG_MEETS_NOTHING;
-    double a = space_to_surface (p, x, e, d + to_surface * h);
+    double a = pg_problem_way_out (p, x, e, d + to_surface * h);
     if (a < d + to_surface * h && (a <= d || !passes_by (p, &w->front[front], i, e, seen_to * h)))
         way = a, *meets = PG_MEETS_SURFACE;
     double r = ray_to_cracks (&w->cracks, x, e, d + to_crack * h, h);
@@ -174,7 +156,7 @@ double space_way (const pg_problem *p, const pg_crack_surfaces *w, size_t front,
 double space_end (const pg_problem *p, const pg_crack_surfaces *w, const double *x, const double *e,
                   double limit, unsigned char *meets)
 {
-    double h = pg_problem_spacing_at (p, x), a = space_to_surface (p, x, e, limit);
+    double h = pg_problem_spacing_at (p, x), a = pg_problem_way_out (p, x, e, limit);
     double r = ray_to_cracks (&w->cracks, x, e, limit, h);
     *meets = r < a ? PG_MEETS_CRACK : a < limit ? PG_MEETS_SURFACE : PG_MEETS_NOTHING;
     return fmin (r, a);

@@ -92,7 +92,7 @@ static pg_status beyond_end (patch *c, const double *end, const double *beside)
     double e[3], out[3];
     for (int k = 0; k < 3; k++) e[k] = end[k] - beside[k];
     if (!unit3 (e)) return PG_OK;
-    double a = space_to_surface (c->p, end, e, pg_problem_spacing_at (c->p, end));
+    double a = pg_problem_way_out (c->p, end, e, pg_problem_spacing_at (c->p, end));
     for (int k = 0; k < 3; k++) out[k] = end[k] + a * e[k];
     a += space_beyond (c->p, out, e);
     for (int k = 0; k < 3; k++) out[k] = end[k] + a * e[k];

@@ -1,40 +1,12 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * What lies around the tip of a crack in the plane: the surface of the body, other cracks. Shapes, meshes and
- * points all answer one question only, whether a place has body (body_search.c): along a ray the first place
- * without is found in steps of an eighth of the spacing, and then by bisection. */
+ * What lies around the tip of a crack in the plane: the surface of the body, which is met by rays
+ * (body_search.c), and other cracks. */
 #include "model.h"
 #include <math.h>
+#include <string.h>
 
-/* Steps of a ray in a spacing; halvings of the last one: 2^-44 of it is rounding. Rays of a search all
- * around: the nearest place of a straight surface lies between two of them, and golden sections find it. */
-enum { STEPS = 8, HALVINGS = 44, RAYS = 48, SECTIONS = 30 };
-
-/* The place at distance r in direction e. */
-static void ray_at (const double *x, const double *e, double r, double *out)
-{
-    for (int k = 0; k < 2; k++) out[k] = x[k] + r * e[k];
-    out[2] = 0;
-}
-
-/* Distance to the first place without body, at most `limit`. A tip within rounding of the surface has some
- * body to one side only, so the first step counts as a whole. */
-static double ray_to_surface (const pg_problem *p, const double *x, const double *e, double limit)
-{
-    double step = pg_problem_spacing_at (p, x) / STEPS, near = 0, far, place[3];
-    for (long i = 1; near < limit; i++, near = far) {
-        far = fmin ((double) i * step, limit);
-        ray_at (x, e, far, place);
-        if (pg_problem_has_body (p, place)) continue;
-        for (int k = 0; k < HALVINGS; k++) {
-            double middle = 0.5 * (near + far);
-            ray_at (x, e, middle, place);
-            if (pg_problem_has_body (p, place)) near = middle;
-            else far = middle;
-        }
-        return near;
-    }
-    return limit;
-}
+/* Rays of a search all around, and halvings of the angle between two of them. */
+enum { RAYS = 48, ANGLES = 30 };
 
 /* Distance along the ray at which it meets the segment a - b, widened by `slack` at both ends (m); INFINITY:
  * nowhere. */
@@ -54,7 +26,7 @@ double pg_tip_ahead (const pg_problem *p, const pg_state *s, size_t tip, const d
 {
     const pg_crack_paths *w = s->paths;
     const pg_tip *t = &w->tip[tip];
-    double r = ray_to_surface (p, t->x, e, limit);
+    double r = pg_problem_way_out (p, t->x, e, limit);
     int met = r < limit ? PG_MEETS_SURFACE : PG_MEETS_NOTHING;
     for (size_t c = 0; c < w->cracks.n; c++) {
         const double *a = w->cracks.crack[c].vertex;
@@ -68,50 +40,95 @@ double pg_tip_ahead (const pg_problem *p, const pg_state *s, size_t tip, const d
     return r;
 }
 
-/* Distance to the surface at an angle. */
-static double surface_at (const pg_problem *p, const double *x, double angle, double limit, double *place)
+/* What the surface is seen at in one direction: the angle, the way to it and the place. */
+typedef struct { double angle, way, place[2]; } sight;
+
+static sight look (const pg_problem *p, const double *x, double angle, double limit)
 {
-    double e[2] = { cos (angle), sin (angle) }, at[3], r = ray_to_surface (p, x, e, limit);
-    ray_at (x, e, r, at);
-    place[0] = at[0], place[1] = at[1];
-    return r;
+    const double e[3] = { cos (angle), sin (angle), 0 };
+    double way = pg_problem_way_out (p, x, e, limit);
+    return (sight) { angle, way, { x[0] + way * e[0], x[1] + way * e[1] } };
 }
 
-/* The nearest place of the surface: rays all around, then golden sections about the shortest of them. Rays
- * begin in direction e, so that a body that is turned with its crack gives the same. */
+/* The nearest place within `turn` of a direction, by halves to both sides alike. */
+static sight closer (const pg_problem *p, const double *x, sight best, double turn, double limit)
+{
+    for (int i = 0; i < ANGLES; i++) {
+        turn *= 0.5;
+        sight left = look (p, x, best.angle + turn, limit), right = look (p, x, best.angle - turn, limit);
+        const sight *less = left.way < right.way ? &left : &right;
+        if (less->way < best.way) best = *less;
+    }
+    return best;
+}
+
+/* The direction in which the nearest surface of the shapes lies, which may be the end of a slot that rays
+ * pass by: against the slope of the distance. 0: there is none. */
+static int towards_shapes (const pg_problem *p, const double *x, double *angle)
+{
+    double d[4], step = 1e-3 * pg_problem_spacing_at (p, x);
+    for (int i = 0; i < 4; i++) {
+        double at[3] = { x[0], x[1], 0 };
+        at[i / 2] += i % 2 ? step : -step;
+        pg_body_nearest (&p->body, at, &d[i]);
+    }
+    *angle = atan2 (d[2] - d[3], d[0] - d[1]);
+    return hypot (d[1] - d[0], d[3] - d[2]) > 0;
+}
+
+/* Of places as near, but for rounding, the one that lies farther ahead counts; of two as far ahead what lies
+ * along the sum of the ways to them, such as the corner between two faces, if there is anything. */
+static void keep_sight (const pg_problem *p, const double *x, const double *e, double limit, sight *best,
+                        sight s)
+{
+    double same = pg_cloud_same (&p->cloud), sum[2], farther = 0;
+    if (s.way < best->way - same || s.way > best->way + same) {
+        if (s.way < best->way) *best = s;
+        return;
+    }
+    for (int k = 0; k < 2; k++)
+        farther += (s.place[k] - best->place[k]) * e[k], sum[k] = s.place[k] + best->place[k] - 2 * x[k];
+    if (farther > same) *best = s;
+    if (fabs (farther) > same || !(hypot (sum[0], sum[1]) > same)) return;
+    sight middle = look (p, x, atan2 (sum[1], sum[0]), limit);
+    if (middle.way < limit) memcpy (best->place, middle.place, sizeof best->place);
+}
+
+/* The nearest place of the surface: rays all around, then closer in about each that is shorter than the two
+ * beside it. Rays begin in direction e, so that a body that is turned with its crack gives the same. */
 static double nearest_of_surface (const pg_problem *p, const double *x, const double *e, double limit,
                                   double *place)
 {
-    double first = atan2 (e[1], e[0]), turn = 2 * acos (-1) / RAYS, best = limit, at = 0, try[2];
-    double middle[2] = { x[0], x[1] }, away;
+    double first = atan2 (e[1], e[0]), turn = 2 * acos (-1) / RAYS, away, angle;
+    const double middle[3] = { x[0], x[1], 0 };
+    sight ray[RAYS], best = { .way = limit };
     /* shapes know at once that their surface is far away */
     if (p->body.n && (pg_body_nearest (&p->body, middle, &away), away >= limit)) return limit;
+    for (int i = 0; i < RAYS; i++) ray[i] = look (p, x, first + i * turn, limit);
     for (int i = 0; i < RAYS; i++) {
-        double r = surface_at (p, x, first + i * turn, best, try);
-        if (r < best) best = r, at = first + i * turn, place[0] = try[0], place[1] = try[1];
+        double beside = fmin (ray[(i + 1) % RAYS].way, ray[(i + RAYS - 1) % RAYS].way);
+        if (ray[i].way < limit && ray[i].way <= beside)
+            keep_sight (p, x, e, limit, &best, closer (p, x, ray[i], turn, limit));
     }
-    if (!(best < limit)) return limit;
-    double low = at - turn, high = at + turn;
-    for (int i = 0; i < SECTIONS; i++) {
-        static const double golden = 0.3819660112501051;
-        double l = low + golden * (high - low), h = high - golden * (high - low), other[2];
-        double far = fmin (limit, 2 * best);
-        double u = surface_at (p, x, l, far, try), v = surface_at (p, x, h, far, other);
-        if (u < best) best = u, place[0] = try[0], place[1] = try[1];
-        if (v < best) best = v, place[0] = other[0], place[1] = other[1];
-        if (u <= v) high = h;
-        else low = l;
+    if (p->body.n && towards_shapes (p, x, &angle)) {
+        sight shape = look (p, x, angle, limit);
+        if (shape.way < limit) keep_sight (p, x, e, limit, &best, closer (p, x, shape, turn, limit));
     }
-    return best;
+    if (best.way < limit) memcpy (place, best.place, sizeof best.place);
+    return best.way;
 }
 
 /* What is found around a place. */
 typedef struct { double distance, place[2]; int what; } found;
 
-static void keep_nearer (found *f, double distance, const double *place, int what)
+/* Of places as near, but for `same`, the one that lies farther ahead counts. */
+static void keep_nearer (found *f, const double *e, double same, double distance, const double *place,
+                         int what)
 {
-    if (!(distance < f->distance)) return;
-    *f = (found) { distance, { place[0], place[1] }, what };
+    double farther = (place[0] - f->place[0]) * e[0] + (place[1] - f->place[1]) * e[1];
+    int as_near = fabs (distance - f->distance) <= same && f->what != PG_MEETS_NOTHING;
+    if (as_near ? farther > same : distance < f->distance)
+        *f = (found) { fmin (distance, f->distance), { place[0], place[1] }, what };
 }
 
 /* Other paths, other open tips, the surface. Of the tip's own path what lies behind does not count, and
@@ -122,23 +139,23 @@ static found nearest_about (const pg_problem *p, const pg_state *s, size_t tip, 
     const pg_crack_paths *w = s->paths;
     const pg_tip *t = &w->tip[tip];
     found best = { limit, { x[0], x[1] }, PG_MEETS_NOTHING };
-    double q[2] = { 0 }, from[2], e[2], d;
+    double q[2] = { 0 }, from[2], e[2], d, same = pg_cloud_same (&p->cloud);
+    pg_tip_chord (s, tip, w->nothing, from, e);
     for (size_t c = 0; c < w->cracks.n; c++) {
         const double *a = w->cracks.crack[c].vertex;
         int own = w->path[c] == w->path[t->segment];
         if (own && !branches) continue;
         pg_segment_nearest (a, a + 2, x, q, &d);
-        if (own && (!(d < best.distance) || pg_tip_passes (s, tip, c))) continue;
-        keep_nearer (&best, d, q, PG_MEETS_CRACK);
+        if (own && (!(d < best.distance + same) || pg_tip_passes (s, tip, c))) continue;
+        keep_nearer (&best, e, same, d, q, PG_MEETS_CRACK);
     }
     for (size_t i = 0; i < w->ntip; i++) {
         const pg_tip *o = &w->tip[i];
         if (i != tip && o->open)
-            keep_nearer (&best, hypot (o->x[0] - x[0], o->x[1] - x[1]), o->x, PG_MEETS_CRACK);
+            keep_nearer (&best, e, same, hypot (o->x[0] - x[0], o->x[1] - x[1]), o->x, PG_MEETS_CRACK);
     }
-    pg_tip_chord (s, tip, w->nothing, from, e);
-    d = nearest_of_surface (p, x, e, best.distance, q);
-    keep_nearer (&best, d, q, PG_MEETS_SURFACE);
+    d = nearest_of_surface (p, x, e, fmin (limit, best.distance + 2 * same), q);
+    if (d < fmin (limit, best.distance + 2 * same)) keep_nearer (&best, e, same, d, q, PG_MEETS_SURFACE);
     return best;
 }
 

@@ -59,6 +59,8 @@ void      pg_method_check_criterion (const pg_problem *problem, const pg_scene *
 /* Names of the forces without shape functions, with rotations: "a, b or c" */
 const char *pg_methods_of_points (const pg_problem *problem, char *out, size_t size);
 const char *pg_methods_with_rotations (const pg_problem *problem, char *out, size_t size);
+/* Distance from x in direction e (unit) to the first place without body, at most `limit`, m. */
+double    pg_problem_way_out (const pg_problem *problem, const double *x, const double *e, double limit);
 /* The node nearest to a point of a bond set among those it sees; -1: it sees none. */
 int       pg_bonds_nearest (const pg_problem *problem, int set, size_t point);
 /* block of every point, once the rows are there. */
