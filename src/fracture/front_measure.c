@@ -285,7 +285,7 @@ static void place_sections (measuring *m)
             for (size_t k = 0; k < 3; k++) d = hypot (d, at->x[k] - f->x[3 * end + k]);
             tail |= f->meets[end] != PG_MEETS_NOTHING && d < limit;
         }
-        double offset = f->offset[(size_t) m->u[j] % f->n];
+        double offset = f->offset[(size_t) (m->u[j] + 0.5) % f->n];
         m->room[j] = front_room (m->p, m->state, at, m->h, offset, limit, tail, &m->load[j]);
         if (m->faces) m->room[j] = fmin (m->room[j], front_faces_clear (f, m->faces, m->u[j]));
         while (m->radii[j] < FRONT_RADII && front_radius[m->radii[j]] * m->h <= m->room[j] * (1 + 1e-9))

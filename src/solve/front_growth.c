@@ -44,16 +44,34 @@ done:
     return status;
 }
 
-/* The nearest vertex along the front that was measured; n: none was. */
-static size_t nearest_known (const unsigned char *known, size_t n, int closed, size_t i)
+/* The nearest vertices along the front that were measured: one, or two that are as near on both sides.
+ * Returns how many. */
+static size_t nearest_known (const unsigned char *known, size_t n, int closed, size_t i, size_t at[2])
 {
-    for (size_t far = 0; far < n; far++) {
-        if (i >= far && known[i - far]) return i - far;
-        if (closed && i < far && known[i + n - far]) return i + n - far;
-        if (i + far < n && known[i + far]) return i + far;
-        if (closed && i + far >= n && known[i + far - n]) return i + far - n;
+    size_t found = 0;
+    for (size_t far = 1; far < n && !found; far++) {
+        size_t back = i >= far ? i - far : i + n - far, on = i + far < n ? i + far : i + far - n;
+        if ((closed || i >= far) && known[back]) at[found++] = back;
+        if ((closed || i + far < n) && known[on] && !(found && on == back)) at[found++] = on;
     }
-    return n;
+    return found;
+}
+
+/* The mean of what two vertices show. */
+static void add_half (pg_tip_field *out, const pg_tip_field *other)
+{
+    for (int a = 0; a < 2; a++) {
+        for (int b = 0; b < 2; b++) {
+            out->J[a][b] = 0.5 * (out->J[a][b] + other->J[a][b]);
+            out->J_near[a][b] = 0.5 * (out->J_near[a][b] + other->J_near[a][b]);
+        }
+        for (int k = 0; k < 3; k++) {
+            out->K[k][a] = 0.5 * (out->K[k][a] + other->K[k][a]);
+            out->K_wide[k][a] = 0.5 * (out->K_wide[k][a] + other->K_wide[k][a]);
+        }
+        out->T[a] = 0.5 * (out->T[a] + other->T[a]);
+    }
+    out->near = fmin (out->near, other->near), out->wide = fmin (out->wide, other->wide);
 }
 
 /* What a vertex that has just left closed faces shows as long as there is no room around it: the stress
@@ -80,23 +98,35 @@ static void as_opened (pg_tip_field *out, const pg_tip_field *from, int nfield)
             out->J[a][b] = out->J_near[a][b] = out->K[0][a] * out->K[0][b] / out->modulus;
 }
 
-/* A vertex whose tube has no room takes over what its nearest neighbour shows, but not where materials of
- * unlike stiffness meet: it stays there, as a front without any number does. faces: NULL or what they do to
- * each other behind the vertices. */
+/* How little of what a vertex shows another one may take over: extrapolated values less than measured ones,
+ * those of faces that touch less than those of faces that do not, or the other way around, as its own do. */
+static int unlike (const pg_tip_field *from, int closed)
+{
+    return 2 * (from->closed != closed) + from->extrapolated;
+}
+
+/* A vertex whose tube has no room takes over what its nearest neighbour shows, or the mean of two that are as
+ * near, but not where materials of unlike stiffness meet: it stays there, as a front without any number does.
+ * faces: NULL or what they do to each other behind the vertices. */
 static int fill_gaps (pg_tip_field *field, const pg_front *front, int nfield, const pg_front_faces *faces,
                       unsigned char *known)
 {
     size_t n = front->n, gaps = 0;
     for (size_t i = 0; i < n; i++) known[i] = (unsigned char) !isnan (field[i].near), gaps += !known[i];
     for (size_t i = 0; gaps && gaps < n && i < n; i++) {
+        size_t at[2] = { 0 };
         if (known[i] || field[i].interface) continue;
-        const pg_tip_field own = field[i], *from = &field[nearest_known (known, n, front->closed, i)];
-        field[i] = *from;
+        size_t found = nearest_known (known, n, front->closed, i, at);
+        int closed = faces && faces[i].closed, less[2] = { 0 };
+        for (size_t k = 0; k < found; k++) less[k] = unlike (&field[at[k]], closed);
+        pg_tip_field from = field[at[found == 2 && less[1] < less[0]]];
+        const pg_tip_field own = field[i];
+        if (found == 2 && less[0] == less[1]) add_half (&from, &field[at[1]]);
+        field[i] = from;
         memcpy (field[i].x, own.x, sizeof own.x), memcpy (field[i].e, own.e, sizeof own.e);
         memcpy (field[i].normal, own.normal, sizeof own.normal);
         field[i].h = own.h, field[i].room = own.room;
-        if (faces && from->closed && !faces[i].closed && front->grown[i] > 0)
-            as_opened (&field[i], from, nfield);
+        if (faces && from.closed && !closed && front->grown[i] > 0) as_opened (&field[i], &from, nfield);
     }
     return gaps == n;
 }
