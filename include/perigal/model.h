@@ -595,6 +595,9 @@ const pg_front *pg_fronts_of_state (const pg_problem *problem, const pg_state *s
  * moves. Nothing is changed by a call that fails, except `cut`. */
 pg_status pg_front_advance (pg_state *state, const pg_problem *problem, size_t front, const double *d,
                             const double *theta, pg_changes *cut);
+/* A unit vector in the plane across a unit normal, which follows from that plane and the axes of the lattice:
+ * seen in a mirror or turned by a right angle it is that of before, or at 60 or 90 degrees to it. */
+void      pg_plane_axis (const double *normal, double *along);
 /* A new crack: the convex polygon of n places (n x 3, m) in a plane of unit normal `normal`; what of its
  * outline lies inside the body is a front. */
 pg_status pg_surface_start (pg_state *state, const pg_problem *problem, size_t n, const double *x,

@@ -47,6 +47,14 @@ int front_loop_directions (const double *normal, double direction[LOOP_DIRECTION
     return put_axis (normal, order[1], direction, put_axis (normal, order[0], direction, 0));
 }
 
+void pg_plane_axis (const double *normal, double *along)
+{
+    double direction[LOOP_DIRECTIONS][3];
+    size_t parts;
+    front_loop_directions (normal, direction, &parts);
+    memcpy (along, direction[0], sizeof direction[0]);
+}
+
 size_t front_loop_parts (double length, size_t parts)
 {
     return parts * (size_t) fmax (1, floor (length / (double) parts + 0.5));

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { RADII = 3, RIM = 16, RINGS = 3, SPOTS = 2, SIDES = 24, ROUNDS = 2, STEPS = 40 };
+enum { RADII = 3, RIM = 24, RINGS = 3, SPOTS = 2, SIDES = 24, ROUNDS = 2, STEPS = 40 };
 
 /* A disc that is tried. */
 typedef struct {
@@ -115,7 +115,8 @@ static int resists (const view *v, size_t i, pg_fracture_limits *out, double *mo
     return 1;
 }
 
-/* The plane across the largest tension at the load factor. */
+/* The plane across the largest tension at the load factor. The two other principal stresses, which may be
+ * alike, say nothing of where the corners of the disc lie in it. */
 static void set_frame (const view *v, const double *first, const double *second, disc *d)
 {
     double S[9], lambda[3], V[9], s[6], part[2];
@@ -124,32 +125,53 @@ static void set_frame (const view *v, const double *first, const double *second,
     const double full[9] = { s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2] };
     memcpy (S, full, sizeof S);
     pg_dense_eigen (3, S, lambda, V);
+    for (int k = 0; k < 3; k++) d->normal[k] = V[3*k];
+    pg_plane_axis (d->normal, d->across[0]);
     for (int k = 0; k < 3; k++) {
-        d->normal[k] = V[3*k];
-        d->across[0][k] = V[3*k + 1], d->across[1][k] = V[3*k + 2];
+        int m = (k + 1) % 3, q = (k + 2) % 3;
+        d->across[1][k] = d->normal[m] * d->across[0][q] - d->normal[q] * d->across[0][m];
     }
 }
 
-/* A centre within a spacing of the surface goes there, along the nearest of 26 directions. */
+/* The way from a place in direction e (unit) to where the body ends, halved down from `most`; INFINITY: there
+ * is body at `most`. */
+static double way_out (const pg_problem *p, const double *from, const double *e, double most)
+{
+    double low = 0, high = most, x[3];
+    for (int k = 0; k < 3; k++) x[k] = from[k] + high * e[k];
+    if (pg_problem_has_body (p, x)) return INFINITY;
+    for (int step = 0; step < STEPS; step++) {
+        double middle = 0.5 * (low + high);
+        for (int k = 0; k < 3; k++) x[k] = from[k] + middle * e[k];
+        if (pg_problem_has_body (p, x)) low = middle;
+        else high = middle;
+    }
+    return low;
+}
+
+/* A centre within a spacing of the surface goes there, along the nearest of 26 directions; where several are
+ * as near, along their sum, as into the edge between two faces. In the middle between opposite faces it
+ * stays. */
 static void go_to_surface (const pg_problem *p, disc *d)
 {
-    double least = 1.01 * d->h, to[3] = { 0 };
-    for (int q = 0; q < 27; q++) {
-        double e[3] = { q % 3 - 1, q / 3 % 3 - 1, q / 9 - 1 }, size = hypot (hypot (e[0], e[1]), e[2]);
-        double low = 0, high = least, x[3];
-        if (!(size > 0)) continue;
-        for (int k = 0; k < 3; k++) x[k] = d->centre[k] + high * e[k] / size;
-        if (pg_problem_has_body (p, x)) continue;
-        for (int step = 0; step < STEPS; step++) {
-            double middle = 0.5 * (low + high);
-            for (int k = 0; k < 3; k++) x[k] = d->centre[k] + middle * e[k] / size;
-            if (pg_problem_has_body (p, x)) low = middle;
-            else high = middle;
-        }
-        least = high * (1 - 1e-9);                     /* the first of those equally near stays */
-        for (int k = 0; k < 3; k++) to[k] = d->centre[k] + low * e[k] / size;
+    enum { DIRECTIONS = 27 };
+    double e[DIRECTIONS][3], way[DIRECTIONS], least = INFINITY, sum[3] = { 0 };
+    double same = pg_cloud_same (&p->cloud), most = d->h + 4 * same;
+    for (int q = 0; q < DIRECTIONS; q++) {
+        const double to[3] = { q % 3 - 1, q / 3 % 3 - 1, q / 9 - 1 };
+        double size = hypot (hypot (to[0], to[1]), to[2]);
+        for (int k = 0; k < 3; k++) e[q][k] = size > 0 ? to[k] / size : 0;
+        way[q] = size > 0 ? way_out (p, d->centre, e[q], most) : INFINITY;
+        least = fmin (least, way[q]);
     }
-    if (least < d->h) memcpy (d->centre, to, sizeof to);
+    if (!(least <= d->h + same)) return;
+    for (int q = 0; q < DIRECTIONS; q++)
+        for (int k = 0; k < 3 && way[q] <= least + same; k++) sum[k] += e[q][k];
+    double size = hypot (hypot (sum[0], sum[1]), sum[2]);
+    if (!(size > 1e-6)) return;
+    for (int k = 0; k < 3; k++) sum[k] /= size;
+    double along = way_out (p, d->centre, sum, 2 * most);
+    for (int k = 0; k < 3 && isfinite (along); k++) d->centre[k] += along * sum[k];
 }
 
 /* The node of the least load factor that is not near one of the n discs; as many as there are nodes: none. */

@@ -75,7 +75,9 @@ static void put_inside (const search *g, trial_crack *c)
         }
 }
 
-/* Direction, and how far the body goes to both sides: from the surface if that is within a spacing. */
+/* Direction, and how far the body goes to both sides: from the surface if that is within a spacing, but from
+ * neither of two that are as near on both sides, for which of them would be left to the sense of the
+ * direction. */
 static void lay (const search *g, const hot_spot *spot, int side, trial_crack *c)
 {
     const pg_problem *p = g->w->system->problem;
@@ -89,11 +91,11 @@ static void lay (const search *g, const hot_spot *spot, int side, trial_crack *c
     memcpy (c->origin, spot->x, sizeof c->origin);
     c->direction[0] = cos (c->angle), c->direction[1] = sin (c->angle);
     put_inside (g, c);
-    double limit = 0.5 * MOST_PLACES / PER_SPACING * c->h;
+    double limit = 0.5 * MOST_PLACES / PER_SPACING * c->h, same = pg_cloud_same (&p->cloud);
     double back[3] = { -c->direction[0], -c->direction[1], 0 };
     c->reach[0] = trial_reach (p, g->state, c->origin, back, limit, &what);
     c->reach[1] = trial_reach (p, g->state, c->origin, c->direction, limit, &what);
-    c->edge = fmin (c->reach[0], c->reach[1]) < c->h;
+    c->edge = fmin (c->reach[0], c->reach[1]) <= c->h + same && fabs (c->reach[0] - c->reach[1]) > 2 * same;
     if (c->edge && c->reach[1] < c->reach[0]) {        /* runs away from the near surface */
         double swap = c->reach[0];
         c->reach[0] = c->reach[1], c->reach[1] = swap;
