@@ -251,11 +251,11 @@ static pg_status divide (stride *s)
     for (size_t k = 0; k < steps; ) {
         size_t i = (begin + k) % n, m = 0;
         int left = k > 0;                              /* a closed vertex, which the line has already */
+        if (s->shut[i] && k > 0 && s->shut[(i + n - 1) % n]) PG_TRY (around_edge (s, (i + n - 1) % n, i));
         if (s->shut[i] && !(loop && k == n)) {
             int last = !loop && k + 1 == n;
             const double *normal = s->now.normal + 3*i, *at = s->c + 3*i;
             if (k == 0 && !loop) PG_TRY (beyond_end (s, s->now.meets[0], at, s->c + 3, normal));
-            if (k > 0 && s->shut[(i + n - 1) % n]) PG_TRY (around_edge (s, (i + n - 1) % n, i));
             PG_TRY (to_line (s, at, normal));
             if (last) PG_TRY (beyond_end (s, s->now.meets[i], at, s->c + 3 * (i - 1), normal));
         }

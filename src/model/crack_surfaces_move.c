@@ -295,6 +295,7 @@ static void follow (stride *s, size_t i)
     const double *from = s->old.x + 3*i, *to = s->now.x + 3*i, *e = s->old.ahead + 3*i;
     double *way = s->way + 3*i, *c = s->c + 3*i, *bend = s->bend + 3*i, behind[3];
     double d = apart3 (from, to), before = s->old.offset[i], o;
+    if (d <= s->w->nothing) d = 0;                     /* an end put back where it was: rounding is no way */
     o = fmin (front_offset_at (s->p, to), before + 0.25 * d);
     s->moved[i] = d, s->now.grown[i] += d;
     if (d > 0) for (int k = 0; k < 3; k++) way[k] = (to[k] - from[k]) / d;
