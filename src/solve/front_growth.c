@@ -105,23 +105,30 @@ static int unlike (const pg_tip_field *from, int closed)
     return 2 * (from->closed != closed) + from->extrapolated;
 }
 
-/* A vertex whose tube has no room takes over what its nearest neighbour shows, or the mean of two that are as
- * near, but not where materials of unlike stiffness meet: it stays there, as a front without any number does.
- * faces: NULL or what they do to each other behind the vertices. */
+/* What vertex i may take over: of its nearest known neighbour, or the mean of two that are as near. */
+static pg_tip_field shown_beside (const pg_tip_field *field, const pg_front *front,
+                                  const unsigned char *known, size_t i, int closed)
+{
+    size_t at[2] = { 0 }, found = nearest_known (known, front->n, front->closed, i, at);
+    int less[2] = { 0 };
+    for (size_t k = 0; k < found; k++) less[k] = unlike (&field[at[k]], closed);
+    pg_tip_field from = field[at[found == 2 && less[1] < less[0]]];
+    if (found == 2 && less[0] == less[1]) add_half (&from, &field[at[1]]);
+    return from;
+}
+
+/* A vertex whose tube has no room takes over what is shown beside it, but not where materials of unlike
+ * stiffness meet: it stays there, as a front without any number does. faces: NULL or what they do to each
+ * other behind the vertices. */
 static int fill_gaps (pg_tip_field *field, const pg_front *front, int nfield, const pg_front_faces *faces,
                       unsigned char *known)
 {
     size_t n = front->n, gaps = 0;
     for (size_t i = 0; i < n; i++) known[i] = (unsigned char) !isnan (field[i].near), gaps += !known[i];
     for (size_t i = 0; gaps && gaps < n && i < n; i++) {
-        size_t at[2] = { 0 };
+        int closed = faces && faces[i].closed;
         if (known[i] || field[i].interface) continue;
-        size_t found = nearest_known (known, n, front->closed, i, at);
-        int closed = faces && faces[i].closed, less[2] = { 0 };
-        for (size_t k = 0; k < found; k++) less[k] = unlike (&field[at[k]], closed);
-        pg_tip_field from = field[at[found == 2 && less[1] < less[0]]];
-        const pg_tip_field own = field[i];
-        if (found == 2 && less[0] == less[1]) add_half (&from, &field[at[1]]);
+        const pg_tip_field own = field[i], from = shown_beside (field, front, known, i, closed);
         field[i] = from;
         memcpy (field[i].x, own.x, sizeof own.x), memcpy (field[i].e, own.e, sizeof own.e);
         memcpy (field[i].normal, own.normal, sizeof own.normal);
