@@ -30,7 +30,7 @@ typedef struct {
     double p, tau;            /* stress along the normal, shear along axis 1 */
     double axes[9], shift[3]; /* rows: x, y, z = normal of the crack; spacings */
     double perturb, nu, unit; /* of the points; Poisson's ratio; spacing, m */
-    const char *method;
+    const char *method, *linear;                       /* linear solver; NULL: the scene's own choice */
 } front_case;
 
 typedef struct {
@@ -150,9 +150,9 @@ static inline size_t front_head (const front_case *c, char *out, size_t size)
     return front_say (out, size,
                       "dimension: 3\nspacing: %.12g\nlattice: cells\nperturb: {amount: %g, seed: 1}\n"
                       "materials: {m: {youngs_modulus: 1, poissons_ratio: %g}}\nmethod: {%s%s}\n"
-                      "solver: {kind: static}\noutput: {at: {levels: 1}}\n",
+                      "solver: {kind: static, linear: %s}\noutput: {at: {levels: 1}}\n",
                       c->unit, c->perturb, c->nu, c->method,
-                      c->kind[1] == 'u' ? ", penalty_factor: 1e-3" : "");
+                      c->kind[1] == 'u' ? ", penalty_factor: 1e-3" : "", c->linear ? c->linear : "auto");
 }
 
 /* A cube about the origin, the displacement held on all of it. */

@@ -10,8 +10,16 @@
 #include <cmocka.h>
 #include <math.h>
 #include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 #include "perigal/base.h"
+
+/* Whether tests are to be made in full size (PERIGAL_TEST_SIZE=long, make test-long). */
+static inline int longer (void)
+{
+    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    return size && strcmp (size, "long") == 0;
+}
 
 /* it has another name in the program of a folder: test/main.c */
 int main (void);

@@ -131,7 +131,7 @@ static void no_pose_is_special (void **state)
     (void) state;
     double worst[2][3] = { { 0 }, { 0 } };
     unsigned seed = 1;
-    int n = getenv ("PERIGAL_TEST_SIZE") && !strcmp (getenv ("PERIGAL_TEST_SIZE"), "long") ? 200 : 20;
+    int n = longer () ? 200 : 20;
     for (int i = 0; i < n; i++) {
         double random[4];
         for (int k = 0; k < 4; k++) seed = seed * 1664525u + 1013904223u, random[k] = seed / 4294967296.0;

@@ -191,12 +191,6 @@ static void discs_close_in_space (void **state)
     check_relative (of[1].slip, of[0].slip, 1e-6);
 }
 
-static int long_run (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 /* Pressure and slip of shape functions, the slip at the same effective length: bonds cut along a line act as
  * a crack that is longer by about half a horizon at either end. At 60 degrees and friction .6 it sticks. */
 static void slips_as_with_shape_functions (void **state)
@@ -206,7 +200,7 @@ static void slips_as_with_shape_functions (void **state)
                                                        { 30, 0.3 }, { 45, 0.3 } };
     double free_slip = 0;
     int n = 10;
-    for (size_t i = 0; i < (long_run () ? sizeof row / sizeof *row : 3); i++) {
+    for (size_t i = 0; i < (longer () ? sizeof row / sizeof *row : 3); i++) {
         faces of[2];
         char contact[64] = "{kind: normal}";
         double b = row[i].beta * 3.14159265358979323846 / 180;

@@ -73,12 +73,6 @@ static faces faces_of (const run *r, double beta)
     return out;
 }
 
-static int long_run (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 /* An inclined crack of broken bonds slips as the same crack of the scene, and bears the same. */
 static void slips_as_a_crack_of_the_scene (void **state)
 {
@@ -94,7 +88,7 @@ static void slips_as_a_crack_of_the_scene (void **state)
         { 45, 0.3, 0, "stress", lps, 0.25 },     { 45, 0.3, 0, "stress", beams, 0.2 },
         { 50, 0.3, 0.1, "strain", lps, 0.3 },    { 50, 0.3, 0, "stress", fast, 1.0 / 3 },
     };
-    for (size_t i = 0; i < (long_run () ? sizeof row / sizeof *row : 3); i++) {
+    for (size_t i = 0; i < (longer () ? sizeof row / sizeof *row : 3); i++) {
         char contact[64] = "{kind: normal}";
         if (row[i].mu > 0) snprintf (contact, sizeof contact, "{kind: friction, coefficient: %g}", row[i].mu);
         plate l = { row[i].beta, row[i].perturb, row[i].nu, 1, row[i].plane, row[i].method, contact, fixed,

@@ -52,13 +52,7 @@ static run penny_run (const penny *l)
     return r;
 }
 
-/* The short tests take the first case of each kind. */
-static int is_long (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
+/* PERIGAL_TEST_SIZE=long: all cases, else the first of each kind. */
 static const char *const judged = "failure: {criterion: energy_release, fracture_energy: 1e30}\n";
 
 /* Flat under its load: it carries what the uncracked body does, its front bears nothing. */
@@ -67,7 +61,7 @@ static void a_flat_penny_carries_the_pressure (void **state)
     (void) state;
     penny l = { .radius = 4, .shift = { 0.2, 0.1, 0.3 }, .unit = 1, .w = 6,
                 .contact = "contact: {kind: normal}", .more = judged };
-    for (int k = 0; k < (is_long () ? 3 : 1); k++) {
+    for (int k = 0; k < (longer () ? 3 : 1); k++) {
         if (k == 1) l.shift[2] = 0;                    /* on a layer of cells' sides */
         if (k == 2) l.shift[2] = 0.5, l.perturb = 0.15;              /* points that lay on it are moved */
         run r = penny_run (&l);
@@ -122,10 +116,10 @@ static void an_inclined_penny_slides (void **state)
     };
     penny l = { .radius = 4, .tilt = 0.7853981633974483, .shift = { 0.2, 0.1, 0.3 }, .unit = 1, .w = 6,
                 .shear = 1, .contact = "", .more = judged };
-    if (!is_long ()) l.radius = 3.5, l.w = 5;
+    if (!longer ()) l.radius = 3.5, l.w = 5;
     run open = penny_run (&l);
     l.shear = 0;
-    for (size_t c = 0; c < (is_long () ? 3 : 1); c++) {
+    for (size_t c = 0; c < (longer () ? 3 : 1); c++) {
         l.contact = cases[c].contact;
         run r = penny_run (&l);
         const pg_statistics *s = pg_solver_report_now (r.solver);
@@ -136,7 +130,7 @@ static void an_inclined_penny_slides (void **state)
             slip = fmax (slip, hypot (hypot (v[i].slip[0], v[i].slip[1]), v[i].slip[2]));
         print_message ("%s: K off by %.4f of the largest, slip %.3g, %ld open %ld stick %ld slide\n",
                        l.contact, off, slip, s->contact_open, s->contact_stick, s->contact_sliding);
-        check_below (off, is_long () ? cases[c].within : 0.035);       /* at 4 and 3.5 spacings */
+        check_below (off, longer () ? cases[c].within : 0.035);       /* at 4 and 3.5 spacings */
         check_below (s->contact_overlap, 1e-15);
         assert_int_equal (s->contact_open, 0);
         if (cases[c].left == 0) assert_true (s->contact_stick > s->contact_sliding);
@@ -166,7 +160,7 @@ static void units_and_mirrors_do_not_count (void **state)
                 .contact = "contact: {kind: friction, coefficient: 0.2}", .more = "" };
     run r = penny_run (&l);
     const pg_statistics *s = pg_solver_report_now (r.solver);
-    for (int k = is_long () ? 0 : 1; k < 3; k++) {
+    for (int k = longer () ? 0 : 1; k < 3; k++) {
         penny m = l;
         if (k == 0) m.unit = 1e-3;
         if (k == 1) m.mirrored = 1;

@@ -76,12 +76,6 @@ static run penny_run (const penny *l)
     return prepare (1, text);
 }
 
-static int is_long (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 static void to_event (run *r, int events)
 {
     while (r->state->events < events && !pg_solver_done (r->solver, r->state)) advance (r);
@@ -187,8 +181,8 @@ static void check_pieces (const penny *l, const run *r)
 static void wings_begin_by_sliding (void **state)
 {
     (void) state;
-    penny l = { .radius = is_long () ? 4 : 3, .w = is_long () ? 8 : 5.5, .friction = 0.3,
-                .events = is_long () ? 3 : 1 };
+    penny l = { .radius = longer () ? 4 : 3, .w = longer () ? 8 : 5.5, .friction = 0.3,
+                .events = longer () ? 3 : 1 };
     run a = penny_run (&l);
     double K_c = sqrt (E / (1 - NU * NU) * G0), kink[2],
            exact = 4 * (0.5 - 0.3 * 0.5) * sqrt (l.radius / PI) / (2 - NU);
@@ -199,7 +193,7 @@ static void wings_begin_by_sliding (void **state)
     print_message ("K_II %.4f of the infinite body, load %.4f of that of the first vertex, kinks %.2f %.2f\n",
                    II / exact, a.state->factor / first, kink[0] * 180 / PI, kink[1] * 180 / PI);
     /* the box is 1.8 (2) times as wide as the disc */
-    check_relative (II, exact, is_long () ? 0.06 : 0.1);
+    check_relative (II, exact, longer () ? 0.06 : 0.1);
     /* the load of an event is that of all who lead */
     assert_true (a.state->factor > first && a.state->factor < 1.1 * first);
     for (int k = 0; k < 2; k++) check_absolute (kink[k] * 180 / PI, 70.53, 5);
@@ -212,7 +206,7 @@ static void wings_begin_by_sliding (void **state)
                            a.state->events, a.state->factor, a.state->surfaces->area,
                            s->energy_dissipated / taken);
         /* the first strip is as wide as two thirds (half) of the disc */
-        if (a.state->events == 1) check_relative (s->energy_dissipated, taken, is_long () ? 0.2 : 0.35);
+        if (a.state->events == 1) check_relative (s->energy_dissipated, taken, longer () ? 0.2 : 0.35);
         if (pg_solver_done (a.solver, a.state)) break;
     }
     assert_true (s->energy_friction > 0);
@@ -226,7 +220,7 @@ static void wings_are_those_of_the_image (void **state)
     (void) state;
     penny l = { .radius = 3, .w = 6, .friction = 0.3, .events = 1 };
     double kink[2][2];
-    if (!is_long ()) return;
+    if (!longer ()) return;
     run r = penny_run (&l), again = penny_run (&l);
     tape t = { 0 };
     advance (&r);

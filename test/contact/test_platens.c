@@ -6,12 +6,6 @@
 #include "solve/tape.h"
 #include "platens.h"
 
-static int is_long (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 #define BLOCK(mode, size, unit, more) \
     "dimension: 2\nplane: " mode "\nthickness: 0.5\n" \
     "body: [{add: {box: {low: [0, 0], high: " size "}}}]\nspacing: " unit "\nlattice: cells\n" \
@@ -146,7 +140,7 @@ static void a_cylinder_is_pressed_in_as_hertz_has_it (void **state)
     (void) state;
     const double pi = 3.14159265358979323846, R = 100;
     static const struct { double F, h; } cases[] = { { 8, 0.1 }, { 2, 0.1 }, { 2, 0.05 }, { 2, 1.0 / 30 } };
-    for (size_t i = 0; i < (is_long () ? 4 : 1); i++) {
+    for (size_t i = 0; i < (longer () ? 4 : 1); i++) {
         const double F = cases[i].F, h = cases[i].h, a = sqrt (4 * F * R * (1 - 0.0625) / (pi * 1000));
         run r = scene_of (1,
             "dimension: 2\nplane: strain\nthickness: 1\n"
@@ -230,7 +224,7 @@ static void a_sphere_is_pressed_in_as_hertz_has_it (void **state)
 {
     (void) state;
     const double pi = 3.14159265358979323846, R = 20, F = 30, a = cbrt (0.75 * F * R * (1 - 0.0625) / 1000);
-    for (int n = 4; n <= (is_long () ? 8 : 4); n *= 2) {
+    for (int n = 4; n <= (longer () ? 8 : 4); n *= 2) {
         run r = scene_of (1,
             "dimension: 3\nbody: [{add: {box: {low: [0, 0, -2.5], high: [2.5, 2.5, 0]}}}]\n"
             "spacing: %.17g\nlattice: cells\n"
@@ -543,7 +537,7 @@ static void memory_may_run_out (void **state)
     size_t used = pg_memory_used (), calls = pg_memory_calls ();
     check_ok (press_a_cut_block ());
     calls = pg_memory_calls () - calls;
-    for (size_t k = calls / 2; k <= calls; k += is_long () ? 1 : 1 + calls / 60) {
+    for (size_t k = calls / 2; k <= calls; k += longer () ? 1 : 1 + calls / 60) {
         pg_memory_fail_at (k);
         pg_status status = press_a_cut_block ();
         pg_memory_fail_at (0);

@@ -106,8 +106,8 @@ static void a_kink_on_a_side_divides_the_side (void **state)
 
 static void rigid_motions_strain_nothing (void **state)
 {
-    const char *size = getenv ("PERIGAL_TEST_SIZE"), *given = getenv ("PERIGAL_SEED");
-    int times = size && strcmp (size, "long") == 0 ? 600 : 24, wrong = 0;
+    const char *given = getenv ("PERIGAL_SEED");
+    int times = longer () ? 600 : 24, wrong = 0;
     unsigned seed = given ? (unsigned) strtoul (given, NULL, 10) : 1;
     (void) state;
     for (int k = 0; k < times; k++)
@@ -163,8 +163,8 @@ static void supports_turn_coarse_bodies (void **state)
     static const char *const held[] = { "x > -1", "x < 0.3", "y < 0.2", "x > 0.99" },
                       *const plane[] = { "integration: consistent, horizon: 1.6 spacing",
                                          "integration: consistent", "integration: gauss" };
-    const char *size = getenv ("PERIGAL_TEST_SIZE"), *given = getenv ("PERIGAL_SEED");
-    int times = size && strcmp (size, "long") == 0 ? 300 : 24, wrong = 0;
+    const char *given = getenv ("PERIGAL_SEED");
+    int times = longer () ? 300 : 24, wrong = 0;
     unsigned seed = given ? (unsigned) strtoul (given, NULL, 10) : 1;
     double few = 0;
     (void) state;
@@ -190,9 +190,9 @@ static void supports_turn_coarse_bodies (void **state)
  * cracks. */
 static void grown_cracks_strain_nothing (void **state)
 {
-    const char *size = getenv ("PERIGAL_TEST_SIZE"), *given = getenv ("PERIGAL_SEED");
+    const char *given = getenv ("PERIGAL_SEED");
     unsigned seed = given ? (unsigned) strtoul (given, NULL, 10) : 7;
-    int times = size && strcmp (size, "long") == 0 ? 60 : 6, grown = 0;
+    int times = longer () ? 60 : 6, grown = 0;
     (void) state;
     for (int k = 0; k < times; k++) {
         char crack[400] = "";

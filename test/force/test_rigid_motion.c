@@ -187,15 +187,9 @@ static void family (int dim, size_t nbody, const char *const *body, const char *
     }
 }
 
-static int is_long (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 static int lattices (int few, int many)
 {
-    return is_long () ? many : few;
+    return longer () ? many : few;
 }
 
 static void plane_linear (void **unused)

@@ -36,7 +36,7 @@ static void energy_release_is_known_well (void **state)
         { "force: gmpd, tip_offset: 0.36 spacing", "0.25", 0.975, 1.025 },
     };
     static const double shift[][2] = { { 0.37, 0.21 }, { 0, 0 }, { 0.1, 0.45 } };
-    int all = getenv ("PERIGAL_TEST_SIZE") && strcmp (getenv ("PERIGAL_TEST_SIZE"), "long") == 0;
+    int all = longer ();
     (void) state;
     for (size_t k = 0; k < 4; k++)
         for (int n = 40; n <= (all ? 80 : 40); n *= 2)

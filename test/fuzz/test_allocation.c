@@ -112,7 +112,6 @@ static void write_scene (const char *path, const char *text)
 static void sweep_some (const char *text, size_t first, size_t rest, int breaks, int *refused)
 {
     char folder[64], path[96];
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
     long broken = 0;
     make_folder (folder);
     snprintf (path, sizeof path, "%s/block.yaml", folder);
@@ -130,8 +129,7 @@ static void sweep_some (const char *text, size_t first, size_t rest, int breaks,
     calls = pg_memory_calls () - calls;
     assert_true ((broken > 0 || !breaks) && calls > 300);
     assert_int_equal (pg_memory_used (), used);
-    int whole = size && strcmp (size, "long") == 0;
-    for (size_t k = 1; k <= calls; k += whole || k < first ? 1 : 1 + calls / rest, tried++) {
+    for (size_t k = 1; k <= calls; k += longer () || k < first ? 1 : 1 + calls / rest, tried++) {
         pg_memory_fail_at (k);
         pg_status status = run_file (path, folder, &broken);
         pg_memory_fail_at (0);
@@ -153,27 +151,27 @@ static void sweep (const char *text, size_t first, size_t rest) { sweep_some (te
 static void a_static_block_survives_every_failing_allocation (void **state)
 {
     (void) state;
-    sweep (static_scene, 20, 60);
+    sweep (static_scene, 20, 30);
 }
 static void a_block_of_patches_survives_every_failing_allocation (void **state)
 {
     (void) state;
-    sweep (soft_scene, 20, 60);
+    sweep (soft_scene, 20, 30);
 }
 static void a_newmark_block_survives_every_failing_allocation (void **state)
 {
     (void) state;
-    sweep (newmark_scene, 20, 60);
+    sweep (newmark_scene, 20, 30);
 }
 static void a_micropolar_block_survives_every_failing_allocation (void **state)
 {
     (void) state;
-    sweep (turning_scene, 20, 60);
+    sweep (turning_scene, 20, 30);
 }
 static void a_marching_block_survives_every_failing_allocation (void **state)
 {
     (void) state;
-    sweep (dilating_scene, 20, 60);
+    sweep (dilating_scene, 20, 30);
 }
 
 /* ---- every force, integration and solver --------------------------------------------------------------- */
@@ -242,7 +240,7 @@ static void every_method_survives_every_failing_allocation (void **state)
         snprintf (text, sizeof text, PLATE, p->lattice, p->poisson, p->method, p->criterion,
                   timed ? moved : pulled, p->solver);
         printf ("# %s\n", p->name);
-        sweep (text, 1, 25);
+        sweep (text, 1, 12);
     }
 }
 
@@ -331,7 +329,7 @@ static const char wooden_scene[] =
 static void an_orthotropic_plate_survives_every_failing_allocation (void **state)
 {
     (void) state;
-    sweep (wooden_scene, 1, 25);
+    sweep (wooden_scene, 1, 12);
 }
 
 /* Cracks in the plane that grow by facets: from one that is there, and from the edge of an intact plate. */
@@ -367,9 +365,9 @@ static const char interface_scene[] =
 static void growing_cracks_survive_every_failing_allocation (void **state)
 {
     (void) state;
-    sweep (interface_scene, 1, 40);
-    sweep (growing_scene, 1, 40);
-    sweep (starting_scene, 1, 40);
+    sweep (interface_scene, 1, 20);
+    sweep (growing_scene, 1, 20);
+    sweep (starting_scene, 1, 20);
 }
 
 /* Nodes of a mesh as a shape, a ring, and what is within it; Qhull's own memory is not swept. */
@@ -379,7 +377,7 @@ static void a_cloud_survives_every_failing_allocation (void **state)
     char here[2048], text[sizeof here + sizeof cloud_scene];
     assert_non_null (getcwd (here, sizeof here));
     snprintf (text, sizeof text, cloud_scene, here);
-    sweep_some (text, 1, 60, 0, NULL);
+    sweep_some (text, 1, 30, 0, NULL);
 }
 
 static void no_entry_of_a_catalogue_was_left_out (void **state)

@@ -58,7 +58,7 @@ static const struct { const char *name, *text; int whole;
                 "[-1, 6, 2.9]]}]\nmaterials: {rock: {youngs_modulus: 1 GPa, poissons_ratio: 0.2}}\n"
                 "failure: {criterion: energy_release, fracture_energy: 400 J/m2}\n"
                 "boundary: [{set: back, displacement: {x: 0, y: 0, z: 0}}, {set: front, displacement: "
-                "{x: 2 mm, z: 10 mm}}]\nsolver: {stepping: event, max_events: 5}\n"
+                "{x: 2 mm, z: 10 mm}}]\nsolver: {stepping: event, max_events: 4}\n"
                 "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n", 1 },
     { "wings", WINGS "solver: {stepping: event, max_events: 6}\n"
                      "output: {pictures: [], at: {levels: 4, events: 3, broken: 10 %}}\n", 1 },

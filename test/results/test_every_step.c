@@ -127,8 +127,7 @@ static void from_steps_of (const char *text, long first, long stride)
 static void with_the_factor_of_a_shorter_crack (void **state)
 {
     (void) state;
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    if (!size || strcmp (size, "long") != 0) {
+    if (!longer ()) {
         print_message ("skipped: in full size only (PERIGAL_TEST_SIZE=long)\n");
         return;
     }

@@ -77,10 +77,9 @@ static void sweep (const char *name, const char *text, size_t dense, size_t most
 static void every_allocation_of_a_run_may_fail (void **state)
 {
     (void) state;
-    /* long: every one; else the first 60, then about 25 of the rest */
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
+    /* long: every one; else the first 30, then about 12 of the rest */
     for (int i = 0; i < SCENES; i++)
-        sweep (scenes[i].name, scenes[i].text, size && strcmp (size, "long") == 0 ? 1000000 : 60, 25);
+        sweep (scenes[i].name, scenes[i].text, longer () ? 1000000 : 30, 12);
 }
 
 static void the_scene_too (void **state)
@@ -190,7 +189,6 @@ done:
 static void every_allocation_of_a_checkpoint_and_its_resumption_may_fail (void **state)
 {
     (void) state;
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
     char where[64], text[2048];
     make_folder (where);
     for (int i = 0; i < 4; i++) {
@@ -199,7 +197,7 @@ static void every_allocation_of_a_checkpoint_and_its_resumption_may_fail (void *
         size_t used = pg_memory_used (), failed = 0;
         pg_status status = PG_E_MEMORY;
         for (fail_at = 1; status != PG_OK;
-             fail_at += size && strcmp (size, "long") == 0 ? 1 : 1 + fail_at / 20, failed++) {
+             fail_at += longer () ? 1 : 1 + fail_at / 20, failed++) {
             status = write_and_resume (where, text);
             if (status != PG_OK && status != PG_E_MEMORY)
                 print_error ("%s: allocation %zu: '%s'\n", scenes[i].name, fail_at, pg_last_error ());

@@ -57,20 +57,20 @@ static void from_moment (const char *text, const char *plain, const char *where,
     same_files (plain, where);
 }
 
-/* From the end of the first three steps, and from every moment; short: of the first two, and from four more
+/* From the end of the first three steps, and from every moment; short: of the first, and from four more
  * moments or five, spread over the run. */
 static void from_every_moment (int i)
 {
-    const char *size = getenv ("PERIGAL_TEST_SIZE"), *text = scenes[i].text;
+    const char *text = scenes[i].text;
     char plain[64], where[64];
-    long within = 0, moments = 0, looks, longer = size && strcmp (size, "long") == 0;
+    long within = 0, moments = 0, looks;
     make_folder (plain), make_folder (where);
     assert_int_equal (stop_after (text, plain, 0, &looks), 0);
-    for (long k = 1; k <= 2 + longer && stop_at (text, where, -k); k++)
+    for (long k = 1; k <= (longer () ? 3 : 1) && stop_at (text, where, -k); k++)
         from_moment (text, plain, where, &within);
     assert_int_equal (within, 0);
-    long stride = longer || looks < 8 ? 1 : looks / 4;
-    for (long k = longer ? 1 : 1 + stride / 2; stop_at (text, where, k); k += stride, moments++)
+    long stride = longer () || looks < 8 ? 1 : looks / 4;
+    for (long k = longer () ? 1 : 1 + stride / 2; stop_at (text, where, k); k += stride, moments++)
         from_moment (text, plain, where, &within);
     assert_true (moments > 3 && (within == 0) == scenes[i].whole);
     remove_folder (plain), remove_folder (where);

@@ -6,12 +6,6 @@
 #include "run.h"
 #include <stdlib.h>
 
-static int size_is_long (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 /* Poisson's ratio and force. */
 typedef struct { const char *nu, *method; } theory;
 static const theory theories[] = { { "0.3333333333333333", "force: bond" },
@@ -61,8 +55,8 @@ static void a_strip_grows_at_the_fracture_energy (void **state)
     static const double turn[] = { 30, 0, 15, 45 };
     enum { EVENTS = 8 };
     (void) state;
-    for (size_t k = 0; k < (size_is_long () ? THEORIES : 3); k++)
-        for (size_t a = 0; a < (size_is_long () ? 4 : 1); a++) {
+    for (size_t k = 0; k < (longer () ? THEORIES : 3); k++)
+        for (size_t a = 0; a < (longer () ? 4 : 1); a++) {
             const theory *t = &theories[k];
             const double crack[4] = { -2, 0, 20, 0 };
             double G = (stored (t, turn[a], 20) - stored (t, turn[a], 35)) / 15, sum = 0, off = 0;
@@ -104,8 +98,8 @@ static void inclined_cracks_kink_as_they_should (void **state)
     static const double turn[] = { 30, 0, 15, 45 };
     double degree = acos (-1) / 180;
     (void) state;
-    for (size_t k = 0; k < (size_is_long () ? THEORIES : 3); k++)
-        for (size_t n = 0; n < (size_is_long () ? 12 : 1); n++) {
+    for (size_t k = 0; k < (longer () ? THEORIES : 3); k++)
+        for (size_t n = 0; n < (longer () ? 12 : 1); n++) {
             double to = (90 - cases[n % 3].incline) * degree, lattice = turn[n / 3] * degree, start[2][2];
             const double half[2] = { 10 * cos (to), 10 * sin (to) },
                          crack[4] = { 40 - half[0], -half[1], 40 + half[0], half[1] },
@@ -159,7 +153,7 @@ static void cracks_that_grow_bond_by_bond_consume_it (void **state)
     static const double turn[] = { 30, 0, 15, 45 };
     static const char *const failure[] = { "criterion: stretch", "criterion: stretch",
                                           "criterion: beam_limits" };
-    int all = size_is_long ();
+    int all = longer ();
     (void) state;
     for (int k = 0; k < (all ? 3 : 1); k++) {
         double mean = 0;

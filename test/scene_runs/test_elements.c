@@ -70,12 +70,6 @@ static double dot (size_t n, const double *a, const double *b)
     return s;
 }
 
-static int longer (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 /* PERIGAL_TEST_SIZE=long: of 729 points, else 343. */
 static void answers_are_those_of_the_factor (void **state)
 {
@@ -151,7 +145,7 @@ static void the_preconditioner_is_symmetric_and_positive (void **state)
 {
     (void) state;
     for (size_t k = 0; k < CASES; k++) {
-        run r = cube_of (k, 0.125, "linear: pcg");
+        run r = cube_of (k, longer () ? 0.125 : 0.16667, "linear: pcg");
         const pg_force_type *force = pg_force_of (r.problem);
         void *self = NULL;
         pg_elements elements;

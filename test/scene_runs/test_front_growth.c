@@ -86,12 +86,6 @@ static void stays_straight (int seed, int events, int depth)
     clear (&r);
 }
 
-static int longer (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 /* PERIGAL_TEST_SIZE=long: over ten spacings, on points moved in three ways. */
 static void a_straight_front_stays_straight (void **state)
 {

@@ -33,12 +33,6 @@ static double opening (int n, const double *by, const char *method)
     return (b[1] - a[1]) / OPENING;
 }
 
-static int size_is_long (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 /* Before bonds were cut behind the tip only, W/20 was 3 to 15 % off; consistent integration -39 and -41 %
  * where the first two shifts cut a row without points. */
 static void the_mouth_opens_right_wherever_the_lattice_lies (void **state)
@@ -49,9 +43,9 @@ static void the_mouth_opens_right_wherever_the_lattice_lies (void **state)
                     { "quadratic, gauss", "basis: quadratic, horizon: 3 spacing" },
                     { "quadratic, consistent",
                       "basis: quadratic, horizon: 3 spacing, integration: consistent" } };
-    size_t most = size_is_long () ? SHIFTS : 3;
+    size_t most = longer () ? SHIFTS : 3;
     (void) state;
-    for (int n = 20; n <= (size_is_long () ? 40 : 20); n *= 2)
+    for (int n = 20; n <= (longer () ? 40 : 20); n *= 2)
         for (size_t m = 0; m < sizeof methods / sizeof *methods; m++) {
             double worst = 0;
             print_message ("W/%d %-22s", n, methods[m].name);

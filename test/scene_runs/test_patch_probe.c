@@ -85,10 +85,9 @@ static double tension_error (const tension *c)
 static void what_iterations_have_not_found_is_a_bound (void **state)
 {
     (void) state;
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
     tension c = { .method = "approximation: nosb, integration: nodal, horizon: 3.01 spacing",
                   .more = "perturb: {amount: 0.3}\n", .dim = 3, .spacing = 0.05, .size = { 1, 1, 1 } };
-    if (!size || strcmp (size, "long") != 0) c.spacing = 0.125;
+    if (!longer ()) c.spacing = 0.125;
     pg_patch p = measured (&c, 1, "");
     print_message ("  spacing %g: error %g, settled %d after %d iterations\n", c.spacing, p.error,
                    p.settled, (int) p.iterations);

@@ -131,8 +131,7 @@ static void a_width_of_some_percent (void **state)
 static void a_tip_elsewhere_takes_back (void **state)
 {
     (void) state;
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    if (!size || strcmp (size, "long") != 0) {
+    if (!longer ()) {
         print_message ("skipped: in full size only (PERIGAL_TEST_SIZE=long)\n");
         return;
     }

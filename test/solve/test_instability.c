@@ -79,8 +79,7 @@ static void follow (run *r, sequence *out, size_t most)
 /* PERIGAL_TEST_SIZE=long: every case with both loads; else they take turns. */
 static int loads_apart (void)
 {
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0 ? 1 : 2;
+    return longer () ? 1 : 2;
 }
 static int first_load (int c) { return loads_apart () == 1 ? 0 : c % 2; }
 

@@ -7,12 +7,6 @@
 #include "tape.h"
 #include <string.h>
 
-static int is_long (void)
-{
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    return size && strcmp (size, "long") == 0;
-}
-
 /* ---- a slip surface ------------------------------------------------------------------------------------ */
 /* Half height 1, shear modulus 400, G_II 1e-3, so that a slip surface with friction mu under the pressure p,
  * a share of the shear stress tau, is in balance at tau (1 - mu p) = sqrt (G_II 400). The load rises to 1.1
@@ -78,7 +72,7 @@ static void slip_surfaces_run (void **state)
                                         { 0.5, 0.6, -4, 4, 3, 1, 0.0125, 0, "" },
                                         { 0, 0.6, -4, 4, 3, 1, 0, 0, "perturb: {amount: 0.1}\n" } };
     double taken[4] = { 0 };
-    for (int k = 0; k < (is_long () ? 4 : 1); k++) {
+    for (int k = 0; k < (longer () ? 4 : 1); k++) {
         const rupture *p = &ruptures[k];
         run a = rupture_of (p), b = rupture_of (p);
         double start;
@@ -97,7 +91,7 @@ static void slip_surfaces_run (void **state)
             check_absolute (a.state->paths->tip[i].x[1], p->offset, 1e-9);
         clear (&a), clear (&b);
     }
-    if (is_long ()) check_relative (taken[1], taken[0], 1e-6);
+    if (longer ()) check_relative (taken[1], taken[0], 1e-6);
 }
 
 /* ---- wings --------------------------------------------------------------------------------------------- */

@@ -299,8 +299,7 @@ static void growth_and_a_drop_of_force_end_a_stage (void **state)
 static void a_resumed_run_goes_on_bit_by_bit (void **state)
 {
     (void) state;
-    const char *size = getenv ("PERIGAL_TEST_SIZE");
-    const int every = size && strcmp (size, "long") == 0 ? 1 : 3;
+    const int every = longer () ? 1 : 3;
     for (int l = 0; l < LAWS; l++)
         for (int fixed = 0; fixed < 2; fixed++) {
             char text[2048];
