@@ -21,7 +21,7 @@ done
 cat > "$work/solid.yaml" <<'EOF'
 dimension: 3
 body: [{add: {box: {low: [0, 0, 0], high: [1, 1, 1]}}}]
-spacing: 0.07
+spacing: 0.1
 materials: {rock: {youngs_modulus: 10 GPa, poissons_ratio: 0.25, density: 2500 kg/m3}}
 failure: {criterion: principal_stress, tensile_strength: 1 MPa}
 boundary:
@@ -41,18 +41,18 @@ compare() {   # name, tolerance, scene, settings...: bytes against the peak of t
 }
 asan=$(nm "$perigal" 2> /dev/null | grep -c __asan_init)
 if [ "$asan" -eq 0 ]; then
-    compare "plane"  0.3 ../../data/cui_disk_plane/scene.yaml --set spacing='1 mm' --set solver.max_events=1
+    compare "plane"  0.3 ../../data/cui_disk_plane/scene.yaml --set spacing='1.5 mm' --set solver.max_events=1
     compare "solid"  0.3 "$work/solid.yaml"
     # with a crack every point has a row of its own; where nothing breaks points share them
     disc='[{disc: {center: [0.52, 0.51, 0.53], normal: [0, 0, 1], radius: 0.2}}]'
     compare "no factor" 0.3 "$work/solid.yaml" --set solver.linear=pcg --set cracks="$disc"
-    compare "no factor, shared rows" 0.3 "$work/solid.yaml" --set solver.linear=pcg --set failure='{criterion: none}' --set spacing=0.05
-    bond=(--set method.force=bond --set failure='{criterion: stretch, critical_stretch: 1 %}' --set spacing=0.03)
+    compare "no factor, shared rows" 0.3 "$work/solid.yaml" --set solver.linear=pcg --set failure='{criterion: none}' --set spacing=0.08
+    bond=(--set method.force=bond --set failure='{criterion: stretch, critical_stretch: 1 %}' --set method.accept_inexact=yes --set spacing=0.045)
     moving=(--set solver='{kind: verlet, time_steps: 2, dt: 1 ns}')
     compare "bonds, no factor" 0.2 "$work/solid.yaml" "${bond[@]}" --set solver.linear=pcg
     compare "bonds that cannot break" 0.2 "$work/solid.yaml" "${bond[@]}" --set solver.linear=pcg --set failure='{criterion: none}'
     compare "bonds by stencil" 0.2 "$work/solid.yaml" "${bond[@]}" "${moving[@]}"
-    compare "bonds by list" 0.2 "$work/solid.yaml" "${bond[@]}" "${moving[@]}" --set method.evaluation=list --set spacing=0.04
+    compare "bonds by list" 0.2 "$work/solid.yaml" "${bond[@]}" "${moving[@]}" --set method.evaluation=list --set spacing=0.06
     compare "small time steps" 0.3 "$work/solid.yaml" --set solver='{kind: newmark, dt: 2 us, end: 4 us}' --set failure='{criterion: none}'
 fi
 

@@ -7,7 +7,7 @@ perigal=$(realpath "$1/perigal"); n=0; bad=0
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
 . test/cli/coarse.sh
-multiples='4 2'; [ "$PERIGAL_TEST_SIZE" = long ] && multiples=2
+multiples=$widest; [ "$PERIGAL_TEST_SIZE" = long ] && multiples=2
 any=data/zhou_1/scene.yaml                             # where a document says SCENE
 nowhere=/proc/perigal                                  # no folder can be made there: a command stops once it knows what to do
 # shown PAGE: its commands, one a line
@@ -32,7 +32,7 @@ scene_of() {
         shift
     done
     if [ ${#options[@]} -eq 1 ]; then [ -e "$word" ] || [ -e "$work/$word" ]; return; fi        # test_docs.sh checks all scenes of data/
-    # on lattices of four times the spacing, or of twice (PERIGAL_TEST_SIZE=long: of twice); where the options do not suit them, the scene as it stands
+    # on the widest lattice that suits the options (PERIGAL_TEST_SIZE=long: of twice the spacing); where none does, the scene as it stands
     wider "$word" "$multiples" "${options[@]:1}" && return
     "$perigal" check "${options[@]}" > "$work/out" 2> "$work/err"
 }

@@ -7,7 +7,11 @@ import resource
 import shutil
 import signal
 import subprocess
+import sys
 import time
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'ranks'))
+from launch import LAUNCH  # noqa: E402
 
 DONE, USAGE, REFUSED, FAILED, INTERRUPTED = 0, 64, 65, 70, 130
 
@@ -94,7 +98,7 @@ class Program:
         if key not in self.known:
             folder = self.folder(data, files)
             out = os.path.join(folder, 'out')
-            program = ['mpirun', '--allow-run-as-root', '--oversubscribe', '-n', str(ranks), self.mpi] if ranks else [self.program]
+            program = [*LAUNCH, '-n', str(ranks), self.mpi] if ranks else [self.program]
             words = program + ['run', os.path.join(folder, 'scene.yaml'), '-o', out, '--quiet', *options]
             code, said = self.call(words, kill_after, out)
             if kill_after is not None and code not in (DONE, REFUSED) and os.path.exists(os.path.join(out, 'checkpoint.nc')):

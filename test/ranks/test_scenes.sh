@@ -19,13 +19,14 @@ same() {
         verdict "$name: the same fields on $r ranks" $?
     done
 }
+dt='20 us' spacing='5 mm'; [ "$PERIGAL_TEST_SIZE" = long ] && dt='8 us' spacing='4 mm'
 # on NUMBERS: these, in the long test all
 on() { numbers=$1; [ "$PERIGAL_TEST_SIZE" = long ] && numbers='1 2 3 4'; }
 # moments about the centre of what is pulled there are zero but for rounding
 on 4
 same cui_disk_plane/scene.yaml 20 moment --set spacing='5 mm' --set solver.max_events=10
 on 3
-same cui_disk_10/scene.yaml 20 moment --set spacing='5 mm' --set solver.end='320 us' --set solver.dt='8 us'
+same cui_disk_10/scene.yaml 20 moment --set spacing='5 mm' --set solver.end='320 us' --set solver.dt="$dt"
 on 2
 same l_panel/scene.yaml 20 moment --set spacing='25 mm' --set solver.max_events=12
 numbers=3
@@ -38,7 +39,7 @@ on 2
 same chen_cube/scene.yaml 50 moment --set spacing='4 mm' --set solver.end='0.45 ms'
 
 # fronts of a body that is its own mirror image, which nothing holds along z: rounding, which is another one with every number of ranks, decides nothing
-mirror=(--set spacing='4 mm' --set solver.max_events=2 --set 'output.pictures=[]' --set 'output.views=[]')
+mirror=(--set spacing="$spacing" --set solver.max_events=2 --set 'output.pictures=[]' --set 'output.views=[]')
 alone $data/cui_disk_10/scene_facets.yaml -o "$work/one" --force "${mirror[@]}"; verdict "mirror images: one process" $?
 [ "$PERIGAL_TEST_SIZE" = long ] && numbers='2 3 8' || numbers='2'
 for r in $numbers; do

@@ -9,9 +9,13 @@ import os
 import shutil
 import signal
 import subprocess
+import sys
 import time
 
 from scenes import finite, merged, write
+
+sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', 'ranks'))
+from launch import LAUNCH  # noqa: E402
 
 EXIT_DONE, EXIT_USAGE, EXIT_SCENE, EXIT_FAILED = 0, 64, 65, 70
 # What a warning must be about to excuse an inexact answer: these speak of something else.
@@ -40,25 +44,8 @@ MAY_REFUSE = (
 )
 
 
-# Several ranks on one machine: root may run them, more than there are cores too, without a look for fast networks.
-LAUNCH = ['mpirun', '--oversubscribe', '--allow-run-as-root']
-os.environ.update(OMPI_MCA_mpi_yield_when_idle='1', OMPI_MCA_btl_vader_single_copy_mechanism='none', OMPI_MCA_pml='ob1', OMPI_MCA_hwloc_base_binding_policy='none')
-
-
 def program_of_ranks(program):
     return program + '-mpi'
-
-
-def ranks_sleep(folder, program):
-    """A rank that waits for another one asks again and again; beside other work it is better to sleep in between, as the tests of ranks do. Not with
-    sanitizers, whose own library wants to be the first."""
-    if 'asan' in program or 'tsan' in program:
-        return
-    source, library = os.path.join(folder, 'sleep.c'), os.path.abspath(os.path.join(folder, 'sleep.so'))
-    with open(source, 'w') as out:
-        out.write('#include <time.h>\nint sched_yield (void) { struct timespec t = { 0, 1000 }; return nanosleep (&t, 0); }\n')
-    if subprocess.run([*os.environ.get('CC', 'gcc').split(), '-shared', '-fPIC', '-o', library, source], capture_output=True).returncode == 0:
-        LAUNCH.extend(['-x', f'LD_PRELOAD={library}'])
 
 
 def has_ranks(program):
