@@ -89,7 +89,8 @@ static void eigenpairs_rebuild_the_matrix (void **state)
     (void) state;
     for (int n = 1; n <= MOST; n++)
         for (int power = -100; power <= 100; power += 100) {
-            double A[MOST * MOST] = { 0 }, keep[MOST * MOST], lambda[MOST], V[MOST * MOST], scale = pow (10, power);
+            double A[MOST * MOST] = { 0 }, keep[MOST * MOST], lambda[MOST], V[MOST * MOST];
+            double scale = pow (10, power);
             for (int i = 0; i < n; i++)
                 for (int j = 0; j <= i; j++) A[i * n + j] = A[j * n + i] = scale * random_number ();
             memcpy (keep, A, sizeof keep);
