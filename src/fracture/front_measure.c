@@ -274,7 +274,7 @@ static pg_status add_springs (measuring *m)
 static void place_sections (measuring *m)
 {
     const pg_front *f = m->front;
-    double limit = front_radius[FRONT_RADII - 1] * m->h;
+    double limit = front_radius[FRONT_RADII - 1] * m->h, same = pg_cloud_same (&m->p->cloud);
     for (size_t j = 0; j < m->n; j++) {
         front_place *at = &m->place[j];
         int tail = 0;
@@ -288,7 +288,7 @@ static void place_sections (measuring *m)
         double offset = f->offset[(size_t) (m->u[j] + 0.5) % f->n];
         m->room[j] = front_room (m->p, m->state, at, m->h, offset, limit, tail, &m->load[j]);
         if (m->faces) m->room[j] = fmin (m->room[j], front_faces_clear (f, m->faces, m->u[j]));
-        while (m->radii[j] < FRONT_RADII && front_radius[m->radii[j]] * m->h <= m->room[j] * (1 + 1e-9))
+        while (m->radii[j] < FRONT_RADII && front_radius[m->radii[j]] * m->h <= m->room[j] + same)
             m->radii[j]++;
     }
 }

@@ -10,6 +10,12 @@
 #include "perigal/fracture.h"
 
 #define TIP_LEAST 1.5                                  /* spacings: a ring that ends nearer knows nothing */
+/* Is a ring of this radius (m) one? A surface 1.5 spacings away, but for rounding, leaves room for it. */
+static inline int tip_is_ring (const pg_problem *p, double radius, double h)
+{
+    return radius + pg_cloud_same (&p->cloud) >= TIP_LEAST * h;
+}
+
 enum { TIP_FIELDS = 2 };                               /* most displacement fields at a time */
 
 /* The material at a tip. */

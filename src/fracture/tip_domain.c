@@ -14,7 +14,6 @@
 #include <string.h>
 
 #define INNER 1.0                                      /* all in local spacings */
-#define LEAST TIP_LEAST
 #define NEAR  3.0
 #define WIDE  8.0
 #define CHORD 1.5
@@ -131,7 +130,7 @@ pg_status tip_domain (pg_tip_field *out, const pg_problem *p, const pg_state *st
     end_at_interfaces (out, p, *node);
     double room = out->room;
     out->r1 = INNER * h;
-    out->near = room < LEAST * h ? NAN : fmin (NEAR * h, room);
+    out->near = tip_is_ring (p, room, h) ? fmin (NEAR * h, room) : NAN;
     out->wide = fmin (fmin (WIDE * h, room), fmax (NEAR * h, pg_tip_straight (state, tip, TURN)));
     if (isnan (out->near)) out->wide = NAN;
 done:

@@ -124,12 +124,12 @@ static void close_tip (pg_tip_field *out, int nfield)
 }
 
 /* Rings of an open tip hold no closed face. */
-static void limit_rings (pg_tip_field *out, const pg_tip_faces *faces)
+static void limit_rings (pg_tip_field *out, const pg_problem *p, const pg_tip_faces *faces)
 {
     if (faces->nearest < out->room) out->room = faces->nearest, out->limit = PG_ROOM_FACES, out->load = -1;
     if (!(faces->nearest < out->wide)) return;
     out->wide = faces->nearest, out->near = fmin (out->near, faces->nearest);
-    if (out->near < TIP_LEAST * out->h) out->near = out->wide = NAN;
+    if (!tip_is_ring (p, out->near, out->h)) out->near = out->wide = NAN;
 }
 
 static int moves (const pg_state *state)
@@ -232,7 +232,7 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
     int closed = touch && touch->closed, kinked = 0, forced = tip_has_body_force (p, node),
         moving = nfield == 1 && d[0] == state->d && m.density > 0 && moves (state);
     out->modulus = m.modulus;
-    if (touch && !closed) limit_rings (out, touch);
+    if (touch && !closed) limit_rings (out, p, touch);
     unknown (out);
     for (int a = 0; a < nfield; a++)
         PG_TRY (mean_motion_take (&field[a], p, state, d[a], 1, out->x, fmax (out->wide, 4 * out->h)));
