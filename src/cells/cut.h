@@ -179,6 +179,9 @@ pg_status cut_work_cell   (cut_work *w, const double *low, const double *high, s
 /* Appends quadrature points: surface < 0: within the body; else on that surface, where it bounds the body,
  * only of the given part between the dividing half-planes. */
 pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out);
+/* Leaves out points, from number `first` on, of slivers of the cell as thin as the rounding of coordinates:
+ * rounding decides whether there are any, and they carry nothing. */
+void      cut_work_leave_slivers (const cut_work *w, pg_cut_points *points, size_t first);
 /* Number of dividing half-planes that take part in this cell: its facets have 2^number parts. */
 size_t    cut_work_half_planes (const cut_work *w);
 /* Appends points on a face (-x +x -y +y -z +z) of the cell where the body lies on both of its sides. dim >

@@ -20,6 +20,8 @@
 enum { RULE = 40 };
 /* A position this far off a face (local) lies on the other side of it for certain: farther than cut_snap. */
 static const double beyond = 2e-7;
+/* A piece thinner than so many times the rounding may be there by rounding alone. */
+static const double SLIVER = 100;
 
 /* The workspace: one cell, one walk at a time. */
 struct cut_work {
@@ -491,6 +493,21 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
         walk (w, 0, (w->surface < 0 ? w->thickness : 1) / orders);
     }
     return s->status;
+}
+
+void cut_work_leave_slivers (const cut_work *w, pg_cut_points *p, size_t first)
+{
+    size_t dim = (size_t) w->cut->dim, n = first;
+    double most = 0;
+    for (size_t i = first; i < p->n; i++) most = fmax (most, p->weight[i]);
+    for (size_t i = first; i < p->n; i++) {
+        if (p->weight[i] < SLIVER * w->slices.rounding * most) continue;
+        p->weight[n] = p->weight[i];
+        memmove (p->x + n * dim, p->x + i * dim, dim * sizeof *p->x);
+        memmove (p->normal + n * dim, p->normal + i * dim, dim * sizeof *p->normal);
+        n++;
+    }
+    p->n = n;
 }
 
 /* The face's axis becomes the outermost, fixed at the face; the walk covers the other axes. The weight of
