@@ -179,9 +179,6 @@ pg_status cut_work_cell   (cut_work *w, const double *low, const double *high, s
 /* Appends quadrature points: surface < 0: within the body; else on that surface, where it bounds the body,
  * only of the given part between the dividing half-planes. */
 pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut_points *out);
-/* Leaves out points, from number `first` on, of slivers of the cell as thin as the rounding of coordinates:
- * rounding decides whether there are any, and they carry nothing. */
-void      cut_work_leave_slivers (const cut_work *w, pg_cut_points *points, size_t first);
 /* Number of dividing half-planes that take part in this cell: its facets have 2^number parts. */
 size_t    cut_work_half_planes (const cut_work *w);
 /* Appends points on a face (-x +x -y +y -z +z) of the cell where the body lies on both of its sides. dim >
@@ -203,6 +200,11 @@ int       cut_work_faceted (const cut_work *w);
  * The places are the centroids of what lies in the boxes of a grid, the weights positive; what does that to
  * the points of a mirrored cell gives the mirrored points. Where it fails the points stay. PG_E_MEMORY. */
 pg_status cut_compress    (pg_cut_points *points, size_t first, int dim);
+/* Leaves out the points of slivers as thin as rounding (of the cell, cut_work_rounding): rounding decides
+ * whether there are any, and they carry nothing. */
+void      cut_leave_slivers (pg_cut_points *points, size_t first, int dim, double rounding);
+/* Of coordinates and of the computation, in the local coordinates of the present cell. */
+double    cut_work_rounding (const cut_work *w);
 /* How often the search for places where three surfaces meet was given up (cut_solve). Surfaces that share a
  * curve meet along all of it, and nothing is lost there; lost corners show in cut_work_unsettled. */
 size_t    cut_work_given_up (const cut_work *w);

@@ -475,7 +475,7 @@ pg_status pg_cut_cell (pg_cut_points *out, const pg_cells *cells, size_t cell, i
     PG_TRY (enter (cells, cell));
     PG_TRY (cut_work_points (cells->cut->work, -1, 0, finer (cells, order), out));
     if (cut_work_faceted (cells->cut->work)) PG_TRY (cut_compress (out, first, cells->dim));
-    else cut_work_leave_slivers (cells->cut->work, out, first);
+    else cut_leave_slivers (out, first, cells->dim, cut_work_rounding (cells->cut->work));
 done:
     return status;
 }

@@ -20,8 +20,6 @@
 enum { RULE = 40 };
 /* A position this far off a face (local) lies on the other side of it for certain: farther than cut_snap. */
 static const double beyond = 2e-7;
-/* A piece thinner than so many times the rounding may be there by rounding alone. */
-static const double SLIVER = 100;
 
 /* The workspace: one cell, one walk at a time. */
 struct cut_work {
@@ -495,21 +493,6 @@ pg_status cut_work_points (cut_work *w, int surface, int part, int order, pg_cut
     return s->status;
 }
 
-void cut_work_leave_slivers (const cut_work *w, pg_cut_points *p, size_t first)
-{
-    size_t dim = (size_t) w->cut->dim, n = first;
-    double most = 0;
-    for (size_t i = first; i < p->n; i++) most = fmax (most, p->weight[i]);
-    for (size_t i = first; i < p->n; i++) {
-        if (p->weight[i] < SLIVER * w->slices.rounding * most) continue;
-        p->weight[n] = p->weight[i];
-        memmove (p->x + n * dim, p->x + i * dim, dim * sizeof *p->x);
-        memmove (p->normal + n * dim, p->normal + i * dim, dim * sizeof *p->normal);
-        n++;
-    }
-    p->n = n;
-}
-
 /* The face's axis becomes the outermost, fixed at the face; the walk covers the other axes. The weight of
  * the outermost axis, half an edge, is divided out again. */
 pg_status cut_work_face (cut_work *w, int face, int order, pg_cut_points *out)
@@ -537,6 +520,7 @@ double cut_work_size (const cut_work *w)
 }
 
 double cut_work_unsettled (const cut_work *w) { return w->unsettled; }
+double cut_work_rounding (const cut_work *w) { return w->slices.rounding; }
 size_t cut_work_given_up (const cut_work *w) { return w->slices.given_up; }
 
 /* ---- to rounding --------------------------------------------------------------------------------------- */
