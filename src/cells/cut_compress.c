@@ -1,6 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
- * Fewer quadrature points with the same moments, and none of slivers. Where the pieces of a surface are many, so are the slices
- * between their edges, and a cell gets thousands of points; every one of them would see a hundred nodes.
+ * Fewer quadrature points: none of slivers, and fewer with the same moments. Where the pieces of a surface
+ * are many, so are the slices between their edges, and a cell gets thousands of points; every one of them
+ * would see a hundred nodes.
  *
  * The box of the points is divided into m^dim boxes. All points in one become one, at their centroid and with
  * their weight together: constants and linear functions keep their sums. The weights then change in the
