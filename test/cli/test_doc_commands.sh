@@ -7,7 +7,7 @@ perigal=$(realpath "$1/perigal"); n=0; bad=0
 cd "$(dirname "$0")/../.." || exit 1
 work=$(mktemp -d); trap 'rm -rf "$work"' EXIT
 . test/cli/coarse.sh
-multiples=$widest; [ "$PERIGAL_TEST_SIZE" = long ] && multiples=2
+long() { [ "$PERIGAL_TEST_SIZE" = long ]; }
 any=data/zhou_1/scene.yaml                             # where a document says SCENE
 nowhere=/proc/perigal                                  # no folder can be made there: a command stops once it knows what to do
 # shown PAGE: its commands, one a line
@@ -32,9 +32,9 @@ scene_of() {
         shift
     done
     if [ ${#options[@]} -eq 1 ]; then [ -e "$word" ] || [ -e "$work/$word" ]; return; fi        # test_docs.sh checks all scenes of data/
-    # on the widest lattice that suits the options (PERIGAL_TEST_SIZE=long: of twice the spacing); where none does, the scene as it stands
-    wider "$word" "$multiples" "${options[@]:1}" && return
-    "$perigal" check "${options[@]}" > "$work/out" 2> "$work/err"
+    # in short size all that is known before a body is built (PERIGAL_TEST_SIZE=long: on a lattice of twice the spacing, where that does not suit as it stands)
+    if ! long; then known "${options[@]}"; return; fi
+    wider "$word" 2 "${options[@]:1}" || "$perigal" check "${options[@]}" > "$work/out" 2> "$work/err"
 }
 # stops CODE PATTERN ARGUMENTS...: ends for want of its folder, so that all else was understood
 stops() {
@@ -115,8 +115,9 @@ for page in README.md doc/*.md data/*/README.md matlab-compat/README.md matlab-c
     if [ ! -s "$work/bad" ]; then echo "ok $n - commands of $page"; else bad=1; echo "not ok $n - commands of $page"; sed 's/^/# /' "$work/bad"; fi
 done
 # ---- snippets ------------------------------------------------------------------------------------------------------------------
-# snippet LANGUAGE PAGE: the code of the page, on the demo of here
-snippet() { sed -n "/^\`\`\`$1/,/^\`\`\`/p" "$2" | grep -v '^```' | sed "s|out/demo|$work/demo|g; s|out/coarse|$work/coarse|g; /^system/d"; }
+# snippet LANGUAGE PAGE: the code of the page, on the demo of here, and a run of its own as coarse as that in short size
+wide="s/'2 mm'/'4 mm'/"; long && wide=
+snippet() { sed -n "/^\`\`\`$1/,/^\`\`\`/p" "$2" | grep -v '^```' | sed "s|out/demo|$work/demo|g; s|out/coarse|$work/coarse|g; /^system/d; $wide"; }
 try() {   # name, what it takes, command, file
     n=$((n + 1))
     if ! eval "$2" > "$work/out" 2>&1; then echo "ok $n - $1 # skipped, it needs: $2"; return; fi

@@ -5,8 +5,11 @@
 cd "$(dirname "$0")/../.." || exit 1
 "$perigal" help --schema > "$work/schema.json" 2> "$work/err" && python3 -m json.tool "$work/schema.json" > /dev/null 2>> "$work/err"
 verdict "the schema is JSON" $?
-fits() { "$perigal" check "$@" --echo > "$work/scene.json" 2> "$work/err" && python3 test/cli/validate.py "$work/schema.json" "$work/scene.json" > "$work/out" 2>> "$work/err"; }
-for scene in data/*/scene*.yaml data/new/*/scene.yaml; do fits "$scene"; verdict "$scene fits" $?; done
+scenes=(data/*/scene*.yaml data/new/*/scene.yaml)
+echoed() { echo "$work/${1//\//,}.json"; }
+for scene in "${scenes[@]}"; do "$perigal" check "$scene" --echo > "$(echoed "$scene")" 2>> "$work/err"; done
+python3 test/cli/validate.py "$work/schema.json" "$work"/data,*.json > "$work/out" 2>> "$work/err"
+for scene in "${scenes[@]}"; do grep -qxF "$(echoed "$scene"): fits" "$work/out"; verdict "$scene fits" $?; done
 scene=data/disk_crack/scene.yaml
 "$perigal" check $scene --echo > "$work/good.json"
 wrong() {   # name, change of the scene in Python, what validate.py says

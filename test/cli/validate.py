@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""validate.py SCHEMA SCENE.json: as much of JSON schema as the one of scenes uses; prints what does not fit."""
+"""validate.py SCHEMA SCENE.json...: as much of JSON schema as the one of scenes uses; prints what does not fit, and `SCENE.json: fits` where all does."""
 import json
 import sys
 
@@ -33,6 +33,9 @@ def faults(value, schema, place):
             yield from faults(inner, schema.get('items', {}), f'{place}[{k}]')
 
 
-found = list(faults(json.load(open(sys.argv[2], encoding='utf-8')), json.load(open(sys.argv[1], encoding='utf-8')), ''))
-print('\n'.join(found))
-sys.exit(bool(found))
+schema, wrong = json.load(open(sys.argv[1], encoding='utf-8')), False
+for path in sys.argv[2:]:
+    found = list(faults(json.load(open(path, encoding='utf-8')), schema, ''))
+    print('\n'.join(found or [f'{path}: fits']))
+    wrong = wrong or bool(found)
+sys.exit(wrong)

@@ -4,6 +4,7 @@
 . "$(dirname "$0")/../cli/expect.sh"
 cd "$(dirname "$0")" || exit 1
 mpi=$(dirname "$perigal")/perigal-mpi accept=$2
+long() { [ "$PERIGAL_TEST_SIZE" = long ]; }
 
 # plan NAME SCENE RANKS ARGUMENTS...: exactly the words of plans/NAME.txt
 plan() {
@@ -47,7 +48,7 @@ if [ ! -x "$mpi" ] || ! command -v mpirun > /dev/null; then finish; fi
 . ./mpirun.sh
 "$mpi" check plate.yaml --ranks 3 > "$work/out" 2> "$work/err" && diff plans/plate.txt "$work/out" > "$work/why"; verdict "perigal-mpi check says the same" $?
 
-for division in matrices subdomains; do
+for division in $(long && echo matrices) subdomains; do
     ranks 3 "${inside[@]}" -o "$work/inside" --set body='[{add: {box: {low: [0, 0], high: [1, 1]}}}]' --set "solver={kind: static, division: $division}" && grep -q "$told" "$work/err"
     verdict "by the run too: $division" $?
     rm -rf "$work/inside"
@@ -73,15 +74,17 @@ PYTHON
 }
 met "explicit" 3 plate.yaml --set spacing='0.4 mm' --set solver.dt='1e-8 s' --set solver.time_steps=10 --set output.at.rows=5
 met "at rest" 3 rest.yaml --set spacing='0.5 mm' --set solver.steps=1 --set failure.critical_stretch=10
-met "at rest, larger" 2 rest.yaml --set spacing='0.25 mm' --set solver.steps=1 --set failure.critical_stretch=10
-met "at rest in space" 2 ../../bench/ranks/rest.yaml --set spacing='3 mm'
+long && met "at rest, larger" 2 rest.yaml --set spacing='0.25 mm' --set solver.steps=1 --set failure.critical_stretch=10
+long && met "at rest in space" 2 ../../bench/ranks/rest.yaml --set spacing='3 mm'
 met "shape functions" 3 galerkin.yaml --set spacing='0.5 mm' --set solver.steps=1 --set failure.tensile_strength='8 GPa'
-met "shape functions in space" 2 solid.yaml --set spacing='1.25 mm' --set solver.steps=1 --set failure.tensile_strength='1 GPa'
-met "shape functions, perturbed" 2 galerkin.yaml --set spacing='0.5 mm' --set perturb.amount=0.25 --set solver.steps=1 --set failure.tensile_strength='8 GPa'
-python3 meshed.py 100 > "$work/mesh.inp"
-sed '/^body:/,/^spacing/c mesh: {file: mesh.inp, unit: mm}' galerkin.yaml > "$work/mesh.yaml"
-met "shape functions on a mesh" 2 "$work/mesh.yaml" --set solver.steps=1 --set failure.tensile_strength='8 GPa' --set solver.preconditioner=multilevel
-[ "$PERIGAL_TEST_SIZE" != long ] || met "shape functions on a mesh in space" 2 ../../data/bracket/scene.yaml --set solver.division=subdomains
+long && met "shape functions in space" 2 solid.yaml --set spacing='1.25 mm' --set solver.steps=1 --set failure.tensile_strength='1 GPa'
+long && met "shape functions, perturbed" 2 galerkin.yaml --set spacing='0.5 mm' --set perturb.amount=0.25 --set solver.steps=1 --set failure.tensile_strength='8 GPa'
+if long; then
+    python3 meshed.py 100 > "$work/mesh.inp"
+    sed '/^body:/,/^spacing/c mesh: {file: mesh.inp, unit: mm}' galerkin.yaml > "$work/mesh.yaml"
+    met "shape functions on a mesh" 2 "$work/mesh.yaml" --set solver.steps=1 --set failure.tensile_strength='8 GPa' --set solver.preconditioner=multilevel
+    met "shape functions on a mesh in space" 2 ../../data/bracket/scene.yaml --set solver.division=subdomains
+fi
 # eight small parts of many points, all of which each reads
 python3 scattered.py 2 180 > "$work/cloud.csv"; cp cloud.yaml "$work/"
 met "points of a file" 8 "$work/cloud.yaml" --set 'cracks=[]' --set solver.time_steps=1 --set solver.dt='1 ns' --set output.at.levels=1 --set 'output.gauges=[]' --set output.join=no

@@ -33,8 +33,8 @@ all=3 && long && all='1 2 3 4'
 scene=galerkin.yaml left= one=()
 equal gauss 2 70
 equal consistent 3 100 --set method.integration=consistent
-equal nodal 2 20 --set method.integration=nodal --set failure.tensile_strength='6 MPa'
-equal pddo 4 20 --set method.approximation=pddo
+long && equal nodal 2 20 --set method.integration=nodal --set failure.tensile_strength='6 MPa'
+long && equal pddo 4 20 --set method.approximation=pddo
 equal nosb 2 10 --set method.approximation=nosb --set method.integration=nodal --set failure.tensile_strength='6.5 MPa'
 equal 'nu 0.45' 2 10 --set plane=strain --set materials.rock.poissons_ratio=0.45 --set failure.tensile_strength='11 MPa'
 
@@ -64,13 +64,13 @@ long && equal 'events, nodal' "$all" 12 "${events[@]}" --set failure.tensile_str
 # a block with a crack, of shape functions and of two kinds of bonds
 scene=solid.yaml left='force_y force_z displacement_y displacement_z'
 equal 'in space' "$all" 30 "${elements[@]}"
-equal 'in space, events' "$all" 5 "${events[@]}" --set solver.max_events=6
-equal 'in space, lps' "$all" 30 "${bonds[@]}" --set method.force=lps
+long && equal 'in space, events' "$all" 5 "${events[@]}" --set solver.max_events=6
+long && equal 'in space, lps' "$all" 30 "${bonds[@]}" --set method.force=lps
 long && equal 'in space, bond' "$all" 30 "${bonds[@]}" --set method.force=bond
 
-# consistent integration in cut cells, and in cells that end at a crack: fields of one process on three ranks; the same cells held or not
+# consistent integration in cells that end at a crack, and (long) in cut cells: fields of one process on three ranks; the same cells held or not
 one=(--set solver.linear=pcg)
-for scene in cut_cells crack_through; do
+for scene in $(long && echo cut_cells) crack_through; do
     alone $scene.yaml -o "$work/one" --force "${one[@]}" --set solver.division=auto; verdict "$scene: one process" $?
     rm -rf "$work/some"
     ranks 3 $scene.yaml -o "$work/some"; verdict "$scene: 3 ranks" $?
