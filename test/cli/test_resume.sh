@@ -1,5 +1,5 @@
 #!/bin/bash
-# test_resume.sh BUILD: runs that are interrupted at random moments (short: 5 by TERM and 6 by KILL, long: 14 each, some again while they go on) and resumed end
+# test_resume.sh BUILD: runs that are interrupted at random moments (short: 4 by TERM and 5 by KILL, long: 14 each, some again while they go on) and resumed end
 # with the files of a run that nobody disturbed; finished, foreign and missing checkpoints; disks that are full or read-only.
 . "$(dirname "$0")/expect.sh"
 cd "$(dirname "$0")" || exit 1
@@ -10,7 +10,7 @@ run() { "$perigal" run "$@" --quiet --threads 1 --set output.checkpoint='0.05 s'
 event=(plate.yaml --set spacing='0.5 mm' --set solver.max_events=60 --set output.at.events=10)
 fixed=(plate.yaml --set spacing='1.25 mm' --set 'solver={stepping: fixed, steps: 8, break: fraction, break_fraction: 2 %}'
        --set 'output={at: {broken: 2 %, levels: 4}}')
-newmark=(moving.yaml)
+newmark=(moving.yaml); [ "$PERIGAL_TEST_SIZE" = long ] || newmark+=(--set solver.end='2.8 us')
 explicit=(bonds.yaml)
 dying=(bonds.yaml --set method.force=fcbm --set 'failure={fracture_energy: 21 J/m2}')
 state=(bonds.yaml --set method.force=lps --set method.weighted_volume=live)
@@ -53,7 +53,7 @@ resumed() {
 }
 RANDOM=20220
 kinds=(event fixed newmark explicit relaxed)
-numbers='1 4 7 10 13 16 19 21 24 25 28'; [ "$PERIGAL_TEST_SIZE" = long ] && numbers=$(seq 28)
+numbers='1 4 7 10 13 21 24 25 28'; [ "$PERIGAL_TEST_SIZE" = long ] && numbers=$(seq 28)
 for k in $numbers; do
     [ $k -le 20 ] && kind=${kinds[$((k % 5))]} || kind=dying
     [ $k -le 22 ] || kind=state
@@ -87,7 +87,7 @@ done
 [ $code -eq 130 ] && grep -q 'the same command begins anew' "$work/err" && ! grep -q -- --resume "$work/err"
 verdict "TERM before the first step: said, and what to do" $?
 ! ls "$work/early"/*.png > /dev/null 2>&1; verdict "no pictures of nothing" $?
-run plate.yaml --set spacing='1 mm' -o "$work/early"; code=$?; [ $code -eq 0 ] && [ -s "$work/early/damage.png" ]; verdict "the same command begins anew" $?
+run plate.yaml -o "$work/early"; code=$?; [ $code -eq 0 ] && [ -s "$work/early/damage.png" ]; verdict "the same command begins anew" $?
 
 # ---- refusals
 "$perigal" run "${event[@]}" --quiet --threads 1 --set output.checkpoint='0.05 s' -o "$work/event" --resume > "$work/out" 2> "$work/err"

@@ -26,8 +26,8 @@ share=1e-9 left= one=()
 moved=(--set perturb.amount=0.25)
 equal 'a perturbed lattice' "$all" 50 galerkin.yaml "${moved[@]}"
 long && equal 'consistent' 2 50 galerkin.yaml "${moved[@]}" --set method.integration=consistent
-equal 'nodal' 4 20 galerkin.yaml "${moved[@]}" --set method.integration=nodal --set failure.tensile_strength='6 MPa'
-equal 'nu 0.45' 2 10 galerkin.yaml "${moved[@]}" --set plane=strain --set materials.rock.poissons_ratio=0.45 --set failure.tensile_strength='11 MPa'
+long && equal 'nodal' 4 20 galerkin.yaml "${moved[@]}" --set method.integration=nodal --set failure.tensile_strength='6 MPa'
+long && equal 'nu 0.45' 2 10 galerkin.yaml "${moved[@]}" --set plane=strain --set materials.rock.poissons_ratio=0.45 --set failure.tensile_strength='11 MPa'
 left='force_x displacement_x'
 long && equal 'events' 2 12 galerkin.yaml "${moved[@]}" "${events[@]}" --set failure.tensile_strength='6 MPa'
 left='force_y force_z displacement_y displacement_z'
