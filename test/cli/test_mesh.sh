@@ -69,12 +69,17 @@ output: {at: {levels: 1}, pictures: []}"
     fi
     drawn "$1"
 }
-drawn() { "$perigal" plot "$1" --out "$work/pictures/$(basename "$1").png" > "$work/out" 2> "$work/err"; verdict "$(basename "$1"): a picture" $?; }
+# of the forms of one mesh as files, which are read above, the first is drawn in short size
+drawn() {
+    case $1 in *_22b.msh|*_41.msh|*_41b.msh) long || return ;; esac
+    pictures=$((pictures + 1))
+    "$perigal" plot "$1" --out "$work/pictures/$(basename "$1").png" > "$work/out" 2> "$work/err"; verdict "$(basename "$1"): a picture" $?
+}
 mkdir "$work/pictures"
 # a lattice in the bracket takes as long as all other checks here, for its many facets; its cells and a lattice in curved tetrahedra a third of that
 long() { [ "$PERIGAL_TEST_SIZE" = long ]; }
 ball=; long && ball='0.7 mm'
-pictures=$(ls data/mesh/*.msh data/mesh/ccx/*.frd | wc -l); pictures=$((pictures + 3))
+pictures=$(ls data/mesh/ccx/*.frd | wc -l)
 for file in data/mesh/*.msh; do
     case $file in */ball_tet10.msh) scene "$file" 3 mm "$ball" ;; */disk_*) scene "$file" 2 mm '0.2 mm' ;; */box_*) scene "$file" 3 mm '0.5 mm' ;; *) scene "$file" 3 mm '0.7 mm' ;; esac
 done

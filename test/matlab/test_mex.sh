@@ -1,5 +1,6 @@
 #!/bin/bash
 # test_mex.sh BUILD: the compiled functions of matlab-compat in Octave, and that the same C is accepted with the signatures of MATLAB's MEX API.
+# PERIGAL_TEST_SIZE=long: steps of one more kind, more rounds of memory.
 # Skipped, with a line that says so, where there is no Octave, no package netcdf of it, or no mkoctfile (package octave-dev).
 . "$(dirname "$0")/../cli/expect.sh"
 root=$(realpath "$(dirname "$0")/../.."); build=$(realpath "$1")
