@@ -180,7 +180,8 @@ static borne borne_by (run *r, size_t dim)
 }
 
 /* Pressed, and held by friction, it is the whole body; dragged, or pressed on a slope, it slides as along a
- * crack of the scene. lps with weighted volumes of live bonds is stiffer in its skin, as at that crack. */
+ * crack of the scene. lps with weighted volumes of live bonds is stiffer in its skin, as at that crack.
+ * PERIGAL_TEST_SIZE=long: held by friction in space, too. */
 static void a_body_cut_in_two (void **state)
 {
     (void) state;
@@ -200,6 +201,7 @@ static void a_body_cut_in_two (void **state)
     for (size_t i = 0; i < sizeof row / sizeof *row; i++) {
         borne of[3];
         block l = row[i].l;
+        if (!longer () && l.dim == 3 && row[i].whole > 0) continue;
         l.solver = fixed;
         for (int way = WHOLE; way <= FOUND; way++) {
             run r = block_of (&l, way);

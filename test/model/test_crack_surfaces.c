@@ -155,7 +155,7 @@ static void a_front_kinks_and_lags (void **state)
         assert_int_equal (check_mask (&g, 13), dead);
     }
     assert_int_equal (g.s->surfaces->nfront, 1);
-    check_seams (g.s->surfaces, 100000);
+    check_seams (g.s->surfaces, longer () ? 100000 : 10000);
     end (&g);
 }
 

@@ -77,9 +77,9 @@ static void sweep (const char *name, const char *text, size_t dense, size_t most
 static void every_allocation_of_a_run_may_fail (void **state)
 {
     (void) state;
-    /* long: every one; else the first 30, then about 12 of the rest */
+    /* long: every one; else the first 20, then about 8 of the rest */
     for (int i = 0; i < SCENES; i++)
-        sweep (scenes[i].name, scenes[i].text, longer () ? 1000000 : 30, 12);
+        sweep (scenes[i].name, scenes[i].text, longer () ? 1000000 : 20, 8);
 }
 
 static void the_scene_too (void **state)

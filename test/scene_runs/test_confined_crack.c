@@ -40,13 +40,14 @@ static double hoop (double angle, double pull, double pressure, double factor)
     return most;
 }
 
+/* PERIGAL_TEST_SIZE=long: in three cases, else in the last. */
 static void growth_begins_at_the_load_of_the_closed_form (void **state)
 {
     (void) state;
     double toughness = sqrt (70e9 * 8), pull = 2 * toughness / sqrt (acos (-1) * 0.1), pi = acos (-1);
     static const struct { double angle, pressure;
     } cases[] = { { 45, 0 }, { 45, 0.15 }, { 30, 0.25 } };
-    for (int k = 0; k < 3; k++) {
+    for (int k = longer () ? 0 : 2; k < 3; k++) {
         double angle = cases[k].angle * pi / 180, pressure = cases[k].pressure * pull, low = 0, high = 1;
         for (int i = 0; i < 60; i++) {
             double middle = 0.5 * (low + high);

@@ -269,7 +269,8 @@ static void reactions_do_not_depend_on_alpha (void **state)
 }
 
 /* ---- resuming ------------------------------------------------------------------------------------------ */
-/* From a checkpoint after so many steps both go on alike, through whatever phase comes. */
+/* From a checkpoint after so many steps both go on alike, through whatever phase comes.
+ * PERIGAL_TEST_SIZE=long: over 60 steps, else 20. */
 static void a_resumed_run_goes_on_bit_by_bit (void **state)
 {
     (void) state;
@@ -290,7 +291,7 @@ static void a_resumed_run_goes_on_bit_by_bit (void **state)
             keep (&a, &t, 0);
             keep (&b, &t, 1);
             assert_int_equal (t.at, t.n);
-            for (int i = 0; i < 60 && !pg_solver_done (a.solver, a.state); i++) {
+            for (int i = 0; i < (longer () ? 60 : 20) && !pg_solver_done (a.solver, a.state); i++) {
                 advance (&a), advance (&b);
                 assert_true (a.state->factor == b.state->factor && a.step.nbroken == b.step.nbroken
                              && a.step.dissipated == b.step.dissipated && a.step.motion == b.step.motion
@@ -312,6 +313,7 @@ static pg_status stop (void *context, const pg_state *state, const pg_step *so_f
     return pg_error (PG_E_USAGE, PG_HERE, "stopped");
 }
 
+/* PERIGAL_TEST_SIZE=long: over 80 steps, else 25. */
 static void a_time_step_that_is_stopped_goes_on (void **state)
 {
     (void) state;
@@ -319,7 +321,7 @@ static void a_time_step_that_is_stopped_goes_on (void **state)
     run a = plate (0, 0, solver), b = plate (0, 0, solver);
     long stops = 0;
     pg_solver_watch (b.solver, stop, &stops);
-    for (int i = 0; i < 80 && !pg_solver_done (a.solver, a.state); i++) {
+    for (int i = 0; i < (longer () ? 80 : 25) && !pg_solver_done (a.solver, a.state); i++) {
         advance (&a);
         for (int tries = 0; pg_solver_step (b.solver, b.state, &b.step) != PG_OK; tries++)
             assert_true (tries < 9999);

@@ -219,10 +219,12 @@ static const char breaking[] =
     "solver: {kind: newmark, dt: %g, end: 60, rayleigh: {stiffness: 0.1}, tolerance: 1e-11, plain: %s}\n";
 
 /* Bonds break in steps with contact: the means stay apart, momentum and energy are accounted for, by all
- * shortcuts as without any; a run that is resumed among breaking bonds is the same. */
+ * shortcuts as without any; a run that is resumed among breaking bonds is the same. PERIGAL_TEST_SIZE=long:
+ * until more have broken. */
 static void bonds_break_around_closed_faces (void **state)
 {
     (void) state;
+    const size_t most = longer () ? 150 : 60;
     for (int k = 0; k < 2; k++) {
         double dt = k ? 0.25 : 2;                      /* by the diagonal; by a factor */
         run a = scene_of (1, breaking, dt, "false"), b = scene_of (1, breaking, dt, "true"),
@@ -231,7 +233,7 @@ static void bonds_break_around_closed_faces (void **state)
         size_t broken = 0, closed = 0, n;
         double overlap = 0;
         int kept = 0;
-        while (!pg_solver_done (a.solver, a.state) && broken < 150) {
+        while (!pg_solver_done (a.solver, a.state) && broken < most) {
             if (kept) advance_alike (&a, &c);
             else advance (&a);
             advance (&b);
@@ -254,7 +256,7 @@ static void bonds_break_around_closed_faces (void **state)
                             *s = pg_solver_report (b.solver, b.state);
         print_message ("dt %g: %zu bonds, %zu times closed, overlap of means %.1e, friction took %.3e\n", dt,
                        broken, closed, overlap, r->energy_friction);
-        assert_true (broken >= 100 && closed > 10 && kept && r->energy_friction > 0);
+        assert_true (broken >= 2 * most / 3 && closed > 10 && kept && r->energy_friction > 0);
         assert_true (overlap <= 1e-12 * 0.03);
         check_relative (r->energy_friction, s->energy_friction, 1e-6);
         check_relative (r->energy_strain, s->energy_strain, 1e-6);
