@@ -424,7 +424,7 @@ static double nearest (const cut_list *soft, double at, int before, double lengt
     double best = NAN;
     for (size_t i = 0; i < soft->n; i++) {
         double gap = before ? at - soft->at[i] : soft->at[i] - at;
-        if (gap < -fmax (1e-12, rounding) || gap > length * (1 + cut_equal)) continue;
+        if (gap < -fmax (1e-12, rounding) || gap > length + cut_equal + rounding) continue;
         double root = gap < rounding ? at : soft->at[i];
         if (isnan (best) || fabs (root - at) < fabs (best - at)) best = root;
     }
