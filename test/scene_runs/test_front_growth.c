@@ -81,7 +81,7 @@ static void a_straight_front_stays_straight (void **state)
 {
     (void) state;
     for (int seed = 1; seed <= (longer () ? 3 : 1); seed++)
-        stays_straight (seed, longer () ? 10 : 5, longer () ? 8 : 6);
+        stays_straight (seed, longer () ? 10 : 3, longer () ? 8 : 6);
 }
 
 /* Whatever part of the opening is there from the beginning, growth begins at the same opening. Two threads

@@ -95,10 +95,12 @@ static void turns_inwards (const char *what, size_t nmore, const char *const *mo
     free (c.at);
 }
 
+/* PERIGAL_TEST_SIZE=long: by energies of points, too, as the fifth. */
 static void example_3 (void **unused)
 {
     (void) unused;
     turns_inwards ("bonds", 0, NULL);
+    if (!longer ()) return;
     static const char *const points[] = { "method.force=fcbm", "method.evaluation=stencil",
                                           "failure.criterion=node_energy" };
     turns_inwards ("points", 3, points);
@@ -174,6 +176,7 @@ static void example_5 (void **unused)
     (void) unused;
     static const char *const points[] = { "method.evaluation=stencil", "spacing=0.25 mm" };
     story_of_example_5 ("data/zhou_5/scene.yaml", 0, NULL);
+    if (!longer ()) return;
     story_of_example_5 ("data/zhou_5/scene_fcbm.yaml", 2, points);
 }
 
