@@ -302,6 +302,9 @@ double    pg_cloud_slender (const pg_cloud *cloud, size_t i);
 double    pg_cloud_finest (const pg_cloud *cloud);
 /* Places nearer than this are the same, m: 1e-9 spacings, and the rounding of the points. */
 double    pg_cloud_same (const pg_cloud *cloud);
+/* Into how many equal parts of at most `most` (m) a length is divided, one at least; what exceeds a whole
+ * number of them by rounding alone is no part more. */
+size_t    pg_cloud_pieces (const pg_cloud *cloud, double length, double most);
 
 /* ---- points of a mesh ---------------------------------------------------------------------------------- */
 /* The body as a mesh; mesh.n = 0: the scene has none. */

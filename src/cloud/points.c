@@ -496,6 +496,11 @@ double pg_cloud_same (const pg_cloud *cloud)
     return 1e-9 * cloud->h + pg_rounding (cloud->dim, cloud->low, cloud->high);
 }
 
+size_t pg_cloud_pieces (const pg_cloud *cloud, double length, double most)
+{
+    return (size_t) fmax (1, ceil ((length - pg_cloud_same (cloud)) / most));
+}
+
 void pg_cloud_clear (pg_cloud *cloud)
 {
     pg_free (cloud->size);

@@ -325,7 +325,7 @@ static pg_status divide (faces *w, pg_contact_pieces *out)
         PG_TRY (walk (w, from));
         for (size_t i = first; i < w->ndot; i++) whole += w->dot[i].size;
         if (w->ndot == first) continue;
-        size_t count = (size_t) fmax (1, round (whole / full));
+        size_t count = pieces_of (&w->p->cloud, whole, full);
         PG_TRY (gather_dots (w->dot + first, w->ndot - first, full, &count));
         PG_TRY (put_pieces (w, first, count, path++, out));
     }

@@ -197,7 +197,7 @@ static pg_status add_links (division *d, size_t k, int begins, size_t path)
         double x[3] = { a[0] + i / 8.0 * (b[0] - a[0]), a[1] + i / 8.0 * (b[1] - a[1]), 0 };
         least = fmin (least, pg_problem_spacing_at (d->p, x));
     }
-    size_t parts = d->p->cloud.size ? (size_t) ceil (length / least) : 1;
+    size_t parts = d->p->cloud.size ? pg_cloud_pieces (&d->p->cloud, length, least) : 1;
     PG_GROW (d->link, d->cap_link, d->nlink + parts);
     for (size_t i = 0; i < parts; i++) {
         link *l = &d->link[d->nlink++];
@@ -289,6 +289,11 @@ static double end_of (size_t at, size_t pieces, int met)
     return fmin ((double) (at + 1 - first), (double) pieces);
 }
 
+size_t pieces_of (const pg_cloud *cloud, double size, double full)
+{
+    return pg_cloud_pieces (cloud, (size - 0.5 * full) * cloud->h, full * cloud->h);
+}
+
 /* The links of one path, number `from` to before `to`, in pieces of equal length in local spacings. Where
  * cracks meet the body between them turns by itself, so that mean gaps do not keep the ends of pieces apart:
  * there they are half as long. */
@@ -297,7 +302,7 @@ static pg_status divide (division *d, pg_contact_pieces *out, size_t from, size_
     pg_status status = PG_OK;
     double whole = 0, passed = 0, arc = 0, same = pg_cloud_same (&d->p->cloud);
     for (size_t i = from; i < to; i++) whole += d->link[i].length / d->link[i].h;
-    size_t even = (size_t) fmax (1, round (whole / PG_CONTACT_PIECE * (1 - 1e-9))), at = 0;
+    size_t even = pieces_of (&d->p->cloud, whole, PG_CONTACT_PIECE), at = 0;
     int met = whole > PG_CONTACT_HALVED ? d->link[from].met : 0;
     size_t pieces = even + (size_t) (met & 1) + (size_t) (met >> 1 && (even > 1 || !(met & 1)));
     double each = whole / (double) even, begins = 0;

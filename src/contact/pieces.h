@@ -6,6 +6,10 @@
 #define PG_CONTACT_PIECES_H
 #include "perigal/contact.h"
 
+/* Into how many pieces of nearly the size `full` what is `size` large is divided, one at least; half a piece
+ * more than a whole number, but for rounding, is no piece more. Both in local spacings, or squared ones. */
+size_t pieces_of (const pg_cloud *cloud, double size, double full);
+
 /* The pieces of surfaces; `out` is empty, first[0] has its room. */
 pg_status surface_pieces_create (pg_contact_pieces *out, const pg_problem *problem, const pg_state *state);
 

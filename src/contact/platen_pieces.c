@@ -10,7 +10,7 @@
  *
  *     g_n = distance + n . (u - v),    g_t = t . (u - v),    v = q + w x (x - point) the motion of the
  * platen. */
-#include "perigal/contact.h"
+#include "pieces.h"
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -33,7 +33,7 @@ typedef struct {
 } facing;
 
 /* ---- which points -------------------------------------------------------------------------------------- */
-static double dot (const double *a, const double *b, size_t dim)
+static double product (const double *a, const double *b, size_t dim)
 {
     double sum = 0;
     for (size_t k = 0; k < dim; k++) sum += a[k] * b[k];
@@ -47,7 +47,7 @@ static void tangents (const double *n, const double *a, size_t dim, double t[2][
         t[0][0] = n[1], t[0][1] = -n[0], t[0][2] = 0;
         return;
     }
-    double along = dot (a, n, 3), size = 0;
+    double along = product (a, n, 3), size = 0;
     for (int k = 0; k < 3; k++) t[0][k] = a[k] - along * n[k], size += t[0][k] * t[0][k];
     if (!(size > 1e-12)) {                             /* a sphere, a quarter around */
         const double other[3] = { a[1], a[2], a[0] };
@@ -92,10 +92,10 @@ static void find_places (facing *f)
         const double *x = f->q->x + c->at * dim;
         double v[3] = { 0 }, flat = 0;
         for (size_t k = 0; k < dim; k++) v[k] = x[k] - p->point[k];
-        for (size_t a = 0; a + 1 < dim; a++) c->s[a] = dot (v, f->along[a], dim), flat += c->s[a] * c->s[a];
+        for (size_t a = 0; a + 1 < dim; a++) c->s[a] = product (v, f->along[a], dim), flat += c->s[a] * c->s[a];
         flat = sqrt (flat);
         if (p->shape == PG_PLATEN_PLANE || !(flat > 0)) continue;
-        double ahead = (p->concave ? -1 : 1) * dot (v, mean, dim);
+        double ahead = (p->concave ? -1 : 1) * product (v, mean, dim);
         if (p->shape == PG_PLATEN_CYLINDER && dim == 3) c->s[1] = p->radius * atan2 (c->s[1], ahead);
         else
             for (size_t a = 0; a + 1 < dim; a++) c->s[a] *= p->radius * atan2 (flat, ahead) / flat;
@@ -137,7 +137,7 @@ static pg_status find_points (facing *f)
         candidate c = { .at = i, .weight = f->q->weight[i],
                         .h = pg_problem_spacing_at (f->p, f->q->x + i * dim) };
         c.distance = pg_platen_distance (f->platen, f->p->dim, f->q->x + i * dim, c.normal);
-        if (!isfinite (c.distance) || dot (f->q->normal + i * dim, c.normal, dim) > -FACES) continue;
+        if (!isfinite (c.distance) || product (f->q->normal + i * dim, c.normal, dim) > -FACES) continue;
         if (fabs (c.distance) <= PG_NO_LENGTH * c.h) c.distance = 0;
         f->point[f->n++] = c;
     }
@@ -190,7 +190,7 @@ static pg_status divide_line (facing *f)
             if (to > from && c->s[0] - c[-1].s[0] > APART * fmax (c->h, c[-1].h)) break;
             whole += c->weight / thick / c->h;
         }
-        long n = (long) fmax (1, round (whole / PG_CONTACT_PIECE * (1 - 1e-9)));
+        long n = (long) pieces_of (&f->p->cloud, whole, PG_CONTACT_PIECE);
         for (size_t i = from; i < to; i++) {
             double h = f->point[i].h, part = f->point[i].weight / thick / h;
             size_t half = f->n;
@@ -219,7 +219,7 @@ static pg_status divide_grid (facing *f, long *boxes)
             high[a] = fmax (high[a], f->point[i].s[a] + half);
     }
     for (int a = 0; a < 2 && f->n; a++) {
-        n[a] = (long) fmax (1, round ((high[a] - low[a]) / (PG_CONTACT_PIECE * h) * (1 - 1e-9)));
+        n[a] = (long) pieces_of (&f->p->cloud, (high[a] - low[a]) / h, PG_CONTACT_PIECE);
         for (size_t i = 0, points = f->n; i < points; i++)
             PG_TRY (put_in_piece (f, i, a, f->point[i].s[a] - low[a], (high[a] - low[a]) / (double) n[a],
                                   n[a]));
@@ -296,7 +296,7 @@ static void end_piece (pg_contact_pieces *out, const facing *f, double *gap, dou
 {
     size_t dim = out->dim;
     pg_contact_piece *k = &out->piece[out->n];
-    double size = sqrt (dot (k->normal, k->normal, dim));
+    double size = sqrt (product (k->normal, k->normal, dim));
     if (!(weight > 0) || !(size > 0)) return;
     for (size_t m = 0; m < dim; m++) k->x[m] /= weight, k->normal[m] /= size;
     tangents (k->normal, f->along[0], dim, k->tangent);

@@ -139,7 +139,7 @@ static pg_status find_strips (surface *w, size_t first, size_t rows, double cell
         width[d->row] += cell * sqrt (d->size / d->area), area[d->row] += d->size, cells[d->row]++;
     }
     for (size_t i = 0; i < rows; i++) width[i] = cells[i] > 0 ? width[i] / cells[i] : 0, all += width[i];
-    *count = (size_t) fmax (1, round (all / PG_CONTACT_PIECE));
+    *count = pieces_of (&w->p->cloud, all, PG_CONTACT_PIECE);
     share_out (rows, width, *count, strip);
     PG_ALLOC (held, *count);
     for (size_t i = 0; i < rows; i++) held[strip[i]] += area[i];
@@ -278,7 +278,7 @@ static pg_status divide_sheet (surface *w, pg_contact_pieces *out, const pg_crac
     h = finest (w, &s);
     for (int a = 0; a < 2; a++) {
         double length = s.high[a] - s.low[a];
-        n[a] = (size_t) fmax (1, ceil (length * PG_CONTACT_POINTS_SPACE / h - 1e-9));
+        n[a] = pg_cloud_pieces (&w->p->cloud, length, h / PG_CONTACT_POINTS_SPACE);
         cell[a] = length / (double) n[a];
     }
     for (size_t i = 0; i < n[0]; i++)
@@ -308,7 +308,7 @@ static pg_status add_triangle (surface *w, const pg_crack *c, size_t number)
         longest = fmax (longest, hypot (hypot (b[0] - a[0], b[1] - a[1]), b[2] - a[2]));
         least = fmin (least, pg_problem_spacing_at (w->p, a));
     }
-    size_t parts = (size_t) fmax (1, ceil (longest * PG_CONTACT_POINTS_SPACE / least - 1e-9));
+    size_t parts = pg_cloud_pieces (&w->p->cloud, longest, least / PG_CONTACT_POINTS_SPACE);
     double area = 0.5 * sqrt (dot3 (n, n)) / (double) (parts * parts);
     PG_GROW (w->grown, w->cap_grown, w->ngrown + parts * parts);
     for (size_t i = 0; i < parts; i++)

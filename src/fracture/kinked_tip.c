@@ -245,7 +245,7 @@ static pg_status sample_ring (tip_grid *grid, kinked_faces *faces, const pg_tip_
 {
     pg_status status = PG_OK;
     int forced = tip_has_body_force (p, node);
-    PG_TRY (tip_grid_create (grid, ring, 0));
+    PG_TRY (tip_grid_create (grid, p, ring, 0));
     grid->nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {
         PG_TRY (tip_grid_sample (grid, a, ring, m, p, force, self, state, &d[a]));

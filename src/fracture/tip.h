@@ -63,11 +63,12 @@ size_t    tip_node_at (const pg_problem *p, const double *x);          /* the ne
 int       tip_same_material (const pg_problem *p, size_t i, size_t k);
 
 /* core: 1: places within r1 too, where terms without derivatives of the weight are to be summed. */
-pg_status tip_grid_create (tip_grid *out, const pg_tip_field *tip, int core);
+pg_status tip_grid_create (tip_grid *out, const pg_problem *p, const pg_tip_field *tip, int core);
 void      tip_grid_clear  (tip_grid *grid);
 /* Places on the faces of the pieces within the wide ring that do not run along e; area: outward normal along
  * e times length, m. None: n = 0. */
-pg_status tip_faces_create (tip_grid *out, const pg_tip_field *tip, const pg_cracks *cracks);
+pg_status tip_faces_create (tip_grid *out, const pg_problem *p, const pg_tip_field *tip,
+                            const pg_cracks *cracks);
 /* One field from the force into grid->field[at]. */
 pg_status tip_grid_sample (tip_grid *grid, int at, const pg_tip_field *tip, const tip_material *material,
                            const pg_problem *p, const pg_force_type *force, void *self,

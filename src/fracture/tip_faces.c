@@ -32,9 +32,9 @@ static void add_place (tip_grid *grid, const pg_tip_field *tip, const double *at
 }
 
 /* Parts of the segment a b that are looked at, each with GAUSS places on both faces. */
-static size_t parts_of (const pg_tip_field *tip, double length)
+static size_t parts_of (const pg_problem *p, const pg_tip_field *tip, double length)
 {
-    return (size_t) fmax (1, ceil (length / (piece * tip->h) - 1e-9));
+    return pg_cloud_pieces (&p->cloud, length, piece * tip->h);
 }
 
 /* Does the piece run within the wide ring, and not along e? Its length and how its left normal lies along
@@ -53,10 +53,11 @@ static int turns (const pg_tip_field *tip, const pg_crack *c, double *length, do
 }
 
 /* A piece of a path, by Gauss points on its parts; only where the faces are apart and within the ring. */
-static void add_piece (tip_grid *grid, const pg_tip_field *tip, const pg_crack *c, double length, double n_1)
+static void add_piece (tip_grid *grid, const pg_problem *p, const pg_tip_field *tip, const pg_crack *c,
+                       double length, double n_1)
 {
     double x[GAUSS], w[GAUSS];
-    size_t n = parts_of (tip, length);
+    size_t n = parts_of (p, tip, length);
     pg_gauss_rule (GAUSS, x, w);
     for (size_t i = 0; i < n * GAUSS; i++) {
         double s = ((double) (i / GAUSS) + 0.5 * (1 + x[i % GAUSS])) / (double) n, at[2];
@@ -67,21 +68,22 @@ static void add_piece (tip_grid *grid, const pg_tip_field *tip, const pg_crack *
     }
 }
 
-pg_status tip_faces_create (tip_grid *out, const pg_tip_field *tip, const pg_cracks *cracks)
+pg_status tip_faces_create (tip_grid *out, const pg_problem *p, const pg_tip_field *tip,
+                            const pg_cracks *cracks)
 {
     pg_status status = PG_OK;
     size_t most = 0;
     double length, n_1;
     memset (out, 0, sizeof *out);
     for (size_t k = 0; k < cracks->n; k++)
-        if (turns (tip, &cracks->crack[k], &length, &n_1)) most += 2 * GAUSS * parts_of (tip, length);
+        if (turns (tip, &cracks->crack[k], &length, &n_1)) most += 2 * GAUSS * parts_of (p, tip, length);
     PG_ALLOC (out->r, most + 1);
     PG_ALLOC (out->theta, most + 1);
     PG_ALLOC (out->area, most + 1);
     PG_ALLOC (out->x, 2 * (most + 1));
     for (size_t k = 0; k < cracks->n; k++)
         if (turns (tip, &cracks->crack[k], &length, &n_1))
-            add_piece (out, tip, &cracks->crack[k], length, n_1);
+            add_piece (out, p, tip, &cracks->crack[k], length, n_1);
 done:
     if (status != PG_OK) tip_grid_clear (out);
     return status;

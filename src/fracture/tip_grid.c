@@ -19,21 +19,22 @@ void tip_turn (const double *e, const double *v, double *out)
 }
 
 /* Radial pieces of a ring. */
-static size_t pieces (double from, double to, double h)
+static size_t pieces (const pg_problem *p, double from, double to, double h)
 {
-    return to > from * (1 + 1e-9) ? (size_t) fmax (1, ceil ((to - from) / (piece * h) - 1e-9)) : 0;
+    return to > from + pg_cloud_same (&p->cloud) ? pg_cloud_pieces (&p->cloud, to - from, piece * h) : 0;
 }
 
-static size_t places (double from, double to, double h, int arcs)
+static size_t places (const pg_problem *p, double from, double to, double h, int arcs)
 {
-    return pieces (from, to, h) * GAUSS * (size_t) arcs * GAUSS;
+    return pieces (p, from, to, h) * GAUSS * (size_t) arcs * GAUSS;
 }
 
 /* Appends the places of the ring from .. to. */
-static void add_ring (tip_grid *grid, const pg_tip_field *tip, double from, double to, int arcs)
+static void add_ring (tip_grid *grid, const pg_problem *p, const pg_tip_field *tip, double from, double to,
+                      int arcs)
 {
     double x[GAUSS], w[GAUSS];
-    size_t n = pieces (from, to, tip->h);
+    size_t n = pieces (p, from, to, tip->h);
     double radius = n ? (to - from) / (double) n : 0, arc = 2 * pi / arcs;
     pg_gauss_rule (GAUSS, x, w);
     for (size_t i = 0; i < n * GAUSS; i++)
@@ -49,19 +50,19 @@ static void add_ring (tip_grid *grid, const pg_tip_field *tip, double from, doub
         }
 }
 
-pg_status tip_grid_create (tip_grid *out, const pg_tip_field *t, int core)
+pg_status tip_grid_create (tip_grid *out, const pg_problem *p, const pg_tip_field *t, int core)
 {
     pg_status status = PG_OK;
-    size_t most = places (0, t->r1, t->h, ARCS_NEAR) + places (t->r1, t->near, t->h, ARCS_NEAR)
-                  + places (t->near, t->wide, t->h, ARCS_WIDE);
+    size_t most = places (p, 0, t->r1, t->h, ARCS_NEAR) + places (p, t->r1, t->near, t->h, ARCS_NEAR)
+                  + places (p, t->near, t->wide, t->h, ARCS_WIDE);
     memset (out, 0, sizeof *out);
     PG_ALLOC (out->r, most);
     PG_ALLOC (out->theta, most);
     PG_ALLOC (out->area, most);
     PG_ALLOC (out->x, 2 * most);
-    if (core) add_ring (out, t, 0, t->r1, ARCS_NEAR);
-    add_ring (out, t, t->r1, t->near, ARCS_NEAR);
-    add_ring (out, t, t->near, t->wide, ARCS_WIDE);
+    if (core) add_ring (out, p, t, 0, t->r1, ARCS_NEAR);
+    add_ring (out, p, t, t->r1, t->near, ARCS_NEAR);
+    add_ring (out, p, t, t->near, t->wide, ARCS_WIDE);
 done:
     if (status != PG_OK) tip_grid_clear (out);
     return status;

@@ -242,8 +242,8 @@ pg_status pg_tip_measure_faces (pg_tip_field *out, const pg_problem *p, const pg
     if (kinked || isnan (out->near)) goto done;
     /* What moves needs no places within the rings: where a field goes along with its tip, v = - c u,1, rho a
      * u,1 and rho v v,1 are the same, and what is sampled there is the lattice. */
-    PG_TRY (tip_grid_create (&grid, out, forced));
-    PG_TRY (tip_faces_create (&faces, out, pg_state_cracks (p, state)));
+    PG_TRY (tip_grid_create (&grid, p, out, forced));
+    PG_TRY (tip_faces_create (&faces, p, out, pg_state_cracks (p, state)));
     PG_TRY (tip_springs_create (&springs, out, p));
     grid.nfield = faces.nfield = springs.grid.nfield = (size_t) nfield;
     for (int a = 0; a < nfield; a++) {
