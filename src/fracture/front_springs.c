@@ -1,7 +1,7 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Springs on points in the tube around a front: their forces - k (u - g) are body forces at single places
- * (tip_springs.c), each in the cross section that it is nearest to, over the length of front that this stands
- * for. */
+ * (tip_springs.c), each in the cross section that it is nearest to, in equal shares where it is as near to
+ * two, over the length of front that these stand for. */
 #include "front.h"
 #include "gradient_fit.h"
 #include <math.h>
@@ -15,23 +15,39 @@ typedef struct {
     /* number within the set of the load; of cross sections */
     size_t at, section;
     double r, theta, size;                             /* in that section; radius of what belongs to it, m */
+    double share;                                      /* of the force that acts in that section */
 } pull;
 
-/* The cross section in whose slice x lies, and where; 0: in none, or outside its tube. */
-static int find_section (const front_place *place, size_t n, double h, const double *x, pull *out)
+/* Where x lies in the slice of a cross section; returns how far from its middle, INFINITY: not in it, or
+ * outside its tube. */
+static double place_in (const front_place *place, double h, const double *x, pull *out)
 {
-    double nearest = INFINITY;
-    for (size_t j = 0; j < n; j++) {
-        double y[3] = { 0 };
-        for (int i = 0; i < 3; i++)
-            for (int k = 0; k < 3; k++) y[i] += place[j].frame[3*i + k] * (x[k] - place[j].x[k]);
-        double r = hypot (y[0], y[1]), away = hypot (r, y[2]);
-        if (r >= front_radius[FRONT_RADII - 1] * h || away >= nearest
-            || fabs (y[2]) > 0.75 * place[j].speed / FRONT_SECTIONS)
-            continue;
-        nearest = away, out->section = j, out->r = r, out->theta = atan2 (y[1], y[0]);
+    double y[3] = { 0 };
+    for (int i = 0; i < 3; i++)
+        for (int k = 0; k < 3; k++) y[i] += place->frame[3*i + k] * (x[k] - place->x[k]);
+    double r = hypot (y[0], y[1]);
+    if (r >= front_radius[FRONT_RADII - 1] * h || fabs (y[2]) > 0.75 * place->speed / FRONT_SECTIONS)
+        return INFINITY;
+    out->r = r, out->theta = atan2 (y[1], y[0]);
+    return hypot (r, y[2]);
+}
+
+/* Appends the pull on x in the section that is nearest, in equal shares where several are. */
+static pg_status add_nearest (const front_springs *s, pull one, const double *x, pull **out, size_t *n,
+                              size_t *cap)
+{
+    pg_status status = PG_OK;
+    double nearest = INFINITY, same = pg_cloud_same (&s->p->cloud);
+    size_t first = *n;
+    for (size_t j = 0; j < s->n; j++) nearest = fmin (nearest, place_in (&s->place[j], s->h, x, &one));
+    for (size_t j = 0; j < s->n && isfinite (nearest); j++) {
+        if (place_in (&s->place[j], s->h, x, &one) > nearest + same) continue;
+        PG_GROW (*out, *cap, *n + 1);
+        one.section = j, (*out)[(*n)++] = one;
     }
-    return isfinite (nearest);
+    for (size_t k = first; k < *n; k++) (*out)[k].share = 1 / (double) (*n - first);
+done:
+    return status;
 }
 
 static pg_status find_pulls (const front_springs *s, pull **out, size_t *n)
@@ -45,11 +61,8 @@ static pg_status find_pulls (const front_springs *s, pull **out, size_t *n)
         for (size_t i = 0; load->kind == PG_SPRING && i < load->set->npoint; i++) {
             size_t point = (size_t) load->set->point[i];
             pull one = { .load = load, .at = i, .size = cbrt (0.75 / pi * p->cloud.volume[point]) };
-            if (!(pg_load_share (load, i) > 0)
-                || !find_section (s->place, s->n, s->h, p->cloud.x + 3 * point, &one))
-                continue;
-            PG_GROW (*out, cap, *n + 1);
-            (*out)[(*n)++] = one;
+            if (!(pg_load_share (load, i) > 0)) continue;
+            PG_TRY (add_nearest (s, one, p->cloud.x + 3 * point, out, n, &cap));
         }
     }
 done:
@@ -85,7 +98,7 @@ static void pull_of (const front_springs *s, const pull *q, int a, const double 
         if (!(load->stiffness[c] > 0)) continue;
         double end = pg_load_value (load, c, 3, site, s->t[a]);
         if (a > 0) end -= pg_load_value (load, c, 3, site, s->t[0]);
-        force[c] = -load->stiffness[c] * pg_load_share (load, q->at) * (u[c] - end);
+        force[c] = -load->stiffness[c] * pg_load_share (load, q->at) * q->share * (u[c] - end);
     }
 }
 
