@@ -264,6 +264,7 @@ enum { PG_MEETS_NOTHING, PG_MEETS_SURFACE, PG_MEETS_CRACK };
  * the surface of the body, or on another crack. */
 typedef struct {
     long   id;                                         /* 1, 2, ... as they came into being; stays with it */
+    long   of;  /* id of the one that it has parted from; its own where it has not */
     int    closed, open;                               /* a loop; 0: grows no more */
     size_t n, capacity;
     /* vertices (m), unit normal of the crack, unit vector ahead (n x 3 each) */

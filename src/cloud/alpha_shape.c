@@ -95,7 +95,7 @@ static void measure_apart (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (own.self = first; own.self < last; own.self++) {
         const double *at = own.x + own.self * dim;
-        long j = pg_tree_nearest (own.tree, at, is_self, &own);
+        long j = pg_tree_nearest (own.tree, at, is_self, &own, NULL);
         double square = 0;
         for (size_t k = 0; j >= 0 && k < dim; k++) square += pow (own.x[(size_t) j * dim + k] - at[k], 2);
         own.apart[own.self] = sqrt (square);

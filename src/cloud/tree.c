@@ -147,19 +147,21 @@ static void visit_nearest (const pg_tree *t, query *q, size_t first, size_t last
 /* Refusals may cost much (is a crack between?), and where all points of the half that holds the place are
  * refused, every one of them would be asked before the other half is looked at: the search goes out in rings
  * from the nearest point of all, each 3 times as wide. */
-long pg_tree_nearest (const pg_tree *tree, const double *at, pg_tree_refuse refuse, void *context)
+long pg_tree_nearest (const pg_tree *tree, const double *at, pg_tree_refuse refuse, void *context,
+                      double *away)
 {
     enum { RINGS = 10 };
     query all = { at, NULL, NULL, -1, INFINITY };
     visit_nearest (tree, &all, 0, tree->n, 0);
+    if (away) *away = sqrt (all.best);
     if (!refuse || all.found < 0 || !refuse (context, at, (size_t) all.found)) return all.found;
     double square = all.best;
-    for (int ring = 0; ring < RINGS && square > 0; ring++) {
-        query q = { at, refuse, context, -1, square *= 9 };
-        visit_nearest (tree, &q, 0, tree->n, 0);
-        if (q.found >= 0) return q.found;
-    }
     query q = { at, refuse, context, -1, INFINITY };
-    visit_nearest (tree, &q, 0, tree->n, 0);
+    for (int ring = 0; ring < RINGS && square > 0 && q.found < 0; ring++) {
+        q.best = square *= 9;
+        visit_nearest (tree, &q, 0, tree->n, 0);
+    }
+    if (q.found < 0) q.best = INFINITY, visit_nearest (tree, &q, 0, tree->n, 0);
+    if (away) *away = sqrt (q.best);
     return q.found;
 }

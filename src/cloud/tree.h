@@ -31,7 +31,8 @@ typedef void (*pg_tree_visit) (void *context, size_t first, size_t last);
 void pg_tree_near (const pg_tree *tree, const double *at, double reach, pg_tree_visit visit, void *context);
 
 /* The point nearest to `at` that is not refused (refuse NULL: none is); of equally near ones that with
- * the lowest number; -1: all are refused, or `at` is no finite place. */
+ * the lowest number; -1: all are refused, or `at` is no finite place. *away: its distance, m; may be NULL. */
 typedef int (*pg_tree_refuse) (void *context, const double *at, size_t item);
-long pg_tree_nearest (const pg_tree *tree, const double *at, pg_tree_refuse refuse, void *context);
+long pg_tree_nearest (const pg_tree *tree, const double *at, pg_tree_refuse refuse, void *context,
+                      double *away);
 #endif

@@ -315,28 +315,48 @@ static int hidden (void *context, const double *place, size_t point)
                           pg_cloud_same (&p->cloud)) != NULL;
 }
 
-/* Displacement at place x by a first-order expansion about the nearest point on the same side of the
- * cracks, with the gradient there (H: 9 numbers, dim x dim used); where cracks hide all points, about the
- * nearest one. Returns that point. */
-static size_t expand (bond_force *b, const pg_state *state, const double *d, const double *x, point_bonds *s,
-                      double *u, double *H)
+/* The nearest points on the same side of the cracks, in the mean of which a place is; where cracks hide all
+ * points, the nearest ones of all. */
+static size_t points_about (bond_force *b, const pg_state *state, const double *x, size_t *point)
 {
-    size_t dim = (size_t) b->dim;
     view v = { b->problem, pg_state_cracks (b->problem, state) };
-    long found = pg_nearest_find (b->near, x, v.cracks->n ? hidden : NULL, &v);
-    size_t i = (size_t) (found >= 0 ? found : pg_nearest_find (b->near, x, NULL, NULL));
-    point_bonds_at (b, i, 0, s);
-    memset (H, 0, 9 * sizeof *H);
-    gradient_at (b, state->alive, d, i, s, H);
-    memset (u, 0, 3 * sizeof *u);
-    for (size_t a = 0; a < dim; a++) {
-        u[a] = d[i * (size_t) b->stride + a];
-        for (size_t c = 0; c < dim; c++) u[a] += H[a * dim + c] * (x[c] - b->problem->cloud.x[i * dim + c]);
-    }
-    return i;
+    double same = PG_NO_LENGTH * b->problem->cloud.h;
+    size_t n = v.cracks->n ? pg_nearest_all (b->near, x, same, hidden, &v, point) : 0;
+    return n ? n : pg_nearest_all (b->near, x, same, NULL, NULL, point);
 }
 
-/* 2D: the stress across the plane as the mode has it. */
+/* Adds a share of the displacement at place x by a first-order expansion about point i, and of the gradient
+ * there (H: 9 numbers, dim x dim used). */
+static void expand (bond_force *b, const pg_state *state, const double *d, const double *x, size_t i,
+                    double share, point_bonds *s, double *u, double *H)
+{
+    size_t dim = (size_t) b->dim;
+    double own[9] = { 0 };
+    point_bonds_at (b, i, 0, s);
+    gradient_at (b, state->alive, d, i, s, own);
+    for (size_t a = 0; a < dim; a++) {
+        u[a] += share * d[i * (size_t) b->stride + a];
+        for (size_t c = 0; c < dim; c++) {
+            double H_ac = share * own[a * dim + c];
+            H[a * dim + c] += H_ac, u[a] += H_ac * (x[c] - b->problem->cloud.x[i * dim + c]);
+        }
+    }
+}
+
+/* Adds a share of the stress at point i. 2D: that across the plane is as the mode has it. */
+static void add_stress (bond_force *b, const pg_state *state, const double *d, size_t i, double share,
+                        point_bonds *s, double *out)
+{
+    double v[6], full[6] = { 0 };
+    stress_at (b, state->alive, d, i, s, v);
+    if (b->dim == 3) memcpy (full, v, sizeof v);
+    else full[0] = v[0];
+    if (b->dim == 2) full[1] = v[1], full[3] = v[2];
+    if (b->problem->mode == PG_PLANE_STRAIN)
+        full[2] = b->problem->material[b->problem->block[PG_NODES][i]].nu * (v[0] + v[1]);
+    for (int k = 0; k < 6; k++) out[k] += share * full[k];
+}
+
 pg_status bond_force_sample (void *self, const pg_state *state, const double *d, size_t n, const double *x,
                              double *u, double *stress, double *gradient)
 {
@@ -344,18 +364,17 @@ pg_status bond_force_sample (void *self, const pg_state *state, const double *d,
     bond_force *b = self;
     point_bonds s;
     PG_TRY (make_near (b));
+    memset (u, 0, 3 * n * sizeof *u);
+    if (stress) memset (stress, 0, 6 * n * sizeof *stress);
     for (size_t k = 0; k < n; k++) {
-        double v[6], H[9], *out = stress ? stress + 6 * k : NULL;
-        size_t i = expand (b, state, d, x + k * (size_t) b->dim, &s, u + 3 * k, H);
+        const double *place = x + k * (size_t) b->dim;
+        double H[9] = { 0 };
+        size_t point[PG_NEAREST_MOST], about = points_about (b, state, place, point);
+        for (size_t m = 0; m < about; m++) {
+            expand (b, state, d, place, point[m], 1 / (double) about, &s, u + 3 * k, H);
+            if (stress) add_stress (b, state, d, point[m], 1 / (double) about, &s, stress + 6 * k);
+        }
         if (gradient) memcpy (gradient + 9 * k, H, sizeof H);
-        if (!out) continue;
-        stress_at (b, state->alive, d, i, &s, v);
-        memset (out, 0, 6 * sizeof *out);
-        if (b->dim == 3) memcpy (out, v, sizeof v);
-        else out[0] = v[0];
-        if (b->dim == 2) out[1] = v[1], out[3] = v[2];
-        if (b->problem->mode == PG_PLANE_STRAIN)
-            out[2] = b->problem->material[b->problem->block[PG_NODES][i]].nu * (v[0] + v[1]);
     }
 done:
     return status;

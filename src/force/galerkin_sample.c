@@ -192,48 +192,34 @@ static void add_pressure (const sampling *s, const pg_rows *r, size_t at, size_t
     for (int k = 0; k < 3 && share > 0.1; k++) stress[k] += sum / share;
 }
 
-/* Evaluation points as near to a place as the nearest, at most. */
-enum { TIES = 16 };
-typedef struct { const sampling *s; size_t n, point[TIES]; } nearest_points;
-
-static int passed_over (void *context, const double *place, size_t point)
-{
-    const nearest_points *t = context;
-    for (size_t k = 0; k < t->n; k++) if (t->point[k] == point) return 1;
-    return !t->s->intact && cut (t->s, place, t->s->g->rows[t->s->g->bulk].x + point * (size_t) t->s->g->dim);
-}
-
 /* u and its gradient at x as those of the nearest evaluation point q go on, in the mean of all that are as
  * near: numbers and rounding choose none of them. */
-static void go_on_from (const sampling *s, const double *x, size_t q, double *u, double *H)
+static void go_on_from (sampling *s, const double *x, size_t q, double *u, double *H)
 {
     const galerkin *g = s->g;
     const pg_rows *bulk = &g->rows[g->bulk];
     size_t dim = (size_t) g->dim;
-    double from[3], G[9], first = 0;
-    nearest_points t = { .s = s };
+    double from[3], G[9];
+    size_t all[PG_NEAREST_MOST], n;
+    n = pg_nearest_all (g->near_point, x, PG_NO_LENGTH * g->problem->cloud.h, s->intact ? NULL : point_hidden,
+                        s, all);
+    if (!n) n = 1, all[0] = q;
     memset (u, 0, 3 * sizeof *u), memset (H, 0, 9 * sizeof *H);
-    for (long j = (long) q; j >= 0;
-         j = t.n < TIES ? pg_nearest_find (g->near_point, x, passed_over, &t) : -1) {
-        double away = 0, z[3];
-        for (size_t k = 0; k < dim; k++)
-            z[k] = x[k] - bulk->x[(size_t) j * dim + k], away = hypot (away, z[k]);
-        if (t.n == 0) first = away;
-        if (away > first + 1e-6 * g->problem->cloud.h) break;
-        t.point[t.n++] = (size_t) j;
-        gradient (s, bulk, (size_t) j, from, G);
+    for (size_t m = 0; m < n; m++) {
+        gradient (s, bulk, all[m], from, G);
         for (size_t c = 0; c < dim; c++) {
-            u[c] += from[c];
-            for (size_t k = 0; k < dim; k++) u[c] += G[c * dim + k] * z[k], H[c * dim + k] += G[c * dim + k];
+            u[c] += from[c] / (double) n;
+            for (size_t k = 0; k < dim; k++) {
+                double z = x[k] - bulk->x[all[m] * dim + k], part = G[c * dim + k] / (double) n;
+                u[c] += part * z, H[c * dim + k] += part;
+            }
         }
     }
-    for (size_t c = 0; c < 3; c++) u[c] /= (double) t.n;
-    for (size_t c = 0; c < 9; c++) H[c] /= (double) t.n;
 }
 
 static void evaluate (void *context, size_t first, size_t last, int thread)
 {
-    const sampling *s = context;
+    sampling *s = context;
     const galerkin *g = s->g;
     const pg_rows *bulk = &g->rows[g->bulk];
     size_t dim = (size_t) g->dim;

@@ -2,8 +2,8 @@
  * The displacement gradient for forces without shape functions: moving least squares (Lancaster and
  * Salkauskas 1981) through the displacements of the points that a place sees.
  *
- * A place x sees the nearest point i that no crack hides from it, and those of i's neighbours whose bond with
- * i lives and that no crack hides from x either: so neither a crack that is geometry nor one that is only
+ * A place x sees the nearest point i that no crack hides from it (all of them where several are as near), and
+ * those of i's neighbours whose bond with i lives and that no crack hides from x either: so neither a crack that is geometry nor one that is only
  * broken bonds is looked across. In z = (x_j - x) / R, R three local spacings, the polynomial sum_a c_a p_a
  * (z) with p = 1, z_k, z_k z_l minimises sum_j w_j (u_j - p (z_j) c)^2 with w = (1 - |z|^2)^2; the gradient
  * at x is c_k / R. The quadratic basis is exact for quadratic fields; where too few points are left (a
@@ -142,14 +142,17 @@ int gradient_fit_at (const gradient_fit *fit, const double *x, size_t n, const d
     const pg_problem *p = fit->problem;
     size_t dim = (size_t) p->dim;
     view v = { p, pg_state_cracks (p, fit->state) };
-    long found = pg_nearest_find (fit->near, x, v.cracks->n ? hidden : NULL, &v);
-    size_t i = (size_t) (found >= 0 ? found : pg_nearest_find (fit->near, x, NULL, NULL));
+    size_t from[PG_NEAREST_MOST], nfrom = 0;
+    double same = PG_NO_LENGTH * p->cloud.h, spacing = 0;
+    if (v.cracks->n) nfrom = pg_nearest_all (fit->near, x, same, hidden, &v, from);
+    if (!nfrom) nfrom = pg_nearest_all (fit->near, x, same, NULL, NULL, from);
+    for (size_t k = 0; k < nfrom; k++) spacing = fmax (spacing, pg_problem_spacing (p, PG_NODES, from[k]));
     for (int degree = 2; degree > 0; degree--) {
         double none[3] = { 0 }, term[MOST_TERMS];
         sums s = { .degree = degree, .terms = basis (p->dim, degree, none, term),
-                   .radius = reach * pg_problem_spacing (p, PG_NODES, i) };
+                   .radius = reach * spacing };
         size_t m = (size_t) s.terms;
-        add_all (fit, &v, &s, x, i, n, d);
+        for (size_t k = 0; k < nfrom; k++) add_all (fit, &v, &s, x, from[k], n, d);
         if (pg_dense_cholesky (s.terms, s.moment, flat[degree])) continue;
         for (size_t f = 0; f < n; f++) {
             if (u) memset (u + 3 * f, 0, 3 * sizeof *u);

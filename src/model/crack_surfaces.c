@@ -158,7 +158,7 @@ static pg_status part_of (stride *s, size_t first, size_t m, pg_front *out, doub
     const pg_front *f = &s->now;
     PG_TRY (pg_front_reserve (out, m));
     PG_ALLOC (*c, 3 * m);
-    out->id = f->id, out->open = 1, out->n = m, out->closed = f->closed && s->nshut == 0;
+    out->id = f->id, out->of = f->of, out->open = 1, out->n = m, out->closed = f->closed && s->nshut == 0;
     for (size_t k = 0; k < m; k++) {
         size_t i = (first + k) % f->n;
         memcpy (out->x + 3*k, f->x + 3*i, 3 * sizeof *out->x);

@@ -181,7 +181,7 @@ static void value_at (const pg_front *f, const double *x, spot q, double *out)
 static pg_status move_to (pg_front *f, double **c, const spot *q, size_t n)
 {
     pg_status status = PG_OK;
-    pg_front g = { .id = f->id, .closed = f->closed, .open = f->open, .n = n };
+    pg_front g = { .id = f->id, .of = f->of, .closed = f->closed, .open = f->open, .n = n };
     double *d = NULL;
     PG_TRY (pg_front_reserve (&g, n));
     PG_ALLOC (d, 3 * n);

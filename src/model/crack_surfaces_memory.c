@@ -196,13 +196,13 @@ done:
 static pg_status keep_fronts (walk *v, size_t n, long most)
 {
     pg_status status = PG_OK;
-    enum { EACH = 5 };
+    enum { EACH = 6 };
     pg_crack_surfaces *w = v->w;
     long *count = NULL;
     PG_ALLOC (count, EACH * n + 1);
     for (size_t i = 0; !v->k->reading && i < n; i++) {
         const pg_front *f = &w->front[i];
-        const long whole[EACH] = { (long) f->n, (long) f->nrim, f->id, f->closed, f->open };
+        const long whole[EACH] = { (long) f->n, (long) f->nrim, f->id, f->of, f->closed, f->open };
         memcpy (count + EACH * i, whole, sizeof whole);
     }
     PG_TRY (v->k->counts (v->k->context, part_of (v, "fronts"), EACH * n, count));
@@ -210,10 +210,11 @@ static pg_status keep_fronts (walk *v, size_t n, long most)
         const long *c = count + EACH * i;
         PG_KEEP_BOUND (v->k, "the vertices of a front", c[0], 0, most);
         PG_KEEP_BOUND (v->k, "the length of a rim", c[1], 0, most);
-        PG_KEEP_BOUND (v->k, "whether a front is a loop", c[3], 0, 1);
-        PG_KEEP_BOUND (v->k, "whether a front is open", c[4], 0, 1);
+        PG_KEEP_BOUND (v->k, "whether a front is a loop", c[4], 0, 1);
+        PG_KEEP_BOUND (v->k, "whether a front is open", c[5], 0, 1);
         PG_TRY (keep_front (v, i, c));
-        w->front[i].id = c[2], w->front[i].closed = (int) c[3], w->front[i].open = (int) c[4];
+        w->front[i].id = c[2], w->front[i].of = c[3];
+        w->front[i].closed = (int) c[4], w->front[i].open = (int) c[5];
     }
 done:
     pg_free (count);

@@ -134,7 +134,7 @@ static pg_status add_front (patch *c, size_t first, size_t m)
     PG_GROW (f.rim, f.rim_capacity, f.nrim);
     memcpy (f.rim, c->line + begin, f.nrim * sizeof *f.rim);
     PG_TRY (surfaces_reserve_fronts (c->w, c->w->nfront + 1));
-    f.id = surfaces_next_id (c->w);
+    f.id = f.of = surfaces_next_id (c->w);
     c->w->front[c->w->nfront++] = f;
     f = (pg_front) { 0 };
 done:

@@ -394,7 +394,7 @@ pg_status pg_fronts_find (pg_problem *p, double *const *retreat)
     for (size_t i = 0; i < all.n; i++) {
         if (all.line[i].used) continue;
         pg_front *f = &p->front[p->nfront++];
-        f->id = (long) p->nfront;
+        f->id = f->of = (long) p->nfront;
         PG_TRY (make_front (f, &all.line[i], p));
     }
 done:

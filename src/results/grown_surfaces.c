@@ -89,7 +89,19 @@ done:
     return status;
 }
 
-/* The fronts of the scene are the first of the state; one that has ended has no J. */
+/* The largest J of what has become of front `of` of the scene; NAN: it has ended. */
+static double largest_J (const pg_result *r, const pg_state *state, long of)
+{
+    size_t nfront;
+    const pg_front *front = pg_fronts_of_state (r->problem, state, &nfront);
+    double J = NAN;
+    for (size_t f = 0; f < nfront; f++)
+        for (size_t i = 0; front[f].of == of && i < r->nfront_value; i++)
+            if (r->front_value[i].front == front[f].id)
+                J = fmax (J, r->front_value[i].J);     /* of NAN and a number: the number */
+    return J;
+}
+
 pg_status pg_result_surfaces_row (pg_result *r, const pg_state *state, double *row)
 {
     pg_status status = PG_OK;
@@ -97,12 +109,7 @@ pg_status pg_result_surfaces_row (pg_result *r, const pg_state *state, double *r
     if (!has_fronts (r)) return PG_OK;
     PG_TRY (read_fronts (r, state));
     if (r->grows) row[n++] = state->surfaces ? state->surfaces->area : 0;
-    for (size_t f = 0; f < r->problem->nfront; f++, n++) {
-        row[n] = NAN;
-        for (size_t i = 0; i < r->nfront_value; i++)
-            if (r->front_value[i].front == r->problem->front[f].id)
-                row[n] = fmax (row[n], r->front_value[i].J);       /* of NAN and a number: the number */
-    }
+    for (size_t f = 0; f < r->problem->nfront; f++) row[n++] = largest_J (r, state, r->problem->front[f].id);
 done:
     return status;
 }

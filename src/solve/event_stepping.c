@@ -219,9 +219,9 @@ done:
 
 /* Nothing holds the parts of a body that has come apart: the displacement at load factor 1 is as large as the
  * rounding of K allows, and so are the energies that belong to it. */
-void event_apart (pg_solver *s, double work, double strain, pg_step *step)
+void event_apart (pg_solver *s, int cut, double work, double strain, pg_step *step)
 {
-    if (!s->finished || !(events_of (s)->secant > 1 / least_share (s))) return;
+    if (!s->finished || !(cut || events_of (s)->secant > 1 / least_share (s))) return;
     s->break_loop.work = work, s->report.energy_strain = 0;
     step->dissipated = strain;
 }
@@ -295,7 +295,7 @@ static pg_status break_at (pg_solver *s, pg_state *state, double factor, double 
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &stiff));
     PG_TRY (event_stops (s, state, factor, stiff));
-    event_apart (s, work, strain, step);
+    event_apart (s, 0, work, strain, step);
 done:
     return status;
 }

@@ -411,7 +411,7 @@ static pg_status break_here (pg_solver *s, pg_state *state, double factor, pg_st
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
     PG_TRY (event_secant (s, &now));
     PG_TRY (event_stops (s, state, factor, now));
-    event_apart (s, work, strain, step);
+    event_apart (s, 0, work, strain, step);
 done:
     return status;
 }

@@ -41,9 +41,11 @@ static pg_status solve_anew (pg_solver *s, pg_state *state, double factor, int *
     pg_status now = event_solve (s);
     if (event_ended (s, state, factor, now)) {
         *ended = 1;
-        b->growth->needed -= b->growth->event_energy;   /* nothing tells what they took */
-        s->report.energy_fracture = b->growth->needed;
-        if (!b->growth->closed) goto done;
+        if (!b->growth->closed) {
+            b->growth->needed -= b->growth->event_energy;   /* nothing tells what they took */
+            s->report.energy_fracture = b->growth->needed;
+            goto done;
+        }
         e->ended = PG_OK, s->finished = 1;
         pg_statistics_warn (
             &s->report,
@@ -129,6 +131,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     }
     if (!s->finished) PG_TRY (instability_after (s, &e->unstable, state, factor, e->ended, &moves));
     if (moves) step->dissipated = b->work - work - (s->report.energy_strain - strain);
+    if (ended) event_apart (s, 1, work, strain, step);
     if (ended || moves) goto done;
     PG_TRY (way_end (s, state, factor, &end));
     PG_TRY (account (s, state, factor, end));
@@ -141,7 +144,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     memcpy (state->d, g->before, bytes);
     PG_TRY (event_stops (s, state, factor, now));
     if (!s->finished) s->finished = facet_measure_ends (s, state, factor);
-    event_apart (s, work, strain, step);
+    event_apart (s, 0, work, strain, step);
 done:
     if (g->before) memcpy (state->d, g->before, bytes);
     return status;
