@@ -112,46 +112,67 @@ done:
     return status;
 }
 
-/* Which part of `parts` equal ones holds the middle of each of n sizes that follow each other? */
-static void share_out (size_t n, const double *size, size_t parts, size_t *part)
+/* Which part of `parts` equal ones holds the middle of each of n sizes that follow each other? Where it lies on
+ * a border, part[far + i] is the part beyond that; else the same. */
+static void share_out (size_t n, const double *size, size_t parts, size_t far, size_t *part)
 {
-    double whole = 0, passed = 0;
+    double whole = 0, passed = 0, most = (double) parts - 1;
     for (size_t i = 0; i < n; i++) whole += size[i];
     for (size_t i = 0; i < n; i++) {
         double at = (passed + 0.5 * size[i]) / whole * (double) parts;
-        part[i] = at > 0 ? (size_t) fmin ((double) parts - 1, floor (at)) : 0;
+        part[i] = (size_t) fmin (most, fmax (0, floor (at - PG_NO_LENGTH)));
+        part[far + i] = (size_t) fmin (most, fmax (0, floor (at + PG_NO_LENGTH)));
         passed += size[i];
     }
 }
 
+/* A dot on a border counts by one half on both sides: the other half is appended. */
+static pg_status halve (surface *w, size_t i)
+{
+    pg_status status = PG_OK;
+    PG_GROW (w->dot, w->cap_dot, w->ndot + 1);
+    w->dot[i].area *= 0.5, w->dot[i].size *= 0.5;
+    w->dot[w->ndot++] = w->dot[i];
+done:
+    return status;
+}
+
 /* Strips of the raster: of each row, which one. A row is as wide as its cells in the mean of their local
- * spacings. Rows at the ends without enough area are joined to the next strip. */
+ * spacings. Rows at the ends without enough area are joined to the next strip. Numbers from `rows` on: the
+ * other halves of rows on a border. */
 static pg_status find_strips (surface *w, size_t first, size_t rows, double cell, size_t *strip,
                               size_t *count)
 {
     pg_status status = PG_OK;
     double *width = NULL, *area = NULL, *cells = NULL, *held = NULL, all = 0;
     PG_ALLOC (width, rows);
-    PG_ALLOC (area, rows);
+    PG_ALLOC (area, 2 * rows);
     PG_ALLOC (cells, rows);
     for (size_t i = first; i < w->ndot; i++) {
         const dot *d = &w->dot[i];
-        width[d->row] += cell * sqrt (d->size / d->area), area[d->row] += d->size, cells[d->row]++;
+        width[d->row] += cell * sqrt (d->size / d->area), cells[d->row]++;
     }
     for (size_t i = 0; i < rows; i++) width[i] = cells[i] > 0 ? width[i] / cells[i] : 0, all += width[i];
     *count = pieces_of (&w->p->cloud, all, PG_CONTACT_PIECE);
-    share_out (rows, width, *count, strip);
+    share_out (rows, width, *count, rows, strip);
+    for (size_t i = first, last = w->ndot; i < last; i++) {
+        size_t row = w->dot[i].row;
+        if (strip[row] == strip[rows + row]) continue;
+        PG_TRY (halve (w, i));
+        w->dot[w->ndot - 1].row += rows;
+    }
+    for (size_t i = first; i < w->ndot; i++) area[w->dot[i].row] += w->dot[i].size;
     PG_ALLOC (held, *count);
-    for (size_t i = 0; i < rows; i++) held[strip[i]] += area[i];
+    for (size_t i = 0; i < 2 * rows; i++) held[strip[i]] += area[i];
     for (size_t k = 0; k + 1 < *count; k++) {          /* too small a strip goes to the next */
         if (held[k] >= DOTS_LEAST * FULL) break;
         held[k + 1] += held[k];
-        for (size_t i = 0; i < rows; i++) if (strip[i] == k) strip[i] = k + 1;
+        for (size_t i = 0; i < 2 * rows; i++) if (strip[i] == k) strip[i] = k + 1;
     }
     for (size_t k = *count; k-- > 1;) {
         if (held[k] >= DOTS_LEAST * FULL) break;
         held[k - 1] += held[k];
-        for (size_t i = 0; i < rows; i++) if (strip[i] == k) strip[i] = k - 1;
+        for (size_t i = 0; i < 2 * rows; i++) if (strip[i] == k) strip[i] = k - 1;
     }
 done:
     pg_free (width), pg_free (area), pg_free (cells), pg_free (held);
@@ -167,20 +188,26 @@ static pg_status cut_strip (surface *w, size_t first, const size_t *strip, size_
     double *area = NULL;
     size_t *piece = NULL;
     PG_ALLOC (area, columns);
-    PG_ALLOC (piece, columns);
+    PG_ALLOC (piece, 2 * columns);
     for (size_t i = first; i < w->ndot; i++)
         if (strip[w->dot[i].row] == number) area[w->dot[i].column] += w->dot[i].size;
     for (size_t from = 0, to; from < columns; from = to) {
         double whole = 0;
         for (to = from; to < columns && (area[to] > 0) == (area[from] > 0); to++) whole += area[to];
         if (!(whole > 0)) continue;
-        size_t parts = (size_t) fmax (1, round (whole / FULL));
-        share_out (to - from, area + from, parts, piece + from);
-        for (size_t j = from; j < to; j++) piece[j] += *next;
+        size_t parts = pieces_of (&w->p->cloud, whole, FULL);
+        share_out (to - from, area + from, parts, columns, piece + from);
+        for (size_t j = from; j < to; j++) piece[j] += *next, piece[columns + j] += *next;
         *next += parts;
     }
-    for (size_t i = first; i < w->ndot; i++)
-        if (strip[w->dot[i].row] == number) w->dot[i].piece = piece[w->dot[i].column];
+    for (size_t i = first, last = w->ndot; i < last; i++) {
+        size_t column = w->dot[i].column;
+        if (strip[w->dot[i].row] != number) continue;
+        w->dot[i].piece = piece[column];
+        if (piece[columns + column] == piece[column]) continue;
+        PG_TRY (halve (w, i));
+        w->dot[w->ndot - 1].piece = piece[columns + column];
+    }
 done:
     pg_free (area), pg_free (piece);
     return status;
@@ -284,7 +311,7 @@ static pg_status divide_sheet (surface *w, pg_contact_pieces *out, const pg_crac
     for (size_t i = 0; i < n[0]; i++)
         for (size_t j = 0; j < n[1]; j++) PG_TRY (add_cell (w, c, &s, cell, i, j));
     if (w->ndot == first) return PG_OK;
-    PG_ALLOC (strip, n[0]);
+    PG_ALLOC (strip, 2 * n[0]);
     PG_TRY (find_strips (w, first, n[0], cell[0], strip, &strips));
     for (size_t k = 0; k < strips; k++) PG_TRY (cut_strip (w, first, strip, k, n[1], &count));
     PG_TRY (join_grown (w, c, first));
