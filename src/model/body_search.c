@@ -84,15 +84,15 @@ static double halve (const pg_problem *p, const double *x, const double *e, doub
 static int way_in_shapes (const pg_problem *p, const double *x, const double *e, double limit, double first,
                           double *way)
 {
-    double end[3] = { 0 }, gap[2], near = 0;
+    double end[3] = { 0 }, gap[2], after = 0;            /* in parts of the limit */
     int found;
     if (!p->body.n || !p->between) return 0;
     for (int k = 0; k < p->dim; k++) end[k] = x[k] + limit * e[k];
     *way = limit;
-    for (; (found = pg_between_outside (p->between, x, end, near / limit, gap)) > 0; near = gap[1] * limit) {
+    for (; (found = pg_between_outside (p->between, x, end, after, gap)) > 0; after = gap[1]) {
         double far = 0.5 * (gap[0] + gap[1]) * limit;
         if (gap[1] * limit <= first || body_at (p, x, e, far)) continue;
-        *way = halve (p, x, e, near, far);
+        *way = halve (p, x, e, after * limit, far);
         return 1;
     }
     return !found;
