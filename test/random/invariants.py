@@ -9,7 +9,7 @@ import re
 
 import reference
 from images import Image, mirror, quarter, turn
-from runs import DONE, FAILED, INTERRUPTED, REFUSED, USAGE
+from runs import DONE, FAILED, INTERRUPTED, REFUSED, SLOW, USAGE
 
 LINEAR = ('elastic', 'tips')
 SAME = 1e-7                    # rounding, seen through the condition of a system
@@ -113,7 +113,7 @@ def sound(case):
     odd = re.search(r'.*(?<![a-z])(nan|inf)(?![a-z]).*', '\n'.join([run.said] + run.report.get('warnings', [])))
     if odd:
         yield f'a message names what is no number: {odd.group(0)}'
-    if run.code not in (DONE, USAGE, REFUSED, FAILED):
+    if run.code not in (DONE, USAGE, REFUSED, FAILED, SLOW):
         yield f'exit code {run.code}: {run.first_words()}'
     elif run.code != DONE:
         if len(run.said.strip()) < 30:

@@ -14,6 +14,8 @@ sys.path.append(os.path.join(os.path.dirname(os.path.abspath(__file__)), '..', '
 from launch import LAUNCH  # noqa: E402
 
 DONE, USAGE, REFUSED, FAILED, INTERRUPTED = 0, 64, 65, 70, 130
+SLOW = 'slow'                                           # it was asked to stop after its time, and did: at work, not caught in a loop
+GRACE = 30                                              # seconds of a processor to stop in
 
 
 class Run:
@@ -53,9 +55,19 @@ class Run:
         return lines[0][:220] if lines else ''
 
 
+def spent_by(process):
+    """Seconds of a processor of a process, itself alone; 0: it has ended."""
+    try:
+        with open(f'/proc/{process}/stat', encoding='utf-8') as file:
+            user, system = file.read().rsplit(')', 1)[1].split()[11:13]
+        return (int(user) + int(system)) / os.sysconf('SC_CLK_TCK')
+    except (OSError, ValueError):
+        return 0.0
+
+
 class Program:
     """Starts the program in folders of its own, each once for the same scene and options. A run has so many seconds of a processor, and ten times as long
-    by the clock, since others may be at work."""
+    by the clock, since others may be at work; then it is asked to stop, which it does after the solution or break round at hand."""
 
     def __init__(self, build, work, seconds=60):
         self.program, self.mpi = os.path.abspath(os.path.join(build, 'perigal')), os.path.abspath(os.path.join(build, 'perigal-mpi'))
@@ -77,21 +89,29 @@ class Program:
     def call(self, words, kill_after=None, where=None):
         """Exit code and what it said; kill_after (bytes of history.csv): SIGTERM once so much is written."""
         child = subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL, text=True, errors='replace',
-                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (self.seconds, self.seconds)))
+                                 preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_CPU, (self.seconds + GRACE, self.seconds + GRACE)))
         if kill_after is not None:
             rows, began = os.path.join(where, 'history.csv'), time.monotonic()
             while child.poll() is None and time.monotonic() < began + 10 * self.seconds and not (os.path.exists(rows) and os.path.getsize(rows) > kill_after):
                 time.sleep(0.002)
             if child.poll() is None:
                 child.send_signal(signal.SIGTERM)
-        try:
-            said, _ = child.communicate(timeout=10 * self.seconds)
-            if child.returncode != -signal.SIGKILL and 'signal 9' not in said:
-                return child.returncode, said
-        except subprocess.TimeoutExpired:
-            child.kill()
-            child.communicate()
-        return None, f'no end within {self.seconds} s of a processor'
+        ends, stopped = time.monotonic() + 10 * (self.seconds + GRACE), False
+        while True:
+            try:
+                said, _ = child.communicate(timeout=1)
+                break
+            except subprocess.TimeoutExpired:
+                if time.monotonic() > ends:
+                    child.kill()
+                elif not stopped and spent_by(child.pid) > self.seconds:
+                    child.send_signal(signal.SIGTERM)
+                    stopped = True
+        if stopped and child.returncode == INTERRUPTED:
+            return SLOW, f'at work after {self.seconds} s of a processor'
+        if child.returncode in (-signal.SIGKILL, -signal.SIGTERM) or 'signal 9' in said:
+            return None, f'no end within {self.seconds + GRACE} s of a processor'
+        return child.returncode, said
 
     def run(self, data, files=(), options=('--threads', '1'), kill_after=None, ranks=0):
         key = json.dumps([data, list(files), list(options), kill_after, ranks], sort_keys=True)
