@@ -457,8 +457,10 @@ static void tell_small_step (pg_system *s, size_t used)
     pg_statistics_skip (s->report, NAN, "stiffness matrix, analysis and factorization", why);
 }
 
-/* iterations by the diagonal where the better preconditioner failed: probably a loaded part has come loose */
+/* Iterations by the diagonal where the better preconditioner failed: probably a loaded part has come loose.
+ * Small bodies have as many as they could need, for so many seconds. */
 enum { LAST_TRY = 2000 };
+static const double LAST_SECONDS = 3;
 /* a factor that takes longer is none to fall back to */
 static const double MOST_SECONDS = 600;
 
@@ -539,7 +541,7 @@ static pg_status solve_without_factor (pg_system *s, const dynamics *dyn, double
         pg_status now = system_iterate_preconditioned (s, dyn, tolerance);
         if (now != PG_E_EQUILIBRIUM && now != PG_E_NOT_SPD) return now;
         if (falls_back (s)) return PG_OK;
-        limit = LAST_TRY;
+        limit = (size_t) fmin ((double) limit, fmax (LAST_TRY, LAST_SECONDS / system_apply_cost (s)));
     }
     PG_TRY (system_iterate (s, dyn, BY_DIAGONAL, tolerance, limit, &used));
     if (!can) PG_TRY (leave_diagonal (s, dyn, used));
