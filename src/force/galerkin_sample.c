@@ -6,6 +6,7 @@
  * faces of a crack stay apart. In a body without cracks and broken bonds none of this need be asked, and on a
  * lattice most places are like others (galerkin_sample_alike.c). */
 #include "galerkin.h"
+#include <stdatomic.h>
 #include <stdint.h>
 #include <string.h>
 
@@ -22,6 +23,7 @@ typedef struct {
     int intact, uniform;
     pg_rows rows;                                      /* of the places at hand */
     unsigned char *alive;
+    _Atomic unsigned char *held;                       /* per node: is_held; 0: not asked yet */
     size_t *at;                                        /* nearest evaluation point */
     double time;                                       /* of the state, s; static: load factor */
     double *u, *stress, *gradient;                     /* n x 3; n x 6, n x 9 or NULL */
@@ -68,8 +70,8 @@ static int hurt (const sampling *s, int set, size_t point)
     return 0;
 }
 
-enum { SEEN, LOST, UNKNOWN };
-/* Of node j by a point: its bond lives, or only a pre-crack cuts it; has broken; is none. */
+enum { ALIVE, CUT, LOST, UNKNOWN };
+/* Of node j by a point: its bond lives; only a pre-crack cuts it; has broken; is none. */
 static int view (const sampling *s, int set, size_t point, int j)
 {
     const pg_family *f = &s->g->rows[set].family;
@@ -80,17 +82,37 @@ static int view (const sampling *s, int set, size_t point, int j)
         else high = middle;
     }
     if (low == f->start[point + 1] || f->node[low] != j) return UNKNOWN;
-    return broken (s, set, point, low) ? LOST : SEEN;
+    if (s->state->alive[s->g->problem->first_bond[set] + low]) return ALIVE;
+    return broken (s, set, point, low) ? LOST : CUT;
+}
+
+/* Does one of the evaluation points nearest to node j, on its side of the cracks, see it? Else no stiffness
+ * holds it, such as between two cracks, and its coefficient means nothing. Threads find the same. */
+static int is_held (sampling *s, int j)
+{
+    enum { HELD = 1, LOOSE };
+    const galerkin *g = s->g;
+    size_t point[PG_NEAREST_MOST], n;
+    int known = atomic_load_explicit (&s->held[j], memory_order_relaxed);
+    if (known) return known == HELD;
+    known = LOOSE;
+    n = pg_nearest_all (g->near_point, node_at (g, j), PG_NO_LENGTH * g->problem->cloud.h, point_hidden, s,
+                        point);
+    for (size_t k = 0; k < n; k++) if (view (s, g->bulk, point[k], j) == ALIVE) known = HELD;
+    atomic_store_explicit (&s->held[j], (unsigned char) known, memory_order_relaxed);
+    return known == HELD;
 }
 
 /* Whether a place sees node j is asked of its nearest evaluation point q, then of its nearest node i. A node
  * at the rim that neither knows counts unless both i and j have lost bonds. */
-static int sees (const sampling *s, size_t q, size_t i, int lost /* i has lost bonds */, int j)
+static int sees (sampling *s, size_t q, size_t i, int lost /* i has lost bonds */, int j)
 {
     int bulk = s->g->bulk, answer = view (s, bulk, q, j);
-    if (answer == UNKNOWN && bulk != PG_NODES) answer = view (s, PG_NODES, i, j);
-    if (answer != UNKNOWN) return answer == SEEN;
-    return !(lost && hurt (s, PG_NODES, (size_t) j));
+    if (answer == ALIVE || answer == LOST) return answer == ALIVE;
+    if (bulk == PG_NODES) return answer == CUT || !(lost && hurt (s, PG_NODES, (size_t) j));
+    if (!is_held (s, j)) return 0;
+    if (answer == UNKNOWN) answer = view (s, PG_NODES, i, j);
+    return answer == UNKNOWN ? !(lost && hurt (s, PG_NODES, (size_t) j)) : answer != LOST;
 }
 
 /* The nearest that no pre-crack hides, else the nearest. */
@@ -271,11 +293,12 @@ static pg_status make_rows (sampling *s, size_t n, const double *x, int *own)
     PG_ALLOC (s->rows.dN, bonds * dim);
     PG_ALLOC (s->rows.grade, n);
     if (!s->intact) PG_ALLOC (s->alive, bonds);
+    if (!s->intact) PG_ALLOC (s->held, s->g->n);
     if (!s->intact) pg_parallel (s->g->threads, n, find_bonds, s);
     else if (!s->uniform) pg_parallel (s->g->threads, n, find_points, s);
     PG_TRY (a.type->evaluate (&a, &p->cloud, &s->rows, s->alive, n, NULL, s->g->threads));
 done:
-    pg_free (s->alive), s->alive = NULL;
+    pg_free (s->alive), pg_free (s->held), s->alive = NULL, s->held = NULL;
     return status;
 }
 

@@ -379,7 +379,7 @@ struct pg_solver {
     pg_statistics report;
     int shared;                                        /* the report is that of all ranks */
     int begun, started, finished, warned_overlap, warned_energy, warned_facets,
-           warned_balance, warned_blind;
+           warned_balance, warned_blind, warned_alone;
     long      next_level;                              /* next level to report: next_level / levels */
     double    turned, turned_at;                       /* largest turn of a family, rad; since when */
     pg_state *backup;                                  /* last accepted state, for refused steps */

@@ -146,6 +146,20 @@ static void tell_blind (pg_solver *s)
                         r->degenerate_points == 1 ? "s" : "", r->degenerate_points == 1 ? "ies" : "y");
 }
 
+/* The same of points that hang on nothing, of which their displacement alone is shown, which means nothing. */
+static void tell_alone (pg_solver *s)
+{
+    size_t n = s->report.isolated_nodes;
+    if (s->warned_alone || n <= s->problem->patch.isolated) return;
+    s->warned_alone = 1;
+    pg_statistics_warn (&s->report,
+                        "%zu point%s lie%s on a crack or between cracks where no evaluation point sees %s: %s "
+                        "displacement is not to be trusted; a smaller spacing there, or a lattice offset that "
+                        "puts no point there, helps",
+                        n, n == 1 ? "" : "s", n == 1 ? "s" : "", n == 1 ? "it" : "them",
+                        n == 1 ? "its" : "their");
+}
+
 pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *scene)
 {
     pg_status status = PG_OK;
@@ -159,7 +173,7 @@ pg_status pg_solver_begin (pg_solver *s, const pg_state *state, const pg_scene *
     PG_TRY (check_parts (s, state));
     if (state->step == 0) {
         PG_TRY (count_points (s));
-        tell_blind (s);
+        tell_blind (s), tell_alone (s);
     }
     s->begun = 1;
 done:
@@ -475,7 +489,7 @@ const pg_statistics *pg_solver_report (pg_solver *s, const pg_state *state)
                             "points that see too little, points alone and parts of the body could not be "
                             "counted: %.120s",
                             pg_last_error ());
-    if (s->break_loop.growth) tell_blind (s);
+    if (s->break_loop.growth) tell_blind (s), tell_alone (s);
     if (!pg_problem_removes (s->problem) && !short_range (s)) contact_note_overlap (sys, state);
     if (pg_ranks_most (1, &s->report.overlap_max) != PG_OK) s->report.overlap_max = NAN;
     if (sys->force->unended) s->report.unended_cells = sys->force->unended (sys->self);
