@@ -115,54 +115,61 @@ static void doubt_all (pg_statistics *report, const pg_problem *p)
                     "its surface alone: sets: {NAME: {boundary: all}}, or essential: nitsche");
 }
 
-/* How far the points of a set lie inside its facets, m, on the mean; *across: the extent of the body along
- * the normals there, m. 0: it has no facets, or its points lie on them. All ranks ask. */
-static double depth_of (const pg_problem *p, const pg_set *set, double *across)
+/* How far the points of a set lie inside its facets, m, on the mean; along: mean sizes of the components of the
+ * normals there. 0: it has no facets, or its points lie on them. All ranks ask. */
+static double depth_of (const pg_problem *p, const pg_set *set, double *along)
 {
     enum { SAMPLE = 64 };
     size_t dim = (size_t) p->dim, step = set->nfacet / SAMPLE + 1;
-    double sum[3] = { 0 };                             /* of depths, of extents, of facets */
+    double sum[5] = { 0 };                             /* of facets, of depths, of components */
     for (size_t f = 0; f < set->nfacet; f += step) {
         if (!set->npoint || !pg_problem_owns_facet (p, (size_t) set->facet[f])) continue;
         const double *c = p->cells.facet_centre + (size_t) set->facet[f] * dim,
                      *n = p->cells.normal + (size_t) set->facet[f] * dim;
-        double best = INFINITY, deep = 0;
+        double best = INFINITY, depth = 0;
         for (size_t i = 0; i < set->npoint; i++) {
-            double far = 0, along = 0;
+            double far = 0, inside = 0;
             for (size_t k = 0; k < dim; k++) {
                 double d = c[k] - p->cloud.x[(size_t) set->point[i] * dim + k];
-                far += d * d, along += d * n[k];
+                far += d * d, inside += d * n[k];
             }
-            if (far < best) best = far, deep = along;
+            if (far < best) best = far, depth = inside;
         }
-        sum[0] += deep, sum[2] += 1;
-        for (size_t k = 0; k < dim; k++) sum[1] += fabs (n[k]) * (p->cloud.high[k] - p->cloud.low[k]);
+        sum[0] += 1, sum[1] += depth;
+        for (size_t k = 0; k < dim; k++) sum[2 + k] += fabs (n[k]);
     }
-    if (p->cloud.subdomain && pg_ranks_sum (3, sum) != PG_OK) sum[2] = 0;
-    *across = sum[2] > 0 ? sum[1] / sum[2] : 0;
-    return sum[2] > 0 ? sum[0] / sum[2] : 0;
+    if (p->cloud.subdomain && pg_ranks_sum (5, sum) != PG_OK) sum[0] = 0;
+    for (size_t k = 0; k < 3; k++) along[k] = sum[0] > 0 ? sum[2 + k] / sum[0] : 0;
+    return sum[0] > 0 ? sum[1] / sum[0] : 0;
 }
 
 /* Prescribed at points, displacements act where these lie: on a lattice of centres half a spacing inside the
- * surface, so that the body is that much shorter for its loads. */
+ * surface, so that the body is that much shorter for its loads, by both ends together. */
 static void doubt_depth (pg_statistics *report, const pg_problem *p)
 {
-    double across;
+    double deepest = 0, along[3], shorter[3] = { 0 }, most = 0;
+    const char *name = "";
+    size_t loads = 0;
     if (!p->method || !p->method->shape_functions) return;
     for (size_t l = 0; l < p->nload; l++) {
         const pg_load *load = &p->load[l];
         if (!pg_load_prescribes (load) || load->essential == PG_ESSENTIAL_NITSCHE || load->share
             || pg_set_points (load->set) <= (size_t) p->dim)
             continue;                                  /* so few points are a pin */
-        double deep = depth_of (p, load->set, &across);
-        if (!(deep > 0.1 * p->cloud.h) || !(across > 0)) continue;
-        pg_statistics_warn (report,
-                            "%.40s acts at points %.3g m inside the surface, %.2g spacings: the body is "
-                            "about %.2g %% shorter for it, and as much too stiff; essential: nitsche acts on "
-                            "the surface, as does lattice: nodes",
-                            load->name, deep, deep / p->cloud.h, 100 * deep / across);
-        return;
+        double deep = depth_of (p, load->set, along);
+        if (!(deep > 0.1 * p->cloud.h)) continue;
+        loads++;
+        if (deep > deepest) deepest = deep, name = load->name;
+        for (int k = 0; k < p->dim; k++) shorter[k] += deep * along[k] / (p->cloud.high[k] - p->cloud.low[k]);
     }
+    for (int k = 0; k < p->dim; k++) if (shorter[k] > most) most = shorter[k];
+    if (!loads) return;
+    pg_statistics_warn (report,
+                        "%.40s acts at points %.3g m inside the surface, %.2g spacings: the body is about "
+                        "%.2g %% shorter for it%s, and as much too stiff; essential: nitsche acts on the "
+                        "surface, as does lattice: nodes",
+                        name, deepest, deepest / p->cloud.h, 100 * most,
+                        loads > 1 ? " and the other supports" : "");
 }
 
 /* Where a load acts along axis k: its extent along axis q, from low to high, m. 0: nowhere. */
