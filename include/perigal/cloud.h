@@ -412,8 +412,8 @@ void      pg_nearest_free   (pg_nearest **nearest);
 /* The nearest point that is not refused (refuse NULL: none is); of equally near ones the lowest number; -1:
  * all are refused. Thread-safe. */
 long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_refuse refuse, void *context);
-/* All points that are as near as the nearest one up to `same` (m), at most PG_NEAREST_MOST of them: returns how
- * many; 0: all are refused. What is taken from the nearest point is the mean over these, so that neither
+/* All points that are as near as the nearest one up to `same` (m), at most PG_NEAREST_MOST of them: returns
+ * how many; 0: all are refused. What is taken from the nearest point is the mean over these, so that neither
  * numbers nor rounding choose. Thread-safe. */
 #define PG_NEAREST_MOST 16
 size_t    pg_nearest_all    (const pg_nearest *nearest, const double *place, double same, pg_refuse refuse,

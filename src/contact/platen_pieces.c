@@ -92,7 +92,8 @@ static void find_places (facing *f)
         const double *x = f->q->x + c->at * dim;
         double v[3] = { 0 }, flat = 0;
         for (size_t k = 0; k < dim; k++) v[k] = x[k] - p->point[k];
-        for (size_t a = 0; a + 1 < dim; a++) c->s[a] = product (v, f->along[a], dim), flat += c->s[a] * c->s[a];
+        for (size_t a = 0; a + 1 < dim; a++)
+            c->s[a] = product (v, f->along[a], dim), flat += c->s[a] * c->s[a];
         flat = sqrt (flat);
         if (p->shape == PG_PLATEN_PLANE || !(flat > 0)) continue;
         double ahead = (p->concave ? -1 : 1) * product (v, mean, dim);

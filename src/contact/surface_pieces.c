@@ -112,8 +112,8 @@ done:
     return status;
 }
 
-/* Which part of `parts` equal ones holds the middle of each of n sizes that follow each other? Where it lies on
- * a border, part[far + i] is the part beyond that; else the same. */
+/* Which part of `parts` equal ones holds the middle of each of n sizes that follow each other? Where it lies
+ * on a border, part[far + i] is the part beyond that; else the same. */
 static void share_out (size_t n, const double *size, size_t parts, size_t far, size_t *part)
 {
     double whole = 0, passed = 0, most = (double) parts - 1;
@@ -137,22 +137,54 @@ done:
     return status;
 }
 
-/* Strips of the raster: of each row, which one. A row is as wide as its cells in the mean of their local
- * spacings. Rows at the ends without enough area are joined to the next strip. Numbers from `rows` on: the
- * other halves of rows on a border. */
-static pg_status find_strips (surface *w, size_t first, size_t rows, double cell, size_t *strip,
-                              size_t *count)
+/* How wide the rows are, as their cells in the mean of the local spacings; returns the width of all. */
+static pg_status row_widths (const surface *w, size_t first, size_t rows, double cell, double *width,
+                             double *all)
 {
     pg_status status = PG_OK;
-    double *width = NULL, *area = NULL, *cells = NULL, *held = NULL, all = 0;
-    PG_ALLOC (width, rows);
-    PG_ALLOC (area, 2 * rows);
+    double *cells = NULL;
     PG_ALLOC (cells, rows);
     for (size_t i = first; i < w->ndot; i++) {
         const dot *d = &w->dot[i];
         width[d->row] += cell * sqrt (d->size / d->area), cells[d->row]++;
     }
-    for (size_t i = 0; i < rows; i++) width[i] = cells[i] > 0 ? width[i] / cells[i] : 0, all += width[i];
+    *all = 0;
+    for (size_t i = 0; i < rows; i++) width[i] = cells[i] > 0 ? width[i] / cells[i] : 0, *all += width[i];
+done:
+    pg_free (cells);
+    return status;
+}
+
+/* Of `rows` rows, strips at the ends that are too small go to the next, until one is large enough. */
+static pg_status join_small (size_t rows, const double *area, size_t *strip, size_t count)
+{
+    pg_status status = PG_OK;
+    double *held = NULL;
+    PG_ALLOC (held, count);
+    for (size_t i = 0; i < rows; i++) held[strip[i]] += area[i];
+    for (size_t k = 0; k + 1 < count && held[k] < DOTS_LEAST * FULL; k++) {
+        held[k + 1] += held[k];
+        for (size_t i = 0; i < rows; i++) if (strip[i] == k) strip[i] = k + 1;
+    }
+    for (size_t k = count; k-- > 1 && held[k] < DOTS_LEAST * FULL;) {
+        held[k - 1] += held[k];
+        for (size_t i = 0; i < rows; i++) if (strip[i] == k) strip[i] = k - 1;
+    }
+done:
+    pg_free (held);
+    return status;
+}
+
+/* Strips of the raster: of each row, which one; numbers from `rows` on are the other halves of rows on a
+ * border. */
+static pg_status find_strips (surface *w, size_t first, size_t rows, double cell, size_t *strip,
+                              size_t *count)
+{
+    pg_status status = PG_OK;
+    double *width = NULL, *area = NULL, all = 0;
+    PG_ALLOC (width, rows);
+    PG_ALLOC (area, 2 * rows);
+    PG_TRY (row_widths (w, first, rows, cell, width, &all));
     *count = pieces_of (&w->p->cloud, all, PG_CONTACT_PIECE);
     share_out (rows, width, *count, rows, strip);
     for (size_t i = first, last = w->ndot; i < last; i++) {
@@ -162,20 +194,9 @@ static pg_status find_strips (surface *w, size_t first, size_t rows, double cell
         w->dot[w->ndot - 1].row += rows;
     }
     for (size_t i = first; i < w->ndot; i++) area[w->dot[i].row] += w->dot[i].size;
-    PG_ALLOC (held, *count);
-    for (size_t i = 0; i < 2 * rows; i++) held[strip[i]] += area[i];
-    for (size_t k = 0; k + 1 < *count; k++) {          /* too small a strip goes to the next */
-        if (held[k] >= DOTS_LEAST * FULL) break;
-        held[k + 1] += held[k];
-        for (size_t i = 0; i < 2 * rows; i++) if (strip[i] == k) strip[i] = k + 1;
-    }
-    for (size_t k = *count; k-- > 1;) {
-        if (held[k] >= DOTS_LEAST * FULL) break;
-        held[k - 1] += held[k];
-        for (size_t i = 0; i < 2 * rows; i++) if (strip[i] == k) strip[i] = k - 1;
-    }
+    PG_TRY (join_small (2 * rows, area, strip, *count));
 done:
-    pg_free (width), pg_free (area), pg_free (cells), pg_free (held);
+    pg_free (width), pg_free (area);
     return status;
 }
 

@@ -3,12 +3,12 @@
  * Salkauskas 1981) through the displacements of the points that a place sees.
  *
  * A place x sees the nearest point i that no crack hides from it (all of them where several are as near), and
- * those of i's neighbours whose bond with i lives and that no crack hides from x either: so neither a crack that is geometry nor one that is only
- * broken bonds is looked across. In z = (x_j - x) / R, R three local spacings, the polynomial sum_a c_a p_a
- * (z) with p = 1, z_k, z_k z_l minimises sum_j w_j (u_j - p (z_j) c)^2 with w = (1 - |z|^2)^2; the gradient
- * at x is c_k / R. The quadratic basis is exact for quadratic fields; where too few points are left (a
- * corner between crack faces) the linear one serves, and where even these lie on a line there is no
- * gradient. */
+ * those of i's neighbours whose bond with i lives and that no crack hides from x either: so neither a crack
+ * that is geometry nor one that is only broken bonds is looked across. In z = (x_j - x) / R, R three local
+ * spacings, the polynomial sum_a c_a p_a (z) with p = 1, z_k, z_k z_l minimises sum_j w_j (u_j - p (z_j) c)^2
+ * with w = (1 - |z|^2)^2; the gradient at x is c_k / R. The quadratic basis is exact for quadratic fields;
+ * where too few points are left (a corner between crack faces) the linear one serves, and where even these
+ * lie on a line there is no gradient. */
 #include "gradient_fit.h"
 #include <math.h>
 #include <string.h>
@@ -74,8 +74,8 @@ static int basis (int dim, int degree, const double *z, double *term)
     return n;
 }
 
-/* Sums of one fit: the moments (terms x terms), and for each field and component the right-hand side. `row`:
- * instead of these the sizes of the weights in the gradient are summed, of which it holds the coefficients. */
+/* Sums of one fit: the moments (terms x terms), and for each field and component the right-hand side. With
+ * `row`, the coefficients of the gradient, the sizes of its weights are summed instead. */
 typedef struct {
     int terms, degree;
     const double *row;                                 /* dim x terms */
@@ -111,32 +111,57 @@ static void add_point (const gradient_fit *fit, sums *s, const double *x, size_t
                 s->side[(f * dim + c) * m + a] += w * term[a] * d[f][j * stride + c];
 }
 
-/* The sums over what x sees from point i. */
-static void add_all (const gradient_fit *fit, view *v, sums *s, const double *x, size_t i, size_t n,
-                     const double *const *d)
+/* A place, and the points through which it sees others. */
+typedef struct {
+    const gradient_fit *fit;
+    view v;
+    const double *x;
+    size_t n, from[PG_NEAREST_MOST];
+} site;
+
+/* The sums over what x sees from its points. */
+static void add_all (site *at, sums *s, size_t n, const double *const *d)
 {
+    const gradient_fit *fit = at->fit;
     const pg_problem *p = fit->problem;
     const pg_family *family = &p->rows[PG_NODES].family;
     const unsigned char *alive = fit->state->alive + p->first_bond[PG_NODES];
-    add_point (fit, s, x, i, n, d);
-    for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
-        size_t j = (size_t) family->node[e];
-        if (j == i || !alive[e] || (v->cracks->n && hidden (v, x, j))) continue;
-        add_point (fit, s, x, j, n, d);
+    for (size_t k = 0; k < at->n; k++) {
+        size_t i = at->from[k];
+        add_point (fit, s, at->x, i, n, d);
+        for (size_t e = family->start[i]; e < family->start[i + 1]; e++) {
+            size_t j = (size_t) family->node[e];
+            if (j == i || !alive[e] || (at->v.cracks->n && hidden (&at->v, at->x, j))) continue;
+            add_point (fit, s, at->x, j, n, d);
+        }
     }
 }
 
 /* Whether the gradient of a fit whose moments are factored is made of large parts that cancel. */
-static int is_loud (const gradient_fit *fit, view *v, sums *s, const double *x, const size_t *from,
-                    size_t nfrom)
+static int is_loud (site *at, sums *s)
 {
-    size_t dim = (size_t) fit->problem->dim, m = (size_t) s->terms;
+    size_t dim = (size_t) at->fit->problem->dim, m = (size_t) s->terms;
     double row[3 * MOST_TERMS] = { 0 }, most = 0;
-    for (size_t k = 0; k < dim; k++) row[k * m + 1 + k] = 1, pg_dense_solve (s->terms, s->moment, row + k * m);
+    for (size_t k = 0; k < dim; k++) {
+        row[k * m + 1 + k] = 1;
+        pg_dense_solve (s->terms, s->moment, row + k * m);
+    }
     s->row = row, memset (s->weights, 0, sizeof s->weights);
-    for (size_t k = 0; k < nfrom; k++) add_all (fit, v, s, x, from[k], 0, NULL);
+    add_all (at, s, 0, NULL);
+    s->row = NULL;
     for (size_t k = 0; k < dim; k++) most = fmax (most, s->weights[k]);
     return most > loud * reach;
+}
+
+/* Moments of a degree, factored, and right-hand sides; 0: the points do not determine its terms. */
+static int fit_degree (site *at, sums *s, int degree, size_t n, const double *const *d)
+{
+    double none[3] = { 0 }, term[MOST_TERMS], radius = s->radius;
+    *s = (sums) { .degree = degree, .terms = basis (at->fit->problem->dim, degree, none, term),
+                  .radius = radius };
+    add_all (at, s, n, d);
+    if (pg_dense_cholesky (s->terms, s->moment, flat[degree])) return 0;
+    return degree == 1 || !is_loud (at, s);
 }
 
 /* The stress is that of the material of the nearest point and the gradient. */
@@ -161,41 +186,36 @@ done:
     return status;
 }
 
+/* Displacement (3 numbers, or NULL) and gradient of field f by a fit of that degree; 0: no numbers. */
+static void take_field (sums *s, size_t f, size_t dim, double *u, double *gradient)
+{
+    double none = s->degree ? 0 : NAN;
+    for (size_t c = 0; u && c < 3; c++) u[c] = none;
+    for (size_t k = 0; !s->degree && k < 9; k++) gradient[k] = NAN;
+    for (size_t c = 0; s->degree && c < dim; c++) {
+        double *coefficient = s->side + (f * dim + c) * (size_t) s->terms;
+        pg_dense_solve (s->terms, s->moment, coefficient);
+        if (u) u[c] = coefficient[0];
+        for (size_t k = 0; k < dim; k++) gradient[c * dim + k] = coefficient[1 + k] / s->radius;
+    }
+}
+
 /* The quadratic fit, else the linear one. */
 int gradient_fit_at (const gradient_fit *fit, const double *x, size_t n, const double *const *d, double *u,
                      double *gradient)
 {
     const pg_problem *p = fit->problem;
-    size_t dim = (size_t) p->dim;
-    view v = { p, pg_state_cracks (p, fit->state) };
-    size_t from[PG_NEAREST_MOST], nfrom = 0;
-    double same = PG_NO_LENGTH * p->cloud.h, spacing = 0;
-    if (v.cracks->n) nfrom = pg_nearest_all (fit->near, x, same, hidden, &v, from);
-    if (!nfrom) nfrom = pg_nearest_all (fit->near, x, same, NULL, NULL, from);
-    for (size_t k = 0; k < nfrom; k++) spacing = fmax (spacing, pg_problem_spacing (p, PG_NODES, from[k]));
-    for (int degree = 2; degree > 0; degree--) {
-        double none[3] = { 0 }, term[MOST_TERMS];
-        sums s = { .degree = degree, .terms = basis (p->dim, degree, none, term),
-                   .radius = reach * spacing };
-        size_t m = (size_t) s.terms;
-        for (size_t k = 0; k < nfrom; k++) add_all (fit, &v, &s, x, from[k], n, d);
-        if (pg_dense_cholesky (s.terms, s.moment, flat[degree])) continue;
-        if (degree == 2 && is_loud (fit, &v, &s, x, from, nfrom)) continue;
-        for (size_t f = 0; f < n; f++) {
-            if (u) memset (u + 3 * f, 0, 3 * sizeof *u);
-            for (size_t c = 0; c < dim; c++) {
-                double *coefficient = s.side + (f * dim + c) * m;
-                pg_dense_solve (s.terms, s.moment, coefficient);
-                if (u) u[3 * f + c] = coefficient[0];
-                for (size_t k = 0; k < dim; k++)
-                    gradient[9 * f + c * dim + k] = coefficient[1 + k] / s.radius;
-            }
-        }
-        return degree;
-    }
-    for (size_t f = 0; f < n; f++) {
-        for (size_t c = 0; u && c < 3; c++) u[3 * f + c] = NAN;
-        for (size_t k = 0; k < 9; k++) gradient[9 * f + k] = NAN;
-    }
-    return 0;
+    site at = { .fit = fit, .v = { p, pg_state_cracks (p, fit->state) }, .x = x };
+    double same = PG_NO_LENGTH * p->cloud.h;
+    sums s = { .radius = 0 };
+    int degree = 2;
+    if (at.v.cracks->n) at.n = pg_nearest_all (fit->near, x, same, hidden, &at.v, at.from);
+    if (!at.n) at.n = pg_nearest_all (fit->near, x, same, NULL, NULL, at.from);
+    for (size_t k = 0; k < at.n; k++)
+        s.radius = fmax (s.radius, reach * pg_problem_spacing (p, PG_NODES, at.from[k]));
+    while (degree > 0 && !fit_degree (&at, &s, degree, n, d)) degree--;
+    s.degree = degree;
+    for (size_t f = 0; f < n; f++)
+        take_field (&s, f, (size_t) p->dim, u ? u + 3 * f : NULL, gradient + 9 * f);
+    return degree;
 }

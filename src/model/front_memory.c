@@ -33,7 +33,8 @@ pg_status pg_front_copy (pg_front *to, const pg_front *from)
     size_t n = from->n;
     PG_TRY (pg_front_reserve (to, n));
     PG_GROW (to->rim, to->rim_capacity, from->nrim);
-    to->id = from->id, to->of = from->of, to->closed = from->closed, to->open = from->open, to->n = n, to->nrim = from->nrim;
+    to->id = from->id, to->of = from->of;
+    to->closed = from->closed, to->open = from->open, to->n = n, to->nrim = from->nrim;
     if (n) {
         memcpy (to->x, from->x, 3 * n * sizeof *to->x);
         memcpy (to->normal, from->normal, 3 * n * sizeof *to->x);

@@ -125,13 +125,14 @@ static void diagonal_mass (void *context, double *d)
 }
 
 /* a += the acceleration that the residual gives to what is free: by division with a lumped mass, else by
- * conjugate gradients. */
+ * conjugate gradients, on all ranks where one of them has prescribed nodes. */
 static pg_status accelerate (pg_system *sys, double *a)
 {
     pg_status status = PG_OK;
     const pg_sparse *T = elimination (sys);
-    for (size_t i = 0; !T && !sys->M && i < sys->ndof; i++) a[i] += sys->residual[i] / sys->mass[i];
-    if (!T && !sys->M) return PG_OK;
+    int divides = !(system_most (sys, T || sys->M) > 0);
+    for (size_t i = 0; divides && i < sys->ndof; i++) a[i] += sys->residual[i] / sys->mass[i];
+    if (divides) return PG_OK;
     pg_operator op = { sys->nred, sys, apply_mass, diagonal_mass };
     size_t used = 0;
     if (T) pg_sparse_multiply_transposed (T, sys->residual, sys->reduced);

@@ -146,16 +146,16 @@ static void tell_blind (pg_solver *s)
                         r->degenerate_points == 1 ? "s" : "", r->degenerate_points == 1 ? "ies" : "y");
 }
 
-/* The same of points that hang on nothing, of which their displacement alone is shown, which means nothing. */
+/* The same of points that hang on nothing: nothing says what their displacement is. */
 static void tell_alone (pg_solver *s)
 {
     size_t n = s->report.isolated_nodes;
     if (s->warned_alone || n <= s->problem->patch.isolated) return;
     s->warned_alone = 1;
     pg_statistics_warn (&s->report,
-                        "%zu point%s lie%s on a crack or between cracks where no evaluation point sees %s: %s "
-                        "displacement is not to be trusted; a smaller spacing there, or a lattice offset that "
-                        "puts no point there, helps",
+                        "%zu point%s lie%s on a crack or between cracks where no evaluation point sees %s: "
+                        "%s displacement is not to be trusted; a smaller spacing there, or a lattice offset "
+                        "that puts no point there, helps",
                         n, n == 1 ? "" : "s", n == 1 ? "s" : "", n == 1 ? "it" : "them",
                         n == 1 ? "its" : "their");
 }

@@ -115,8 +115,8 @@ static void doubt_all (pg_statistics *report, const pg_problem *p)
                     "its surface alone: sets: {NAME: {boundary: all}}, or essential: nitsche");
 }
 
-/* How far the points of a set lie inside its facets, m, on the mean; along: mean sizes of the components of the
- * normals there. 0: it has no facets, or its points lie on them. All ranks ask. */
+/* How far the points of a set lie inside its facets, m, on the mean; along: mean sizes of the components of
+ * the normals there. 0: it has no facets, or its points lie on them. All ranks ask. */
 static double depth_of (const pg_problem *p, const pg_set *set, double *along)
 {
     enum { SAMPLE = 64 };
