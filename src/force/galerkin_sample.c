@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: GPL-3.0-or-later
  * Displacement, its gradient and stress at any place, by the method's own shape functions evaluated there.
  * Which bonds live at a place: those that no crack cuts, and whose node the nearest evaluation point and the
- * nearest node on the same side of the cracks have not lost since. Where that leaves a poorer basis than the
+ * nearest node on the same side of the cracks (all of them where several are as near) have not lost since.
+ * Where that leaves a poorer basis than the
  * evaluation point has, its first-order expansion u_q + grad u_q (x - x_q) and its stress hold. So the two
  * faces of a crack stay apart. In a body without cracks and broken bonds none of this need be asked, and on a
  * lattice most places are like others (galerkin_sample_alike.c). */
@@ -103,23 +104,56 @@ static int is_held (sampling *s, int j)
     return known == HELD;
 }
 
-/* Whether a place sees node j is asked of its nearest evaluation point q, then of its nearest node i. A node
- * at the rim that neither knows counts unless both i and j have lost bonds. */
-static int sees (sampling *s, size_t q, size_t i, int lost /* i has lost bonds */, int j)
+/* Points of a bond set that are as near to a place. */
+typedef struct { int set; size_t n, point[PG_NEAREST_MOST]; } nearest_points;
+
+/* The nearest that no pre-crack hides, else the nearest. */
+static void find_nearest (sampling *s, const double *x, int set, nearest_points *out)
 {
-    int bulk = s->g->bulk, answer = view (s, bulk, q, j);
+    const galerkin *g = s->g;
+    const pg_nearest *grid = set == g->bulk ? g->near_point : g->near_node;
+    pg_refuse refuse = set == g->bulk ? point_hidden : node_hidden;
+    double same = PG_NO_LENGTH * g->problem->cloud.h;
+    out->set = set, out->n = 0;
+    if (pg_state_cracks (g->problem, s->state)->n)
+        out->n = pg_nearest_all (grid, x, same, refuse, s, out->point);
+    if (!out->n) out->n = pg_nearest_all (grid, x, same, NULL, NULL, out->point);
+}
+
+/* What all of them know of node j: alive for one, else lost for one, else cut off. */
+static int view_of_all (const sampling *s, const nearest_points *q, int j)
+{
+    int answer = UNKNOWN;
+    for (size_t k = 0; k < q->n && answer != ALIVE; k++) {
+        int now = view (s, q->set, q->point[k], j);
+        if (now == ALIVE || now == LOST || answer == UNKNOWN) answer = now;
+    }
+    return answer;
+}
+
+/* Whether a place sees node j is asked of its nearest evaluation points q, then of its nearest nodes i. A node
+ * at the rim that none of them knows counts unless it and one of i have lost bonds. */
+static int sees (sampling *s, const nearest_points *q, const nearest_points *i, int lost /* one of i has */,
+                 int j)
+{
+    int answer = view_of_all (s, q, j);
     if (answer == ALIVE || answer == LOST) return answer == ALIVE;
-    if (bulk == PG_NODES) return answer == CUT || !(lost && hurt (s, PG_NODES, (size_t) j));
+    if (q->set == PG_NODES) return answer == CUT || !(lost && hurt (s, PG_NODES, (size_t) j));
     if (!is_held (s, j)) return 0;
-    if (answer == UNKNOWN) answer = view (s, PG_NODES, i, j);
+    if (answer == UNKNOWN) answer = view_of_all (s, i, j);
     return answer == UNKNOWN ? !(lost && hurt (s, PG_NODES, (size_t) j)) : answer != LOST;
 }
 
-/* The nearest that no pre-crack hides, else the nearest. */
-static size_t nearest_seen (sampling *s, const pg_nearest *grid, const double *x, pg_refuse refuse)
+/* Of the nearest evaluation points one with the most whole basis, by which places are judged. */
+static size_t best_of (const sampling *s, const nearest_points *q)
 {
-    long found = pg_nearest_find (grid, x, pg_state_cracks (s->g->problem, s->state)->n ? refuse : NULL, s);
-    return (size_t) (found >= 0 ? found : pg_nearest_find (grid, x, NULL, NULL));
+    const unsigned char *grade = s->g->rows[q->set].grade;
+    size_t best = q->point[0];
+    for (size_t k = 1; k < q->n; k++) {
+        size_t now = q->point[k];
+        if (grade[now] < grade[best] || (grade[now] == grade[best] && now < best)) best = now;
+    }
+    return best;
 }
 
 static void find_bonds (void *context, size_t first, size_t last, int thread)
@@ -130,13 +164,17 @@ static void find_bonds (void *context, size_t first, size_t last, int thread)
     (void) thread;
     for (size_t p = first; p < last; p++) {
         const double *x = s->rows.x + p * (size_t) g->dim;
-        size_t q = s->at[p] = nearest_seen (s, g->near_point, x, point_hidden);
-        size_t i = g->bulk == PG_NODES ? q : nearest_seen (s, g->near_node, x, node_hidden);
-        int lost = hurt (s, PG_NODES, i);
+        nearest_points q, i;
+        int lost = 0;
+        find_nearest (s, x, g->bulk, &q);
+        if (g->bulk == PG_NODES) i = q;
+        else find_nearest (s, x, PG_NODES, &i);
+        s->at[p] = best_of (s, &q);
+        for (size_t k = 0; k < i.n; k++) lost |= hurt (s, PG_NODES, i.point[k]);
         for (size_t e = f->start[p]; e < f->start[p + 1]; e++) {
             int j = f->node[e];
             s->alive[e] = j == s->rows.own[p]
-                          || (!cut (s, x, node_at (g, j)) && sees (s, q, i, lost, j));
+                          || (!cut (s, x, node_at (g, j)) && sees (s, &q, &i, lost, j));
         }
     }
 }
@@ -146,8 +184,11 @@ static void find_points (void *context, size_t first, size_t last, int thread)
 {
     sampling *s = context;
     (void) thread;
-    for (size_t p = first; p < last; p++)
-        s->at[p] = nearest_seen (s, s->g->near_point, s->rows.x + p * (size_t) s->g->dim, point_hidden);
+    for (size_t p = first; p < last; p++) {
+        nearest_points q;
+        find_nearest (s, s->rows.x + p * (size_t) s->g->dim, s->g->bulk, &q);
+        s->at[p] = best_of (s, &q);
+    }
 }
 
 /* Are all bonds of nodes and evaluation points there, and is no crack? Do all points know their material and
