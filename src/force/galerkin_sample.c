@@ -131,7 +131,7 @@ static int view_of_all (const sampling *s, const nearest_points *q, int j)
     return answer;
 }
 
-/* Whether a place sees node j is asked of its nearest evaluation points q, then of its nearest nodes i. A node
+/* Whether a place sees node j is asked of its nearest evaluation points q, then of its nearest nodes i. One
  * at the rim that none of them knows counts unless it and one of i have lost bonds. */
 static int sees (sampling *s, const nearest_points *q, const nearest_points *i, int lost /* one of i has */,
                  int j)
