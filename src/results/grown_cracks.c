@@ -231,7 +231,7 @@ void pg_result_paths_close (pg_result *r)
 {
     pg_table_close (&r->pieces);
     pg_table_close (&r->tip_rows);
-    pg_free (r->tip_value), pg_free (r->front_value);
+    pg_free (r->tip_value), pg_free (r->front_value), pg_quadrature_clear (&r->facet_points);
 }
 
 /* ---- reading back -------------------------------------------------------------------------------------- */

@@ -136,24 +136,28 @@ static int acts_on_facets (const pg_problem *p, const pg_load *load)
 }
 
 /* Mean displacement of the facets of a load along every axis (dim), on all ranks. Each measures the facets
- * that it owns: the rest may lie at the end of what it holds of the body. */
+ * that it owns: the rest may lie at the end of what it holds of the body. Beside cracks at two Gauss points per
+ * direction: in the middle of a facet a crack that runs along points may end. */
 static pg_status mean_on_facets (pg_result *r, const pg_state *state, const pg_load *load, double *mean)
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
     const pg_set *set = load->set;
+    pg_quadrature *q = &r->facet_points;
     size_t dim = (size_t) p->dim, n = 0;
     double *x = NULL, *u = NULL, *area = NULL, sum[4] = { 0 };
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
-    PG_ALLOC (x, dim * set->nfacet);
-    PG_ALLOC (u, 3 * set->nfacet);
-    PG_ALLOC (area, set->nfacet);
-    for (size_t i = 0; i < set->nfacet; i++) {
-        size_t facet = (size_t) set->facet[i];
-        if (!pg_problem_owns_facet (p, facet)) continue;
-        memcpy (x + dim * n, p->cells.facet_centre + dim * facet, dim * sizeof *x);
-        area[n++] = p->cells.area[facet];
+    if (!q->n) PG_TRY (pg_facet_points (q, &p->cells, p->cracks.n > 0 || r->grows ? 2 : 1));
+    PG_ALLOC (x, dim * q->n);
+    PG_ALLOC (u, 3 * q->n);
+    PG_ALLOC (area, q->n);
+    for (size_t i = 0, k = 0; i < q->n && k < set->nfacet; i++) {
+        while (k < set->nfacet && set->facet[k] < q->cell[i]) k++;
+        if (k == set->nfacet || set->facet[k] != q->cell[i]) continue;
+        if (!pg_problem_owns_facet (p, (size_t) q->cell[i])) continue;
+        memcpy (x + dim * n, q->x + dim * i, dim * sizeof *x);
+        area[n++] = q->weight[i];
     }
     if (n) PG_TRY (force->sample (self, state, state->d, n, x, u, NULL, NULL));
     for (size_t i = 0; i < n; i++) {

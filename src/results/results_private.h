@@ -114,6 +114,7 @@ struct pg_result {
     long      npiece;
     /* What the tips of the state of the last row bear. */
     pg_tip_values *tip_value;  size_t cap_tip_value;
+    pg_quadrature facet_points;                        /* of all facets, once asked for */
     /* The same of the vertices of fronts in space. */
     pg_front_values *front_value;  size_t nfront_value, cap_front_value;
     /* Time (s) or load factor of each of these rows. */
