@@ -219,11 +219,12 @@ done:
 
 /* Nothing holds the parts of a body that has come apart: the displacement at load factor 1 is as large as the
  * rounding of K allows, and so are the energies that belong to it. */
-void event_apart (pg_solver *s, int cut, double work, double strain, pg_step *step)
+int event_apart (pg_solver *s, int cut, double work, double strain, pg_step *step)
 {
-    if (!s->finished || !(cut || events_of (s)->secant > 1 / least_share (s))) return;
+    if (!s->finished || !(cut || events_of (s)->secant > 1 / least_share (s))) return 0;
     s->break_loop.work = work, s->report.energy_strain = 0;
     step->dissipated = strain;
+    return 1;
 }
 
 /* solver.max_events, for runs that would break bond after bond. */

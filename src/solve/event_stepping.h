@@ -83,7 +83,7 @@ int       event_ended  (pg_solver *s, const pg_state *state, double factor, pg_s
 pg_status event_stops  (pg_solver *s, const pg_state *state, double factor, double secant);
 /* After event_stops: energies of a body that has come apart under forces, whose equilibria lie anywhere. Work
  * and stored energy are those of before the event; what was stored is taken as consumed. cut: the solve has
- * found no equilibrium, and the body is cut in two. */
-void      event_apart  (pg_solver *s, int cut, double work, double strain, pg_step *step);
+ * found no equilibrium, and the body is cut in two. 1: it has come apart. */
+int       event_apart  (pg_solver *s, int cut, double work, double strain, pg_step *step);
 void      event_limit  (pg_solver *s, const pg_state *state, double factor);           /* solver.max_events */
 #endif

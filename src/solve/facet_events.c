@@ -103,6 +103,17 @@ done:
     return status;
 }
 
+/* What is set free by a trial facet that cuts a loaded part off has no bound, and the load at which it does so
+ * is that of rounding. */
+static void doubt_load (pg_solver *s, pg_step *step)
+{
+    if (!s->break_loop.growth->tried) return;
+    step->unjudged++;
+    pg_statistics_warn (&s->report, "the last facet cuts a loaded part of the body off from a tip without room "
+                                    "for a ring: the load that this part bears is not known; take a smaller "
+                                    "spacing");
+}
+
 /* One event: facets, new equilibria, a new measurement, energies. Of the state the displacement stays that of
  * before, which belongs to the reactions of the step. */
 pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *step)
@@ -131,7 +142,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     }
     if (!s->finished) PG_TRY (instability_after (s, &e->unstable, state, factor, e->ended, &moves));
     if (moves) step->dissipated = b->work - work - (s->report.energy_strain - strain);
-    if (ended) event_apart (s, 1, work, strain, step);
+    if (ended && event_apart (s, 1, work, strain, step)) doubt_load (s, step);
     if (ended || moves) goto done;
     PG_TRY (way_end (s, state, factor, &end));
     PG_TRY (account (s, state, factor, end));
@@ -144,7 +155,7 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     memcpy (state->d, g->before, bytes);
     PG_TRY (event_stops (s, state, factor, now));
     if (!s->finished) s->finished = facet_measure_ends (s, state, factor);
-    event_apart (s, 0, work, strain, step);
+    if (event_apart (s, 0, work, strain, step)) doubt_load (s, step);
 done:
     if (g->before) memcpy (state->d, g->before, bytes);
     return status;

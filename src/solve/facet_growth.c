@@ -439,7 +439,9 @@ static pg_status grow_trials (break_loop *b, pg_state *state, double factor, dou
         if (facet_trial_utilisation (g, &c, factor) < least) break;
         for (size_t k = 0; k < done; k++)
             skip |= c.tip >= 0 ? g->trial[k].tip == c.tip : g->trial[k].tip < 0 && is_near (&g->trial[k], &c);
-        if (!skip) PG_TRY (grow_one (b, state, &c));
+        if (skip) continue;
+        PG_TRY (grow_one (b, state, &c));
+        g->tried |= c.tip >= 0;
     }
 done:
     return status;
@@ -487,7 +489,7 @@ pg_status facet_grow (break_loop *b, pg_state *state, double factor, double t)
     facet_growth *g = b->growth;
     double top = facet_utilisation (b, state, factor), angle,
            least = top * (1 - (b->system.contact ? CLOSED_TIE : facet_tie));
-    b->changes.n = 0, g->closed = g->began = g->going = 0, g->event_energy = 0, g->event_tip = -1;
+    b->changes.n = 0, g->closed = g->began = g->going = g->tried = 0, g->event_energy = 0, g->event_tip = -1;
     if (in_space (b)) {
         PG_TRY (fronts_grow (b, state, factor, least));
         PG_TRY (log_all (b, state, top, t));

@@ -73,9 +73,9 @@ typedef struct facet_growth {
     struct front_growth *fronts;                       /* in space, front_growth.c; else NULL */
     /* energy that all facets took; at the start of the step, J */
     double  needed, needed0;
-    /* Of the event at hand: a tip met the surface or a crack; a new crack came into being; a tip goes on;
-     * what all facets take, J. */
-    int     closed, began, going;
+    /* Of the event at hand: a tip met the surface or a crack; a new crack came into being; a tip goes on; a
+     * trial facet of a tip is among it; what all facets take, J. */
+    int     closed, began, going, tried;
     double  event_energy;
     /* In motion: how every tip runs, the facets that open, the sum of what they hold, N (ndof), and the
      * forces before a cut, N (ndof). */

@@ -20,12 +20,12 @@ static const double weight[POINTS / 2] = { 0.1894506104550685, 0.182603415044923
                                            0.0622535239386479, 0.0271524594117541 };
 
 /* beta by the distance r alone: 1 up to the horizon (none), or falling from 1 to 0 over the width of a
- * cell about it (linear). */
+ * cell about it (linear); what is as small as rounding far from the origin is none. */
 double pg_sums_partial (pg_partial partial, double r, double horizon, double width)
 {
     if (partial == PG_PARTIAL_NONE) return r <= horizon * (1 + 1e-9);
     double beta = (horizon - r) / width + 0.5;
-    return beta >= 1 ? 1 : beta > 1e-9 ? beta : 0;
+    return beta >= 1 ? 1 : beta > PG_NO_LENGTH ? beta : 0;
 }
 
 /* ---- a box and a ball ---------------------------------------------------------------------------------- */
