@@ -136,8 +136,8 @@ static int acts_on_facets (const pg_problem *p, const pg_load *load)
 }
 
 /* Mean displacement of the facets of a load along every axis (dim), on all ranks. Each measures the facets
- * that it owns: the rest may lie at the end of what it holds of the body. Beside cracks at two Gauss points per
- * direction: in the middle of a facet a crack that runs along points may end. */
+ * that it owns: the rest may lie at the end of what it holds of the body. Beside cracks at two Gauss points
+ * per direction: in the middle of a facet a crack that runs along points may end. */
 static pg_status mean_on_facets (pg_result *r, const pg_state *state, const pg_load *load, double *mean)
 {
     pg_status status = PG_OK;

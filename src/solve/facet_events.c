@@ -103,15 +103,15 @@ done:
     return status;
 }
 
-/* What is set free by a trial facet that cuts a loaded part off has no bound, and the load at which it does so
- * is that of rounding. */
+/* What is set free by a trial facet that cuts a loaded part off has no bound, and the load at which it does
+ * so is that of rounding. */
 static void doubt_load (pg_solver *s, pg_step *step)
 {
     if (!s->break_loop.growth->tried) return;
     step->unjudged++;
-    pg_statistics_warn (&s->report, "the last facet cuts a loaded part of the body off from a tip without room "
-                                    "for a ring: the load that this part bears is not known; take a smaller "
-                                    "spacing");
+    pg_statistics_warn (&s->report,
+                        "the last facet cuts a loaded part of the body off from a tip without room for a "
+                        "ring: the load that this part bears is not known; take a smaller spacing");
 }
 
 /* One event: facets, new equilibria, a new measurement, energies. Of the state the displacement stays that of
