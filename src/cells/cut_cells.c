@@ -488,7 +488,8 @@ pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet,
     PG_TRY (enter (cells, (size_t) cells->facet_cell[facet]));
     PG_TRY (cut_work_points (work, cells->facet_surface[facet], cells->cut->part[facet], finer (cells, order),
                              out));
-    cut_leave_slivers (out, first, cells->dim, cut_work_rounding (work));
+    /* the facets of a cell close it to rounding: less than that may be left out of them */
+    cut_leave_slivers (out, first, cells->dim, 0.01 * cut_work_rounding (work));
 done:
     return status;
 }

@@ -103,6 +103,14 @@ done:
     return status;
 }
 
+/* What is set free beyond what the facets of the event take does not stay in the body, where nothing goes on:
+ * it would be motion, and is no work of the loads at rest. */
+static void take_no_more (pg_solver *s, pg_step *step)
+{
+    double more = step->dissipated - s->break_loop.growth->event_energy;
+    if (more > 0) s->break_loop.work -= more, step->dissipated -= more;
+}
+
 /* What is set free by a trial facet that cuts a loaded part off has no bound, and the load at which it does
  * so is that of rounding. */
 static void doubt_load (pg_solver *s, pg_step *step)
@@ -112,6 +120,14 @@ static void doubt_load (pg_solver *s, pg_step *step)
     pg_statistics_warn (&s->report,
                         "the last facet cuts a loaded part of the body off from a tip without room for a "
                         "ring: the load that this part bears is not known; take a smaller spacing");
+}
+
+/* After event_stops: has the body come apart? */
+static void end_apart (pg_solver *s, int cut, double work, double strain, pg_step *step)
+{
+    if (!event_apart (s, cut, work, strain, step)) return;
+    take_no_more (s, step);
+    doubt_load (s, step);
 }
 
 /* One event: facets, new equilibria, a new measurement, energies. Of the state the displacement stays that of
@@ -142,20 +158,17 @@ pg_status facet_event (pg_solver *s, pg_state *state, double factor, pg_step *st
     }
     if (!s->finished) PG_TRY (instability_after (s, &e->unstable, state, factor, e->ended, &moves));
     if (moves) step->dissipated = b->work - work - (s->report.energy_strain - strain);
-    if (ended && event_apart (s, 1, work, strain, step)) doubt_load (s, step);
+    if (ended) end_apart (s, 1, work, strain, step);
     if (ended || moves) goto done;
     PG_TRY (way_end (s, state, factor, &end));
     PG_TRY (account (s, state, factor, end));
     step->dissipated = b->work - work - (s->report.energy_strain - strain);
-    if ((!g->going || e->arrested) && step->dissipated > g->event_energy) {
-        b->work -= step->dissipated - g->event_energy;
-        step->dissipated = g->event_energy;
-    }
+    if (!g->going || e->arrested) take_no_more (s, step);
     PG_TRY (event_secant (s, &now));
     memcpy (state->d, g->before, bytes);
     PG_TRY (event_stops (s, state, factor, now));
     if (!s->finished) s->finished = facet_measure_ends (s, state, factor);
-    if (event_apart (s, 0, work, strain, step)) doubt_load (s, step);
+    end_apart (s, 0, work, strain, step);
 done:
     if (g->before) memcpy (state->d, g->before, bytes);
     return status;

@@ -149,11 +149,12 @@ static void tell_blind (pg_solver *s)
 /* The same of points that hang on nothing: nothing says what their displacement is. */
 static void tell_alone (pg_solver *s)
 {
-    size_t n = s->report.isolated_nodes;
-    if (s->warned_alone || n <= s->problem->patch.isolated) return;
+    size_t n = s->report.isolated_nodes, known = s->problem->patch.isolated + s->problem->eroded;
+    if (s->warned_alone || n <= known) return;
+    n -= known;
     s->warned_alone = 1;
     pg_statistics_warn (&s->report,
-                        "%zu point%s lie%s on a crack or between cracks where no evaluation point sees %s: "
+                        "%zu point%s lie%s between cracks where no evaluation point sees %s: "
                         "%s displacement is not to be trusted; a smaller spacing there, or a lattice offset "
                         "that puts no point there, helps",
                         n, n == 1 ? "" : "s", n == 1 ? "s" : "", n == 1 ? "it" : "them",
