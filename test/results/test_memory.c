@@ -77,9 +77,9 @@ static void sweep (const char *name, const char *text, size_t dense, size_t most
 static void every_allocation_of_a_run_may_fail (void **state)
 {
     (void) state;
-    /* long: every one; else the first 20, then about 8 of the rest */
+    /* long: every one; else the first 20, then about 5 of the rest */
     for (int i = 0; i < SCENES; i++)
-        sweep (scenes[i].name, scenes[i].text, longer () ? 1000000 : 20, 8);
+        sweep (scenes[i].name, scenes[i].text, longer () ? 1000000 : 20, 5);
 }
 
 static void the_scene_too (void **state)
@@ -138,7 +138,7 @@ static void every_allocation_of_a_result_may_fail (void **state)
     size_t opened = pg_memory_calls () - start;
     check_ok (write_result (where, &r, 1));
     /* pictures take their time */
-    size_t calls = pg_memory_calls () - start - opened, stride = 1 + (calls - opened) / 25;
+    size_t calls = pg_memory_calls () - start - opened, stride = 1 + (calls - opened) / (longer () ? 25 : 12);
     assert_true (opened > 20 && calls > opened);
     for (size_t k = 1; k <= calls; k += k < opened ? 1 : stride) {
         run one = scene_of (1, "%soutput: {pictures: [damage]}\n", scenes[0].text);
@@ -197,7 +197,7 @@ static void every_allocation_of_a_checkpoint_and_its_resumption_may_fail (void *
         size_t used = pg_memory_used (), failed = 0;
         pg_status status = PG_E_MEMORY;
         for (fail_at = 1; status != PG_OK;
-             fail_at += longer () ? 1 : 1 + fail_at / 20, failed++) {
+             fail_at += longer () ? 1 : 1 + fail_at / 12, failed++) {
             status = write_and_resume (where, text);
             if (status != PG_OK && status != PG_E_MEMORY)
                 print_error ("%s: allocation %zu: '%s'\n", scenes[i].name, fail_at, pg_last_error ());
