@@ -26,13 +26,22 @@ static int body_at (const pg_problem *p, const double *x, const double *e, doubl
     return pg_problem_has_body (p, place);
 }
 
-/* Not into body that follows. */
+/* The same, places on the surface among it: rounding decides on these. */
+static int body_near (const pg_problem *p, const double *x, const double *e, double r)
+{
+    double place[3];
+    if (!p->body.n) return body_at (p, x, e, r);
+    for (int k = 0; k < 3; k++) place[k] = x[k] + r * e[k];
+    return pg_body_inside (&p->body, place, pg_cloud_same (&p->cloud));
+}
+
+/* Not into body that follows. 0 along the surface. */
 double space_beyond (const pg_problem *p, const double *x, const double *e)
 {
     double h = pg_problem_spacing_at (p, x);
     int free = 0;
     for (int part = 1; part <= STEPS; part++) {
-        int body = body_at (p, x, e, beyond_surface * h * part / STEPS);
+        int body = body_near (p, x, e, beyond_surface * h * part / STEPS);
         if (body && free) return beyond_surface * h * (part - 1) / STEPS;
         free |= !body;
     }
