@@ -482,16 +482,10 @@ done:
 
 pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)
 {
-    pg_status status = PG_OK;
-    cut_work *work = cells->cut->work;
-    size_t first = out->n;
-    PG_TRY (enter (cells, (size_t) cells->facet_cell[facet]));
-    PG_TRY (cut_work_points (work, cells->facet_surface[facet], cells->cut->part[facet], finer (cells, order),
-                             out));
-    /* the facets of a cell close it to rounding: less than that may be left out of them */
-    cut_leave_slivers (out, first, cells->dim, 0.01 * cut_work_rounding (work));
-done:
-    return status;
+    pg_status status = enter (cells, (size_t) cells->facet_cell[facet]);
+    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet],
+                                              cells->cut->part[facet], finer (cells, order), out)
+                           : status;
 }
 
 pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)
