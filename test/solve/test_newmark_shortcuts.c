@@ -238,7 +238,7 @@ static void a_factor_and_elements_take_turns (void **state)
 static void rough_rounds_break_the_same_bonds (void **state)
 {
     (void) state;
-    const char *spacing = longer () ? "0.08" : "0.1", *end = longer () ? "2.3" : "1.9";
+    const char *spacing = longer () ? "0.08" : "0.1", *end = longer () ? "2.3" : "1.6";
     run a = in_space (0, spacing, "lumped", "linear: pcg", "12 MPa", end),
         b = in_space (1, spacing, "lumped", "linear: auto", "12 MPa", end);
     size_t broken = side_by_side (&a, &b, 1e-4);
