@@ -418,6 +418,9 @@ long      pg_nearest_find   (const pg_nearest *nearest, const double *place, pg_
 #define PG_NEAREST_MOST 16
 size_t    pg_nearest_all    (const pg_nearest *nearest, const double *place, double same, pg_refuse refuse,
                              void *context, size_t *point /* PG_NEAREST_MOST */);
+/* The same; where all are refused, of all points. */
+size_t    pg_nearest_seen   (const pg_nearest *nearest, const double *place, double same, pg_refuse refuse,
+                             void *context, size_t *point /* PG_NEAREST_MOST */);
 
 /* Positions no further apart than this part of the local spacing are at one place. */
 #define PG_NO_LENGTH 1e-6

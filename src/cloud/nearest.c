@@ -70,3 +70,10 @@ size_t pg_nearest_all (const pg_nearest *nearest, const double *place, double sa
     pg_tree_near (c.tree, place, c.away, collect, &c);
     return c.n;
 }
+
+size_t pg_nearest_seen (const pg_nearest *nearest, const double *place, double same, pg_refuse refuse,
+                        void *context, size_t *point)
+{
+    size_t n = pg_nearest_all (nearest, place, same, refuse, context, point);
+    return n || !refuse ? n : pg_nearest_all (nearest, place, same, NULL, NULL, point);
+}

@@ -321,8 +321,7 @@ static size_t points_about (bond_force *b, const pg_state *state, const double *
 {
     view v = { b->problem, pg_state_cracks (b->problem, state) };
     double same = PG_NO_LENGTH * b->problem->cloud.h;
-    size_t n = v.cracks->n ? pg_nearest_all (b->near, x, same, hidden, &v, point) : 0;
-    return n ? n : pg_nearest_all (b->near, x, same, NULL, NULL, point);
+    return pg_nearest_seen (b->near, x, same, v.cracks->n ? hidden : NULL, &v, point);
 }
 
 /* Adds a share of the displacement at place x by a first-order expansion about point i, and of the gradient

@@ -114,10 +114,8 @@ static void find_nearest (sampling *s, const double *x, int set, nearest_points 
     const pg_nearest *grid = set == g->bulk ? g->near_point : g->near_node;
     pg_refuse refuse = set == g->bulk ? point_hidden : node_hidden;
     double same = PG_NO_LENGTH * g->problem->cloud.h;
-    out->set = set, out->n = 0;
-    if (pg_state_cracks (g->problem, s->state)->n)
-        out->n = pg_nearest_all (grid, x, same, refuse, s, out->point);
-    if (!out->n) out->n = pg_nearest_all (grid, x, same, NULL, NULL, out->point);
+    if (!pg_state_cracks (g->problem, s->state)->n) refuse = NULL;
+    out->set = set, out->n = pg_nearest_seen (grid, x, same, refuse, s, out->point);
 }
 
 /* What all of them know of node j: alive for one, else lost for one, else cut off. */

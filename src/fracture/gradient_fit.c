@@ -209,8 +209,7 @@ int gradient_fit_at (const gradient_fit *fit, const double *x, size_t n, const d
     double same = PG_NO_LENGTH * p->cloud.h;
     sums s = { .radius = 0 };
     int degree = 2;
-    if (at.v.cracks->n) at.n = pg_nearest_all (fit->near, x, same, hidden, &at.v, at.from);
-    if (!at.n) at.n = pg_nearest_all (fit->near, x, same, NULL, NULL, at.from);
+    at.n = pg_nearest_seen (fit->near, x, same, at.v.cracks->n ? hidden : NULL, &at.v, at.from);
     for (size_t k = 0; k < at.n; k++)
         s.radius = fmax (s.radius, reach * pg_problem_spacing (p, PG_NODES, at.from[k]));
     while (degree > 0 && !fit_degree (&at, &s, degree, n, d)) degree--;

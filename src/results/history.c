@@ -135,6 +135,23 @@ static int acts_on_facets (const pg_problem *p, const pg_load *load)
            && pg_set_facets (load->set) > 0;
 }
 
+/* Gauss points on the facets of a set that this rank owns: places and areas (NULL: not wanted); returns how
+ * many. */
+static size_t points_of (const pg_problem *p, const pg_set *set, const pg_quadrature *q, double *x,
+                         double *area)
+{
+    size_t dim = (size_t) p->dim, n = 0;
+    for (size_t i = 0, k = 0; i < q->n && k < set->nfacet; i++) {
+        while (k < set->nfacet && set->facet[k] < q->cell[i]) k++;
+        if (k == set->nfacet || set->facet[k] != q->cell[i]) continue;
+        if (!pg_problem_owns_facet (p, (size_t) q->cell[i])) continue;
+        if (x) memcpy (x + dim * n, q->x + dim * i, dim * sizeof *x);
+        if (area) area[n] = q->weight[i];
+        n++;
+    }
+    return n;
+}
+
 /* Mean displacement of the facets of a load along every axis (dim), on all ranks. Each measures the facets
  * that it owns: the rest may lie at the end of what it holds of the body. Beside cracks at two Gauss points
  * per direction: in the middle of a facet a crack that runs along points may end. */
@@ -142,23 +159,17 @@ static pg_status mean_on_facets (pg_result *r, const pg_state *state, const pg_l
 {
     pg_status status = PG_OK;
     const pg_problem *p = r->problem;
-    const pg_set *set = load->set;
     pg_quadrature *q = &r->facet_points;
-    size_t dim = (size_t) p->dim, n = 0;
+    size_t dim = (size_t) p->dim, n;
     double *x = NULL, *u = NULL, *area = NULL, sum[4] = { 0 };
     void *self;
     const pg_force_type *force = pg_solver_force (r->solver, &self);
     if (!q->n) PG_TRY (pg_facet_points (q, &p->cells, p->cracks.n > 0 || r->grows ? 2 : 1));
-    PG_ALLOC (x, dim * q->n);
-    PG_ALLOC (u, 3 * q->n);
-    PG_ALLOC (area, q->n);
-    for (size_t i = 0, k = 0; i < q->n && k < set->nfacet; i++) {
-        while (k < set->nfacet && set->facet[k] < q->cell[i]) k++;
-        if (k == set->nfacet || set->facet[k] != q->cell[i]) continue;
-        if (!pg_problem_owns_facet (p, (size_t) q->cell[i])) continue;
-        memcpy (x + dim * n, q->x + dim * i, dim * sizeof *x);
-        area[n++] = q->weight[i];
-    }
+    n = points_of (p, load->set, q, NULL, NULL);
+    PG_ALLOC (x, dim * n);
+    PG_ALLOC (u, 3 * n);
+    PG_ALLOC (area, n);
+    points_of (p, load->set, q, x, area);
     if (n) PG_TRY (force->sample (self, state, state->d, n, x, u, NULL, NULL));
     for (size_t i = 0; i < n; i++) {
         sum[3] += area[i];
