@@ -32,7 +32,7 @@ WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla
 INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo
 OPT_release := -O2 -g1 -ftree-vectorize
 # tests themselves compute little: they compile in half the time so
-OPT_of_tests = $(if $(filter release,$(MODE)),-O1 $(EXTRA_CFLAGS))
+OPT_of_tests = $(if $(filter release,$(MODE)),$(if $(findstring /linalg/,$@),-O1,-O0) $(EXTRA_CFLAGS))
 OPT_debug   := -Og -g -DPG_DEBUG
 OPT_fuzz    := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT_mutate  := -O2 -w

@@ -91,14 +91,17 @@ rm -rf "$work/half"; run 15 late 1 facets -o "$work/half"
 
 # ---- KILL: at the last calls that change what the folder holds
 for call in rename remove; do
-    run 0 $call 0 facets -o "$work/counted" --force; all=$calls bad_at=
+    run 0 $call 0 facets -o "$work/counted" --force; all=$calls bad_at= killed=0
     for k in $((all - 3)) $((all - 2)) $((all - 1)) $all; do
         [ "$k" -gt 0 ] || continue
         rm -rf "$work/half"
         run 9 $call "$k" facets -o "$work/half"
+        # a run that is slower writes fewer checkpoints: it may end before such a call comes
+        [ $code -eq 0 ] && [ "$calls" -lt "$k" ] && continue
+        killed=$((killed + 1))
         [ $code -eq 137 ] && as_if_undisturbed facets "$work/half" || bad_at="$bad_at $k"
     done
-    echo "at $bad_at of $all" > "$work/why"
-    [ -z "$bad_at" ]; verdict "KILL at the last calls of $call: on to the same files" $?
+    echo "at $bad_at of $all, killed $killed times" > "$work/why"
+    [ -z "$bad_at" ] && [ $killed -gt 0 ]; verdict "KILL at the last calls of $call: on to the same files" $?
 done
 finish
