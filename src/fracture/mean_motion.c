@@ -39,7 +39,12 @@ static void cross (const double *a, const double *b, double *out)
 static int is_alone (const pg_problem *p, const pg_state *state, size_t i)
 {
     const pg_family *f = &p->rows[PG_NODES].family;
-    if (p->method->shape_functions || !f->start) return 0;
+    if (p->method->shape_functions && !p->integration->at_nodes) {
+        const pg_crack *on = pg_cracks_touch (pg_state_cracks (p, state), p->cloud.x + i * (size_t) p->dim,
+                                              pg_cloud_same (&p->cloud));
+        return on && !on->sided;
+    }
+    if (!f->start) return 0;
     for (size_t e = f->start[i]; e < f->start[i + 1]; e++)
         if (state->alive[p->first_bond[PG_NODES] + e] && (size_t) f->node[e] != i) return 0;
     return 1;

@@ -59,25 +59,44 @@ static size_t at (const surface_line *l, size_t i) { return l->vertex[l->closed 
  * the rounding of the solver, which would then choose. */
 static const double same_length = 1e-6;
 
+/* Of two ways across, is the first one's middle as near to the middle of the body, or nearer? Of ways of one
+ * length this chooses the same one in a mirror image of the body and from the other end of the lines. */
+static int nearer_middle (const pg_crack_surfaces *w, const pg_problem *p, const size_t *way, const size_t *other)
+{
+    double d = 0, e = 0;
+    for (int k = 0; k < 3; k++) {
+        double middle = 0.5 * (p->cloud.low[k] + p->cloud.high[k]);
+        double x = 0.5 * (w->vertex[3 * way[0] + (size_t) k] + w->vertex[3 * way[1] + (size_t) k]) - middle,
+               y = 0.5 * (w->vertex[3 * other[0] + (size_t) k] + w->vertex[3 * other[1] + (size_t) k]) - middle;
+        d += x * x, e += y * y;
+    }
+    return d <= e * (1 + same_length);
+}
+
 /* Where two loops begin: with the shortest way between them. Else at their first vertices. */
-static void beginning (const pg_crack_surfaces *w, const surface_line *from, const surface_line *to,
-                       size_t *first, size_t *start)
+static void beginning (const pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
+                       const surface_line *to, size_t *first, size_t *start)
 {
     double least = INFINITY;
     *first = *start = 0;
     for (size_t i = 0; from->closed && to->closed && i < from->n; i++)
         for (size_t j = 0; j < to->n; j++) {
             double d = apart3 (w->vertex + 3 * from->vertex[i], w->vertex + 3 * to->vertex[j]);
-            if (!(d < least * (1 - same_length))) continue;
-            least = d, *first = i, *start = j;
+            if (d > least * (1 + same_length)
+                || (d >= least * (1 - same_length)
+                    && nearer_middle (w, p, (size_t[]){ from->vertex[*first], to->vertex[*start] },
+                                      (size_t[]){ from->vertex[i], to->vertex[j] })))
+                continue;
+            least = fmin (least, d), *first = i, *start = j;
         }
 }
 
 /* Steps along the lines, 1: along the first one, between which the ways across are shortest in all: of ways
  * of length d_ij across from i to j the least sum c_ij = d_ij + min (c_i-1,j, c_i,j-1). A choice at each step
  * by itself would be another one from the other end of the lines. */
-static pg_status shortest_ways (const pg_crack_surfaces *w, const surface_line *from, const surface_line *to,
-                                size_t first, size_t start, size_t last, size_t end, unsigned char *step)
+static pg_status shortest_ways (const pg_crack_surfaces *w, const pg_problem *p, const surface_line *from,
+                                const surface_line *to, size_t first, size_t start, size_t last, size_t end,
+                                unsigned char *step)
 {
     pg_status status = PG_OK;
     unsigned char *along = NULL;                       /* how the least sum comes to i, j */
@@ -87,9 +106,13 @@ static pg_status shortest_ways (const pg_crack_surfaces *w, const surface_line *
     PG_ALLOC (sum, wide);                              /* of row i, up to j; beyond j of the row before */
     for (size_t i = 0; i <= last; i++)
         for (size_t j = 0; j <= end; j++) {
-            double d = apart3 (w->vertex + 3 * at (from, first + i), w->vertex + 3 * at (to, start + j));
-            along[i * wide + j] = (unsigned char) 
-                (i > 0 && (j == 0 || sum[j] <= sum[j - 1] * (1 + same_length)));
+            size_t a = at (from, first + i), b = at (to, start + j);
+            double d = apart3 (w->vertex + 3 * a, w->vertex + 3 * b);
+            int shorter = i > 0 && (j == 0 || sum[j] <= sum[j - 1] * (1 + same_length));
+            if (shorter && j > 0 && sum[j - 1] <= sum[j] * (1 + same_length))
+                shorter = nearer_middle (w, p, (size_t[]){ at (from, first + i - 1), b },
+                                         (size_t[]){ a, at (to, start + j - 1) });
+            along[i * wide + j] = (unsigned char) shorter;
             sum[j] = d + (along[i * wide + j] ? sum[j] : j > 0 ? sum[j - 1] : 0);
         }
     for (size_t i = last, j = end, k = last + end; k-- > 0;) {
@@ -109,9 +132,9 @@ pg_status surfaces_zip (pg_crack_surfaces *w, const pg_problem *p, const surface
     unsigned char *step = NULL;
     if (from->n == 0 || to->n == 0) return PG_OK;
     size_t last = from->n - !from->closed, end = to->n - !to->closed, first, start;    /* steps along each */
-    beginning (w, from, to, &first, &start);
+    beginning (w, p, from, to, &first, &start);
     PG_ALLOC (step, last + end + 1);
-    PG_TRY (shortest_ways (w, from, to, first, start, last, end, step));
+    PG_TRY (shortest_ways (w, p, from, to, first, start, last, end, step));
     PG_TRY (surfaces_reserve (w, w->cracks.n + last + end, w->nvertex));
     for (size_t i = 0, j = 0; i + j < last + end;) {
         const double *side = to->normal + 3 * ((start + j) % to->n);
