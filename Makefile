@@ -31,8 +31,8 @@ STD     := -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DPG_VERSION='
 WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo
 OPT_release := -O2 -g1 -ftree-vectorize
-# tests themselves compute little: they compile in half the time so
-OPT_of_tests = $(if $(filter release,$(MODE)),$(if $(findstring /linalg/,$@),-O1,-O0) $(EXTRA_CFLAGS))
+# most tests compute little themselves: they compile in half the time so
+OPT_of_tests = $(if $(filter release,$(MODE)),$(if $(filter %/linalg/ %/sums/ %/force/ %/contact/ %/picture/,$(dir $@)),-O1,-O0) $(EXTRA_CFLAGS))
 OPT_debug   := -Og -g -DPG_DEBUG
 OPT_fuzz    := -O1 -g -fsanitize=fuzzer-no-link,address,undefined -fno-sanitize-recover=all -fno-omit-frame-pointer
 OPT_mutate  := -O2 -w

@@ -61,16 +61,18 @@ static const double same_length = 1e-6;
 
 /* Of two ways across, is the first one's middle as near to the middle of the body, or nearer? Of ways of one
  * length this chooses the same one in a mirror image of the body and from the other end of the lines. */
-static int nearer_middle (const pg_crack_surfaces *w, const pg_problem *p, const size_t *way, const size_t *other)
+static int nearer_middle (const pg_crack_surfaces *w, const pg_problem *p, const size_t *way,
+                          const size_t *other)
 {
-    double d = 0, e = 0;
+    const double *a = w->vertex + 3 * way[0], *b = w->vertex + 3 * way[1];
+    const double *c = w->vertex + 3 * other[0], *d = w->vertex + 3 * other[1];
+    double near = 0, far = 0;                          /* squares of twice the distances, m^2 */
     for (int k = 0; k < 3; k++) {
-        double middle = 0.5 * (p->cloud.low[k] + p->cloud.high[k]);
-        double x = 0.5 * (w->vertex[3 * way[0] + (size_t) k] + w->vertex[3 * way[1] + (size_t) k]) - middle,
-               y = 0.5 * (w->vertex[3 * other[0] + (size_t) k] + w->vertex[3 * other[1] + (size_t) k]) - middle;
-        d += x * x, e += y * y;
+        double middle = p->cloud.low[k] + p->cloud.high[k];
+        double x = a[k] + b[k] - middle, y = c[k] + d[k] - middle;
+        near += x * x, far += y * y;
     }
-    return d <= e * (1 + same_length);
+    return near <= far * (1 + same_length);
 }
 
 /* Where two loops begin: with the shortest way between them. Else at their first vertices. */

@@ -219,6 +219,7 @@ static void a_factor_that_follows_goes_on_bit_by_bit (void **state)
 static void elements_in_place_of_a_factor_go_on_bit_by_bit (void **state)
 {
     (void) state;
+    if (!longer ()) return;                            /* PERIGAL_TEST_SIZE=long */
     run a = block (), b = block ();
     memory m = { .n = 0 };
     long meanwhile = 0, factors = 0;
@@ -260,6 +261,7 @@ static pg_status in_the_middle (void *context, const pg_state *at, const pg_step
 static void rough_rounds_go_on_bit_by_bit (void **state)
 {
     (void) state;
+    if (!longer ()) return;                            /* PERIGAL_TEST_SIZE=long */
     const char *spacing = longer () ? "0.08" : "0.1";
     run a = block_with (spacing, "pcg", "20 MPa"), b = block_with (spacing, "pcg", "20 MPa");
     interrupted i = { .r = &a };

@@ -68,7 +68,7 @@ static void new_cracks_follow_coulomb (void **state)
                                        { 20, 0.2, 0.4, 1e-3, 0.3, 0, "strain" },
                                        { 40, 0.8, 0.8, 1, 0, 0.1, "stress" },
                                        { 0, 0, 0.5, 1, 0, 0, "strain" } };
-    int some = longer () ? PLATES : 3;
+    int some = longer () ? PLATES : 2;
     for (int k = 0; k < some; k++) {
         const plate *p = &all[k];
         run r = plate_run (p);
