@@ -197,7 +197,7 @@ static void every_allocation_of_a_checkpoint_and_its_resumption_may_fail (void *
         size_t used = pg_memory_used (), failed = 0;
         pg_status status = PG_E_MEMORY;
         for (fail_at = 1; status != PG_OK;
-             fail_at += longer () ? 1 : 1 + fail_at / 10, failed++) {
+             fail_at += longer () ? 1 : 1 + fail_at / 16, failed++) {
             status = write_and_resume (where, text);
             if (status != PG_OK && status != PG_E_MEMORY)
                 print_error ("%s: allocation %zu: '%s'\n", scenes[i].name, fail_at, pg_last_error ());
