@@ -30,7 +30,7 @@ soname   = -DPG_$(1)_FILE='"$(shell readelf -d "$$($(CC) -print-file-name=lib$(2
 STD     := -std=c17 -D_POSIX_C_SOURCE=200809L -D_XOPEN_SOURCE=700 -DPG_VERSION='"$(VERSION)"'
 WARN    := -Wall -Wextra -Wshadow -Wstrict-prototypes -Wmissing-prototypes -Wvla -Werror
 INCLUDE := -Iinclude -Isrc -I/usr/include/suitesparse -I/usr/include/udunits2 -I/usr/include/cairo
-OPT_release := -O2 -g1 -ftree-vectorize
+OPT_release := -O2 -ftree-vectorize
 # most tests compute little themselves: they compile in half the time so
 OPT_of_tests = $(if $(filter release,$(MODE)),$(if $(filter %/linalg/ %/sums/ %/force/ %/contact/ %/picture/,$(dir $@)),-O1,-O0) $(EXTRA_CFLAGS))
 OPT_debug   := -Og -g -DPG_DEBUG
