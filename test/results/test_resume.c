@@ -89,7 +89,8 @@ static void from_every_facet (void **state) { (void) state; from_every_moment (6
 static void from_every_round_of_facets (void **state) { (void) state; from_every_moment (7); }
 static void from_every_step_of_a_front (void **state) { (void) state; from_every_moment (8); }
 static void from_every_wing (void **state) { (void) state; from_every_moment (9); }
-static void from_every_round_of_wings (void **state) { (void) state; from_every_moment (10); }
+/* PERIGAL_TEST_SIZE=long. */
+static void from_every_round_of_wings (void **state) { (void) state; if (longer ()) from_every_moment (10); }
 static void from_every_stretch_of_confined_wings (void **state) { (void) state; from_every_moment (11); }
 static void from_every_step_between_platens (void **state) { (void) state; from_every_moment (12); }
 static void from_every_round_of_drying (void **state) { (void) state; from_every_moment (13); }

@@ -88,11 +88,11 @@ static void same_cracks (const example *e, const char *failure)
     clear (&a), clear (&b);
 }
 
-/* PERIGAL_TEST_SIZE=long: of both examples, else of the second. */
+/* PERIGAL_TEST_SIZE=long. */
 static void cracks_by_stretch (void **unused)
 {
     (void) unused;
-    for (int k = !longer (); k < 2; k++) same_cracks (&which ()[k], NULL);
+    for (int k = 0; longer () && k < 2; k++) same_cracks (&which ()[k], NULL);
 }
 
 static void cracks_by_energy (void **unused)
