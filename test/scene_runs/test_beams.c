@@ -72,10 +72,11 @@ static double first_break_at_rest (size_t nset, const char *const *set)
 }
 
 /* In motion the first bonds break at the same place and, within 2 %, the same force; what breaks has its
- * image through the middle. */
+ * image through the middle. PERIGAL_TEST_SIZE=long. */
 static void test_cube (void **unused)
 {
     (void) unused;
+    if (!longer ()) return;
     static const char *const set[] = { "spacing=2 mm", "solver.end=0.38 ms", "output.at.rows=1000" };
     run r = loaded ("data/chen_cube/scene.yaml", sizeof set / sizeof *set, set);
     size_t broken = 0, shear = 0;
