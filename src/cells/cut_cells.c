@@ -18,6 +18,9 @@ enum { NONE, WHOLE, CUT };
  * entirely (else -1), part between dividing half-planes, and its measures. */
 typedef struct { int cell, surface, face, part; cut_piece piece; } one_facet;
 
+/* A smaller share of the volume of a box is rounding, wherever the box lies. */
+static const double no_share = 1e-13;
+
 /* What is collected before the arrays of pg_cells can be allocated. */
 typedef struct {
     const pg_lattice *l;
@@ -32,8 +35,8 @@ typedef struct {
     double *volume;
     /* Volume of a whole box, thickness included, m^3. */
     double  whole;
-    /* A box that holds less than this share of its volume is no cell, and a smaller share of its largest face
-     * no facet: it is rounding, more of it far from the origin. */
+    /* A smaller share of a box's largest face is no facet: it is rounding, more of it far from the origin, and
+     * no more of its volume can a whole face lose or gain by it. */
     double  least;
     /* The last surface entered in the list of each box, while regions of facets are entered (n). */
     int    *last;
@@ -192,13 +195,33 @@ static pg_status into_cell (const builder *m, size_t c)
     return cut_work_cell (m->cut->work, low, high, m->start[c + 1] - m->start[c], m->near + m->start[c]);
 }
 
+/* Is that share of box c, in which the workspace is, no more than the rounding of the places of its surfaces
+ * makes? It moves them by so much that their area times it is volume: a corner of a thousandth of the edge is
+ * no rounding a million metres from the origin, though it is less than what a whole face may lose there. */
+static pg_status only_rounding (const builder *m, size_t c, double share, int *only)
+{
+    pg_status status = PG_OK;
+    cut_piece piece;
+    double area = 0;
+    *only = share <= no_share;
+    if (*only || share > m->least) return PG_OK;
+    for (size_t k = m->start[c]; k < m->start[c + 1] && !is_half_plane (m, k); k++)
+        for (int part = 0; part < 1 << cut_work_half_planes (m->cut->work); part++) {
+            PG_TRY (cut_work_piece (m->cut->work, m->near[k], part, &piece));
+            area += piece.size;
+        }
+    *only = share <= no_share + 4 * m->cut->rounding * area / cut_work_size (m->cut->work);
+done:
+    return status;
+}
+
 /* Is box c whole, cut or empty? By its centre where all surfaces lie on its faces, else by the share of its
  * volume that the quadrature finds. */
 static pg_status classify (builder *m, size_t c)
 {
     pg_status status = PG_OK;
     cut_piece piece;
-    int i[3], aligned = 1;
+    int i[3], aligned = 1, whole, none;
     index_of (m->l, c, i);
     for (size_t k = m->start[c]; k < m->start[c + 1]; k++)
         aligned &= is_half_plane (m, k) || face_of (m, i, m->near[k]) >= 0;
@@ -208,7 +231,9 @@ static pg_status classify (builder *m, size_t c)
         PG_TRY (into_cell (m, c));
         PG_TRY (cut_work_piece (m->cut->work, -1, 0, &piece));
         double share = piece.size / cut_work_size (m->cut->work);
-        m->state[c] = share > 1 - m->least ? WHOLE : share > m->least ? CUT : NONE;
+        PG_TRY (only_rounding (m, c, 1 - share, &whole));
+        PG_TRY (only_rounding (m, c, share, &none));
+        m->state[c] = whole ? WHOLE : none ? NONE : CUT;
         m->volume[c] = piece.size;
     }
     if (m->state[c] == WHOLE) m->volume[c] = m->whole;
@@ -373,13 +398,13 @@ static pg_status prepare (builder *m, const pg_body *body, double thickness, siz
 {
     pg_status status = PG_OK;
     m->n = (size_t) m->l->count[0] * (size_t) m->l->count[1] * (size_t) m->l->count[2];
-    m->whole = m->l->dim == 3 ? 1 : thickness, m->least = 1e-13;
+    m->whole = m->l->dim == 3 ? 1 : thickness, m->least = no_share;
     PG_ALLOC (m->cut, 1);
     m->cut->rounding = fmax (pg_rounding (m->l->dim, m->l->origin, m->l->high),
                              pg_rounding (m->l->dim, body->low, body->high));
     for (int k = 0; k < m->l->dim; k++) {
         m->whole *= m->l->step[k];
-        m->least = fmax (m->least, 1e-13 + 4 * m->cut->rounding / m->l->step[k]);
+        m->least = fmax (m->least, no_share + 4 * m->cut->rounding / m->l->step[k]);
     }
     PG_TRY (cut_surfaces (m->cut, body, m->l, nray, ray));
     PG_TRY (cut_work_create (&m->cut->work, m->cut, m->l->dim == 3 ? 1 : thickness));
@@ -482,10 +507,14 @@ done:
 
 pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)
 {
-    pg_status status = enter (cells, (size_t) cells->facet_cell[facet]);
-    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet],
-                                              cells->cut->part[facet], finer (cells, order), out)
-                           : status;
+    pg_status status = PG_OK;
+    size_t first = out->n;
+    PG_TRY (enter (cells, (size_t) cells->facet_cell[facet]));
+    PG_TRY (cut_work_points (cells->cut->work, cells->facet_surface[facet], cells->cut->part[facet],
+                             finer (cells, order), out));
+    cut_leave_slivers (out, first, cells->dim, cut_work_rounding (cells->cut->work));
+done:
+    return status;
 }
 
 pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)
