@@ -7,10 +7,10 @@
  *
  * and (K'^-1)_AA = H (I + dK H)^-1 with H = (K^-1)_AA (Woodbury): the factor of the uncut body, one solve
  * with a right-hand side for every unknown of A, and a dense system of that order for each length of the
- * facet. For df = 0 this is -u_A.(I + dK H)^-1 dK u_A/2. All terms are local, so that nothing is lost by
- * cancellation. Where there is no factor of K (conjugate gradients, supports by elimination) the cut body
- * is solved anew, and the release is the work of the loads less the change of the strain energy, which is
- * also what tests compare with. */
+ * facet. For df = 0 this is -u_A.(I + dK H)^-1 dK u_A/2. All terms are local. Where there is no factor of K
+ * (conjugate gradients, supports by elimination), or where both terms are much larger than their sum (a cut
+ * beside penalties, whose shape functions it changes), the cut body is solved anew, and the release is the
+ * difference of both potentials, which is also what tests compare with. */
 #include "trial_facet.h"
 #include <math.h>
 #include <stdlib.h>
@@ -18,6 +18,8 @@
 
 /* More unknowns than this beside a cut: the cut body is solved anew instead. */
 enum { MOST_COLUMNS = 3000, AT_ONCE = 64 };
+/* So many times as large as their sum may terms be that cancel each other. */
+static const double most_lost = 30;
 
 /* What one stage of a cut changes, as entries of the upper triangle of K and on the unknowns. */
 typedef struct {
@@ -28,10 +30,15 @@ typedef struct {
     double work[3];                                    /* u_a.(r_b + df_b)/2, symmetric, J: 00, 01, 11 */
 } change;
 
-/* With the weights 1 - lambda and lambda. */
+/* With the weights 1 - lambda and lambda. A part that comes loose with its loads sets free without bound, at
+ * whatever load. */
 void trial_polynomial (const trial_fields *f, const trial_form *form, double *c)
 {
     const double *v = form->value;
+    if (!isfinite (v[0] + (f->n == 1 ? 0 : v[1] + v[2]))) {
+        c[0] = f->n == 1 ? 0 : INFINITY, c[1] = 0, c[2] = f->n == 1 ? INFINITY : 0;
+        return;
+    }
     c[0] = f->n == 1 ? 0 : v[0];
     c[1] = f->n == 1 ? 0 : 2 * (v[1] - v[0]);
     c[2] = f->n == 1 ? v[0] : v[0] - 2 * v[1] + v[2];
@@ -249,15 +256,15 @@ typedef struct {
     size_t *own;                                       /* in A -> of the stage */
     const size_t *place;                               /* unknown -> in A */
     double *h, *M;                                     /* n x n, by columns */
+    int    *pivot;                                     /* of M (n) */
     unsigned char *bare;                               /* no stiffness is left (n) */
 } stage;
 
-/* M = I + (dK + shift) H. The shift is for unknowns that the cut leaves without stiffness, or, if that is not
- * enough (a part comes loose), for all. */
-static void fill_matrix (const stage *g, int all)
+/* M = I + (dK + shift) H. The shift is for unknowns that the cut leaves without stiffness; `all`: for all of
+ * them, as a part comes loose. */
+static void fill_matrix (const stage *g, double shift, int all)
 {
     const change *c = g->c;
-    double weak = 1e-11 * g->w->system->mean_diagonal;
     for (size_t j = 0; j < g->n; j++) {
         double *column = g->M + j * g->n;
         memset (column, 0, g->n * sizeof *column);
@@ -270,7 +277,7 @@ static void fill_matrix (const stage *g, int all)
     }
     for (size_t i = 0; i < g->n; i++) {
         if (!all && !g->bare[i]) continue;
-        for (size_t j = 0; j < g->n; j++) g->M[j * g->n + i] += weak * g->h[j * g->n + i];
+        for (size_t j = 0; j < g->n; j++) g->M[j * g->n + i] += shift * g->h[j * g->n + i];
     }
 }
 
@@ -287,41 +294,59 @@ static void find_bare (const stage *g)
     }
 }
 
-/* y = M^-1 r and x = H y on the n unknowns of one stage; its energies. */
+/* y = M^-1 r on the unknowns of the stage, and the energies. 0: M is singular, to rounding. */
+static int stage_energies (const stage *g, int fields, double shift, int all, double *y, trial_form *out)
+{
+    const double singular = 1e-12;
+    double least = INFINITY, most = 0;
+    size_t n = g->n;
+    fill_matrix (g, shift, all);
+    for (size_t i = 0; i < n * n; i++) most = fmax (most, fabs (g->M[i]));
+    if (!pg_dense_factor (n, g->M, n, g->pivot)) return 0;
+    for (size_t i = 0; i < n; i++) {
+        least = fmin (least, fabs (g->M[i * n + i]));
+        for (int a = 0; a < fields; a++) y[(size_t) a * n + i] = g->c->r[a][g->list[i]];
+    }
+    if (!all && least < singular * most) return 0;
+    pg_dense_substitute (n, g->M, n, g->pivot, (size_t) fields, y, n);
+    for (int a = 0, k = 0; a < fields; a++)
+        for (int b = a; b < fields; b++, k++) {
+            double sum = 0;
+            for (size_t j = 0; j < n; j++)
+                for (size_t i = 0; i < n; i++)
+                    sum += g->c->r[a][g->list[i]] * g->h[j * n + i] * y[(size_t) b * n + j];
+            out->value[k] = g->c->work[k] + 0.5 * sum;
+        }
+    return 1;
+}
+
+/* The energies of one stage. Where a part comes loose springs hold it that are too soft to matter; if their
+ * stiffness does matter, the part is loaded, and what it sets free has no bound. */
 static pg_status stage_release (const trials *w, const trial_fields *f, const change *c, size_t n,
                                 const size_t *list, const size_t *place, size_t m, const double *H,
                                 trial_form *out)
 {
     pg_status status = PG_OK;
     stage g = { .w = w, .c = c, .n = n, .list = list, .place = place };
-    double *y = NULL;
-    size_t fields = (size_t) f->n;
+    double *y = NULL, weak = 1e-11 * w->system->mean_diagonal;
+    trial_form stiffer;
     PG_ALLOC (g.h, n * n);
     PG_ALLOC (g.M, n * n);
-    PG_ALLOC (y, n * fields);
+    PG_ALLOC (y, n * (size_t) f->n);
     PG_ALLOC (g.own, m);
     PG_ALLOC (g.bare, n);
+    PG_ALLOC (g.pivot, n);
     for (size_t i = 0; i < n; i++) g.own[place[list[i]]] = i;
     for (size_t j = 0; j < n; j++)
         for (size_t i = 0; i < n; i++) g.h[j * n + i] = H[place[list[j]] * m + place[list[i]]];
     find_bare (&g);
-    for (int all = 0; all < 2; all++) {
-        fill_matrix (&g, all);
-        for (size_t a = 0; a < fields; a++)
-            for (size_t i = 0; i < n; i++) y[a * n + i] = c->r[a][list[i]];
-        status = pg_dense_lu (n, g.M, fields, y);
-        if (status != PG_E_SINGULAR) break;
-    }
-    PG_TRY (status);
-    for (size_t a = 0, k = 0; a < fields; a++)
-        for (size_t b = a; b < fields; b++, k++) {
-            double sum = 0;
-            for (size_t j = 0; j < n; j++)
-                for (size_t i = 0; i < n; i++) sum += c->r[a][list[i]] * g.h[j * n + i] * y[b * n + j];
-            out->value[k] = c->work[k] + 0.5 * sum;
-        }
+    if (n == 0 || stage_energies (&g, f->n, weak, 0, y, out)) goto done;
+    if (!stage_energies (&g, f->n, 10 * weak, 1, y, &stiffer) || !stage_energies (&g, f->n, weak, 1, y, out))
+        PG_FAIL (PG_E_SINGULAR, "the matrix of a trial cut beside %zu unknowns is singular", n);
+    for (int a = 0; a < f->n; a++)
+        if (out->value[2*a] > 2 * fabs (stiffer.value[2*a])) out->value[2*a] = INFINITY;
 done:
-    pg_free (g.h), pg_free (g.M), pg_free (y), pg_free (g.own), pg_free (g.bare);
+    pg_free (g.h), pg_free (g.M), pg_free (y), pg_free (g.own), pg_free (g.bare), pg_free (g.pivot);
     return status;
 }
 
@@ -330,9 +355,9 @@ static void change_clear (change *c)
     pg_free (c->row), pg_free (c->column), pg_free (c->value), pg_free (c->r[0]), pg_free (c->r[1]);
 }
 
-/* *too_many: the cut touches more unknowns than this way is good for, and nothing was computed. */
+/* *unfit: the cut touches more unknowns than this way is good for, or digits were lost: no result. */
 static pg_status by_columns (trials *w, const pg_state *state, const trial_fields *f, size_t n,
-                             const pg_changes *cut, trial_form *release, int *too_many)
+                             const pg_changes *cut, trial_form *release, int *unfit)
 {
     pg_status status = PG_OK;
     const pg_system *s = w->system;
@@ -340,7 +365,7 @@ static pg_status by_columns (trials *w, const pg_state *state, const trial_field
     unsigned char *mark = NULL, *any = NULL;
     size_t *list = NULL, *all = NULL, *place = NULL, m = 0;
     double *H = NULL;
-    *too_many = 0;
+    *unfit = 0;
     PG_ALLOC (c, n);
     PG_ALLOC (mark, s->ndof);
     PG_ALLOC (any, s->ndof);
@@ -353,13 +378,15 @@ static pg_status by_columns (trials *w, const pg_state *state, const trial_field
         for (size_t i = 0; i < count; i++) any[list[i]] = 1;
     }
     for (size_t i = 0; i < s->ndof; i++) if (any[i]) place[i] = m, all[m++] = i;
-    *too_many = m > MOST_COLUMNS;
-    if (*too_many) goto done;
+    *unfit = m > MOST_COLUMNS;
+    if (*unfit) goto done;
     PG_ALLOC (H, m * m);
     PG_TRY (inverse_block (w, m, all, H));
     for (size_t k = 0; k < n; k++) {
         size_t count = beside (s, f, &c[k], mark, list);
         PG_TRY (stage_release (w, f, &c[k], count, list, place, m, H, &release[k]));
+        for (int a = 0; a < f->n; a++)
+            *unfit |= fabs (c[k].work[2*a]) > most_lost * fabs (release[k].value[2*a]);
     }
 done:
     for (size_t k = 0; c && k < n; k++) change_clear (&c[k]);
@@ -379,14 +406,19 @@ static double combine (const trial_fields *f, int k, size_t ndof, double *d)
     return 0.5 * (f->t[0] + f->t[1]);
 }
 
-/* Work of the loads between two balances less what of it is stored, J. */
-static double released (const pg_work_balance *before, const pg_work_balance *after)
+/* The potential energy u.K u/2 - f.u of a displacement, J, from the loads f and the residual r = f - K u. It is
+ * least in equilibrium, so that an error of u shows by its square, and what penalties store belongs to it. */
+static pg_status potential (trials *w, double t, const double *u, double *out)
 {
-    double work = 0;
-    for (size_t k = 0; k < after->npair; k++)
-        work += 0.5 * (before->force[k] + after->force[k])
-                * (after->displacement[k] - before->displacement[k]);
-    return work - (after->strain - before->strain);
+    pg_status status = PG_OK;
+    const pg_system *s = w->system;
+    double reference, sum = 0;
+    PG_TRY (s->force->balance (s->self, t, u, w->residual[0], &reference));
+    PG_TRY (s->force->balance (s->self, t, w->zero, w->load[0], &reference));
+    for (size_t i = 0; i < s->ndof; i++) sum -= 0.5 * u[i] * (w->load[0][i] + w->residual[0][i]);
+    *out = sum;
+done:
+    return status;
 }
 
 /* The form from the energies of field 0, field 1 and their mean. */
@@ -409,14 +441,10 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
     pg_status status = PG_OK, back;
     pg_system *s = w->system;
     int combinations = f->n == 1 ? 1 : 3;
-    pg_work_balance before[3] = { { 0 } }, after = { 0 };
-    double energy[3] = { 0 }, residual;
-    if (!s->force->work_balance)
-        PG_FAIL (PG_E_USAGE, "the force %s has no work balance to find energies of trial facets by",
-                 s->force->method.name);
+    double before[3], energy[3] = { 0 }, residual, after;
     for (int q = 0; q < combinations; q++) {
         double t = combine (f, q, s->ndof, w->after);
-        PG_TRY (s->force->work_balance (s->self, t, w->after, NULL, &before[q]));
+        PG_TRY (potential (w, t, w->after, &before[q]));
     }
     for (size_t k = 0; k < n && status == PG_OK; k++) {
         for (size_t i = 0; i < cut[k].n; i++) w->state->alive[cut[k].bond[i]] = 0;
@@ -427,8 +455,8 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
             energy[q] = INFINITY;
             if (is_loose (now)) continue;
             status = now;
-            if (status == PG_OK) status = s->force->work_balance (s->self, t, w->after, NULL, &after);
-            energy[q] = released (&before[q], &after);
+            if (status == PG_OK) status = potential (w, t, w->after, &after);
+            energy[q] = before[q] - after;
         }
         form_of (f, energy, &release[k]);
     }
@@ -440,8 +468,6 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
     if (s->force->revision) s->revision = s->force->revision (s->self);
     system_forget_preconditioner (s);
 done:
-    for (int q = 0; q < 3; q++) pg_work_balance_clear (&before[q]);
-    pg_work_balance_clear (&after);
     return status;
 }
 
@@ -450,10 +476,10 @@ pg_status trial_release (trials *w, const pg_state *state, const trial_fields *f
                          const pg_changes *cut, trial_form *release)
 {
     pg_status status = PG_OK;
-    int too_many = 1;
+    int unfit = 1;
     PG_TRY (ready (w, state));
-    if (has_factor (w)) PG_TRY (by_columns (w, state, f, n, cut, release, &too_many));
-    if (!too_many) goto done;
+    if (has_factor (w)) PG_TRY (by_columns (w, state, f, n, cut, release, &unfit));
+    if (!unfit) goto done;
     if (w->system->contact)
         PG_FAIL (PG_E_USAGE, "with contact.kind new cracks are tried by a factor of K%s: set solver.linear: "
                              "cholmod and method.essential: nitsche or penalty, or leave the strengths out",
