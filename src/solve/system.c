@@ -180,20 +180,21 @@ done:
     return status;
 }
 
-/* The first diagonal and its mean, N/m: they tell which unknowns have become weak, and how large forces
- * of rounding are. */
+/* The first diagonal and its geometric mean, which penalties on a few points, a million times as stiff, do not
+ * raise, N/m: they tell which unknowns have become weak, and how large forces of rounding are. */
 void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 {
-    double sum = 0, number = (double) s->ndof;
+    double sum = 0, number = 0;
     const pg_operator *op = operator_of (s);
     if (s->mean_diagonal > 0) return;
     for (size_t j = 0; K && j < s->ndof; j++) s->diagonal0[j] = K->value[K->start[j + 1] - 1];
     if (!K) op->diagonal (op->context, s->diagonal0);
     const pg_subdomain *part = s->problem->cloud.subdomain;
     for (size_t j = 0; j < s->ndof; j++)
-        if (pg_owns (part, j / (size_t) s->components)) sum += s->diagonal0[j];
-    if (part) number = (double) part->total * s->components;
-    s->mean_diagonal = system_sum (s, sum) / number;
+        if (s->diagonal0[j] > 0 && pg_owns (part, j / (size_t) s->components))
+            sum += log (s->diagonal0[j]), number++;
+    sum = system_sum (s, sum), number = system_sum (s, number);
+    s->mean_diagonal = number > 0 ? exp (sum / number) : 0;
 }
 
 /* The values that a matrix is made in: of K at rest those of K itself, whose diagonal is kept meanwhile, else

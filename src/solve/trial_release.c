@@ -8,9 +8,9 @@
  * and (K'^-1)_AA = H (I + dK H)^-1 with H = (K^-1)_AA (Woodbury): the factor of the uncut body, one solve
  * with a right-hand side for every unknown of A, and a dense system of that order for each length of the
  * facet. For df = 0 this is -u_A.(I + dK H)^-1 dK u_A/2. All terms are local. Where there is no factor of K
- * (conjugate gradients, supports by elimination), or where both terms are much larger than their sum (a cut
- * beside penalties, whose shape functions it changes), the cut body is solved anew, and the release is the
- * difference of both potentials, which is also what tests compare with. */
+ * (conjugate gradients, supports by elimination), where both terms are much larger than their sum (a cut
+ * beside penalties, whose shape functions it changes), or where a part comes loose, the cut body is solved
+ * anew, and the release is the difference of both potentials, which is also what tests compare with. */
 #include "trial_facet.h"
 #include <math.h>
 #include <stdlib.h>
@@ -320,8 +320,8 @@ static int stage_energies (const stage *g, int fields, double shift, int all, do
     return 1;
 }
 
-/* The energies of one stage. Where a part comes loose springs hold it that are too soft to matter; if their
- * stiffness does matter, the part is loaded, and what it sets free has no bound. */
+/* The energies of one stage; NAN where a part comes loose: M is singular then. With contact, where the cut body
+ * is not solved anew, springs too soft to matter hold it. */
 static pg_status stage_release (const trials *w, const trial_fields *f, const change *c, size_t n,
                                 const size_t *list, const size_t *place, size_t m, const double *H,
                                 trial_form *out)
@@ -329,7 +329,6 @@ static pg_status stage_release (const trials *w, const trial_fields *f, const ch
     pg_status status = PG_OK;
     stage g = { .w = w, .c = c, .n = n, .list = list, .place = place };
     double *y = NULL, weak = 1e-11 * w->system->mean_diagonal;
-    trial_form stiffer;
     PG_ALLOC (g.h, n * n);
     PG_ALLOC (g.M, n * n);
     PG_ALLOC (y, n * (size_t) f->n);
@@ -341,10 +340,9 @@ static pg_status stage_release (const trials *w, const trial_fields *f, const ch
         for (size_t i = 0; i < n; i++) g.h[j * n + i] = H[place[list[j]] * m + place[list[i]]];
     find_bare (&g);
     if (n == 0 || stage_energies (&g, f->n, weak, 0, y, out)) goto done;
-    if (!stage_energies (&g, f->n, 10 * weak, 1, y, &stiffer) || !stage_energies (&g, f->n, weak, 1, y, out))
+    for (int k = 0; k < 3; k++) out->value[k] = NAN;
+    if (w->system->contact && !stage_energies (&g, f->n, weak, 1, y, out))
         PG_FAIL (PG_E_SINGULAR, "the matrix of a trial cut beside %zu unknowns is singular", n);
-    for (int a = 0; a < f->n; a++)
-        if (out->value[2*a] > 2 * fabs (stiffer.value[2*a])) out->value[2*a] = INFINITY;
 done:
     pg_free (g.h), pg_free (g.M), pg_free (y), pg_free (g.own), pg_free (g.bare), pg_free (g.pivot);
     return status;
@@ -386,7 +384,7 @@ static pg_status by_columns (trials *w, const pg_state *state, const trial_field
         size_t count = beside (s, f, &c[k], mark, list);
         PG_TRY (stage_release (w, f, &c[k], count, list, place, m, H, &release[k]));
         for (int a = 0; a < f->n; a++)
-            *unfit |= fabs (c[k].work[2*a]) > most_lost * fabs (release[k].value[2*a]);
+            *unfit |= !w->system->contact && !(fabs (c[k].work[2*a]) <= most_lost * fabs (release[k].value[2*a]));
     }
 done:
     for (size_t k = 0; c && k < n; k++) change_clear (&c[k]);
