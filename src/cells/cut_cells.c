@@ -35,8 +35,8 @@ typedef struct {
     double *volume;
     /* Volume of a whole box, thickness included, m^3. */
     double  whole;
-    /* A smaller share of a box's largest face is no facet: it is rounding, more of it far from the origin, and
-     * no more of its volume can a whole face lose or gain by it. */
+    /* A smaller share of a box's largest face is no facet: it is rounding, more of it far from the origin,
+     * and no more of its volume can a whole face lose or gain by it. */
     double  least;
     /* The last surface entered in the list of each box, while regions of facets are entered (n). */
     int    *last;
@@ -507,14 +507,15 @@ done:
 
 pg_status pg_cut_facet (pg_cut_points *out, const pg_cells *cells, size_t facet, int order)
 {
-    pg_status status = PG_OK;
-    size_t first = out->n;
-    PG_TRY (enter (cells, (size_t) cells->facet_cell[facet]));
-    PG_TRY (cut_work_points (cells->cut->work, cells->facet_surface[facet], cells->cut->part[facet],
-                             finer (cells, order), out));
+    pg_status status = enter (cells, (size_t) cells->facet_cell[facet]);
+    return status == PG_OK ? cut_work_points (cells->cut->work, cells->facet_surface[facet],
+                                              cells->cut->part[facet], finer (cells, order), out)
+                           : status;
+}
+
+void pg_cut_facet_slivers (pg_cut_points *out, const pg_cells *cells, size_t first)
+{
     cut_leave_slivers (out, first, cells->dim, cut_work_rounding (cells->cut->work));
-done:
-    return status;
 }
 
 pg_status pg_cut_face (pg_cut_points *out, const pg_cells *cells, size_t cell, int face, int order)

@@ -269,8 +269,8 @@ static pg_status divide (stride *s)
         k += m + (size_t) right;                       /* the closed vertex on the right is laid */
     }
     if (parts == 0) s->w->front[s->number].open = 0, s->w->front[s->number].nrim = 0;
-    /* the last part of a loop has laid the vertex with which the line begins once more; a line with one vertex
-     * twice would have other shortest ways to it from its mirror image */
+    /* the last part of a loop has laid the vertex with which the line begins once more; a line with one
+     * vertex twice has other shortest ways across than its mirror image */
     if (loop && s->nline > 1
         && apart3 (s->w->vertex + 3 * s->line[0], s->w->vertex + 3 * s->line[s->nline - 1]) <= s->w->nothing)
         s->nline--;

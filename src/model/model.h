@@ -83,6 +83,7 @@ pg_status pg_interfaces_read (pg_problem *problem, const pg_scene *scene);
 /* Remarks on what was perhaps not meant (remarks.c); parts, contrast: once the bonds are there. */
 void      pg_remark_spacing  (pg_problem *problem, const pg_scene *scene);
 void      pg_remark_small_shapes (pg_problem *problem);
+void      pg_remark_thin_walls   (pg_problem *problem);
 void      pg_remark_units    (pg_problem *problem, const pg_scene *scene);
 void      pg_remark_clouds   (pg_problem *problem);
 /* The same of graded points, meshes and interfaces (remark_mesh.c); interfaces: once the bonds are there. */

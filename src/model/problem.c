@@ -423,6 +423,7 @@ pg_status pg_problem_complete (pg_problem *p, const pg_scene *scene)
     PG_TRY (pg_scene_conclude (scene));
     pg_remark_spacing (p, scene);
     pg_remark_small_shapes (p);
+    pg_remark_thin_walls (p);
     pg_remark_units (p, scene);
     pg_remark_clouds (p);
     PG_TRY (pg_remark_hanging (p));

@@ -79,6 +79,121 @@ static double least_extent (const pg_shape *s, int dim, double *middle)
     return least;
 }
 
+/* ---- walls beside holes -------------------------------------------------------------------------------- */
+/* Rays around a round hole, places along its axis and along the sides of others. */
+enum { RAYS = 96, PLACES = 5 };
+
+typedef struct { const pg_problem *p; double least, spacing, at[3]; } thinnest;
+
+/* Thickness of the body from a place on a hole in direction e, up to a spacing there; 0: no body begins
+ * there. */
+static double thickness (const pg_problem *p, const double *x, const double *e, double *h)
+{
+    const double inside = 1e-6;                        /* spacings */
+    double start[3];
+    *h = pg_problem_spacing_at (p, x);
+    for (int k = 0; k < 3; k++) start[k] = x[k] + inside * *h * e[k];
+    return pg_problem_has_body (p, start) ? pg_problem_way_out (p, start, e, *h) + inside * *h : 0;
+}
+
+static void take_thinnest (thinnest *t, double wall, double h, const double *x)
+{
+    if (!(wall > 0 && wall < h * (1 - 1e-9) && wall / h < t->least / t->spacing)) return;
+    t->least = wall, t->spacing = h;
+    memcpy (t->at, x, sizeof t->at);
+}
+
+/* Around a circle about `centre` in the plane of u and v. Where the hole opens into the surface the body ends
+ * in an edge, which is no wall. */
+static void look_around (thinnest *t, const double *centre, double radius, const double *u, const double *v)
+{
+    double wall[RAYS], h[RAYS], x[3 * RAYS];
+    for (int q = 0; q < RAYS; q++) {
+        double angle = 2 * acos (-1) * q / RAYS, e[3];
+        for (int k = 0; k < 3; k++) {
+            e[k] = cos (angle) * u[k] + sin (angle) * v[k];
+            x[3*q + k] = centre[k] + radius * e[k];
+        }
+        wall[q] = thickness (t->p, x + 3*q, e, &h[q]);
+    }
+    for (int q = 0; q < RAYS; q++)
+        if (wall[(q + 1) % RAYS] > 0 && wall[(q + RAYS - 1) % RAYS] > 0)
+            take_thinnest (t, wall[q], h[q], x + 3*q);
+}
+
+/* Beside a straight side from a to b, to both sides of it: one of them is the hole. */
+static void look_beside (thinnest *t, const double *a, const double *b, const double *normal)
+{
+    for (int q = 0; q < PLACES; q++)
+        for (int side = 0; side < 2; side++) {
+            double x[3], e[3], h, share = (q + 0.5) / PLACES;
+            for (int k = 0; k < 3; k++) {
+                x[k] = a[k] + share * (b[k] - a[k]);
+                e[k] = side ? -normal[k] : normal[k];
+            }
+            double wall = thickness (t->p, x, e, &h);
+            take_thinnest (t, wall, h, x);
+        }
+}
+
+static void look_at_round (thinnest *t, const pg_shape *s)
+{
+    static const double axes[3][3] = { { 1, 0, 0 }, { 0, 1, 0 }, { 0, 0, 1 } };
+    double centre[3], u[3], v[3], n[3] = { 0, 0, 1 };
+    if (s->kind == PG_DISK) look_around (t, s->centre, s->radius, axes[0], axes[1]);
+    for (int k = 0; k < 3 && s->kind == PG_SPHERE; k++)
+        look_around (t, s->centre, s->radius, axes[k], axes[(k + 1) % 3]);
+    if (s->kind != PG_CYLINDER) return;
+    memcpy (n, s->axis, sizeof n);
+    const double *other = axes[fabs (n[0]) < 0.6 ? 0 : 1];
+    for (int k = 0; k < 3; k++)
+        u[k] = n[(k + 1) % 3] * other[(k + 2) % 3] - n[(k + 2) % 3] * other[(k + 1) % 3];
+    double size = sqrt (u[0] * u[0] + u[1] * u[1] + u[2] * u[2]);
+    for (int k = 0; k < 3; k++) u[k] /= size;
+    for (int k = 0; k < 3; k++) v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+    for (int q = 0; q < PLACES; q++) {
+        for (int k = 0; k < 3; k++) centre[k] = s->centre[k] + (q + 0.5) / PLACES * s->length * n[k];
+        look_around (t, centre, s->radius, u, v);
+    }
+}
+
+/* Boxes, polygons and prisms: their sides in the plane of x and y, in space at places along z. */
+static void look_at_straight (thinnest *t, const pg_shape *s)
+{
+    const double *a = s->low, *c = s->high;
+    double box[8] = { a[0], a[1], c[0], a[1], c[0], c[1], a[0], c[1] };
+    const double *vertex = s->kind == PG_BOX ? box : s->vertex;
+    size_t n = s->kind == PG_BOX ? 4 : s->nvertex;
+    if (s->kind != PG_BOX && s->kind != PG_POLYGON && s->kind != PG_PRISM) return;
+    for (size_t i = 0; i < n; i++)
+        for (int q = 0; q < (t->p->dim == 3 ? PLACES : 1); q++) {
+            double z = t->p->dim == 3 ? s->low[2] + (q + 0.5) / PLACES * (s->high[2] - s->low[2]) : 0;
+            double from[3] = { vertex[2*i], vertex[2*i + 1], z },
+                   to[3] = { vertex[2 * ((i + 1) % n)], vertex[2 * ((i + 1) % n) + 1], z };
+            double dx = to[0] - from[0], dy = to[1] - from[1], size = hypot (dx, dy);
+            if (size > 0) look_beside (t, from, to, (double[3]){ dy / size, -dx / size, 0 });
+        }
+}
+
+/* A wall thinner than the points are apart has at most one layer of them. */
+void pg_remark_thin_walls (pg_problem *p)
+{
+    for (size_t i = 0; p->lattice.dim && i < p->body.n; i++) {
+        const pg_shape *s = &p->body.shape[i];
+        thinnest t = { .p = p, .least = INFINITY, .spacing = 1 };
+        if (s->add || s->slot) continue;
+        look_at_round (&t, s);
+        look_at_straight (&t, s);
+        if (isfinite (t.least))
+            pg_problem_note (p,
+                             PG_WARNING "body[%zu]: the wall beside this hole at (%.6g, %.6g, %.6g) m is "
+                                        "%.3g m thick, %.2g of the spacing there: the points do not resolve "
+                                        "it, and what it bears may be off by half",
+                             i, t.at[0], t.at[1], t.at[2], t.least, t.least / t.spacing);
+    }
+}
+
+/* ---- small shapes -------------------------------------------------------------------------------------- */
 /* Of what is narrower than the points are apart they see little: of a hole which bonds it parts, of a part
  * what points it happens to hold. */
 void pg_remark_small_shapes (pg_problem *p)

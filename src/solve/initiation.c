@@ -414,7 +414,8 @@ static pg_status try_lengths (const search *g, trial_crack *c, double about)
     PG_TRY (trial_release (g->w, g->state, &fields, n, cut, form));
     for (size_t k = 0; k < n; k++) trial_polynomial (g->f, &form[k], energy[k]);
     /* what cuts the body through is no longer one of a series */
-    while (n > 1 && (length[n - 1] >= c->reach[0] + c->reach[1] || isinf (energy[n - 1][0] + energy[n - 1][2])))
+    while (n > 1
+           && (length[n - 1] >= c->reach[0] + c->reach[1] || isinf (energy[n - 1][0] + energy[n - 1][2])))
         n--;
     fit (c, n, length, energy);
 done:

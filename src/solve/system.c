@@ -180,8 +180,8 @@ done:
     return status;
 }
 
-/* The first diagonal and its geometric mean, which penalties on a few points, a million times as stiff, do not
- * raise, N/m: they tell which unknowns have become weak, and how large forces of rounding are. */
+/* The first diagonal and its geometric mean, which penalties on a few points, a million times as stiff, do
+ * not raise, N/m: they tell which unknowns have become weak, and how large forces of rounding are. */
 void system_remember_diagonal (pg_system *s, const pg_sparse *K)
 {
     double sum = 0, number = 0;

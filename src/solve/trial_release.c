@@ -320,8 +320,8 @@ static int stage_energies (const stage *g, int fields, double shift, int all, do
     return 1;
 }
 
-/* The energies of one stage; NAN where a part comes loose: M is singular then. With contact, where the cut body
- * is not solved anew, springs too soft to matter hold it. */
+/* The energies of one stage; NAN where a part comes loose: M is singular then. With contact, where the cut
+ * body is not solved anew, springs too soft to matter hold it. */
 static pg_status stage_release (const trials *w, const trial_fields *f, const change *c, size_t n,
                                 const size_t *list, const size_t *place, size_t m, const double *H,
                                 trial_form *out)
@@ -384,7 +384,8 @@ static pg_status by_columns (trials *w, const pg_state *state, const trial_field
         size_t count = beside (s, f, &c[k], mark, list);
         PG_TRY (stage_release (w, f, &c[k], count, list, place, m, H, &release[k]));
         for (int a = 0; a < f->n; a++)
-            *unfit |= !w->system->contact && !(fabs (c[k].work[2*a]) <= most_lost * fabs (release[k].value[2*a]));
+            *unfit |= !s->contact
+                      && !(fabs (c[k].work[2*a]) <= most_lost * fabs (release[k].value[2*a]));
     }
 done:
     for (size_t k = 0; c && k < n; k++) change_clear (&c[k]);
@@ -404,19 +405,26 @@ static double combine (const trial_fields *f, int k, size_t ndof, double *d)
     return 0.5 * (f->t[0] + f->t[1]);
 }
 
-/* The potential energy u.K u/2 - f.u of a displacement, J, from the loads f and the residual r = f - K u. It is
+/* f + r, loads and residual r = f - K u: the potential energy is Pi = u.K u/2 - f.u = -u.(f + r)/2. It is
  * least in equilibrium, so that an error of u shows by its square, and what penalties store belongs to it. */
-static pg_status potential (trials *w, double t, const double *u, double *out)
+static pg_status loads_and_residual (trials *w, double t, const double *u, double *out)
 {
     pg_status status = PG_OK;
     const pg_system *s = w->system;
-    double reference, sum = 0;
+    double reference;
     PG_TRY (s->force->balance (s->self, t, u, w->residual[0], &reference));
     PG_TRY (s->force->balance (s->self, t, w->zero, w->load[0], &reference));
-    for (size_t i = 0; i < s->ndof; i++) sum -= 0.5 * u[i] * (w->load[0][i] + w->residual[0][i]);
-    *out = sum;
+    for (size_t i = 0; i < s->ndof; i++) out[i] = w->load[0][i] + w->residual[0][i];
 done:
     return status;
+}
+
+/* Pi less Pi', from u and f + r of both: by differences, as penalties store much that does not change. */
+static double released (size_t n, const double *u, const double *q, const double *now, const double *p)
+{
+    double sum = 0;
+    for (size_t i = 0; i < n; i++) sum += 0.5 * ((now[i] - u[i]) * p[i] + u[i] * (p[i] - q[i]));
+    return sum;
 }
 
 /* The form from the energies of field 0, field 1 and their mean. */
@@ -439,22 +447,23 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
     pg_status status = PG_OK, back;
     pg_system *s = w->system;
     int combinations = f->n == 1 ? 1 : 3;
-    double before[3], energy[3] = { 0 }, residual, after;
-    for (int q = 0; q < combinations; q++) {
-        double t = combine (f, q, s->ndof, w->after);
-        PG_TRY (potential (w, t, w->after, &before[q]));
+    double *u[3] = { NULL }, *q[3] = { NULL }, *p = NULL, energy[3] = { 0 }, residual;
+    PG_ALLOC (p, s->ndof);
+    for (int a = 0; a < combinations; a++) {
+        PG_ALLOC (u[a], s->ndof);
+        PG_ALLOC (q[a], s->ndof);
+        PG_TRY (loads_and_residual (w, combine (f, a, s->ndof, u[a]), u[a], q[a]));
     }
     for (size_t k = 0; k < n && status == PG_OK; k++) {
         for (size_t i = 0; i < cut[k].n; i++) w->state->alive[cut[k].bond[i]] = 0;
         status = system_refresh (s, w->state, &cut[k]);
-        for (int q = 0; q < combinations && status == PG_OK; q++) {
-            double t = combine (f, q, s->ndof, w->after);
+        for (int a = 0; a < combinations && status == PG_OK; a++) {
+            double t = combine (f, a, s->ndof, w->after);
             pg_status now = system_solve (s, t, w->after, NULL, &residual);
-            energy[q] = INFINITY;
+            energy[a] = INFINITY;
             if (is_loose (now)) continue;
-            status = now;
-            if (status == PG_OK) status = potential (w, t, w->after, &after);
-            energy[q] = before[q] - after;
+            status = now == PG_OK ? loads_and_residual (w, t, w->after, p) : now;
+            energy[a] = released (s->ndof, u[a], q[a], w->after, p);
         }
         form_of (f, energy, &release[k]);
     }
@@ -466,6 +475,8 @@ static pg_status by_solves (trials *w, const pg_state *state, const trial_fields
     if (s->force->revision) s->revision = s->force->revision (s->self);
     system_forget_preconditioner (s);
 done:
+    pg_free (p);
+    for (int a = 0; a < 3; a++) pg_free (u[a]), pg_free (q[a]);
     return status;
 }
 

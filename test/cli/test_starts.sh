@@ -58,6 +58,8 @@ done
 silent "supports on the surface" '.*inside the surface' small_hole.yaml method.essential=nitsche
 silent "supports on nodes" '.*inside the surface' small_hole.yaml method.essential=transformation lattice=nodes
 warned "a hole smaller than a spacing" 'body.1.: a hole of 0.04 m is smaller than the spacing there, 0.1 m' small_hole.yaml
+warned "a wall thinner than a spacing" "body.1.: the wall beside this hole at .* m is 0.05 m thick, 0.5 of the spacing there" small_hole.yaml "body=[{add: {box: {low: [0, 0], high: [1, 0.5]}}}, {subtract: {disk: {center: [0.5, 0.2], radius: 0.15}}}]"
+silent "a hole that opens into the side, beside a wall of a spacing" ".*the wall beside" small_hole.yaml "body=[{add: {box: {low: [0, 0], high: [1, 0.5]}}}, {subtract: {disk: {center: [0.5, 0.15], radius: 0.25}}}]"
 silent "an evaluation point between the arms of a kink, which a wider support serves" 'sees* too little' kinked_wedge.yaml
 warned "an evaluation point that cracks enclose" '1 evaluation point beside cracks, such as that at (0.376268, 0.273532) m, sees too little for a strain' kinked_wedge.yaml 'cracks=[{polyline: [[0.355, 0.26], [0.41, 0.26], [0.376, 0.29], [0.355, 0.26]]}]'
 warned "facets that have nowhere to begin" 'no crack can grow: there is no crack, and no strength' small_hole.yaml 'failure={criterion: energy_release, fracture_energy: 10 J/m2}'

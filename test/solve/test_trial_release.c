@@ -67,7 +67,7 @@ static const char *const cases[] = {
     "method: {force: bond}\n",
     "boundary: [{set: left, displacement: {x: 0, y: 0}}, {set: right, displacement: {x: 1 mm}}]\n",
 };
-enum { CASES = sizeof cases / sizeof *cases };
+enum { CASES = sizeof cases / sizeof *cases, PENALTY = 5 };
 
 static void columns_are_as_good_as_solving_anew (void **state)
 {
@@ -84,8 +84,10 @@ static void columns_are_as_good_as_solving_anew (void **state)
         check_ok (pg_solver_release (r.solver, r.state, 1, d, t, STAGES, s.cut, 0, again));
         for (int k = 0; k < STAGES; k++) {
             assert_true (quick[3*k] > (k ? quick[3*k - 3] : 0));
-            /* the second is a difference of energies, with rounding of theirs */
-            check_below (fabs (quick[3*k] - anew[3*k]), 1e-9 * anew[3*k] + 2e-12 * stored);
+            /* the second is a difference of energies, with rounding of theirs; penalties make that of the
+             * columns larger, in proportion (measured at 1e4, 1e6 and 1e8 E / spacing) */
+            double rounding = c == PENALTY ? 2e-10 : 2e-12;
+            check_below (fabs (quick[3*k] - anew[3*k]), 1e-9 * anew[3*k] + rounding * stored);
             check_relative (again[3*k], quick[3*k], 1e-12);
         }
         forget (&s);
