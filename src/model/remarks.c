@@ -104,7 +104,7 @@ static void take_thinnest (thinnest *t, double wall, double h, const double *x)
 }
 
 /* Around a circle about `centre` in the plane of u and v. Where the hole opens into the surface the body ends
- * in an edge, which is no wall. */
+ * in an edge, which is no wall: nowhere is it thinner than to both sides. */
 static void look_around (thinnest *t, const double *centre, double radius, const double *u, const double *v)
 {
     double wall[RAYS], h[RAYS], x[3 * RAYS];
@@ -116,9 +116,10 @@ static void look_around (thinnest *t, const double *centre, double radius, const
         }
         wall[q] = thickness (t->p, x + 3*q, e, &h[q]);
     }
-    for (int q = 0; q < RAYS; q++)
-        if (wall[(q + 1) % RAYS] > 0 && wall[(q + RAYS - 1) % RAYS] > 0)
-            take_thinnest (t, wall[q], h[q], x + 3*q);
+    for (int q = 0; q < RAYS; q++) {
+        double beside = fmin (wall[(q + 1) % RAYS], wall[(q + RAYS - 1) % RAYS]);
+        if (beside >= wall[q] * (1 - 1e-9)) take_thinnest (t, wall[q], h[q], x + 3*q);
+    }
 }
 
 /* Beside a straight side from a to b, to both sides of it: one of them is the hole. */
