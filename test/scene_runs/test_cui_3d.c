@@ -59,8 +59,8 @@ static void the_deeper_the_crack_the_softer_and_weaker_the_disk (void **state)
     (void) state;
     static const char *const sets[] = {
         "spacing=5 mm", "sets.platens.angle=[[80 deg, 100 deg], [260 deg, 280 deg]]",
-        "boundary=[{name: top, set: platens.top, displacement: {x: 0, y: -20 um}}, {name: bottom, set: "
-        "platens.bottom, displacement: {x: 0, y: 20 um}}]",
+        ("boundary=[{name: top, set: platens.top, displacement: {x: 0, y: -20 um}}, {name: bottom, set: "
+         "platens.bottom, displacement: {x: 0, y: 20 um}}]"),
         "solver={kind: static, linear: pcg, stepping: event, max_events: 25}", "output={}"
     };
     static const char *const scene[3] = { "data/cui_disk_10/scene.yaml", "data/cui_disk_6/scene.yaml",
