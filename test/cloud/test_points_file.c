@@ -141,8 +141,8 @@ static void a_header_gives_units_and_order (void **state)
     static const char *const csv[] = {
         "x,y,volume,block,spacing\n0,0.003,0.02,1,0.1\n1,0,0.03,0,0.2\n-0.007,1,0.04,2,0.3\n",
         "x [mm],y (mm),volume [mm3],block,spacing [cm]\n0,3,2e7,1,10\n1000,0,3e7,0,20\n-7,1000,4e7,2,30\n",
-        "\"volume [mm^3]\",\"y [um]\",\"x[km]\",\"spacing [m]\",\"block "
-        "[1]\"\n2e7,3000,0,0.1,1\n3e7,0,1e-3,0.2,0\n4e7,1e6,-7e-6,0.3,2\n",
+        ("\"volume [mm^3]\",\"y [um]\",\"x[km]\",\"spacing [m]\",\"block "
+         "[1]\"\n2e7,3000,0,0.1,1\n3e7,0,1e-3,0.2,0\n4e7,1e6,-7e-6,0.3,2\n"),
         "spacing [mm] x [mm] y [m] VOLUME [mm3] block\n100 0 0.003 2e7 1\n200 1000 0 3e7 0\n300 -7 1 4e7 2\n"
     };
     static const double x[6] = { 0, 0.003, 1, 0, -0.007, 1 }, volume[3] = { 0.02, 0.03, 0.04 },

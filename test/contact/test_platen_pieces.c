@@ -115,11 +115,10 @@ static void a_ball_is_dragged_off_the_axes (void **state)
     const pg_contact_values *v = pg_solver_contact (r.solver, &n);
     double push[3] = { 0 }, oblique = 0;
     for (size_t k = 0; k < n; k++) {
-        double across = 0, shear = 0, slip = 0, both = 0, gone = 0;
+        double across = 0, shear = 0, slip = 0, gone = 0;
         for (int c = 0; c < 3; c++) {
             across += v[k].shear[c] * v[k].normal[c], gone += v[k].slip[c] * v[k].normal[c];
             shear += v[k].shear[c] * v[k].shear[c], slip += v[k].slip[c] * v[k].slip[c];
-            both += v[k].shear[c] * v[k].slip[c];
             push[c] += v[k].area * (v[k].shear[c] + v[k].pressure * v[k].normal[c]);
         }
         shear = sqrt (shear), slip = sqrt (slip);

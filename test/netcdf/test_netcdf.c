@@ -255,7 +255,7 @@ static pg_status write_own (int version, const double *x, const int *k, const lo
     if (large >= 0) PG_TRY (netcdf_put (w, large, 0, 3, wide));
     PG_TRY (netcdf_put (w, real, 1000, MANY - 1000, x + 1000));
     PG_TRY (netcdf_put (w, whole, 0, 3, k));
-    for (size_t r = 0; r < 3; r++) PG_TRY (netcdf_put (w, text, 3 * r, 3, "abcdefghi" + 3 * r));
+    for (size_t r = 0; r < 3; r++) PG_TRY (netcdf_put (w, text, 3 * r, 3, &"abcdefghi"[3 * r]));
     PG_TRY (netcdf_put (w, bytes, 0, 3, "\x01\xff\x03"));
     PG_TRY (netcdf_finish (&w));
 done:

@@ -32,8 +32,8 @@ static void solvers_agree (void **unused)
     static const char *const bodies[] = {
         PLATE,
         "dimension: 3\nbody: [{add: {box: {low: [0, 0, 0], high: [6 mm, 9 mm, 5 mm]}}}]\nspacing: 1 mm\n",
-        "dimension: 2\nplane: strain\nthickness: 2 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 12 "
-        "mm]}}}]\nspacing: 1 mm\nperturb: {amount: 0.2}\n"
+        ("dimension: 2\nplane: strain\nthickness: 2 mm\nbody: [{add: {box: {low: [0, 0], high: [20 mm, 12 "
+         "mm]}}}]\nspacing: 1 mm\nperturb: {amount: 0.2}\n")
     };
     for (int body = 0; body < 3; body++) {
         run r[3];

@@ -200,8 +200,8 @@ static void energies_balance (void **state)
 {
     (void) state;
     static const char *const more[] = { "", "plane: strain\n", "method: {integration: consistent}\n",
-                                        "method: {approximation: nosb, integration: nodal, horizon: 2.5 "
-                                        "spacing}\n",
+                                        ("method: {approximation: nosb, integration: nodal, horizon: 2.5 "
+                                         "spacing}\n"),
                                         "method: {essential: transformation}\n" };
     for (size_t k = 0; k < 6; k++) {
         run r = box (k < 5 ? more[k] : "", k < 5 ? 2 : 3, 1,
